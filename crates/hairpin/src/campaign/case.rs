@@ -1,0 +1,138 @@
+//! What a campaign is made of: cases (planned), runs (executed), results (judged).
+
+use nalgebra::Point3;
+
+use crate::judgement::Measures;
+use crate::trajectory::{Flight, Profile};
+
+/// What stands behind a case: the evidence words of files, JSON and reports.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evidence {
+    /// Nothing was claimed (`none`, `sphere`, missions made elsewhere).
+    Unchecked,
+    /// Each step lies in the convex hull of sampled end points: a geometric filter.
+    HullFeasible,
+    /// A control profile integrates through it, for the model.
+    Witnessed,
+}
+
+impl Evidence {
+    /// The word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Evidence::Unchecked => "unchecked",
+            Evidence::HullFeasible => "hull-feasible",
+            Evidence::Witnessed => "witnessed",
+        }
+    }
+}
+
+/// A generated trajectory: case `number`, counted from 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// 0, 1, 2 …; in files `0000`, `0001`, ….
+    pub number: usize,
+    /// The case's seed: [`crate::math::random::case_seed`].
+    pub seed: u64,
+    /// Number of the sampled graph it was found in.
+    pub graph: u64,
+    /// Waypoints, both ends included, m, world frame.
+    pub waypoints: Vec<Point3<f64>>,
+    /// Planned duration of each leg, s.
+    pub leg_times: Vec<f64>,
+    /// Score under the scenario's objective.
+    pub score: f64,
+    /// Proven upper bound of the score in its graph, where the search has one.
+    pub bound: Option<f64>,
+    /// What stands behind it.
+    pub evidence: Evidence,
+    /// Answer of a certification asked for afterwards: `yes`, `no` or `unknown`.
+    pub certified: Option<&'static str>,
+    /// The control witness.
+    pub profile: Option<Profile>,
+}
+
+impl Case {
+    /// The name in files: at least four digits.
+    pub fn id(&self) -> String {
+        format!("{:04}", self.number)
+    }
+}
+
+/// One execution of a case: run 0 is the nominal one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Number of the case.
+    pub case: usize,
+    /// 0: nominal.
+    pub run: usize,
+    /// Values drawn for `[vary]`, by key.
+    pub drawn: Vec<(String, serde_json::Value)>,
+    /// What happened, or why the executor failed.
+    pub outcome: Result<Flight, String>,
+}
+
+/// The verdict on a case or run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// Within spec.
+    Pass,
+    /// At least one limit violated.
+    Fail,
+    /// The executor failed: neither pass nor fail.
+    ExecutorFailed,
+    /// The data do not allow a verdict.
+    Inconclusive,
+}
+
+impl Status {
+    /// The word in files: `pass`, `fail`, `executor-failed`, `inconclusive`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Status::Pass => "pass",
+            Status::Fail => "fail",
+            Status::ExecutorFailed => "executor-failed",
+            Status::Inconclusive => "inconclusive",
+        }
+    }
+}
+
+/// One violated limit of a run, in numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Violation {
+    /// What was measured: `deviation`, `overshoot`, `clearance`, `crash`, `left-world`, ….
+    pub what: String,
+    /// The measured value in `unit`.
+    pub value: f64,
+    /// The limit in `unit`.
+    pub limit: f64,
+    /// Unit, as printed: `m`, `m/s²`, `s`, empty.
+    pub unit: String,
+    /// When, s.
+    pub at: f64,
+    /// The leg, numbered by its first waypoint.
+    pub leg: usize,
+}
+
+/// A judged case: one row of `results.parquet`, its worst run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CaseResult {
+    /// Number of the case.
+    pub case: usize,
+    /// Verdict over all runs of the case.
+    pub status: Status,
+    /// The worst run.
+    pub run: usize,
+    /// Measures of the worst run; `None` where the executor failed in every run.
+    pub measures: Option<Measures>,
+    /// How the worst run ended (`done`, `time`, …, `executor-failed`).
+    pub ended: String,
+    /// First time outside the world in the worst run, s.
+    pub left_world: Option<f64>,
+    /// All limits that the worst run violates, the gravest first.
+    pub violations: Vec<Violation>,
+    /// Values drawn for the worst run.
+    pub drawn: Vec<(String, serde_json::Value)>,
+    /// Message of a failed executor.
+    pub message: Option<String>,
+}

@@ -1,0 +1,48 @@
+//! Reach sets: which waypoints follow a node of the search, and what is known of the legs to them.
+
+use nalgebra::Point3;
+
+/// What a score sees of a leg, from its first waypoint. For step-wise sets speeds are leg ÷ step, for `witness`
+/// those at the leg's ends. On the first leg `v_in` = 0 and `turn` = 0.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LegFeatures {
+    /// Entry speed, m/s.
+    pub v_in: f64,
+    /// Exit speed, m/s.
+    pub v_out: f64,
+    /// Angle between the incoming and the outgoing leg, rad: 0 straight on, π back.
+    pub turn: f64,
+    /// Length of the leg, m.
+    pub length: f64,
+    /// Height gained, m.
+    pub climb: f64,
+}
+
+/// A leg from a node to the node `to`, which stands at candidate number `waypoint`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leg<N> {
+    /// The node reached.
+    pub to: N,
+    /// Index of its waypoint among the candidates.
+    pub waypoint: u32,
+    /// Planned duration, s.
+    pub duration: f64,
+    /// What scores see.
+    pub features: LegFeatures,
+}
+
+/// A reach set: appends to `out` every feasible leg from `from` to a candidate, in rising order of `waypoint`;
+/// the current waypoint is never its own successor. `candidates` is the graph: index 0 the start, the last the end.
+pub trait Reach<N> {
+    /// Appends the feasible legs from `from` to `out`.
+    fn legs(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>);
+}
+
+/// The node of step-wise reach sets: the last two waypoints, as indices into the graph. The start is (0, 0).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct StepNode {
+    /// The waypoint before; equal to `current` at the start.
+    pub previous: u32,
+    /// The current waypoint.
+    pub current: u32,
+}

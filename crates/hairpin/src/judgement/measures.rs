@@ -1,0 +1,48 @@
+//! What is measured on one executed track against its reference; larger is worse, but for the clearance.
+
+/// Metrics of one leg.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LegMeasures {
+    /// Largest distance from the actual position to the leg's segment, m.
+    pub max_deviation: f64,
+    /// Mean over time of that distance, m.
+    pub mean_deviation: f64,
+    /// Largest ‖dv/dt‖, m/s².
+    pub max_acceleration: f64,
+    /// Time spent on the leg, s.
+    pub time: f64,
+}
+
+/// Metrics of one run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Measures {
+    /// Largest deviation over all legs, m.
+    pub max_deviation: f64,
+    /// When it was reached, s.
+    pub t_worst: f64,
+    /// The leg it belongs to, numbered by its first waypoint.
+    pub leg_worst: usize,
+    /// Mean deviation over time, m.
+    pub mean_deviation: f64,
+    /// Largest ‖dv/dt‖, m/s².
+    pub max_acceleration: f64,
+    /// Largest d‖v‖/dt, m/s²: the paper's authors' formula.
+    pub max_speed_rate: f64,
+    /// Duration of the run, s.
+    pub total_time: f64,
+    /// Overshoot at each waypoint 1…n−1, m.
+    pub overshoots: Vec<f64>,
+    /// Smallest distance to an obstacle, m, the robot's radius subtracted; `None` without obstacles.
+    pub min_clearance: Option<f64>,
+    /// Share of rotor-time spent at a rotor limit, 0 … 1; `None` where the executor did not tell.
+    pub saturation_share: Option<f64>,
+    /// Per leg.
+    pub legs: Vec<LegMeasures>,
+}
+
+impl Measures {
+    /// Largest overshoot at any waypoint, m; 0 if none was measured.
+    pub fn max_overshoot(&self) -> f64 {
+        self.overshoots.iter().copied().fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,3 @@
+//! Floor 1: numbers without robots or time stamps.
+
+pub mod random;

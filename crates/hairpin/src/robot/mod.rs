@@ -1,0 +1,6 @@
+//! Floor 3: what moves. Equations and numbers of robots; nothing of trajectories, search or controllers.
+
+pub mod dynamics;
+pub mod quadrotor;
+
+pub use dynamics::{Bounds, Dynamics, Quantity, Vector};

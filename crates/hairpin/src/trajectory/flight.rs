@@ -1,0 +1,56 @@
+//! A motion as it was executed: its track and why it ended.
+
+use super::Track;
+
+/// Why a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// The last waypoint was reached, and the time judged after it is over.
+    Done,
+    /// The time limit came first.
+    Time,
+    /// Hit the ground.
+    Ground,
+    /// Hit an obstacle.
+    Obstacle,
+    /// Hit a wall (`execute.walls`).
+    Wall,
+    /// Turned over and could not recover.
+    Tumble,
+    /// An executor of the user's reported a crash without saying which.
+    Crash,
+}
+
+impl Ended {
+    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `crash`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Ended::Done => "done",
+            Ended::Time => "time",
+            Ended::Ground => "ground",
+            Ended::Obstacle => "obstacle",
+            Ended::Wall => "wall",
+            Ended::Tumble => "tumble",
+            Ended::Crash => "crash",
+        }
+    }
+
+    /// Whether the run ended in a crash of any kind.
+    pub fn is_crash(self) -> bool {
+        !matches!(self, Ended::Done | Ended::Time)
+    }
+}
+
+/// One executed run. The track has the channels `leg` (number of the leg being flown, from 0), `vx_m_s`, `vy_m_s`,
+/// `vz_m_s`, and, from our own simulator, `rotor1_rad_s`… and `saturated` (share of the rotors at a limit).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flight {
+    /// Poses in time, world frame.
+    pub track: Track,
+    /// Why it ended.
+    pub ended: Ended,
+    /// First time outside the world's volume, s: a recorded violation, not an end.
+    pub left_world: Option<f64>,
+    /// Time at which each waypoint was reached, s; `None`: never. Index 0 is the start.
+    pub reached: Vec<Option<f64>>,
+}

@@ -1,0 +1,120 @@
+//! Poses in time with named columns: the one form in which planned and flown motions meet the judge and the files.
+
+use nalgebra::{Isometry3, Point3};
+use thiserror::Error;
+
+/// A named column beside the poses, one value per stamp.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Channel {
+    /// Name with its unit, as it is written to files: `vx_m_s`, `rotor1_rad_s`, `leg`.
+    pub name: String,
+    /// One value per stamp.
+    pub values: Vec<f64>,
+}
+
+/// `times.len() == poses.len() ==` every channel's length; times rise strictly, s; poses are `world_from_body`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Track {
+    times: Vec<f64>,
+    poses: Vec<Isometry3<f64>>,
+    channels: Vec<Channel>,
+}
+
+/// Why columns are no track.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum TrackError {
+    /// A column is longer or shorter than the times.
+    #[error("column `{column}` has {found} values, the times have {expected}")]
+    Length { column: String, found: usize, expected: usize },
+    /// Times must rise strictly.
+    #[error("times must rise strictly: t[{index}] = {time} s does not follow t[{}] = {before} s", index - 1)]
+    Times { index: usize, time: f64, before: f64 },
+    /// NaN or infinite.
+    #[error("{column}[{index}] = {value}: must be finite")]
+    NotFinite { column: String, index: usize, value: f64 },
+}
+
+impl Track {
+    /// Checks and takes the columns.
+    ///
+    /// # Errors
+    /// Unequal lengths, stamps that do not rise strictly, numbers that are not finite.
+    pub fn new(times: Vec<f64>, poses: Vec<Isometry3<f64>>, channels: Vec<Channel>) -> Result<Self, TrackError> {
+        let expected = times.len();
+        let length = |column: &str, found: usize| {
+            if found == expected { Ok(()) } else { Err(TrackError::Length { column: column.into(), found, expected }) }
+        };
+        length("pose", poses.len())?;
+        for channel in &channels {
+            length(&channel.name, channel.values.len())?;
+            finite(&channel.name, channel.values.iter().copied())?;
+        }
+        finite("t_s", times.iter().copied())?;
+        for axis in 0..3 {
+            finite(["x_m", "y_m", "z_m"][axis], poses.iter().map(|pose| pose.translation.vector[axis]))?;
+        }
+        finite("qw", poses.iter().map(|pose| pose.rotation.w + pose.rotation.i + pose.rotation.j + pose.rotation.k))?;
+        if let Some(index) = (1..times.len()).find(|&i| times[i] <= times[i - 1]) {
+            return Err(TrackError::Times { index, time: times[index], before: times[index - 1] });
+        }
+        Ok(Self { times, poses, channels })
+    }
+
+    /// Stamps, s.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// `world_from_body` per stamp.
+    pub fn poses(&self) -> &[Isometry3<f64>] {
+        &self.poses
+    }
+
+    /// The named columns.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// The values of the channel called `name`.
+    pub fn channel(&self, name: &str) -> Option<&[f64]> {
+        self.channels.iter().find(|channel| channel.name == name).map(|channel| channel.values.as_slice())
+    }
+
+    /// Position at stamp `index`, m.
+    pub fn position(&self, index: usize) -> Point3<f64> {
+        Point3::from(self.poses[index].translation.vector)
+    }
+
+    /// Number of stamps.
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there is no stamp.
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+}
+
+fn finite(column: &str, values: impl Iterator<Item = f64>) -> Result<(), TrackError> {
+    for (index, value) in values.enumerate() {
+        if !value.is_finite() {
+            return Err(TrackError::NotFinite { column: column.into(), index, value });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refuses_what_is_no_track() {
+        let pose = Isometry3::identity();
+        assert!(matches!(Track::new(vec![0.0, 0.0], vec![pose; 2], vec![]), Err(TrackError::Times { index: 1, .. })));
+        assert!(matches!(Track::new(vec![0.0], vec![pose; 2], vec![]), Err(TrackError::Length { .. })));
+        let bad = Channel { name: "vx_m_s".into(), values: vec![f64::NAN] };
+        assert!(matches!(Track::new(vec![0.0], vec![pose], vec![bad]), Err(TrackError::NotFinite { .. })));
+    }
+}
