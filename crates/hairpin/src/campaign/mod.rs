@@ -1,7 +1,15 @@
 //! Floor 7: the pipeline. A scenario in; cases generated, executed and judged; one file per job. No files, no arguments.
 
 pub mod case;
+pub mod generate;
+pub mod mission;
 pub mod scenario;
+pub mod setup;
+pub mod stop;
 
 pub use case::{Case, CaseResult, Evidence, Run, Status};
+pub use generate::Tally;
+pub use mission::{Mission, Timed};
 pub use scenario::{Mistake, Scenario};
+pub use setup::Setup;
+pub use stop::Stop;

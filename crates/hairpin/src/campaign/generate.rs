@@ -1,0 +1,24 @@
+//! Algorithm 1: sample a graph, search it, repeat until enough cases are found or the budget ends.
+
+/// What a generation did, in numbers; the report's and the verdict's.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tally {
+    /// Graphs sampled and searched.
+    pub graphs: u64,
+    /// Of these, graphs that gave at least one trajectory.
+    pub solved: u64,
+    /// Of these, graphs proven to have none.
+    pub proven_empty: u64,
+    /// Nodes expanded.
+    pub expansions: u64,
+    /// Partial trajectories dropped because the frontier was full.
+    pub dropped: u64,
+    /// Trajectories found again and not counted twice.
+    pub duplicates: u64,
+    /// Feasible trajectories per graph, summed over the graphs that were counted; a number or `~` and a number.
+    pub counted: Option<String>,
+    /// Whether every case asked for was found.
+    pub complete: bool,
+    /// Where nothing was found: why, in a sentence's part.
+    pub nothing: Option<String>,
+}
