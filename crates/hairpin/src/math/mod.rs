@@ -1,3 +1,5 @@
 //! Floor 1: numbers without robots or time stamps.
 
+pub mod integrate;
 pub mod random;
+pub mod rotation;

@@ -1,6 +1,8 @@
 //! The trait that a new kind of robot implements: x' = f(x, u), with names and units for every component.
 
-use nalgebra::{Isometry3, SVector};
+use nalgebra::Isometry3;
+
+pub use crate::math::integrate::Vector;
 
 /// Name and unit of one component of a state or control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,36 +11,6 @@ pub struct Quantity {
     pub name: &'static str,
     /// SI unit as in column names: `m_s`; empty for pure numbers.
     pub unit: &'static str,
-}
-
-/// A fixed-size real vector: all that integrators and planners ask of states and controls.
-pub trait Vector: Copy + Send + Sync + 'static {
-    /// Number of components.
-    const LEN: usize;
-    /// The zero vector.
-    fn zero() -> Self;
-    /// `self + factor·other`.
-    fn add_scaled(self, other: &Self, factor: f64) -> Self;
-    /// The components, in the order of [`Dynamics::STATE`].
-    fn as_slice(&self) -> &[f64];
-    /// The components, to be written.
-    fn as_mut_slice(&mut self) -> &mut [f64];
-}
-
-impl<const N: usize> Vector for SVector<f64, N> {
-    const LEN: usize = N;
-    fn zero() -> Self {
-        Self::zeros()
-    }
-    fn add_scaled(self, other: &Self, factor: f64) -> Self {
-        self + other * factor
-    }
-    fn as_slice(&self) -> &[f64] {
-        self.as_slice()
-    }
-    fn as_mut_slice(&mut self) -> &mut [f64] {
-        self.as_mut_slice()
-    }
 }
 
 /// Component-wise limits of a control.

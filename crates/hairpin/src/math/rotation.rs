@@ -1,0 +1,107 @@
+//! Attitude as a scalar-first unit quaternion in a state's slice, and as roll, pitch, yaw at the doors.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+/// `world_from_body` from the components (w, x, y, z), which are normalised; all zero counts as level.
+pub fn unit_quaternion(q: &[f64]) -> UnitQuaternion<f64> {
+    UnitQuaternion::try_new(Quaternion::new(q[0], q[1], q[2], q[3]), 1e-150).unwrap_or_else(UnitQuaternion::identity)
+}
+
+/// Scales the components (w, x, y, z) to norm 1 in place; what cannot be scaled (zero, not finite) is left alone.
+pub fn renormalize(q: &mut [f64]) {
+    let norm = q[..4].iter().map(|c| c * c).sum::<f64>().sqrt();
+    if norm > 0.0 && norm.is_finite() {
+        for component in &mut q[..4] {
+            *component /= norm;
+        }
+    }
+}
+
+/// q' = ½ q ⊗ (0, ω): time derivative of the components (w, x, y, z) under body rates ω, rad/s.
+pub fn quaternion_rate(q: &[f64], rates: &Vector3<f64>) -> [f64; 4] {
+    let (w, x, y, z) = (q[0], q[1], q[2], q[3]);
+    let (p, q_, r) = (0.5 * rates.x, 0.5 * rates.y, 0.5 * rates.z);
+    [-x * p - y * q_ - z * r, w * p + y * r - z * q_, w * q_ + z * p - x * r, w * r + x * q_ - y * p]
+}
+
+/// The body's z axis in the world, R(q) e₃, for a unit quaternion (w, x, y, z).
+pub fn body_z(q: &[f64]) -> Vector3<f64> {
+    let (w, x, y, z) = (q[0], q[1], q[2], q[3]);
+    Vector3::new(2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y))
+}
+
+/// (w, x, y, z) of roll φ, pitch θ, yaw ψ (rad): R = Rz(ψ) Ry(θ) Rx(φ).
+pub fn quaternion_from_euler(roll: f64, pitch: f64, yaw: f64) -> [f64; 4] {
+    let (sr, cr) = (0.5 * roll).sin_cos();
+    let (sp, cp) = (0.5 * pitch).sin_cos();
+    let (sy, cy) = (0.5 * yaw).sin_cos();
+    [cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy]
+}
+
+/// Roll φ ∈ (−π, π], pitch θ ∈ [−π/2, π/2], yaw ψ ∈ (−π, π] of a unit quaternion (w, x, y, z), rad.
+///
+/// At θ = ±π/2 only φ ∓ ψ is determined: there (|sin θ| > 1 − 1e-12) roll is set to 0 and yaw takes it all, so
+/// that the angles always stand for the same attitude.
+pub fn euler_from_quaternion(q: &[f64]) -> [f64; 3] {
+    let (w, x, y, z) = (q[0], q[1], q[2], q[3]);
+    let sin_pitch = (2.0 * (w * y - z * x)).clamp(-1.0, 1.0);
+    if sin_pitch.abs() > 1.0 - 1e-12 {
+        // R(q) with φ = 0: R₀₁ = −sin ψ, R₁₁ = cos ψ.
+        let yaw = (2.0 * (w * z - x * y)).atan2(1.0 - 2.0 * (x * x + z * z));
+        return [0.0, std::f64::consts::FRAC_PI_2.copysign(sin_pitch), yaw];
+    }
+    let roll = (2.0 * (w * x + y * z)).atan2(1.0 - 2.0 * (x * x + y * y));
+    let yaw = (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z));
+    // sin θ loses half the digits near the pole; its complement from R₀₀, R₁₀ does not.
+    let cos_pitch = (1.0 - 2.0 * (y * y + z * z)).hypot(2.0 * (w * z + x * y));
+    [roll, sin_pitch.atan2(cos_pitch), yaw]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{named_seed, stream};
+    use rand::RngExt;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn euler_angles_round_trip_also_at_the_poles() {
+        let mut rng = stream(named_seed(1, "rotation", 0));
+        for i in 0..2000 {
+            let pitch = match i % 4 {
+                0 => FRAC_PI_2,
+                1 => -FRAC_PI_2,
+                _ => rng.random_range(-FRAC_PI_2..FRAC_PI_2),
+            };
+            let q = quaternion_from_euler(rng.random_range(-3.0..3.0), pitch, rng.random_range(-3.0..3.0));
+            let [roll, pitch, yaw] = euler_from_quaternion(&q);
+            let back = quaternion_from_euler(roll, pitch, yaw);
+            let angle = unit_quaternion(&q).angle_to(&unit_quaternion(&back));
+            assert!(angle < 3e-6, "case {i}: {angle}");
+        }
+    }
+
+    #[test]
+    fn angles_and_rates_are_those_of_nalgebra() {
+        let q = quaternion_from_euler(0.3, -0.7, 1.9);
+        let theirs = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.9);
+        assert!(unit_quaternion(&q).angle_to(&theirs) < 1e-12);
+        assert!((body_z(&q) - theirs * Vector3::z()).norm() < 1e-12);
+        let (rates, h) = (Vector3::new(0.4, -1.1, 0.6), 1e-6);
+        let turned = theirs * UnitQuaternion::from_scaled_axis(rates * h);
+        let rate = quaternion_rate(&q, &rates);
+        for (i, component) in [turned.w, turned.i, turned.j, turned.k].into_iter().enumerate() {
+            assert!(((component - q[i]) / h - rate[i]).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn renormalising_leaves_nothing_but_direction() {
+        let mut q = [2.0, 0.0, -2.0, 1.0];
+        renormalize(&mut q);
+        assert!((q.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-15 && q[0] > 0.0 && q[2] == -q[0]);
+        let mut zero = [0.0; 4];
+        renormalize(&mut zero);
+        assert_eq!(zero, [0.0; 4]);
+    }
+}
