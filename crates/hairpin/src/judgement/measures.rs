@@ -1,5 +1,25 @@
 //! What is measured on one executed track against its reference; larger is worse, but for the clearance.
 
+/// Where the leg being flown is known from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LegSource {
+    /// The executor told it (channel `leg`).
+    #[default]
+    Executor,
+    /// Monotone assignment of the samples along the path.
+    Assigned,
+}
+
+/// What accelerations are differences of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AccelerationSource {
+    /// The velocity channels.
+    #[default]
+    Velocity,
+    /// Positions: no velocity was recorded, so noise weighs more.
+    Position,
+}
+
 /// Metrics of one leg.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LegMeasures {
@@ -11,6 +31,12 @@ pub struct LegMeasures {
     pub max_acceleration: f64,
     /// Time spent on the leg, s.
     pub time: f64,
+    /// Overshoot at the leg's last waypoint, m.
+    pub overshoot: f64,
+    /// Smallest distance to an obstacle, m; `None` without obstacles.
+    pub min_clearance: Option<f64>,
+    /// Share of rotor-time at a rotor limit, 0 … 1; `None` where the executor did not tell.
+    pub saturation_share: Option<f64>,
 }
 
 /// Metrics of one run.
@@ -26,16 +52,26 @@ pub struct Measures {
     pub mean_deviation: f64,
     /// Largest ‖dv/dt‖, m/s².
     pub max_acceleration: f64,
-    /// Largest d‖v‖/dt, m/s²: the paper's authors' formula.
+    /// When it was reached, s.
+    pub t_acceleration: f64,
+    /// Largest |d‖v‖/dt|, m/s²: the paper's authors' formula Δ|v|/Δt.
     pub max_speed_rate: f64,
     /// Duration of the run, s.
     pub total_time: f64,
     /// Overshoot at each waypoint 1…n−1, m.
     pub overshoots: Vec<f64>,
+    /// When the largest overshoot was reached, s.
+    pub t_overshoot: f64,
     /// Smallest distance to an obstacle, m, the robot's radius subtracted; `None` without obstacles.
     pub min_clearance: Option<f64>,
+    /// When it was reached, s.
+    pub t_clearance: f64,
     /// Share of rotor-time spent at a rotor limit, 0 … 1; `None` where the executor did not tell.
     pub saturation_share: Option<f64>,
+    /// Where the leg being flown is known from.
+    pub leg_source: LegSource,
+    /// What the accelerations are differences of.
+    pub acceleration_source: AccelerationSource,
     /// Per leg.
     pub legs: Vec<LegMeasures>,
 }

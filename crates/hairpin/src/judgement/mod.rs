@@ -2,4 +2,4 @@
 
 pub mod measures;
 
-pub use measures::{LegMeasures, Measures};
+pub use measures::{AccelerationSource, LegMeasures, LegSource, Measures};

@@ -2,12 +2,22 @@
 //!
 //! World frame: metres, z up, origin at a floor corner of the volume, axes along its edges.
 
+pub mod bounds;
+mod closed;
 pub mod obstacle;
+pub mod sample;
+pub mod solid;
+
+#[cfg(test)]
+mod tests;
 
 use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
+pub use bounds::Bounds;
 pub use obstacle::{Obstacle, Shape};
+pub use sample::{Sampling, SamplingError, sample_free};
+pub use solid::Solid;
 
 /// A box-shaped volume [0, size] with obstacles in it.
 #[derive(Debug, Clone)]
@@ -15,6 +25,7 @@ pub struct World {
     size: Vector3<f64>,
     keep_in_margin: f64,
     obstacles: Vec<Obstacle>,
+    bounds: Vec<Bounds>,
 }
 
 /// Why numbers make no world. `field` is the key below `[world]`.
@@ -29,25 +40,38 @@ pub struct WorldError {
     pub bound: String,
 }
 
+impl WorldError {
+    /// A mistake in `field`.
+    pub(crate) fn new(field: impl Into<String>, value: impl Into<String>, bound: impl Into<String>) -> Self {
+        Self { field: field.into(), value: value.into(), bound: bound.into() }
+    }
+
+    /// The same mistake in the table `prefix`: `box.size_m` becomes `obstacles[2].box.size_m`.
+    pub fn within(mut self, prefix: &str) -> Self {
+        self.field = format!("{prefix}.{}", self.field);
+        self
+    }
+}
+
 impl World {
     /// Checks and builds a world of `size` (m, > 0 and finite) whose points stay `keep_in_margin` (m, ≥ 0) inside.
     ///
     /// # Errors
-    /// Sizes that are not positive and finite; a margin that leaves no volume.
+    /// Sizes that are not positive and finite; a margin that leaves no volume; an obstacle whose numbers are no solid.
     pub fn new(size: Vector3<f64>, keep_in_margin: f64, obstacles: Vec<Obstacle>) -> Result<Self, WorldError> {
-        let refuse = |field: &str, value: String, bound: String| Err(WorldError { field: field.into(), value, bound });
         if !size.iter().all(|s| s.is_finite() && *s > 0.0) {
-            return refuse("size_m", format!("{:?}", size.as_slice()), "three finite numbers > 0".into());
+            return Err(WorldError::new("size_m", format!("{:?}", size.as_slice()), "three finite numbers > 0"));
         }
         let most = 0.5 * size.min();
         if !(keep_in_margin >= 0.0 && keep_in_margin < most) {
-            return refuse(
-                "keep_in_margin_m",
-                format!("{keep_in_margin}"),
-                format!("≥ 0 and < {most}, half the smallest side"),
-            );
+            let bound = format!("≥ 0 and < {most}, half the smallest side");
+            return Err(WorldError::new("keep_in_margin_m", format!("{keep_in_margin}"), bound));
         }
-        Ok(Self { size, keep_in_margin, obstacles })
+        for (index, obstacle) in obstacles.iter().enumerate() {
+            obstacle.shape.clone().checked().map_err(|error| error.within(&format!("obstacles[{index}]")))?;
+        }
+        let bounds = obstacles.iter().map(|obstacle| obstacle.shape.bounds()).collect();
+        Ok(Self { size, keep_in_margin, obstacles, bounds })
     }
 
     /// Edge lengths, m.
@@ -72,16 +96,42 @@ impl World {
 
     /// Distance of `p` to the nearest obstacle, m; negative inside one, +∞ without obstacles.
     pub fn obstacle_distance(&self, p: &Point3<f64>) -> f64 {
-        self.obstacles.iter().map(|obstacle| obstacle.shape.signed_distance(p)).fold(f64::INFINITY, f64::min)
+        self.nearest_obstacle(p).map_or(f64::INFINITY, |(_, distance)| distance)
+    }
+
+    /// Index of the obstacle nearest to `p` and the signed distance to it, m; the first of equals.
+    pub fn nearest_obstacle(&self, p: &Point3<f64>) -> Option<(usize, f64)> {
+        self.least(|bounds| bounds.distance(p), |shape| shape.signed_distance(p))
     }
 
     /// Smallest distance between the segment `a`–`b` and any obstacle, m; ≤ 0 if it meets one, +∞ without obstacles.
     pub fn segment_distance(&self, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
-        self.obstacles.iter().map(|obstacle| obstacle.shape.segment_distance(a, b)).fold(f64::INFINITY, f64::min)
+        let segment = Bounds { min: a.inf(b), max: a.sup(b) };
+        self.least(|bounds| bounds.distance_to(&segment), |shape| shape.segment_distance(a, b))
+            .map_or(f64::INFINITY, |(_, distance)| distance)
     }
 
     /// Whether `p` lies at least the keep-in margin inside the walls and at least `clearance` from every obstacle.
     pub fn is_free(&self, p: &Point3<f64>, clearance: f64) -> bool {
-        self.wall_distance(p) >= self.keep_in_margin && self.obstacle_distance(p) >= clearance
+        self.wall_distance(p) >= self.keep_in_margin
+            && self.bounds.iter().zip(&self.obstacles).all(|(bounds, obstacle)| {
+                // The box's distance never exceeds the solid's, so most obstacles are dismissed by it.
+                bounds.distance(p) >= clearance.max(f64::MIN_POSITIVE) || obstacle.shape.signed_distance(p) >= clearance
+            })
+    }
+
+    /// The obstacle of least `distance`; those whose box is already farther than the best are not asked.
+    fn least(&self, bound: impl Fn(&Bounds) -> f64, distance: impl Fn(&Shape) -> f64) -> Option<(usize, f64)> {
+        let mut best: Option<(usize, f64)> = None;
+        for (index, (bounds, obstacle)) in self.bounds.iter().zip(&self.obstacles).enumerate() {
+            if best.is_some_and(|(_, least)| bound(bounds) > least.max(0.0)) {
+                continue;
+            }
+            let found = distance(&obstacle.shape);
+            if best.is_none_or(|(_, least)| found < least) {
+                best = Some((index, found));
+            }
+        }
+        best
     }
 }

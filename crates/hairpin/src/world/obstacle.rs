@@ -1,6 +1,11 @@
-//! Solid shapes and their distances to points and segments.
+//! Solid shapes, built from plain numbers, and their distances to points and segments.
 
 use nalgebra::{Point3, Vector3};
+
+use super::WorldError;
+use super::bounds::Bounds;
+use super::closed;
+use super::solid::Solid;
 
 /// A named solid in the world.
 #[derive(Debug, Clone)]
@@ -15,42 +20,160 @@ pub struct Obstacle {
 #[derive(Debug, Clone)]
 pub enum Shape {
     /// A ball.
-    Sphere { center: Point3<f64>, radius: f64 },
+    Sphere {
+        /// Centre.
+        center: Point3<f64>,
+        /// Radius, > 0.
+        radius: f64,
+    },
     /// An axis-aligned box.
-    Box { center: Point3<f64>, half_extents: Vector3<f64> },
+    Box {
+        /// Centre.
+        center: Point3<f64>,
+        /// Half the edge lengths, > 0.
+        half_extents: Vector3<f64>,
+    },
     /// All points within `radius` of the segment a–b.
-    Capsule { a: Point3<f64>, b: Point3<f64>, radius: f64 },
+    Capsule {
+        /// One end of the axis.
+        a: Point3<f64>,
+        /// The other end.
+        b: Point3<f64>,
+        /// Radius, > 0.
+        radius: f64,
+    },
+    /// A convex hull.
+    Hull(Solid),
+    /// The inside of a closed triangle mesh.
+    Mesh(Solid),
 }
 
+/// Coordinates beyond this (m) are refused: squares and cubes of them would lose all digits.
+const LARGEST: f64 = 1e7;
+
 impl Shape {
+    /// The ball around `center_m`.
+    ///
+    /// # Errors
+    /// `sphere.center_m`, `sphere.radius_m`.
+    pub fn sphere(center_m: [f64; 3], radius_m: f64) -> Result<Self, WorldError> {
+        Self::Sphere { center: center_m.into(), radius: radius_m }.checked()
+    }
+
+    /// The axis-aligned box with edge lengths `size_m`.
+    ///
+    /// # Errors
+    /// `box.center_m`, `box.size_m`.
+    pub fn cuboid(center_m: [f64; 3], size_m: [f64; 3]) -> Result<Self, WorldError> {
+        Self::Box { center: center_m.into(), half_extents: Vector3::from(size_m) * 0.5 }.checked()
+    }
+
+    /// All points within `radius_m` of the segment a–b; a = b is a ball.
+    ///
+    /// # Errors
+    /// `capsule.a_m`, `capsule.b_m`, `capsule.radius_m`.
+    pub fn capsule(a_m: [f64; 3], b_m: [f64; 3], radius_m: f64) -> Result<Self, WorldError> {
+        Self::Capsule { a: a_m.into(), b: b_m.into(), radius: radius_m }.checked()
+    }
+
+    /// The convex hull of points.
+    ///
+    /// # Errors
+    /// `hull.points_m`: fewer than four, not finite, in one plane.
+    pub fn hull(points_m: &[[f64; 3]]) -> Result<Self, WorldError> {
+        let points = finite("hull.points_m", points_m)?;
+        Solid::hull(&points).map(Self::Hull).map_err(|(value, bound)| WorldError::new("hull.points_m", value, bound))
+    }
+
+    /// The inside of a closed triangle mesh; `triangles` are vertex indices from 0, wound either way round.
+    ///
+    /// # Errors
+    /// `mesh.vertices_m`: not finite. `mesh.triangles`: an index out of range, an open or inconsistently wound
+    /// surface, a triangle without area, no volume.
+    pub fn mesh(vertices_m: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, WorldError> {
+        let vertices = finite("mesh.vertices_m", vertices_m)?;
+        Solid::mesh(&vertices, triangles)
+            .map(Self::Mesh)
+            .map_err(|(value, bound)| WorldError::new("mesh.triangles", value, bound))
+    }
+
     /// Distance of `p` to the solid, m; negative inside.
     pub fn signed_distance(&self, p: &Point3<f64>) -> f64 {
         match self {
             Shape::Sphere { center, radius } => (p - center).norm() - radius,
-            Shape::Box { center, half_extents } => {
-                let q = (p - center).abs() - half_extents;
-                q.sup(&Vector3::zeros()).norm() + q.max().min(0.0)
-            }
-            Shape::Capsule { a, b, radius } => {
-                let d = b - a;
-                let t = if d.norm_squared() > 0.0 { ((p - a).dot(&d) / d.norm_squared()).clamp(0.0, 1.0) } else { 0.0 };
-                (p - (a + d * t)).norm() - radius
-            }
+            Shape::Box { center, half_extents } => closed::point_to_box(&(p - center), half_extents),
+            Shape::Capsule { a, b, radius } => closed::point_to_segment(p, a, b) - radius,
+            Shape::Hull(solid) | Shape::Mesh(solid) => solid.signed_distance(p),
         }
     }
 
-    /// Smallest distance between the segment `a`–`b` and the solid, m; ≤ 0 if they meet.
+    /// Smallest signed distance of the points of the segment `a`–`b` to the solid, m; ≤ 0 if they meet. For hulls
+    /// and meshes that are met the value is an upper bound (the deeper end's, or 0).
     pub fn segment_distance(&self, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
-        // Every shape is convex, so the distance along a segment is convex in its parameter: golden-section search.
-        let (mut lo, mut hi) = (0.0, 1.0);
-        for _ in 0..64 {
-            let (m1, m2) = (lo + (hi - lo) * 0.382, lo + (hi - lo) * 0.618);
-            if self.signed_distance(&(a + (b - a) * m1)) < self.signed_distance(&(a + (b - a) * m2)) {
-                hi = m2
-            } else {
-                lo = m1
-            }
+        match self {
+            Shape::Sphere { center, radius } => closed::point_to_segment(center, a, b) - radius,
+            Shape::Box { center, half_extents } => closed::segment_to_box(&(a - center), &(b - a), half_extents),
+            Shape::Capsule { a: from, b: to, radius } => closed::segment_to_segment(a, b, from, to) - radius,
+            Shape::Hull(solid) | Shape::Mesh(solid) => solid.segment_distance(a, b),
         }
-        self.signed_distance(&(a + (b - a) * (0.5 * (lo + hi))))
     }
+
+    /// The smallest axis-aligned box around the solid.
+    pub fn bounds(&self) -> Bounds {
+        match self {
+            Shape::Sphere { center, radius } => Bounds { min: *center, max: *center }.grown(*radius),
+            Shape::Box { center, half_extents } => Bounds { min: center - half_extents, max: center + half_extents },
+            Shape::Capsule { a, b, radius } => Bounds { min: a.inf(b), max: a.sup(b) }.grown(*radius),
+            Shape::Hull(solid) | Shape::Mesh(solid) => solid.bounds(),
+        }
+    }
+
+    /// The shape itself if its numbers are a solid's. The variants are public, so [`super::World::new`] asks again.
+    pub(super) fn checked(self) -> Result<Self, WorldError> {
+        match &self {
+            Shape::Sphere { center, radius } => {
+                place("sphere.center_m", center)?;
+                positive("sphere.radius_m", *radius)?;
+            }
+            Shape::Box { center, half_extents } => {
+                place("box.center_m", center)?;
+                if !half_extents.iter().all(|h| *h > 0.0 && *h < LARGEST) {
+                    let size = half_extents * 2.0;
+                    let bound = format!("three numbers > 0 and < {}", 2.0 * LARGEST);
+                    return Err(WorldError::new("box.size_m", format!("{:?}", size.as_slice()), bound));
+                }
+            }
+            Shape::Capsule { a, b, radius } => {
+                place("capsule.a_m", a)?;
+                place("capsule.b_m", b)?;
+                positive("capsule.radius_m", *radius)?;
+            }
+            // Their fields are private: they cannot exist unchecked.
+            Shape::Hull(_) | Shape::Mesh(_) => {}
+        }
+        Ok(self)
+    }
+}
+
+fn place(field: &str, p: &Point3<f64>) -> Result<(), WorldError> {
+    if p.iter().all(|c| c.abs() < LARGEST) {
+        return Ok(());
+    }
+    let value = format!("{:?}", p.coords.as_slice());
+    Err(WorldError::new(field, value, format!("three numbers between ±{LARGEST}")))
+}
+
+fn positive(field: &str, value: f64) -> Result<(), WorldError> {
+    if value > 0.0 && value < LARGEST {
+        return Ok(());
+    }
+    Err(WorldError::new(field, format!("{value}"), format!("> 0 and < {LARGEST}")))
+}
+
+fn finite(field: &str, points: &[[f64; 3]]) -> Result<Vec<Point3<f64>>, WorldError> {
+    let points: Vec<Point3<f64>> = points.iter().map(|&p| p.into()).collect();
+    for (index, p) in points.iter().enumerate() {
+        place(&format!("{field}[{index}]"), p)?;
+    }
+    Ok(points)
 }
