@@ -6,6 +6,7 @@ pub mod mission;
 pub mod scenario;
 pub mod setup;
 pub mod stop;
+pub mod vary;
 
 pub use case::{Case, CaseResult, Evidence, Run, Status};
 pub use generate::Tally;

@@ -1,0 +1,42 @@
+//! Bounds of `[execute]`.
+
+use super::Findings;
+use crate::campaign::scenario::ExecuteSection;
+
+pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
+    check_who(execute, found);
+    found.count("execute.repeat", execute.repeat, 1, 100_000);
+    found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");
+    if let Some(limit) = execute.time_limit_s {
+        // A run keeps its track: at 100 000 s some GB.
+        found.above("execute.time_limit_s", limit, 0.0, 100_000.0, " s");
+    }
+    // Coarser than 1 kHz the rate loop and the rotor lag are no longer resolved.
+    found.from("execute.step_s", execute.step_s, 1e-5, 1e-3, " s");
+    found.above("execute.fixed_velocity_m_s", execute.fixed_velocity_m_s, 0.0, 100.0, " m/s");
+    found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
+    if let Some(workers) = execute.workers {
+        found.count("execute.workers", workers, 1, 1024);
+    }
+}
+
+/// At most one of controller, command and logs; none of them means the controller `stable-waypoint`.
+fn check_who(execute: &ExecuteSection, found: &mut Findings) {
+    if let Some(logs) = &execute.logs {
+        let bound = "a controller or a command: judging logs is not in this version";
+        found.require(false, "execute.logs", format!("\"{logs}\""), bound);
+        return;
+    }
+    let both = execute.controller.is_some() && execute.command.is_some();
+    let given = execute.command.as_deref().unwrap_or_default();
+    found.require(
+        !both,
+        "execute.command",
+        format!("\"{given}\""),
+        "left out where `controller` is given: one of the two",
+    );
+    if let Some(command) = &execute.command {
+        let bound = "a program and its arguments";
+        found.require(!command.trim().is_empty(), "execute.command", format!("\"{command}\""), bound);
+    }
+}

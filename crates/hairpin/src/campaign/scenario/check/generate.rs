@@ -1,0 +1,104 @@
+//! Bounds of `[generate]`.
+
+use super::Findings;
+use crate::campaign::scenario::{GenerateSection, LimitsSection, ReachName, SearchMethod, SearchSection, Timing};
+
+/// Names of the scores.
+pub const SCORES: &[&str] = &[
+    "random",
+    "high-velocity",
+    "high-velocity-90",
+    "high-velocity-180",
+    "high-velocity-90-product",
+    "high-velocity-180-product",
+];
+
+/// The frontier search looks at every waypoint in every expansion.
+const MOST_WAYPOINTS: u64 = 100_000;
+/// The dynamic programs keep every pair of waypoints, and visit every triple that is feasible.
+const MOST_WAYPOINTS_IN_PAIRS: u64 = 2_000;
+/// Nodes of the `witness` roadmap, waypoints × velocities: legs are pairs of them, judged once and kept.
+const MOST_NODES: u64 = 50_000;
+/// The same for the dynamic programs, which judge every leg before they start.
+const MOST_NODES_IN_PAIRS: u64 = 16_000;
+
+pub(super) fn check(generate: &GenerateSection, found: &mut Findings) {
+    check_timing(generate, found);
+    // Resolution to the fourth power is the number of simulated runs: 160 000 at 20.
+    found.count("generate.resolution", generate.resolution, 2, 20);
+    found.count("generate.velocities", generate.velocities, 1, 64);
+    check_search(&generate.search, generate, found);
+    check_score(&generate.score, found);
+    check_limits(&generate.limits, found);
+}
+
+fn check_timing(generate: &GenerateSection, found: &mut Findings) {
+    let key = "generate.timing";
+    let bound = "exactly one of leg_time_s and step_s";
+    match generate.timing {
+        None => {}
+        Some(Timing { leg_time_s: Some([shortest, longest]), step_s: None }) => {
+            found.above("generate.timing.leg_time_s[0]", shortest, 0.0, 60.0, " s");
+            found.above("generate.timing.leg_time_s[1]", longest, 0.0, 60.0, " s");
+            let key = "generate.timing.leg_time_s";
+            found.require(shortest < longest, key, format!("[{shortest}, {longest}]"), "rising: [shortest, longest]");
+            let fits = generate.reach == ReachName::Witness;
+            let bound = "step_s = …: only the reach `witness` chooses a time per leg";
+            found.require(fits, key, format!("[{shortest}, {longest}]"), bound);
+        }
+        Some(Timing { leg_time_s: None, step_s: Some(step) }) => {
+            found.above("generate.timing.step_s", step, 0.0, 60.0, " s");
+        }
+        Some(Timing { leg_time_s: Some(_), step_s: Some(_) }) => found.require(false, key, "both", bound),
+        Some(Timing { leg_time_s: None, step_s: None }) => found.require(false, key, "{}", bound),
+    }
+}
+
+fn check_search(search: &SearchSection, generate: &GenerateSection, found: &mut Findings) {
+    let in_pairs = search.method != SearchMethod::Beam;
+    let most = if in_pairs { MOST_WAYPOINTS_IN_PAIRS } else { MOST_WAYPOINTS };
+    found.count("generate.search.waypoints", search.waypoints, 1, most);
+    if generate.reach == ReachName::Witness && search.waypoints <= most && generate.velocities <= 64 {
+        let nodes = search.waypoints * generate.velocities;
+        let most = if in_pairs { MOST_NODES_IN_PAIRS } else { MOST_NODES };
+        let bound = format!("at most {most}: waypoints × velocities ({}) of the witness roadmap", generate.velocities);
+        found.require(
+            nodes <= most,
+            "generate.search.waypoints",
+            format!("{} ({nodes} nodes)", search.waypoints),
+            &bound,
+        );
+    }
+    found.count("generate.search.width", search.width, 1, 100_000);
+    found.count("generate.search.cases", search.cases, 1, 1_000_000);
+    found.count("generate.search.per_graph", search.per_graph, 1, 1_000_000);
+    found.count("generate.search.iterations", search.iterations, 1, 1_000_000_000);
+    // A partial trajectory on the frontier is some hundred bytes: ten million are a few GB.
+    found.count("generate.search.frontier", search.frontier, 1, 10_000_000);
+    if let Some(graphs) = search.graphs {
+        found.count("generate.search.graphs", graphs, 1, 1_000_000_000);
+    }
+}
+
+fn check_score(score: &str, found: &mut Findings) {
+    let value = format!("\"{score}\"");
+    if score.starts_with("learned:") || score.starts_with("python:") {
+        let bound = format!("one of {}: learned and Python scores are not in this version", SCORES.join(", "));
+        found.require(false, "generate.score", value, &bound);
+    } else {
+        let bound = format!("one of {}", SCORES.join(", "));
+        found.require(SCORES.contains(&score), "generate.score", value, &bound);
+    }
+}
+
+fn check_limits(limits: &LimitsSection, found: &mut Findings) {
+    if let Some(speed) = limits.max_speed_m_s {
+        found.above("generate.limits.max_speed_m_s", speed, 0.0, 1000.0, " m/s; leave it out for no cap");
+    }
+    if let Some(tilt) = limits.max_tilt_deg {
+        found.above("generate.limits.max_tilt_deg", tilt, 0.0, 180.0, "°");
+    }
+    if let Some(time) = limits.max_flight_time_s {
+        found.above("generate.limits.max_flight_time_s", time, 0.0, 1e6, " s");
+    }
+}

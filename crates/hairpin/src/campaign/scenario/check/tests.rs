@@ -1,0 +1,146 @@
+//! One line a bound: the value that is refused, and the key and the words it is refused with.
+
+use serde_json::{Value, json};
+
+use crate::campaign::Scenario;
+use crate::campaign::scenario::KeyPath;
+
+fn scenario() -> Value {
+    json!({
+        "hairpin": 1,
+        "robot": { "kind": "quadrotor", "name": "test", "mass_kg": 1.0, "inertia_kg_m2": [0.0049, 0.0049, 0.0069],
+            "thrust_coefficient_n_s2": 1.91e-6, "moment_coefficient_n_m_s2": 2.6e-7, "rotor_speed_rad_s": [0.0, 2200.0],
+            "rotors": [{ "x_m": 0.08, "y_m": 0.08, "spin": 1.0 }, { "x_m": -0.08, "y_m": 0.08, "spin": -1.0 },
+                { "x_m": -0.08, "y_m": -0.08, "spin": 1.0 }, { "x_m": 0.08, "y_m": -0.08, "spin": -1.0 }],
+            "max_speed_m_s": 18.0, "clearance_radius_m": 0.23 },
+        "world": { "size_m": [30.0, 30.0, 30.0], "keep_in_margin_m": 2.0, "obstacles": [
+            { "name": "mast", "box": { "center_m": [12.0, 8.0, 5.0], "size_m": [2.0, 2.0, 10.0] } }] },
+        "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [15.0, 15.0, 15.0], "length": 10 },
+    })
+}
+
+fn mistakes(changes: &[(&str, Value)]) -> Vec<String> {
+    let mut value = scenario();
+    for (key, new) in changes {
+        KeyPath::parse(key).unwrap().put(&mut value, new.clone()).unwrap();
+    }
+    let scenario: Scenario = serde_json::from_value(value).unwrap();
+    scenario.check().iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn the_scenario_itself_is_fine() {
+    assert_eq!(mistakes(&[]), Vec::<String>::new());
+    assert_eq!(mistakes(&[("task.length", json!(2)), ("generate.search.waypoints", json!(1))]), Vec::<String>::new());
+}
+
+#[test]
+fn every_bound_holds() {
+    let table = [
+        ("hairpin", json!(2), "hairpin = 2: must be 1"),
+        ("world.size_m", json!([30.0, 0.0, 30.0]), "world.size_m[1] = 0: must be > 0"),
+        ("world.keep_in_margin_m", json!(15.0), "world.keep_in_margin_m = 15: must be ≥ 0 and < 15"),
+        ("world.base", json!("cage-30m"), "world.base = \"cage-30m\": must be merged"),
+        ("world.wind_m_s", json!([0.0, 0.0, 200.0]), "world.wind_m_s[2] = 200: must be between"),
+        ("world.gusts", json!({ "std_m_s": 1.0, "correlation_s": 0.0 }), "world.gusts.correlation_s = 0: must be > 0"),
+        (
+            "world.origin",
+            json!({ "lat_deg": 91.0, "lon_deg": 0.0, "alt_amsl_m": 0.0, "x_axis_heading_deg": 0.0 }),
+            "world.origin.lat_deg = 91: must be ≥ -90",
+        ),
+        (
+            "world.obstacles[0].sphere",
+            json!({ "center_m": [1.0, 1.0, 1.0], "radius_m": 1.0 }),
+            "box and sphere: must be",
+        ),
+        ("world.obstacles[0]", json!({ "name": "x" }), "world.obstacles[0] = no shape: must be exactly one of"),
+        ("world.obstacles[0].box.size_m", json!([2.0, -2.0, 1.0]), "box.size_m[1] = -2: must be > 0"),
+        ("world.obstacles[0]", json!({ "mesh": { "file": "a.stl" } }), "mesh.file = \"a.stl\": must be resolved"),
+        (
+            "world.obstacles[0]",
+            json!({ "mesh": { "vertices_m": [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+                "triangles": [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 4]] } }),
+            "mesh.triangles[3] = [1, 2, 4]: must be three indices below 4",
+        ),
+        ("task.length", json!(1), "task.length = 1: must be 2 … 10 000"),
+        ("task.length", json!(1_000_000), "task.length = 1000000: must be 2 … 10 000"),
+        ("task.start_m", json!([12.0, 8.0, 5.0]), "must be outside obstacle `mast`; it is 1.00 m inside"),
+        ("task.start_m", json!([13.1, 8.0, 5.0]), "at least 0.23 m, the robot's radius, from obstacle `mast`"),
+        ("task.end_m", json!([15.0, 15.0, 31.0]), "task.end_m[2] = 31: must be inside the world: 2 … 28 m"),
+        ("generate.timing", json!({ "leg_time_s": [4.0, 0.8] }), "must be rising"),
+        ("generate.timing", json!({}), "must be exactly one of leg_time_s and step_s"),
+        ("generate.timing", json!({ "step_s": 0.0 }), "step_s = 0: must be > 0"),
+        ("generate.resolution", json!(1), "generate.resolution = 1: must be 2 … 20"),
+        ("generate.velocities", json!(0), "generate.velocities = 0: must be 1 … 64"),
+        ("generate.search.waypoints", json!(0), "generate.search.waypoints = 0: must be 1 … 100 000"),
+        ("generate.search.waypoints", json!(1_000_000_000), "waypoints = 1000000000: must be 1 … 100 000"),
+        ("generate.search.width", json!(0), "generate.search.width = 0"),
+        ("generate.search.cases", json!(0), "generate.search.cases = 0"),
+        ("generate.search.frontier", json!(0), "generate.search.frontier = 0"),
+        ("generate.score", json!("fast"), "generate.score = \"fast\": must be one of random, "),
+        ("generate.score", json!("learned:m.json"), "learned and Python scores are not in this version"),
+        ("generate.limits.max_tilt_deg", json!(0.0), "max_tilt_deg = 0: must be > 0"),
+        ("execute.logs", json!("*.ulg"), "judging logs is not in this version"),
+        ("execute.step_s", json!(0.01), "execute.step_s = 0.01: must be ≥ 0.00001 and ≤ 0.001"),
+        ("execute.command", json!(" "), "must be a program and its arguments"),
+        ("execute.repeat", json!(0), "execute.repeat = 0: must be 1"),
+        ("spec.deviation", json!({ "max_m": -0.5 }), "spec.deviation.max_m = -0.5: must be > 0"),
+        ("spec.violation_share", json!(1.0), "spec.violation_share = 1: must be ≥ 0 and < 1"),
+    ];
+    for (key, value, words) in table {
+        let found = mistakes(&[(key, value.clone())]);
+        assert!(found.iter().any(|m| m.contains(words)), "{key} = {value}: {found:?} should say {words:?}");
+    }
+}
+
+#[test]
+fn combinations_that_contradict_each_other() {
+    let both = mistakes(&[("execute.controller", json!("geometric")), ("execute.command", json!("sim"))]);
+    assert!(both[0].contains("one of the two"), "{both:?}");
+    let hull = mistakes(&[("generate.reach", json!("hull")), ("generate.timing", json!({ "leg_time_s": [0.8, 4.0] }))]);
+    assert!(hull[0].contains("only the reach `witness`"), "{hull:?}");
+    let exact = mistakes(&[
+        ("generate.reach", json!("hull")),
+        ("generate.search", json!({ "method": "exact", "waypoints": 5000 })),
+    ]);
+    assert_eq!(exact, ["generate.search.waypoints = 5000: must be 1 … 2 000"]);
+    let several = mistakes(&[("task.length", json!(1)), ("spec.confidence", json!(2.0))]);
+    assert_eq!(several.len(), 2, "{several:?}");
+}
+
+#[test]
+fn vary_is_tried_before_anything_flies() {
+    let table = [
+        ("robot.mas_kg", json!({ "uniform": [1, 2] }), "unknown field `mas_kg`"),
+        ("robot.mass_kg", json!({ "uniform": [2, 1] }), "low ≤ high"),
+        ("robot.mass_kg", json!({ "uniform": [[1, 1], [2, 2]] }), "invalid type"),
+        ("robot.mass_kg", json!({ "uniform": [1, 2], "normal": [1, 2] }), "exactly one of"),
+        ("robot.mass_kg", json!({}), "exactly one of"),
+        ("robot.mass_kg", json!({ "normal": [1, -1] }), "deviation ≥ 0"),
+        ("robot.mass_kg", json!({ "normal": [1, 0.1], "min": 2, "max": 3 }), "at least 1 % of the draws"),
+        ("world.wind_m_s", json!({ "uniform": [[0, 0], [1, 1]] }), "invalid length 2"),
+        ("world.wind_m_s", json!({ "uniform": [[0, 0, 0], [1, 1]] }), "arrays of one shape"),
+        ("world.wind_m_s", json!({ "uniform": [[0, 0, 0], [1, 1, 1000]] }), "world.wind_m_s[2] = 1000"),
+        ("world.obstacles[0].box.center_m", json!({ "choice": [[3, 3, 3]] }), "must be outside obstacle `mast`"),
+        ("world.obstacles[1].box.center_m", json!({ "choice": [[3, 3, 3]] }), "no `world.obstacles[1]`"),
+        ("execute.controller", json!({ "choice": [] }), "1 … 1000 values"),
+        ("execute.controller", json!({ "choice": ["geometrical"] }), "unknown variant `geometrical`"),
+        ("task.length", json!({ "uniform": [2.5, 5] }), "between whole numbers"),
+        ("task.length", json!({ "uniform": [1, 5] }), "task.length = 1"),
+        ("generate.search.width", json!({ "choice": [0] }), "generate.search.width = 0"),
+        ("seed", json!({ "uniform": [1, 5] }), "this one may not"),
+        ("hairpin", json!({ "uniform": [1, 5] }), "this one may not"),
+        ("spec.deviation.max_m", json!({ "uniform": [1, 5] }), "this one may not"),
+        ("a b", json!({ "uniform": [1, 5] }), "a dotted key"),
+    ];
+    for (key, distribution, words) in table {
+        let mut entry = serde_json::Map::new();
+        entry.insert(key.into(), distribution.clone());
+        let found = mistakes(&[("vary", Value::Object(entry))]);
+        assert!(found.iter().any(|m| m.contains(words)), "{key} = {distribution}: {found:?} should say {words:?}");
+    }
+    let fine = json!({ "world.wind_m_s": { "uniform": [[-3, -3, 0], [3, 3, 0]] },
+        "robot.mass_kg": { "normal": [1, 0.1], "min": 0.8 }, "world.obstacles.0.box.size_m[2]": { "choice": [4, 8] },
+        "generate.limits.max_speed_m_s": { "uniform": [5, 8] } });
+    assert_eq!(mistakes(&[("vary", fine)]), Vec::<String>::new());
+}

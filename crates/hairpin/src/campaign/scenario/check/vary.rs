@@ -1,0 +1,132 @@
+//! Bounds of `[vary]`: every key exists, and the ends of its range make a scenario that can be run.
+
+use serde_json::Value;
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::campaign::scenario::distribution::zip;
+use crate::campaign::scenario::{Distribution, KeyPath, Mistake, Scenario};
+use crate::campaign::vary::{apply, as_value};
+
+/// Keys that say what the campaign is, not what happens in a case.
+const FIXED: &[&str] = &[
+    "hairpin",
+    "seed",
+    "vary",
+    "robot",
+    "world.base",
+    "generate.search.cases",
+    "generate.search.graphs",
+    "generate.search.per_graph",
+    "execute.command",
+    "execute.logs",
+    "execute.repeat",
+    "execute.timeout_s",
+    "execute.workers",
+];
+/// Each is tried before anything flies.
+const MOST_CHOICES: usize = 1000;
+/// Smallest share of draws that a truncation may keep.
+const LEAST_SHARE: f64 = 0.01;
+
+/// All mistakes of `[vary]` in a scenario whose nominal values have none.
+pub(super) fn check(scenario: &Scenario) -> Vec<Mistake> {
+    let nominal = as_value(scenario);
+    let entries = scenario.vary.iter();
+    entries.filter_map(|(key, distribution)| check_entry(scenario, &nominal, key, distribution).err()).collect()
+}
+
+fn check_entry(scenario: &Scenario, nominal: &Value, key: &str, distribution: &Distribution) -> Result<(), Mistake> {
+    let refuse =
+        |value: String, bound: String| Err(Mistake { key: KeyPath::of(&["vary", key]).to_string(), value, bound });
+    let Some(path) = KeyPath::parse(key) else {
+        return refuse(format!("\"{key}\""), "a dotted key of the scenario, such as \"world.wind_m_s\"".into());
+    };
+    let whole_key = path.to_string();
+    if FIXED.contains(&whole_key.as_str()) || ["spec", "vary"].contains(&path.segments()[0].as_str()) {
+        return refuse(format!("\"{key}\""), "a key that may differ between cases or runs; this one may not".into());
+    }
+    let ends = match ends(distribution, path.get(nominal)) {
+        Ok(ends) => ends,
+        Err((value, bound)) => return refuse(value, bound),
+    };
+    for end in ends {
+        let drawn = apply(scenario, &[(key.to_owned(), end.clone())])?;
+        if let Some(first) = drawn.check_nominal().into_iter().next() {
+            return refuse(end.to_string(), format!("within bounds: {first}"));
+        }
+    }
+    Ok(())
+}
+
+/// The values at the ends of the range, or every choice; what is wrong with the distribution as (value, bound).
+fn ends(distribution: &Distribution, nominal: Option<&Value>) -> Result<Vec<Value>, (String, String)> {
+    let refuse = |value: String, bound: &str| Err((value, bound.to_owned()));
+    match (&distribution.uniform, &distribution.normal, &distribution.choice) {
+        (Some([low, high]), None, None) => {
+            if distribution.min.is_some() || distribution.max.is_some() {
+                return refuse(
+                    "uniform with min or max".into(),
+                    "without them: uniform has its ends; they cut `normal`",
+                );
+            }
+            let (mut rising, mut whole_ends) = (true, true);
+            let bounds = zip(low, high, nominal, &mut |low, high, whole| {
+                rising &= low <= high;
+                whole_ends &= !whole || (low.fract() == 0.0 && high.fract() == 0.0);
+                low
+            });
+            let (Some(low), true) = (bounds, rising) else {
+                return refuse(format!("[{low}, {high}]"), "[low, high]: numbers or arrays of one shape, low ≤ high");
+            };
+            if !whole_ends {
+                return refuse(format!("[{low}, {high}]"), "between whole numbers: this key takes no others");
+            }
+            let high = zip(high, high, nominal, &mut |high, _, _| high);
+            Ok(std::iter::once(low).chain(high).collect())
+        }
+        (None, Some([mean, deviation]), None) => {
+            let (mut positive, mut share) = (true, 1.0_f64);
+            let mut end = |high: bool| {
+                zip(mean, deviation, nominal, &mut |mean, deviation, _| {
+                    positive &= deviation >= 0.0;
+                    share = share.min(share_kept(distribution, mean, deviation));
+                    let interval = distribution.interval(mean, deviation);
+                    if high { interval.1 } else { interval.0 }
+                })
+            };
+            let (Some(low), Some(high)) = (end(false), end(true)) else {
+                return refuse(format!("[{mean}, {deviation}]"), "[mean, deviation]: numbers or arrays of one shape");
+            };
+            if !positive {
+                return refuse(format!("[{mean}, {deviation}]"), "[mean, deviation] with deviation ≥ 0");
+            }
+            if share < LEAST_SHARE {
+                let kept = format!("min and max that keep {share:.1e} of all draws");
+                return refuse(kept, "such that at least 1 % of the draws lie between them");
+            }
+            Ok(vec![low, high])
+        }
+        (None, None, Some(choice)) => {
+            if distribution.min.is_some() || distribution.max.is_some() {
+                return refuse("choice with min or max".into(), "without them: they cut `normal`");
+            }
+            if choice.is_empty() || choice.len() > MOST_CHOICES {
+                return refuse(format!("{} values", choice.len()), "1 … 1000 values to choose from");
+            }
+            Ok(choice.clone())
+        }
+        _ => refuse("a distribution".into(), "exactly one of uniform, normal, choice"),
+    }
+}
+
+/// The probability that a draw lies between `min` and `max`.
+fn share_kept(distribution: &Distribution, mean: f64, deviation: f64) -> f64 {
+    let (low, high) = distribution.interval(mean, deviation);
+    if deviation <= 0.0 {
+        return if low <= high { 1.0 } else { 0.0 };
+    }
+    match Normal::new(mean, deviation) {
+        Ok(normal) => (normal.cdf(high) - normal.cdf(low)).max(0.0),
+        Err(_) => 0.0,
+    }
+}

@@ -1,0 +1,99 @@
+//! `[execute]`: who flies the trajectories, and how often.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ExecuteSection {
+    /// unstable-waypoint | stable-waypoint | fixed-velocity | minimum-snap | geometric | anafi.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub controller: Option<ControllerName>,
+    /// A program that speaks the executor protocol, as a shell would split it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub command: Option<String>,
+    /// Logs flown elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub logs: Option<String>,
+    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others.
+    pub repeat: u64,
+    /// A waypoint counts as reached inside this radius.
+    pub accept_m: f64,
+    /// Time limit of a run; 9 s per waypoint if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_limit_s: Option<f64>,
+    /// Step of the simulated physics.
+    pub step_s: f64,
+    /// Force and moment noise with the robot's own densities.
+    pub noise: bool,
+    /// Whether leaving the world is a crash.
+    pub walls: bool,
+    /// Speed of the fixed-velocity controller.
+    pub fixed_velocity_m_s: f64,
+    /// How minimum-snap sets its leg times.
+    pub segment_times: SegmentTimes,
+    /// Wall-clock limit per mission of `command`.
+    pub timeout_s: f64,
+    /// Workers of `command`; as many as threads if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub workers: Option<u64>,
+}
+
+impl Default for ExecuteSection {
+    fn default() -> Self {
+        Self {
+            controller: None,
+            command: None,
+            logs: None,
+            repeat: 1,
+            accept_m: 1.0,
+            time_limit_s: None,
+            step_s: 0.001,
+            noise: false,
+            walls: false,
+            fixed_velocity_m_s: 2.0,
+            segment_times: SegmentTimes::SqrtLength,
+            timeout_s: 60.0,
+            workers: None,
+        }
+    }
+}
+
+impl ExecuteSection {
+    /// Who flies: the controller as given, `stable-waypoint` where nothing is, `None` where a command does.
+    pub fn controller_in_force(&self) -> Option<ControllerName> {
+        match (self.controller, &self.command) {
+            (None, Some(_)) => None,
+            (controller, _) => Some(controller.unwrap_or(ControllerName::StableWaypoint)),
+        }
+    }
+}
+
+/// The controllers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ControllerName {
+    /// A cascade of PIDs, poorly tuned on purpose.
+    UnstableWaypoint,
+    /// A cascade of PIDs, well tuned.
+    StableWaypoint,
+    /// A fixed speed towards the next waypoint.
+    FixedVelocity,
+    /// A minimum-snap polynomial through the waypoints, followed by the cascade.
+    MinimumSnap,
+    /// SE(3) tracking of the planned trajectory.
+    Geometric,
+    /// A waypoint controller with the Anafi's limits: a stand-in for its closed one.
+    Anafi,
+}
+
+/// Leg times of the minimum-snap reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SegmentTimes {
+    /// By the square root of the leg's length: the sane default.
+    SqrtLength,
+    /// By the leg's length: the paper's authors' choice.
+    Length,
+}

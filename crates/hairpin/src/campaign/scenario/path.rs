@@ -1,0 +1,141 @@
+//! Dotted keys: how mistakes, `[vary]` and `--set` name one value of a scenario.
+
+use std::fmt;
+
+use serde_json::{Map, Value};
+
+/// A key such as `world.obstacles[0].box.size_m`, `world.obstacles.0.box.size_m` or `vary."world.wind_m_s"`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct KeyPath {
+    segments: Vec<String>,
+}
+
+impl KeyPath {
+    /// Takes a key apart. `None` where it is none: an empty segment, a bracket without a whole number, an open quote.
+    pub fn parse(key: &str) -> Option<Self> {
+        let mut segments = Vec::new();
+        let mut rest = key.trim();
+        loop {
+            let (segment, after) = first_segment(rest)?;
+            segments.push(segment);
+            rest = after;
+            while let Some(inner) = rest.strip_prefix('[') {
+                let (index, after) = inner.split_once(']')?;
+                let index: usize = index.trim().parse().ok()?;
+                segments.push(index.to_string());
+                rest = after;
+            }
+            match rest.strip_prefix('.') {
+                Some(after) => rest = after,
+                None if rest.is_empty() => return Some(Self { segments }),
+                None => return None,
+            }
+        }
+    }
+
+    /// The key with these parts.
+    pub fn of(segments: &[&str]) -> Self {
+        Self { segments: segments.iter().map(|&segment| segment.to_owned()).collect() }
+    }
+
+    /// The parts; an index stands as its digits.
+    pub fn segments(&self) -> &[String] {
+        &self.segments
+    }
+
+    /// The value at this key.
+    pub fn get<'v>(&self, root: &'v Value) -> Option<&'v Value> {
+        self.segments.iter().try_fold(root, |value, segment| match value {
+            Value::Object(table) => table.get(segment),
+            Value::Array(items) => items.get(segment.parse::<usize>().ok()?),
+            _ => None,
+        })
+    }
+
+    /// Puts `new` at this key; tables on the way that are missing are made.
+    ///
+    /// # Errors
+    /// The part of the key (`world.obstacles[3]`) that is no element or lies in something that is no table.
+    pub fn put(&self, root: &mut Value, new: Value) -> Result<(), String> {
+        let mut place = root;
+        for (depth, segment) in self.segments.iter().enumerate() {
+            if place.is_null() {
+                *place = Value::Object(Map::new());
+            }
+            place = match place {
+                Value::Object(table) => table.entry(segment.clone()).or_insert(Value::Null),
+                Value::Array(items) => segment
+                    .parse::<usize>()
+                    .ok()
+                    .and_then(|index| items.get_mut(index))
+                    .ok_or_else(|| joined(&self.segments[..=depth]))?,
+                _ => return Err(joined(&self.segments[..=depth])),
+            };
+        }
+        *place = new;
+        Ok(())
+    }
+}
+
+impl fmt::Display for KeyPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&joined(&self.segments))
+    }
+}
+
+/// The first part of `key`, bare or in quotes, and what follows it.
+fn first_segment(key: &str) -> Option<(String, &str)> {
+    if let Some(quoted) = key.strip_prefix('"') {
+        let (segment, after) = quoted.split_once('"')?;
+        return (!segment.is_empty()).then(|| (segment.to_owned(), after));
+    }
+    let end = key.find(['.', '[']).unwrap_or(key.len());
+    let bare = &key[..end];
+    let valid = !bare.is_empty() && bare.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+    valid.then(|| (bare.to_owned(), &key[end..]))
+}
+
+fn joined(segments: &[String]) -> String {
+    let mut key = String::new();
+    for segment in segments {
+        if !key.is_empty() && segment.bytes().all(|b| b.is_ascii_digit()) {
+            key.push_str(&format!("[{segment}]"));
+            continue;
+        }
+        if !key.is_empty() {
+            key.push('.');
+        }
+        if segment.contains(['.', '[']) { key.push_str(&format!("\"{segment}\"")) } else { key.push_str(segment) }
+    }
+    key
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn both_ways_to_write_an_index_name_the_same_value() {
+        let value = json!({ "world": { "obstacles": [{ "box": { "size_m": [1.0, 2.0, 3.0] } }] } });
+        for key in ["world.obstacles[0].box.size_m[2]", "world.obstacles.0.box.size_m.2"] {
+            let path = KeyPath::parse(key).unwrap();
+            assert_eq!(path.get(&value), Some(&json!(3.0)));
+            assert_eq!(path.to_string(), "world.obstacles[0].box.size_m[2]");
+        }
+        assert_eq!(KeyPath::parse("vary.\"world.wind_m_s\"").unwrap().segments(), ["vary", "world.wind_m_s"]);
+        for broken in ["", ".", "a.", "a..b", "a[", "a[x]", "a[1]b", "a b", "\"a", "a[-1]", "\"\""] {
+            assert_eq!(KeyPath::parse(broken), None, "{broken}");
+        }
+    }
+
+    #[test]
+    fn put_makes_tables_but_no_elements() {
+        let mut value = json!({ "generate": {}, "world": { "obstacles": [] }, "seed": 1 });
+        KeyPath::parse("generate.timing.step_s").unwrap().put(&mut value, json!(1.0)).unwrap();
+        assert_eq!(value["generate"]["timing"]["step_s"], json!(1.0));
+        let element = KeyPath::parse("world.obstacles[0].name").unwrap().put(&mut value, json!("mast"));
+        assert_eq!(element, Err("world.obstacles[0]".into()));
+        assert_eq!(KeyPath::parse("seed.x").unwrap().put(&mut value, json!(1)), Err("seed.x".into()));
+    }
+}

@@ -1,0 +1,191 @@
+//! `[vary]`: what is drawn for a case or a run, and the scenario that the draws make.
+//!
+//! One random stream per parameter and case, so that adding a parameter changes no other's draws. Run 0 and case 0
+//! are nominal. Keys under `task` and `generate` shape the plan and are drawn once per case; the others once per run.
+
+use rand::Rng;
+use serde_json::Value;
+
+use super::scenario::distribution::zip;
+use super::scenario::{Distribution, KeyPath, Mistake, Scenario};
+use crate::math::random::{Stream, named_seed, stream};
+
+/// How often a truncated draw is repeated. [`Scenario::check`] refuses truncations that keep less than one draw in a
+/// hundred, so this many failures in a row have a probability of 10⁻⁴³.
+const REDRAWS: usize = 10_000;
+
+/// The values of run number `run` of the case with `case_seed`; none for run 0. Keys in alphabetical order.
+pub fn draw(scenario: &Scenario, case_seed: u64, run: usize) -> Vec<(String, Value)> {
+    if run == 0 { Vec::new() } else { draw_keys(scenario, case_seed, run as u64, |key| !shapes_the_plan(key)) }
+}
+
+/// The values of `task` and `generate` for case number `case`; none for case 0. Keys in alphabetical order.
+pub fn draw_for_case(scenario: &Scenario, case_seed: u64, case: usize) -> Vec<(String, Value)> {
+    if case == 0 { Vec::new() } else { draw_keys(scenario, case_seed, 0, shapes_the_plan) }
+}
+
+/// The scenario with the drawn values in place of the nominal ones, and nothing left to vary.
+///
+/// # Errors
+/// A key that the scenario has not, or a value of another type than the key's.
+pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario, Mistake> {
+    let mut drawn = if draws.is_empty() { scenario.clone() } else { patch(scenario, draws)? };
+    drawn.vary.clear();
+    Ok(drawn)
+}
+
+/// Whether a key is drawn per case, when trajectories are generated, rather than per run.
+pub fn shapes_the_plan(key: &str) -> bool {
+    key.starts_with("task.") || key.starts_with("generate.")
+}
+
+fn draw_keys(scenario: &Scenario, seed: u64, index: u64, wanted: impl Fn(&str) -> bool) -> Vec<(String, Value)> {
+    let keys: Vec<_> = scenario.vary.iter().filter(|(key, _)| wanted(key)).collect();
+    if keys.is_empty() {
+        return Vec::new();
+    }
+    let nominal = as_value(scenario);
+    keys.into_iter()
+        .filter_map(|(key, distribution)| {
+            let mut random = stream(named_seed(seed, key, index));
+            let nominal = KeyPath::parse(key)?.get(&nominal).cloned();
+            Some((key.clone(), sample(distribution, nominal.as_ref(), &mut random)?))
+        })
+        .collect()
+}
+
+/// One draw; `nominal` says where whole numbers are wanted. `None` for what [`Scenario::check`] refuses.
+fn sample(distribution: &Distribution, nominal: Option<&Value>, random: &mut Stream) -> Option<Value> {
+    if let Some([low, high]) = &distribution.uniform {
+        return zip(low, high, nominal, &mut |low, high, whole| {
+            // Every whole number of the range is equally likely, both ends included.
+            if whole { (low + unit(random) * (high - low + 1.0)).floor() } else { low + unit(random) * (high - low) }
+        });
+    }
+    if let Some([mean, deviation]) = &distribution.normal {
+        return zip(mean, deviation, nominal, &mut |mean, deviation, _| {
+            let (low, high) = distribution.interval(mean, deviation);
+            let mut draws = (0..REDRAWS).map(|_| mean + deviation * standard_normal(random));
+            draws.find(|x| (low..=high).contains(x)).unwrap_or(mean.clamp(low, high.max(low)))
+        });
+    }
+    let choice = distribution.choice.as_ref()?;
+    choice.get((unit(random) * choice.len() as f64) as usize).cloned()
+}
+
+/// Uniform in [0, 1).
+fn unit(random: &mut Stream) -> f64 {
+    (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+}
+
+/// Mean 0, deviation 1 (Box and Muller 1958), by `libm`: the same bits on every machine.
+fn standard_normal(random: &mut Stream) -> f64 {
+    let radius = (-2.0 * libm::log(1.0 - unit(random))).sqrt();
+    radius * libm::cos(std::f64::consts::TAU * unit(random))
+}
+
+fn patch(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario, Mistake> {
+    let mistake = |key: &str, value: &Value, bound: String| Mistake {
+        key: KeyPath::of(&["vary", key]).to_string(),
+        value: value.to_string(),
+        bound,
+    };
+    let mut patched = as_value(scenario);
+    for (key, value) in draws {
+        let path = KeyPath::parse(key).ok_or_else(|| mistake(key, value, "a dotted key of the scenario".into()))?;
+        path.put(&mut patched, value.clone())
+            .map_err(|part| mistake(key, value, format!("a key that the scenario has; it has no `{part}`")))?;
+    }
+    serde_json::from_value(patched).map_err(|error| {
+        let (key, value) = &draws[0];
+        mistake(key, value, format!("a key of the scenario, of its type: {error}"))
+    })
+}
+
+/// A scenario as a tree of values, in which keys can be put.
+pub(crate) fn as_value(scenario: &Scenario) -> Value {
+    match serde_json::to_value(scenario) {
+        Ok(value) => value,
+        Err(error) => unreachable!("every scenario is a tree of strings and numbers: {error}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn scenario() -> Scenario {
+        serde_json::from_value(json!({
+            "hairpin": 1, "robot": { "kind": "quadrotor", "name": "test", "mass_kg": 1.0, "rotors": [] },
+            "world": { "size_m": [30.0, 30.0, 30.0], "obstacles": [
+                { "box": { "center_m": [12.0, 8.0, 5.0], "size_m": [2.0, 2.0, 10.0] } }] },
+            "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [15.0, 15.0, 15.0], "length": 10 },
+            "vary": {
+                "world.wind_m_s": { "uniform": [[-3, -3, 0], [3, 3, 0]] },
+                "world.obstacles[0].box.center_m": { "uniform": [[10, 6, 5], [14, 10, 5]] },
+                "robot.mass_kg": { "normal": [1.0, 0.1], "min": 0.95, "max": 1.5 },
+                "execute.controller": { "choice": ["stable-waypoint", "geometric"] },
+                "task.length": { "uniform": [5, 8] },
+            },
+        }))
+        .unwrap()
+    }
+
+    #[test]
+    fn nominal_first_then_every_key_where_it_belongs() {
+        let scenario = scenario();
+        assert!(draw(&scenario, 7, 0).is_empty() && draw_for_case(&scenario, 7, 0).is_empty());
+        assert_eq!(apply(&scenario, &[]).unwrap(), Scenario { vary: Default::default(), ..scenario.clone() });
+        let keys: Vec<_> = draw(&scenario, 7, 1).into_iter().map(|(key, _)| key).collect();
+        let per_run = ["execute.controller", "robot.mass_kg", "world.obstacles[0].box.center_m", "world.wind_m_s"];
+        assert_eq!(keys, per_run);
+        assert_eq!(draw_for_case(&scenario, 7, 3)[0].0, "task.length");
+    }
+
+    #[test]
+    fn draws_lie_in_their_ranges_and_fill_them() {
+        let scenario = scenario();
+        let (mut lengths, mut masses, mut winds) = (Vec::new(), Vec::new(), Vec::new());
+        for seed in 0..2000 {
+            let planned = apply(&scenario, &draw_for_case(&scenario, seed, 1)).unwrap();
+            lengths.push(planned.task.length);
+            let drawn = apply(&scenario, &draw(&scenario, seed, 1)).unwrap();
+            let super::super::scenario::RobotSource::Inline(robot) = &drawn.robot else { panic!("robot lost") };
+            masses.push(robot.mass_kg);
+            winds.push(drawn.world.wind_m_s.unwrap());
+            assert_eq!(drawn.world.obstacles[0].cuboid.unwrap().center_m[2], 5.0);
+        }
+        for length in 5..=8 {
+            let share = lengths.iter().filter(|&&l| l == length).count() as f64 / 2000.0;
+            assert!((share - 0.25).abs() < 0.05, "length {length}: {share}");
+        }
+        assert!(masses.iter().all(|m| (0.95..=1.5).contains(m)));
+        // Truncated normal on [-σ/2, 5σ]: mean = μ + σ φ(-1/2)/(1 − Φ(-1/2)) = 1 + 0.1 · 0.35207/0.69146.
+        let mean = masses.iter().sum::<f64>() / 2000.0;
+        assert!((mean - 1.05092).abs() < 0.006, "{mean}");
+        assert!(winds.iter().all(|w| w[0].abs() <= 3.0 && w[2] == 0.0));
+        assert!(winds.iter().any(|w| w[0] > 2.9) && winds.iter().any(|w| w[0] < -2.9));
+    }
+
+    #[test]
+    fn another_parameter_changes_no_draw() {
+        let all = scenario();
+        let mut few = scenario();
+        few.vary.retain(|key, _| key == "robot.mass_kg");
+        let mass = |s: &Scenario| draw(s, 3, 2).into_iter().find(|(key, _)| key == "robot.mass_kg").unwrap();
+        assert_eq!(mass(&all), mass(&few));
+        assert_ne!(mass(&all), draw(&few, 3, 1)[0]);
+        assert_ne!(mass(&all), draw(&few, 4, 2)[0]);
+    }
+
+    #[test]
+    fn refuses_keys_and_types_that_are_not_the_scenarios() {
+        let scenario = scenario();
+        let refuse = |key: &str, value: Value| apply(&scenario, &[(key.into(), value)]).unwrap_err();
+        assert!(refuse("robot.mas_kg", json!(1.0)).bound.contains("unknown field `mas_kg`"));
+        assert_eq!(refuse("robot.mass_kg", json!("heavy")).key, "vary.\"robot.mass_kg\"");
+        assert!(refuse("world.obstacles[4].name", json!("x")).bound.contains("no `world.obstacles[4]`"));
+        assert!(refuse("..", json!(1)).bound.contains("dotted key"));
+    }
+}
