@@ -1,5 +1,18 @@
 //! Floor 5, the verdict: metrics on tracks, specs, statistics. It knows poses in time and nothing of robots or planners.
 
+mod assign;
+mod deviation;
+pub mod measure;
 pub mod measures;
+pub mod spec;
+pub mod statistics;
+pub mod verdict;
 
+#[cfg(test)]
+mod tests;
+
+pub use measure::{JudgementError, Reference, Settings, measure};
 pub use measures::{AccelerationSource, LegMeasures, LegSource, Measures};
+pub use spec::{Limits, Violation, violations};
+pub use statistics::{Share, Statistics, rule_of_three, share, skewness};
+pub use verdict::{Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};

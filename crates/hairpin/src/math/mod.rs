@@ -3,3 +3,4 @@
 pub mod integrate;
 pub mod random;
 pub mod rotation;
+pub mod segment;

@@ -1,41 +1,6 @@
-//! Distances with a closed form: points and segments to points, segments and axis-aligned boxes.
+//! Distances of points and segments to axis-aligned boxes, in closed form.
 
-use nalgebra::{Point3, Vector3};
-
-/// Parameter in [0, 1] of the point of the segment a–b nearest to `p`; 0 for a segment without length.
-pub(super) fn nearest_parameter(p: &Point3<f64>, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
-    let d = b - a;
-    let square = d.norm_squared();
-    if square > 0.0 { ((p - a).dot(&d) / square).clamp(0.0, 1.0) } else { 0.0 }
-}
-
-/// Distance of `p` to the segment a–b, m.
-pub(super) fn point_to_segment(p: &Point3<f64>, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
-    (p - (a + (b - a) * nearest_parameter(p, a, b))).norm()
-}
-
-/// Smallest distance between the segments a–b and c–d, m.
-///
-/// Minimises ‖a + s u − c − t v‖² over the unit square. The minimum lies either inside (where both partial
-/// derivatives vanish) or on an edge of the square, that is at an end of one of the segments.
-pub(super) fn segment_to_segment(a: &Point3<f64>, b: &Point3<f64>, c: &Point3<f64>, d: &Point3<f64>) -> f64 {
-    let (u, v, r) = (b - a, d - c, a - c);
-    let (uu, uv, vv) = (u.norm_squared(), u.dot(&v), v.norm_squared());
-    let determinant = uu * vv - uv * uv;
-    let ends = point_to_segment(a, c, d)
-        .min(point_to_segment(b, c, d))
-        .min(point_to_segment(c, a, b))
-        .min(point_to_segment(d, a, b));
-    // Nearly parallel segments have their minimum at an end as well, to rounding.
-    if determinant > 1e-14 * uu * vv {
-        let s = (uv * v.dot(&r) - vv * u.dot(&r)) / determinant;
-        let t = (uu * v.dot(&r) - uv * u.dot(&r)) / determinant;
-        if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
-            return ends.min((r + u * s - v * t).norm());
-        }
-    }
-    ends
-}
+use nalgebra::Vector3;
 
 /// Signed distance of `q`, relative to the box's centre, to the box ±`half`, m; negative inside.
 pub(super) fn point_to_box(q: &Vector3<f64>, half: &Vector3<f64>) -> f64 {

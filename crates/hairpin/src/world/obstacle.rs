@@ -6,6 +6,7 @@ use super::WorldError;
 use super::bounds::Bounds;
 use super::closed;
 use super::solid::Solid;
+use crate::math::segment;
 
 /// A named solid in the world.
 #[derive(Debug, Clone)]
@@ -102,7 +103,7 @@ impl Shape {
         match self {
             Shape::Sphere { center, radius } => (p - center).norm() - radius,
             Shape::Box { center, half_extents } => closed::point_to_box(&(p - center), half_extents),
-            Shape::Capsule { a, b, radius } => closed::point_to_segment(p, a, b) - radius,
+            Shape::Capsule { a, b, radius } => segment::point_distance(p, a, b) - radius,
             Shape::Hull(solid) | Shape::Mesh(solid) => solid.signed_distance(p),
         }
     }
@@ -111,9 +112,9 @@ impl Shape {
     /// and meshes that are met the value is an upper bound (the deeper end's, or 0).
     pub fn segment_distance(&self, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
         match self {
-            Shape::Sphere { center, radius } => closed::point_to_segment(center, a, b) - radius,
+            Shape::Sphere { center, radius } => segment::point_distance(center, a, b) - radius,
             Shape::Box { center, half_extents } => closed::segment_to_box(&(a - center), &(b - a), half_extents),
-            Shape::Capsule { a: from, b: to, radius } => closed::segment_to_segment(a, b, from, to) - radius,
+            Shape::Capsule { a: from, b: to, radius } => segment::segment_distance(a, b, from, to) - radius,
             Shape::Hull(solid) | Shape::Mesh(solid) => solid.segment_distance(a, b),
         }
     }

@@ -10,21 +10,34 @@ use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 use parry3d_f64::transformation::try_convex_hull;
 
 use super::bounds::Bounds;
-use super::closed::segment_to_segment;
+use crate::math::segment::segment_distance;
 
 /// A solid bounded by a closed, outward-oriented triangle surface.
 #[derive(Clone)]
 pub struct Solid {
     surface: Arc<TriMesh>,
     bounds: Bounds,
-    /// Face planes (outward unit normal n, offset o: n·p ≤ o inside), of hulls only.
-    planes: Option<Arc<[(Vector3<f64>, f64)]>>,
+    /// Faces, of hulls only.
+    faces: Option<Arc<[Face]>>,
 }
 
 impl std::fmt::Debug for Solid {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let kind = if self.planes.is_some() { "hull" } else { "mesh" };
+        let kind = if self.faces.is_some() { "hull" } else { "mesh" };
         write!(f, "Solid({kind}, {} triangles)", self.surface.indices().len())
+    }
+}
+
+/// The plane of a hull's face: normal·p ≤ offset inside.
+#[derive(Clone, Copy)]
+struct Face {
+    normal: Vector3<f64>,
+    offset: f64,
+}
+
+impl Face {
+    fn height(&self, p: &Point3<f64>) -> f64 {
+        self.normal.dot(&p.coords) - self.offset
     }
 }
 
@@ -42,11 +55,11 @@ impl Solid {
         let (vertices, triangles) = try_convex_hull(&given).map_err(|_| flat())?;
         let bounds = Bounds::around(points).ok_or_else(flat)?;
         let scale = (bounds.max - bounds.min).norm();
-        let planes = planes(&vertices, &triangles, scale);
-        if planes.len() < 4 || volume(&vertices, &triangles) <= 1e-9 * scale.powi(3) {
+        let faces = faces(&vertices, &triangles, scale);
+        if faces.len() < 4 || volume(&vertices, &triangles) <= 1e-9 * scale.powi(3) {
             return Err(flat());
         }
-        let outside = |p: &Point3<f64>| planes.iter().any(|(n, offset)| n.dot(&p.coords) - offset > 1e-7 * scale);
+        let outside = |p: &Point3<f64>| faces.iter().any(|face| face.height(p) > 1e-7 * scale);
         if let Some(index) = points.iter().position(outside) {
             return Err((
                 format!("point {index} outside the hull found"),
@@ -54,7 +67,7 @@ impl Solid {
             ));
         }
         let surface = TriMesh::new(vertices, triangles).map_err(|_| flat())?;
-        Ok(Self { surface: Arc::new(surface), bounds, planes: Some(planes.into()) })
+        Ok(Self { surface: Arc::new(surface), bounds, faces: Some(faces.into()) })
     }
 
     /// The inside of the closed surface given by `vertices` (m) and `triangles` (vertex indices from 0).
@@ -88,7 +101,7 @@ impl Solid {
         }
         let surface = TriMesh::with_flags(vertices, triangles, TriMeshFlags::ORIENTED)
             .map_err(|error| (error.to_string(), "a closed, consistently wound surface".to_owned()))?;
-        Ok(Self { surface: Arc::new(surface), bounds, planes: None })
+        Ok(Self { surface: Arc::new(surface), bounds, faces: None })
     }
 
     /// The smallest box around the solid.
@@ -109,9 +122,9 @@ impl Solid {
     /// Distance of `p` to the surface, m; negative inside.
     pub fn signed_distance(&self, p: &Point3<f64>) -> f64 {
         let point = to_parry(p);
-        if let Some(planes) = &self.planes {
+        if let Some(faces) = &self.faces {
             // Inside a convex polyhedron the nearest face's plane is the nearest point of the surface.
-            let depth = planes.iter().map(|(n, offset)| n.dot(&p.coords) - offset).fold(f64::NEG_INFINITY, f64::max);
+            let depth = faces.iter().map(|face| face.height(p)).fold(f64::NEG_INFINITY, f64::max);
             return if depth <= 0.0 { depth } else { self.surface.distance_to_local_point(point, false).abs() };
         }
         let (projection, _) = self.surface.project_local_point_and_get_location(point, false);
@@ -157,7 +170,7 @@ fn segment_to_triangle(a: &Point3<f64>, b: &Point3<f64>, corners: &[Point3<f64>;
             return 0.0;
         }
     }
-    (0..3).map(|i| segment_to_segment(a, b, &corners[i], &corners[(i + 1) % 3])).fold(f64::INFINITY, f64::min)
+    (0..3).map(|i| segment_distance(a, b, &corners[i], &corners[(i + 1) % 3])).fold(f64::INFINITY, f64::min)
 }
 
 fn to_parry(p: &Point3<f64>) -> ParryVector {
@@ -168,7 +181,7 @@ fn from_parry(p: &ParryVector) -> Point3<f64> {
     Point3::new(p.x, p.y, p.z)
 }
 
-/// Six times the signed volume, over six: Σ a·(b×c)/6, about the first vertex for accuracy far from the origin.
+/// The signed volume Σ a·(b×c)/6, about the first vertex for accuracy far from the origin.
 fn volume(vertices: &[ParryVector], triangles: &[[u32; 3]]) -> f64 {
     let Some(origin) = vertices.first() else { return 0.0 };
     let corner = |index: u32| vertices[index as usize] - *origin;
@@ -176,7 +189,7 @@ fn volume(vertices: &[ParryVector], triangles: &[[u32; 3]]) -> f64 {
 }
 
 /// Outward planes of the hull's faces; faces too thin to have a direction are left out.
-fn planes(vertices: &[ParryVector], triangles: &[[u32; 3]], scale: f64) -> Vec<(Vector3<f64>, f64)> {
+fn faces(vertices: &[ParryVector], triangles: &[[u32; 3]], scale: f64) -> Vec<Face> {
     triangles
         .iter()
         .filter_map(|t| {
@@ -184,7 +197,7 @@ fn planes(vertices: &[ParryVector], triangles: &[[u32; 3]], scale: f64) -> Vec<(
             let normal = (b - a).cross(&(c - a));
             (normal.norm() > 1e-12 * scale * scale).then(|| {
                 let normal = normal.normalize();
-                (normal, normal.dot(&a.coords))
+                Face { normal, offset: normal.dot(&a.coords) }
             })
         })
         .collect()

@@ -1,0 +1,80 @@
+//! Which leg each sample belongs to, and how far it is from the reference.
+
+use nalgebra::Point3;
+
+use super::LegSource;
+use super::assign::{Piece, leg_pieces, monotone};
+use super::measure::{JudgementError, Reference, Settings};
+use crate::math::segment::point_distance;
+use crate::trajectory::Track;
+
+/// The leg of every sample.
+pub(super) fn legs_flown(
+    track: &Track,
+    waypoints: &[Point3<f64>],
+    positions: &[Point3<f64>],
+    weights: &[f64],
+) -> Result<(Vec<usize>, LegSource), JudgementError> {
+    let last = waypoints.len() - 2;
+    let Some(told) = track.channel("leg") else {
+        let pieces = leg_pieces(waypoints);
+        let assigned = monotone(positions, weights, &pieces);
+        return Ok((assigned.into_iter().map(|piece| pieces[piece].owner).collect(), LegSource::Assigned));
+    };
+    if let Some((index, &value)) =
+        told.iter().enumerate().find(|(_, leg)| leg.fract() != 0.0 || **leg < 0.0 || **leg > (last + 1) as f64)
+    {
+        return Err(JudgementError::Leg { index, value, last });
+    }
+    Ok((told.iter().map(|&leg| (leg as usize).min(last)).collect(), LegSource::Executor))
+}
+
+/// Distance of every sample from the reference, m; `None` where overshoot judges instead.
+pub(super) fn deviations(
+    positions: &[Point3<f64>],
+    weights: &[f64],
+    waypoints: &[Point3<f64>],
+    legs: &[usize],
+    settings: &Settings,
+) -> Result<Vec<Option<f64>>, JudgementError> {
+    let from_leg = |p: &Point3<f64>, leg: usize| point_distance(p, &waypoints[leg], &waypoints[leg + 1]);
+    let in_corner = |p: &Point3<f64>, leg: usize| {
+        (p - waypoints[leg]).norm() < settings.corner || (p - waypoints[leg + 1]).norm() < settings.corner
+    };
+    let samples = positions.iter().zip(legs);
+    match settings.reference {
+        Reference::Leg => Ok(samples.map(|(p, &l)| (!in_corner(p, l)).then(|| from_leg(p, l))).collect()),
+        Reference::NearestLeg => {
+            let nearest = |p, l: usize| from_leg(p, l).min(from_leg(p, l.saturating_sub(1)));
+            Ok(samples.map(|(p, &l)| (!in_corner(p, l)).then(|| nearest(p, l))).collect())
+        }
+        Reference::Path(path) => path_distances(positions, weights, path).map(|d| d.into_iter().map(Some).collect()),
+    }
+}
+
+/// Segments of a path that one piece of its assignment may stand for: so many pieces at most.
+const PATH_PIECES: usize = 1024;
+
+/// Distance of every sample from the place on the path that it belongs to by monotone assignment.
+fn path_distances(positions: &[Point3<f64>], weights: &[f64], path: &Track) -> Result<Vec<f64>, JudgementError> {
+    if path.len() < 2 {
+        return Err(JudgementError::Path { found: path.len() });
+    }
+    // Long paths are assigned by chords over several segments; the distance is then taken from the segments
+    // of the chord and its neighbours.
+    let segments = path.len() - 1;
+    let stride = segments.div_ceil(PATH_PIECES);
+    let pieces: Vec<Piece> = (0..segments)
+        .step_by(stride)
+        .map(|i| Piece { from: path.position(i), to: path.position((i + stride).min(segments)), owner: i })
+        .collect();
+    let margin = if stride > 1 { stride } else { 0 };
+    let assigned = monotone(positions, weights, &pieces);
+    let distance = |(p, piece): (&Point3<f64>, usize)| {
+        let first = pieces[piece].owner.saturating_sub(margin);
+        let end = (pieces[piece].owner + stride + margin).min(segments);
+        let to = |i: usize| point_distance(p, &path.position(i), &path.position(i + 1));
+        (first..end).map(to).fold(f64::INFINITY, f64::min)
+    };
+    Ok(positions.iter().zip(assigned).map(distance).collect())
+}

@@ -1,0 +1,274 @@
+//! From a track to its measures. The judge is given poses in time, the waypoints that were asked for, and a distance
+//! to obstacles as a closure; so it judges a real log as it does our own simulator, also against obstacles that were
+//! not there.
+
+use nalgebra::{Point3, Vector3};
+use thiserror::Error;
+
+use super::deviation::{deviations, legs_flown};
+use super::{AccelerationSource, LegMeasures, Measures};
+use crate::math::segment::nearest_point;
+use crate::trajectory::Track;
+
+/// What the deviation is the distance from.
+#[derive(Debug, Clone, Copy, Default)]
+pub enum Reference<'a> {
+    /// The segment of the leg being flown.
+    #[default]
+    Leg,
+    /// The nearest of the previous and the current leg's segments.
+    NearestLeg,
+    /// A programmed path: the polyline through the track's positions.
+    Path(&'a Track),
+}
+
+/// How a track is judged.
+#[derive(Clone, Copy, Default)]
+pub struct Settings<'a> {
+    /// What the deviation is the distance from.
+    pub reference: Reference<'a>,
+    /// Samples within this distance (m) of one of the two waypoints of the leg being flown do not count in the
+    /// deviation: there overshoot judges. Not used with [`Reference::Path`], which says itself how corners are flown.
+    pub corner: f64,
+    /// Signed distance of a position to the nearest obstacle, m, the robot's radius subtracted; +∞: none.
+    pub clearance: Option<&'a (dyn Fn(&Point3<f64>) -> f64 + Sync)>,
+}
+
+/// Why a track cannot be judged.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum JudgementError {
+    /// No sample.
+    #[error("the track has no sample")]
+    NoSamples,
+    /// A leg needs two waypoints.
+    #[error("{found} waypoints: must be at least 2")]
+    Waypoints {
+        /// How many there are.
+        found: usize,
+    },
+    /// A programmed path without a segment.
+    #[error("the programmed path has {found} positions: must be at least 2")]
+    Path {
+        /// How many there are.
+        found: usize,
+    },
+    /// A number that is not finite.
+    #[error("{field} = {value}: must be finite{bound}")]
+    NotFinite {
+        /// `waypoints[3]`, `corner_m`.
+        field: String,
+        /// As given.
+        value: String,
+        /// What else it must be.
+        bound: &'static str,
+    },
+    /// The executor told of a leg that there is not.
+    #[error("leg = {value} at sample {index}: must be a whole number from 0 to {last}")]
+    Leg {
+        /// Sample.
+        index: usize,
+        /// Value of the channel `leg`.
+        value: f64,
+        /// Number of the last leg.
+        last: usize,
+    },
+}
+
+/// Measures `track` against the polyline through `waypoints`.
+///
+/// With position p_i, time t_i and leg l(i) of sample i, waypoints w_k, and direction u_k of leg k:
+/// - deviation d_i = ‖p_i − segment(w_l, w_l+1)‖ (or [`Reference`]); its mean is weighted by time,
+///   h_i = (t_i+1 − t_i−1)/2, over the samples that count (see [`Settings::corner`]);
+/// - overshoot at waypoint k = max over samples of (p_i − q_i)·u_k−1, at least 0, with q_i = w_k while leg k−1 is
+///   flown, and q_i = the point of leg k's segment nearest to p_i while leg k is flown: how far the robot is carried
+///   on in the direction in which it came, beyond where it should be. Going straight on is no overshoot;
+/// - acceleration ‖v_i+1 − v_i−1‖/(t_i+1 − t_i−1) with the channels `vx_m_s`, `vy_m_s`, `vz_m_s` (one-sided at the
+///   ends), or the second divided difference of positions where they are missing; speed rate: |‖v_i+1‖ − ‖v_i−1‖| over
+///   the same time;
+/// - saturation: mean over time of the channel `saturated`.
+///
+/// The leg comes from the channel `leg`; the number of waypoints less one, "all reached", counts as the last leg.
+/// Without the channel samples are assigned to legs monotonically along the path, and the result says so. Maxima are
+/// over samples: nothing is assumed of the motion between them.
+///
+/// # Errors
+/// [`JudgementError`].
+pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Result<Measures, JudgementError> {
+    check(track, waypoints, settings)?;
+    let positions: Vec<Point3<f64>> = (0..track.len()).map(|i| track.position(i)).collect();
+    let weights = time_weights(track.times());
+    let (legs, leg_source) = legs_flown(track, waypoints, &positions, &weights)?;
+    let deviations = deviations(&positions, &weights, waypoints, &legs, settings)?;
+
+    let mut measures = Measures {
+        leg_source,
+        total_time: track.times()[track.len() - 1] - track.times()[0],
+        legs: vec![LegMeasures::default(); waypoints.len() - 1],
+        ..Measures::default()
+    };
+    measure_deviation(&mut measures, track.times(), &weights, &legs, &deviations);
+    measure_overshoot(&mut measures, track.times(), &positions, waypoints, &legs);
+    measure_acceleration(&mut measures, track, &positions, &legs);
+    measure_clearance(&mut measures, track.times(), &positions, &legs, settings);
+    if let Some(saturated) = track.channel("saturated") {
+        let mean = |leg: Option<usize>| {
+            let own = (0..legs.len()).filter(|&i| leg.is_none_or(|leg| legs[i] == leg));
+            weighted_mean(own.map(|i| (weights[i], saturated[i])))
+        };
+        measures.saturation_share = mean(None);
+        for leg in 0..measures.legs.len() {
+            measures.legs[leg].saturation_share = mean(Some(leg));
+        }
+    }
+    Ok(measures)
+}
+
+fn check(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Result<(), JudgementError> {
+    if track.is_empty() {
+        return Err(JudgementError::NoSamples);
+    }
+    if waypoints.len() < 2 {
+        return Err(JudgementError::Waypoints { found: waypoints.len() });
+    }
+    if let Some(index) = waypoints.iter().position(|w| !w.iter().all(|c| c.is_finite())) {
+        let value = format!("{:?}", waypoints[index].coords.as_slice());
+        return Err(JudgementError::NotFinite { field: format!("waypoints[{index}]"), value, bound: "" });
+    }
+    if !(settings.corner >= 0.0 && settings.corner.is_finite()) {
+        let value = settings.corner.to_string();
+        return Err(JudgementError::NotFinite { field: "corner_m".into(), value, bound: " and ≥ 0" });
+    }
+    Ok(())
+}
+
+/// The time each sample stands for, s: half of each neighbouring interval. One sample alone counts 1.
+fn time_weights(times: &[f64]) -> Vec<f64> {
+    let last = times.len() - 1;
+    if last == 0 {
+        return vec![1.0];
+    }
+    (0..=last).map(|i| 0.5 * (times[(i + 1).min(last)] - times[i.saturating_sub(1)])).collect()
+}
+
+fn measure_deviation(
+    measures: &mut Measures,
+    times: &[f64],
+    weights: &[f64],
+    legs: &[usize],
+    deviations: &[Option<f64>],
+) {
+    let mut worst = -1.0;
+    for (i, (&leg, deviation)) in legs.iter().zip(deviations).enumerate() {
+        if times.len() > 1 {
+            measures.legs[leg].time += weights[i];
+        }
+        let Some(deviation) = *deviation else { continue };
+        measures.legs[leg].max_deviation = measures.legs[leg].max_deviation.max(deviation);
+        if deviation > worst {
+            worst = deviation;
+            (measures.max_deviation, measures.t_worst, measures.leg_worst) = (deviation, times[i], leg);
+        }
+    }
+    let mean = |leg: Option<usize>| {
+        let own = (0..legs.len()).filter(|&i| leg.is_none_or(|leg| legs[i] == leg));
+        weighted_mean(own.filter_map(|i| Some((weights[i], deviations[i]?)))).unwrap_or(0.0)
+    };
+    measures.mean_deviation = mean(None);
+    for leg in 0..measures.legs.len() {
+        measures.legs[leg].mean_deviation = mean(Some(leg));
+    }
+}
+
+fn measure_overshoot(
+    measures: &mut Measures,
+    times: &[f64],
+    positions: &[Point3<f64>],
+    waypoints: &[Point3<f64>],
+    legs: &[usize],
+) {
+    let direction = |leg: usize| (waypoints[leg + 1] - waypoints[leg]).try_normalize(0.0).unwrap_or(Vector3::zeros());
+    let mut worst = 0.0;
+    for (i, (p, &leg)) in positions.iter().zip(legs).enumerate() {
+        let mut note = |incoming: usize, from: &Point3<f64>| {
+            let beyond = (p - from).dot(&direction(incoming));
+            let found = &mut measures.legs[incoming].overshoot;
+            *found = found.max(beyond);
+            if beyond > worst {
+                worst = beyond;
+                measures.t_overshoot = times[i];
+            }
+        };
+        note(leg, &waypoints[leg + 1]);
+        if leg > 0 {
+            note(leg - 1, &nearest_point(p, &waypoints[leg], &waypoints[leg + 1]));
+        }
+    }
+    measures.overshoots = measures.legs.iter().map(|leg| leg.overshoot).collect();
+}
+
+fn measure_acceleration(measures: &mut Measures, track: &Track, positions: &[Point3<f64>], legs: &[usize]) {
+    let times = track.times();
+    let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| track.channel(name));
+    let told = match columns {
+        [Some(x), Some(y), Some(z)] => Some((0..x.len()).map(|i| Vector3::new(x[i], y[i], z[i])).collect()),
+        _ => None,
+    };
+    let has_velocity = told.is_some();
+    // Without velocities: those between samples, each at the middle of its interval.
+    let between = || (1..times.len()).map(|i| (positions[i] - positions[i - 1]) / (times[i] - times[i - 1])).collect();
+    let velocities: Vec<Vector3<f64>> = told.unwrap_or_else(between);
+    measures.acceleration_source =
+        if has_velocity { AccelerationSource::Velocity } else { AccelerationSource::Position };
+    let last = times.len() - 1;
+    for (i, &leg) in legs.iter().enumerate() {
+        let (a, b, span) = if has_velocity {
+            let (a, b) = (i.saturating_sub(1), (i + 1).min(last));
+            (a, b, times[b] - times[a])
+        } else if i > 0 && i < last {
+            (i - 1, i, 0.5 * (times[i + 1] - times[i - 1]))
+        } else {
+            continue;
+        };
+        if a == b {
+            continue;
+        }
+        let acceleration = (velocities[b] - velocities[a]).norm() / span;
+        let rate = (velocities[b].norm() - velocities[a].norm()).abs() / span;
+        measures.legs[leg].max_acceleration = measures.legs[leg].max_acceleration.max(acceleration);
+        measures.max_speed_rate = measures.max_speed_rate.max(rate);
+        if acceleration > measures.max_acceleration {
+            (measures.max_acceleration, measures.t_acceleration) = (acceleration, times[i]);
+        }
+    }
+}
+
+fn measure_clearance(
+    measures: &mut Measures,
+    times: &[f64],
+    positions: &[Point3<f64>],
+    legs: &[usize],
+    settings: &Settings,
+) {
+    let Some(distance) = settings.clearance else { return };
+    for (i, (p, &leg)) in positions.iter().zip(legs).enumerate() {
+        let clearance = distance(p);
+        if !clearance.is_finite() {
+            continue;
+        }
+        let least = &mut measures.legs[leg].min_clearance;
+        *least = Some(least.map_or(clearance, |least| least.min(clearance)));
+        if measures.min_clearance.is_none_or(|least| clearance < least) {
+            (measures.min_clearance, measures.t_clearance) = (Some(clearance), times[i]);
+        }
+    }
+}
+
+/// Σ w x / Σ w; `None` without values.
+fn weighted_mean(values: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
+    let (mut weight, mut sum) = (0.0, 0.0);
+    for (w, x) in values {
+        weight += w;
+        sum += w * x;
+    }
+    (weight > 0.0).then(|| sum / weight)
+}

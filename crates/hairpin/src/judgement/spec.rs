@@ -1,0 +1,160 @@
+//! Limits, and which of them a run violates.
+
+use super::Measures;
+use crate::trajectory::{Ended, Flight};
+
+/// What is within spec. A limit that is `None` is not judged; a crash and leaving the world always are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Largest deviation, m.
+    pub deviation: Option<f64>,
+    /// Largest overshoot at a waypoint, m.
+    pub overshoot: Option<f64>,
+    /// Smallest clearance, m.
+    pub clearance: Option<f64>,
+    /// Largest acceleration, m/s².
+    pub acceleration: Option<f64>,
+    /// Longest duration of a run, s.
+    pub total_time: Option<f64>,
+    /// Whether a run that is stopped by its time limit before the last waypoint violates: it has not flown the
+    /// mission, and what it did not fly cannot be judged.
+    pub unfinished: bool,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            deviation: None,
+            overshoot: None,
+            clearance: None,
+            acceleration: None,
+            total_time: None,
+            unfinished: true,
+        }
+    }
+}
+
+/// One violated limit of a run, in numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Violation {
+    /// What was measured: `deviation`, `overshoot`, `clearance`, `acceleration`, `total-time`, `crash`, `left-world`,
+    /// `unfinished`.
+    pub what: String,
+    /// The measured value in `unit`; of a crash and of leaving the world the time, s; of an unfinished run the number
+    /// of waypoints reached.
+    pub value: f64,
+    /// The limit in `unit`; of a crash and of leaving the world 0; of an unfinished run the number of waypoints.
+    pub limit: f64,
+    /// Unit, as printed: `m`, `m/s²`, `s`, empty.
+    pub unit: String,
+    /// When, s.
+    pub at: f64,
+    /// The leg, numbered by its first waypoint.
+    pub leg: usize,
+}
+
+impl Violation {
+    /// Whether the limit is a lower one.
+    pub fn is_lower_limit(&self) -> bool {
+        matches!(self.what.as_str(), "clearance" | "unfinished")
+    }
+
+    /// Rank (events before measured limits) and excess over the limit relative to it.
+    fn gravity(&self) -> (u8, f64) {
+        let rank = match self.what.as_str() {
+            "crash" => 3,
+            "left-world" => 2,
+            "unfinished" => 1,
+            _ => 0,
+        };
+        let excess = if self.is_lower_limit() { self.limit - self.value } else { self.value - self.limit };
+        (rank, if self.limit.abs() > 0.0 { excess / self.limit.abs() } else { excess })
+    }
+}
+
+/// The limits that a run violates, the gravest first: a crash, leaving the world, an unfinished mission, then by
+/// excess over the limit relative to the limit; equals in the order of [`Limits`].
+pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violation> {
+    let mut found = events(measures, flight, limits);
+    let largest = |value: fn(&super::LegMeasures) -> f64| {
+        let mut best = 0;
+        for (leg, measure) in measures.legs.iter().enumerate() {
+            if value(measure) > value(&measures.legs[best]) {
+                best = leg;
+            }
+        }
+        best
+    };
+    let mut exceed = |what: &str, value: f64, limit: Option<f64>, unit: &str, at: f64, leg: usize| {
+        if let Some(limit) = limit.filter(|limit| value > *limit) {
+            found.push(Violation { what: what.into(), value, limit, unit: unit.into(), at, leg });
+        }
+    };
+    exceed("deviation", measures.max_deviation, limits.deviation, "m", measures.t_worst, measures.leg_worst);
+    let leg = largest(|leg| leg.overshoot);
+    exceed("overshoot", measures.max_overshoot(), limits.overshoot, "m", measures.t_overshoot, leg);
+    let leg = largest(|leg| leg.max_acceleration);
+    exceed("acceleration", measures.max_acceleration, limits.acceleration, "m/s²", measures.t_acceleration, leg);
+    let (end, last) = (flight.track.times().last().copied().unwrap_or(0.0), last_leg(measures, flight));
+    exceed("total-time", measures.total_time, limits.total_time, "s", end, last);
+    if let (Some(limit), Some(value)) = (limits.clearance, measures.min_clearance)
+        && value < limit
+    {
+        let leg = largest(|leg| leg.min_clearance.map_or(f64::NEG_INFINITY, |clearance| -clearance));
+        let (what, unit, at) = ("clearance".into(), "m".into(), measures.t_clearance);
+        found.push(Violation { what, value, limit, unit, at, leg });
+    }
+    // Stable, so that equals keep their order.
+    found.sort_by(|a, b| {
+        let (a, b) = (a.gravity(), b.gravity());
+        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    found
+}
+
+fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violation> {
+    let end = flight.track.times().last().copied().unwrap_or(0.0);
+    let event = |what: &str, value: f64, limit: f64, unit: &str, at: f64, leg: usize| Violation {
+        what: what.into(),
+        value,
+        limit,
+        unit: unit.into(),
+        at,
+        leg,
+    };
+    let last = last_leg(measures, flight);
+    let mut found = Vec::new();
+    if flight.ended.is_crash() {
+        found.push(event("crash", end, 0.0, "s", end, last));
+    }
+    if let Some(at) = flight.left_world {
+        found.push(event("left-world", at, 0.0, "s", at, leg_at(measures, flight, at)));
+    }
+    if limits.unfinished && flight.ended == Ended::Time {
+        let reached = flight.reached.iter().filter(|time| time.is_some()).count();
+        let all = measures.legs.len() + 1;
+        if reached < all {
+            found.push(event("unfinished", reached as f64, all as f64, "waypoints", end, last));
+        }
+    }
+    found
+}
+
+/// The leg being flown at `t`, by the executor's channel or, without one, by the waypoints reached until then.
+fn leg_at(measures: &Measures, flight: &Flight, t: f64) -> usize {
+    let last = measures.legs.len().saturating_sub(1);
+    match flight.track.channel("leg") {
+        Some(legs) => {
+            let index = flight.track.times().partition_point(|time| *time < t).min(legs.len().saturating_sub(1));
+            legs.get(index).map_or(0, |leg| leg.max(0.0) as usize).min(last)
+        }
+        None => {
+            let reached = flight.reached.iter().skip(1).filter(|time| time.is_some_and(|time| time <= t)).count();
+            reached.min(last)
+        }
+    }
+}
+
+fn last_leg(measures: &Measures, flight: &Flight) -> usize {
+    leg_at(measures, flight, f64::INFINITY)
+}

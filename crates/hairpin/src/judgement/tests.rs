@@ -1,0 +1,199 @@
+//! Measures on tracks whose answers are known, and the spec.
+
+use nalgebra::{Isometry3, Point3, Vector3};
+
+use super::*;
+use crate::trajectory::{Channel, Ended, Flight, Track};
+
+/// A track through `positions` at `times` with named channels.
+fn track(times: Vec<f64>, positions: &[[f64; 3]], channels: &[(&str, Vec<f64>)]) -> Track {
+    let poses = positions.iter().map(|p| Isometry3::translation(p[0], p[1], p[2])).collect();
+    let channels = channels.iter().map(|(name, values)| Channel { name: (*name).into(), values: values.clone() });
+    Track::new(times, poses, channels.collect()).unwrap()
+}
+
+fn seconds(n: usize) -> Vec<f64> {
+    (0..n).map(|i| i as f64).collect()
+}
+
+fn square() -> Vec<Point3<f64>> {
+    [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 10.0, 0.0]].map(Point3::from).to_vec()
+}
+
+#[test]
+fn deviation_is_from_the_leg_flown_and_not_in_corners() {
+    // 2 m beside leg 0 at the middle; then past the corner; then 1 m beside leg 1.
+    let positions = [[0.0, 0.0, 0.0], [5.0, -2.0, 0.0], [10.5, 0.0, 0.0], [11.0, 5.0, 0.0], [10.0, 10.0, 0.0]];
+    let track = track(seconds(5), &positions, &[("leg", vec![0.0, 0.0, 1.0, 1.0, 1.0])]);
+    let settings = Settings { corner: 1.0, ..Settings::default() };
+    let m = measure(&track, &square(), &settings).unwrap();
+    assert_eq!((m.max_deviation, m.t_worst, m.leg_worst), (2.0, 1.0, 0));
+    assert_eq!((m.legs[0].max_deviation, m.legs[1].max_deviation), (2.0, 1.0));
+    assert_eq!(m.mean_deviation, 1.5); // two samples of 1 s count
+    assert_eq!((m.legs[0].time, m.legs[1].time, m.total_time), (1.5, 2.5, 4.0));
+    assert_eq!(m.leg_source, LegSource::Executor);
+    // At waypoint 1: carried 1 m in +x beyond leg 1's segment. At waypoint 2: nothing.
+    assert_eq!(m.overshoots, vec![1.0, 0.0]);
+    assert_eq!(m.t_overshoot, 3.0);
+    let all = measure(&track, &square(), &Settings::default()).unwrap();
+    assert_eq!(all.mean_deviation, (2.0 + 0.5 + 1.0) / 4.0);
+}
+
+#[test]
+fn the_second_definition_takes_the_nearer_of_two_legs() {
+    // Leg 1 was announced early, still 3 m before the corner on leg 0.
+    let positions = [[0.0, 0.0, 0.0], [7.0, 0.0, 0.0], [10.0, 4.0, 0.0]];
+    let track = track(seconds(3), &positions, &[("leg", vec![0.0, 1.0, 1.0])]);
+    let by = |reference| measure(&track, &square(), &Settings { reference, ..Settings::default() }).unwrap();
+    assert_eq!(by(Reference::Leg).max_deviation, 3.0);
+    assert_eq!(by(Reference::NearestLeg).max_deviation, 0.0);
+}
+
+#[test]
+fn going_straight_on_is_no_overshoot_but_reversing_late_is() {
+    let straight = [[0.0; 3], [10.0, 0.0, 0.0], [20.0, 0.0, 0.0]].map(Point3::from);
+    let positions = [[0.0; 3], [11.0, 0.0, 0.0], [20.5, 0.0, 0.0]];
+    let flown = track(seconds(3), &positions, &[("leg", vec![0.0, 1.0, 1.0])]);
+    assert_eq!(measure(&flown, &straight, &Settings::default()).unwrap().overshoots, vec![0.5, 0.5]);
+    let back = [[0.0; 3], [10.0, 0.0, 0.0], [0.0, 0.0, 0.0]].map(Point3::from);
+    let positions = [[0.0; 3], [13.0, 0.0, 0.0], [5.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
+    let flown = track(seconds(4), &positions, &[("leg", vec![0.0, 1.0, 1.0, 1.0])]);
+    assert_eq!(measure(&flown, &back, &Settings::default()).unwrap().overshoots, vec![3.0, 1.0]);
+}
+
+#[test]
+fn without_leg_channel_the_assignment_is_monotone_along_the_path() {
+    // There and back twice over the same segment, 0.3 m beside it, then a crossing of the first leg.
+    let waypoints = [[0.0; 3], [8.0, 0.0, 0.0], [0.0; 3], [8.0, 0.0, 0.0], [4.0, 5.0, 0.0], [4.0, -5.0, 0.0]];
+    let waypoints = waypoints.map(Point3::from);
+    let (mut positions, mut truth) = (Vec::new(), Vec::new());
+    for (leg, ends) in waypoints.windows(2).enumerate() {
+        for k in 0..20 {
+            let p = ends[0] + (ends[1] - ends[0]) * ((k as f64 + 0.5) / 20.0) + Vector3::z() * 0.3;
+            positions.push([p.x, p.y, p.z]);
+            truth.push(leg as f64);
+        }
+    }
+    let told = track(seconds(100), &positions, &[("leg", truth)]);
+    let expected = measure(&told, &waypoints, &Settings::default()).unwrap();
+    let found = measure(&track(seconds(100), &positions, &[]), &waypoints, &Settings::default()).unwrap();
+    assert_eq!(found.leg_source, LegSource::Assigned);
+    assert!((found.max_deviation - 0.3).abs() < 1e-12);
+    for (leg, (found, expected)) in found.legs.iter().zip(&expected.legs).enumerate() {
+        assert!((found.time - expected.time).abs() < 1.01, "leg {leg}: {} s, {} s", found.time, expected.time);
+    }
+}
+
+#[test]
+fn a_crossing_is_not_a_shortcut() {
+    // Cutting from leg 0 over to where leg 2 crosses it: nearest-leg assignment would see no deviation at the crossing.
+    let waypoints = [[0.0; 3], [10.0, 0.0, 0.0], [5.0, 8.0, 0.0], [5.0, -8.0, 0.0]].map(Point3::from);
+    let positions: Vec<[f64; 3]> = (0..=50).map(|k| [0.2 * k as f64, 0.0, 0.0]).collect();
+    let found = measure(&track(seconds(51), &positions, &[]), &waypoints, &Settings::default()).unwrap();
+    assert!(found.max_deviation < 1e-12 && found.legs[0].time > 48.0, "{:?}", found.legs);
+}
+
+#[test]
+fn a_programmed_path_is_followed_in_order() {
+    // A figure of eight; the flight is 0.2 m above it and 0.5 m off at one place.
+    let eight = |s: f64| [4.0 * s.sin(), 3.0 * (2.0 * s).sin(), 2.0];
+    let place = |k: usize, n: usize| eight(std::f64::consts::TAU * k as f64 / n as f64);
+    let path = track(seconds(3001), &(0..=3000).map(|k| place(k, 3000)).collect::<Vec<_>>(), &[]);
+    let mut positions: Vec<[f64; 3]> = (0..=400).map(|k| place(k, 400)).collect();
+    positions.iter_mut().for_each(|p| p[2] += 0.2);
+    positions[130][2] += 0.3;
+    let flown = track(seconds(401), &positions, &[]);
+    let settings = Settings { reference: Reference::Path(&path), ..Settings::default() };
+    let found = measure(&flown, &[place(0, 8), place(2, 8), place(8, 8)].map(Point3::from), &settings).unwrap();
+    assert!((found.max_deviation - 0.5).abs() < 1e-3 && found.t_worst == 130.0, "{found:?}");
+    assert!((found.mean_deviation - 0.2).abs() < 2e-3, "{}", found.mean_deviation);
+}
+
+#[test]
+fn accelerations_by_velocity_and_by_position() {
+    // A circle: ‖a‖ = ω² r, and the speed does not change.
+    let (radius, omega, step) = (2.0, 1.5, 0.01);
+    let at = |i: usize| omega * step * i as f64;
+    let times: Vec<f64> = (0..400).map(|i| step * i as f64).collect();
+    let positions: Vec<[f64; 3]> = (0..400).map(|i| [radius * at(i).cos(), radius * at(i).sin(), 0.0]).collect();
+    let waypoints = square();
+    let vx = (0..400).map(|i| -radius * omega * at(i).sin()).collect();
+    let vy = (0..400).map(|i| radius * omega * at(i).cos()).collect();
+    let channels = [("vx_m_s", vx), ("vy_m_s", vy), ("vz_m_s", vec![0.0; 400])];
+    for (channels, source) in [(&channels[..], AccelerationSource::Velocity), (&[][..], AccelerationSource::Position)] {
+        let m = measure(&track(times.clone(), &positions, channels), &waypoints, &Settings::default()).unwrap();
+        assert_eq!(m.acceleration_source, source);
+        assert!((m.max_acceleration - omega * omega * radius).abs() < 1e-3, "{source:?}: {}", m.max_acceleration);
+        assert!(m.max_speed_rate < 1e-6, "{source:?}: {}", m.max_speed_rate);
+    }
+    // Braking straight: both definitions agree, also on uneven stamps.
+    let times = vec![0.0, 0.1, 0.3, 0.35];
+    let positions: Vec<[f64; 3]> = times.iter().map(|t| [5.0 * t - 2.0 * t * t, 0.0, 0.0]).collect();
+    let vx: Vec<f64> = times.iter().map(|t| 5.0 - 4.0 * t).collect();
+    let channels = [("vx_m_s", vx), ("vy_m_s", vec![0.0; 4]), ("vz_m_s", vec![0.0; 4])];
+    let m = measure(&track(times, &positions, &channels), &waypoints, &Settings::default()).unwrap();
+    assert!((m.max_acceleration - 4.0).abs() < 1e-9 && (m.max_speed_rate - 4.0).abs() < 1e-9);
+}
+
+#[test]
+fn clearance_and_saturation() {
+    let positions = [[0.0; 3], [5.0, 0.0, 0.0], [10.0, 5.0, 0.0]];
+    let channels = [("leg", vec![0.0, 0.0, 1.0]), ("saturated", vec![1.0, 0.5, 0.0])];
+    let flown = track(vec![0.0, 1.0, 4.0], &positions, &channels);
+    let mast = |p: &Point3<f64>| (p - Point3::new(5.0, 3.0, 0.0)).norm() - 1.0;
+    let settings = Settings { clearance: Some(&mast), ..Settings::default() };
+    let m = measure(&flown, &square(), &settings).unwrap();
+    assert_eq!((m.min_clearance, m.t_clearance), (Some(2.0), 1.0));
+    assert_eq!(m.legs[1].min_clearance, Some((25.0f64 + 4.0).sqrt() - 1.0));
+    assert_eq!(m.saturation_share, Some((0.5 + 0.5 * 2.0) / 4.0));
+    assert_eq!(m.legs[1].saturation_share, Some(0.0));
+    let open = |_: &Point3<f64>| f64::INFINITY;
+    let none = measure(&flown, &square(), &Settings { clearance: Some(&open), ..Settings::default() }).unwrap();
+    assert_eq!(none.min_clearance, None);
+}
+
+#[test]
+fn bad_input_is_told_not_suffered() {
+    let one = track(vec![0.0], &[[1.0, 1.0, 0.0]], &[]);
+    let m = measure(&one, &square(), &Settings::default()).unwrap();
+    assert_eq!((m.max_deviation, m.mean_deviation, m.total_time, m.max_acceleration), (1.0, 1.0, 0.0, 0.0));
+    assert_eq!(measure(&one, &square()[..1], &Settings::default()), Err(JudgementError::Waypoints { found: 1 }));
+    assert_eq!(measure(&Track::default(), &square(), &Settings::default()), Err(JudgementError::NoSamples));
+    for bad in [-1.0, 0.5, 3.0, 1e300] {
+        let told = track(vec![0.0], &[[0.0; 3]], &[("leg", vec![bad])]);
+        assert!(matches!(measure(&told, &square(), &Settings::default()), Err(JudgementError::Leg { last: 1, .. })));
+    }
+    let nan = [Point3::origin(), Point3::new(f64::NAN, 0.0, 0.0)];
+    let error = measure(&one, &nan, &Settings::default()).unwrap_err();
+    assert!(error.to_string().starts_with("waypoints[1] = [NaN"), "{error}");
+    let still = [Point3::origin(); 3];
+    assert_eq!(measure(&one, &still, &Settings::default()).unwrap().overshoots, vec![0.0, 0.0]);
+    assert!(measure(&one, &square(), &Settings { corner: f64::NAN, ..Settings::default() }).is_err());
+}
+
+#[test]
+fn violations_come_gravest_first() {
+    let positions = [[0.0; 3], [5.0, -2.0, 0.0], [10.0, 0.0, 0.0]];
+    let flown = track(seconds(3), &positions, &[("leg", vec![0.0, 0.0, 1.0])]);
+    let mast = |p: &Point3<f64>| (p - Point3::new(5.0, -2.5, 0.0)).norm() - 0.4;
+    let measures = measure(&flown, &square(), &Settings { clearance: Some(&mast), ..Settings::default() }).unwrap();
+    let flight = |ended, left_world| Flight {
+        track: flown.clone(),
+        ended,
+        left_world,
+        reached: vec![Some(0.0), Some(2.0), None],
+    };
+    let limits = Limits { deviation: Some(1.9), clearance: Some(0.3), total_time: Some(1.0), ..Limits::default() };
+    let what = |ended, left| {
+        let found = violations(&measures, &flight(ended, left), &limits);
+        found.into_iter().map(|v| v.what).collect::<Vec<_>>()
+    };
+    assert_eq!(what(Ended::Done, None), ["total-time", "clearance", "deviation"]);
+    assert_eq!(what(Ended::Ground, Some(1.0)), ["crash", "left-world", "total-time", "clearance", "deviation"]);
+    assert_eq!(what(Ended::Time, None)[0], "unfinished");
+    let found = violations(&measures, &flight(Ended::Time, Some(1.0)), &limits);
+    assert_eq!((found[0].what.as_str(), found[0].at, found[0].leg), ("left-world", 1.0, 0));
+    assert_eq!((found[1].value, found[1].limit, found[1].leg), (2.0, 3.0, 1));
+    let lenient = Limits { unfinished: false, ..Limits::default() };
+    assert!(violations(&measures, &flight(Ended::Time, None), &lenient).is_empty());
+}

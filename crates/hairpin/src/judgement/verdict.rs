@@ -1,0 +1,356 @@
+//! The verdict: one sentence with outcome, how obtained, worst, where, share with interval, and evidence; and the
+//! exit code that goes with it.
+//!
+//! Exit codes: 0 within spec, 1 violation, 3 nothing feasible, 4 executor failed, 5 inconclusive or invalid data
+//! (2, wrong input, is no verdict). A violation is a fact whatever else went wrong, so it comes first; then a failed
+//! executor, because what was not flown was not judged; then data or an interval that allow no verdict.
+
+use super::spec::Violation;
+use super::statistics::{rule_of_three, share};
+
+/// One sentence and its exit code.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Verdict {
+    /// Starts with PASS, FAIL k/n, INCONCLUSIVE, INVALID, NOTHING FEASIBLE or EXECUTOR FAILED.
+    pub sentence: String,
+    /// 0, 1, 3, 4 or 5.
+    pub exit_code: u8,
+}
+
+/// How many cases stand on which evidence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Claim<'a> {
+    /// The evidence word: `witnessed`, `hull-feasible`, `unchecked`.
+    pub word: &'a str,
+    /// Cases.
+    pub count: usize,
+}
+
+/// The worst of all runs: of the violations if there is one, else the value that came nearest to its limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Worst<'a> {
+    /// The case's name, such as `0117`.
+    pub case: &'a str,
+    /// What was measured, where, and its limit (which need not be exceeded).
+    pub value: &'a Violation,
+    /// Share of rotor-time at a limit, 0 … 1, on that leg or run.
+    pub saturation: Option<f64>,
+}
+
+/// What a campaign came to.
+#[derive(Debug, Clone, Copy)]
+pub struct Judged<'a> {
+    /// How obtained, in order: `["simulated", "anafi stand-in", "minimum-snap"]`.
+    pub how: &'a [&'a str],
+    /// Runs per case.
+    pub runs: usize,
+    /// Cases in all.
+    pub cases: usize,
+    /// Cases with a violation.
+    pub failed: usize,
+    /// Cases that the executor failed to fly.
+    pub executor_failed: usize,
+    /// Cases whose data allow no verdict.
+    pub inconclusive: usize,
+    /// What the executor's failures were: `time-out 60 s, stderr kept`.
+    pub trouble: &'a str,
+    /// The worst of all runs; `None` where nothing is limited.
+    pub worst: Option<Worst<'a>>,
+    /// Share of cases that may violate; `None` or 0: not one.
+    pub share_limit: Option<f64>,
+    /// Confidence of the share's interval.
+    pub confidence: f64,
+    /// Evidence of the cases, those of count 0 left out.
+    pub claims: &'a [Claim<'a>],
+}
+
+impl Default for Judged<'_> {
+    fn default() -> Self {
+        Self {
+            how: &[],
+            runs: 1,
+            cases: 0,
+            failed: 0,
+            executor_failed: 0,
+            inconclusive: 0,
+            trouble: "",
+            worst: None,
+            share_limit: None,
+            confidence: 0.95,
+            claims: &[],
+        }
+    }
+}
+
+/// The verdict on executed cases.
+///
+/// Cases that the executor failed to fly or whose data are inconclusive count neither as pass nor as fail: the share
+/// is of the others. Without a share limit one violating case is a FAIL. With one, the Clopper-Pearson interval of
+/// the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it.
+pub fn verdict(judged: &Judged) -> Verdict {
+    let counted = judged.cases.saturating_sub(judged.executor_failed + judged.inconclusive);
+    let interval = share(judged.failed, counted, judged.confidence);
+    let limit = judged.share_limit.filter(|limit| *limit > 0.0);
+    let (fails, open) = match (limit, interval) {
+        (None, _) => (judged.failed > 0, false),
+        (Some(limit), Some(interval)) => (interval.low > limit, interval.high > limit),
+        (Some(_), None) => (false, true),
+    };
+    let (k, n) = (judged.failed, judged.cases);
+    let (start, exit_code) = if fails {
+        (format!("FAIL {k}/{n} {}", how(judged)), 1)
+    } else if judged.executor_failed > 0 {
+        let trouble = if judged.trouble.is_empty() { String::new() } else { format!(" ({})", judged.trouble) };
+        let start = format!("EXECUTOR FAILED {}/{n}{trouble}: not counted as pass or fail", judged.executor_failed);
+        if counted == 0 {
+            return Verdict { sentence: start, exit_code: 4 };
+        }
+        (format!("{start}; {counted} judged {}", how(judged)), 4)
+    } else if judged.inconclusive > 0 || open || counted == 0 {
+        (format!("INCONCLUSIVE {k}/{n} {}", how(judged)), 5)
+    } else {
+        (format!("PASS {}/{n} {}", n - k, how(judged)), 0)
+    };
+    Verdict { sentence: format!("{start}: {}", findings(judged, counted, limit).join("; ")), exit_code }
+}
+
+/// `NOTHING FEASIBLE (proof, hull): no chain of 10 waypoints from start to end; smallest change: …`; exit 3.
+/// `how` says what the answer rests on, such as `["proof", "hull"]` or `["2000 graphs searched", "witness"]`.
+pub fn nothing_feasible(how: &[&str], what: &str, smallest_change: Option<&str>) -> Verdict {
+    let change = smallest_change.map_or(String::new(), |change| format!("; smallest change: {change}"));
+    Verdict { sentence: format!("NOTHING FEASIBLE ({}): {what}{change}", how.join(", ")), exit_code: 3 }
+}
+
+/// `INVALID 0118 (flown, log_25.ulg): position reset of 1.2 m at t = 8.1 s; …`; exit 5.
+pub fn invalid(case: &str, how: &[&str], reason: &str) -> Verdict {
+    Verdict { sentence: format!("INVALID {case} ({}): {reason}", how.join(", ")), exit_code: 5 }
+}
+
+/// `INCONCLUSIVE 0117 (flown, log_24.ulg, EKF2 estimate): 0.65 m > 0.50 m, but …`; exit 5.
+pub fn inconclusive(case: &str, how: &[&str], reason: &str) -> Verdict {
+    Verdict { sentence: format!("INCONCLUSIVE {case} ({}): {reason}", how.join(", ")), exit_code: 5 }
+}
+
+fn how(judged: &Judged) -> String {
+    let runs = if judged.runs == 1 { "1 run each".into() } else { format!("{} runs each", judged.runs) };
+    let parts: Vec<&str> = judged.how.iter().copied().chain([runs.as_str()]).collect();
+    format!("({})", parts.join(", "))
+}
+
+/// Worst and where, share, evidence, and what was not counted.
+fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> {
+    let mut parts = Vec::new();
+    if let Some(worst) = &judged.worst {
+        parts.push(worst_and_where(worst));
+    }
+    parts.extend(share_sentence(judged, counted, limit));
+    if judged.executor_failed > 0 && judged.failed > 0 {
+        parts.push(format!("executor failed in {}/{}, not counted", judged.executor_failed, judged.cases));
+    }
+    if judged.inconclusive > 0 {
+        parts.push(format!("data of {}/{} inconclusive, not counted", judged.inconclusive, judged.cases));
+    }
+    match judged.claims {
+        [] => {}
+        [claim] if claim.count == judged.cases => parts.push(format!("all {} {}", claim.count, claim.word)),
+        claims => {
+            let counts: Vec<String> = claims.iter().map(|claim| format!("{} {}", claim.count, claim.word)).collect();
+            parts.push(counts.join(", "));
+        }
+    }
+    if parts.is_empty() { vec!["nothing to judge".into()] } else { parts }
+}
+
+fn share_sentence(judged: &Judged, counted: usize, limit: Option<f64>) -> Option<String> {
+    let interval = share(judged.failed, counted, judged.confidence)?;
+    let mut sentence = if judged.failed == 0 {
+        format!("no violation in {counted} cases: share at most {} % (3/N, 95 %)", percent(rule_of_three(counted)))
+    } else {
+        let confidence = if judged.confidence == 0.95 {
+            String::new()
+        } else {
+            format!(" at {} %", trimmed(100.0 * judged.confidence))
+        };
+        let (value, low, high) = (percent(interval.value), percent(interval.low), percent(interval.high));
+        format!("share {value} % [{low}, {high}]{confidence}")
+    };
+    if let Some(limit) = limit {
+        let allowed = trimmed(100.0 * limit);
+        if interval.low > limit {
+            sentence += &format!(", above the {allowed} % allowed");
+        } else if interval.high > limit {
+            let ends = if judged.failed == 0 { format!(" [0.0, {}]", percent(interval.high)) } else { String::new() };
+            sentence += &format!(", interval{ends} straddles the {allowed} % allowed");
+        } else {
+            sentence += &format!(", within the {allowed} % allowed");
+        }
+    }
+    Some(sentence)
+}
+
+fn worst_and_where(worst: &Worst) -> String {
+    let violation = worst.value;
+    let finding = match violation.what.as_str() {
+        "crash" => "crash".into(),
+        "left-world" => "left the world".into(),
+        "unfinished" => format!("stopped by the time limit at {} of {} waypoints", violation.value, violation.limit),
+        what => {
+            let (value, limit) = apart(violation.value, violation.limit);
+            let relation = match (violation.is_lower_limit(), violation.value.total_cmp(&violation.limit)) {
+                (false, std::cmp::Ordering::Greater) => ">",
+                (false, _) => "≤",
+                (true, std::cmp::Ordering::Less) => "<",
+                (true, _) => "≥",
+            };
+            let name = if what == "deviation" { String::new() } else { format!("{what} ") };
+            format!("{name}{value} {unit} {relation} {limit} {unit}", unit = violation.unit)
+        }
+    };
+    let mut sentence = format!(
+        "worst {finding}, case {}, t = {:.2} s, leg {}→{}",
+        worst.case,
+        violation.at,
+        violation.leg,
+        violation.leg + 1
+    );
+    if let Some(saturation) = worst.saturation {
+        sentence += &format!(", rotors saturated {:.0} %", 100.0 * saturation);
+    }
+    sentence
+}
+
+/// Two numbers with as many decimals as it takes to see that they differ: at least two.
+fn apart(value: f64, limit: f64) -> (String, String) {
+    for decimals in 2..12 {
+        let pair = (format!("{value:.decimals$}"), format!("{limit:.decimals$}"));
+        if pair.0 != pair.1 || value == limit {
+            return pair;
+        }
+    }
+    (value.to_string(), limit.to_string())
+}
+
+/// A share in percent: one decimal, or two digits where it is below 0.1 %.
+fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    if percent == 0.0 || percent >= 0.1 {
+        return format!("{percent:.1}");
+    }
+    let decimals = (1.0 - percent.log10().floor()).clamp(1.0, 12.0) as usize;
+    format!("{percent:.decimals$}")
+}
+
+/// A number without trailing zeros, rounded to what percentages need.
+fn trimmed(number: f64) -> String {
+    ((number * 1e6).round() / 1e6).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn violation(what: &str, value: f64, limit: f64) -> Violation {
+        Violation { what: what.into(), value, limit, unit: "m".into(), at: 12.34, leg: 4 }
+    }
+
+    const HOW: &[&str] = &["simulated", "anafi stand-in", "minimum-snap"];
+    const WITNESSED: &[Claim] = &[Claim { word: "witnessed", count: 200 }];
+
+    fn with<'a>(failed: usize, value: &'a Violation) -> Judged<'a> {
+        let worst = Some(Worst { case: "0117", value, saturation: Some(0.31) });
+        Judged { how: HOW, runs: 5, cases: 200, failed, worst, claims: WITNESSED, ..Judged::default() }
+    }
+
+    #[test]
+    fn fail_reads_as_designed() {
+        let verdict = verdict(&with(3, &violation("deviation", 0.65, 0.5)));
+        assert_eq!(
+            verdict.sentence,
+            "FAIL 3/200 (simulated, anafi stand-in, minimum-snap, 5 runs each): worst 0.65 m > 0.50 m, case 0117, \
+             t = 12.34 s, leg 4→5, rotors saturated 31 %; share 1.5 % [0.3, 4.3]; all 200 witnessed"
+        );
+        assert_eq!(verdict.exit_code, 1);
+    }
+
+    #[test]
+    fn pass_states_the_upper_bound() {
+        let verdict = verdict(&with(0, &violation("deviation", 0.4999, 0.5)));
+        assert_eq!(
+            verdict.sentence,
+            "PASS 200/200 (simulated, anafi stand-in, minimum-snap, 5 runs each): worst 0.4999 m ≤ 0.5000 m, \
+             case 0117, t = 12.34 s, leg 4→5, rotors saturated 31 %; no violation in 200 cases: share at most 1.5 % \
+             (3/N, 95 %); all 200 witnessed"
+        );
+        assert_eq!(verdict.exit_code, 0);
+    }
+
+    #[test]
+    fn the_interval_decides_against_a_share_limit() {
+        let value = violation("clearance", 0.1, 0.3);
+        let of = |failed, limit| verdict(&Judged { share_limit: Some(limit), ..with(failed, &value) });
+        let straddles = of(3, 0.02);
+        assert_eq!(straddles.exit_code, 5);
+        assert!(straddles.sentence.starts_with("INCONCLUSIVE 3/200 (simulated"), "{}", straddles.sentence);
+        assert!(straddles.sentence.contains("worst clearance 0.10 m < 0.30 m"), "{}", straddles.sentence);
+        assert!(straddles.sentence.contains("share 1.5 % [0.3, 4.3], interval straddles the 2 % allowed"));
+        let passes = of(3, 0.05);
+        assert_eq!(passes.exit_code, 0);
+        assert!(passes.sentence.starts_with("PASS 197/200 (") && passes.sentence.contains("within the 5 % allowed"));
+        let fails = of(30, 0.05);
+        assert_eq!(fails.exit_code, 1);
+        assert!(fails.sentence.starts_with("FAIL 30/200 (") && fails.sentence.contains("above the 5 % allowed"));
+        // No violation at all, but too few cases to say so of one in a thousand.
+        assert_eq!(of(0, 0.001).exit_code, 5);
+        assert_eq!((of(1, 0.0).exit_code, of(0, 0.0).exit_code), (1, 0));
+    }
+
+    #[test]
+    fn a_violation_outranks_a_failed_executor_which_outranks_doubt() {
+        let value = violation("deviation", 0.65, 0.5);
+        let trouble = "time-out 60 s, stderr kept";
+        let base = Judged { executor_failed: 4, trouble, ..with(3, &value) };
+        let failed = verdict(&base);
+        assert_eq!(failed.exit_code, 1);
+        assert!(failed.sentence.contains("; executor failed in 4/200, not counted; all 200 witnessed"));
+        let within = Judged { failed: 0, inconclusive: 2, worst: None, ..base };
+        let broken = verdict(&within);
+        assert_eq!(broken.exit_code, 4);
+        assert!(
+            broken.sentence.starts_with(
+                "EXECUTOR FAILED 4/200 (time-out 60 s, stderr kept): not counted as pass or fail; 194 judged (simulated"
+            ),
+            "{}",
+            broken.sentence
+        );
+        assert_eq!(verdict(&Judged { executor_failed: 0, ..within }).exit_code, 5);
+        let all = verdict(&Judged { executor_failed: 200, failed: 0, trouble, ..with(0, &value) });
+        assert_eq!(all.sentence, "EXECUTOR FAILED 200/200 (time-out 60 s, stderr kept): not counted as pass or fail");
+        assert_eq!(verdict(&Judged::default()).exit_code, 5);
+    }
+
+    #[test]
+    fn the_other_sentences() {
+        let none = nothing_feasible(
+            &["proof", "hull"],
+            "no chain of 10 waypoints from start to end",
+            Some("length 12, or max_speed 8.0 → 9.3 m/s"),
+        );
+        assert_eq!(
+            none.sentence,
+            "NOTHING FEASIBLE (proof, hull): no chain of 10 waypoints from start to end; smallest change: length 12, \
+             or max_speed 8.0 → 9.3 m/s"
+        );
+        assert_eq!(none.exit_code, 3);
+        let reset = invalid("0118", &["flown", "log_25.ulg"], "position reset of 1.2 m at t = 8.1 s");
+        assert_eq!(reset.sentence, "INVALID 0118 (flown, log_25.ulg): position reset of 1.2 m at t = 8.1 s");
+        assert_eq!(reset.exit_code, 5);
+        assert_eq!(inconclusive("0117", &["flown"], "x").sentence, "INCONCLUSIVE 0117 (flown): x");
+    }
+
+    #[test]
+    fn digits_show_the_difference() {
+        assert_eq!(apart(0.500_04, 0.5), ("0.50004".into(), "0.50000".into()));
+        assert_eq!(apart(0.65, 0.5), ("0.65".into(), "0.50".into()));
+        assert_eq!((percent(0.015), percent(0.0), percent(0.000_031)), ("1.5".into(), "0.0".into(), "0.0031".into()));
+    }
+}
