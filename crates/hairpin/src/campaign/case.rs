@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 
 use crate::judgement::Measures;
+pub use crate::judgement::Violation;
 use crate::trajectory::{Flight, Profile};
 
 /// What stands behind a case: the evidence words of files, JSON and reports.
@@ -95,23 +96,6 @@ impl Status {
             Status::Inconclusive => "inconclusive",
         }
     }
-}
-
-/// One violated limit of a run, in numbers.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Violation {
-    /// What was measured: `deviation`, `overshoot`, `clearance`, `crash`, `left-world`, ….
-    pub what: String,
-    /// The measured value in `unit`.
-    pub value: f64,
-    /// The limit in `unit`.
-    pub limit: f64,
-    /// Unit, as printed: `m`, `m/s²`, `s`, empty.
-    pub unit: String,
-    /// When, s.
-    pub at: f64,
-    /// The leg, numbered by its first waypoint.
-    pub leg: usize,
 }
 
 /// A judged case: one row of `results.parquet`, its worst run.

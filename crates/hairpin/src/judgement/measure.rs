@@ -22,6 +22,9 @@ pub enum Reference<'a> {
     Path(&'a Track),
 }
 
+/// Signed distance of a position to the nearest obstacle, m, the robot's radius subtracted; +∞: none.
+pub type Clearance = dyn Fn(&Point3<f64>) -> f64 + Sync;
+
 /// How a track is judged.
 #[derive(Clone, Copy, Default)]
 pub struct Settings<'a> {
@@ -30,8 +33,8 @@ pub struct Settings<'a> {
     /// Samples within this distance (m) of one of the two waypoints of the leg being flown do not count in the
     /// deviation: there overshoot judges. Not used with [`Reference::Path`], which says itself how corners are flown.
     pub corner: f64,
-    /// Signed distance of a position to the nearest obstacle, m, the robot's radius subtracted; +∞: none.
-    pub clearance: Option<&'a (dyn Fn(&Point3<f64>) -> f64 + Sync)>,
+    /// Distance to obstacles; without it clearance is not measured.
+    pub clearance: Option<&'a Clearance>,
 }
 
 /// Why a track cannot be judged.
