@@ -26,6 +26,11 @@ impl Evidence {
             Evidence::Witnessed => "witnessed",
         }
     }
+
+    /// The evidence whose word in files is `word`.
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Evidence::Unchecked, Evidence::HullFeasible, Evidence::Witnessed].into_iter().find(|e| e.word() == word)
+    }
 }
 
 /// A generated trajectory: case `number`, counted from 0.
@@ -95,6 +100,13 @@ impl Status {
             Status::ExecutorFailed => "executor-failed",
             Status::Inconclusive => "inconclusive",
         }
+    }
+
+    /// The status whose word in files is `word`.
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Status::Pass, Status::Fail, Status::ExecutorFailed, Status::Inconclusive]
+            .into_iter()
+            .find(|s| s.word() == word)
     }
 }
 

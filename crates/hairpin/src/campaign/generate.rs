@@ -1,7 +1,10 @@
 //! Algorithm 1: sample a graph, search it, repeat until enough cases are found or the budget ends.
 
+use serde::{Deserialize, Serialize};
+
 /// What a generation did, in numbers; the report's and the verdict's.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Tally {
     /// Graphs sampled and searched.
     pub graphs: u64,

@@ -3,6 +3,7 @@
 pub mod case;
 pub mod generate;
 pub mod mission;
+pub mod report;
 pub mod scenario;
 pub mod setup;
 pub mod stop;

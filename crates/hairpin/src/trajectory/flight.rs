@@ -35,6 +35,12 @@ impl Ended {
         }
     }
 
+    /// The reason whose word in files is `word`.
+    pub fn from_word(word: &str) -> Option<Self> {
+        use Ended::{Crash, Done, Ground, Obstacle, Time, Tumble, Wall};
+        [Done, Time, Ground, Obstacle, Wall, Tumble, Crash].into_iter().find(|ended| ended.word() == word)
+    }
+
     /// Whether the run ended in a crash of any kind.
     pub fn is_crash(self) -> bool {
         !matches!(self, Ended::Done | Ended::Time)

@@ -1,0 +1,83 @@
+//! Every file we write appears whole or not at all: a temporary name in the same folder, then a rename.
+
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+const PREFIX: &str = ".hairpin-";
+const SUFFIX: &str = ".tmp";
+
+/// A file that could not be written; what stood there before still stands.
+#[derive(Debug, Error)]
+#[error("cannot write {}: {cause}", path.display())]
+pub struct WriteError {
+    /// The file, or the folder that was to be made.
+    pub path: PathBuf,
+    /// The system's answer: a full disk, a folder that is not writable, ….
+    pub cause: io::Error,
+}
+
+/// Writes `bytes` to `path`.
+///
+/// # Errors
+/// Whatever the system refuses; the temporary file is gone then, and an old `path` is as it was.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    write_with(path, |file| file.write_all(bytes))
+}
+
+/// Hands `fill` a temporary file beside `path` and renames it to `path` once its bytes are on disk. A process killed at
+/// any moment leaves the old file or the new one, and at worst a temporary that [`remove_leftovers`] takes away.
+///
+/// # Errors
+/// As [`write`], and whatever `fill` returns.
+pub fn write_with(path: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> Result<(), WriteError> {
+    let refuse = |cause| WriteError { path: path.into(), cause };
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let mut temporary = temporary_in(folder).map_err(refuse)?;
+    let mut buffered = BufWriter::new(temporary.as_file_mut());
+    fill(&mut buffered).and_then(|()| buffered.flush()).map_err(refuse)?;
+    drop(buffered);
+    temporary.as_file().sync_all().map_err(refuse)?;
+    temporary.persist(path).map_err(|error| refuse(error.error))?;
+    Ok(())
+}
+
+/// Makes `path` and its parents.
+///
+/// # Errors
+/// Whatever the system refuses, naming `path`.
+pub fn make_folder(path: &Path) -> Result<(), WriteError> {
+    fs::create_dir_all(path).map_err(|cause| WriteError { path: path.into(), cause })
+}
+
+/// Removes the temporaries that a killed process left in `folder` (not below it). Call it only where no other process
+/// writes. What cannot be removed does no harm: readers never look at these names.
+pub fn remove_leftovers(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if is_temporary(&entry.file_name().to_string_lossy()) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether a file of this name is a temporary of ours.
+pub fn is_temporary(name: &str) -> bool {
+    name.starts_with(PREFIX) && name.ends_with(SUFFIX)
+}
+
+fn temporary_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    #[cfg(unix)]
+    {
+        // The default is readable by the owner alone; results are for the team (the umask still applies).
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}

@@ -1,0 +1,119 @@
+//! `junit.xml` for build servers, in the subset that Jenkins' xUnit schema takes: it drops the whole file for one
+//! attribute too many. A `testcase` has a name, a classname and a time, and nothing else; properties stand on the suite.
+
+use std::path::Path;
+use std::time::Duration;
+
+use hairpin::campaign::{CaseResult, Status, report};
+use quick_junit::{NonSuccessKind, Property, Report, TestCase, TestCaseStatus, TestSuite};
+
+use crate::atomic::{self, WriteError};
+
+/// What a suite says beside its cases.
+#[derive(Debug, Clone, Default)]
+pub struct Suite {
+    /// Name of the suite: the scenario's or robot's.
+    pub name: String,
+    /// Cases asked for; those that were not found are skipped tests, so that the file has this many.
+    pub asked: usize,
+    /// Why cases are missing.
+    pub missing: String,
+    /// Name and value.
+    pub properties: Vec<(String, String)>,
+}
+
+/// The file's text: one test case per case asked for, in the order of their numbers.
+pub fn text(suite: &Suite, results: &[CaseResult]) -> String {
+    let mut tests = TestSuite::new(clean(&suite.name));
+    for (name, value) in &suite.properties {
+        tests.add_property(Property::new(clean(name), clean(value)));
+    }
+    let mut ordered: Vec<&CaseResult> = results.iter().collect();
+    ordered.sort_by_key(|result| result.case);
+    for result in &ordered {
+        tests.add_test_case(test_case(suite, result));
+    }
+    let first_free = ordered.last().map_or(0, |result| result.case + 1);
+    for number in first_free..first_free + suite.asked.saturating_sub(results.len()) {
+        let mut status = TestCaseStatus::skipped();
+        status.set_message(clean(&suite.missing));
+        tests.add_test_case(named(suite, number, status));
+    }
+    let mut report = Report::new("hairpin");
+    report.add_test_suite(tests);
+    let text = report.to_string().expect("cleaned text is XML");
+    without_root_skipped(&text)
+}
+
+/// Writes [`text`].
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(path: &Path, suite: &Suite, results: &[CaseResult]) -> Result<(), WriteError> {
+    atomic::write(path, text(suite, results).as_bytes())
+}
+
+fn test_case(suite: &Suite, result: &CaseResult) -> TestCase {
+    let violations: Vec<String> = result.violations.iter().map(report::violation).collect();
+    let status = match result.status {
+        Status::Pass => TestCaseStatus::success(),
+        Status::Fail => {
+            let gravest = violations.first().map_or("violates the specification", String::as_str);
+            not_passed(NonSuccessKind::Failure, "SpecViolation", gravest, violations.get(1..).unwrap_or_default())
+        }
+        Status::ExecutorFailed => {
+            let message = result.message.as_deref().unwrap_or("the executor failed");
+            // The first line tells; the log that may follow it belongs below.
+            let mut lines = message.lines();
+            let first = lines.next().unwrap_or_default();
+            let rest: Vec<String> = lines.map(str::to_owned).collect();
+            not_passed(NonSuccessKind::Error, "ExecutorFailed", first, &rest)
+        }
+        Status::Inconclusive => {
+            let message = result.message.as_deref().or(violations.first().map(String::as_str));
+            not_passed(NonSuccessKind::Error, "Inconclusive", message.unwrap_or("the data allow no verdict"), &[])
+        }
+    };
+    let mut case = named(suite, result.case, status);
+    if let Some(measures) = &result.measures {
+        case.set_time(Duration::try_from_secs_f64(measures.total_time).unwrap_or_default());
+    }
+    case
+}
+
+fn not_passed(kind: NonSuccessKind, ty: &str, message: &str, more: &[String]) -> TestCaseStatus {
+    let mut status = TestCaseStatus::non_success(kind);
+    status.set_type(ty).set_message(clean(message));
+    if !more.is_empty() {
+        status.set_description(clean(&more.join("\n")));
+    }
+    status
+}
+
+fn named(suite: &Suite, number: usize, status: TestCaseStatus) -> TestCase {
+    let mut case = TestCase::new(format!("{number:04}"), status);
+    case.set_classname(clean(&suite.name));
+    case
+}
+
+/// Without control characters and ANSI colours, which XML 1.0 cannot say; line ends and tabs stay.
+fn clean(text: &str) -> String {
+    let mut kept = String::with_capacity(text.len());
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        if c == '\u{1b}' && rest.peek() == Some(&'[') {
+            while rest.next().is_some_and(|end| !end.is_ascii_alphabetic()) {}
+        } else if matches!(c, '\n' | '\t') || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}')) {
+            kept.push(c);
+        }
+    }
+    kept
+}
+
+/// The schema has no `skipped` on `testsuites`; the writer puts one there.
+fn without_root_skipped(text: &str) -> String {
+    let Some(start) = text.find("<testsuites") else { return text.into() };
+    let end = text[start..].find('>').map_or(text.len(), |length| start + length);
+    let root: Vec<&str> = text[start..end].split(' ').filter(|part| !part.starts_with("skipped=")).collect();
+    format!("{}{}{}", &text[..start], root.join(" "), &text[end..])
+}

@@ -1,0 +1,39 @@
+//! `results.parquet`: one row per case, its worst run. The first columns and their order are a contract with other
+//! programs; what follows them holds the rest of a judgement, so that nothing has to be judged again to report it.
+
+mod read;
+mod write;
+
+use hairpin::campaign::{Case, CaseResult};
+use hairpin::judgement::measures::{AccelerationSource, LegSource};
+
+pub use read::read;
+pub use write::write;
+
+/// The status of a case that has not been judged.
+pub const GENERATED: &str = "generated";
+
+/// A row: the case without its waypoints and profile, and its result once judged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// `waypoints`, `leg_times` and `profile` are empty here: they stand in files of their own.
+    pub case: Case,
+    /// Waypoints, both ends included.
+    pub length: usize,
+    /// `None`: generated, not judged.
+    pub result: Option<CaseResult>,
+}
+
+fn leg_source_word(source: LegSource) -> &'static str {
+    match source {
+        LegSource::Executor => "executor",
+        LegSource::Assigned => "assigned",
+    }
+}
+
+fn acceleration_source_word(source: AccelerationSource) -> &'static str {
+    match source {
+        AccelerationSource::Velocity => "velocity",
+        AccelerationSource::Position => "position",
+    }
+}

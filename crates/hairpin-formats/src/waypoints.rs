@@ -1,0 +1,163 @@
+//! Waypoints as CSV, one file a case: `x_m,y_m,z_m`, start first. Written for others, and read from others.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use nalgebra::Point3;
+use thiserror::Error;
+
+use crate::atomic::{self, WriteError};
+
+const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
+
+/// Why a file is no list of waypoints.
+#[derive(Debug, Error)]
+pub enum WaypointsError {
+    /// The file or folder cannot be read.
+    #[error("cannot read {}: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The system's answer.
+        cause: io::Error,
+    },
+    /// The header has no such column.
+    #[error("{}, line 1: no column `{column}` in the header `{header}`; needed: x_m,y_m,z_m", path.display())]
+    Header {
+        /// The file.
+        path: PathBuf,
+        /// The missing column.
+        column: &'static str,
+        /// The header found.
+        header: String,
+    },
+    /// A cell is not a finite number.
+    #[error("{}, line {line}, column `{column}`: `{value}`, must be a finite number in m", path.display())]
+    Value {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// Column.
+        column: String,
+        /// The text found.
+        value: String,
+    },
+    /// A row is longer or shorter than the header.
+    #[error("{}, line {line}: {found} values, the header has {expected}", path.display())]
+    Width {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// Values in the row.
+        found: usize,
+        /// Columns of the header.
+        expected: usize,
+    },
+    /// A trajectory has a start and an end.
+    #[error("{}: {found} waypoints, must be at least 2", path.display())]
+    TooFew {
+        /// The file.
+        path: PathBuf,
+        /// Waypoints found.
+        found: usize,
+    },
+    /// Two successive waypoints are one point.
+    #[error("{}, line {line}: the waypoint of line {} again", path.display(), line - 1)]
+    Repeated {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+    },
+    /// A folder without any mission.
+    #[error("{}: no .csv file in it", path.display())]
+    Empty {
+        /// The folder.
+        path: PathBuf,
+    },
+}
+
+/// The text of a list of waypoints, m. Numbers read back to the same bits.
+pub fn text(waypoints: &[Point3<f64>]) -> String {
+    let rows = waypoints.iter().map(|p| format!("{},{},{}\n", p.x, p.y, p.z));
+    std::iter::once("x_m,y_m,z_m\n".to_owned()).chain(rows).collect()
+}
+
+/// Writes [`text`].
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(path: &Path, waypoints: &[Point3<f64>]) -> Result<(), WriteError> {
+    atomic::write(path, text(waypoints).as_bytes())
+}
+
+/// Reads the `.csv` files of a folder, sorted by name: name without the ending, and waypoints.
+///
+/// # Errors
+/// As [`read`]; a folder that cannot be read or has no such file.
+pub fn read_folder(folder: &Path) -> Result<Vec<(String, Vec<Point3<f64>>)>, WaypointsError> {
+    let refuse = |cause| WaypointsError::Unreadable { path: folder.into(), cause };
+    let entries = fs::read_dir(folder).map_err(refuse)?;
+    let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
+    paths.retain(|path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")));
+    paths.sort();
+    if paths.is_empty() {
+        return Err(WaypointsError::Empty { path: folder.into() });
+    }
+    let name = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    paths.iter().map(|path| Ok((name(path), read(path)?))).collect()
+}
+
+/// Reads one file. Columns may stand in any order and others beside them; blank lines count and are skipped.
+///
+/// # Errors
+/// The first thing wrong, with line, column and value.
+pub fn read(path: &Path) -> Result<Vec<Point3<f64>>, WaypointsError> {
+    let bytes = fs::read(path).map_err(|cause| WaypointsError::Unreadable { path: path.into(), cause })?;
+    // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
+    parse(path, &String::from_utf8_lossy(&bytes))
+}
+
+fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
+    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate();
+    let header = lines.next().map_or("", |(_, line)| line);
+    let names: Vec<&str> = cells(header);
+    let mut places = [0; 3];
+    for (place, column) in places.iter_mut().zip(COLUMNS) {
+        let found = names.iter().position(|name| *name == column);
+        *place = found.ok_or_else(|| WaypointsError::Header { path: path.into(), column, header: header.into() })?;
+    }
+    let mut waypoints: Vec<Point3<f64>> = Vec::new();
+    for (index, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
+        let (line, row) = (index + 1, cells(line));
+        if row.len() != names.len() {
+            return Err(WaypointsError::Width { path: path.into(), line, found: row.len(), expected: names.len() });
+        }
+        let mut point = Point3::origin();
+        for axis in 0..3 {
+            let value = row[places[axis]];
+            let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
+            point[axis] = number.ok_or_else(|| WaypointsError::Value {
+                path: path.into(),
+                line,
+                column: COLUMNS[axis].into(),
+                value: value.into(),
+            })?;
+        }
+        if waypoints.last() == Some(&point) {
+            return Err(WaypointsError::Repeated { path: path.into(), line });
+        }
+        waypoints.push(point);
+    }
+    if waypoints.len() < 2 {
+        return Err(WaypointsError::TooFew { path: path.into(), found: waypoints.len() });
+    }
+    Ok(waypoints)
+}
+
+fn cells(line: &str) -> Vec<&str> {
+    line.split(',').map(|cell| cell.trim().trim_matches('"')).collect()
+}

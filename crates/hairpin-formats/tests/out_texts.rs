@@ -1,0 +1,90 @@
+//! JUnit, TUM, CSV and waypoint files as other programs read them.
+
+mod out_campaign;
+
+use std::fs;
+
+use hairpin_formats::{csv, junit, tum, waypoints};
+use nalgebra::Point3;
+use out_campaign::{campaign, executor_failed, failed, passed, planned};
+
+fn suite() -> junit::Suite {
+    junit::Suite {
+        name: "anafi <cage>".into(),
+        asked: 5,
+        missing: "not found in 40 graphs".into(),
+        properties: vec![("seed".into(), "10".into()), ("verdict".into(), "FAIL 1/5: worst 0.65 m > 0.50 m".into())],
+    }
+}
+
+#[test]
+fn junit_is_what_build_servers_take() {
+    insta::assert_snapshot!(junit::text(&suite(), &[passed(), failed(), executor_failed()]));
+}
+
+#[test]
+fn junit_has_one_test_per_case_asked_for() {
+    let text = junit::text(&suite(), &[passed(), failed(), executor_failed()]);
+    assert_eq!(text.matches("<testcase ").count(), 5);
+    assert!(text.chars().all(|c| c == '\n' || !c.is_control()));
+    assert_eq!(junit::text(&junit::Suite { asked: 3, ..suite() }, &[]).matches("<skipped").count(), 3);
+}
+
+#[test]
+fn tum_lines_are_eight_numbers_and_rise() {
+    let case = &campaign().cases[0];
+    let place = tempfile::tempdir().unwrap();
+    let track = planned(case);
+    tum::write_pair(place.path(), "0000", &track, &track).unwrap();
+    let text = fs::read_to_string(place.path().join("0000.exec.tum")).unwrap();
+    assert_eq!(text, fs::read_to_string(place.path().join("0000.ref.tum")).unwrap());
+    let mut before = f64::NEG_INFINITY;
+    for (line, (time, pose)) in text.lines().zip(track.times().iter().zip(track.poses())) {
+        let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().unwrap()).collect();
+        let (p, q) = (pose.translation.vector, pose.rotation);
+        assert_eq!(numbers, [*time, p.x, p.y, p.z, q.i, q.j, q.k, q.w]);
+        assert!(numbers[0] > before);
+        before = numbers[0];
+    }
+    assert_eq!(text.lines().count(), track.len());
+}
+
+#[test]
+fn csv_has_its_header_first_and_t_first() {
+    let track = planned(&campaign().cases[0]);
+    let text = csv::text(&track);
+    let header = "t,x_m,y_m,z_m,qw,qx,qy,qz,leg,vx_m_s,vy_m_s,vz_m_s,rotor1_rad_s,rotor2_rad_s,rotor3_rad_s,rotor4_rad_s,saturated";
+    assert_eq!(text.lines().next(), Some(header));
+    let row: Vec<f64> = text.lines().nth(18).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+    assert_eq!((row.len(), row[0], row[1]), (17, track.times()[17], track.position(17).x));
+}
+
+#[test]
+fn waypoints_come_back_and_mistakes_are_placed() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("0000.csv");
+    let case = &campaign().cases[0];
+    waypoints::write(&path, &case.waypoints).unwrap();
+    assert_eq!(waypoints::read(&path).unwrap(), case.waypoints);
+    assert_eq!(waypoints::read_folder(place.path()).unwrap(), [("0000".into(), case.waypoints.clone())]);
+
+    let read = |text: &str| {
+        fs::write(&path, text).unwrap();
+        waypoints::read(&path).map_err(|error| error.to_string().replace(&place.path().display().to_string(), ""))
+    };
+    let points = vec![Point3::new(1.0, 2.0, 3.0), Point3::new(4.0, 5.0, 6.5)];
+    assert_eq!(read("\u{feff}z_m, x_m,note,y_m\r\n3,1,a,2\r\n\r\n6.5,4,b,5\r\n").unwrap(), points);
+    for (text, message) in [
+        ("x_m,y_m,z_m\n1,2,3\n4,5,six\n", "/0000.csv, line 3, column `z_m`: `six`, must be a finite number in m"),
+        ("x_m,y_m,z_m\n1,2,3\n4,nan,6\n", "/0000.csv, line 3, column `y_m`: `nan`, must be a finite number in m"),
+        ("x_m,y_m,z_m\n1,2,3\n4,5\n", "/0000.csv, line 3: 2 values, the header has 3"),
+        ("x,y,z\n1,2,3\n", "/0000.csv, line 1: no column `x_m` in the header `x,y,z`; needed: x_m,y_m,z_m"),
+        ("", "/0000.csv, line 1: no column `x_m` in the header ``; needed: x_m,y_m,z_m"),
+        ("x_m,y_m,z_m\n1,2,3\n", "/0000.csv: 1 waypoints, must be at least 2"),
+        ("x_m,y_m,z_m\n1,2,3\n1,2,3\n", "/0000.csv, line 3: the waypoint of line 2 again"),
+    ] {
+        assert_eq!(read(text).unwrap_err(), message);
+    }
+    fs::remove_file(&path).unwrap();
+    assert!(waypoints::read_folder(place.path()).unwrap_err().to_string().ends_with("no .csv file in it"));
+}

@@ -1,0 +1,110 @@
+//! Numbers as people read them: the one place that rounds, so that table, report, JUnit and verdict agree.
+
+use crate::campaign::case::{CaseResult, Violation};
+
+/// `value` with two decimals below 100, one below 1000, none above; `–` for nothing.
+pub fn number(value: Option<f64>) -> String {
+    match value {
+        None => "–".into(),
+        Some(v) if v.abs() < 99.995 => format!("{v:.2}"),
+        Some(v) if v.abs() < 999.95 => format!("{v:.1}"),
+        Some(v) => format!("{v:.0}"),
+    }
+}
+
+/// A share from 0 to 1 as `31 %`; below 10 % with one decimal.
+pub fn percent(share: Option<f64>) -> String {
+    match share {
+        None => "–".into(),
+        Some(share) if share != 0.0 && share.abs() < 0.0995 => format!("{:.1} %", 100.0 * share),
+        Some(share) => format!("{:.0} %", 100.0 * share),
+    }
+}
+
+/// `4→5`: the leg that joins waypoints 4 and 5.
+pub fn leg(leg: usize) -> String {
+    format!("{leg}→{}", leg + 1)
+}
+
+/// `deviation 0.65 m > 0.50 m at t=12.34 s`. A limit from below (`clearance`) turns the sign; what has no unit has no
+/// numbers worth reading, and is said with its time alone.
+pub fn violation(violation: &Violation) -> String {
+    let what = violation.what.replace('-', " ");
+    if violation.unit.is_empty() {
+        return format!("{what} at t={:.2} s", violation.at);
+    }
+    let sign = if violation.value > violation.limit { '>' } else { '<' };
+    let (mut value, mut limit) = (number(Some(violation.value)), number(Some(violation.limit)));
+    // Rounded to the same digits they would contradict the sign.
+    for digits in 3..9 {
+        if value != limit {
+            break;
+        }
+        (value, limit) = (format!("{:.digits$}", violation.value), format!("{:.digits$}", violation.limit));
+    }
+    let unit = &violation.unit;
+    format!("{what} {value} {unit} {sign} {limit} {unit} at t={:.2} s", violation.at)
+}
+
+/// Headers of the table of cases, in the terminal and in the report.
+pub const COLUMNS: [&str; 11] = [
+    "case",
+    "status",
+    "max deviation m",
+    "at t s",
+    "leg",
+    "mean deviation m",
+    "overshoot m",
+    "acceleration m/s²",
+    "saturated",
+    "time s",
+    "ended",
+];
+
+/// One row of the table of cases, under [`COLUMNS`].
+pub fn cells(result: &CaseResult) -> [String; 11] {
+    let of = |value: fn(&crate::judgement::Measures) -> f64| number(result.measures.as_ref().map(value));
+    [
+        format!("{:04}", result.case),
+        result.status.word().into(),
+        of(|m| m.max_deviation),
+        of(|m| m.t_worst),
+        result.measures.as_ref().map_or("–".into(), |m| leg(m.leg_worst)),
+        of(|m| m.mean_deviation),
+        of(|m| m.max_overshoot()),
+        of(|m| m.max_acceleration),
+        percent(result.measures.as_ref().and_then(|m| m.saturation_share)),
+        of(|m| m.total_time),
+        result.ended.clone(),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn deviation(value: f64, limit: f64) -> Violation {
+        Violation { what: "deviation".into(), value, limit, unit: "m".into(), at: 12.34, leg: 4 }
+    }
+
+    #[test]
+    fn a_violation_reads_as_in_the_contract() {
+        assert_eq!(violation(&deviation(0.65, 0.5)), "deviation 0.65 m > 0.50 m at t=12.34 s");
+        assert_eq!(violation(&deviation(0.5004, 0.5)), "deviation 0.5004 m > 0.5000 m at t=12.34 s");
+        let crash = Violation { what: "crash".into(), value: 1.0, limit: 0.0, unit: String::new(), at: 3.0, leg: 0 };
+        assert_eq!(violation(&crash), "crash at t=3.00 s");
+        let near = Violation { what: "clearance".into(), value: 0.1, limit: 0.25, unit: "m".into(), at: 1.0, leg: 0 };
+        assert_eq!(violation(&near), "clearance 0.10 m < 0.25 m at t=1.00 s");
+    }
+
+    #[test]
+    fn numbers_keep_what_a_screen_shows() {
+        assert_eq!(number(Some(0.654)), "0.65");
+        assert_eq!(number(Some(123.44)), "123.4");
+        assert_eq!(number(Some(1234.4)), "1234");
+        assert_eq!(number(None), "–");
+        assert_eq!(percent(Some(0.31)), "31 %");
+        assert_eq!(percent(Some(0.015)), "1.5 %");
+        assert_eq!(leg(4), "4→5");
+    }
+}
