@@ -1,6 +1,7 @@
 //! Floor 1: numbers without robots or time stamps.
 
 pub mod integrate;
+pub mod minimum_snap;
 pub mod random;
 pub mod rotation;
 pub mod segment;
