@@ -1,0 +1,129 @@
+//! Gauss collocation: the implicit Runge-Kutta method of order 12 with 6 stages. It keeps quadratic invariants, so a
+//! rotation matrix stays one. Its coefficients are computed here, not copied.
+//! Hairer, Nørsett, Wanner: Solving Ordinary Differential Equations I, section II.7.
+
+/// Stages.
+pub(super) const STAGES: usize = 6;
+
+/// Nodes, weights and matrix of the method on [0, 1].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Gauss {
+    /// Nodes, rising.
+    pub(super) nodes: [f64; STAGES],
+    weights: [f64; STAGES],
+    matrix: [[f64; STAGES]; STAGES],
+}
+
+impl Gauss {
+    /// Nodes are the roots of the shifted Legendre polynomial; the matrix holds the integrals of the Lagrange
+    /// polynomials from 0 to each node, which the method's own quadrature gives exactly.
+    pub(super) fn new() -> Self {
+        let mut nodes = [0.0; STAGES];
+        let mut weights = [0.0; STAGES];
+        for (i, (node, weight)) in nodes.iter_mut().zip(&mut weights).enumerate() {
+            let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (STAGES as f64 + 0.5)).cos();
+            for _ in 0..20 {
+                let (p, slope) = legendre(x);
+                x -= p / slope;
+            }
+            let (_, slope) = legendre(x);
+            *node = 0.5 * (1.0 + x);
+            *weight = 1.0 / ((1.0 - x * x) * slope * slope);
+        }
+        let lagrange = |j: usize, at: f64| -> f64 {
+            (0..STAGES).filter(|&k| k != j).map(|k| (at - nodes[k]) / (nodes[j] - nodes[k])).product()
+        };
+        let matrix = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let integral: f64 = (0..STAGES).map(|k| weights[k] * lagrange(j, nodes[i] * nodes[k])).sum();
+                nodes[i] * integral
+            })
+        });
+        Self { nodes, weights, matrix }
+    }
+
+    /// One step of length `h` from `state`; `f(stage, x)` is ẋ at the time of that stage. The stages are solved by
+    /// fixed-point iteration, which contracts for h small against the system's own times; `None` where it does not.
+    pub(super) fn step<const N: usize>(
+        &self,
+        state: &[f64; N],
+        h: f64,
+        mut f: impl FnMut(usize, &[f64; N]) -> [f64; N],
+    ) -> Option<[f64; N]> {
+        let mut slopes: [[f64; N]; STAGES] = std::array::from_fn(|stage| f(stage, state));
+        let mut before = f64::INFINITY;
+        for _ in 0..60 {
+            let mut change = 0.0f64;
+            for stage in 0..STAGES {
+                let mut at = *state;
+                for (weight, slope) in self.matrix[stage].iter().zip(&slopes) {
+                    for (x, k) in at.iter_mut().zip(slope) {
+                        *x += h * weight * k;
+                    }
+                }
+                let slope = f(stage, &at);
+                for ((old, new), x) in slopes[stage].iter().zip(&slope).zip(state) {
+                    change = change.max(h * (old - new).abs() / (1.0 + x.abs()));
+                }
+                slopes[stage] = slope;
+            }
+            if !change.is_finite() {
+                return None;
+            }
+            // Converged, or as near as rounding lets it come.
+            if change < 1e-15 || (change < 1e-12 && change >= before) {
+                let mut end = *state;
+                for (weight, slope) in self.weights.iter().zip(&slopes) {
+                    for (x, k) in end.iter_mut().zip(slope) {
+                        *x += h * weight * k;
+                    }
+                }
+                return Some(end);
+            }
+            before = change;
+        }
+        None
+    }
+}
+
+/// The Legendre polynomial of degree [`STAGES`] and its derivative, by the three-term recurrence.
+fn legendre(x: f64) -> (f64, f64) {
+    let (mut before, mut p) = (1.0, x);
+    for n in 1..STAGES {
+        let n = n as f64;
+        (before, p) = (p, ((2.0 * n + 1.0) * x * p - n * before) / (n + 1.0));
+    }
+    (p, STAGES as f64 * (x * p - before) / (x * x - 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integrates_polynomials_exactly() {
+        let gauss = Gauss::new();
+        for power in 0..12 {
+            let f = |stage: usize, _: &[f64; 1]| [gauss.nodes[stage].powi(power)];
+            let end = gauss.step(&[0.0], 1.0, f).unwrap();
+            assert!((end[0] - 1.0 / f64::from(power + 1)).abs() < 1e-14, "x^{power}: {}", end[0]);
+        }
+        let [twelfth] = gauss.step(&[0.0], 1.0, |stage, _: &[f64; 1]| [gauss.nodes[stage].powi(12)]).unwrap();
+        assert!((twelfth - 1.0 / 13.0).abs() > 1e-9, "order 12 must end at degree 11");
+    }
+
+    #[test]
+    fn has_order_twelve_and_keeps_the_circle() {
+        let gauss = Gauss::new();
+        let error = |n: usize| {
+            let mut x = [1.0, 0.0];
+            for _ in 0..n {
+                x = gauss.step(&x, 3.0 / n as f64, |_, x: &[f64; 2]| [-2.0 * x[1], 2.0 * x[0]]).unwrap();
+            }
+            assert!((x[0].hypot(x[1]) - 1.0).abs() < 1e-13);
+            (x[0] - 6.0f64.cos()).hypot(x[1] - 6.0f64.sin())
+        };
+        let order = (error(3) / error(6)).log2();
+        assert!((11.0..13.5).contains(&order), "{order}");
+    }
+}
