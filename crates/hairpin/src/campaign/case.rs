@@ -18,6 +18,9 @@ pub enum Evidence {
 }
 
 impl Evidence {
+    /// Every kind, the strongest first.
+    pub const ALL: [Evidence; 3] = [Evidence::Witnessed, Evidence::HullFeasible, Evidence::Unchecked];
+
     /// The word in files.
     pub fn word(self) -> &'static str {
         match self {
@@ -29,7 +32,7 @@ impl Evidence {
 
     /// The evidence whose word in files is `word`.
     pub fn from_word(word: &str) -> Option<Self> {
-        [Evidence::Unchecked, Evidence::HullFeasible, Evidence::Witnessed].into_iter().find(|e| e.word() == word)
+        Self::ALL.into_iter().find(|e| e.word() == word)
     }
 }
 

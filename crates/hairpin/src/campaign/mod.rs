@@ -2,7 +2,9 @@
 
 pub mod case;
 pub mod generate;
+pub mod judge;
 pub mod mission;
+pub mod plan;
 pub mod report;
 pub mod scenario;
 pub mod setup;
@@ -11,7 +13,8 @@ pub mod vary;
 
 pub use case::{Case, CaseResult, Evidence, Run, Status};
 pub use generate::Tally;
-pub use mission::{Mission, Timed};
+pub use judge::{how_obtained, judge, verdict};
+pub use mission::{Mission, Timed, mission};
 pub use scenario::{Mistake, Scenario};
 pub use setup::Setup;
 pub use stop::Stop;

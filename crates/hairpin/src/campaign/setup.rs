@@ -1,6 +1,6 @@
 //! From a scenario's numbers to the things they describe. Robots are chosen by the one `match` here.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
 use super::scenario::{Mistake, ObstacleSection, RobotSource, Scenario, WorldSection};
 use crate::robot::quadrotor::Quadrotor;
@@ -23,6 +23,14 @@ impl Setup {
     /// # Errors
     /// The first key whose value is out of bounds.
     pub fn new(scenario: Scenario) -> Result<Self, Mistake> {
+        if let Some(mistake) = scenario.check().into_iter().next() {
+            return Err(mistake);
+        }
+        Self::of_draw(scenario)
+    }
+
+    /// The setup of a scenario whose keys were checked before `[vary]` drew some of them.
+    pub(super) fn of_draw(scenario: Scenario) -> Result<Self, Mistake> {
         let robot = robot_of(&scenario.robot)?;
         let world = world_of(&scenario.world)?;
         Ok(Self { scenario, robot, world })
@@ -70,17 +78,16 @@ fn mistake(prefix: &str, error: WorldError) -> Mistake {
 }
 
 fn shape_of(obstacle: &ObstacleSection) -> Result<Shape, WorldError> {
-    let given = [
-        obstacle
-            .cuboid
-            .map(|b| Shape::Box { center: Point3::from(b.center_m), half_extents: Vector3::from(b.size_m) * 0.5 }),
-        obstacle.sphere.map(|s| Shape::Sphere { center: Point3::from(s.center_m), radius: s.radius_m }),
-        obstacle.capsule.map(|c| Shape::Capsule { a: Point3::from(c.a_m), b: Point3::from(c.b_m), radius: c.radius_m }),
-    ];
-    let mut shapes = given.into_iter().flatten();
-    shapes.next().ok_or_else(|| WorldError {
-        field: "shape".into(),
-        value: "missing".into(),
-        bound: "one of box, sphere, capsule, hull, mesh".into(),
-    })
+    match obstacle {
+        ObstacleSection { cuboid: Some(b), .. } => Shape::cuboid(b.center_m, b.size_m),
+        ObstacleSection { sphere: Some(s), .. } => Shape::sphere(s.center_m, s.radius_m),
+        ObstacleSection { capsule: Some(c), .. } => Shape::capsule(c.a_m, c.b_m, c.radius_m),
+        ObstacleSection { hull: Some(h), .. } => Shape::hull(&h.points_m),
+        ObstacleSection { mesh: Some(m), .. } => Shape::mesh(&m.vertices_m, &m.triangles),
+        _ => Err(WorldError {
+            field: "shape".into(),
+            value: "missing".into(),
+            bound: "one of box, sphere, capsule, hull, mesh".into(),
+        }),
+    }
 }

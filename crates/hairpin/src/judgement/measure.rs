@@ -23,7 +23,7 @@ pub enum Reference<'a> {
 }
 
 /// Signed distance of a position to the nearest obstacle, m, the robot's radius subtracted; +∞: none.
-pub type Clearance = dyn Fn(&Point3<f64>) -> f64 + Sync;
+pub type Clearance<'a> = dyn Fn(&Point3<f64>) -> f64 + Sync + 'a;
 
 /// How a track is judged.
 #[derive(Clone, Copy, Default)]
@@ -34,7 +34,7 @@ pub struct Settings<'a> {
     /// deviation: there overshoot judges. Not used with [`Reference::Path`], which says itself how corners are flown.
     pub corner: f64,
     /// Distance to obstacles; without it clearance is not measured.
-    pub clearance: Option<&'a Clearance>,
+    pub clearance: Option<&'a Clearance<'a>>,
 }
 
 /// Why a track cannot be judged.

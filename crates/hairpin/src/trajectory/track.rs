@@ -25,13 +25,34 @@ pub struct Track {
 pub enum TrackError {
     /// A column is longer or shorter than the times.
     #[error("column `{column}` has {found} values, the times have {expected}")]
-    Length { column: String, found: usize, expected: usize },
+    Length {
+        /// The column's name.
+        column: String,
+        /// Its length.
+        found: usize,
+        /// Number of stamps.
+        expected: usize,
+    },
     /// Times must rise strictly.
     #[error("times must rise strictly: t[{index}] = {time} s does not follow t[{}] = {before} s", index - 1)]
-    Times { index: usize, time: f64, before: f64 },
+    Times {
+        /// Index of the stamp that does not rise.
+        index: usize,
+        /// The stamp, s.
+        time: f64,
+        /// The one before it, s.
+        before: f64,
+    },
     /// NaN or infinite.
     #[error("{column}[{index}] = {value}: must be finite")]
-    NotFinite { column: String, index: usize, value: f64 },
+    NotFinite {
+        /// The column's name.
+        column: String,
+        /// Index of the stamp.
+        index: usize,
+        /// The number.
+        value: f64,
+    },
 }
 
 impl Track {

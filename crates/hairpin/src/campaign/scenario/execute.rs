@@ -88,6 +88,20 @@ pub enum ControllerName {
     Anafi,
 }
 
+impl ControllerName {
+    /// The word in scenarios.
+    pub fn word(self) -> &'static str {
+        match self {
+            ControllerName::UnstableWaypoint => "unstable-waypoint",
+            ControllerName::StableWaypoint => "stable-waypoint",
+            ControllerName::FixedVelocity => "fixed-velocity",
+            ControllerName::MinimumSnap => "minimum-snap",
+            ControllerName::Geometric => "geometric",
+            ControllerName::Anafi => "anafi",
+        }
+    }
+}
+
 /// Leg times of the minimum-snap reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

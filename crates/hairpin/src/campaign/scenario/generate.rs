@@ -83,6 +83,19 @@ pub enum ReachName {
     Witness,
 }
 
+impl ReachName {
+    /// The word in scenarios.
+    pub fn word(self) -> &'static str {
+        match self {
+            ReachName::None => "none",
+            ReachName::Sphere => "sphere",
+            ReachName::Hull => "hull",
+            ReachName::Published => "published",
+            ReachName::Witness => "witness",
+        }
+    }
+}
+
 /// Exactly one of the two.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

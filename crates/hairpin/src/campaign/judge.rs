@@ -1,0 +1,234 @@
+//! From runs to a case's result, and from results to the one sentence.
+
+use nalgebra::Point3;
+
+use super::scenario::DeviationFrom;
+use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, plan, vary};
+use crate::judgement::{
+    self, Claim, Judged, JudgementError, Limits, Measures, Reference, Settings, Verdict, Violation, Worst,
+};
+use crate::trajectory::Flight;
+
+/// Confidence of intervals where the spec names none.
+const CONFIDENCE: f64 = 0.95;
+
+/// The result of a case: its worst run. A run with a violation is worse than one without, a crash is worse than any
+/// other violation, and among equals the larger deviation is worse; the first of equals.
+///
+/// # Errors
+/// Values drawn for a run that the scenario's keys do not take, as happens with a folder that was edited.
+pub fn judge(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Mistake> {
+    let mut worst: Option<(JudgedRun, &Run)> = None;
+    let (mut failed, mut unflown) = (None, None);
+    for run in runs {
+        let flight = match &run.outcome {
+            Ok(flight) => flight,
+            Err(message) => {
+                unflown = unflown.or(Some(format!("run {}: {message}", run.run)));
+                continue;
+            }
+        };
+        match judge_run(setup, case, run, flight)? {
+            Ok(judged) => {
+                if worst.as_ref().is_none_or(|(so_far, _)| judged.rank() > so_far.rank()) {
+                    worst = Some((judged, run));
+                }
+            }
+            Err(error) => failed = failed.or(Some(format!("run {}: {error}", run.run))),
+        }
+    }
+    let violates = worst.as_ref().is_some_and(|(judged, _)| !judged.violations.is_empty());
+    let status = match (violates, &unflown, &failed) {
+        (true, ..) => Status::Fail,
+        (false, Some(_), _) => Status::ExecutorFailed,
+        (false, None, Some(_)) => Status::Inconclusive,
+        (false, None, None) if worst.is_none() => Status::Inconclusive,
+        (false, None, None) => Status::Pass,
+    };
+    let message = unflown.or(failed);
+    Ok(match worst {
+        Some((judged, run)) => CaseResult {
+            case: case.number,
+            status,
+            run: run.run,
+            ended: judged.ended,
+            left_world: judged.left_world,
+            measures: Some(judged.measures),
+            violations: judged.violations,
+            drawn: run.drawn.clone(),
+            message,
+        },
+        None => CaseResult {
+            case: case.number,
+            status,
+            run: runs.first().map_or(0, |run| run.run),
+            ended: status.word().into(),
+            left_world: None,
+            measures: None,
+            violations: Vec::new(),
+            drawn: runs.first().map_or_else(Vec::new, |run| run.drawn.clone()),
+            message,
+        },
+    })
+}
+
+struct JudgedRun {
+    measures: Measures,
+    violations: Vec<Violation>,
+    ended: String,
+    left_world: Option<f64>,
+    crashed: bool,
+}
+
+impl JudgedRun {
+    fn rank(&self) -> (bool, bool, TotalOrder) {
+        (!self.violations.is_empty(), self.crashed, TotalOrder(self.measures.max_deviation))
+    }
+}
+
+/// Floats in the order of `total_cmp`.
+#[derive(PartialEq)]
+struct TotalOrder(f64);
+
+impl PartialOrd for TotalOrder {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.0.total_cmp(&other.0))
+    }
+}
+
+/// Measures one run in the world that was drawn for it.
+fn judge_run(
+    setup: &Setup,
+    case: &Case,
+    run: &Run,
+    flight: &Flight,
+) -> Result<Result<JudgedRun, JudgementError>, Mistake> {
+    let drawn;
+    let setup = if run.drawn.is_empty() {
+        setup
+    } else {
+        drawn = Setup::of_draw(vary::apply(&setup.scenario, &run.drawn)?)?;
+        &drawn
+    };
+    let spec = &setup.scenario.spec;
+    let radius = setup.robot.clearance_radius;
+    let clearance = |p: &Point3<f64>| setup.world.obstacle_distance(p) - radius;
+    let path = match spec.deviation {
+        Some(deviation) if deviation.from == DeviationFrom::Path => plan::track(&setup.robot, case).ok(),
+        _ => None,
+    };
+    let settings = Settings {
+        reference: match (spec.deviation.map(|deviation| deviation.from), &path) {
+            (Some(DeviationFrom::Path), Some(path)) => Reference::Path(path),
+            (Some(DeviationFrom::NearestLeg), _) => Reference::NearestLeg,
+            _ => Reference::Leg,
+        },
+        corner: spec.deviation.map_or(0.0, |deviation| deviation.corner_m),
+        clearance: (!setup.world.obstacles().is_empty()).then_some(&clearance),
+    };
+    let limits = Limits {
+        deviation: spec.deviation.map(|limit| limit.max_m),
+        overshoot: spec.overshoot.map(|limit| limit.max_m),
+        clearance: spec.clearance.map(|limit| limit.min_m),
+        acceleration: spec.acceleration.map(|limit| limit.max_m_s2),
+        total_time: spec.total_time.map(|limit| limit.max_s),
+        ..Limits::default()
+    };
+    Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|measures| JudgedRun {
+        violations: judgement::violations(&measures, flight, &limits),
+        ended: flight.ended.word().into(),
+        left_world: flight.left_world,
+        crashed: flight.ended.is_crash(),
+        measures,
+    }))
+}
+
+/// The verdict on a campaign: on its results, or that nothing was feasible.
+pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Tally) -> Verdict {
+    if cases.is_empty() {
+        return nothing_feasible(setup, tally);
+    }
+    let count = |status: Status| results.iter().filter(|result| result.status == status).count();
+    let claims: Vec<Claim> = super::Evidence::ALL
+        .iter()
+        .map(|evidence| Claim {
+            word: evidence.word(),
+            count: cases.iter().filter(|case| case.evidence == *evidence).count(),
+        })
+        .filter(|claim| claim.count > 0)
+        .collect();
+    let worst = worst_of(setup, results);
+    let how = how_obtained(setup);
+    let how: Vec<&str> = how.iter().map(String::as_str).collect();
+    let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
+    judgement::verdict(&Judged {
+        how: &how,
+        runs: setup.scenario.execute.repeat as usize,
+        cases: results.len(),
+        failed: count(Status::Fail),
+        executor_failed: count(Status::ExecutorFailed),
+        inconclusive: count(Status::Inconclusive),
+        trouble: &trouble,
+        worst: worst.as_ref().map(|(case, value, saturation)| Worst { case, value, saturation: *saturation }),
+        share_limit: setup.scenario.spec.violation_share,
+        confidence: setup.scenario.spec.confidence.unwrap_or(CONFIDENCE),
+        claims: &claims,
+    })
+}
+
+/// `simulated, anafi stand-in, minimum-snap`, or the executor's command.
+pub fn how_obtained(setup: &Setup) -> Vec<String> {
+    let robot = &setup.robot;
+    let execute = &setup.scenario.execute;
+    let stand_in = if robot.caveat.is_empty() { robot.name.clone() } else { format!("{} stand-in", robot.name) };
+    let who = match (&execute.command, execute.controller_in_force()) {
+        (Some(command), None) => format!("executor `{command}`"),
+        (_, Some(controller)) => controller.word().into(),
+        (None, None) => "no controller".into(),
+    };
+    vec!["simulated".into(), stand_in, who]
+}
+
+/// The worst result, and what is said of it: its gravest violation, or the deviation that came nearest to the limit.
+fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation, Option<f64>)> {
+    let mut worst: Option<(&CaseResult, &Measures)> = None;
+    let rank = |result: &CaseResult, measures: &Measures| {
+        let crashed = result.violations.first().is_some_and(|violation| violation.what == "crash");
+        (!result.violations.is_empty(), crashed, TotalOrder(measures.max_deviation))
+    };
+    for result in results {
+        let Some(measures) = &result.measures else { continue };
+        if worst.is_none_or(|(so_far, old)| rank(result, measures) > rank(so_far, old)) {
+            worst = Some((result, measures));
+        }
+    }
+    let (result, measures) = worst?;
+    let nearest = || {
+        setup.scenario.spec.deviation.map(|limit| Violation {
+            what: "deviation".into(),
+            value: measures.max_deviation,
+            limit: limit.max_m,
+            unit: "m".into(),
+            at: measures.t_worst,
+            leg: measures.leg_worst,
+        })
+    };
+    let value = result.violations.first().cloned().or_else(nearest)?;
+    let saturation = measures.legs.get(value.leg).and_then(|leg| leg.saturation_share).or(measures.saturation_share);
+    Some((format!("{:04}", result.case), value, saturation))
+}
+
+/// The verdict of exit 3, with what it rests on.
+fn nothing_feasible(setup: &Setup, tally: &Tally) -> Verdict {
+    let generate = &setup.scenario.generate;
+    let rests_on = match tally.proven_empty {
+        proven if proven > 0 && proven == tally.graphs => "proof".into(),
+        _ => format!("{} graphs searched", tally.graphs),
+    };
+    let chain = format!("no chain of {} waypoints from start to end", setup.scenario.task.length);
+    let what = match &tally.nothing {
+        Some(reason) => format!("{chain}: {reason}"),
+        None => chain,
+    };
+    judgement::nothing_feasible(&[&rests_on, generate.reach.word()], &what, None)
+}

