@@ -1,5 +1,6 @@
 //! Floor 7: the pipeline. A scenario in; cases generated, executed and judged; one file per job. No files, no arguments.
 
+pub mod assumptions;
 pub mod case;
 pub mod generate;
 pub mod judge;
@@ -11,6 +12,7 @@ pub mod setup;
 pub mod stop;
 pub mod vary;
 
+pub use assumptions::assumptions;
 pub use case::{Case, CaseResult, Evidence, Run, Status};
 pub use generate::Tally;
 pub use judge::{how_obtained, judge, verdict};
