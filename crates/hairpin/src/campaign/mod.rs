@@ -11,6 +11,7 @@ pub mod scenario;
 pub mod setup;
 pub mod stop;
 pub mod vary;
+pub mod verify;
 
 pub use assumptions::assumptions;
 pub use case::{Case, CaseResult, Evidence, Run, Status};
@@ -20,3 +21,4 @@ pub use mission::{Mission, Timed, mission};
 pub use scenario::{Mistake, Scenario};
 pub use setup::Setup;
 pub use stop::Stop;
+pub use verify::{Verified, verify};
