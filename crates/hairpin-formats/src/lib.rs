@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod csv;
+pub mod executor;
 pub mod folder;
 pub mod junit;
 pub mod parquet;

@@ -4,7 +4,7 @@ mod description;
 
 use nalgebra::Vector3;
 
-pub use description::{QuadrotorDescription, QuadrotorError, RotorDescription};
+pub use description::{QuadrotorDescription, QuadrotorError, QuadrotorKind, RotorDescription};
 
 /// One rotor: thrust kf·w² along body z at (x, y), reaction moment spin·km·w² about body z.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,0 +1,107 @@
+//! Why an executor gave no flight. The sentences go into results, so they hold nothing that depends on the clock.
+
+use thiserror::Error;
+
+use super::recording::PoseError;
+
+/// A mission without a flight, and what its program had to say.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{failure}")]
+pub struct Failed {
+    /// What went wrong.
+    pub failure: Failure,
+    /// The end of what the program wrote to stderr since the mission began.
+    pub stderr: String,
+}
+
+/// What went wrong.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Failure {
+    /// The operating system cannot start the program.
+    #[error("cannot start `{program}`: {cause}")]
+    Start {
+        /// The program's name.
+        program: String,
+        /// The system's answer.
+        cause: String,
+    },
+    /// The program speaks another version of the protocol.
+    #[error("speaks protocol {found}; this hairpin speaks 1")]
+    Version {
+        /// Its version.
+        found: u64,
+    },
+    /// No `ready` in time.
+    #[error("no \"ready\" within {seconds} s of \"hello\"")]
+    NoReady {
+        /// The limit.
+        seconds: f64,
+    },
+    /// No `end` in time.
+    #[error("time-out: no \"end\" within {seconds} s (execute.timeout_s)")]
+    TimeOut {
+        /// The limit.
+        seconds: f64,
+    },
+    /// The process ended in the middle.
+    #[error("ended without \"{awaited}\" ({status})")]
+    Exited {
+        /// The message that was due.
+        awaited: &'static str,
+        /// Exit status or signal.
+        status: String,
+    },
+    /// The process goes on but closed its stdout.
+    #[error("closed its stdout without \"{awaited}\"")]
+    Silent {
+        /// The message that was due.
+        awaited: &'static str,
+    },
+    /// A line that is no message.
+    #[error("line {number} of its stdout is no message: {cause}; it reads `{line}` (log to stderr, not to stdout)")]
+    Garbage {
+        /// Counted from 1 since the process started.
+        number: u64,
+        /// What is wrong.
+        cause: String,
+        /// Its beginning.
+        line: String,
+    },
+    /// A line without end.
+    #[error("line {number} of its stdout is longer than {limit} bytes")]
+    TooLong {
+        /// Counted from 1 since the process started.
+        number: u64,
+        /// The limit.
+        limit: usize,
+    },
+    /// A message that is not due.
+    #[error("sent \"{found}\" where \"{awaited}\" was due")]
+    Unexpected {
+        /// Its type.
+        found: &'static str,
+        /// What was due.
+        awaited: &'static str,
+    },
+    /// A pose that is none.
+    #[error(transparent)]
+    Pose(#[from] PoseError),
+    /// The program said so itself.
+    #[error("reports: {message}")]
+    Reported {
+        /// Its words, without control characters.
+        message: String,
+    },
+    /// The user stopped the campaign: not a result, nothing to record.
+    #[error("stopped")]
+    Cancelled,
+}
+
+/// Room for a stranger's words in one line of a table: no control characters, at most `limit` characters.
+pub(super) fn excerpt(text: &str, limit: usize) -> String {
+    let mut clean: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(limit).collect();
+    if text.chars().nth(limit).is_some() {
+        clean.push('…');
+    }
+    clean
+}

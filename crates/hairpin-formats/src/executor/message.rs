@@ -1,0 +1,158 @@
+//! The messages of the protocol as types; their field names are the protocol's.
+
+use hairpin::campaign::Mission;
+use hairpin::campaign::scenario::WorldSection;
+use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
+use serde::{Deserialize, Serialize};
+
+/// What hairpin says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+pub enum ToExecutor {
+    /// First line; `hairpin` is the version of the protocol.
+    Hello {
+        /// 1.
+        hairpin: u64,
+    },
+    /// Fly this.
+    Mission(Box<MissionMessage>),
+    /// No more missions; exit.
+    Bye,
+}
+
+/// One mission, world frame, SI.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MissionMessage {
+    case: String,
+    run: usize,
+    seed: u64,
+    robot: QuadrotorDescription,
+    world: WorldSection,
+    waypoints_m: Vec<[f64; 3]>,
+    accept_m: f64,
+    time_limit_s: f64,
+    timed: Vec<TimedMessage>,
+}
+
+/// One sample of the planned motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TimedMessage {
+    /// Stamp.
+    pub t_s: f64,
+    /// Position.
+    pub p_m: [f64; 3],
+    /// Velocity.
+    pub v_m_s: [f64; 3],
+}
+
+/// What a mission looks like to an executor. The robot has all its numbers, derived ones too.
+pub fn mission_message(mission: &Mission) -> ToExecutor {
+    let timed = mission.timed.iter().map(|sample| TimedMessage {
+        t_s: sample.t,
+        p_m: sample.position.coords.into(),
+        v_m_s: sample.velocity.into(),
+    });
+    ToExecutor::Mission(Box::new(MissionMessage {
+        case: mission.case.clone(),
+        run: mission.run,
+        seed: mission.seed,
+        robot: description(&mission.setup.robot),
+        world: mission.setup.scenario.world.clone(),
+        waypoints_m: mission.waypoints.iter().map(|p| p.coords.into()).collect(),
+        accept_m: mission.accept,
+        time_limit_s: mission.time_limit,
+        timed: timed.collect(),
+    }))
+}
+
+fn description(robot: &Quadrotor) -> QuadrotorDescription {
+    let rotor =
+        |rotor: &hairpin::robot::quadrotor::Rotor| RotorDescription { x_m: rotor.x, y_m: rotor.y, spin: rotor.spin };
+    QuadrotorDescription {
+        kind: QuadrotorKind::Quadrotor,
+        name: robot.name.clone(),
+        source: String::new(),
+        caveat: robot.caveat.clone(),
+        mass_kg: robot.mass,
+        rotors: robot.rotors.iter().map(rotor).collect(),
+        inertia_kg_m2: Some(robot.inertia.into()),
+        thrust_coefficient_n_s2: Some(robot.thrust_coefficient),
+        moment_coefficient_n_m_s2: Some(robot.moment_coefficient),
+        rotor_speed_rad_s: Some([robot.rotor_speed.0, robot.rotor_speed.1]),
+        thrust_to_weight: None,
+        rotor_time_constant_s: Some(robot.rotor_time_constant),
+        drag_linear_n_s_m: Some(robot.drag_linear),
+        drag_quadratic_n_s2_m2: Some(robot.drag_quadratic),
+        aerodynamic_moment_n_m_s2: Some(robot.aerodynamic_moment),
+        force_noise_n2_s: Some(robot.force_noise),
+        moment_noise_n2_m2_s: Some(robot.moment_noise),
+        max_speed_m_s: Some(robot.max_speed),
+        clearance_radius_m: Some(robot.clearance_radius),
+        gravity_m_s2: Some(robot.gravity),
+    }
+}
+
+/// What the executor says. Fields that we do not know are ignored.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+pub enum FromExecutor {
+    /// The answer to `hello`.
+    Ready {
+        /// Version of the protocol it speaks.
+        protocol: u64,
+        /// What it calls itself.
+        #[serde(default)]
+        name: String,
+    },
+    /// Where the robot is.
+    Pose(PoseMessage),
+    /// The flight is over.
+    End {
+        /// Why.
+        reason: EndReason,
+    },
+    /// The mission could not be flown.
+    Error {
+        /// Why.
+        message: String,
+    },
+}
+
+impl FromExecutor {
+    /// The value of `type`.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Ready { .. } => "ready",
+            Self::Pose(_) => "pose",
+            Self::End { .. } => "end",
+            Self::Error { .. } => "error",
+        }
+    }
+}
+
+/// One pose in the world frame.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+pub struct PoseMessage {
+    /// Stamp: 0 at the start, strictly rising.
+    pub t_s: f64,
+    /// Position.
+    pub p_m: [f64; 3],
+    /// Attitude, `world_from_body`, w first.
+    pub q_wxyz: [f64; 4],
+    /// Velocity: in every pose or in none.
+    pub v_m_s: Option<[f64; 3]>,
+    /// The leg being flown, numbered by its first waypoint: in every pose or in none.
+    pub leg: Option<u64>,
+}
+
+/// Why the flight is over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum EndReason {
+    /// The last waypoint was reached.
+    Done,
+    /// The time limit came first.
+    Time,
+    /// It crashed.
+    Crash,
+}

@@ -1,0 +1,32 @@
+//! The executor protocol: a program of the user's, in any language, flies our missions over stdin and stdout.
+//!
+//! UTF-8, one JSON object a line; its stderr is its log; one mission at a time per process:
+//!
+//! ```text
+//! > {"type":"hello","hairpin":1}
+//! < {"type":"ready","protocol":1,"name":"my simulator"}
+//! > {"type":"mission","case":"0117","run":0,"seed":123,"robot":{…},"world":{…},"waypoints_m":[[x,y,z],…],
+//!    "accept_m":1.0,"time_limit_s":90,"timed":[{"t_s":…,"p_m":[…],"v_m_s":[…]},…]}
+//! < {"type":"pose","t_s":0.01,"p_m":[…],"q_wxyz":[…],"v_m_s":[…],"leg":0}     t from 0, strictly rising, world frame
+//! < {"type":"end","reason":"done|time|crash"}   or   {"type":"error","message":"…"}
+//! > {"type":"bye"}
+//! ```
+//!
+//! Whatever the program does wrong fails the mission it was flying and no other: the process is ended with all its
+//! children, the end of its stderr is kept, and a new one is started for the next mission.
+
+mod failure;
+mod lines;
+mod message;
+mod pool;
+mod process;
+mod recording;
+#[cfg(test)]
+mod tests;
+mod worker;
+
+pub use failure::{Failed, Failure};
+pub use message::{EndReason, FromExecutor, PoseMessage, TimedMessage, ToExecutor, mission_message};
+pub use pool::fly_all;
+pub use recording::{PoseError, Recording};
+pub use worker::{Command, CommandError, Limits, Worker};
