@@ -32,6 +32,8 @@ impl Scenario {
     fn check_nominal(&self) -> Vec<Mistake> {
         let mut found = Findings::default();
         found.require(self.hairpin == 1, "hairpin", self.hairpin, "1, the only scenario format there is");
+        // TOML's whole numbers end here: a campaign's scenario file must hold its seed.
+        found.count("seed", self.seed, 0, i64::MAX as u64);
         let robot = robot_of(&self.robot).map_err(|mistake| found.add(mistake)).ok();
         let before = found.0.len();
         world::check(&self.world, &mut found);
@@ -84,7 +86,7 @@ fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             text.push(' ');
         }
         text.push(digit);

@@ -24,7 +24,7 @@ pub(super) fn check(spec: &SpecSection, found: &mut Findings) {
         found.require((0.0..1.0).contains(&share), "spec.violation_share", share, "≥ 0 and < 1");
     }
     if let Some(confidence) = spec.confidence {
-        let fine = confidence >= 0.5 && confidence < 1.0;
+        let fine = (0.5..1.0).contains(&confidence);
         found.require(fine, "spec.confidence", confidence, "≥ 0.5 and < 1, such as 0.95");
     }
 }

@@ -23,12 +23,12 @@ pub(super) fn check(task: &TaskSection, world: Option<&World>, robot: Option<&Qu
 
 fn check_end(key: &str, p: [f64; 3], world: &World, robot: Option<&Quadrotor>, found: &mut Findings) {
     let margin = world.keep_in_margin();
-    for axis in 0..3 {
+    for (axis, &x) in p.iter().enumerate() {
         let (least, most) = (margin, world.size()[axis] - margin);
-        if !(p[axis] >= least && p[axis] <= most) {
+        if !(x >= least && x <= most) {
             let why = if margin > 0.0 { " (keep_in_margin_m)" } else { "" };
             let bound = format!("inside the world: {least} … {most} m{why}");
-            found.require(false, &format!("{key}[{axis}]"), p[axis], &bound);
+            found.require(false, &format!("{key}[{axis}]"), x, &bound);
             return;
         }
     }

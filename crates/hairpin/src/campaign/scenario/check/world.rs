@@ -21,7 +21,8 @@ pub(super) fn check(world: &WorldSection, found: &mut Findings) {
     if let (Some(margin), Some(size)) = (world.keep_in_margin_m, world.size_m) {
         let most = 0.5 * size.iter().copied().fold(f64::INFINITY, f64::min);
         let bound = format!("≥ 0 and < {most} m, half the smallest side");
-        found.require(margin >= 0.0 && margin < most, "world.keep_in_margin_m", margin, &bound);
+        let fine = margin >= 0.0 && (margin < most || most <= 0.0);
+        found.require(fine, "world.keep_in_margin_m", margin, &bound);
     }
     if let Some(origin) = &world.origin {
         check_origin(origin, found);

@@ -1,0 +1,51 @@
+//! The shipped robots, worlds and scenarios, embedded in the binary and found by name.
+
+/// A shipped file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shipped {
+    /// Name without folder and ending: `anafi`.
+    pub name: &'static str,
+    /// Path below `data`: `robots/quadrotor/anafi.toml`.
+    pub path: &'static str,
+    /// What it says.
+    pub text: &'static str,
+}
+
+/// (kind, name, path below `data`, text), sorted by path within each kind.
+const FILES: &[(&str, &str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
+
+/// All shipped robots, sorted by path.
+pub fn robots() -> impl Iterator<Item = Shipped> {
+    of_kind("robots")
+}
+
+/// All shipped worlds, sorted by path.
+pub fn worlds() -> impl Iterator<Item = Shipped> {
+    of_kind("worlds")
+}
+
+/// All shipped scenarios, sorted by path.
+pub fn scenarios() -> impl Iterator<Item = Shipped> {
+    of_kind("scenarios")
+}
+
+fn of_kind(wanted: &'static str) -> impl Iterator<Item = Shipped> {
+    let files = FILES.iter().filter(move |(kind, ..)| *kind == wanted);
+    files.map(|&(_, name, path, text)| Shipped { name, path, text })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_within_a_kind() {
+        for kind in [robots().collect::<Vec<_>>(), worlds().collect(), scenarios().collect()] {
+            let mut names: Vec<_> = kind.iter().map(|file| file.name).collect();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), kind.len(), "{names:?}");
+        }
+        assert!(worlds().any(|world| world.name == "winding-corridor" && world.text.contains("size_m")));
+    }
+}

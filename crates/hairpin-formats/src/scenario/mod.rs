@@ -1,0 +1,174 @@
+//! Scenario files in and out. Reading resolves: what comes out holds robot, world and meshes, and is checked.
+
+mod report;
+mod resolve;
+mod set;
+mod shape;
+mod tree;
+mod write;
+
+use std::path::Path;
+
+use hairpin::campaign::Scenario;
+use hairpin::campaign::scenario::KeyPath;
+use toml::Table;
+
+pub use report::{Complaint, Report};
+pub use write::{MadeBy, WriteError, to_toml};
+
+use crate::{library, schema};
+use resolve::Resolver;
+use tree::Node;
+
+/// Reads, resolves and checks a scenario.
+///
+/// `file` is the name that mistakes are told with; robots, worlds and meshes are looked for among the shipped ones,
+/// then relative to `base`. `sets` are overrides, key and value as typed; one of several keys that exclude each other
+/// (`generate.timing.step_s` and `leg_time_s`; `execute.controller` and `command`) takes the others' place, and a
+/// step-wise `generate.reach` that of the file's leg times.
+///
+/// # Errors
+/// All mistakes of one stage: no TOML, or wrong keys and types, or values out of bounds.
+pub fn read_scenario(text: &str, file: &str, base: &Path, sets: &[(String, String)]) -> Result<Scenario, Report> {
+    let mut report = Report::default();
+    let source = report.add_source(file, text);
+    match read(source, base, sets, &mut report) {
+        Some(scenario) if report.is_empty() => Ok(scenario),
+        _ => Err(report),
+    }
+}
+
+/// The scenario that `name_or_path` means: a shipped scenario's name, a scenario file, or a robot's name or file, which
+/// is put into the shipped scenario `quadrotor`.
+///
+/// # Errors
+/// As [`read_scenario`]; nothing of that name.
+pub fn scenario_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Scenario, Report> {
+    if let Some(shipped) = library::scenarios().find(|shipped| shipped.name == name_or_path) {
+        return read_scenario(shipped.text, shipped.path, Path::new(""), sets);
+    }
+    let path = Path::new(name_or_path);
+    if path.is_file() {
+        let text = std::fs::read_to_string(path).map_err(|error| unreadable(name_or_path, &error.to_string()))?;
+        let is_robot = text.parse::<Table>().is_ok_and(|t| t.contains_key("kind") && !t.contains_key("hairpin"));
+        if !is_robot {
+            return read_scenario(&text, name_or_path, path.parent().unwrap_or(Path::new("")), sets);
+        }
+    } else if library::robots().all(|robot| robot.name != name_or_path) {
+        return Err(unknown(name_or_path));
+    }
+    let Some(around) = library::scenarios().find(|shipped| shipped.name == "quadrotor") else {
+        unreachable!("the scenario `quadrotor` is shipped")
+    };
+    let robot = ("robot".to_owned(), toml::Value::String(name_or_path.to_owned()).to_string());
+    let sets: Vec<_> = std::iter::once(robot).chain(sets.iter().cloned()).collect();
+    read_scenario(around.text, around.path, Path::new(""), &sets)
+}
+
+fn unreadable(file: &str, why: &str) -> Report {
+    let mut report = Report::default();
+    report.complain_of_file(file, &format!("`{file}` cannot be read: {why}"));
+    report
+}
+
+fn unknown(name: &str) -> Report {
+    let known: Vec<&str> = library::scenarios().chain(library::robots()).map(|shipped| shipped.name).collect();
+    let near = shape::nearest(name, known.iter().copied());
+    let hint = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+    let mut report = Report::default();
+    let message = format!("`{name}` is no file and no shipped name: {hint}shipped are {}", known.join(", "));
+    report.complain_of_file(name, &message);
+    report
+}
+
+/// The stages of [`read_scenario`]; `None` after a stage with mistakes.
+fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Report) -> Option<Scenario> {
+    let mut root = tree::parse(source, report)?;
+    if let Some(entries) = root.entries() {
+        entries.remove("made_by");
+    }
+    let mut resolver = Resolver { base, report };
+    apply_sets(&mut root, sets, &mut resolver);
+    resolver.robot(&mut root);
+    resolver.world(&mut root);
+    let schema = schema::scenario_schema();
+    shape::check(&schema, &root, "", report);
+    if !report.is_empty() {
+        return None;
+    }
+    let mut scenario: Scenario = match serde_json::from_value(root.to_value()) {
+        Ok(scenario) => scenario,
+        Err(error) => {
+            report.complain(&root.place, "", "", "", format!("this is no scenario: {error}"));
+            return None;
+        }
+    };
+    Resolver { base, report }.meshes(&mut scenario, &root);
+    scenario.generate.timing = Some(scenario.generate.timing_in_force());
+    if scenario.execute.logs.is_none() && scenario.execute.controller.is_none() {
+        scenario.execute.controller = scenario.execute.controller_in_force();
+    }
+    if !report.is_empty() {
+        return None;
+    }
+    for mistake in scenario.check() {
+        let place = place_of(&root, &mistake.key);
+        let message = format!("`{}` = {}: must be {}", mistake.key, mistake.value, mistake.bound);
+        report.complain(&place, &mistake.key, &mistake.value, &format!("must be {}", mistake.bound), message);
+    }
+    Some(scenario)
+}
+
+/// Where the value of `key` stands; if it is not in the file, the table that it is missing in.
+fn place_of(root: &Node, key: &str) -> report::Place {
+    let segments = KeyPath::parse(key).map_or(Vec::new(), |path| path.segments().to_vec());
+    let (node, exact) = root.nearest(&segments);
+    let of_key = node.key.as_ref().filter(|_| !exact);
+    of_key.unwrap_or(&node.place).clone()
+}
+
+fn apply_sets(root: &mut Node, sets: &[(String, String)], resolver: &mut Resolver<'_>) {
+    let mut done: Vec<String> = Vec::new();
+    for (key, value) in sets {
+        let Some(set) = set::parse(key, value, resolver.report) else { continue };
+        // A key inside the robot or the base world can only be set where it is: there, and no longer in its file.
+        match set.path.segments() {
+            [first, _, ..] if first == "robot" => resolver.robot(root),
+            [first, second, ..] if first == "world" && second != "base" => resolver.world(root),
+            _ => {}
+        }
+        done.push(set.path.to_string());
+        set.apply(root, resolver.report);
+    }
+    supersede(root, &done);
+}
+
+/// Takes out what an override excludes.
+fn supersede(root: &mut Node, set: &[String]) {
+    const EXCLUSIVE: [(&str, &[&str]); 2] =
+        [("generate.timing", &["leg_time_s", "step_s"]), ("execute", &["controller", "command", "logs"])];
+    let is_set = |key: &str| set.iter().any(|done| done == key || done.starts_with(&format!("{key}[")));
+    for (table, keys) in EXCLUSIVE {
+        let (given, others): (Vec<&str>, Vec<&str>) = keys.iter().partition(|key| is_set(&format!("{table}.{key}")));
+        if !given.is_empty() {
+            remove(root, table, &others);
+        }
+    }
+    let stepwise = is_set("generate.reach")
+        && root.get("generate").and_then(|g| g.get("reach")).is_some_and(|r| r.to_value() != "witness");
+    if stepwise && !set.iter().any(|done| done.starts_with("generate.timing")) {
+        remove(root, "generate.timing", &["leg_time_s"]);
+        let empty =
+            root.get("generate").and_then(|g| g.get("timing")).is_some_and(|t| t.to_value() == serde_json::json!({}));
+        if empty {
+            remove(root, "generate", &["timing"]);
+        }
+    }
+}
+
+fn remove(root: &mut Node, table: &str, keys: &[&str]) {
+    let table = table.split('.').try_fold(root, |node, part| node.entries()?.get_mut(part));
+    if let Some(entries) = table.and_then(Node::entries) {
+        entries.retain(|key, _| !keys.contains(&key.as_str()));
+    }
+}

@@ -1,0 +1,108 @@
+//! What a scenario names rather than holds: robots, base worlds and meshes, shipped or in files.
+
+use std::path::Path;
+
+use hairpin::campaign::Scenario;
+
+use super::report::{Place, Report};
+use super::shape::nearest;
+use super::tree::{self, Kind, Node};
+use crate::library::{self, Shipped};
+use crate::mesh::read_mesh;
+
+/// A robot or world file is a page of numbers; a mesh file of 100 MB has two million triangles.
+const LARGEST_FILE: u64 = 100_000_000;
+
+pub(super) struct Resolver<'r> {
+    pub(super) base: &'r Path,
+    pub(super) report: &'r mut Report,
+}
+
+impl Resolver<'_> {
+    /// Puts the robot's table where its name stands.
+    pub(super) fn robot(&mut self, root: &mut Node) {
+        let Some(node) = root.entries().and_then(|entries| entries.get_mut("robot")) else { return };
+        let Kind::Text(name) = &node.kind else { return };
+        let shipped: Vec<Shipped> = library::robots().collect();
+        let Some(table) = self.file("robot", name, &node.place, &shipped) else { return };
+        *node = Node { key: node.key.take(), ..table };
+    }
+
+    /// Fills in the keys of the base world that the scenario's own world has not.
+    pub(super) fn world(&mut self, root: &mut Node) {
+        let world = root.entries().and_then(|entries| entries.get_mut("world"));
+        let Some(entries) = world.and_then(Node::entries) else { return };
+        let Some(Node { kind: Kind::Text(name), place, .. }) = entries.get("base") else { return };
+        let shipped: Vec<Shipped> = library::worlds().collect();
+        let table = self.file("world.base", name, place, &shipped);
+        // A base that cannot be read has been told; its own base would only be told again.
+        entries.remove("base");
+        let Some(Node { kind: Kind::Table(base), .. }) = table else { return };
+        for (key, node) in base {
+            entries.entry(key).or_insert(node);
+        }
+    }
+
+    /// Reads the mesh files.
+    pub(super) fn meshes(&mut self, scenario: &mut Scenario, root: &Node) {
+        for (index, obstacle) in scenario.world.obstacles.iter_mut().enumerate() {
+            let Some(mesh) = &mut obstacle.mesh else { continue };
+            let Some(file) = mesh.file.take() else { continue };
+            let key = format!("world.obstacles[{index}].mesh.file");
+            let place = super::place_of(root, &key);
+            let mut refuse = |bound: &str| {
+                let message = format!("`{key}` = \"{file}\": {bound}");
+                self.report.complain(&place, &key, &file, bound, message);
+            };
+            if !mesh.vertices_m.is_empty() || !mesh.triangles.is_empty() {
+                refuse("either a file or vertices_m and triangles, not both");
+                continue;
+            }
+            match read_file(&self.base.join(&file)).map(|bytes| read_mesh(&bytes, &file)) {
+                Ok(Ok(read)) => (mesh.vertices_m, mesh.triangles) = (read.vertices, read.triangles),
+                Ok(Err(error)) => refuse(&error.to_string()),
+                Err(why) => refuse(&format!("cannot be read: {why}")),
+            }
+        }
+    }
+
+    /// The tree of the shipped file of this name, or of the file at this path.
+    fn file(&mut self, key: &str, name: &str, place: &Place, shipped: &[Shipped]) -> Option<Node> {
+        if let Some(file) = shipped.iter().find(|shipped| shipped.name == name) {
+            let source = self.report.add_source(file.path, file.text);
+            return tree::parse(source, self.report);
+        }
+        let path = self.base.join(name);
+        let is_path = name.contains(['/', '\\']) || name.ends_with(".toml") || path.is_file();
+        if !is_path {
+            let names: Vec<&str> = shipped.iter().map(|shipped| shipped.name).collect();
+            let hint = nearest(name, names.iter().copied());
+            let hint = hint.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+            let bound = format!("{hint}shipped are {}; or the path of a file", names.join(", "));
+            let message = format!("`{key}` = \"{name}\": no shipped one of this name and no file");
+            self.report.complain(place, key, name, &bound, message);
+            return None;
+        }
+        let text =
+            read_file(&path).and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no UTF-8 text".into()));
+        match text {
+            Ok(text) => {
+                let source = self.report.add_source(path.display().to_string(), text);
+                tree::parse(source, self.report)
+            }
+            Err(why) => {
+                let message = format!("`{key}` = \"{name}\": the file cannot be read: {why}");
+                self.report.complain(place, key, name, &format!("cannot be read: {why}"), message);
+                None
+            }
+        }
+    }
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, String> {
+    let size = std::fs::metadata(path).map_err(|error| error.to_string())?.len();
+    if size > LARGEST_FILE {
+        return Err(format!("{size} bytes are more than 100 MB"));
+    }
+    std::fs::read(path).map_err(|error| error.to_string())
+}

@@ -1,0 +1,222 @@
+//! Whether a tree has the shape of the types: keys, types, words. The JSON Schema of the types is the yardstick, so
+//! that nothing is said twice, and every mistake of a file is told at once.
+
+use serde_json::Value;
+
+use super::report::Report;
+use super::tree::{Kind, Node, below};
+
+/// Words of the format that this version does not know yet, with what to say.
+const NOT_YET: &[(&str, &str)] = &[("in-loop", "in-loop search is not in this version")];
+
+/// Compares `node`, at the dotted key `path`, with `schema`; mistakes go to `report`.
+pub(super) fn check(schema: &Value, node: &Node, path: &str, report: &mut Report) {
+    Shape { root: schema, report }.check(schema, node, path);
+}
+
+struct Shape<'s> {
+    root: &'s Value,
+    report: &'s mut Report,
+}
+
+impl<'s> Shape<'s> {
+    fn check(&mut self, schema: &'s Value, node: &Node, path: &str) {
+        if matches!(node.kind, Kind::Refused) {
+            return;
+        }
+        let alternatives = self.alternatives(schema);
+        if alternatives.is_empty() || alternatives.iter().any(|schema| schema.as_bool() == Some(true)) {
+            return;
+        }
+        let words: Vec<&str> = alternatives.iter().flat_map(|schema| words(schema)).collect();
+        if !words.is_empty() {
+            return self.check_word(&words, node, path);
+        }
+        let fits = |schema: &&&Value| is_of_type(type_of(schema), node);
+        let Some(schema) = alternatives.iter().find(fits) else {
+            let expected: Vec<String> = alternatives.iter().map(|schema| self.describe(schema)).collect();
+            return self.complain(node, path, &format!("expected {}", expected.join(" or ")));
+        };
+        match &node.kind {
+            Kind::Table(_) => self.check_table(schema, node, path),
+            Kind::Array(items) => {
+                let count = items.len() as u64;
+                let least = schema["minItems"].as_u64().unwrap_or(0);
+                if count < least || count > schema["maxItems"].as_u64().unwrap_or(u64::MAX) {
+                    return self.complain(node, path, &format!("expected {}", self.describe(schema)));
+                }
+                for (index, item) in items.iter().enumerate() {
+                    self.check(&schema["items"], item, &format!("{path}[{index}]"));
+                }
+            }
+            Kind::Integer(n) => self.check_integer(schema, *n, node, path),
+            _ => {}
+        }
+    }
+
+    /// The schemas a value may have, references followed, `null` left out: TOML has none.
+    fn alternatives(&self, schema: &'s Value) -> Vec<&'s Value> {
+        if let Some(reference) = schema["$ref"].as_str() {
+            let target = reference.strip_prefix('#').and_then(|pointer| self.root.pointer(pointer));
+            return target.map_or(Vec::new(), |schema| self.alternatives(schema));
+        }
+        for key in ["anyOf", "oneOf"] {
+            if let Some(any) = schema[key].as_array() {
+                return any.iter().flat_map(|schema| self.alternatives(schema)).collect();
+            }
+        }
+        if schema["type"].as_str() == Some("null") || schema.is_null() { Vec::new() } else { vec![schema] }
+    }
+
+    fn check_word(&mut self, words: &[&str], node: &Node, path: &str) {
+        let list = words.join(", ");
+        let Kind::Text(word) = &node.kind else {
+            return self.complain(node, path, &format!("expected one of {list}"));
+        };
+        if words.contains(&word.as_str()) {
+            return;
+        }
+        let hint = if let Some((_, why)) = NOT_YET.iter().find(|(later, _)| later == word) {
+            format!("{why}; ")
+        } else {
+            nearest(word, words.iter().copied()).map_or(String::new(), |near| format!("did you mean `{near}`? "))
+        };
+        let message = format!("`{path}` = {word:?}: {hint}valid here: {list}");
+        let bound = format!("must be one of {list}");
+        self.report.complain(&node.place, path, &format!("{word:?}"), &bound, message);
+    }
+
+    fn check_table(&mut self, schema: &'s Value, node: &Node, path: &str) {
+        let Kind::Table(entries) = &node.kind else { return };
+        let properties = schema["properties"].as_object();
+        for (name, child) in entries {
+            let child_path = below(path, name);
+            match (properties.and_then(|properties| properties.get(name)), &schema["additionalProperties"]) {
+                (Some(schema), _) => self.check(schema, child, &child_path),
+                (None, Value::Bool(false)) => self.unknown_key(schema, name, child, &child_path),
+                (None, schema) => self.check(schema, child, &child_path),
+            }
+        }
+        for name in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+            if !entries.contains_key(name) {
+                let key = below(path, name);
+                let what = properties.and_then(|p| p.get(name)).map_or(String::new(), |schema| self.expected(schema));
+                let place = node.key.as_ref().unwrap_or(&node.place);
+                let bound = format!("`{name}` is missing here{what}");
+                self.report.complain(place, &key, "", &bound, format!("`{key}` is missing"));
+            }
+        }
+    }
+
+    /// What a missing key wants, for the end of a sentence.
+    fn expected(&self, schema: &'s Value) -> String {
+        let alternatives = self.alternatives(schema);
+        let kinds: Vec<String> = alternatives.iter().map(|schema| self.describe(schema)).collect();
+        if kinds.is_empty() { String::new() } else { format!(": {}", kinds.join(" or ")) }
+    }
+
+    fn unknown_key(&mut self, schema: &Value, name: &str, node: &Node, path: &str) {
+        let known = schema["properties"].as_object();
+        let here: Vec<&str> = known.into_iter().flat_map(|known| known.keys()).map(String::as_str).collect();
+        let list = here.join(", ");
+        let mut elsewhere = Vec::new();
+        self.find_key(self.root, name, "", 0, &mut elsewhere);
+        let meant = nearest(name, here.iter().copied()).map(str::to_owned).or(elsewhere.into_iter().next());
+        let hint = meant.map_or(String::new(), |key| format!("did you mean `{key}`? "));
+        let place = node.key.as_ref().unwrap_or(&node.place);
+        let message = format!("unknown key `{path}`: {hint}valid here: {list}");
+        let bound = if hint.is_empty() { "no such key".into() } else { hint.trim_end().to_owned() };
+        self.report.complain(place, path, &node.describe(), &bound, message);
+    }
+
+    /// Where else in the file a key of this name is known.
+    fn find_key(&self, schema: &'s Value, name: &str, path: &str, depth: usize, found: &mut Vec<String>) {
+        for schema in self.alternatives(schema) {
+            for (key, child) in schema["properties"].as_object().into_iter().flatten() {
+                if key == name {
+                    found.push(below(path, key));
+                } else if depth < 3 {
+                    self.find_key(child, name, &below(path, key), depth + 1, found);
+                }
+            }
+        }
+    }
+
+    fn check_integer(&mut self, schema: &Value, n: i128, node: &Node, path: &str) {
+        if type_of(schema) != "integer" {
+            return;
+        }
+        let (least, most) = match schema["format"].as_str() {
+            Some("uint32") => (0, u32::MAX.into()),
+            _ => (0, i64::MAX.into()),
+        };
+        if !(least..=most).contains(&n) {
+            self.complain(node, path, &format!("expected a whole number, {least} … {most}"));
+        }
+    }
+
+    fn complain(&mut self, node: &Node, path: &str, expected: &str) {
+        let found = node.describe();
+        self.report.complain(&node.place, path, &found, expected, format!("`{path}`: {expected}, found {found}"));
+    }
+
+    /// What a schema wants, in words.
+    fn describe(&self, schema: &Value) -> String {
+        if !words(schema).is_empty() {
+            return format!("one of {}", words(schema).join(", "));
+        }
+        match type_of(schema) {
+            "number" => "a number".into(),
+            "integer" => "a whole number ≥ 0".into(),
+            "string" => "text".into(),
+            "boolean" => "true or false".into(),
+            "object" => "a table".into(),
+            "array" => {
+                let of = match type_of(&schema["items"]) {
+                    "number" => "numbers",
+                    "integer" => "whole numbers",
+                    "array" => "arrays",
+                    "object" => "tables",
+                    _ => "values",
+                };
+                match (schema["minItems"].as_u64(), schema["maxItems"].as_u64()) {
+                    (Some(least), Some(most)) if least == most => format!("an array of {least} {of}"),
+                    _ => format!("an array of {of}"),
+                }
+            }
+            _ => "a value".into(),
+        }
+    }
+}
+
+/// `"number"` of both `"number"` and `["number", "null"]`.
+fn type_of(schema: &Value) -> &str {
+    let listed = schema["type"].as_array().and_then(|types| types.first());
+    schema["type"].as_str().or(listed.and_then(Value::as_str)).unwrap_or_default()
+}
+
+fn is_of_type(wanted: &str, node: &Node) -> bool {
+    match node.kind {
+        Kind::Table(_) => wanted == "object",
+        Kind::Array(_) => wanted == "array",
+        Kind::Text(_) => wanted == "string",
+        Kind::Integer(_) => wanted == "integer" || wanted == "number",
+        Kind::Float(_) => wanted == "number",
+        Kind::Bool(_) => wanted == "boolean",
+        Kind::Date | Kind::Refused => false,
+    }
+}
+
+/// The words a schema of an enumeration allows; none for any other.
+fn words(schema: &Value) -> Vec<&str> {
+    let listed = schema["enum"].as_array().into_iter().flatten();
+    schema["const"].as_str().into_iter().chain(listed.filter_map(Value::as_str)).collect()
+}
+
+/// The candidate that a slip of the finger would have turned into `word`.
+pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
+    let scored = candidates.map(|candidate| (strsim::osa_distance(word, candidate), candidate));
+    let (distance, candidate) = scored.min_by_key(|(distance, _)| *distance)?;
+    let contained = candidate.contains(word) && word.len() >= 3 || word.contains(candidate) && candidate.len() >= 3;
+    (distance <= 1 + word.chars().count() / 4 || contained).then_some(candidate)
+}

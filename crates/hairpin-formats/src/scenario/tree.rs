@@ -1,0 +1,170 @@
+//! A TOML text as a tree whose every value knows where it stands.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Number, Value};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::report::{Place, Report};
+
+/// A value and where it stands.
+#[derive(Debug, Clone)]
+pub(super) struct Node {
+    pub(super) kind: Kind,
+    pub(super) place: Place,
+    /// Where its key stands.
+    pub(super) key: Option<Place>,
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Kind {
+    Table(BTreeMap<String, Node>),
+    Array(Vec<Node>),
+    Text(String),
+    Integer(i128),
+    Float(f64),
+    Bool(bool),
+    Date,
+    /// A number that has been refused already: nothing more is said of it.
+    Refused,
+}
+
+/// The tree of source number `source`, every number that is not finite told; `None`, and why told, if it is no TOML.
+pub(super) fn parse(source: usize, report: &mut Report) -> Option<Node> {
+    let text = report.source(source).text.clone();
+    let (table, errors) = DeTable::parse_recoverable(&text);
+    for error in errors.iter().take(10) {
+        let place = Place { source, span: error.span().unwrap_or(0..0) };
+        report.complain(&place, "", "", error.message(), format!("no TOML: {}", error.message()));
+    }
+    if !errors.is_empty() {
+        return None;
+    }
+    let mut reader = Reader { source, offset: 0, report };
+    let place = Place { source, span: 0..0 };
+    Some(Node { kind: reader.table(table.get_ref(), ""), place, key: None })
+}
+
+/// The value `text`, which stands `offset` bytes into source number `source`. `None`: it is no TOML value.
+pub(super) fn parse_value(text: &str, source: usize, offset: usize, key: &str, report: &mut Report) -> Option<Node> {
+    let value = DeValue::parse(text).ok()?;
+    Some(Reader { source, offset, report }.value(&value, key))
+}
+
+struct Reader<'r> {
+    source: usize,
+    offset: usize,
+    report: &'r mut Report,
+}
+
+impl Reader<'_> {
+    fn place<T>(&self, spanned: &Spanned<T>) -> Place {
+        let span = spanned.span();
+        Place { source: self.source, span: span.start + self.offset..span.end + self.offset }
+    }
+
+    fn table(&mut self, table: &DeTable<'_>, path: &str) -> Kind {
+        let mut entries = BTreeMap::new();
+        for (key, value) in table {
+            let name = key.get_ref().to_string();
+            let place = self.place(key);
+            let mut node = self.value(value, &below(path, &name));
+            node.key = Some(place);
+            entries.insert(name, node);
+        }
+        Kind::Table(entries)
+    }
+
+    fn value(&mut self, value: &Spanned<DeValue<'_>>, path: &str) -> Node {
+        let place = self.place(value);
+        let kind = match value.get_ref() {
+            DeValue::String(text) => Kind::Text(text.to_string()),
+            DeValue::Integer(n) => match i128::from_str_radix(n.as_str(), n.radix()) {
+                Ok(n) => Kind::Integer(n),
+                Err(_) => self.refuse(&place, path, n.as_str(), "a whole number of at most 64 bits"),
+            },
+            DeValue::Float(x) => match x.as_str().parse::<f64>() {
+                Ok(x) if x.is_finite() => Kind::Float(x),
+                _ => self.refuse(&place, path, x.as_str(), "a finite number"),
+            },
+            DeValue::Boolean(b) => Kind::Bool(*b),
+            DeValue::Datetime(_) => Kind::Date,
+            DeValue::Array(items) => Kind::Array(
+                items.iter().enumerate().map(|(i, item)| self.value(item, &format!("{path}[{i}]"))).collect(),
+            ),
+            DeValue::Table(table) => self.table(table, path),
+        };
+        Node { kind, place, key: None }
+    }
+
+    fn refuse(&mut self, place: &Place, path: &str, value: &str, bound: &str) -> Kind {
+        let message = format!("`{path}` = {value}: must be {bound}");
+        self.report.complain(place, path, value, &format!("must be {bound}"), message);
+        Kind::Refused
+    }
+}
+
+impl Node {
+    /// The node at `segments`, or the deepest one on the way to it, and whether it is the one asked for.
+    pub(super) fn nearest(&self, segments: &[String]) -> (&Node, bool) {
+        let Some((first, rest)) = segments.split_first() else { return (self, true) };
+        let child = match &self.kind {
+            Kind::Table(entries) => entries.get(first),
+            Kind::Array(items) => first.parse::<usize>().ok().and_then(|index| items.get(index)),
+            _ => None,
+        };
+        child.map_or((self, false), |child| child.nearest(rest))
+    }
+
+    /// The entry `key` of a table.
+    pub(super) fn get(&self, key: &str) -> Option<&Node> {
+        match &self.kind {
+            Kind::Table(entries) => entries.get(key),
+            _ => None,
+        }
+    }
+
+    /// The same for changes.
+    pub(super) fn entries(&mut self) -> Option<&mut BTreeMap<String, Node>> {
+        match &mut self.kind {
+            Kind::Table(entries) => Some(entries),
+            _ => None,
+        }
+    }
+
+    /// What stands there, in words.
+    pub(super) fn describe(&self) -> String {
+        match &self.kind {
+            Kind::Table(_) => "a table".into(),
+            Kind::Array(items) => format!("an array of {}", items.len()),
+            Kind::Text(text) => format!("the text {text:?}"),
+            Kind::Integer(n) => n.to_string(),
+            Kind::Float(x) => format!("{x:?}"),
+            Kind::Bool(b) => b.to_string(),
+            Kind::Date => "a date".into(),
+            Kind::Refused => "a number that is refused".into(),
+        }
+    }
+
+    /// Without places. Dates and refused numbers, which no scenario has, become nothing.
+    pub(super) fn to_value(&self) -> Value {
+        match &self.kind {
+            Kind::Table(entries) => {
+                Value::Object(entries.iter().map(|(key, node)| (key.clone(), node.to_value())).collect::<Map<_, _>>())
+            }
+            Kind::Array(items) => Value::Array(items.iter().map(Node::to_value).collect()),
+            Kind::Text(text) => Value::String(text.clone()),
+            Kind::Integer(n) => Number::from_i128(*n).map_or_else(|| Value::from(*n as f64), Value::Number),
+            Kind::Float(x) => Number::from_f64(*x).map_or(Value::Null, Value::Number),
+            Kind::Bool(b) => Value::Bool(*b),
+            Kind::Date | Kind::Refused => Value::Null,
+        }
+    }
+}
+
+/// The dotted key of `name` in the table `path`.
+pub(super) fn below(path: &str, name: &str) -> String {
+    let name = if name.contains('.') { format!("\"{name}\"") } else { name.to_owned() };
+    if path.is_empty() { name } else { format!("{path}.{name}") }
+}

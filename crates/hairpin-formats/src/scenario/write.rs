@@ -1,0 +1,37 @@
+//! The resolved scenario of a campaign folder: a scenario file that runs again, with what made it.
+
+use hairpin::campaign::Scenario;
+use serde::Serialize;
+use thiserror::Error;
+
+/// `[made_by]`: what a campaign's results depend on beside the scenario. Readers of scenarios pass over it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct MadeBy {
+    /// Version of hairpin.
+    pub version: String,
+    /// Root seed.
+    pub root_seed: u64,
+    /// SIMD level of the numerics.
+    pub simd: String,
+}
+
+/// A scenario that TOML cannot hold: a whole number above 2⁶³ − 1, which [`Scenario::check`] refuses.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the scenario cannot be written as TOML: {0}")]
+pub struct WriteError(String);
+
+#[derive(Serialize)]
+struct Resolved<'s> {
+    #[serde(flatten)]
+    scenario: &'s Scenario,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    made_by: Option<&'s MadeBy>,
+}
+
+/// The scenario as TOML; reading it again gives the same scenario.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn to_toml(scenario: &Scenario, made_by: Option<&MadeBy>) -> Result<String, WriteError> {
+    toml::to_string(&Resolved { scenario, made_by }).map_err(|error| WriteError(error.to_string()))
+}

@@ -1,0 +1,21 @@
+//! The JSON Schema of scenario files, made from the types that read them.
+
+use hairpin::campaign::Scenario;
+use hairpin::robot::quadrotor::QuadrotorDescription;
+use serde_json::{Value, json};
+
+/// The schema of a scenario file, for editors; `hairpin schema` prints it.
+pub fn scenario_schema() -> Value {
+    let mut schema = schemars::schema_for!(Scenario).to_value();
+    let made_by =
+        json!({ "type": "object", "description": "Written by hairpin into a campaign's scenario; not read." });
+    if let Some(properties) = schema.get_mut("properties").and_then(Value::as_object_mut) {
+        properties.insert("made_by".into(), made_by);
+    }
+    schema
+}
+
+/// The schema of a robot file.
+pub fn robot_schema() -> Value {
+    schemars::schema_for!(QuadrotorDescription).to_value()
+}
