@@ -1,10 +1,14 @@
 //! Quadrotors: numbers, checks, and the 12-state model behind a quaternion.
 
+mod derived;
 mod description;
+mod model;
+pub mod published;
 
 use nalgebra::Vector3;
 
 pub use description::{QuadrotorDescription, QuadrotorError, QuadrotorKind, RotorDescription};
+pub use model::{EulerState, QuadrotorState, from_euler_state, level_rest, to_euler_state};
 
 /// One rotor: thrust kf·w² along body z at (x, y), reaction moment spin·km·w² about body z.
 #[derive(Debug, Clone, Copy, PartialEq)]
