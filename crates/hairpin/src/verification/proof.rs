@@ -20,7 +20,7 @@ pub struct Tolerances {
     pub rates: f64,
     /// Mismatch of the polynomials at waypoints beyond rounding, m/s^k for the k-th derivative.
     pub knots: f64,
-    /// Change of any component of the state by halving the integrator's step, SI.
+    /// Error of any component of the integrated state, SI, estimated by halving the step.
     pub accuracy: f64,
     /// Spacing of the grid on which rotor speeds are held to their limits, s; near a limit it is refined.
     pub grid: f64,

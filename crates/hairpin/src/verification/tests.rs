@@ -54,13 +54,7 @@ fn join(body: &Body, from: ([f64; 3], Vector3<f64>), to: ([f64; 3], Vector3<f64>
     let matrix = SMatrix::<f64, 8, 8>::from_fn(|row, column| {
         let (order, at_end) = (row % 4, row >= 4);
         let falling: f64 = (0..order).map(|k| column as f64 - k as f64).product();
-        if at_end {
-            falling
-        } else if column == order {
-            falling
-        } else {
-            0.0
-        }
+        if at_end || column == order { falling } else { 0.0 }
     });
     let solver = matrix.lu();
     let ((a0, j0), (a1, j1)) = (level(&from.1), level(&to.1));
@@ -82,8 +76,10 @@ fn join(body: &Body, from: ([f64; 3], Vector3<f64>), to: ([f64; 3], Vector3<f64>
     Leg { duration, coefficients }
 }
 
+type Flown = (Vec<[f64; 3]>, Vec<Leg>);
+
 /// Waypoints and the legs through them, rest to rest.
-fn flight(body: &Body, seed: u64, legs: usize) -> (Vec<[f64; 3]>, Vec<Leg>) {
+fn flight(body: &Body, seed: u64, legs: usize) -> Flown {
     let mut random = stream(seed);
     let mut draw = |low: f64, high: f64| Vector3::from([(); 3].map(|_| random.random_range(low..high)));
     let mut waypoints = vec![[3.0, 3.0, 3.0]];
@@ -102,7 +98,7 @@ fn flight(body: &Body, seed: u64, legs: usize) -> (Vec<[f64; 3]>, Vec<Leg>) {
     (waypoints, legs)
 }
 
-fn prove(body: &Body, (waypoints, legs): &(Vec<[f64; 3]>, Vec<Leg>)) -> Proof {
+fn prove(body: &Body, (waypoints, legs): &Flown) -> Proof {
     verify(body, &Claim { waypoints, legs }, &Tolerances::default())
 }
 
@@ -172,7 +168,7 @@ fn a_coefficient_of_a_millionth_is_found_as_well() {
 fn forged_times_waypoints_and_robots_are_found() {
     let body = flightgoggles();
     let honest = flight(&body, 3, 4);
-    let forge = |change: &dyn Fn(&mut (Vec<[f64; 3]>, Vec<Leg>))| {
+    let forge = |change: &dyn Fn(&mut Flown)| {
         let mut forgery = honest.clone();
         change(&mut forgery);
         prove(&body, &forgery)
