@@ -1,6 +1,22 @@
 //! Reach sets: which waypoints follow a node of the search, and what is known of the legs to them.
 
+pub mod filtered;
+mod graph;
+pub mod hull;
+pub mod none;
+pub mod polytope;
+pub mod sampling;
+pub mod sphere;
+pub mod step;
+
 use nalgebra::Point3;
+
+pub use filtered::{Filtered, PairMask};
+pub use hull::{Hull, HullSettings, NoHull};
+pub use none::Everywhere;
+pub use polytope::{NoPolytope, Polytope};
+pub use sphere::Sphere;
+pub use step::{StepReach, StepSet, StepSettings};
 
 /// What a score sees of a leg, from its first waypoint. For step-wise sets speeds are leg ÷ step, for `witness`
 /// those at the leg's ends. On the first leg `v_in` = 0 and `turn` = 0.
