@@ -296,24 +296,37 @@ impl CampaignFolder {
     /// `table` is [`Self::read_runs_table`]'s: it fills in for files that another program rewrote.
     ///
     /// # Errors
-    /// A file is broken; nothing is known about a run; it says that it is another one.
+    /// As [`Self::read_run`].
     pub fn read_runs(&self, case: usize, table: &BTreeMap<(usize, usize), RunFacts>) -> Result<Vec<Run>, FolderError> {
         let mut all = Vec::new();
-        for number in 0.. {
-            let path = self.run_path(case, number);
-            if !path.exists() {
-                break;
-            }
-            let (track, facts) = runs::read_run(&path)?;
-            let contradiction = |what| FolderError::Contradiction { path: path.clone(), case, what };
-            let facts = facts.or_else(|| table.get(&(case, number)).cloned());
-            let facts = facts.ok_or_else(|| contradiction("has lost its metadata and is not in runs.parquet"))?;
-            if (facts.case, facts.run) != (case, number) {
-                return Err(contradiction("holds another run than its name says"));
-            }
-            all.push(facts.with_track(track).ok_or_else(|| contradiction("ended for an unknown reason"))?);
+        while let Some(run) = self.read_run(case, all.len(), table)? {
+            all.push(run);
         }
         Ok(all)
+    }
+
+    /// Reads one run; `None` where it was not executed.
+    ///
+    /// # Errors
+    /// The file is broken; nothing is known about the run; it says that it is another one.
+    pub fn read_run(
+        &self,
+        case: usize,
+        run: usize,
+        table: &BTreeMap<(usize, usize), RunFacts>,
+    ) -> Result<Option<Run>, FolderError> {
+        let path = self.run_path(case, run);
+        if !path.exists() {
+            return Ok(None);
+        }
+        let (track, facts) = runs::read_run(&path)?;
+        let contradiction = |what| FolderError::Contradiction { path: path.clone(), case, what };
+        let facts = facts.or_else(|| table.get(&(case, run)).cloned());
+        let facts = facts.ok_or_else(|| contradiction("has lost its metadata and is not in runs.parquet"))?;
+        if (facts.case, facts.run) != (case, run) {
+            return Err(contradiction("holds another run than its name says"));
+        }
+        facts.with_track(track).map(Some).ok_or_else(|| contradiction("ended for an unknown reason"))
     }
 
     /// Reads `runs.parquet`; empty where there is none.

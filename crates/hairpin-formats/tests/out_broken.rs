@@ -118,7 +118,7 @@ fn the_first_columns_of_the_results_are_the_contract() {
     let batch = reader.build().unwrap().next().unwrap().unwrap();
     let text = |name: &str, row: usize| batch.column_by_name(name).unwrap().as_string::<i32>().value(row).to_owned();
     assert_eq!(text("case", 2), "0002");
-    assert_eq!(text("violations", 0), "deviation 0.65 m > 0.50 m at t=12.34 s; left world at t=8.50 s");
+    assert_eq!(text("violations", 0), "deviation 0.65 m > 0.50 m at t=12.34 s; left the world at t=8.50 s");
 }
 
 #[test]

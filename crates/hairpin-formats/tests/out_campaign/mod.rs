@@ -1,6 +1,8 @@
 //! A small campaign with everything in it that a file must carry: used by the tests of what goes out.
 #![allow(dead_code)]
 
+pub(crate) mod stress;
+
 use hairpin::campaign::case::Violation;
 use hairpin::campaign::{Case, CaseResult, Evidence, Run, Status, Tally};
 use hairpin::judgement::{LegMeasures, Measures};
@@ -139,7 +141,7 @@ fn measures(deviation: f64) -> Measures {
 pub(crate) fn failed() -> CaseResult {
     let deviation =
         Violation { what: "deviation".into(), value: 0.65, limit: 0.5, unit: "m".into(), at: 12.34, leg: 2 };
-    let left = Violation { what: "left-world".into(), value: 1.0, limit: 0.0, unit: String::new(), at: 8.5, leg: 2 };
+    let left = Violation { what: "left-world".into(), value: 8.5, limit: 0.0, unit: "s".into(), at: 8.5, leg: 2 };
     CaseResult {
         case: 0,
         status: Status::Fail,

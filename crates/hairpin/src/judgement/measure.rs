@@ -126,6 +126,22 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
     Ok(measures)
 }
 
+/// Distance of every sample from the reference, m, as [`measure`] judges it; `None` inside [`Settings::corner`].
+///
+/// # Errors
+/// [`JudgementError`].
+pub fn deviation_of_samples(
+    track: &Track,
+    waypoints: &[Point3<f64>],
+    settings: &Settings,
+) -> Result<Vec<Option<f64>>, JudgementError> {
+    check(track, waypoints, settings)?;
+    let positions: Vec<Point3<f64>> = (0..track.len()).map(|i| track.position(i)).collect();
+    let weights = time_weights(track.times());
+    let (legs, _) = legs_flown(track, waypoints, &positions, &weights)?;
+    deviations(&positions, &weights, waypoints, &legs, settings)
+}
+
 fn check(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Result<(), JudgementError> {
     if track.is_empty() {
         return Err(JudgementError::NoSamples);

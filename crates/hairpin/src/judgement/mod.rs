@@ -11,7 +11,7 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
-pub use measure::{Clearance, JudgementError, Reference, Settings, measure};
+pub use measure::{Clearance, JudgementError, Reference, Settings, deviation_of_samples, measure};
 pub use measures::{AccelerationSource, LegMeasures, LegSource, Measures};
 pub use spec::{Limits, Violation, violations};
 pub use statistics::{Share, Statistics, rule_of_three, share, skewness};

@@ -220,7 +220,7 @@ fn worst_and_where(worst: &Worst) -> String {
 }
 
 /// Two numbers with as many decimals as it takes to see that they differ: at least two.
-fn apart(value: f64, limit: f64) -> (String, String) {
+pub fn apart(value: f64, limit: f64) -> (String, String) {
     for decimals in 2..12 {
         let pair = (format!("{value:.decimals$}"), format!("{limit:.decimals$}"));
         if pair.0 != pair.1 || value == limit {

@@ -1,6 +1,8 @@
 //! Numbers as people read them: the one place that rounds, so that table, report, JUnit and verdict agree.
 
-use crate::campaign::case::{CaseResult, Violation};
+use crate::campaign::CaseResult;
+use crate::judgement::Violation;
+use crate::judgement::verdict::apart;
 
 /// `value` with two decimals below 100, one below 1000, none above; `–` for nothing.
 pub fn number(value: Option<f64>) -> String {
@@ -26,24 +28,20 @@ pub fn leg(leg: usize) -> String {
     format!("{leg}→{}", leg + 1)
 }
 
-/// `deviation 0.65 m > 0.50 m at t=12.34 s`. A limit from below (`clearance`) turns the sign; what has no unit has no
-/// numbers worth reading, and is said with its time alone.
+/// `deviation 0.65 m > 0.50 m at t=12.34 s`; events (`crash`, `left-world`, `unfinished`) say what happened instead.
 pub fn violation(violation: &Violation) -> String {
-    let what = violation.what.replace('-', " ");
-    if violation.unit.is_empty() {
-        return format!("{what} at t={:.2} s", violation.at);
-    }
-    let sign = if violation.value > violation.limit { '>' } else { '<' };
-    let (mut value, mut limit) = (number(Some(violation.value)), number(Some(violation.limit)));
-    // Rounded to the same digits they would contradict the sign.
-    for digits in 3..9 {
-        if value != limit {
-            break;
+    let (value, limit) = apart(violation.value, violation.limit);
+    let finding = match violation.what.as_str() {
+        "crash" => "crash".into(),
+        "left-world" => "left the world".into(),
+        "unfinished" => format!("stopped at {} of {} waypoints", violation.value, violation.limit),
+        what => {
+            let sign = if violation.is_lower_limit() { '<' } else { '>' };
+            let (what, unit) = (what.replace('-', " "), &violation.unit);
+            format!("{what} {value} {unit} {sign} {limit} {unit}")
         }
-        (value, limit) = (format!("{:.digits$}", violation.value), format!("{:.digits$}", violation.limit));
-    }
-    let unit = &violation.unit;
-    format!("{what} {value} {unit} {sign} {limit} {unit} at t={:.2} s", violation.at)
+    };
+    format!("{finding} at t={:.2} s", violation.at)
 }
 
 /// Headers of the table of cases, in the terminal and in the report.
@@ -91,7 +89,7 @@ mod tests {
     fn a_violation_reads_as_in_the_contract() {
         assert_eq!(violation(&deviation(0.65, 0.5)), "deviation 0.65 m > 0.50 m at t=12.34 s");
         assert_eq!(violation(&deviation(0.5004, 0.5)), "deviation 0.5004 m > 0.5000 m at t=12.34 s");
-        let crash = Violation { what: "crash".into(), value: 1.0, limit: 0.0, unit: String::new(), at: 3.0, leg: 0 };
+        let crash = Violation { what: "crash".into(), value: 3.0, limit: 0.0, unit: "s".into(), at: 3.0, leg: 0 };
         assert_eq!(violation(&crash), "crash at t=3.00 s");
         let near = Violation { what: "clearance".into(), value: 0.1, limit: 0.25, unit: "m".into(), at: 1.0, leg: 0 };
         assert_eq!(violation(&near), "clearance 0.10 m < 0.25 m at t=1.00 s");

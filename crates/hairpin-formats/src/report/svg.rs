@@ -1,0 +1,183 @@
+//! Drawings without JavaScript: top and side view of a case, and the robot's rotors with their spins.
+
+use std::fmt::Write;
+
+use hairpin::campaign::report::{Drawing, Shown, Surface};
+use hairpin::trajectory::Track;
+use nalgebra::Point3;
+
+/// Drawing area of one view, in the SVG's own units.
+const SIDE: f64 = 420.0;
+const MARGIN: f64 = 42.0;
+const GAP: f64 = 56.0;
+/// Points of a path that are drawn at most.
+const POINTS: usize = 400;
+
+/// Top view (x, y) and side view (x, z) on one scale, with obstacles, waypoints, plan, flight and its worst moment.
+pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
+    let size = drawing.size;
+    let scale = SIDE / size.max();
+    let (width, top, side) = (size.x * scale, size.y * scale, size.z * scale);
+    let height = top.max(side);
+    let (full, tall) = (2.0 * width + 2.0 * MARGIN + GAP, height + 2.0 * MARGIN);
+    let mut svg = format!(
+        "<svg class=\"views\" viewBox=\"0 0 {full:.0} {tall:.0}\" role=\"img\" aria-label=\"Top and side view of case {:04}\">",
+        shown.result.case
+    );
+    let at =
+        |x0: f64, across: usize, up: usize, span: f64| View { x0, y1: MARGIN + height, scale, across, up, width, span };
+    view(&mut svg, shown, drawing, &at(MARGIN, 0, 1, top), "top");
+    view(&mut svg, shown, drawing, &at(MARGIN + width + GAP, 0, 2, side), "side");
+    svg.push_str("</svg>");
+    svg
+}
+
+/// A projection: world axes `across` and `up` onto the page.
+struct View {
+    x0: f64,
+    y1: f64,
+    scale: f64,
+    across: usize,
+    up: usize,
+    width: f64,
+    span: f64,
+}
+
+impl View {
+    fn place(&self, p: &Point3<f64>) -> (f64, f64) {
+        (self.x0 + p[self.across] * self.scale, self.y1 - p[self.up] * self.scale)
+    }
+}
+
+fn view(svg: &mut String, shown: &Shown, drawing: &Drawing, view: &View, name: &str) {
+    let names = ["x", "y", "z"];
+    let (x0, y0) = (view.x0, view.y1 - view.span);
+    let mut add = |part: String| svg.push_str(&part);
+    add(format!(
+        "<rect class=\"cage\" x=\"{x0:.1}\" y=\"{y0:.1}\" width=\"{:.1}\" height=\"{:.1}\"/>",
+        view.width, view.span
+    ));
+    let ticks = |extent: f64| {
+        let step =
+            [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0].into_iter().find(|s| extent / s <= 6.5).unwrap_or(extent);
+        (0..=(extent / step) as usize).map(move |i| i as f64 * step)
+    };
+    for tick in ticks(drawing.size[view.across]) {
+        let x = view.x0 + tick * view.scale;
+        add(format!(
+            "<text class=\"tick\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{tick}</text>",
+            view.y1 + 15.0
+        ));
+    }
+    for tick in ticks(drawing.size[view.up]) {
+        let y = view.y1 - tick * view.scale + 3.5;
+        add(format!("<text class=\"tick\" x=\"{:.1}\" y=\"{y:.1}\" text-anchor=\"end\">{tick}</text>", view.x0 - 6.0));
+    }
+    let label = format!("{name} view: {} across, {} up, m", names[view.across], names[view.up]);
+    add(format!("<text class=\"axis\" x=\"{x0:.1}\" y=\"{:.1}\">{label}</text>", y0 - 10.0));
+    for obstacle in &drawing.obstacles {
+        add(format!("<path class=\"obstacle\" d=\"{}\"/>", outline(obstacle, view)));
+    }
+    add(format!("<polyline class=\"legs\" points=\"{}\"/>", points(shown.waypoints.iter().copied(), view)));
+    add(format!("<polyline class=\"planned\" points=\"{}\"/>", track(&shown.planned, view)));
+    if let Some(flown) = &shown.flown {
+        add(format!("<polyline class=\"flown\" points=\"{}\"/>", track(flown, view)));
+        if let Some(measures) = &shown.result.measures {
+            let index = flown.times().partition_point(|t| *t < measures.t_worst).min(flown.len() - 1);
+            let (x, y) = view.place(&flown.position(index));
+            add(format!("<circle class=\"worst\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\"/>"));
+        }
+    }
+    for (number, waypoint) in shown.waypoints.iter().enumerate() {
+        let (x, y) = view.place(waypoint);
+        add(format!("<circle class=\"waypoint\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.2\"/>"));
+        add(format!("<text class=\"number\" x=\"{:.1}\" y=\"{:.1}\">{number}</text>", x + 6.0, y - 5.0));
+    }
+}
+
+/// The shadow of an obstacle: the hull of its projected corners (Andrew's monotone chain).
+fn outline(obstacle: &Surface, view: &View) -> String {
+    let mut corners: Vec<(f64, f64)> = obstacle.vertices.iter().map(|v| view.place(v)).collect();
+    corners.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    corners.dedup();
+    let mut hull: Vec<(f64, f64)> = Vec::new();
+    let (there, back) = (corners.clone(), corners.into_iter().rev());
+    for half in [there, back.collect()] {
+        let start = hull.len();
+        for c in half {
+            while hull.len() >= start + 2 && turns_right(hull[hull.len() - 2], hull[hull.len() - 1], c) {
+                hull.pop();
+            }
+            hull.push(c);
+        }
+        hull.pop();
+    }
+    let mut path = String::new();
+    for (i, (x, y)) in hull.iter().enumerate() {
+        let _ = write!(path, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' });
+    }
+    path + "Z"
+}
+
+fn turns_right(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> bool {
+    (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0) <= 0.0
+}
+
+fn track(track: &Track, view: &View) -> String {
+    let stride = track.len().div_ceil(POINTS).max(1);
+    let kept = (0..track.len()).filter(|i| i % stride == 0 || i + 1 == track.len());
+    points(kept.map(|i| track.position(i)), view)
+}
+
+fn points(positions: impl Iterator<Item = Point3<f64>>, view: &View) -> String {
+    let mut text = String::new();
+    for p in positions {
+        let (x, y) = view.place(&p);
+        let _ = write!(text, "{x:.1},{y:.1} ");
+    }
+    text.trim_end().to_owned()
+}
+
+/// The rotors seen from above, forward up: numbers, spins, and the ball that holds the robot.
+pub(super) fn rotors(drawing: &Drawing) -> String {
+    let reach = drawing.rotors.iter().map(|r| r.x.hypot(r.y)).fold(0.0, f64::max).max(1e-6);
+    let unit = 62.0 / reach;
+    let mut svg = String::from(
+        "<svg class=\"rotors\" viewBox=\"-120 -120 240 240\" role=\"img\" aria-label=\"Rotor layout seen from above\">",
+    );
+    let mut add = |part: String| svg.push_str(&part);
+    add(String::from(
+        "<path class=\"forward\" d=\"M0 -14 L7 4 L0 0 L-7 4 Z\"/><text class=\"axis\" x=\"0\" y=\"-104\" text-anchor=\"middle\">forward ↑</text>",
+    ));
+    for (number, rotor) in drawing.rotors.iter().enumerate() {
+        // Body x is up on the page, body y (left) is left.
+        let (x, y) = (-rotor.y * unit, -rotor.x * unit);
+        let class = if rotor.clockwise { "cw" } else { "ccw" };
+        let (r, sweep) = (27.0, if rotor.clockwise { 1.0 } else { -1.0 });
+        let point = |angle: f64| (x + r * angle.cos(), y + r * angle.sin());
+        let (from, to) = (point(-2.6 * sweep - 1.57), point(1.3 * sweep - 1.57));
+        let large =
+            format!("M{:.1} {:.1} A{r} {r} 0 1 {} {:.1} {:.1}", from.0, from.1, u8::from(rotor.clockwise), to.0, to.1);
+        // The arrow head: a triangle at the arc's end, along its tangent.
+        let end = 1.3 * sweep - 1.57;
+        let (tangent, normal) = ((-end.sin() * sweep, end.cos() * sweep), (end.cos(), end.sin()));
+        let tip = (to.0 + 10.0 * tangent.0, to.1 + 10.0 * tangent.1);
+        let wing = |side: f64| (to.0 + side * 6.0 * normal.0, to.1 + side * 6.0 * normal.1);
+        let (a, b) = (wing(1.0), wing(-1.0));
+        add(format!("<line class=\"arm\" x1=\"0\" y1=\"0\" x2=\"{x:.1}\" y2=\"{y:.1}\"/>"));
+        add(format!(
+            "<circle class=\"disc {class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r}\"/><path class=\"arc {class}\" d=\"{large}\"/>"
+        ));
+        add(format!(
+            "<path class=\"head {class}\" d=\"M{:.1} {:.1} L{:.1} {:.1} L{:.1} {:.1} Z\"/>",
+            tip.0, tip.1, a.0, a.1, b.0, b.1
+        ));
+        add(format!(
+            "<text class=\"rotor\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
+            y + 5.0,
+            number + 1
+        ));
+    }
+    svg.push_str("</svg>");
+    svg
+}
