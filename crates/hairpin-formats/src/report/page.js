@@ -76,7 +76,7 @@
     const range = (name, size) => reach("xyz".indexOf(name), size);
     const layout = base({
       margin: { l: 0, r: 0, t: 4, b: 0 }, uirevision: "keep", legend: { orientation: "h", y: 0.01, x: 0.01, bgcolor: "rgba(255,255,255,.75)" },
-      scene: { aspectmode: "data", uirevision: "keep", camera: { eye: { x: 1.25, y: -1.35, z: 0.75 }, center: { x: 0, y: 0, z: -0.12 } }, xaxis: ax("x", data.size[0]), yaxis: ax("y", data.size[1]), zaxis: ax("z", data.size[2]) },
+      scene: { aspectmode: "data", uirevision: "keep", camera: { eye: { x: 1.12, y: -1.3, z: 0.62 }, center: { x: 0, y: 0, z: -0.12 } }, xaxis: ax("x", data.size[0]), yaxis: ax("y", data.size[1]), zaxis: ax("z", data.size[2]) },
     });
     return Plotly.react("space", scene(c), layout, CONFIG);
   }
@@ -164,7 +164,7 @@
     byId("pick").value = String(current);
     byId("before").disabled = current === 0;
     byId("after").disabled = current === data.cases.length - 1;
-    for (const figure of document.querySelectorAll("figure.case")) figure.hidden = figure.dataset.case !== c.id;
+    for (const part of document.querySelectorAll("figure.case, .findings")) part.hidden = part.dataset.case !== c.id;
     for (const row of document.querySelectorAll("tr[data-case]")) row.setAttribute("aria-selected", String(row.dataset.case === c.id));
     byId("time").max = String(c.flown ? c.flown.t.length - 1 : 0);
     byId("time").disabled = !c.flown;

@@ -102,13 +102,14 @@ fn key_numbers(data: &ReportData) -> String {
 
 fn flight(data: &ReportData) -> String {
     let Some(worst) = data.shown.first() else { return String::new() };
+    let about: String = data.shown.iter().enumerate().map(|(i, shown)| findings(shown, i == 0)).collect();
     let views: String = data.shown.iter().enumerate().map(|(i, shown)| figure(data, shown, i == 0)).collect();
     let id = format!("{:04}", worst.result.case);
     format!(
         "<section class=\"panel\" id=\"flight\"><div class=\"head\"><h2>Case <span id=\"case-id\">{id}</span></h2>\
          <div class=\"pick js\"><button type=\"button\" id=\"before\" aria-label=\"one case less bad\">‹</button>\
          <label for=\"pick\">worst cases</label><select id=\"pick\">{}</select>\
-         <button type=\"button\" id=\"after\" aria-label=\"next case\">›</button></div></div>\
+         <button type=\"button\" id=\"after\" aria-label=\"next case\">›</button></div></div>{about}\
          <div class=\"js\"><div id=\"space\" class=\"plot\"></div>\
          <div class=\"slider\"><button type=\"button\" id=\"worst-moment\">worst moment</button>\
          <input type=\"range\" id=\"time\" min=\"0\" max=\"0\" value=\"0\" step=\"1\" aria-label=\"time\">\
@@ -127,7 +128,8 @@ fn option(shown: &Shown, index: usize) -> String {
     format!("<option value=\"{index}\">{:04} · {deviation} · {status}</option>", shown.result.case)
 }
 
-fn figure(data: &ReportData, shown: &Shown, first: bool) -> String {
+/// What is known of a case in words and numbers. All but the first wait for the script to be selected.
+fn findings(shown: &Shown, first: bool) -> String {
     let mut findings: Vec<String> = shown.result.violations.iter().map(violation).collect();
     findings.extend(shown.result.message.clone());
     if findings.is_empty() {
@@ -137,17 +139,25 @@ fn figure(data: &ReportData, shown: &Shown, first: bool) -> String {
     let drawn = if drawn.is_empty() { "nominal values".to_owned() } else { drawn.join(", ") };
     let list: String = findings.iter().map(|finding| format!("<li>{}</li>", escape(finding))).collect();
     format!(
-        "<figure class=\"case\" data-case=\"{:04}\"{}><div class=\"findings\"><ul>{list}</ul>\
-         <p class=\"note\">run {} ({}), {}, score {}</p>{}</div>{}\
-         <figcaption><span class=\"key flown\"></span>flown <span class=\"key planned\"></span>planned \
-         <span class=\"key legs\"></span>straight legs <span class=\"key worst\"></span>worst moment</figcaption></figure>",
+        "<div class=\"findings\" data-case=\"{:04}\"{}><ul>{list}</ul>\
+         <p class=\"note\">run {} ({}), {}, score {}</p>{}</div>",
         shown.result.case,
         if first { "" } else { " hidden" },
         shown.result.run,
         escape(&drawn),
         shown.evidence,
         number(Some(shown.score)),
-        statistics(shown.statistics.as_ref()),
+        statistics(shown.statistics.as_ref())
+    )
+}
+
+fn figure(data: &ReportData, shown: &Shown, first: bool) -> String {
+    format!(
+        "<figure class=\"case\" data-case=\"{:04}\"{}>{}\
+         <figcaption><span class=\"key flown\"></span>flown <span class=\"key planned\"></span>planned \
+         <span class=\"key legs\"></span>straight legs <span class=\"key worst\"></span>worst moment</figcaption></figure>",
+        shown.result.case,
+        if first { "" } else { " hidden" },
         svg::views(shown, &data.drawing)
     )
 }

@@ -1,7 +1,7 @@
 //! A campaign that looks like one: flights that overshoot their waypoints in a cage with a mast, judged for real.
 
 use hairpin::campaign::{Case, CaseResult, Evidence, Run, Scenario, Setup, Status, Tally};
-use hairpin::judgement::{Limits, Settings, Verdict, measure, violations};
+use hairpin::judgement::{Claim, Judged, Limits, Settings, Verdict, Worst, measure, violations};
 use hairpin::math::random::case_seed;
 use hairpin::trajectory::{Channel, Ended, Flight, Track};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -37,10 +37,19 @@ pub(crate) fn scenario() -> Scenario {
     .unwrap()
 }
 
-pub(crate) fn verdict() -> Verdict {
-    let sentence = "FAIL 16/24 (simulated, anafi stand-in, minimum-snap, 5 runs each): worst 1.42 m > 0.50 m, case 0007, \
-                    t = 12.34 s, leg 4→5, rotors saturated 31 %; share 69.6 % [47.1, 86.8]; all 24 witnessed";
-    Verdict { sentence: sentence.into(), exit_code: 1 }
+pub(crate) fn verdict(results: &[CaseResult]) -> Verdict {
+    let count = |status| results.iter().filter(|result| result.status == status).count();
+    let worst = hairpin::campaign::report::worst_first(results)[0];
+    let case = format!("{:04}", worst.case);
+    hairpin::judgement::verdict(&Judged {
+        how: &["simulated", "anafi stand-in", "minimum-snap"],
+        cases: results.len(),
+        failed: count(Status::Fail),
+        executor_failed: count(Status::ExecutorFailed),
+        worst: worst.violations.first().map(|value| Worst { case: &case, value, saturation: Some(0.31) }),
+        claims: &[Claim { word: "witnessed", count: results.len() }],
+        ..Judged::default()
+    })
 }
 
 pub(crate) fn judged(setup: &Setup, count: usize) -> Campaign {

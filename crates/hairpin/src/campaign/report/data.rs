@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 
 use super::solid::{Surface, surface};
-use super::text::{cells, leg, number, percent};
+use super::text::{cells, leg, number};
 use crate::campaign::scenario::DeviationFrom;
 use crate::campaign::{Case, CaseResult, Run, Setup, Status, Tally};
 use crate::judgement::{
@@ -216,7 +216,7 @@ fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     }
     let confidence = pieces.setup.scenario.spec.confidence.unwrap_or(0.95);
     let interval = share(failed, judged, confidence).map_or("none judged".into(), |share| {
-        format!("{} [{:.1}, {:.1}]", percent(Some(share.value)), 100.0 * share.low, 100.0 * share.high)
+        format!("{:.1} % [{:.1}, {:.1}]", 100.0 * share.value, 100.0 * share.low, 100.0 * share.high)
     });
     numbers.push(of("violations", format!("{failed} of {judged}"), interval));
     let asked = pieces.setup.scenario.generate.search.cases;
