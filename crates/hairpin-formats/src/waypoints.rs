@@ -94,11 +94,14 @@ pub fn write(path: &Path, waypoints: &[Point3<f64>]) -> Result<(), WriteError> {
     atomic::write(path, text(waypoints).as_bytes())
 }
 
+/// A mission made elsewhere: its name and waypoints.
+pub type Named = (String, Vec<Point3<f64>>);
+
 /// Reads the `.csv` files of a folder, sorted by name: name without the ending, and waypoints.
 ///
 /// # Errors
 /// As [`read`]; a folder that cannot be read or has no such file.
-pub fn read_folder(folder: &Path) -> Result<Vec<(String, Vec<Point3<f64>>)>, WaypointsError> {
+pub fn read_folder(folder: &Path) -> Result<Vec<Named>, WaypointsError> {
     let refuse = |cause| WaypointsError::Unreadable { path: folder.into(), cause };
     let entries = fs::read_dir(folder).map_err(refuse)?;
     let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
@@ -137,8 +140,8 @@ fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
             return Err(WaypointsError::Width { path: path.into(), line, found: row.len(), expected: names.len() });
         }
         let mut point = Point3::origin();
-        for axis in 0..3 {
-            let value = row[places[axis]];
+        for (axis, place) in places.into_iter().enumerate() {
+            let value = row[place];
             let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
             point[axis] = number.ok_or_else(|| WaypointsError::Value {
                 path: path.into(),

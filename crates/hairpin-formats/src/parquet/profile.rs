@@ -61,12 +61,12 @@ pub fn read(path: &Path) -> Result<Profile, TableError> {
             return Err(table.refuse("duration_s", row, durations[row], "> 0"));
         }
     }
-    let leg = |(number, rows): (usize, &[Option<usize>; 3])| -> Result<ProfileLeg, TableError> {
+    let leg = |(number, found): (usize, &[Option<usize>; 3])| -> Result<ProfileLeg, TableError> {
         let missing =
             |axis: usize| table.refuse("leg", table.rows(), "missing", format!("{number} for {}", AXES[axis]));
         let mut leg = ProfileLeg { duration: 0.0, coefficients: [[0.0; 8]; 3] };
-        for axis in 0..3 {
-            let row = rows[axis].ok_or_else(|| missing(axis))?;
+        for (axis, row) in found.iter().enumerate() {
+            let row = row.ok_or_else(|| missing(axis))?;
             if axis > 0 && durations[row] != leg.duration {
                 let bound = format!("{} s, as for this leg's axis x", leg.duration);
                 return Err(table.refuse("duration_s", row, durations[row], bound));
@@ -76,7 +76,7 @@ pub fn read(path: &Path) -> Result<Profile, TableError> {
         }
         Ok(leg)
     };
-    if table.rows() % 3 != 0 {
+    if !table.rows().is_multiple_of(3) {
         return Err(table.refuse("leg", table.rows(), "missing", "three rows, x, y and z, for each leg"));
     }
     Ok(Profile { legs: found.iter().enumerate().map(leg).collect::<Result<_, _>>()? })

@@ -80,9 +80,9 @@ fn pose_value(pose: &Isometry3<f64>, column: usize) -> f64 {
 
 fn isometry(table: &Table, row: usize, [x, y, z, qw, qx, qy, qz]: [f64; 7]) -> Result<Isometry3<f64>, TableError> {
     let q = Quaternion::new(qw, qx, qy, qz);
+    // Infinite where squares overflow, and refused then as well.
     let off = (q.norm() - 1.0).abs();
-    // Not `off > …`: a NaN from an overflowing norm must be refused as well.
-    if !(off <= NORM_TOLERANCE) {
+    if off > NORM_TOLERANCE || off.is_nan() {
         return Err(table.refuse("qw", row, format!("({qw}, {qx}, {qy}, {qz})"), "a quaternion of norm 1"));
     }
     // Our own files come back to the bit; what lost precision on the way is made a rotation again.

@@ -55,7 +55,7 @@
       });
       if (c.worst) {
         const i = nearest(f.t, c.worst.t);
-        traces.push({ type: "scatter3d", mode: "markers", name: "worst moment", x: [f.x[i]], y: [f.y[i]], z: [f.z[i]], marker: { size: 9, color: "rgba(255,255,255,0)", symbol: "circle-open", line: { color: INK, width: 3 } }, hovertemplate: "worst: " + fixed(c.worst.d, 2) + " m at t = " + fixed(c.worst.t, 2) + " s<extra></extra>" });
+        traces.push({ type: "scatter3d", mode: "markers", name: "worst moment", x: [f.x[i]], y: [f.y[i]], z: [f.z[i]], marker: { size: 13, color: INK, symbol: "circle-open", line: { color: INK, width: 3 } }, hovertemplate: "worst: " + fixed(c.worst.d, 2) + " m at t = " + fixed(c.worst.t, 2) + " s<extra></extra>" });
       }
       traces.push({ type: "scatter3d", mode: "markers", name: "now", x: [f.x[0]], y: [f.y[0]], z: [f.z[0]], marker: { size: 7, color: "#f0a202", line: { color: INK, width: 1 } }, hoverinfo: "skip" });
     }
@@ -76,7 +76,7 @@
     const range = (name, size) => reach("xyz".indexOf(name), size);
     const layout = base({
       margin: { l: 0, r: 0, t: 4, b: 0 }, uirevision: "keep", legend: { orientation: "h", y: 0.01, x: 0.01, bgcolor: "rgba(255,255,255,.75)" },
-      scene: { aspectmode: "data", uirevision: "keep", camera: { eye: { x: 1.12, y: -1.3, z: 0.62 }, center: { x: 0, y: 0, z: -0.12 } }, xaxis: ax("x", data.size[0]), yaxis: ax("y", data.size[1]), zaxis: ax("z", data.size[2]) },
+      scene: { aspectmode: "data", uirevision: "keep", camera: { eye: { x: 1.3, y: -1.45, z: 0.7 }, center: { x: 0, y: 0, z: -0.17 } }, xaxis: ax("x", data.size[0]), yaxis: ax("y", data.size[1]), zaxis: ax("z", data.size[2]) },
     });
     return Plotly.react("space", scene(c), layout, CONFIG);
   }

@@ -35,7 +35,7 @@ fn drawn(run: usize) -> Vec<(String, serde_json::Value)> {
     vec![
         ("world.wind_m_s".into(), json!([0.1 + run as f64, -2.5, 0.0])),
         ("execute.controller".into(), json!(["anafi", "geometric"][run % 2])),
-        ("execute.noise".into(), json!(run % 2 == 0)),
+        ("execute.noise".into(), json!(run.is_multiple_of(2))),
         ("robot.mass_kg".into(), json!(0.8 + 0.1 / run as f64)),
         ("seed".into(), json!(run)),
     ]
