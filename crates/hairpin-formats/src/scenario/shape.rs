@@ -215,8 +215,11 @@ fn words(schema: &Value) -> Vec<&str> {
 
 /// The candidate that a slip of the finger would have turned into `word`.
 pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
-    let scored = candidates.map(|candidate| (strsim::osa_distance(word, candidate), candidate));
-    let (distance, candidate) = scored.min_by_key(|(distance, _)| *distance)?;
-    let contained = candidate.contains(word) && word.len() >= 3 || word.contains(candidate) && candidate.len() >= 3;
-    (distance <= 1 + word.chars().count() / 4 || contained).then_some(candidate)
+    let part = |a: &str, b: &str| b.len() >= 3 && a.contains(b);
+    let scored = candidates.map(|candidate| {
+        let contained = part(candidate, word) || part(word, candidate);
+        (!contained, strsim::osa_distance(word, candidate), candidate)
+    });
+    let (is_no_part, distance, candidate) = scored.min_by_key(|(is_no_part, distance, _)| (*is_no_part, *distance))?;
+    (!is_no_part || distance <= 1 + word.chars().count() / 4).then_some(candidate)
 }
