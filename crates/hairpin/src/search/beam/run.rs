@@ -1,0 +1,232 @@
+//! One graph's run: the spine of algorithm 2.
+
+use std::cmp::Ordering;
+use std::hash::Hash;
+
+use super::super::frontier::{IntervalHeap, Tree};
+use super::super::objective::{LegView, Objective};
+use super::super::task::{Found, Task};
+use super::atlas::Atlas;
+use super::reduction::Reduction;
+use super::{BeamOutcome, BeamSettings, Ended};
+use crate::feasibility::reach::Reach;
+
+/// A partial trajectory on the frontier.
+#[derive(Debug, Clone, Copy)]
+struct Entry {
+    score: f64,
+    id: u32,
+}
+
+/// What an observer sees of an iteration: waypoint indices and scores, best first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Number of the iteration, from 1.
+    pub iteration: usize,
+    /// What was selected from the frontier.
+    pub selected: Vec<(Vec<u32>, f64)>,
+    /// The frontier after the iteration.
+    pub frontier: Vec<(Vec<u32>, f64)>,
+}
+
+/// Better is greater: by score, ties by waypoint index.
+fn order<M: Clone>(tree: &Tree<M>, a: &Entry, b: &Entry) -> Ordering {
+    a.score.total_cmp(&b.score).then_with(|| tree.lexicographic(b.id, a.id))
+}
+
+pub(super) struct Run<'a, N, R: ?Sized, O: Objective, P> {
+    task: &'a Task<'a, N, R>,
+    objective: &'a O,
+    settings: &'a BeamSettings,
+    atlas: Atlas<'a, N, R, P>,
+    tree: Tree<O::Memory>,
+    frontier: IntervalHeap<Entry>,
+    reduction: Option<Reduction>,
+    /// Waypoints of the partial trajectory being expanded, one bit each.
+    visited: Vec<u64>,
+    outcome: BeamOutcome<N>,
+}
+
+impl<'a, N, R, O, P> Run<'a, N, R, O, P>
+where
+    N: Copy + Eq + Ord + Hash,
+    R: Reach<N> + ?Sized,
+    O: Objective,
+    P: Fn(&N, usize) -> bool,
+{
+    pub(super) fn new(task: &'a Task<'a, N, R>, objective: &'a O, may_arrive: P, settings: &'a BeamSettings) -> Self {
+        let score = settings.aggregate.neutral();
+        let tree = Tree::new(0, 0, score, objective.start());
+        let mut frontier = IntervalHeap::new();
+        if settings.length >= 2 && task.candidates.len() >= 2 {
+            frontier.push(Entry { score, id: 0 }, |a, b| order(&tree, a, b));
+        }
+        Self {
+            task,
+            objective,
+            settings,
+            atlas: Atlas::new(task, may_arrive, settings.revisits, settings.length),
+            tree,
+            frontier,
+            reduction: settings.keep.map(Reduction::new),
+            visited: vec![0; task.candidates.len().div_ceil(64)],
+            outcome: BeamOutcome {
+                found: Vec::new(),
+                ended: Ended::Capped,
+                iterations: 0,
+                expansions: 0,
+                evaluations: 0,
+                dropped: 0,
+                pruned: 0,
+                reduced: 0,
+                duplicates: 0,
+            },
+        }
+    }
+
+    /// Runs the graph to its end.
+    pub(super) fn finish(mut self, mut observe: Option<&mut dyn FnMut(&Snapshot)>) -> BeamOutcome<N> {
+        let mut selected = Vec::with_capacity(self.settings.width.max(1));
+        while self.outcome.iterations < self.settings.iterations {
+            self.select(&mut selected);
+            if selected.is_empty() {
+                self.outcome.ended = Ended::Exhausted { proof: self.nothing_was_lost() };
+                break;
+            }
+            self.outcome.iterations += 1;
+            let shown = observe.is_some().then(|| self.show(&selected));
+            for &entry in &selected {
+                if self.tree.get(entry.id).length as usize == self.settings.length {
+                    self.complete(entry.id);
+                } else {
+                    self.expand(entry.id);
+                }
+            }
+            self.bound();
+            if let (Some(observe), Some(selected)) = (observe.as_mut(), shown) {
+                let mut frontier = self.frontier.items().to_vec();
+                frontier.sort_by(|a, b| order(&self.tree, b, a));
+                let iteration = self.outcome.iterations;
+                observe(&Snapshot { iteration, selected, frontier: self.show(&frontier) });
+            }
+            if self.outcome.found.len() >= self.settings.per_graph.max(1) {
+                self.outcome.ended = Ended::Complete;
+                break;
+            }
+        }
+        self.outcome.evaluations = self.atlas.evaluations;
+        self.outcome.found.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| a.waypoints.cmp(&b.waypoints)));
+        self.outcome
+    }
+
+    /// Takes the best `width` off the frontier.
+    fn select(&mut self, selected: &mut Vec<Entry>) {
+        selected.clear();
+        while selected.len() < self.settings.width.max(1) {
+            let Some(entry) = self.frontier.pop_best(|a, b| order(&self.tree, a, b)) else { break };
+            let partial = self.tree.get(entry.id);
+            let overtaken =
+                |reduction: &Reduction| !reduction.still_admits(partial.node, partial.length, partial.score);
+            if self.reduction.as_ref().is_some_and(overtaken) {
+                self.outcome.reduced += 1;
+                self.tree.release(entry.id);
+            } else {
+                selected.push(entry);
+            }
+        }
+    }
+
+    /// Puts every partial trajectory that is one leg longer on the frontier.
+    fn expand(&mut self, id: u32) {
+        self.outcome.expansions += 1;
+        let settings = self.settings;
+        let parent = *self.tree.get(id);
+        let steps_after = settings.length - parent.length as usize - 1;
+        if !settings.revisits {
+            self.mark(id, true);
+        }
+        let (mut grown, mut blocked) = (false, false);
+        for index in self.atlas.legs(parent.node) {
+            let leg = *self.atlas.leg(index);
+            if !settings.revisits && self.visited[leg.waypoint as usize / 64] >> (leg.waypoint % 64) & 1 == 1 {
+                blocked = true;
+                continue;
+            }
+            if !self.atlas.arrives(leg.to, steps_after, settings.lookahead) {
+                self.outcome.pruned += 1;
+                continue;
+            }
+            let view = LegView {
+                candidates: self.task.candidates,
+                from: parent.waypoint,
+                to: leg.waypoint,
+                duration: leg.duration,
+                features: leg.features,
+            };
+            let (score, memory) = self.objective.extend(self.tree.memory(id), &view);
+            let score = settings.aggregate.add(parent.score, score);
+            let reduction = self.reduction.as_mut();
+            if reduction.is_some_and(|reduction| !reduction.admits(leg.to, parent.length + 1, score)) {
+                self.outcome.reduced += 1;
+                blocked = true;
+                continue;
+            }
+            let child = self.tree.grow(id, (leg.to, leg.waypoint), leg.duration, score, memory);
+            self.frontier.push(Entry { score, id: child }, |a, b| order(&self.tree, a, b));
+            grown = true;
+        }
+        if !settings.revisits {
+            self.mark(id, false);
+        }
+        if !grown {
+            if !blocked {
+                self.atlas.learn_dead(parent.node, steps_after + 1);
+            }
+            self.tree.release(id);
+        }
+        self.atlas.tidy();
+    }
+
+    /// Keeps a trajectory of full length; that it ends at the end was asked when it was made.
+    fn complete(&mut self, id: u32) {
+        let waypoints = self.tree.waypoints(id);
+        if self.outcome.found.iter().any(|found| found.waypoints == waypoints) {
+            self.outcome.duplicates += 1;
+        } else {
+            let mut nodes: Vec<N> = self.tree.backwards(id).map(|p| self.atlas.node(p.node)).collect();
+            let mut leg_times: Vec<f64> = self.tree.backwards(id).map(|p| p.duration).collect();
+            nodes.reverse();
+            leg_times.pop(); // the start has no leg
+            leg_times.reverse();
+            self.outcome.found.push(Found { waypoints, nodes, leg_times, score: self.tree.get(id).score });
+        }
+        self.tree.release(id);
+    }
+
+    /// Drops the worst until the frontier has its size.
+    fn bound(&mut self) {
+        while self.frontier.len() > self.settings.frontier {
+            let Some(worst) = self.frontier.pop_worst(|a, b| order(&self.tree, a, b)) else { return };
+            self.tree.release(worst.id);
+            self.outcome.dropped += 1;
+        }
+    }
+
+    /// Sets or clears the visited bits of a partial trajectory.
+    fn mark(&mut self, id: u32, visited: bool) {
+        for partial in self.tree.backwards(id) {
+            let word = &mut self.visited[partial.waypoint as usize / 64];
+            let bit = 1u64 << (partial.waypoint % 64);
+            *word = if visited { *word | bit } else { *word & !bit };
+        }
+    }
+
+    /// Whether what is not on the frontier any more cannot reach the end, or has a kept twin with the same futures.
+    fn nothing_was_lost(&self) -> bool {
+        self.outcome.dropped == 0 && (self.outcome.reduced == 0 || self.settings.revisits)
+    }
+
+    fn show(&self, entries: &[Entry]) -> Vec<(Vec<u32>, f64)> {
+        entries.iter().map(|entry| (self.tree.waypoints(entry.id), entry.score)).collect()
+    }
+}

@@ -1,0 +1,230 @@
+//! Scores: what a search calls stressful, leg by leg, and how legs add up to a trajectory.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::Point3;
+use thiserror::Error;
+
+use crate::feasibility::reach::LegFeatures;
+use crate::math::random::hashed_unit;
+
+/// A leg as a score sees it: the joint of waypoint `from` and waypoint `to`.
+#[derive(Debug, Clone, Copy)]
+pub struct LegView<'a> {
+    /// The graph, m: 0 the start, the last the end.
+    pub candidates: &'a [Point3<f64>],
+    /// Index of the leg's first waypoint.
+    pub from: u32,
+    /// Index of its second waypoint.
+    pub to: u32,
+    /// Planned duration, s.
+    pub duration: f64,
+    /// Speeds, turn, length, climb.
+    pub features: LegFeatures,
+}
+
+/// A score, built up leg by leg. What it remembers of a partial trajectory travels with it, so that extending one
+/// never starts again from its first waypoint. `exact` takes objectives with `Memory = ()`.
+///
+/// Any `Fn(&LegView) -> f64` is an objective without memory.
+pub trait Objective {
+    /// What is carried along a partial trajectory.
+    type Memory: Clone;
+
+    /// The memory of a trajectory that only stands at its start.
+    fn start(&self) -> Self::Memory;
+
+    /// The score of `leg` alone, flown after what `memory` remembers, and the memory after it. Larger is more
+    /// stressful; NaN counts as −∞.
+    fn extend(&self, memory: &Self::Memory, leg: &LegView<'_>) -> (f64, Self::Memory);
+}
+
+impl<F: Fn(&LegView<'_>) -> f64> Objective for F {
+    type Memory = ();
+
+    fn start(&self) {}
+
+    fn extend(&self, (): &(), leg: &LegView<'_>) -> (f64, ()) {
+        (self(leg), ())
+    }
+}
+
+/// The scores that have names.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Score {
+    /// A uniform number in [0, 1) per pair of waypoints, a pure function of `seed` and the two indices.
+    Random {
+        /// Seed of the graph's scores.
+        seed: u64,
+    },
+    /// v_out / v_max.
+    HighVelocity {
+        /// Speed that scores 1, m/s.
+        v_max: f64,
+    },
+    /// v_out / v_max + 1 − |α − T|/T, or with `product` v_out / v_max · (1 − |α − T|/T), α the turn angle.
+    HighVelocityTurn {
+        /// Speed that scores 1, m/s.
+        v_max: f64,
+        /// T: the turn angle that scores 1, rad.
+        turn: f64,
+        /// Whether the two parts are multiplied.
+        product: bool,
+    },
+}
+
+/// Why there is no such score.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ScoreMistake {
+    /// No score has this name.
+    #[error("no score is called `{name}`; must be one of {}", Score::NAMES.join(", "))]
+    Unknown {
+        /// The name as given.
+        name: String,
+    },
+    /// The top speed scales the score.
+    #[error("top speed {v_max} m/s; must be a finite number above 0")]
+    TopSpeed {
+        /// The value as given, m/s.
+        v_max: f64,
+    },
+}
+
+impl Score {
+    /// All names.
+    pub const NAMES: [&'static str; 6] = [
+        "random",
+        "high-velocity",
+        "high-velocity-90",
+        "high-velocity-180",
+        "high-velocity-90-product",
+        "high-velocity-180-product",
+    ];
+
+    /// The score called `name`. `v_max` (m/s) is the farthest sampled end ÷ step; `seed` is that of `random`.
+    pub fn named(name: &str, seed: u64, v_max: f64) -> Result<Self, ScoreMistake> {
+        let score = match name {
+            "random" => return Ok(Score::Random { seed }),
+            "high-velocity" => Score::HighVelocity { v_max },
+            "high-velocity-90" => Score::HighVelocityTurn { v_max, turn: FRAC_PI_2, product: false },
+            "high-velocity-180" => Score::HighVelocityTurn { v_max, turn: PI, product: false },
+            "high-velocity-90-product" => Score::HighVelocityTurn { v_max, turn: FRAC_PI_2, product: true },
+            "high-velocity-180-product" => Score::HighVelocityTurn { v_max, turn: PI, product: true },
+            _ => return Err(ScoreMistake::Unknown { name: name.into() }),
+        };
+        if !(v_max.is_finite() && v_max > 0.0) {
+            return Err(ScoreMistake::TopSpeed { v_max });
+        }
+        Ok(score)
+    }
+}
+
+impl Objective for Score {
+    type Memory = ();
+
+    fn start(&self) {}
+
+    fn extend(&self, (): &(), leg: &LegView<'_>) -> (f64, ()) {
+        let LegFeatures { v_out, turn: alpha, .. } = leg.features;
+        let score = match *self {
+            Score::Random { seed } => hashed_unit(seed, &[leg.from.into(), leg.to.into()]),
+            Score::HighVelocity { v_max } => v_out / v_max,
+            Score::HighVelocityTurn { v_max, turn, product } => {
+                let (fast, sharp) = (v_out / v_max, 1.0 - (alpha - turn).abs() / turn);
+                if product { fast * sharp } else { fast + sharp }
+            }
+        };
+        (score, ())
+    }
+}
+
+/// How the scores of legs become the score of a trajectory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Aggregate {
+    /// As in the paper.
+    #[default]
+    Sum,
+    /// The worst leg: what the verdict asks for.
+    Max,
+}
+
+impl Aggregate {
+    /// The score of a trajectory without legs: neutral to [`Aggregate::add`].
+    pub fn neutral(self) -> f64 {
+        match self {
+            Aggregate::Sum => 0.0,
+            Aggregate::Max => f64::NEG_INFINITY,
+        }
+    }
+
+    /// The score after one more leg (or after more legs that score `leg` together).
+    pub fn add(self, total: f64, leg: f64) -> f64 {
+        match self {
+            Aggregate::Sum => {
+                let sum = total + leg;
+                if sum.is_nan() { f64::NEG_INFINITY } else { sum }
+            }
+            Aggregate::Max => total.max(leg),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn leg(v_out: f64, turn_deg: f64) -> LegFeatures {
+        LegFeatures { v_in: 0.0, v_out, turn: turn_deg.to_radians(), length: v_out, climb: 0.0 }
+    }
+
+    fn score(name: &str, features: LegFeatures) -> f64 {
+        let view = LegView { candidates: &[], from: 3, to: 4, duration: 1.0, features };
+        Score::named(name, 7, 20.0).unwrap().extend(&(), &view).0
+    }
+
+    #[test]
+    fn the_authors_formulas() {
+        for (name, turn, expected) in [
+            ("high-velocity", 90.0, 0.5),
+            ("high-velocity-90", 90.0, 1.5),
+            ("high-velocity-90", 135.0, 1.0),
+            ("high-velocity-90", 0.0, 0.5),
+            ("high-velocity-90", 180.0, 0.5),
+            ("high-velocity-180", 180.0, 1.5),
+            ("high-velocity-180", 45.0, 0.75),
+            ("high-velocity-90-product", 45.0, 0.25),
+            ("high-velocity-180-product", 0.0, 0.0),
+        ] {
+            let got = score(name, leg(10.0, turn));
+            assert!((got - expected).abs() < 1e-12, "{name} at {turn}°: {got}");
+        }
+    }
+
+    #[test]
+    fn random_depends_on_seed_and_waypoints_alone() {
+        let at = |seed, from, to, v_out| {
+            let view = LegView { candidates: &[], from, to, duration: 1.0, features: leg(v_out, 10.0) };
+            Score::Random { seed }.extend(&(), &view).0
+        };
+        assert_eq!(at(1, 2, 3, 4.0), at(1, 2, 3, 9.0));
+        assert_ne!(at(1, 2, 3, 4.0), at(1, 3, 2, 4.0));
+        assert_ne!(at(1, 2, 3, 4.0), at(2, 2, 3, 4.0));
+    }
+
+    #[test]
+    fn every_name_is_known_and_others_are_told_all_of_them() {
+        for name in Score::NAMES {
+            assert!(Score::named(name, 0, 10.0).is_ok(), "{name}");
+        }
+        let message = Score::named("fast", 0, 10.0).unwrap_err().to_string();
+        assert!(message.contains("`fast`") && message.contains("high-velocity-180-product"), "{message}");
+        assert!(Score::named("high-velocity", 0, f64::NAN).is_err());
+        assert!(Score::named("high-velocity", 0, 0.0).is_err());
+    }
+
+    #[test]
+    fn nan_never_wins() {
+        assert_eq!(Aggregate::Sum.add(1.0, f64::NAN), f64::NEG_INFINITY);
+        assert_eq!(Aggregate::Max.add(1.0, f64::NAN), 1.0);
+    }
+}

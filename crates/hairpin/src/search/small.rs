@@ -1,0 +1,104 @@
+//! Test instances: an octahedron of second differences as reach set, seeded graphs, and brute force over them.
+
+use nalgebra::{Point3, Vector3};
+use rand::RngExt;
+
+use super::objective::{Aggregate, LegView, Objective};
+use super::task::Task;
+use crate::feasibility::reach::{Leg, LegFeatures, Reach, StepNode};
+use crate::math::random::stream;
+
+/// Second differences with |d − centre| ≤ 1 in the octahedron's norm, step 1 s.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Octahedron {
+    pub(super) centre: Vector3<f64>,
+    pub(super) half: Vector3<f64>,
+}
+
+impl Octahedron {
+    /// About 80 000 feasible triples in 252 points of a 30 m cube.
+    pub(super) const QUADROTOR: Self = Self { centre: Vector3::new(0.0, 0.0, 2.0), half: Vector3::new(9.4, 9.4, 9.25) };
+
+    /// Whether `d` lies in the octahedron grown `scale` times.
+    fn holds(&self, d: Vector3<f64>, scale: f64) -> bool {
+        (d - self.centre * scale).component_div(&self.half).abs().sum() <= scale
+    }
+
+    /// Necessary: with s steps left the end lies in w + s (w − v) + s (s + 1)/2 K, K convex.
+    pub(super) fn may_arrive(&self, points: &[Point3<f64>], node: &StepNode, steps: usize) -> bool {
+        let (before, now) = (points[node.previous as usize], points[node.current as usize]);
+        let s = steps as f64;
+        self.holds(points[points.len() - 1] - now - (now - before) * s, s * (s + 1.0) / 2.0)
+    }
+}
+
+impl Reach<StepNode> for Octahedron {
+    fn legs(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
+        let (before, now) = (candidates[from.previous as usize], candidates[from.current as usize]);
+        let arriving = now - before;
+        let expected = now + arriving;
+        for (i, point) in candidates.iter().enumerate() {
+            if i as u32 != from.current && self.holds(point - expected, 1.0) {
+                let leaving = point - now;
+                let v_in = arriving.norm();
+                let turn = if v_in > 0.0 { arriving.angle(&leaving) } else { 0.0 };
+                let length = leaving.norm();
+                let features = LegFeatures { v_in, v_out: length, turn, length, climb: leaving.z };
+                let to = StepNode { previous: from.current, current: i as u32 };
+                out.push(Leg { to, waypoint: i as u32, duration: 1.0, features });
+            }
+        }
+    }
+}
+
+/// Start, `count` seeded points in a cube of `size`, end.
+pub(super) fn points(seed: u64, count: usize, size: f64) -> Vec<Point3<f64>> {
+    let mut rng = stream(seed);
+    let mut points = vec![Point3::from(Vector3::repeat(size / 3.0))];
+    points.extend((0..count).map(|_| Point3::from_slice(&[(); 3].map(|()| size * rng.random::<f64>()))));
+    points.push(Point3::from(Vector3::repeat(size * 2.0 / 3.0)));
+    points
+}
+
+/// The start's node.
+pub(super) const START: StepNode = StepNode { previous: 0, current: 0 };
+
+/// Every trajectory of `length` waypoints with its score, best first, ties by waypoint index: plain recursion.
+pub(super) fn enumerate<O: Objective<Memory = ()>, R: Reach<StepNode>>(
+    task: &Task<'_, StepNode, R>,
+    objective: &O,
+    (length, revisits, aggregate): (usize, bool, Aggregate),
+) -> Vec<(Vec<u32>, f64)> {
+    fn walk<O: Objective<Memory = ()>, R: Reach<StepNode>>(
+        task: &Task<'_, StepNode, R>,
+        objective: &O,
+        (length, revisits, aggregate): (usize, bool, Aggregate),
+        (node, path, score): (StepNode, &mut Vec<u32>, f64),
+        all: &mut Vec<(Vec<u32>, f64)>,
+    ) {
+        if path.len() == length {
+            if node.current == task.end() {
+                all.push((path.clone(), score));
+            }
+            return;
+        }
+        let mut legs = Vec::new();
+        task.reach.legs(&node, task.candidates, &mut legs);
+        for leg in legs {
+            if revisits || !path.contains(&leg.waypoint) {
+                let Leg { to, waypoint, duration, features } = leg;
+                let from = node.current;
+                let view = LegView { candidates: task.candidates, from, to: waypoint, duration, features };
+                let score = aggregate.add(score, objective.extend(&(), &view).0);
+                path.push(waypoint);
+                walk(task, objective, (length, revisits, aggregate), (to, path, score), all);
+                path.pop();
+            }
+        }
+    }
+    let mut all = Vec::new();
+    let first = (task.start, &mut vec![0], aggregate.neutral());
+    walk(task, objective, (length, revisits, aggregate), first, &mut all);
+    all.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    all
+}
