@@ -29,7 +29,18 @@ const NEVER: &[(&str, &[&str])] = &[
     ("trajectory", &["world"]),
     ("judgement", &["robot", "world"]),
     ("search", &["world", "simulation", "judgement"]),
-    ("verification", &["feasibility", "simulation", "robot", "trajectory", "math::integrate", "math::minimum_snap"]),
+    (
+        "verification",
+        &[
+            "feasibility",
+            "simulation",
+            "robot",
+            "trajectory",
+            "math::integrate",
+            "math::minimum_snap",
+            "math::polynomial",
+        ],
+    ),
 ];
 
 /// What the numerics never touch outside tests: files, the clock, the process, threads, printing, global randomness.

@@ -2,22 +2,25 @@
 //!
 //! A witness claims: under the rotor speeds that its polynomials imply, the robot flies from waypoint to waypoint,
 //! level and at rest in its rates at each. Here that is checked by other means than those that found it: rotor speeds
-//! from truncated Taylor series of the thrust vector ([`demand`]), the rigid body with a rotation matrix
-//! ([`body`]), implicit Gauss collocation of order 12 ([`gauss`]). Nothing is shared with feasibility, search,
+//! from truncated Taylor series of the thrust vector (`demand`), the rigid body with a rotation matrix
+//! (`body`), implicit Gauss collocation of order 12 (`gauss`). Nothing is shared with feasibility, search,
 //! simulation, the robot's own equations or the integrators of `math`.
 
 mod body;
 mod claim;
 mod demand;
+mod finding;
 mod gauss;
 mod jet;
 mod knots;
 mod proof;
 mod replay;
+mod rotors;
 
 #[cfg(test)]
 mod tests;
 
 pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
-pub use proof::{EndError, Finding, Proof, Tolerances, Worst, open_loop_with_lag, verify};
+pub use finding::{EndError, Finding, Proof, Tolerances, Worst};
+pub use proof::{open_loop_with_lag, verify};
