@@ -17,7 +17,6 @@ mod path;
 mod spec;
 mod world;
 
-pub use check::SCORES;
 pub use distribution::Distribution;
 pub use execute::*;
 pub use generate::*;

@@ -2,16 +2,7 @@
 
 use super::Findings;
 use crate::campaign::scenario::{GenerateSection, LimitsSection, ReachName, SearchMethod, SearchSection, Timing};
-
-/// Names of the scores.
-pub const SCORES: &[&str] = &[
-    "random",
-    "high-velocity",
-    "high-velocity-90",
-    "high-velocity-180",
-    "high-velocity-90-product",
-    "high-velocity-180-product",
-];
+use crate::search::Score;
 
 /// The frontier search looks at every waypoint in every expansion.
 const MOST_WAYPOINTS: u64 = 100_000;
@@ -83,11 +74,11 @@ fn check_search(search: &SearchSection, generate: &GenerateSection, found: &mut 
 fn check_score(score: &str, found: &mut Findings) {
     let value = format!("\"{score}\"");
     if score.starts_with("learned:") || score.starts_with("python:") {
-        let bound = format!("one of {}: learned and Python scores are not in this version", SCORES.join(", "));
+        let bound = format!("one of {}: learned and Python scores are not in this version", Score::NAMES.join(", "));
         found.require(false, "generate.score", value, &bound);
     } else {
-        let bound = format!("one of {}", SCORES.join(", "));
-        found.require(SCORES.contains(&score), "generate.score", value, &bound);
+        let bound = format!("one of {}", Score::NAMES.join(", "));
+        found.require(Score::NAMES.contains(&score), "generate.score", value, &bound);
     }
 }
 

@@ -11,8 +11,6 @@ mod tests;
 mod vary;
 mod world;
 
-pub use generate::SCORES;
-
 use super::{Mistake, Scenario};
 use crate::campaign::setup::{robot_of, world_of};
 
