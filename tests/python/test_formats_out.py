@@ -1,0 +1,189 @@
+"""What a campaign folder holds, read by the formats' own reference readers: pyarrow, evo, junitparser.
+
+The folder is $HAIRPIN_CAMPAIGN, or is made by the binary $HAIRPIN_BIN (a small campaign, then TUM, CSV and waypoints).
+"""
+
+import csv
+import json
+import os
+import shutil
+import subprocess
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+CONTRACT = (
+    "case,seed,status,evidence,length,score,max_deviation_m,mean_deviation_m,t_worst_s,leg_worst,"
+    "max_acceleration_m_s2,total_time_s,min_clearance_m,saturation_share,ended"
+).split(",")
+POSE = "t_s,leg,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s".split(",")
+SMALL = ["--set", "generate.search.cases=3", "--set", "execute.repeat=2", "--seed", "10"]
+# Attributes that Jenkins' xUnit schema has for each element; one more and it drops the whole file.
+JENKINS = {
+    "testsuites": {"name", "time", "tests", "failures", "errors"},
+    "testsuite": {"name", "tests", "failures", "errors", "skipped", "time", "timestamp"},
+    "testcase": {"name", "classname", "time"},
+    "properties": set(),
+    "property": {"name", "value"},
+    "failure": {"type", "message"},
+    "error": {"type", "message"},
+    "skipped": {"type", "message"},
+}
+
+
+def run(*arguments, cwd=None):
+    done = subprocess.run([os.environ["HAIRPIN_BIN"], *map(str, arguments)], cwd=cwd, capture_output=True, text=True)
+    assert done.returncode in (0, 1), f"{arguments}: exit {done.returncode}\n{done.stdout}\n{done.stderr}"
+    return done
+
+
+@pytest.fixture(scope="session")
+def campaign(tmp_path_factory):
+    if given := os.environ.get("HAIRPIN_CAMPAIGN"):
+        return Path(given)
+    if "HAIRPIN_BIN" not in os.environ:
+        pytest.skip("neither HAIRPIN_CAMPAIGN nor HAIRPIN_BIN is set")
+    place = tmp_path_factory.mktemp("campaign")
+    run("new", "quadrotor", cwd=place)
+    out = place / "out"
+    run("stress", place / "quadrotor.toml", "--out", out, *SMALL)
+    run("export", out, "--to", "tum,csv,waypoints")
+    return out
+
+
+def table(path):
+    return pq.read_table(path)
+
+
+def files(campaign, folder, ending="*.parquet"):
+    found = sorted((campaign / folder).glob(ending))
+    assert found, f"no {folder}/{ending}"
+    return found
+
+
+def test_results_begin_with_the_contract(campaign):
+    results = table(campaign / "results.parquet")
+    assert results.column_names[: len(CONTRACT)] == CONTRACT
+    assert results.schema.field("seed").type == pa.uint64()
+    assert results.schema.field("case").type == pa.string()
+    cases = results["case"].to_pylist()
+    assert cases == [f"{number:04}" for number in range(len(cases))]
+    assert set(results["status"].to_pylist()) <= {"pass", "fail", "executor-failed", "inconclusive"}
+    assert set(results["evidence"].to_pylist()) <= {"witnessed", "hull-feasible", "unchecked"}
+
+
+def test_every_table_is_snappy_and_says_its_schema(campaign):
+    for path in campaign.rglob("*.parquet"):
+        opened = pq.ParquetFile(path)
+        notes = opened.schema_arrow.metadata or {}
+        notes = {**notes, **(opened.metadata.metadata or {})}
+        assert notes[b"hairpin.schema"] and int(notes[b"hairpin.schema_version"]) >= 1, path
+        for group in range(opened.num_row_groups):
+            for column in range(opened.metadata.num_columns):
+                assert opened.metadata.row_group(group).column(column).compression == "SNAPPY", path
+
+
+def test_trajectories_and_executions_share_their_columns(campaign):
+    for path in files(campaign, "trajectories") + files(campaign, "executions"):
+        track = table(path)
+        if track.num_rows == 0:
+            continue  # a failed executor
+        assert track.column_names[: len(POSE)] == POSE, path
+        times = track["t_s"].to_pylist()
+        assert all(a < b for a, b in zip(times, times[1:])), path
+        for w, x, y, z in zip(*(track[name].to_pylist() for name in ("qw", "qx", "qy", "qz"))):
+            assert abs(w * w + x * x + y * y + z * z - 1) < 1e-9, path
+
+
+def test_profiles_are_continuous_polynomials_through_the_waypoints(campaign):
+    points = table(campaign / "waypoints.parquet").to_pylist()
+    for path in sorted((campaign / "profiles").glob("*.parquet")):
+        own = [row for row in points if row["case"] == path.stem]
+        for row in table(path).to_pylist():
+            start, end = own[row["leg"]], own[row["leg"] + 1]
+            key = f"{row['axis']}_m"
+            value = sum(row[f"c{i}"] * row["duration_s"] ** i for i in range(8))
+            assert abs(row["c0"] - start[key]) < 1e-6 and abs(value - end[key]) < 1e-6, (path, row)
+
+
+@pytest.mark.parametrize("compression", ["none", "zstd", "gzip", "lz4"])
+def test_verify_takes_profiles_of_another_writer(campaign, tmp_path, compression):
+    if "HAIRPIN_BIN" not in os.environ or not list((campaign / "profiles").glob("*.parquet")):
+        pytest.skip("needs HAIRPIN_BIN and a campaign with witnesses")
+    copy = tmp_path / "copy"
+    shutil.copytree(campaign, copy)
+    for path in files(copy, "profiles"):
+        rewritten = table(path).replace_schema_metadata(None)
+        leg = rewritten.column_names.index("leg")
+        rewritten = rewritten.set_column(leg, "leg", rewritten["leg"].cast(pa.int32()))
+        axis = rewritten.column_names.index("axis")
+        rewritten = rewritten.set_column(axis, "axis", rewritten["axis"].dictionary_encode())
+        pq.write_table(rewritten, path, compression=compression, row_group_size=5)
+    answer = json.loads(run("verify", copy, "--json").stdout)
+    assert answer["checked"] > 0 and answer["failed"] == 0, answer
+
+
+def test_junit_is_read_and_keeps_to_jenkins_schema(campaign):
+    from junitparser import JUnitXml
+
+    path = campaign / "junit.xml"
+    suites = JUnitXml.fromfile(str(path))
+    cases = [case for suite in suites for case in suite]
+    results = table(campaign / "results.parquet")
+    assert len(cases) >= results.num_rows
+    failed = sum(status == "fail" for status in results["status"].to_pylist())
+    assert sum(suite.failures for suite in suites) == failed
+    for element in ElementTree.parse(path).iter():
+        assert set(element.attrib) <= JENKINS[element.tag], element.tag
+        if element.tag == "testcase":
+            assert not element.findall("properties")
+        if element.tag == "failure":
+            assert element.get("type") == "SpecViolation" and " at t=" in element.get("message")
+
+
+def test_evo_reads_the_tum_pair_on_the_same_stamps(campaign):
+    from evo.core import metrics, sync
+    from evo.tools import file_interface
+
+    references = sorted(campaign.rglob("*.ref.tum"))
+    if not references:
+        pytest.skip("nothing exported to TUM")
+    for path in references:
+        reference = file_interface.read_tum_trajectory_file(str(path))
+        executed = file_interface.read_tum_trajectory_file(str(path).replace(".ref.", ".exec."))
+        assert reference.check()[0] and executed.check()[0], path
+        assert (reference.timestamps == executed.timestamps).all(), path
+        pair = sync.associate_trajectories(reference, executed, max_diff=1e-9)
+        assert pair[0].num_poses == reference.num_poses
+        error = metrics.APE(metrics.PoseRelation.translation_part)
+        error.process_data(pair)
+        assert error.get_all_statistics()["max"] >= 0
+
+
+def test_csv_is_numeric_with_t_first(campaign):
+    found = [path for path in campaign.rglob("*.csv") if path.parent.name != "missions"]
+    if not found:
+        pytest.skip("nothing exported to CSV")
+    for path in found:
+        with open(path, newline="") as file:
+            rows = list(csv.reader(file))
+        assert rows[0][0] == "t", path
+        times = [float(row[0]) for row in rows[1:]]
+        assert all(a < b for a, b in zip(times, times[1:])), path
+        assert all(len(row) == len(rows[0]) and [float(cell) for cell in row] for row in rows[1:]), path
+
+
+def test_exported_waypoints_are_those_of_the_table(campaign):
+    found = sorted((campaign / "missions").glob("*.csv"))
+    if not found:
+        pytest.skip("no waypoints exported")
+    points = table(campaign / "waypoints.parquet").to_pylist()
+    for path in found:
+        with open(path, newline="") as file:
+            rows = list(csv.DictReader(file))
+        assert list(rows[0]) == ["x_m", "y_m", "z_m"]
+        own = [[row[key] for key in ("x_m", "y_m", "z_m")] for row in points if row["case"] == path.stem]
+        assert [[float(row[key]) for key in ("x_m", "y_m", "z_m")] for row in rows] == own, path
