@@ -1,5 +1,6 @@
 //! Reproducible random streams: every consumer names its own, so that no result depends on order or threads.
 
+use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
 /// The generator of every stream: PCG XSL 128/64 (MCG), equal on every machine.
@@ -41,6 +42,25 @@ pub fn hashed_unit(seed: u64, words: &[u64]) -> f64 {
     (mix(h) >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
+/// `N` independent standard normal numbers by Marsaglia's polar method, with `libm`: the same bits on every machine.
+pub fn standard_normals<const N: usize>(stream: &mut Stream) -> [f64; N] {
+    let mut out = [0.0; N];
+    for pair in out.chunks_mut(2) {
+        let (x, y, scale) = loop {
+            let [x, y] = [0, 1].map(|_| (stream.next_u64() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0);
+            let s = x * x + y * y;
+            if s > 0.0 && s < 1.0 {
+                break (x, y, (-2.0 * libm::log(s) / s).sqrt());
+            }
+        };
+        pair[0] = x * scale;
+        if let Some(second) = pair.get_mut(1) {
+            *second = y * scale;
+        }
+    }
+    out
+}
+
 fn mix(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -57,7 +77,6 @@ fn first_u64(hasher: &blake3::Hasher) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rand::Rng;
 
     #[test]
     fn streams_differ_and_repeat() {
@@ -65,6 +84,19 @@ mod tests {
         assert_ne!(stream(7).next_u64(), stream(8).next_u64());
         assert_ne!(case_seed(1, 0), case_seed(0, 1));
         assert_ne!(named_seed(1, "graph", 0), named_seed(1, "wind", 0));
+    }
+
+    #[test]
+    fn normals_have_the_moments_of_a_normal() {
+        let mut stream = stream(11);
+        let n = 60_000;
+        let all: Vec<f64> = (0..n / 3).flat_map(|_| standard_normals::<3>(&mut stream)).collect();
+        let moment = |k: i32| all.iter().map(|x| x.powi(k)).sum::<f64>() / n as f64;
+        // Standard errors of the first four: 1, √2, √15, √96 over √n; four of them are allowed.
+        for (k, (expected, spread)) in [(0.0, 1.0), (1.0, 1.42), (0.0, 3.88), (3.0, 9.8)].into_iter().enumerate() {
+            let found = moment(k as i32 + 1);
+            assert!((found - expected).abs() < 4.0 * spread / (n as f64).sqrt(), "moment {}: {found}", k + 1);
+        }
     }
 
     #[test]

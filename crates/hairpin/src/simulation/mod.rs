@@ -1,1 +1,44 @@
 //! Floor 5, the act: plants with what the claim leaves out, controllers, and the loop closed over them.
+//!
+//! [`fly`] is the one verb: it flies a robot along a course and says what happened. The act shares the robot's numbers with
+//! the claim and nothing else.
+
+mod close_loop;
+mod controller;
+mod course;
+mod disturbance;
+mod hazard;
+mod inner_loop;
+mod mixer;
+mod plant;
+mod recorder;
+mod step;
+
+#[cfg(test)]
+mod tests;
+
+use thiserror::Error;
+
+pub use close_loop::{FlySettings, Sortie, fly};
+pub use controller::{ControllerKind, ControllerSettings, SegmentTimes};
+pub use disturbance::{Conditions, Disturbances, Gusts};
+pub use plant::{Plant, PlantState};
+pub use step::Stepper;
+
+/// Why a flight cannot be simulated.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{field} = {value}: must be {bound}")]
+pub struct SimulationError {
+    /// The setting.
+    pub field: &'static str,
+    /// The offending value, or what is wrong with it.
+    pub value: String,
+    /// What it must be.
+    pub bound: &'static str,
+}
+
+impl SimulationError {
+    fn new(field: &'static str, value: String, bound: &'static str) -> Self {
+        Self { field, value, bound }
+    }
+}

@@ -1,0 +1,246 @@
+//! Closes the loop over plant and controller, and flies a course to its end.
+
+use nalgebra::{Point3, Vector3};
+
+use super::SimulationError;
+use super::controller::{ControllerSettings, Demand, Measured, Pilot};
+use super::course::Course;
+use super::disturbance::{Conditions, Disturbances};
+use super::hazard::Hazards;
+use super::inner_loop::InnerLoop;
+use super::plant::{ATTITUDE, POSITION, Plant, PlantState, VELOCITY};
+use super::recorder::Recorder;
+use super::step::Stepper;
+use crate::robot::Dynamics;
+use crate::robot::quadrotor::Quadrotor;
+use crate::trajectory::{Ended, Flight, Profile};
+use crate::world::World;
+
+/// Nominal period of the rate loop, s (FlightGoggles: 960 Hz).
+const INNER_PERIOD: f64 = 0.001;
+/// Time between two looks at waypoints and hazards, s.
+const WATCH_PERIOD: f64 = 0.01;
+
+/// What flies where.
+#[derive(Debug, Clone, Copy)]
+pub struct Sortie<'a> {
+    /// The robot.
+    pub robot: &'a Quadrotor,
+    /// The space.
+    pub world: &'a World,
+    /// Both ends included, m, at least two. The run starts at the first, at rest and hovering.
+    pub waypoints: &'a [Point3<f64>],
+    /// The planned motion through them, one leg between each two, for controllers that track it.
+    pub profile: Option<&'a Profile>,
+}
+
+/// How a run is simulated, ended and logged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlySettings {
+    /// Step of the physics, s: 1e-5 … 1e-3.
+    pub step: f64,
+    /// Time between two samples of the log, s, rounded to whole milliseconds.
+    pub log_period: f64,
+    /// A waypoint counts as reached inside this radius, m.
+    pub accept: f64,
+    /// A run ends here, s.
+    pub time_limit: f64,
+    /// Time after the last waypoint that belongs to the run, s.
+    pub linger: f64,
+    /// Whether leaving the world is a crash.
+    pub walls: bool,
+}
+
+impl Default for FlySettings {
+    fn default() -> Self {
+        Self { step: 0.001, log_period: 0.01, accept: 1.0, time_limit: 90.0, linger: 2.0, walls: false }
+    }
+}
+
+impl FlySettings {
+    fn check(&self) -> Result<(), SimulationError> {
+        if !(1e-5..=1e-3).contains(&self.step) {
+            return Err(SimulationError::new("step", self.step.to_string(), "from 1e-5 to 1e-3 s"));
+        }
+        let positive = [("log_period", self.log_period), ("accept", self.accept), ("time_limit", self.time_limit)];
+        for (field, value) in positive {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(SimulationError::new(field, value.to_string(), "finite and > 0"));
+            }
+        }
+        if !(self.linger.is_finite() && self.linger >= 0.0) {
+            return Err(SimulationError::new("linger", self.linger.to_string(), "finite and ≥ 0 s"));
+        }
+        Ok(())
+    }
+}
+
+/// Flies one run: the same bytes for the same arguments.
+///
+/// The run ends `linger` seconds after its course is over, at the time limit, or at a crash: below the ground (z < 0; a
+/// take-off from the floor may dip), the robot's clearance radius in an obstacle, body z downwards for more than
+/// 0.5 s or a state that is no longer finite (`tumble`), outside the world's sides or ceiling with `walls`. The log has
+/// the channels of [`Flight`], and body rates; `saturated` is the share of rotors at a limit since the sample before.
+///
+/// # Errors
+/// Settings out of bounds; fewer than two waypoints or one that is not finite; a profile with another number of legs; a
+/// rotor layout that cannot hover; a course without a minimum-snap curve where one is needed.
+pub fn fly(
+    sortie: &Sortie,
+    controller: &ControllerSettings,
+    conditions: &Conditions,
+    settings: &FlySettings,
+    seed: u64,
+) -> Result<Flight, SimulationError> {
+    settings.check()?;
+    conditions.check()?;
+    check_course(sortie)?;
+    let mut run = ClosedLoop::new(sortie, controller, conditions, settings, seed)?;
+    let mut course = Course::new(sortie.waypoints, settings.accept);
+    let start = sortie.waypoints[0].coords;
+    let mut hazards = Hazards::new(sortie.world, sortie.robot.clearance_radius, settings.walls, &start);
+    let mut recorder = Recorder::new((settings.time_limit / settings.log_period) as usize + 2);
+
+    let ticks = |period: f64| ((period / run.period).round() as u64).max(1);
+    let (watch_every, log_every, turn_every) =
+        (ticks(WATCH_PERIOD), ticks(settings.log_period), ticks(run.pilot.period()));
+    let (mut to_watch, mut to_log, mut to_turn) = (0, 0, 0);
+    let mut tick: u64 = 0;
+    let ended = loop {
+        let t = tick as f64 * run.period;
+        if to_watch == 0 {
+            to_watch = watch_every;
+            let position = run.position();
+            course.note(t, &position, run.pilot.schedule());
+            let ended = hazards.note(t, &position, run.up()).or(end_of_time(t, &course, settings));
+            if let Some(ended) = ended {
+                run.log(&mut recorder, t, course.leg());
+                break ended;
+            }
+        }
+        if to_log == 0 {
+            to_log = log_every;
+            run.log(&mut recorder, t, course.leg());
+        }
+        if to_turn == 0 {
+            to_turn = turn_every;
+            run.turn(turn_every as f64 * run.period, course.target());
+        }
+        (to_watch, to_log, to_turn) = (to_watch - 1, to_log - 1, to_turn - 1);
+        run.tick();
+        tick += 1;
+    };
+    let left_world = hazards.left_world();
+    Ok(Flight { track: recorder.into_track(), ended, left_world, reached: course.into_reached() })
+}
+
+fn end_of_time(t: f64, course: &Course, settings: &FlySettings) -> Option<Ended> {
+    let rounding = 1e-9;
+    if course.over().is_some_and(|over| t >= over + settings.linger - rounding) {
+        return Some(course.outcome());
+    }
+    (t >= settings.time_limit - rounding).then_some(Ended::Time)
+}
+
+fn check_course(sortie: &Sortie) -> Result<(), SimulationError> {
+    let points = sortie.waypoints;
+    if points.len() < 2 {
+        return Err(SimulationError::new("waypoints", points.len().to_string(), "at least two"));
+    }
+    if let Some(point) = points.iter().find(|point| !point.iter().all(|c| c.is_finite())) {
+        return Err(SimulationError::new("waypoints", format!("{:?}", point.coords.as_slice()), "finite"));
+    }
+    match sortie.profile {
+        Some(profile) if profile.legs.len() + 1 != points.len() => {
+            let found = format!("{} legs for {} waypoints", profile.legs.len(), points.len());
+            Err(SimulationError::new("profile", found, "one leg between each two waypoints"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Plant, disturbances and loops of one run.
+struct ClosedLoop {
+    plant: Plant,
+    stepper: Stepper,
+    state: PlantState,
+    disturbances: Disturbances,
+    inner: InnerLoop,
+    pilot: Pilot,
+    demand: Demand,
+    /// Time between two ticks of the rate loop, s, and physics steps in it.
+    period: f64,
+    steps: u32,
+    /// Rotors at a limit since the last sample, summed over ticks, and those ticks.
+    at_limit: u64,
+    ticks: u64,
+}
+
+impl ClosedLoop {
+    fn new(
+        sortie: &Sortie,
+        controller: &ControllerSettings,
+        conditions: &Conditions,
+        settings: &FlySettings,
+        seed: u64,
+    ) -> Result<Self, SimulationError> {
+        let robot = sortie.robot;
+        let steps = ((INNER_PERIOD / settings.step).round() as u32).max(1);
+        let period = steps as f64 * settings.step;
+        let inner = InnerLoop::new(robot, period).ok_or_else(|| {
+            SimulationError::new(
+                "robot.rotors",
+                robot.name.clone(),
+                "a layout that can hover and turn about every axis",
+            )
+        })?;
+        let plant = Plant::new(robot);
+        Ok(Self {
+            stepper: Stepper::new(&plant, settings.step),
+            state: Plant::at_rest(&sortie.waypoints[0].coords, &inner.hover(robot)),
+            disturbances: Disturbances::new(robot, conditions, settings.step, seed),
+            pilot: Pilot::new(controller, robot, sortie.waypoints, sortie.profile)?,
+            demand: Demand::along(Vector3::z() * robot.gravity),
+            plant,
+            inner,
+            period,
+            steps,
+            at_limit: 0,
+            ticks: 0,
+        })
+    }
+
+    /// The outer loop's turn.
+    fn turn(&mut self, dt: f64, (target, hold): (Vector3<f64>, bool)) {
+        let velocity = self.state.fixed_rows::<3>(VELOCITY).into_owned();
+        self.demand = self.pilot.control(dt, &Measured { position: self.position(), velocity, target, hold });
+    }
+
+    /// One tick of the rate loop, and the physics until the next.
+    #[inline(always)]
+    fn tick(&mut self) {
+        let mixed = self.inner.command(&self.demand, &self.state);
+        self.at_limit += u64::from(mixed.at_limit);
+        self.ticks += 1;
+        for _ in 0..self.steps {
+            self.disturbances.act_on(&mut self.plant);
+            self.stepper.advance(&self.plant, &mut self.state, &mixed.speeds);
+        }
+    }
+
+    fn position(&self) -> Vector3<f64> {
+        self.state.fixed_rows::<3>(POSITION).into_owned()
+    }
+
+    /// The body z axis's part along the world's; NaN for a state that is not finite.
+    fn up(&self) -> f64 {
+        let finite = self.state.iter().all(|x| x.is_finite());
+        if finite { crate::math::rotation::body_z(&self.state.as_slice()[ATTITUDE..]).z } else { f64::NAN }
+    }
+
+    fn log(&mut self, recorder: &mut Recorder, t: f64, leg: usize) {
+        let saturated = if self.ticks > 0 { self.at_limit as f64 / (4 * self.ticks) as f64 } else { 0.0 };
+        (self.at_limit, self.ticks) = (0, 0);
+        recorder.push(t, &self.plant.pose(&self.state), &self.state, leg, saturated);
+    }
+}

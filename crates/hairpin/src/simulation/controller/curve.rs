@@ -1,0 +1,94 @@
+//! A timed reference and the clock that runs along it.
+
+use nalgebra::{Point3, Vector3};
+
+use super::{Schedule, SegmentTimes};
+use crate::math::minimum_snap::minimum_snap;
+use crate::robot::quadrotor::Quadrotor;
+use crate::simulation::SimulationError;
+use crate::trajectory::{Profile, ProfileLeg};
+
+/// Shortest leg time of a reference, s: waypoints that coincide still take some.
+const LEAST_LEG_TIME: f64 = 0.2;
+
+/// A profile and a clock on it.
+#[derive(Debug, Clone)]
+pub(crate) struct Curve {
+    legs: Vec<ProfileLeg>,
+    leg: usize,
+    tau: f64,
+}
+
+/// Position, velocity, acceleration, jerk, snap of a reference.
+pub(crate) type Sample = [Vector3<f64>; 5];
+
+impl Curve {
+    /// A given profile; `None` if it has no legs.
+    pub(crate) fn new(profile: &Profile) -> Option<Self> {
+        (!profile.legs.is_empty()).then(|| Self { legs: profile.legs.clone(), leg: 0, tau: 0.0 })
+    }
+
+    /// The minimum-snap curve through waypoints.
+    ///
+    /// # Errors
+    /// Waypoints that have no such curve.
+    pub(crate) fn through(
+        robot: &Quadrotor,
+        waypoints: &[Point3<f64>],
+        rule: SegmentTimes,
+    ) -> Result<Self, SimulationError> {
+        let times = leg_times(robot, waypoints, rule);
+        let segments = minimum_snap(waypoints, &times)
+            .map_err(|error| SimulationError::new("waypoints", error.to_string(), "joined by a minimum-snap curve"))?;
+        let legs = segments
+            .into_iter()
+            .zip(times)
+            .map(|(coefficients, duration)| ProfileLeg { duration, coefficients })
+            .collect();
+        Ok(Self { legs, leg: 0, tau: 0.0 })
+    }
+
+    /// Lets `dt` s pass on the reference's clock, which stops at the end.
+    pub(crate) fn advance(&mut self, dt: f64) {
+        self.tau += dt;
+        while self.leg + 1 < self.legs.len() && self.tau >= self.legs[self.leg].duration {
+            self.tau -= self.legs[self.leg].duration;
+            self.leg += 1;
+        }
+        self.tau = self.tau.min(self.legs[self.leg].duration);
+    }
+
+    /// The reference now. At its end it stands still.
+    pub(crate) fn sample(&self) -> Sample {
+        let leg = &self.legs[self.leg];
+        let mut sample = [0, 1, 2, 3, 4].map(|order| leg.derivative(self.tau, order));
+        if self.schedule().over {
+            sample[1..].fill(Vector3::zeros());
+        }
+        sample
+    }
+
+    /// Where the clock stands.
+    pub(crate) fn schedule(&self) -> Schedule {
+        let over = self.leg + 1 == self.legs.len() && self.tau >= self.legs[self.leg].duration;
+        Schedule { leg: self.leg, over }
+    }
+}
+
+/// T = √(7.51 L/a), the time in which the rest-to-rest polynomial of length L peaks at the acceleration a: half a g, or
+/// half of what the thrust leaves; longer where its peak speed 2.19 L/T would pass the robot's top speed.
+/// By length: the same total, shared out by L.
+fn leg_times(robot: &Quadrotor, waypoints: &[Point3<f64>], rule: SegmentTimes) -> Vec<f64> {
+    let spare = robot.max_thrust() / robot.mass - robot.gravity;
+    let acceleration = 0.5 * robot.gravity.min(spare.max(0.1 * robot.gravity));
+    let lengths: Vec<f64> = waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
+    let time = |l: &f64| (7.513 * l / acceleration).sqrt().max(2.1875 * l / robot.max_speed);
+    let mut times: Vec<f64> = lengths.iter().map(time).collect();
+    if rule == SegmentTimes::Length {
+        let (total, length): (f64, f64) = (times.iter().sum(), lengths.iter().sum());
+        if length > 0.0 {
+            times = lengths.iter().map(|l| total * l / length).collect();
+        }
+    }
+    times.iter().map(|t| t.max(LEAST_LEG_TIME)).collect()
+}

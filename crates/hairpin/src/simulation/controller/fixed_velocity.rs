@@ -1,0 +1,44 @@
+//! `fixed-velocity`: one speed, shared over the axes by the direction to the waypoint, until the last one is reached.
+
+use nalgebra::Vector3;
+
+use super::cascade::{Cascade, Gains};
+use super::{Controller, Demand, Measured};
+use crate::robot::quadrotor::Quadrotor;
+
+/// Fixed by `tests/step_responses.rs`.
+const GAINS: Gains = Gains {
+    position: Vector3::new(0.9, 0.9, 0.9),
+    velocity_p: Vector3::new(2.5, 2.5, 3.0),
+    velocity_i: Vector3::new(0.1, 0.1, 0.3),
+    velocity_d: Vector3::new(0.05, 0.05, 0.05),
+    winds_up: false,
+    max_speed: f64::INFINITY,
+    max_tilt: 0.5,
+};
+
+/// See the file's first line.
+#[derive(Debug, Clone)]
+pub(crate) struct FixedVelocity {
+    cascade: Cascade,
+    speed: f64,
+}
+
+impl FixedVelocity {
+    /// Flies at `speed` m/s, or the robot's top speed if that is less.
+    pub(crate) fn new(robot: &Quadrotor, speed: f64) -> Self {
+        Self { cascade: Cascade::new(robot, Gains { max_speed: speed, ..GAINS }), speed: speed.min(robot.max_speed) }
+    }
+}
+
+impl Controller for FixedVelocity {
+    fn control(&mut self, dt: f64, measured: &Measured) -> Demand {
+        let error = measured.target - measured.position;
+        let wanted = if measured.hold {
+            self.cascade.approach(&error)
+        } else {
+            error.try_normalize(1e-6).unwrap_or(Vector3::zeros()) * self.speed
+        };
+        self.cascade.follow(dt, measured, &wanted)
+    }
+}

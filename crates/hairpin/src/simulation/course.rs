@@ -1,0 +1,88 @@
+//! How far along its course a run is: which waypoints were reached, which leg is being flown, when it is over.
+
+use nalgebra::{Point3, Vector3};
+
+use super::controller::Schedule;
+use crate::trajectory::Ended;
+
+/// Progress along waypoints, both ends included.
+///
+/// A controller that flies from waypoint to waypoint has its next one once it is inside the acceptance radius, in
+/// order; the leg being flown is the one that ends there. A controller that tracks a timed reference flies the
+/// reference's leg, whether or not it came near the waypoint: being late is what it is judged for. A waypoint is then
+/// reached if the robot comes inside the radius while one of its two legs is flown, and the run is over once the
+/// reference is over and the last waypoint reached; it ends `time` instead of `done` if any waypoint was missed.
+#[derive(Debug, Clone)]
+pub(crate) struct Course<'a> {
+    waypoints: &'a [Point3<f64>],
+    accept: f64,
+    next: usize,
+    leg: usize,
+    reached: Vec<Option<f64>>,
+    over: Option<f64>,
+}
+
+impl<'a> Course<'a> {
+    /// At the start, the first waypoint reached at t = 0.
+    pub(crate) fn new(waypoints: &'a [Point3<f64>], accept: f64) -> Self {
+        let mut reached = vec![None; waypoints.len()];
+        reached[0] = Some(0.0);
+        Self { waypoints, accept, next: 1, leg: 0, reached, over: None }
+    }
+
+    /// Takes note of the position at `t`.
+    pub(crate) fn note(&mut self, t: f64, position: &Vector3<f64>, schedule: Option<Schedule>) {
+        let last = self.waypoints.len() - 1;
+        match schedule {
+            None => {
+                while self.next <= last && self.within(self.next, position) {
+                    self.reached[self.next] = Some(t);
+                    self.next += 1;
+                }
+                self.leg = (self.next - 1).min(last - 1);
+            }
+            Some(schedule) => {
+                self.leg = schedule.leg.min(last - 1);
+                for k in self.leg..=self.leg + 1 {
+                    if self.reached[k].is_none() && self.within(k, position) {
+                        self.reached[k] = Some(t);
+                    }
+                }
+                self.next = if schedule.over && self.reached[last].is_some() { last + 1 } else { self.leg + 1 };
+            }
+        }
+        if self.next > last && self.over.is_none() {
+            self.over = Some(t);
+        }
+    }
+
+    fn within(&self, k: usize, position: &Vector3<f64>) -> bool {
+        (self.waypoints[k].coords - position).norm_squared() <= self.accept * self.accept
+    }
+
+    /// The leg being flown; after the last waypoint, the last.
+    pub(crate) fn leg(&self) -> usize {
+        self.leg
+    }
+
+    /// Where to go, and whether to stay there.
+    pub(crate) fn target(&self) -> (Vector3<f64>, bool) {
+        let last = self.waypoints.len() - 1;
+        (self.waypoints[self.next.min(last)].coords, self.next > last)
+    }
+
+    /// When the course was over, s.
+    pub(crate) fn over(&self) -> Option<f64> {
+        self.over
+    }
+
+    /// The reason of a run that ends because its course is over.
+    pub(crate) fn outcome(&self) -> Ended {
+        if self.reached.iter().all(Option::is_some) { Ended::Done } else { Ended::Time }
+    }
+
+    /// When each waypoint was reached.
+    pub(crate) fn into_reached(self) -> Vec<Option<f64>> {
+        self.reached
+    }
+}

@@ -1,0 +1,103 @@
+//! What disturbs a flight: wind, gusts, and force and moment noise, the same for the same seed.
+
+use nalgebra::Vector3;
+
+use super::SimulationError;
+use super::plant::Plant;
+use crate::math::random::{Stream, named_seed, standard_normals, stream};
+use crate::robot::quadrotor::Quadrotor;
+
+/// Gusts on top of the wind: an Ornstein-Uhlenbeck process per axis, in its stationary distribution from the start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gusts {
+    /// Standard deviation per axis, m/s.
+    pub std: f64,
+    /// Correlation time, s; 0: independent from step to step.
+    pub correlation: f64,
+}
+
+/// Air and noise of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Conditions {
+    /// Constant velocity of the air, m/s.
+    pub wind: Vector3<f64>,
+    /// Gusts on top of it.
+    pub gusts: Option<Gusts>,
+    /// Whether the robot's own force and moment noise acts.
+    pub noise: bool,
+}
+
+impl Conditions {
+    pub(super) fn check(&self) -> Result<(), SimulationError> {
+        if !self.wind.iter().all(|c| c.is_finite()) {
+            return Err(SimulationError::new("wind", format!("{:?}", self.wind.as_slice()), "finite"));
+        }
+        let gusts = self.gusts.unwrap_or(Gusts { std: 0.0, correlation: 0.0 });
+        for (field, value) in [("gusts.std", gusts.std), ("gusts.correlation", gusts.correlation)] {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(SimulationError::new(field, value.to_string(), "finite and ≥ 0"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The disturbances of one run, drawn step by step.
+#[derive(Debug, Clone)]
+pub struct Disturbances {
+    wind: Vector3<f64>,
+    gusts: Option<GustProcess>,
+    noise: Option<Noise>,
+}
+
+#[derive(Debug, Clone)]
+struct GustProcess {
+    stream: Stream,
+    velocity: Vector3<f64>,
+    /// e^(−h/τ).
+    keep: f64,
+    /// σ √(1 − e^(−2h/τ)).
+    renew: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Noise {
+    stream: Stream,
+    /// √(S/h) of force and moment: white noise of density S held for a step.
+    force: f64,
+    moment: f64,
+}
+
+impl Disturbances {
+    /// Those of a run with steps of `h` s. Gusts and noise have streams of their own, so one does not change the other.
+    pub fn new(robot: &Quadrotor, conditions: &Conditions, h: f64, seed: u64) -> Self {
+        let gusts = conditions.gusts.filter(|gusts| gusts.std > 0.0).map(|gusts| {
+            let mut stream = stream(named_seed(seed, "gusts", 0));
+            let velocity = Vector3::from(standard_normals(&mut stream)) * gusts.std;
+            let keep = if gusts.correlation > 0.0 { (-h / gusts.correlation).exp() } else { 0.0 };
+            GustProcess { stream, velocity, keep, renew: gusts.std * (1.0 - keep * keep).sqrt() }
+        });
+        let noise = (conditions.noise && (robot.force_noise > 0.0 || robot.moment_noise > 0.0)).then(|| Noise {
+            stream: stream(named_seed(seed, "noise", 0)),
+            force: (robot.force_noise / h).sqrt(),
+            moment: (robot.moment_noise / h).sqrt(),
+        });
+        Self { wind: conditions.wind, gusts, noise }
+    }
+
+    /// Sets what acts on the plant during the next step.
+    #[inline(always)]
+    pub fn act_on(&mut self, plant: &mut Plant) {
+        plant.air = self.wind;
+        if let Some(gusts) = &mut self.gusts {
+            plant.air += gusts.velocity;
+            let fresh = Vector3::from(standard_normals(&mut gusts.stream));
+            gusts.velocity = gusts.velocity * gusts.keep + fresh * gusts.renew;
+        }
+        if let Some(noise) = &mut self.noise {
+            let drawn: [f64; 6] = standard_normals(&mut noise.stream);
+            plant.force = Vector3::new(drawn[0], drawn[1], drawn[2]) * noise.force;
+            plant.moment = Vector3::new(drawn[3], drawn[4], drawn[5]) * noise.moment;
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! The quadrotor as it flies: the 12-state model with what the claim leaves out, rotor lag, moving air and noise.
+
+use nalgebra::{Isometry3, SVector, Translation3, Vector3, Vector4};
+
+use crate::math::rotation::{body_z, quaternion_rate, renormalize, unit_quaternion};
+use crate::robot::quadrotor::Quadrotor;
+use crate::robot::{Bounds, Dynamics, Quantity};
+
+/// [x y z, qw qx qy qz, vx vy vz, p q r, w1 w2 w3 w4]: position and velocity in the world, `world_from_body`, body
+/// rates, rotor speeds; m, m/s, rad/s.
+pub type PlantState = SVector<f64, 17>;
+
+/// Index of the position in a [`PlantState`].
+pub(super) const POSITION: usize = 0;
+/// Index of the quaternion's scalar part.
+pub(super) const ATTITUDE: usize = 3;
+/// Index of the velocity.
+pub(super) const VELOCITY: usize = 7;
+/// Index of the body rates.
+pub(super) const RATES: usize = 10;
+/// Index of the rotor speeds.
+pub(super) const ROTORS: usize = 13;
+
+/// m v̇ = Σ kf w² R e₃ − m g e₃ − (c₁ + c₂‖v−a‖)(v−a) + F;  I ω̇ = τ(w²) − ω × Iω − c_ω‖ω‖ω + M;  T ẇ = u − w.
+///
+/// u are the rotor speeds asked for, w the actual ones, T the lag, a the velocity of the air, F and M the force (world)
+/// and moment (body) disturbing it. Without lag w = u and the rotor states stay as they are.
+#[derive(Debug, Clone)]
+pub struct Plant {
+    pub(super) mass: f64,
+    pub(super) gravity: f64,
+    /// Rows: thrust, roll, pitch and yaw moment per w².
+    pub(super) allocation: nalgebra::Matrix4<f64>,
+    pub(super) inverse_inertia: Vector3<f64>,
+    /// (Izz − Iyy)/Ixx and its cyclic kin.
+    pub(super) gyroscopic: Vector3<f64>,
+    pub(super) drag_linear: f64,
+    pub(super) drag_quadratic: f64,
+    pub(super) aerodynamic_moment: f64,
+    pub(super) rotor_speed: (f64, f64),
+    pub(super) time_constant: f64,
+    /// Velocity of the air, m/s.
+    pub air: Vector3<f64>,
+    /// Disturbing force, N, world frame.
+    pub force: Vector3<f64>,
+    /// Disturbing moment, N·m, body frame.
+    pub moment: Vector3<f64>,
+}
+
+impl Plant {
+    /// The plant of a robot in still air, undisturbed.
+    pub fn new(robot: &Quadrotor) -> Self {
+        let i = robot.inertia;
+        Self {
+            mass: robot.mass,
+            gravity: robot.gravity,
+            allocation: robot.mixing(),
+            inverse_inertia: i.map(f64::recip),
+            gyroscopic: Vector3::new((i.z - i.y) / i.x, (i.x - i.z) / i.y, (i.y - i.x) / i.z),
+            drag_linear: robot.drag_linear,
+            drag_quadratic: robot.drag_quadratic,
+            aerodynamic_moment: robot.aerodynamic_moment,
+            rotor_speed: robot.rotor_speed,
+            time_constant: robot.rotor_time_constant,
+            air: Vector3::zeros(),
+            force: Vector3::zeros(),
+            moment: Vector3::zeros(),
+        }
+    }
+
+    /// Level and at rest at `position` (m), the rotors turning at `rotors` (rad/s).
+    pub fn at_rest(position: &Vector3<f64>, rotors: &Vector4<f64>) -> PlantState {
+        let mut state = PlantState::zeros();
+        state.fixed_rows_mut::<3>(POSITION).copy_from(position);
+        state[ATTITUDE] = 1.0;
+        state.fixed_rows_mut::<4>(ROTORS).copy_from(rotors);
+        state
+    }
+
+    /// Acceleration by drag at velocity `v`, m/s².
+    #[inline(always)]
+    pub(super) fn drag(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        let relative = v - self.air;
+        relative * (-(self.drag_linear + self.drag_quadratic * relative.norm()) / self.mass)
+    }
+
+    /// Angular acceleration under the moment `m` (N·m) at body rates `w`, rad/s².
+    #[inline(always)]
+    pub(super) fn angular(&self, w: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
+        let m = m - w * (self.aerodynamic_moment * w.norm());
+        let coupled = Vector3::new(w.y * w.z, w.x * w.z, w.x * w.y);
+        m.component_mul(&self.inverse_inertia) - coupled.component_mul(&self.gyroscopic)
+    }
+}
+
+const fn quantity(name: &'static str, unit: &'static str) -> Quantity {
+    Quantity { name, unit }
+}
+
+impl Dynamics for Plant {
+    type State = PlantState;
+    type Control = Vector4<f64>;
+
+    const STATE: &'static [Quantity] = &[
+        quantity("x", "m"),
+        quantity("y", "m"),
+        quantity("z", "m"),
+        quantity("qw", ""),
+        quantity("qx", ""),
+        quantity("qy", ""),
+        quantity("qz", ""),
+        quantity("vx", "m_s"),
+        quantity("vy", "m_s"),
+        quantity("vz", "m_s"),
+        quantity("p", "rad_s"),
+        quantity("q", "rad_s"),
+        quantity("r", "rad_s"),
+        quantity("rotor1", "rad_s"),
+        quantity("rotor2", "rad_s"),
+        quantity("rotor3", "rad_s"),
+        quantity("rotor4", "rad_s"),
+    ];
+
+    fn derivative(&self, state: &PlantState, control: &Vector4<f64>) -> PlantState {
+        let q = &state.as_slice()[ATTITUDE..ATTITUDE + 4];
+        let v: Vector3<f64> = state.fixed_rows::<3>(VELOCITY).into_owned();
+        let w: Vector3<f64> = state.fixed_rows::<3>(RATES).into_owned();
+        let rotors: Vector4<f64> = state.fixed_rows::<4>(ROTORS).into_owned();
+        let lagging = self.time_constant > 0.0;
+        let effective = if lagging { rotors } else { *control };
+        let wrench = self.allocation * effective.component_mul(&effective);
+        let mut out = PlantState::zeros();
+        out.fixed_rows_mut::<3>(POSITION).copy_from(&v);
+        out.as_mut_slice()[ATTITUDE..ATTITUDE + 4].copy_from_slice(&quaternion_rate(q, &w));
+        let thrust = body_z(q) * wrench[0] + self.force;
+        let acceleration = thrust / self.mass - Vector3::z() * self.gravity + self.drag(&v);
+        out.fixed_rows_mut::<3>(VELOCITY).copy_from(&acceleration);
+        let moment = Vector3::new(wrench[1], wrench[2], wrench[3]) + self.moment;
+        out.fixed_rows_mut::<3>(RATES).copy_from(&self.angular(&w, &moment));
+        if lagging {
+            out.fixed_rows_mut::<4>(ROTORS).copy_from(&((control - rotors) / self.time_constant));
+        }
+        out
+    }
+
+    fn control_bounds(&self) -> Bounds<Vector4<f64>> {
+        Bounds { min: Vector4::repeat(self.rotor_speed.0), max: Vector4::repeat(self.rotor_speed.1) }
+    }
+
+    fn pose(&self, state: &PlantState) -> Isometry3<f64> {
+        let position: Vector3<f64> = state.fixed_rows::<3>(POSITION).into_owned();
+        let q = &state.as_slice()[ATTITUDE..ATTITUDE + 4];
+        Isometry3::from_parts(Translation3::from(position), unit_quaternion(q))
+    }
+
+    fn normalize(&self, state: &mut PlantState) {
+        renormalize(&mut state.as_mut_slice()[ATTITUDE..ATTITUDE + 4]);
+    }
+}
