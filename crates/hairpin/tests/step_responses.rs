@@ -1,0 +1,152 @@
+//! The controllers' gains are fixed here, on an isolated 10 m step and a plain course, before any stress experiment.
+
+use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
+use hairpin::simulation::{Conditions, ControllerKind, ControllerSettings, FlySettings, Sortie, fly};
+use hairpin::trajectory::{Ended, Flight};
+use hairpin::world::World;
+use nalgebra::{Point3, Vector3};
+
+const SHIPPED: [&str; 5] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie"];
+const ALL: [ControllerKind; 6] = [
+    ControllerKind::UnstableWaypoint,
+    ControllerKind::StableWaypoint,
+    ControllerKind::FixedVelocity,
+    ControllerKind::MinimumSnap,
+    ControllerKind::Geometric,
+    ControllerKind::Anafi,
+];
+
+fn shipped(name: &str) -> Quadrotor {
+    let path = format!("{}/../../data/robots/quadrotor/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).expect("shipped robots are in data/robots/quadrotor");
+    toml::from_str::<QuadrotorDescription>(&text).expect(name).build().expect(name)
+}
+
+/// A step's figures along its own direction.
+#[derive(Debug)]
+struct Response {
+    /// Largest excess over the step, share of it.
+    overshoot: f64,
+    /// After this time the distance to the target stays below 5 % of the step, s.
+    settled: f64,
+    /// Largest distance from the line through both points, m.
+    sideways: f64,
+}
+
+/// A 10 m step along `direction`, judged for 25 s.
+fn step(robot: &Quadrotor, kind: ControllerKind, direction: Vector3<f64>) -> Response {
+    let world = World::new(Vector3::repeat(60.0), 0.0, vec![]).unwrap();
+    let start = Point3::new(30.0, 30.0, 30.0);
+    let direction = direction.normalize();
+    let waypoints = [start, start + direction * 10.0];
+    let sortie = Sortie { robot, world: &world, waypoints: &waypoints, profile: None };
+    let controller = ControllerSettings { kind, ..Default::default() };
+    let settings = FlySettings { time_limit: 25.0, linger: 100.0, ..Default::default() };
+    let flight = fly(&sortie, &controller, &Conditions::default(), &settings, 1).unwrap();
+    assert_eq!(flight.ended, Ended::Time, "{kind:?} on {}", robot.name);
+    let track = &flight.track;
+    let (mut overshoot, mut settled, mut sideways) = (0.0f64, 0.0, 0.0f64);
+    for i in 0..track.len() {
+        let way = track.position(i) - start;
+        let along = way.dot(&direction);
+        overshoot = overshoot.max(along / 10.0 - 1.0);
+        sideways = sideways.max((way - direction * along).norm());
+        if (way - direction * 10.0).norm() > 0.5 {
+            settled = track.times()[i];
+        }
+    }
+    Response { overshoot, settled, sideways }
+}
+
+fn directions() -> [Vector3<f64>; 4] {
+    [Vector3::x(), -Vector3::y(), Vector3::new(1.0, 1.0, 0.0), Vector3::new(-1.0, 2.0, 0.0)]
+}
+
+#[test]
+fn stable_overshoots_by_less_than_5_percent_and_settles_within_6_s() {
+    for name in SHIPPED {
+        for direction in directions().into_iter().chain([Vector3::z(), -Vector3::z(), Vector3::new(1.0, -1.0, 1.0)]) {
+            let response = step(&shipped(name), ControllerKind::StableWaypoint, direction);
+            assert!(response.overshoot < 0.05 && response.settled < 6.0, "{name} {direction:?}: {response:?}");
+        }
+    }
+}
+
+#[test]
+fn unstable_overshoots_by_30_to_60_percent_and_settles() {
+    for name in SHIPPED {
+        for direction in directions() {
+            let response = step(&shipped(name), ControllerKind::UnstableWaypoint, direction);
+            assert!((0.30..0.60).contains(&response.overshoot), "{name} {direction:?}: {response:?}");
+            assert!(response.settled < 15.0, "{name} {direction:?}: {response:?}");
+        }
+    }
+}
+
+#[test]
+fn the_others_settle_with_little_overshoot() {
+    let bounds = [
+        (ControllerKind::FixedVelocity, 0.10, 8.0),
+        (ControllerKind::MinimumSnap, 0.10, 6.0),
+        (ControllerKind::Geometric, 0.01, 5.0),
+        (ControllerKind::Anafi, 0.05, 5.0),
+    ];
+    for name in SHIPPED {
+        for (kind, overshoot, settled) in bounds {
+            for direction in directions() {
+                let response = step(&shipped(name), kind, direction);
+                let fine = response.overshoot < overshoot && response.settled < settled && response.sideways < 0.2;
+                assert!(fine, "{kind:?} {name} {direction:?}: {response:?}");
+            }
+        }
+    }
+}
+
+/// Ten waypoints, legs of 3 to 9 m, moderate turns and climbs.
+fn baseline() -> Vec<Point3<f64>> {
+    [
+        [5.0, 5.0, 3.0],
+        [9.0, 5.0, 4.0],
+        [14.0, 7.0, 6.0],
+        [19.0, 11.0, 8.0],
+        [21.0, 17.0, 8.0],
+        [18.0, 22.0, 9.0],
+        [12.0, 24.0, 11.0],
+        [8.0, 20.0, 12.0],
+        [7.0, 14.0, 13.0],
+        [9.0, 11.0, 13.0],
+    ]
+    .map(Point3::from)
+    .to_vec()
+}
+
+fn fly_baseline(robot: &Quadrotor, kind: ControllerKind, conditions: &Conditions) -> Flight {
+    let world = World::new(Vector3::repeat(30.0), 0.0, vec![]).unwrap();
+    let waypoints = baseline();
+    let sortie = Sortie { robot, world: &world, waypoints: &waypoints, profile: None };
+    let controller = ControllerSettings { kind, ..Default::default() };
+    fly(&sortie, &controller, conditions, &FlySettings::default(), 7).unwrap()
+}
+
+#[test]
+fn every_controller_reaches_every_waypoint_of_the_baseline_with_every_robot() {
+    for name in SHIPPED {
+        let robot = shipped(name);
+        for kind in ALL {
+            let flight = fly_baseline(&robot, kind, &Conditions::default());
+            assert_eq!(flight.ended, Ended::Done, "{kind:?} {name}: {:?}", flight.reached);
+            let times: Vec<f64> = flight.reached.iter().map(|t| t.expect("done means all reached")).collect();
+            assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{kind:?} {name}: {times:?}");
+            assert_eq!(flight.left_world, None, "{kind:?} {name}");
+        }
+    }
+}
+
+#[test]
+fn noise_does_not_keep_anyone_from_the_baseline() {
+    let conditions = Conditions { noise: true, ..Default::default() };
+    for kind in ALL {
+        let flight = fly_baseline(&shipped("flightgoggles"), kind, &conditions);
+        assert_eq!(flight.ended, Ended::Done, "{kind:?}: {:?}", flight.reached);
+    }
+}
