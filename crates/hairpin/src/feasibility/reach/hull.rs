@@ -16,7 +16,7 @@ use crate::math::integrate::rk4_step;
 use crate::math::random::{named_seed, stream};
 use crate::robot::Dynamics;
 use crate::robot::quadrotor::published::single_step;
-use crate::robot::quadrotor::{EulerState, Quadrotor, level_rest};
+use crate::robot::quadrotor::{EulerState, Quadrotor, QuadrotorState, level_rest};
 
 /// How a hull is sampled.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,7 +111,10 @@ impl Hull {
         for _ in 0..4 {
             let run = rng.random_range(0..speeds.len());
             let velocity = Vector3::from_fn(|_, _| rng.random_range(-5.0..5.0));
-            let end = simulate(&model, &velocity, &speeds[run], self.step);
+            let mut start = level_rest();
+            start.fixed_rows_mut::<3>(7).copy_from(&velocity);
+            let end = simulate(&model, start, &speeds[run], self.step);
+            let end = Vector3::new(end[0], end[1], end[2]);
             worst = worst.max((end - velocity * self.carry - self.samples[run]).norm());
         }
         let kept = self.samples.iter().all(|sample| self.polytope.contains(sample));
@@ -176,18 +179,18 @@ impl StepSet for Hull {
     }
 }
 
-/// End of a run of the full model from level at the origin, m: RK4 at half a radian a step of the final rates.
-pub(super) fn simulate(model: &Quadrotor, velocity: &Vector3<f64>, speeds: &Vector4<f64>, time: f64) -> Vector3<f64> {
+/// End of a run of the full model from `start`: RK4 at half a radian a step of the fastest rates.
+pub(super) fn simulate(model: &Quadrotor, start: QuadrotorState, speeds: &Vector4<f64>, time: f64) -> QuadrotorState {
     let u = model.wrench(speeds);
-    let fastest = Vector3::new(u[1], u[2], u[3]).component_div(&model.inertia).norm() * time;
+    let spin = Vector3::new(start[10], start[11], start[12]).norm();
+    let fastest = spin + Vector3::new(u[1], u[2], u[3]).component_div(&model.inertia).norm() * time;
     let steps = ((2.0 * fastest * time).ceil() as usize).clamp(50, 100_000);
-    let mut state = level_rest();
-    state.fixed_rows_mut::<3>(7).copy_from(velocity);
+    let mut state = start;
     for _ in 0..steps {
         state = rk4_step(|x| model.derivative(x, speeds), &state, time / steps as f64);
         model.normalize(&mut state);
     }
-    Vector3::new(state[0], state[1], state[2])
+    state
 }
 
 fn check(settings: &HullSettings) -> Result<(), NoHull> {

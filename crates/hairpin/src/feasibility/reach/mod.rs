@@ -1,5 +1,6 @@
 //! Reach sets: which waypoints follow a node of the search, and what is known of the legs to them.
 
+pub mod brute_force;
 pub mod filtered;
 mod graph;
 pub mod hull;
@@ -11,6 +12,7 @@ pub mod step;
 
 use nalgebra::Point3;
 
+pub use brute_force::{BruteForce, BruteForceSettings, CarriedNode};
 pub use filtered::{Filtered, PairMask};
 pub use hull::{Hull, HullSettings, NoHull};
 pub use none::Everywhere;

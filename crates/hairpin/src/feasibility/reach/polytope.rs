@@ -60,7 +60,7 @@ impl Polytope {
         if (max - min).min() < 1e-6 * extent || extent == 0.0 {
             return Err(NoPolytope::Flat { thickness: (max - min).min(), extent });
         }
-        let candidates: Vec<Vector> = outer(points).into_iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
+        let candidates: Vec<Vector> = distinct(points).into_iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
         let (vertices, triangles) =
             try_convex_hull(&candidates).map_err(|error| NoPolytope::Broken { reason: error.to_string() })?;
         let vertices: Vec<Vector3<f64>> = vertices.into_iter().map(|v| Vector3::new(v.x, v.y, v.z)).collect();
@@ -138,9 +138,8 @@ fn bounds(points: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
     (min, max)
 }
 
-/// The points that can be vertices, each once: those outside the octahedron of the extreme points on the axes (Akl
-/// and Toussaint's filter), with a margin for rounding.
-fn outer(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+/// The points, each once: symmetric runs end in the same place by the dozen.
+fn distinct(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let mut kept: Vec<Vector3<f64>> = points.to_vec();
     kept.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     kept.dedup();

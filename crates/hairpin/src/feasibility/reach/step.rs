@@ -97,12 +97,16 @@ impl<'a, S: StepSet> StepReach<'a, S> {
         let here = self.graph.point(node.current);
         let before = here - self.graph.point(node.previous);
         let leg = self.graph.point(to) - here;
-        let (length, length_before) = (leg.norm(), before.norm());
-        let turn =
-            if length_before > 0.0 && length > 0.0 { before.cross(&leg).norm().atan2(before.dot(&leg)) } else { 0.0 };
-        let step = self.settings.step;
-        LegFeatures { v_in: length_before / step, v_out: length / step, turn, length, climb: leg.z }
+        features(&before, &leg, self.settings.step)
     }
+}
+
+/// What scores see of the displacement `leg` (m) after `before` (0 at the start), both flown in `step` s.
+#[inline]
+pub(super) fn features(before: &Vector3<f64>, leg: &Vector3<f64>, step: f64) -> LegFeatures {
+    let (length, length_before) = (leg.norm(), before.norm());
+    let turn = if length_before > 0.0 && length > 0.0 { before.cross(leg).norm().atan2(before.dot(leg)) } else { 0.0 };
+    LegFeatures { v_in: length_before / step, v_out: length / step, turn, length, climb: leg.z }
 }
 
 impl<S: StepSet> Reach<StepNode> for StepReach<'_, S> {
