@@ -1,4 +1,4 @@
-//! Algorithm 1: sample a graph, search it, repeat until enough cases are found or the budget ends.
+//! What a generation did, in numbers.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Tally {
+    /// Units of work done and taken over: graphs or, where `[vary]` shapes the plan, cases. Generation goes on here.
+    pub units: u64,
     /// Graphs sampled and searched.
     pub graphs: u64,
     /// Of these, graphs that gave at least one trajectory.
@@ -18,8 +20,6 @@ pub struct Tally {
     pub dropped: u64,
     /// Trajectories found again and not counted twice.
     pub duplicates: u64,
-    /// Feasible trajectories per graph, summed over the graphs that were counted; a number or `~` and a number.
-    pub counted: Option<String>,
     /// Whether every case asked for was found.
     pub complete: bool,
     /// Where nothing was found: why, in a sentence's part.

@@ -1,0 +1,175 @@
+//! Algorithm 1: sample a graph, search it, repeat until enough cases are found or the budget ends.
+//!
+//! One graph is one unit of work with random streams of its own. Units run on any thread but are taken over in the order
+//! of their numbers, so that what is found depends on the seed alone. Where `[vary]` shapes the plan (keys under `task`
+//! and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
+
+mod graph;
+mod search;
+mod solve;
+mod tally;
+
+use std::collections::HashSet;
+
+use nalgebra::Point3;
+use rayon::prelude::*;
+
+use super::{Case, Setup, Stop, vary};
+use crate::math::random::case_seed;
+use solve::{Outcome, Plan, Solver};
+pub use tally::Tally;
+
+/// Graphs sampled per case asked for, where the scenario sets no limit.
+const GRAPHS_PER_CASE: u64 = 20;
+
+/// What an earlier, interrupted generation left.
+#[derive(Debug, Clone, Default)]
+pub struct Known {
+    /// Its cases.
+    pub cases: Vec<Case>,
+    /// Its tally, as of the last unit whose cases are known.
+    pub tally: Tally,
+}
+
+/// Generates cases until `generate.search.cases` are found, the graphs are used up, or `stop` says so.
+///
+/// `sink` gets the new cases of each unit of work with the tally that includes it; what it was given is enough to go
+/// on from there ([`Known`]) as if nothing had happened. Cases of a repeated waypoint list are counted once.
+pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(&[Case], &Tally)) -> Tally {
+    let wanted = setup.scenario.generate.search.cases;
+    let mut collector = Collector::new(setup, known);
+    let solver = match Solver::new(setup) {
+        Ok(solver) => solver,
+        Err(reason) => {
+            collector.tally.nothing = Some(reason);
+            sink(&[], &collector.tally);
+            return collector.tally;
+        }
+    };
+    let varied = setup.scenario.vary.keys().any(|key| vary::shapes_the_plan(key));
+    let units = match setup.scenario.generate.search.graphs {
+        _ if varied => wanted,
+        Some(graphs) => graphs,
+        None => wanted.saturating_mul(GRAPHS_PER_CASE),
+    };
+    let batch = 2 * rayon::current_num_threads() as u64;
+    (stop.progress)(collector.cases, wanted as usize);
+    'units: while collector.tally.units < units && (collector.cases as u64) < wanted {
+        let first = collector.tally.units;
+        let last = units.min(first + batch);
+        let outcomes: Vec<Option<Outcome>> = (first..last)
+            .into_par_iter()
+            .map(|unit| {
+                (!(stop.cancelled)()).then(|| if varied { drawn_case(setup, unit) } else { solver.solve(unit) })
+            })
+            .collect();
+        for outcome in outcomes {
+            // A unit that was not done ends the row: what lies behind the gap is done again.
+            let Some(outcome) = outcome else { break 'units };
+            let number = varied.then_some(collector.tally.units as usize);
+            let new = collector.take(outcome, number, wanted);
+            sink(&new, &collector.tally);
+            if collector.cases as u64 >= wanted {
+                break;
+            }
+        }
+        (stop.progress)(collector.cases, wanted as usize);
+    }
+    collector.finish(wanted);
+    sink(&[], &collector.tally);
+    collector.tally
+}
+
+/// Case number `case` of a scenario whose plan varies: its own scenario, its own graphs.
+fn drawn_case(setup: &Setup, case: u64) -> Outcome {
+    let seed = case_seed(setup.scenario.seed, case);
+    let draws = vary::draw_for_case(&setup.scenario, seed, case as usize);
+    let drawn = vary::apply(&setup.scenario, &draws).and_then(Setup::of_draw).map_err(|mistake| mistake.to_string());
+    let solver = match drawn.as_ref().map_err(Clone::clone).and_then(Solver::new) {
+        Ok(solver) => solver,
+        Err(reason) => return Outcome { reason: Some(reason), ..Outcome::default() },
+    };
+    let mut total = Outcome::default();
+    for attempt in 0..GRAPHS_PER_CASE {
+        let outcome = solver.solve(case * GRAPHS_PER_CASE + attempt);
+        let done = !outcome.plans.is_empty();
+        total.add(outcome);
+        if done {
+            break;
+        }
+    }
+    total
+}
+
+/// Takes outcomes over in order: numbers cases, drops repetitions, keeps the tally.
+struct Collector<'a> {
+    setup: &'a Setup,
+    tally: Tally,
+    cases: usize,
+    seen: HashSet<[u8; 16]>,
+}
+
+impl<'a> Collector<'a> {
+    fn new(setup: &'a Setup, known: &Known) -> Self {
+        let seen = known.cases.iter().map(|case| fingerprint(&case.waypoints)).collect();
+        Self { setup, tally: known.tally.clone(), cases: known.cases.len(), seen }
+    }
+
+    fn take(&mut self, outcome: Outcome, number: Option<usize>, wanted: u64) -> Vec<Case> {
+        let mut new = Vec::new();
+        self.tally.units += 1;
+        self.tally.graphs += outcome.graphs;
+        self.tally.solved += u64::from(!outcome.plans.is_empty());
+        self.tally.proven_empty += outcome.proven_empty;
+        self.tally.expansions += outcome.expansions;
+        self.tally.dropped += outcome.dropped;
+        self.tally.duplicates += outcome.duplicates;
+        if self.tally.solved == 0 {
+            self.tally.nothing = outcome.reason.or(self.tally.nothing.take());
+        } else {
+            self.tally.nothing = None;
+        }
+        for (graph, plan) in outcome.plans {
+            if self.cases as u64 >= wanted {
+                break;
+            }
+            if !self.seen.insert(fingerprint(&plan.waypoints)) {
+                self.tally.duplicates += 1;
+                continue;
+            }
+            new.push(self.case(graph, plan, number.unwrap_or(self.cases)));
+            self.cases += 1;
+        }
+        new
+    }
+
+    fn case(&self, graph: u64, plan: Plan, number: usize) -> Case {
+        Case {
+            number,
+            seed: case_seed(self.setup.scenario.seed, number as u64),
+            graph,
+            waypoints: plan.waypoints,
+            leg_times: plan.leg_times,
+            score: plan.score,
+            bound: plan.bound,
+            evidence: plan.evidence,
+            certified: plan.certified,
+            profile: plan.profile,
+        }
+    }
+
+    fn finish(&mut self, wanted: u64) {
+        self.tally.complete = self.cases as u64 >= wanted;
+    }
+}
+
+/// 128 bits of BLAKE3 over the coordinates: equal waypoint lists are one trajectory.
+fn fingerprint(waypoints: &[Point3<f64>]) -> [u8; 16] {
+    let mut hasher = blake3::Hasher::new();
+    for coordinate in waypoints.iter().flat_map(|p| p.iter()) {
+        hasher.update(&coordinate.to_le_bytes());
+    }
+    let mut short = [0; 16];
+    short.copy_from_slice(&hasher.finalize().as_bytes()[..16]);
+    short
+}

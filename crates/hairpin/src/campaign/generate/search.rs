@@ -1,0 +1,91 @@
+//! The search that the scenario asks for, over any reach set.
+
+use std::hash::Hash;
+
+use nalgebra::Point3;
+
+use crate::campaign::Scenario;
+use crate::campaign::scenario::{self, SearchMethod};
+use crate::feasibility::reach::Reach;
+use crate::search::beam::Ended;
+use crate::search::{Aggregate, BeamSettings, Found, Score, Task, beam};
+
+/// One graph and what is asked of it.
+pub(super) struct Question<'a, N, R> {
+    pub(super) scenario: &'a Scenario,
+    pub(super) points: &'a [Point3<f64>],
+    pub(super) reach: &'a R,
+    pub(super) start: N,
+    pub(super) score: Score,
+    /// Number of the graph.
+    pub(super) graph: u64,
+}
+
+/// What the search gave.
+pub(super) struct Answer<N> {
+    pub(super) found: Vec<Found<N>>,
+    /// Proven upper bound of the score.
+    pub(super) bound: Option<f64>,
+    pub(super) proven_empty: bool,
+    pub(super) expansions: u64,
+    pub(super) dropped: u64,
+    pub(super) duplicates: u64,
+    /// Why nothing was found.
+    pub(super) reason: Option<String>,
+}
+
+/// Searches one graph. `may_arrive(node, steps)` is necessary for the end to be reached from `node` in `steps` legs.
+pub(super) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
+    question: &Question<N, R>,
+    may_arrive: impl Fn(&N, usize) -> bool,
+) -> Answer<N> {
+    match question.scenario.generate.search.method {
+        SearchMethod::Beam => by_beam(question, may_arrive),
+        SearchMethod::Exact => unimplemented!(),
+        SearchMethod::Uniform => unimplemented!(),
+    }
+}
+
+fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
+    question: &Question<N, R>,
+    may_arrive: impl Fn(&N, usize) -> bool,
+) -> Answer<N> {
+    let search = &question.scenario.generate.search;
+    let settings = BeamSettings {
+        length: question.scenario.task.length as usize,
+        width: search.width as usize,
+        per_graph: search.per_graph as usize,
+        revisits: search.revisits,
+        aggregate: aggregate(search.aggregate),
+        iterations: search.iterations as usize,
+        frontier: search.frontier as usize,
+        keep: Some(search.per_graph as usize),
+        ..BeamSettings::default()
+    };
+    let task = Task { start: question.start, candidates: question.points, reach: question.reach };
+    let outcome = beam(&task, &question.score, may_arrive, &settings);
+    let mut found = outcome.found;
+    found.truncate(search.per_graph as usize);
+    let reason = match outcome.ended {
+        _ if !found.is_empty() => None,
+        Ended::Capped => Some(format!("{} iterations per graph were not enough", search.iterations)),
+        Ended::Exhausted { proof: true } => Some("every partial trajectory ends before the end is reached".into()),
+        _ => Some("the frontier ran empty before the end was reached".into()),
+    };
+    Answer {
+        proven_empty: found.is_empty() && outcome.ended == Ended::Exhausted { proof: true },
+        found,
+        bound: None,
+        expansions: outcome.expansions,
+        dropped: outcome.dropped,
+        duplicates: outcome.duplicates,
+        reason,
+    }
+}
+
+fn aggregate(aggregate: scenario::Aggregate) -> Aggregate {
+    match aggregate {
+        scenario::Aggregate::Sum => Aggregate::Sum,
+        scenario::Aggregate::Max => Aggregate::Max,
+    }
+}
