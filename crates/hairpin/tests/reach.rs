@@ -1,5 +1,7 @@
 //! A reach set means what it says: its ends are those of the simulated model, its hull holds them, its legs are right.
 
+use std::cell::{Cell, RefCell};
+
 use hairpin::feasibility::reach::{
     BruteForce, BruteForceSettings, CarriedNode, Everywhere, Filtered, Hull, HullSettings, Leg, NoHull, NoPolytope,
     PairMask, Polytope, Reach, Sphere, StepNode, StepReach, StepSet, StepSettings, sampling,
@@ -147,11 +149,21 @@ fn none_and_sphere_and_filters() {
     reach.legs(&node, &points, &mut legs);
     let near: Vec<u32> = (0..70).filter(|&i| i != 11 && (points[i as usize] - points[11]).norm() <= 14.0).collect();
     assert!(legs.iter().map(|leg| leg.waypoint).eq(near.iter().copied()) && !near.is_empty());
-    let mask = PairMask::new(&points, |a, b| a.z + b.z < 30.0);
-    let filtered =
-        Filtered { inner: reach, keep: |from: &StepNode, leg: &Leg<StepNode>| mask.allows(from.current, leg.waypoint) };
+    let mask = RefCell::new(PairMask::new(points.len()));
+    let asked = Cell::new(0);
+    let keep = |from: &StepNode, leg: &Leg<StepNode>| {
+        let low = || {
+            asked.set(asked.get() + 1);
+            points[from.current as usize].z + points[leg.waypoint as usize].z < 30.0
+        };
+        mask.borrow_mut().allows(from.current, leg.waypoint, low)
+    };
+    let filtered = Filtered { inner: reach, keep };
     let mut kept = vec![legs[0]];
     filtered.legs(&node, &points, &mut kept);
+    let (once, mut again) = (asked.get(), Vec::new());
+    filtered.legs(&node, &points, &mut again);
+    assert!(again == kept[1..] && once == near.len() && asked.get() == once, "every pair is judged once");
     let expected = near.iter().copied().filter(|&i| points[i as usize].z + points[11].z < 30.0);
     assert!(kept[1..].iter().map(|leg| leg.waypoint).eq(expected));
 }

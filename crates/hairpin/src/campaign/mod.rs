@@ -15,7 +15,7 @@ pub mod verify;
 
 pub use assumptions::assumptions;
 pub use case::{Case, CaseResult, Evidence, Run, Status};
-pub use generate::Tally;
+pub use generate::{Known, Tally, generate};
 pub use judge::{how_obtained, judge, verdict};
 pub use mission::{Mission, Timed, mission};
 pub use scenario::{Mistake, Scenario};

@@ -17,8 +17,6 @@ pub(super) struct Question<'a, N, R> {
     pub(super) reach: &'a R,
     pub(super) start: N,
     pub(super) score: Score,
-    /// Number of the graph.
-    pub(super) graph: u64,
 }
 
 /// What the search gave.

@@ -10,10 +10,10 @@ use super::search::{Answer, Question, search};
 use crate::campaign::scenario::{EstimatedVelocity, ReachName, Timing};
 use crate::campaign::{Evidence, Setup};
 use crate::feasibility::reach::{
-    Everywhere, Filtered, Hull, HullSettings, Leg, PairMemo, Reach, Sphere, StepNode, StepReach, StepSet, StepSettings,
+    Everywhere, Filtered, Hull, HullSettings, Leg, PairMask, Reach, Sphere, StepNode, StepReach, StepSet, StepSettings,
 };
 use crate::math::random::named_seed;
-use crate::search::Score;
+use crate::search::{Found, Score};
 use crate::trajectory::Profile;
 
 /// Step of the reach sets that have one, where the scenario names none, s: the paper's.
@@ -158,10 +158,10 @@ impl<'a> Solver<'a> {
         let answer = if self.setup.world.obstacles().is_empty() {
             self.ask(graph, points, &reach, start, may_arrive)
         } else {
-            let clear = RefCell::new(PairMemo::new(points.len()));
+            let clear = RefCell::new(PairMask::new(points.len()));
             let radius = self.setup.robot.clearance_radius;
             let keep = |from: &StepNode, leg: &Leg<StepNode>| {
-                clear.borrow_mut().get(from.current, leg.waypoint, || {
+                clear.borrow_mut().allows(from.current, leg.waypoint, || {
                     let (a, b) = (&points[from.current as usize], &points[leg.waypoint as usize]);
                     self.setup.world.segment_distance(a, b) >= radius
                 })
@@ -198,7 +198,7 @@ impl<'a> Solver<'a> {
         // The name was checked with the scenario, and top speeds are > 0 with the robot.
         let score = Score::named(&self.setup.scenario.generate.score, seed, self.top_speed())
             .unwrap_or(Score::Random { seed });
-        let question = Question { scenario: &self.setup.scenario, points, reach, start, score, graph };
+        let question = Question { scenario: &self.setup.scenario, points, reach, start, score };
         search(&question, may_arrive)
     }
 }

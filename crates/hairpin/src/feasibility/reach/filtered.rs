@@ -4,8 +4,8 @@ use nalgebra::Point3;
 
 use super::{Leg, Reach};
 
-/// The legs of `inner` for which `keep(from waypoint's leg)` holds. What is dear to judge (segments against obstacles)
-/// is to be judged once per pair of waypoints and looked up: see [`PairMask`].
+/// The legs of `inner` for which `keep(from, leg)` holds. What is dear to judge (segments against obstacles) is judged
+/// once per pair of waypoints: see [`PairMask`].
 #[derive(Debug, Clone)]
 pub struct Filtered<R, F> {
     /// The reach set.
@@ -26,7 +26,8 @@ impl<N, R: Reach<N>, F: Fn(&N, &Leg<N>) -> bool> Reach<N> for Filtered<R, F> {
     }
 }
 
-/// One bit per unordered pair of waypoints, judged once.
+/// Two bits per unordered pair of waypoints: judged when first asked for, then remembered. A search looks at few of the
+/// pairs of a graph.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PairMask {
     points: usize,
@@ -34,26 +35,20 @@ pub struct PairMask {
 }
 
 impl PairMask {
-    /// Asks `allowed(a, b)` for every pair a < b of `points`.
-    pub fn new(points: &[Point3<f64>], mut allowed: impl FnMut(&Point3<f64>, &Point3<f64>) -> bool) -> Self {
-        let n = points.len();
-        let mut mask = Self { points: n, bits: vec![0; (n * n).div_ceil(64)] };
-        for a in 0..n {
-            for b in a + 1..n {
-                if allowed(&points[a], &points[b]) {
-                    for place in [a * n + b, b * n + a] {
-                        mask.bits[place / 64] |= 1 << (place % 64);
-                    }
-                }
-            }
-        }
-        mask
+    /// Nothing judged yet, for a graph of `points` waypoints.
+    pub fn new(points: usize) -> Self {
+        Self { points, bits: vec![0; (2 * points * points).div_ceil(64)] }
     }
 
-    /// Whether the leg between waypoints `a` and `b` is allowed.
+    /// Whether the leg between waypoints `a` and `b` is allowed; asks `allowed` the first time.
     #[inline]
-    pub fn allows(&self, a: u32, b: u32) -> bool {
-        let place = a as usize * self.points + b as usize;
-        self.bits[place / 64] >> (place % 64) & 1 == 1
+    pub fn allows(&mut self, a: u32, b: u32, allowed: impl FnOnce() -> bool) -> bool {
+        let (low, high) = (a.min(b) as usize, a.max(b) as usize);
+        let place = 2 * (low * self.points + high);
+        let (word, shift) = (place / 64, place % 64);
+        if self.bits[word] >> shift & 1 == 0 {
+            self.bits[word] |= (1 | u64::from(allowed()) << 1) << shift;
+        }
+        self.bits[word] >> shift & 2 == 2
     }
 }
