@@ -2,6 +2,7 @@
 
 pub mod assumptions;
 pub mod case;
+pub mod execute;
 pub mod generate;
 pub mod judge;
 pub mod mission;
@@ -15,6 +16,7 @@ pub mod verify;
 
 pub use assumptions::assumptions;
 pub use case::{Case, CaseResult, Evidence, Run, Status};
+pub use execute::{execute, execute_run};
 pub use generate::{Known, Tally, generate};
 pub use judge::{how_obtained, judge, verdict};
 pub use mission::{Mission, Timed, mission};

@@ -95,7 +95,10 @@ impl<'a> Solver<'a> {
         if let Some(limit) = generate.limits.max_flight_time_s {
             let planned = (setup.scenario.task.length - 1) as f64 * step;
             if planned > limit {
-                return Err(format!("{} legs of {step} s take {planned} s > {limit} s", setup.scenario.task.length - 1));
+                return Err(format!(
+                    "{} legs of {step} s take {planned} s > {limit} s",
+                    setup.scenario.task.length - 1
+                ));
             }
         }
         Ok(Self { setup, set, step })
@@ -121,7 +124,8 @@ impl<'a> Solver<'a> {
                 let average = self.average_velocity();
                 let may_arrive = |node: &StepNode, steps: usize| {
                     let here = points[node.current as usize].coords;
-                    !average || hull.may_reach(&here, &(here - points[node.previous as usize].coords), &end, steps as u32)
+                    !average
+                        || hull.may_reach(&here, &(here - points[node.previous as usize].coords), &end, steps as u32)
                 };
                 self.stepwise(hull.as_ref(), graph, &points, may_arrive)
             }
@@ -196,8 +200,8 @@ impl<'a> Solver<'a> {
     ) -> Answer<N> {
         let seed = named_seed(self.setup.scenario.seed, "score", graph);
         // The name was checked with the scenario, and top speeds are > 0 with the robot.
-        let score = Score::named(&self.setup.scenario.generate.score, seed, self.top_speed())
-            .unwrap_or(Score::Random { seed });
+        let score =
+            Score::named(&self.setup.scenario.generate.score, seed, self.top_speed()).unwrap_or(Score::Random { seed });
         let question = Question { scenario: &self.setup.scenario, points, reach, start, score };
         search(&question, may_arrive)
     }
