@@ -1,7 +1,9 @@
 //! Floor 1: numbers without robots or time stamps.
 
 pub mod integrate;
+pub mod interval;
 pub mod minimum_snap;
+pub mod polynomial;
 pub mod random;
 pub mod rotation;
 pub mod segment;

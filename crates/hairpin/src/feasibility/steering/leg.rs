@@ -1,0 +1,178 @@
+//! One leg between two waypoint states, level and without rates at both, judged cheapest test first.
+
+use nalgebra::{Point3, Vector3};
+use wide::f64x4;
+
+use super::flatness::{DependentRotors, Flatness};
+use super::proof::{BodyLimits, ProofSettings};
+use crate::feasibility::collision::FreeSpace;
+use crate::feasibility::limits::{Infeasible, Limit, Limits};
+use crate::math::polynomial::septic;
+use crate::robot::quadrotor::Quadrotor;
+use crate::trajectory::ProfileLeg;
+use crate::world::World;
+
+/// A waypoint state: position, velocity, and the acceleration and jerk with which the robot is level there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LegEnd {
+    /// m, world frame.
+    pub position: Point3<f64>,
+    /// m/s.
+    pub velocity: Vector3<f64>,
+    /// −D(v)/m, m/s².
+    pub acceleration: Vector3<f64>,
+    /// −(∂D/∂v) a/m, m/s³.
+    pub jerk: Vector3<f64>,
+    /// Second time derivative of the drag there, N/s².
+    drag_second: Vector3<f64>,
+}
+
+/// Judges legs of one robot in one world under one set of limits.
+#[derive(Debug, Clone)]
+pub struct LegJudge {
+    flatness: Flatness,
+    body: BodyLimits,
+    space: FreeSpace,
+    limits: Limits,
+    mass: f64,
+}
+
+impl LegJudge {
+    /// The judge for `robot` in `world`. The robot's clearance radius is kept to obstacles, the world's keep-in margin to walls.
+    ///
+    /// # Errors
+    /// [`DependentRotors`].
+    pub fn new(
+        robot: &Quadrotor,
+        world: &World,
+        limits: Limits,
+        settings: ProofSettings,
+    ) -> Result<Self, DependentRotors> {
+        Ok(Self {
+            flatness: Flatness::new(robot)?,
+            body: BodyLimits::new(robot, limits, settings),
+            space: FreeSpace::new(world, robot.clearance_radius),
+            limits,
+            mass: robot.mass,
+        })
+    }
+
+    /// The robot's flatness map.
+    pub fn flatness(&self) -> &Flatness {
+        &self.flatness
+    }
+
+    /// The task's limits.
+    pub fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// The space that legs keep to.
+    pub fn space(&self) -> &FreeSpace {
+        &self.space
+    }
+
+    /// The level state at `position` with `velocity`.
+    pub fn end(&self, position: Point3<f64>, velocity: Vector3<f64>) -> LegEnd {
+        let [acceleration, jerk, drag_second] = self.flatness.level(&velocity);
+        LegEnd { position, velocity, acceleration, jerk, drag_second }
+    }
+
+    /// The one 7th-order leg from `from` to `to` in `duration` (s, > 0), not judged.
+    #[inline]
+    pub fn connect(from: &LegEnd, to: &LegEnd, duration: f64) -> ProfileLeg {
+        let data = |end: &LegEnd, axis: usize| {
+            [end.position[axis], end.velocity[axis], end.acceleration[axis], end.jerk[axis]]
+        };
+        let coefficients = std::array::from_fn(|axis| septic(&data(from, axis), &data(to, axis), duration));
+        ProfileLeg { duration, coefficients }
+    }
+
+    /// The leg from `from` to `to` in `duration`, if every limit holds at every instant of it.
+    ///
+    /// Necessary tests come first: mean speed; rotor speeds at both ends, in closed form from the end snap; speed, thrust,
+    /// tilt and walls at four instants. What passes is proven by [`Self::prove`].
+    ///
+    /// # Errors
+    /// The limit that fails, where, and by how much.
+    pub fn judge(&self, from: &LegEnd, to: &LegEnd, duration: f64) -> Result<ProfileLeg, Infeasible> {
+        if !(duration > 0.0 && duration.is_finite()) {
+            return Err(Infeasible::Violates { limit: Limit::Duration, part: 0, at: 0.0, margin: -duration.abs() });
+        }
+        let mean_speed = (to.position - from.position).norm() / duration;
+        if mean_speed > self.limits.max_speed {
+            let margin = self.limits.max_speed - mean_speed;
+            return Err(Infeasible::Violates { limit: Limit::Speed, part: 0, at: 0.0, margin });
+        }
+        let leg = Self::connect(from, to, duration);
+        self.ends_allowed(from, to, &leg)?;
+        self.instants_allowed(&leg)?;
+        self.prove(&leg)?;
+        Ok(leg)
+    }
+
+    /// Proves that every limit holds at every instant of `leg`, which need not be level at its ends.
+    ///
+    /// # Errors
+    /// As [`Self::judge`].
+    pub fn prove(&self, leg: &ProfileLeg) -> Result<(), Infeasible> {
+        self.space.contains(leg)?;
+        self.body.prove(&self.flatness, leg)
+    }
+
+    /// Rotor speeds at the ends, where F = m g e₃, Ḟ = 0 and F̈ = m p⁗ + D̈.
+    #[inline]
+    fn ends_allowed(&self, from: &LegEnd, to: &LegEnd, leg: &ProfileLeg) -> Result<(), Infeasible> {
+        let t = leg.duration;
+        let mut second = [[0.0; 3]; 2];
+        for (axis, c) in leg.coefficients.iter().enumerate() {
+            let last = ((840.0 * c[7] * t + 360.0 * c[6]) * t + 120.0 * c[5]) * t + 24.0 * c[4];
+            second[0][axis] = self.mass * 24.0 * c[4] + from.drag_second[axis];
+            second[1][axis] = self.mass * last + to.drag_second[axis];
+        }
+        for (second, at) in second.iter().zip([0.0, t]) {
+            if let Some((limit, part, margin)) = self.body.rotor_violation(&self.flatness.level_rotors(second)) {
+                return Err(Infeasible::at(limit, part, at, margin));
+            }
+        }
+        Ok(())
+    }
+
+    /// Walls, speed, thrust and tilt at a fifth, two fifths, … of the leg.
+    #[inline]
+    fn instants_allowed(&self, leg: &ProfileLeg) -> Result<(), Infeasible> {
+        const INSTANTS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
+        let tau = f64x4::new(INSTANTS) * leg.duration;
+        let d = leg.coefficients.map(|c| low_derivatives(&c, tau));
+        let velocity = d.map(|axis| axis[1]);
+        let speed = Flatness::speed(&velocity);
+        let force = self.flatness.force(&velocity, &d.map(|axis| axis[2]), speed);
+        let thrust = Flatness::speed(&force);
+        if let Some((lane, limit, margin)) = self.body.force_violation(speed, force[2], thrust) {
+            return Err(Infeasible::at(limit, 0, INSTANTS[lane] * leg.duration, margin));
+        }
+        let (low, high) = self.space.walls();
+        for axis in 0..3 {
+            let margin = (d[axis][0] - f64x4::splat(low[axis])).min(f64x4::splat(high[axis]) - d[axis][0]);
+            let bits = margin.simd_lt(f64x4::splat(-1e-6)).to_bitmask();
+            if bits != 0 {
+                let lane = bits.trailing_zeros() as usize;
+                let (at, margin) = (INSTANTS[lane] * leg.duration, margin.to_array()[lane]);
+                return Err(Infeasible::Violates { limit: Limit::World, part: axis as u16, at, margin });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Position, velocity and acceleration of one axis at four times.
+#[inline(always)]
+fn low_derivatives(c: &[f64; 8], tau: f64x4) -> [f64x4; 3] {
+    let (mut p, mut v, mut a) = (f64x4::ZERO, f64x4::ZERO, f64x4::ZERO);
+    for coefficient in c.iter().rev() {
+        a = a * tau + v;
+        v = v * tau + p;
+        p = p * tau + f64x4::splat(*coefficient);
+    }
+    [p, v, a * 2.0]
+}

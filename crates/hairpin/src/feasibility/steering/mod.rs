@@ -1,0 +1,12 @@
+//! Steering: one leg from one state to another, with the controls that fly it.
+
+pub mod flatness;
+pub mod leg;
+pub mod proof;
+
+#[cfg(test)]
+mod tests;
+
+pub use flatness::{BodyState, Demand, DependentRotors, FlatState, Flatness};
+pub use leg::{LegEnd, LegJudge};
+pub use proof::ProofSettings;

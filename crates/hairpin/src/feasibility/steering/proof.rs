@@ -1,0 +1,218 @@
+//! Proof that a leg keeps to the body's limits at every instant: enclosures of everything demanded, halved until
+//! they decide.
+
+use wide::f64x4;
+
+use super::flatness::{Demand, FlatState, Flatness, LEAST_VERTICAL_THRUST, flat_state};
+use crate::feasibility::limits::{Infeasible, Limit, Limits};
+use crate::math::interval::{Enclosure, Smooth};
+use crate::robot::quadrotor::Quadrotor;
+use crate::trajectory::ProfileLeg;
+
+/// Room for rounding, as a share of each limit: every bound must clear its limit by this much. Four orders above
+/// what the formulas lose.
+const ROUNDING: f64 = 1e-9;
+/// Intervals at most that wait for their turn.
+const WAITING: usize = 128;
+
+/// How hard the bound between samples tries.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProofSettings {
+    /// Equal intervals that a leg is cut into first; 4 … 64.
+    pub first: usize,
+    /// An undecided interval shorter than this share of the leg ends the proof.
+    pub shortest: f64,
+    /// Intervals evaluated per leg at most.
+    pub budget: usize,
+}
+
+impl Default for ProofSettings {
+    /// 8 intervals at first, 1/16384 of the leg, 1024 evaluations.
+    fn default() -> Self {
+        Self { first: 8, shortest: 1.0 / 16384.0, budget: 1024 }
+    }
+}
+
+/// The body's limits as numbers to compare with.
+#[derive(Debug, Clone)]
+pub(super) struct BodyLimits {
+    limits: Limits,
+    least_vertical: f64,
+    weight: f64,
+    cos_tilt: f64,
+    rotor_speed: (f64, f64),
+    rotor_low: f64,
+    rotor_high: f64,
+    settings: ProofSettings,
+}
+
+impl BodyLimits {
+    pub(super) fn new(robot: &Quadrotor, limits: Limits, settings: ProofSettings) -> Self {
+        let weight = robot.mass * robot.gravity;
+        Self {
+            limits,
+            least_vertical: LEAST_VERTICAL_THRUST * weight,
+            weight,
+            cos_tilt: limits.max_tilt.clamp(0.0, std::f64::consts::FRAC_PI_2).cos(),
+            rotor_speed: robot.rotor_speed,
+            rotor_low: robot.rotor_speed.0.powi(2),
+            rotor_high: robot.rotor_speed.1.powi(2),
+            settings: ProofSettings { first: settings.first.clamp(4, 64), ..settings },
+        }
+    }
+
+    /// Signed margins of speed, vertical thrust and tilt, and what rounding may take from each.
+    #[inline(always)]
+    pub(super) fn force_margins<N: Smooth>(&self, speed: N, vertical: N, thrust: N) -> [(N, f64); 3] {
+        [
+            (N::constant(self.limits.max_speed) - speed, ROUNDING * self.limits.max_speed.min(1e3)),
+            (vertical - N::constant(self.least_vertical), ROUNDING * self.weight),
+            (vertical - thrust * self.cos_tilt, ROUNDING * self.weight),
+        ]
+    }
+
+    /// The first of four squared rotor speeds that is out of its limits, with its margin in rad/s. NaN is.
+    #[inline]
+    pub(super) fn rotor_violation(&self, squares: &[f64; 4]) -> Option<(Limit, usize, f64)> {
+        let (low, high) = (self.rotor_low, self.rotor_high);
+        let part = squares.iter().position(|w2| !(*w2 >= low && *w2 <= high))?;
+        let speed = signed_root(squares[part]);
+        if squares[part] > high {
+            return Some((Limit::RotorMax, part, self.rotor_speed.1 - speed));
+        }
+        Some((Limit::RotorMin, part, if speed.is_nan() { f64::NEG_INFINITY } else { speed - self.rotor_speed.0 }))
+    }
+
+    /// The first of four instants that violates speed, thrust or tilt, with the margin in the limit's unit.
+    #[inline]
+    pub(super) fn force_violation(&self, speed: f64x4, vertical: f64x4, thrust: f64x4) -> Option<(usize, Limit, f64)> {
+        let limits = [Limit::Speed, Limit::Thrust, Limit::Tilt];
+        for ((margin, _), limit) in self.force_margins(speed, vertical, thrust).into_iter().zip(limits) {
+            let bits = margin.simd_lt(f64x4::ZERO).to_bitmask();
+            if bits != 0 {
+                let lane = bits.trailing_zeros() as usize;
+                let margin = margin.to_array()[lane];
+                return Some(match limit {
+                    Limit::Speed => (lane, limit, margin),
+                    Limit::Thrust => (lane, limit, margin / self.weight),
+                    _ => (lane, limit, self.tilt_margin(vertical.to_array()[lane], thrust.to_array()[lane])),
+                });
+            }
+        }
+        None
+    }
+
+    fn tilt_margin(&self, vertical: f64, thrust: f64) -> f64 {
+        self.limits.max_tilt - (vertical / thrust).clamp(-1.0, 1.0).acos()
+    }
+
+    /// The least margin at one instant, with its limit and part, in the limit's unit.
+    pub(super) fn worst(&self, flatness: &Flatness, leg: &ProfileLeg, tau: f64) -> (Limit, usize, f64) {
+        let demand: Demand<f64> = flatness.demand(&flat_state(leg, tau));
+        let vertical = demand.force[2] / self.weight - LEAST_VERTICAL_THRUST;
+        if vertical.is_nan() || vertical < 0.0 {
+            // Nothing else is defined.
+            return (Limit::Thrust, 0, if vertical.is_nan() { f64::NEG_INFINITY } else { vertical });
+        }
+        let mut worst = (Limit::Thrust, 0, vertical, vertical);
+        let mut consider = |limit, part, margin: f64, scale: f64| {
+            if margin / scale < worst.3 {
+                worst = (limit, part, margin, margin / scale);
+            }
+        };
+        consider(Limit::Speed, 0, self.limits.max_speed - demand.speed, self.limits.max_speed.min(1e3));
+        consider(Limit::Tilt, 0, self.tilt_margin(demand.force[2], demand.thrust), 1.0);
+        for (part, square) in demand.rotors.into_iter().enumerate() {
+            let speed = signed_root(square);
+            consider(Limit::RotorMin, part, speed - self.rotor_speed.0, self.rotor_speed.1);
+            consider(Limit::RotorMax, part, self.rotor_speed.1 - speed, self.rotor_speed.1);
+        }
+        (worst.0, worst.1, worst.2)
+    }
+
+    /// Proves speed, thrust, tilt and rotor limits on the whole leg.
+    ///
+    /// # Errors
+    /// A violation at an instant, or an interval that the settings do not let it decide.
+    pub(super) fn prove(&self, flatness: &Flatness, leg: &ProfileLeg) -> Result<(), Infeasible> {
+        let refuse = |tau: f64| {
+            let (limit, part, margin) = self.worst(flatness, leg, tau);
+            Err(Infeasible::at(limit, part, tau, margin))
+        };
+        // Centres and half widths of what is still to be decided.
+        let mut waiting = [(0.0, 0.0); WAITING];
+        let mut count = self.settings.first;
+        let first = 0.5 * leg.duration / count as f64;
+        for (k, interval) in waiting[..count].iter_mut().enumerate() {
+            *interval = ((2 * k + 1) as f64 * first, first);
+        }
+        let mut evaluated = 0;
+        while count > 0 {
+            let taken = count.min(4);
+            count -= taken;
+            let batch: [(f64, f64); 4] = std::array::from_fn(|lane| waiting[count + lane.min(taken - 1)]);
+            evaluated += taken;
+            let (proven, violated) = self.evaluate(flatness, leg, &batch);
+            if let Some(lane) = (0..taken).find(|lane| violated & (1 << lane) != 0) {
+                return refuse(batch[lane].0);
+            }
+            for (lane, &(center, half)) in batch.iter().enumerate().take(taken) {
+                if proven & (1 << lane) != 0 {
+                    continue;
+                }
+                let exhausted = half < 0.5 * self.settings.shortest * leg.duration || evaluated >= self.settings.budget;
+                if exhausted || count + 2 > WAITING {
+                    return refuse(center);
+                }
+                waiting[count] = (center - 0.5 * half, 0.5 * half);
+                waiting[count + 1] = (center + 0.5 * half, 0.5 * half);
+                count += 2;
+            }
+        }
+        Ok(())
+    }
+
+    /// Bit masks of the intervals on which every limit is proven, and of those whose centre violates one.
+    fn evaluate(&self, flatness: &Flatness, leg: &ProfileLeg, batch: &[(f64, f64); 4]) -> (u32, u32) {
+        let tau = f64x4::new(batch.map(|(center, _)| center));
+        let half = f64x4::new(batch.map(|(_, half)| half));
+        let d = leg.coefficients.map(|c| derivatives(&c, tau));
+        let of = |order: usize| std::array::from_fn(|axis| Enclosure::taylor(&d[axis][order..], half));
+        let flat = FlatState { velocity: of(1), acceleration: of(2), jerk: of(3), snap: of(4) };
+        let demand = flatness.demand(&flat);
+        // All ones; comparisons with NaN are false, so what is undefined is never proven.
+        let mut proven = f64x4::ZERO.simd_eq(f64x4::ZERO);
+        let mut violated = f64x4::ZERO;
+        let mut require = |margin: Enclosure, room: f64| {
+            proven &= margin.lower().simd_ge(f64x4::splat(room));
+            violated |= margin.middle.simd_lt(f64x4::ZERO);
+        };
+        for (margin, room) in self.force_margins(demand.speed, demand.force[2], demand.thrust) {
+            require(margin, room);
+        }
+        let (low, high) = (Enclosure::constant(self.rotor_low), Enclosure::constant(self.rotor_high));
+        for square in demand.rotors {
+            require(square - low, ROUNDING * self.rotor_high);
+            require(high - square, ROUNDING * self.rotor_high);
+        }
+        (proven.to_bitmask(), violated.to_bitmask())
+    }
+}
+
+/// Root of |x| with the sign of x: a negative demand stays visible as a negative speed.
+fn signed_root(square: f64) -> f64 {
+    square.abs().sqrt().copysign(square)
+}
+
+/// The derivatives of order 0 … 7 of Σ c_i τ^i at four times, by repeated synthetic division.
+#[inline(always)]
+pub(super) fn derivatives(c: &[f64; 8], tau: f64x4) -> [f64x4; 8] {
+    const FACTORIAL: [f64; 8] = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0, 720.0, 5040.0];
+    let mut b = c.map(f64x4::splat);
+    for order in 0..7 {
+        for i in (order..7).rev() {
+            b[i] += b[i + 1] * tau;
+        }
+    }
+    std::array::from_fn(|order| b[order] * FACTORIAL[order])
+}

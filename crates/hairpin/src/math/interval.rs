@@ -1,0 +1,275 @@
+//! Proven bounds of a function between samples: on a short interval a function is a line plus a bounded rest.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use wide::f64x4;
+
+/// What a closed form needs of its numbers, so that one formula serves a point (`f64`), four points (`f64x4`) and
+/// four intervals ([`Enclosure`]).
+pub trait Smooth:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self> + Neg<Output = Self>
+{
+    /// The constant function.
+    fn constant(value: f64) -> Self;
+    /// The square of the function.
+    fn square(self) -> Self;
+    /// Square root of a function that is nowhere negative.
+    fn sqrt(self) -> Self;
+    /// Reciprocal; worthless (infinite or NaN) unless the function is proven positive.
+    fn recip(self) -> Self;
+    /// `self / norm`, one component of the unit vector along a vector of length `norm`. Where the vector vanishes it has no
+    /// direction: a point gives 0, the mean of all directions; an enclosure gives [−1, 1], which holds every one.
+    fn direction(self, norm: Self) -> Self;
+}
+
+/// Four intervals at once: on lane k the function is `middle + slope·u + r`, |u| ≤ 1, |r| ≤ `rest`.
+///
+/// A Taylor model of degree 1 (Makino, Berz, "Taylor models and other validated functional inclusion methods", 2003):
+/// `middle` is the function's value at the interval's centre, so a violation there is real, and the bounds converge
+/// with the square of the width. Rounding is not directed; who compares with a limit leaves room for it.
+#[derive(Debug, Clone, Copy)]
+pub struct Enclosure {
+    /// Value at the centre.
+    pub middle: f64x4,
+    /// Slope times half the width.
+    pub slope: f64x4,
+    /// Bound of what the line misses.
+    pub rest: f64x4,
+}
+
+impl Enclosure {
+    /// The enclosure of Σ d_k h^k/k! u^k, from the derivatives `d` at the centre and half the width `h`.
+    #[inline(always)]
+    pub fn taylor(d: &[f64x4], h: f64x4) -> Self {
+        let mut rest = f64x4::ZERO;
+        for k in (2..d.len()).rev() {
+            rest = (rest + d[k].abs()) * h * (1.0 / k as f64);
+        }
+        // The loop nests |d₂| h/2 + |d₃| h²/(2·3) + …; one factor h is left.
+        Self { middle: d[0], slope: d.get(1).map_or(f64x4::ZERO, |d1| *d1 * h), rest: rest * h }
+    }
+
+    /// Lower bounds of the four intervals.
+    #[inline(always)]
+    pub fn lower(&self) -> f64x4 {
+        self.middle - self.slope.abs() - self.rest
+    }
+
+    /// Upper bounds of the four intervals.
+    #[inline(always)]
+    pub fn upper(&self) -> f64x4 {
+        self.middle + self.slope.abs() + self.rest
+    }
+}
+
+impl Add for Enclosure {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self { middle: self.middle + o.middle, slope: self.slope + o.slope, rest: self.rest + o.rest }
+    }
+}
+
+impl Sub for Enclosure {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self { middle: self.middle - o.middle, slope: self.slope - o.slope, rest: self.rest + o.rest }
+    }
+}
+
+impl Neg for Enclosure {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { middle: -self.middle, slope: -self.slope, rest: self.rest }
+    }
+}
+
+impl Mul<f64> for Enclosure {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, k: f64) -> Self {
+        Self { middle: self.middle * k, slope: self.slope * k, rest: self.rest * k.abs() }
+    }
+}
+
+impl Mul for Enclosure {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, o: Self) -> Self {
+        // (a + a₁u + r)(b + b₁u + s): everything but the line goes to the rest.
+        let a = self.middle.abs() + self.slope.abs();
+        let b = o.middle.abs() + o.slope.abs();
+        Self {
+            middle: self.middle * o.middle,
+            slope: self.middle * o.slope + self.slope * o.middle,
+            rest: (self.slope * o.slope).abs() + a * o.rest + self.rest * (b + o.rest),
+        }
+    }
+}
+
+impl Smooth for Enclosure {
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        Self { middle: f64x4::splat(value), slope: f64x4::ZERO, rest: f64x4::ZERO }
+    }
+
+    #[inline(always)]
+    fn square(self) -> Self {
+        let a = self.middle.abs() + self.slope.abs();
+        Self {
+            middle: self.middle * self.middle,
+            slope: self.middle * self.slope * 2.0,
+            rest: self.slope * self.slope + self.rest * (a + a + self.rest),
+        }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // √(x₀ + δ) = √x₀ + δ/(2√x₀) − δ²/(8 ξ^{3/2}), ξ ≥ the lower bound; or, near zero, just [0, √upper].
+        let (lower, upper) = (self.lower(), self.upper());
+        let root = self.middle.max(f64x4::ZERO).sqrt();
+        let half_inverse = f64x4::splat(0.5) / root;
+        let spread = self.slope.abs() + self.rest;
+        let rest = self.rest * half_inverse + spread * spread / (lower * lower.sqrt() * 8.0);
+        let slope = self.slope * half_inverse;
+        let highest = upper.max(f64x4::ZERO).sqrt();
+        let tame = lower.simd_gt(f64x4::ZERO) & (slope.abs() + rest).simd_lt(highest);
+        Self { middle: root, slope: tame.select(slope, f64x4::ZERO), rest: tame.select(rest, root.max(highest - root)) }
+    }
+
+    #[inline(always)]
+    fn recip(self) -> Self {
+        // 1/(x₀ + δ) = 1/x₀ − δ/x₀² + δ²/(x₀² (x₀ + δ)).
+        let lower = self.lower();
+        let inverse = f64x4::ONE / self.middle;
+        let square = inverse * inverse;
+        let spread = self.slope.abs() + self.rest;
+        let rest = square * (self.rest + spread * spread / lower);
+        let positive = lower.simd_gt(f64x4::ZERO);
+        Self { middle: inverse, slope: -self.slope * square, rest: positive.select(rest, f64x4::splat(f64::INFINITY)) }
+    }
+
+    #[inline(always)]
+    fn direction(self, norm: Self) -> Self {
+        let ratio = self * norm.recip();
+        // The centre keeps its direction where it has one; NaN and infinity are not tame.
+        let middle = norm.middle.simd_gt(f64x4::ZERO).select(ratio.middle, f64x4::ZERO);
+        let all = f64x4::ONE + middle.abs();
+        let tame = (ratio.slope.abs() + ratio.rest).simd_lt(all);
+        Self { middle, slope: tame.select(ratio.slope, f64x4::ZERO), rest: tame.select(ratio.rest, all) }
+    }
+}
+
+impl Smooth for f64 {
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn square(self) -> Self {
+        self * self
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.max(0.0).sqrt()
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+    #[inline(always)]
+    fn direction(self, norm: Self) -> Self {
+        if norm > 0.0 { self / norm } else { 0.0 }
+    }
+}
+
+impl Smooth for f64x4 {
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        f64x4::splat(value)
+    }
+    #[inline(always)]
+    fn square(self) -> Self {
+        self * self
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64x4::sqrt(self.max(f64x4::ZERO))
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        f64x4::ONE / self
+    }
+    #[inline(always)]
+    fn direction(self, norm: Self) -> Self {
+        norm.simd_gt(f64x4::ZERO).select(self / norm, f64x4::ZERO)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::stream;
+    use rand::RngExt;
+
+    /// Formulas over the whole vocabulary, with arguments that pass through zero.
+    fn formulas<N: Smooth>(x: N, y: N) -> [N; 7] {
+        let sum = x.square() + y.square();
+        let norm = sum.sqrt();
+        let inverse = (sum + N::constant(0.5)).recip();
+        [
+            x * y - x.square() * 0.5,
+            -(x * x * x) + y,
+            norm,
+            inverse,
+            (sum + N::constant(1e-3)).sqrt(),
+            x.direction(norm) * y,
+            (x * inverse + y.direction(norm)) * norm,
+        ]
+    }
+
+    #[test]
+    fn encloses_every_point_and_shrinks_with_the_square() {
+        let mut widest = [[0.0f64; 2]; 7];
+        for seed in 0..2000 {
+            let mut random = stream(seed);
+            let c: [[f64; 3]; 2] = std::array::from_fn(|_| std::array::from_fn(|_| random.random_range(-2.0..2.0)));
+            let p = |axis: usize, u: f64| c[axis][0] + c[axis][1] * u + c[axis][2] * u * u;
+            for (level, half) in [0.1, 0.01].into_iter().enumerate() {
+                let center = if seed % 2 == 0 { 0.0 } else { random.random_range(-1.0..1.0) };
+                let derivatives = |axis: usize| {
+                    [p(axis, center), c[axis][1] + 2.0 * c[axis][2] * center, 2.0 * c[axis][2]].map(f64x4::splat)
+                };
+                let h = f64x4::splat(half);
+                let [x, y] = [0, 1].map(|axis| Enclosure::taylor(&derivatives(axis), h));
+                for (index, bound) in formulas(x, y).iter().enumerate() {
+                    let (low, high) = (bound.lower().to_array()[2], bound.upper().to_array()[2]);
+                    for k in 0..=50 {
+                        let t = center + half * (k as f64 / 25.0 - 1.0);
+                        let value = formulas(p(0, t), p(1, t))[index];
+                        assert!(
+                            value >= low - 1e-12 && value <= high + 1e-12,
+                            "seed {seed}, formula {index}: {value} outside [{low}, {high}]"
+                        );
+                    }
+                    if c[0][0].hypot(c[1][0]) > 1.0 && center == 0.0 {
+                        widest[index][level] = widest[index][level].max(bound.rest.to_array()[2]);
+                    }
+                }
+            }
+        }
+        for (index, [wide, narrow]) in widest.into_iter().enumerate() {
+            assert!(narrow < wide / 80.0, "formula {index}: rest {wide} falls to {narrow} at a tenth of the width");
+        }
+    }
+
+    #[test]
+    fn a_vanishing_vector_has_every_direction() {
+        let zero = Enclosure::constant(0.0);
+        let bound = zero.direction(zero);
+        assert!(bound.lower().to_array()[0] <= -1.0 && bound.upper().to_array()[0] >= 1.0);
+        assert_eq!(0.0f64.direction(0.0), 0.0);
+    }
+}
