@@ -117,7 +117,7 @@ impl CampaignFolder {
         }
         folder.remove_leftovers();
         if existing == Existing::Replace {
-            folder.clear()?;
+            folder.forget_cases()?;
         }
         Ok(folder)
     }
@@ -387,16 +387,40 @@ impl CampaignFolder {
         }
     }
 
+    /// Removes all flights and what was made of them; the cases stay.
+    ///
+    /// # Errors
+    /// A file cannot be removed.
+    pub fn forget_runs(&self) -> Result<(), FolderError> {
+        self.remove(&[RUNS, "junit.xml", "report.html"], &["executions"])
+    }
+
     /// Removes the campaign's products, the ones first whose presence says that others are complete.
-    fn clear(&self) -> Result<(), FolderError> {
+    ///
+    /// # Errors
+    /// A file cannot be removed.
+    pub fn forget_cases(&self) -> Result<(), FolderError> {
+        let names = [RESULTS, RUNS, WAYPOINTS, GENERATION, "junit.xml", "report.html"];
+        self.remove(&names, &["trajectories", "profiles", "executions"])
+    }
+
+    /// Removes `names`, the tables in `folders`, and the executors' logs, which are of runs that go.
+    fn remove(&self, names: &[&str], folders: &[&str]) -> Result<(), FolderError> {
         let remove = |path: PathBuf| match fs::remove_file(&path) {
             Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }),
             _ => Ok(()),
         };
-        for name in [RESULTS, RUNS, WAYPOINTS, GENERATION, "junit.xml", "report.html"] {
+        for name in names {
             remove(self.file(name))?;
         }
-        for name in ["trajectories", "profiles", "executions"] {
+        let is_log = |path: &PathBuf| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with("executor-") && name.ends_with(".log")
+        };
+        for path in entries(&self.path)?.into_iter().filter(is_log) {
+            remove(path)?;
+        }
+        for name in folders {
             for path in entries(&self.path.join(name))? {
                 if path.extension().is_some_and(|extension| extension == "parquet") {
                     remove(path)?;

@@ -17,6 +17,12 @@ pub struct Failed {
 /// What went wrong.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Failure {
+    /// What `[vary]` drew makes no mission.
+    #[error("not flown: {cause}")]
+    NoMission {
+        /// Why.
+        cause: String,
+    },
     /// The operating system cannot start the program.
     #[error("cannot start `{program}`: {cause}")]
     Start {

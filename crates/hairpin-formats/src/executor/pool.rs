@@ -12,7 +12,7 @@ use super::worker::{Command, Limits, Worker};
 /// A program that failed this often in a row to say `ready` is not started again.
 const HOPELESS: usize = 3;
 
-/// Flies missions `0..count` by `workers` processes of `command`; `mission(i)` makes the i-th, `landed(i, …)` takes its
+/// Flies missions `0..count` by `workers` processes of `command`; `mission(i)` makes the i-th (or says why it cannot be flown), `landed(i, …)` takes its
 /// flight, both from any thread and in any order. What was being flown when `cancelled` became true is not reported.
 ///
 /// A program that cannot even be started fails every mission with the same sentence.
@@ -21,7 +21,7 @@ pub fn fly_all(
     limits: Limits,
     workers: usize,
     count: usize,
-    mission: &(dyn Fn(usize) -> Mission + Sync),
+    mission: &(dyn Fn(usize) -> Result<Mission, String> + Sync),
     landed: &(dyn Fn(usize, Result<Flight, Failed>) + Sync),
     cancelled: &(dyn Fn() -> bool + Sync),
 ) {
@@ -35,7 +35,11 @@ pub fn fly_all(
                     if index >= count {
                         break;
                     }
-                    match pilot.fly(&mission(index), cancelled) {
+                    let flown = match mission(index) {
+                        Ok(mission) => pilot.fly(&mission, cancelled),
+                        Err(cause) => Err(Failed { failure: Failure::NoMission { cause }, stderr: String::new() }),
+                    };
+                    match flown {
                         Err(Failed { failure: Failure::Cancelled, .. }) => break,
                         result => landed(index, result),
                     }

@@ -100,13 +100,13 @@ impl<'a> Recording<'a> {
         if time > self.mission.time_limit + OVERTIME_S {
             return Err(PoseError::Overtime { index, time, limit: self.mission.time_limit });
         }
-        if let Some(axis) = (0..3).find(|&axis| !(pose.p_m[axis].abs() <= FARTHEST_M)) {
+        if let Some(axis) = (0..3).find(|&axis| pose.p_m[axis].is_nan() || pose.p_m[axis].abs() > FARTHEST_M) {
             return Err(PoseError::Far { index, time, axis, value: pose.p_m[axis] });
         }
         let [w, x, y, z] = pose.q_wxyz;
         let quaternion = Quaternion::new(w, x, y, z);
         let length = quaternion.norm();
-        if !((length - 1.0).abs() <= QUATERNION_TOLERANCE) {
+        if length.is_nan() || (length - 1.0).abs() > QUATERNION_TOLERANCE {
             return Err(PoseError::Quaternion { index, time, length });
         }
         let position = Point3::from(pose.p_m);

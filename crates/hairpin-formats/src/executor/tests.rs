@@ -82,7 +82,7 @@ fn limits() -> Limits {
 fn fly(command: &Command, limits: Limits, workers: usize, count: usize) -> Vec<Result<Flight, Failed>> {
     let results = Mutex::new(Vec::new());
     let landed = |index, result| results.lock().unwrap().push((index, result));
-    fly_all(command, limits, workers, count, &mission, &landed, &|| false);
+    fly_all(command, limits, workers, count, &|i| Ok(mission(i)), &landed, &|| false);
     let mut results = results.into_inner().unwrap();
     results.sort_by_key(|(index, _)| *index);
     assert!(results.iter().enumerate().all(|(i, (index, _))| i == *index), "every mission exactly once");
@@ -315,7 +315,7 @@ fn stops_when_asked_and_reports_nothing_half_flown() {
         results.lock().unwrap().push((index, result.is_ok()));
         stop.store(true, Ordering::Relaxed);
     };
-    fly_all(&command, limits(), 2, 50, &mission, &landed, &|| stop.load(Ordering::Relaxed));
+    fly_all(&command, limits(), 2, 50, &|i| Ok(mission(i)), &landed, &|| stop.load(Ordering::Relaxed));
     assert!(begun.elapsed() < Duration::from_secs(15));
     let results = results.into_inner().unwrap();
     assert!(results.iter().all(|&(index, ok)| ok && index != 1) && results.len() < 5, "{results:?}");
