@@ -1,2 +1,74 @@
-//! x
-fn main() {}
+//! What was typed becomes what it means, and what came of it an exit code: here, in one place.
+//!
+//! | code | meaning |
+//! | --- | --- |
+//! | 0 | within spec |
+//! | 1 | violation, or a finding of `verify` |
+//! | 2 | wrong input |
+//! | 3 | nothing feasible |
+//! | 4 | executor failed |
+//! | 5 | inconclusive |
+//! | 70 | a mistake of hairpin's own |
+//! | 130 | interrupted; `--resume` goes on |
+
+mod args;
+mod commands;
+mod console;
+mod folder;
+mod interrupt;
+mod problem;
+mod simd;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use problem::Problem;
+
+/// A mistake of hairpin's own (`EX_SOFTWARE` of sysexits.h).
+const OUR_MISTAKE: u8 = 70;
+
+fn main() -> ExitCode {
+    apologise_when_panicking();
+    // Wrong usage exits with 2, help and version with 0, as clap has it.
+    let arguments = Arguments::parse();
+    let json = arguments.command.json();
+    // A panic has told its sentence already; it must not look like a verdict.
+    let outcome = std::panic::catch_unwind(|| run(arguments));
+    ExitCode::from(match outcome {
+        Ok(Ok(code)) => code,
+        Ok(Err(problem)) => problem.tell(json),
+        Err(_) => OUR_MISTAKE,
+    })
+}
+
+fn run(arguments: Arguments) -> Result<u8, Problem> {
+    console::chatter(arguments.verbose);
+    interrupt::listen();
+    match arguments.command {
+        Command::Demo(demo) => commands::demo::run(&demo),
+        Command::New(new) => commands::new::run(&new),
+        Command::Stress(stress) => commands::stress::run(&stress),
+        Command::Generate(generate) => commands::generate::run(&generate),
+        Command::Execute(execute) => commands::execute::run(&execute),
+        Command::Judge(judge) => commands::judge::run(&judge),
+        Command::Verify(verify) => commands::verify::run(&verify),
+        Command::Replay(replay) => commands::replay::run(&replay),
+        Command::Export(export) => commands::export::run(&export),
+        Command::Report(report) => commands::report::run(&report),
+        Command::Simulate(simulate) => commands::simulate::run(&simulate),
+        Command::Schema(schema) => commands::schema::run(&schema),
+        Command::Completions(completions) => commands::completions::run(&completions),
+    }
+}
+
+fn apologise_when_panicking() {
+    std::panic::set_hook(Box::new(|panic| {
+        let place = panic.location().map_or(String::new(), |at| format!(" ({}:{})", at.file(), at.line()));
+        let message = panic.payload_as_str().unwrap_or("no message");
+        console::warn(&format!(
+            "this is a mistake of hairpin's own, not yours: please report it with the command and its files: {message}{place}"
+        ));
+    }));
+}

@@ -1,0 +1,298 @@
+//! What can be typed. No meaning here: that is in `commands`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Finds the trajectories a robot handles worst, and proves that they are ones it could have flown.
+///
+/// A test generator: what it writes is stressful by design and is no safety certificate.
+#[derive(Debug, Parser)]
+#[command(name = "hairpin", version, propagate_version = true, arg_required_else_help = true, after_help = EXIT_CODES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+    /// Tell what is done, on stderr; twice: with what.
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub(crate) verbose: u8,
+}
+
+const EXIT_CODES: &str =
+    "Exit codes: 0 within spec, 1 violation, 2 wrong input, 3 nothing feasible, 4 executor failed, 5 inconclusive";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// A small campaign with result and report within 10 s; writes ./hairpin-demo
+    Demo(Demo),
+    /// Write a commented scenario file that runs as it is into the current folder
+    New(New),
+    /// Generate, execute, judge, report: the main job
+    Stress(Stress),
+    /// Find feasible and stressful trajectories: the first part of `stress`
+    Generate(Generate),
+    /// Fly the trajectories of a campaign folder: the second part
+    Execute(Execute),
+    /// Judge the flights of a campaign folder: the third part
+    Judge(Judge),
+    /// Integrate every control witness of a campaign by independent code
+    Verify(Verify),
+    /// Fly a violating case again, from its repro file
+    Replay(Replay),
+    /// Write a campaign's trajectories for other programs
+    Export(Export),
+    /// Write a campaign's report.html
+    Report(ReportArguments),
+    /// Fly a rotor-speed profile open loop: poses in time as CSV
+    Simulate(Simulate),
+    /// Print the JSON Schema of scenario or robot files, for editors
+    Schema(Schema),
+    /// Print a shell's completions
+    Completions(Completions),
+}
+
+impl Command {
+    /// Whether stdout is for machines.
+    pub(crate) fn json(&self) -> bool {
+        match self {
+            Self::Demo(a) => a.json,
+            Self::Stress(a) => a.campaign.json,
+            Self::Generate(a) => a.campaign.json,
+            Self::Execute(a) => a.json,
+            Self::Judge(a) => a.json,
+            Self::Verify(a) => a.json,
+            Self::Replay(a) => a.json,
+            Self::New(_)
+            | Self::Export(_)
+            | Self::Report(_)
+            | Self::Simulate(_)
+            | Self::Schema(_)
+            | Self::Completions(_) => false,
+        }
+    }
+}
+
+/// Kinds of robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Kind {
+    Quadrotor,
+    Arm,
+    Rover,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Demo {
+    /// The robot to show
+    #[arg(value_enum, default_value_t = Kind::Quadrotor)]
+    pub(crate) kind: Kind,
+    /// Campaign folder
+    #[arg(long, value_name = "DIR", default_value = "hairpin-demo")]
+    pub(crate) out: PathBuf,
+    /// Replace a campaign in --out (the default folder is always replaced)
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct New {
+    /// The robot's kind
+    #[arg(value_enum)]
+    pub(crate) kind: Kind,
+    /// Overwrite the file
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// Threads of the computation.
+#[derive(Debug, Args)]
+pub(crate) struct Threads {
+    /// Threads; all cores if not given. The results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+}
+
+/// What every command that begins a campaign takes.
+#[derive(Debug, Args)]
+pub(crate) struct Campaign {
+    /// Scenario file, or the name of a shipped scenario or robot
+    pub(crate) scenario: String,
+    /// Campaign folder; out/NAME of the scenario if not given
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Root seed, instead of the scenario's
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Override one scenario key: dotted key, TOML value; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// Go on with an interrupted campaign (same arguments, same --out)
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Replace the campaign in --out
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Seconds after which generation stops and keeps what exists
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub(crate) time_limit: Option<f64>,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Stress {
+    #[command(flatten)]
+    pub(crate) campaign: Campaign,
+    /// Program that flies the missions (sets execute.command); see examples/executors
+    #[arg(long, value_name = "COMMAND")]
+    pub(crate) executor: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Generate {
+    #[command(flatten)]
+    pub(crate) campaign: Campaign,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Execute {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// Fly these waypoint files (CSV: x_m,y_m,z_m) instead of the folder's cases
+    #[arg(long, value_name = "DIR")]
+    pub(crate) missions: Option<PathBuf>,
+    /// Program that flies the missions (sets execute.command); see examples/executors
+    #[arg(long, value_name = "COMMAND")]
+    pub(crate) executor: Option<String>,
+    /// Override one key of [execute], [vary] or [spec]; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// Keep the runs that are there
+    #[arg(long, conflicts_with = "missions")]
+    pub(crate) resume: bool,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Judge {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// Override one key of [spec]; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Verify {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// One JSON object on stdout: checked, failed, worst
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Replay {
+    /// repro/CASE.json of a campaign folder
+    #[arg(value_name = "REPRO")]
+    pub(crate) file: PathBuf,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Export {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// Formats, separated by commas
+    #[arg(long, value_enum, value_delimiter = ',', required = true)]
+    pub(crate) to: Vec<Format>,
+}
+
+/// Formats of `export`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// missions/CASE.csv: x_m,y_m,z_m
+    Waypoints,
+    /// export/CASE.planned.csv and export/CASE-RUN.csv: poses in time
+    Csv,
+    /// export/CASE.ref.tum and CASE.exec.tum: planned motion and worst run, same stamps
+    Tum,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReportArguments {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// Open it in the browser
+    #[arg(long)]
+    pub(crate) open: bool,
+}
+
+/// The flight begins level and at rest at the origin, rotors at the first row's speeds. Each row's speeds are asked for
+/// until the next row's time; the last row ends the flight. One pose per row, world frame, z up.
+#[derive(Debug, Args)]
+pub(crate) struct Simulate {
+    /// Robot: a shipped name, a robot file, or a scenario that has one
+    pub(crate) robot: String,
+    /// CSV: t_s,rotor1_rad_s,rotor2_rad_s,rotor3_rad_s,rotor4_rad_s
+    #[arg(long, value_name = "CSV")]
+    pub(crate) rotor_speeds: PathBuf,
+    /// Where the poses go; stdout if not given
+    #[arg(long, value_name = "CSV")]
+    pub(crate) out: Option<PathBuf>,
+    /// Override one key, such as robot.drag_quadratic_n_s2_m2=0; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+}
+
+/// What a schema can be of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Document {
+    Scenario,
+    Robot,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Schema {
+    /// The kind of file
+    #[arg(value_enum, default_value_t = Document::Scenario)]
+    pub(crate) document: Document,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    pub(crate) shell: clap_complete::Shell,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds >= 0.0 => Ok(seconds),
+        _ => Err("must be a number of seconds ≥ 0".into()),
+    }
+}

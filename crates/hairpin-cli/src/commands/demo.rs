@@ -1,0 +1,24 @@
+//! `hairpin demo`: a small campaign that needs nothing but the binary.
+
+use std::path::Path;
+
+use hairpin::campaign::Setup;
+use hairpin_formats::scenario::scenario_for;
+
+use super::{new, stress};
+use crate::args::{Demo, Kind};
+use crate::folder::{self, Work};
+use crate::interrupt::Deadline;
+use crate::problem::Problem;
+
+/// Runs the command.
+pub(crate) fn run(demo: &Demo) -> Result<u8, Problem> {
+    if demo.kind != Kind::Quadrotor {
+        return Err(new::unsupported(demo.kind));
+    }
+    folder::take_threads(&demo.threads);
+    let setup = Setup::new(scenario_for("demo-quadrotor", &[])?)?;
+    let replaceable = demo.force || demo.out == Path::new("hairpin-demo");
+    let work = Work { folder: folder::make(&demo.out, &setup.scenario, false, replaceable)?, setup };
+    stress::campaign(&work, Deadline::after(None), demo.json)
+}

@@ -1,0 +1,77 @@
+//! `hairpin execute`: the flights of a campaign whose trajectories are there, or of waypoint files made elsewhere.
+
+use hairpin::campaign::{Case, Evidence};
+use hairpin_formats::{folder::CampaignFolder, waypoints};
+use nalgebra::Point3;
+use serde_json::json;
+
+use super::parts;
+use crate::args::Execute;
+use crate::problem::Problem;
+use crate::{console, folder};
+
+/// Runs the command: 0 when everything was flown, 4 when the executor failed in any run.
+pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
+    folder::take_threads(&execute.threads);
+    let mut sets = folder::split(&execute.sets)?;
+    sets.extend(execute.executor.as_deref().map(folder::as_command));
+    let missions = execute.missions.as_deref().map(waypoints::read_folder).transpose().map_err(Problem::input)?;
+    if execute.resume && !sets.is_empty() {
+        unchanged(execute, &sets)?;
+    }
+    let work = folder::open(&execute.folder, &sets, &["execute", "vary", "spec"])?;
+    if let Some(missions) = &missions {
+        parts::adopt(&work, missions)?;
+    } else if !work.folder.has_cases() {
+        let path = execute.folder.display();
+        return Err(Problem::input(format!("{path} has no cases yet: hairpin generate, or --missions DIR")));
+    } else if !execute.resume {
+        work.folder.forget_runs()?;
+    }
+    let cases = work.folder.read_cases()?;
+    // What was judged was judged on other runs, or on fewer.
+    work.folder.write_results(&cases, &[])?;
+    parts::execute(&work, &cases)?;
+    let table = work.folder.read_runs_table()?;
+    let failed = table.values().filter(|facts| facts.message.is_some()).count();
+    let (sentence, code) = if failed == 0 {
+        (format!("EXECUTED {} runs of {} cases", table.len(), cases.len()), 0)
+    } else {
+        (format!("EXECUTOR FAILED {failed}/{} runs (stderr kept in executor-CASE-RUN.log)", table.len()), 4)
+    };
+    if execute.json {
+        let counts = json!({ "cases": cases.len(), "runs": table.len(), "executor_failed": failed });
+        let paths = json!({ "folder": work.folder.path(), "executions": work.folder.file("executions") });
+        console::say(&json!({ "verdict": sentence, "exit_code": code, "counts": counts, "paths": paths }).to_string());
+    } else {
+        console::say(&sentence);
+    }
+    Ok(code)
+}
+
+/// `--resume` goes on with the same settings, or runs of two kinds would stand side by side.
+fn unchanged(execute: &Execute, sets: &[(String, String)]) -> Result<(), Problem> {
+    let before = CampaignFolder::open(&execute.folder)?;
+    match folder::changed_by(&before, sets)? {
+        None => Ok(()),
+        Some(key) => {
+            Err(Problem::input(format!("--resume: `{key}` is not what it was; without --resume all is flown anew")))
+        }
+    }
+}
+
+/// A case of which nothing is known but its waypoints.
+pub(crate) fn bare_case(number: usize, seed: u64, waypoints: Vec<Point3<f64>>) -> Case {
+    Case {
+        number,
+        seed,
+        graph: 0,
+        waypoints,
+        leg_times: Vec::new(),
+        score: 0.0,
+        bound: None,
+        evidence: Evidence::Unchecked,
+        certified: None,
+        profile: None,
+    }
+}

@@ -1,0 +1,18 @@
+//! `hairpin judge`: the verdict on the flights of a campaign folder.
+
+use super::parts::{self, Answer};
+use crate::args::Judge;
+use crate::folder;
+use crate::problem::Problem;
+
+/// Runs the command.
+pub(crate) fn run(judge: &Judge) -> Result<u8, Problem> {
+    folder::take_threads(&judge.threads);
+    let work = folder::open(&judge.folder, &folder::split(&judge.sets)?, &["spec"])?;
+    let cases = work.folder.read_cases()?;
+    let tally = work.folder.read_tally()?;
+    let (results, verdict) = parts::judge(&work, &cases, &tally)?;
+    let asked = work.setup.scenario.generate.search.cases as usize;
+    let answer = Answer { folder: work.folder.path(), asked, cases: &cases, results: &results, verdict: &verdict };
+    Ok(answer.say(judge.json))
+}

@@ -1,0 +1,16 @@
+//! What each command means; one file each. `parts` are the four parts of `stress`, on an open campaign folder.
+
+pub(crate) mod completions;
+pub(crate) mod demo;
+pub(crate) mod execute;
+pub(crate) mod export;
+pub(crate) mod generate;
+pub(crate) mod judge;
+pub(crate) mod new;
+mod parts;
+pub(crate) mod replay;
+pub(crate) mod report;
+pub(crate) mod schema;
+pub(crate) mod simulate;
+pub(crate) mod stress;
+pub(crate) mod verify;

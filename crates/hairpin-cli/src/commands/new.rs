@@ -1,0 +1,37 @@
+//! `hairpin new`: a commented scenario file that runs as it is.
+
+use std::path::Path;
+
+use hairpin_formats::{atomic, template};
+
+use crate::args::{Kind, New};
+use crate::console;
+use crate::problem::Problem;
+
+/// Runs the command.
+pub(crate) fn run(new: &New) -> Result<u8, Problem> {
+    let name = word(new.kind);
+    let text = template::template(name).ok_or_else(|| unsupported(new.kind))?;
+    let file = format!("{name}.toml");
+    let path = Path::new(&file);
+    if path.exists() && !new.force {
+        return Err(Problem::input(format!("{file} exists already: --force overwrites it")));
+    }
+    atomic::write(path, text.as_bytes())?;
+    console::say(&format!("{file} written; now: hairpin stress {file}"));
+    Ok(0)
+}
+
+/// The kind's name in files.
+pub(crate) fn word(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Quadrotor => "quadrotor",
+        Kind::Arm => "arm",
+        Kind::Rover => "rover",
+    }
+}
+
+/// This version has no robots of that kind.
+pub(crate) fn unsupported(kind: Kind) -> Problem {
+    Problem::input(format!("{} is not in this version of hairpin: quadrotor is", word(kind)))
+}

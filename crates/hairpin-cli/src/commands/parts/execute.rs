@@ -1,0 +1,135 @@
+//! Part two: every case flown as often as the scenario asks for, each flight written as soon as it has landed.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use hairpin::campaign::{Case, Run, Setup, execute_run, mission};
+use hairpin_formats::atomic;
+use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
+use hairpin_formats::folder::{CampaignFolder, FolderError};
+use hairpin_formats::parquet::runs::RunFacts;
+use rayon::prelude::*;
+
+use crate::folder::Work;
+use crate::problem::Problem;
+use crate::{console, interrupt};
+
+/// Flies all runs of `cases` that are not in the folder yet.
+pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<(), Problem> {
+    let repeat = work.setup.scenario.execute.repeat as usize;
+    let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));
+    let missing: Vec<(&Case, usize)> =
+        all().filter(|(case, run)| !work.folder.has_valid_run(case.number, *run)).collect();
+    let bar = console::progress("execute", all().count());
+    bar.set_position((all().count() - missing.len()) as u64);
+    let trouble = Mutex::new(None);
+    let landed = |run: Run| {
+        if let Err(error) = work.folder.write_run(&run) {
+            trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get_or_insert(error);
+        }
+        bar.inc(1);
+    };
+    let broken = || trouble.lock().is_ok_and(|trouble| trouble.is_some());
+    let stop = || interrupt::asked() || broken();
+    match command_of(&work.setup)? {
+        None => missing.par_iter().for_each(|(case, run)| {
+            if !stop() {
+                landed(execute_run(&work.setup, case, *run));
+            }
+        }),
+        Some((command, limits)) => fly_with(work, &missing, &command, limits, &landed, &stop),
+    }
+    bar.finish_and_clear();
+    if let Some(error) = trouble.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
+        return Err(error.into());
+    }
+    if interrupt::asked() {
+        return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
+    }
+    write_table(&work.folder, all())
+}
+
+/// The table of all runs, in order; it says that execution is complete.
+fn write_table<'a>(folder: &CampaignFolder, all: impl Iterator<Item = (&'a Case, usize)>) -> Result<(), Problem> {
+    let jobs: Vec<_> = all.collect();
+    let none = Default::default();
+    let facts: Result<Vec<Option<RunFacts>>, FolderError> = jobs
+        .par_iter()
+        .map(|(case, run)| Ok(folder.read_run(case.number, *run, &none)?.map(|run| RunFacts::of(&run))))
+        .collect();
+    Ok(folder.write_runs_table(&facts?.into_iter().flatten().collect::<Vec<_>>())?)
+}
+
+fn fly_with(
+    work: &Work,
+    missing: &[(&Case, usize)],
+    command: &Command,
+    limits: Limits,
+    landed: &(dyn Fn(Run) + Sync),
+    stop: &(dyn Fn() -> bool + Sync),
+) {
+    let workers = work.setup.scenario.execute.workers.map_or_else(rayon::current_num_threads, |n| n as usize);
+    let make = |index: usize| {
+        let (case, run) = missing[index];
+        mission(&work.setup, case, run).map_err(|mistake| mistake.to_string())
+    };
+    let land = |index: usize, result| {
+        let (case, number) = missing[index];
+        if let Err(Failed { failure, stderr }) = &result {
+            keep_log(&work.folder, case, number, failure, stderr);
+        }
+        landed(as_run(&work.setup, case, number, result));
+    };
+    let flown = AtomicUsize::new(0);
+    let counted = |index, result| {
+        flown.fetch_add(1, Ordering::Relaxed);
+        land(index, result);
+    };
+    fly_all(command, limits, workers, missing.len(), &make, &counted, stop);
+    tracing::info!("{} missions by {workers} workers", flown.into_inner());
+}
+
+fn as_run(setup: &Setup, case: &Case, number: usize, result: Result<hairpin::trajectory::Flight, Failed>) -> Run {
+    Run {
+        case: case.number,
+        run: number,
+        drawn: hairpin::campaign::vary::draw(&setup.scenario, case.seed, number),
+        outcome: result.map_err(|failed| failed.to_string()),
+    }
+}
+
+/// `executor-CASE-RUN.log`: why, and the end of the program's stderr. A log that cannot be written stops nothing.
+fn keep_log(folder: &CampaignFolder, case: &Case, run: usize, failure: &Failure, stderr: &str) {
+    let path = folder.file(&format!("executor-{}-{run}.log", case.id()));
+    let text = format!("{failure}\n\n--- the end of its stderr ---\n{stderr}");
+    if let Err(error) = atomic::write(&path, text.as_bytes()) {
+        console::warn(&format!("Warning: {error}"));
+    }
+}
+
+/// The user's program, where one flies.
+fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
+    let execute = &setup.scenario.execute;
+    let Some(text) = &execute.command else { return Ok(None) };
+    let command = text.parse().map_err(|error| Problem::input(format!("`execute.command` = {text:?} {error}")))?;
+    let mission = Duration::try_from_secs_f64(execute.timeout_s)
+        .map_err(|_| Problem::input(format!("`execute.timeout_s` = {}: must be a time", execute.timeout_s)))?;
+    Ok(Some((command, Limits { mission, ..Limits::default() })))
+}
+
+/// Flies one run: for `replay`.
+pub(crate) fn fly_one(setup: &Setup, case: &Case, run: usize) -> Result<Run, Problem> {
+    let Some((command, limits)) = command_of(setup)? else { return Ok(execute_run(setup, case, run)) };
+    let flown = Mutex::new(None);
+    let make = |_| mission(setup, case, run).map_err(|mistake| mistake.to_string());
+    let landed = |_, result: Result<_, Failed>| {
+        if let Err(failed) = &result {
+            console::warn(failed.stderr.trim_end());
+        }
+        *flown.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(as_run(setup, case, run, result));
+    };
+    fly_all(&command, limits, 1, 1, &make, &landed, &interrupt::asked);
+    let run = flown.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    run.ok_or_else(|| Problem::Interrupted("stopped".into()))
+}

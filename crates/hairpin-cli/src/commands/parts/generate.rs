@@ -1,0 +1,108 @@
+//! Part one: trajectories, their planned motion, and what the search did.
+
+use std::time::{Duration, Instant};
+
+use hairpin::campaign::generate::Known;
+use hairpin::campaign::{Case, Stop, Tally, plan};
+
+use crate::folder::Work;
+use crate::interrupt::{self, Deadline};
+use crate::problem::Problem;
+use crate::{commands, console};
+
+/// Between checkpoints: what a kill may cost.
+const CHECKPOINT: Duration = Duration::from_secs(30);
+
+/// Finds the cases and writes them. An interrupted generation goes on where its last checkpoint was.
+pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Tally), Problem> {
+    let folder = &work.folder;
+    let known = if folder.has_cases() {
+        Known { cases: folder.read_cases()?, tally: folder.read_tally()? }
+    } else {
+        Known::default()
+    };
+    if known.tally.complete {
+        tracing::info!("generation is complete already");
+        return Ok((known.cases, known.tally));
+    }
+    let mut cases = known.cases.clone();
+    let mut saved = Instant::now();
+    let mut trouble = None;
+    let bar = console::progress("generate", 0);
+    let tally = hairpin::campaign::generate(
+        &work.setup,
+        &known,
+        &Stop {
+            cancelled: &|| interrupt::asked() || deadline.passed(),
+            progress: &|done, of| {
+                bar.set_length(of as u64);
+                bar.set_position(done as u64);
+            },
+        },
+        &mut |new, tally| {
+            cases.extend_from_slice(new);
+            if saved.elapsed() > CHECKPOINT {
+                trouble = trouble.take().or(save(work, &cases, tally).err());
+                saved = Instant::now();
+            }
+        },
+    );
+    bar.finish_and_clear();
+    if let Some(problem) = trouble {
+        return Err(problem);
+    }
+    if cases.len() != known.cases.len() || tally != known.tally || !folder.has_cases() {
+        save(work, &cases, &tally)?;
+    }
+    if interrupt::asked() {
+        return Err(Problem::Interrupted(format!("stopped after {} cases; --resume goes on", cases.len())));
+    }
+    tracing::info!("{} cases from {} graphs", cases.len(), tally.graphs);
+    Ok((cases, tally))
+}
+
+/// Cases and the tally that belongs to them. The table that says they are whole goes first and comes last: a kill in
+/// between costs the generation, and the same cases are found again.
+fn save(work: &Work, cases: &[Case], tally: &Tally) -> Result<(), Problem> {
+    let table = work.folder.file("results.parquet");
+    match std::fs::remove_file(&table) {
+        Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
+            return Err(Problem::input(format!("cannot remove {}: {cause}", table.display())));
+        }
+        _ => {}
+    }
+    for case in cases {
+        let planned = plan::track(&work.setup.robot, case);
+        let planned = planned.map_err(|error| Problem::input(format!("case {}: {error}", case.id())))?;
+        work.folder.write_planned(case.number, &planned)?;
+    }
+    work.folder.write_tally(tally)?;
+    Ok(work.folder.write_cases(cases)?)
+}
+
+/// Puts waypoint lists that were made elsewhere in the place of the folder's cases. A list that equals a case of the
+/// folder keeps that case's plan and evidence.
+pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>)]) -> Result<(), Problem> {
+    let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
+    let mut cases = Vec::with_capacity(missions.len());
+    for (number, (name, waypoints)) in missions.iter().enumerate() {
+        if waypoints.len() < 2 {
+            return Err(Problem::input(format!(
+                "{name}.csv: a mission needs at least 2 waypoints, this has {}",
+                waypoints.len()
+            )));
+        }
+        if let Some(outside) = waypoints.iter().position(|p| work.setup.world.wall_distance(p) < 0.0) {
+            console::warn(&format!("Warning: {name}.csv: waypoint {outside} lies outside the world"));
+        }
+        let seed = hairpin::math::random::case_seed(work.setup.scenario.seed, number as u64);
+        let same = known.iter().find(|case| case.waypoints == *waypoints);
+        cases.push(match same {
+            Some(case) => Case { number, seed, ..case.clone() },
+            None => commands::execute::bare_case(number, seed, waypoints.clone()),
+        });
+    }
+    let tally = Tally { complete: true, ..Tally::default() };
+    work.folder.forget_cases()?;
+    save(work, &cases, &tally)
+}

@@ -1,0 +1,78 @@
+//! Parts three and four: the verdict on the flights in the folder, and the report.
+
+use hairpin::campaign::{self, Case, CaseResult, Status, Tally, report::worst_first};
+use hairpin::judgement::Verdict;
+use hairpin_formats::junit::{self, Suite};
+use rayon::prelude::*;
+
+use super::Repro;
+use crate::folder::Work;
+use crate::problem::Problem;
+
+/// Violating cases that get a `repro/CASE.json`, the worst ones.
+const REPROS: usize = 20;
+
+/// Judges every case and writes results, JUnit and repro files.
+pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<(Vec<CaseResult>, Verdict), Problem> {
+    let table = work.folder.read_runs_table()?;
+    let judged: Result<Vec<CaseResult>, Problem> = cases
+        .par_iter()
+        .map(|case| {
+            let runs = work.folder.read_runs(case.number, &table)?;
+            if runs.is_empty() {
+                return Err(Problem::input(format!(
+                    "case {} has not been executed: hairpin execute {}",
+                    case.id(),
+                    work.folder.path().display()
+                )));
+            }
+            Ok(campaign::judge(&work.setup, case, &runs)?)
+        })
+        .collect();
+    let results = judged?;
+    let verdict = campaign::verdict(&work.setup, cases, &results, tally);
+    work.folder.write_results(cases, &results)?;
+    junit::write(&work.folder.file("junit.xml"), &suite(work, tally, &verdict), &results)?;
+    write_repros(work, cases, &results)?;
+    Ok((results, verdict))
+}
+
+fn suite(work: &Work, tally: &Tally, verdict: &Verdict) -> Suite {
+    let scenario = &work.setup.scenario;
+    let property = |name: &str, value: String| (name.to_owned(), value);
+    Suite {
+        name: work.setup.robot.name.clone(),
+        asked: scenario.generate.search.cases as usize,
+        missing: tally.nothing.clone().unwrap_or_else(|| "not found within the budget".into()),
+        properties: vec![
+            property("verdict", verdict.sentence.clone()),
+            property("seed", scenario.seed.to_string()),
+            property("version", env!("CARGO_PKG_VERSION").into()),
+        ],
+    }
+}
+
+fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(), Problem> {
+    let folder = work.folder.file("repro");
+    for old in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
+        if old.path().extension().is_some_and(|ending| ending == "json") {
+            std::fs::remove_file(old.path())
+                .map_err(|error| Problem::input(format!("cannot remove {}: {error}", old.path().display())))?;
+        }
+    }
+    let violating = worst_first(results).into_iter().filter(|result| result.status == Status::Fail);
+    for result in violating.take(REPROS) {
+        if let Some(case) = cases.iter().find(|case| case.number == result.case) {
+            Repro::of(&work.setup, case, result).write(&folder.join(format!("{}.json", case.id())))?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes `report.html`.
+pub(crate) fn report(work: &Work, cases: &[Case], tally: &Tally, verdict: &Verdict) -> Result<(), Problem> {
+    let assumptions = campaign::assumptions(&work.setup, cases, tally);
+    let data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions)
+        .map_err(Problem::input)?;
+    Ok(hairpin_formats::report::write(&work.folder.file("report.html"), &data)?)
+}

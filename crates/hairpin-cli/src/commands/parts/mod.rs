@@ -1,0 +1,13 @@
+//! The four parts of `stress`, each on what the one before left in the campaign folder.
+
+mod answer;
+mod execute;
+mod generate;
+mod judge;
+mod repro;
+
+pub(crate) use answer::Answer;
+pub(crate) use execute::{execute, fly_one};
+pub(crate) use generate::{adopt, generate};
+pub(crate) use judge::{judge, report};
+pub(crate) use repro::Repro;

@@ -1,0 +1,133 @@
+//! `repro/CASE.json`: one violating run in one file that can be read, sent and flown again.
+
+use std::path::Path;
+
+use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup};
+use hairpin::trajectory::{Profile, ProfileLeg};
+use hairpin_formats::atomic;
+use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
+
+use crate::problem::Problem;
+
+/// One run that violates the spec, and all that it takes to fly it again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Repro {
+    /// Version of the format: 1.
+    pub(crate) hairpin_repro: u32,
+    /// The case's name.
+    pub(crate) case: String,
+    /// The run that violated.
+    pub(crate) run: usize,
+    /// The case's seed.
+    pub(crate) seed: u64,
+    /// What was seen.
+    pub(crate) expected: Expected,
+    /// Both ends included.
+    pub(crate) waypoints_m: Vec<[f64; 3]>,
+    /// Planned duration of each leg.
+    pub(crate) leg_times_s: Vec<f64>,
+    /// Evidence word of the trajectory.
+    pub(crate) evidence: String,
+    /// The control witness, one per leg: `duration_s`, and per axis c0 … c7 in m/s^i.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) profile: Option<Vec<Leg>>,
+    /// The resolved scenario.
+    pub(crate) scenario: Scenario,
+}
+
+/// What was seen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Expected {
+    /// All violated limits, in words.
+    pub(crate) violations: Vec<String>,
+    /// Largest deviation.
+    pub(crate) max_deviation_m: f64,
+    /// When.
+    pub(crate) t_worst_s: f64,
+    /// The leg.
+    pub(crate) leg_worst: usize,
+    /// Why the run ended.
+    pub(crate) ended: String,
+}
+
+/// One leg of the witness.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Leg {
+    duration_s: f64,
+    coefficients: [[f64; 8]; 3],
+}
+
+impl Repro {
+    /// The worst run of `result`.
+    pub(crate) fn of(setup: &Setup, case: &Case, result: &CaseResult) -> Self {
+        let measures = result.measures.clone().unwrap_or_default();
+        let leg = |leg: &ProfileLeg| Leg { duration_s: leg.duration, coefficients: leg.coefficients };
+        Self {
+            hairpin_repro: 1,
+            case: case.id(),
+            run: result.run,
+            seed: case.seed,
+            expected: Expected {
+                violations: result.violations.iter().map(hairpin::campaign::report::violation).collect(),
+                max_deviation_m: measures.max_deviation,
+                t_worst_s: measures.t_worst,
+                leg_worst: measures.leg_worst,
+                ended: result.ended.clone(),
+            },
+            waypoints_m: case.waypoints.iter().map(|p| p.coords.into()).collect(),
+            leg_times_s: case.leg_times.clone(),
+            evidence: case.evidence.word().into(),
+            profile: case.profile.as_ref().map(|profile| profile.legs.iter().map(leg).collect()),
+            scenario: setup.scenario.clone(),
+        }
+    }
+
+    /// Writes it.
+    pub(crate) fn write(&self, path: &Path) -> Result<(), Problem> {
+        let mut text = serde_json::to_string_pretty(self).map_err(Problem::input)?;
+        text.push('\n');
+        Ok(atomic::write(path, text.as_bytes())?)
+    }
+
+    /// Reads one.
+    pub(crate) fn read(path: &Path) -> Result<Self, Problem> {
+        let refuse = |why: String| Problem::input(format!("{}: {why}", path.display()));
+        let text = std::fs::read_to_string(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
+        let repro: Self = serde_json::from_str(&text).map_err(|error| refuse(format!("is no repro file: {error}")))?;
+        if repro.hairpin_repro != 1 {
+            return Err(refuse(format!("hairpin_repro = {}: this hairpin reads 1", repro.hairpin_repro)));
+        }
+        if repro.waypoints_m.len() < 2 {
+            return Err(refuse("waypoints_m: must be at least 2".into()));
+        }
+        let legs = repro.waypoints_m.len() - 1;
+        if ![0, legs].contains(&repro.leg_times_s.len()) {
+            return Err(refuse(format!("leg_times_s has {} values: must be {legs}", repro.leg_times_s.len())));
+        }
+        if repro.profile.as_ref().is_some_and(|profile| profile.len() != legs) {
+            return Err(refuse(format!("profile: must have {legs} legs")));
+        }
+        Ok(repro)
+    }
+
+    /// The case to fly.
+    pub(crate) fn case(&self) -> Result<Case, Problem> {
+        let number =
+            self.case.parse().map_err(|_| Problem::input(format!("case = {:?}: must be a number", self.case)))?;
+        let leg = |leg: &Leg| ProfileLeg { duration: leg.duration_s, coefficients: leg.coefficients };
+        Ok(Case {
+            number,
+            seed: self.seed,
+            graph: 0,
+            waypoints: self.waypoints_m.iter().map(|p| Point3::from(*p)).collect(),
+            leg_times: self.leg_times_s.clone(),
+            score: 0.0,
+            bound: None,
+            evidence: Evidence::from_word(&self.evidence).unwrap_or(Evidence::Unchecked),
+            certified: None,
+            profile: self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() }),
+        })
+    }
+}

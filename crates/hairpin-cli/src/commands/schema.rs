@@ -1,0 +1,17 @@
+//! `hairpin schema`: JSON Schema from the types that read the files.
+
+use hairpin_formats::schema::{robot_schema, scenario_schema};
+
+use crate::args::{Document, Schema};
+use crate::console;
+use crate::problem::Problem;
+
+/// Runs the command.
+pub(crate) fn run(schema: &Schema) -> Result<u8, Problem> {
+    let schema = match schema.document {
+        Document::Scenario => scenario_schema(),
+        Document::Robot => robot_schema(),
+    };
+    console::say(&serde_json::to_string_pretty(&schema).map_err(Problem::input)?);
+    Ok(0)
+}

@@ -1,0 +1,101 @@
+//! `hairpin verify`: every witness integrated by independent code.
+
+use hairpin::campaign::{self, Case, Evidence};
+use hairpin::verification::Finding;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use crate::args::Verify;
+use crate::console;
+use crate::folder::{self, Work};
+use crate::problem::Problem;
+
+/// What came of one case.
+enum Answer {
+    /// It claims no witness.
+    NothingClaimed,
+    /// Largest end error over its legs, m, and what does not hold.
+    Checked { case: usize, position_m: f64, findings: Vec<String> },
+}
+
+/// Runs the command: 1 for a finding.
+pub(crate) fn run(verify: &Verify) -> Result<u8, Problem> {
+    folder::take_threads(&verify.threads);
+    let work = folder::look(&verify.folder)?;
+    let cases = work.folder.read_cases_without_profiles()?;
+    let answers: Vec<Answer> = cases.par_iter().map(|case| check(&work, case)).collect();
+    let mut checked = 0;
+    let mut failed = Vec::new();
+    let mut worst: Option<(bool, f64, &Answer)> = None;
+    for answer in &answers {
+        let Answer::Checked { position_m, findings, .. } = answer else { continue };
+        checked += 1;
+        let rank = (!findings.is_empty(), *position_m);
+        if worst.as_ref().is_none_or(|(found, at, _)| (*found, *at) < rank) {
+            worst = Some((rank.0, rank.1, answer));
+        }
+        if !findings.is_empty() {
+            failed.push(answer);
+        }
+    }
+    let code = u8::from(!failed.is_empty());
+    if verify.json {
+        let worst = worst.map(|(_, _, answer)| object(answer));
+        console::say(
+            &json!({ "checked": checked, "failed": failed.len(), "worst": worst, "exit_code": code }).to_string(),
+        );
+        return Ok(code);
+    }
+    for answer in &failed {
+        if let Answer::Checked { case, findings, .. } = answer {
+            console::say(&format!("case {case:04}: {}", findings.join("; ")));
+        }
+    }
+    let unclaimed = answers.len() - checked;
+    if unclaimed > 0 {
+        console::warn(&format!("{unclaimed} of {} cases claim no witness: nothing to verify there", answers.len()));
+    }
+    let worst =
+        worst.map_or(String::new(), |(_, position_m, _)| format!("; largest end error of a leg {:.3e} m", position_m));
+    let word = if failed.is_empty() { "VERIFIED" } else { "NOT VERIFIED" };
+    console::say(&format!(
+        "{word} {}/{checked} witnesses integrated by independent code{worst}",
+        checked - failed.len()
+    ));
+    Ok(code)
+}
+
+fn check(work: &Work, case: &Case) -> Answer {
+    let finding = |what: String| Answer::Checked { case: case.number, position_m: f64::MAX, findings: vec![what] };
+    let profile = match work.folder.read_profile(case.number) {
+        Ok(profile) => profile,
+        Err(error) => return finding(error.to_string()),
+    };
+    if profile.is_none() && case.evidence != Evidence::Witnessed {
+        return Answer::NothingClaimed;
+    }
+    let verified = campaign::verify(&work.setup.robot, &Case { profile, ..case.clone() });
+    match verified.proof {
+        None => finding("its profile is missing".into()),
+        Some(proof) => Answer::Checked {
+            case: case.number,
+            position_m: proof.position.value,
+            findings: proof.findings.iter().map(words).collect(),
+        },
+    }
+}
+
+fn words(finding: &Finding) -> String {
+    let Finding { field, value, bound, unit, at, leg } = finding;
+    format!("{field} = {value:.6e} {unit}, bound {bound:.6e} {unit}, leg {leg}→{}, t = {at:.3} s", leg + 1)
+}
+
+fn object(answer: &Answer) -> Value {
+    match answer {
+        Answer::NothingClaimed => Value::Null,
+        Answer::Checked { case, position_m, findings } => {
+            let position = (*position_m < f64::MAX).then_some(*position_m);
+            json!({ "case": format!("{case:04}"), "end_error_m": position, "findings": findings })
+        }
+    }
+}

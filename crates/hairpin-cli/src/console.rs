@@ -1,0 +1,59 @@
+//! The terminal: results on stdout, everything else on stderr, colour and progress only where somebody looks.
+
+use std::io::{self, IsTerminal, Write};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use tracing::level_filters::LevelFilter;
+
+/// A line of results. A reader that has gone away (`| head`) is no mistake: what is left to say is not said.
+pub(crate) fn say(line: &str) {
+    let _ = writeln!(io::stdout().lock(), "{line}");
+}
+
+/// Text as it is, for pipes.
+pub(crate) fn say_text(text: &str) {
+    let _ = io::stdout().lock().write_all(text.as_bytes());
+}
+
+/// A line beside the results.
+pub(crate) fn warn(line: &str) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// Whether `NO_COLOR` (no-color.org) allows colour on stderr and somebody sees it.
+pub(crate) fn colour_on_stderr() -> bool {
+    std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()) && io::stderr().is_terminal()
+}
+
+/// `-v` tells what is done, `-vv` with what.
+pub(crate) fn chatter(verbose: u8) {
+    let level = match verbose {
+        0 => LevelFilter::WARN,
+        1 => LevelFilter::INFO,
+        _ => LevelFilter::DEBUG,
+    };
+    let subscriber = tracing_subscriber::fmt().with_max_level(level).with_writer(io::stderr).without_time();
+    // It fails only where there is a subscriber already.
+    let _ = subscriber.with_target(false).with_ansi(colour_on_stderr()).try_init();
+}
+
+/// A progress bar with the time left, on a terminal's stderr only.
+pub(crate) fn progress(what: &'static str, of: usize) -> ProgressBar {
+    let target = if io::stderr().is_terminal() { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+    let colour = if colour_on_stderr() { ".cyan/blue" } else { "" };
+    let template = format!("{{msg:>10}} {{bar:32{colour}}} {{pos}}/{{len}}  {{eta}} left");
+    let style = ProgressStyle::with_template(&template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::with_draw_target(Some(of as u64), target).with_style(style).with_message(what)
+}
+
+/// Rows under headers, columns as wide as they need; the first row is the header.
+pub(crate) fn table(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max();
+    let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
+    let line = |row: &Vec<String>| {
+        let cells: Vec<String> = row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:>width$}")).collect();
+        cells.join("  ").trim_end().to_owned()
+    };
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
+}

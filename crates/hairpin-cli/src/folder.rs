@@ -1,0 +1,173 @@
+//! From what was typed to a scenario and the campaign folder it belongs in.
+
+use std::path::{Path, PathBuf};
+
+use hairpin::campaign::{Scenario, Setup};
+use hairpin_formats::folder::{CampaignFolder, Existing};
+use hairpin_formats::scenario::{self, MadeBy, read_scenario, scenario_for};
+
+use crate::args::{Campaign, Threads};
+use crate::problem::Problem;
+
+/// A campaign being worked on.
+pub(crate) struct Work {
+    pub(crate) folder: CampaignFolder,
+    pub(crate) setup: Setup,
+}
+
+/// Takes the threads that were asked for.
+pub(crate) fn take_threads(threads: &Threads) {
+    if let Some(count) = threads.threads {
+        // It fails only where the pool exists already: one command, one pool.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(count.into()).build_global();
+    }
+}
+
+/// Resolves the scenario and makes or takes up its folder.
+pub(crate) fn begin(campaign: &Campaign, executor: Option<&str>) -> Result<Work, Problem> {
+    take_threads(&campaign.threads);
+    let mut sets = split(&campaign.sets)?;
+    sets.extend(campaign.seed.map(|seed| ("seed".to_owned(), seed.to_string())));
+    sets.extend(executor.map(as_command));
+    let setup = Setup::new(scenario_for(&campaign.scenario, &sets)?)?;
+    check_command(&setup.scenario)?;
+    let path = campaign.out.clone().unwrap_or_else(|| default_folder(&campaign.scenario));
+    let work = Work { folder: make(&path, &setup.scenario, campaign.resume, campaign.force)?, setup };
+    tracing::info!("campaign folder {}", work.folder.path().display());
+    Ok(work)
+}
+
+/// Makes `path` the folder of `scenario`, or takes it up again.
+pub(crate) fn make(path: &Path, scenario: &Scenario, resume: bool, force: bool) -> Result<CampaignFolder, Problem> {
+    if let Ok(old) = CampaignFolder::open(path) {
+        if !resume && !force {
+            return Err(Problem::input(format!(
+                "{} holds a campaign already: --resume goes on with it, --force replaces it, --out DIR keeps both",
+                path.display()
+            )));
+        }
+        if resume {
+            let before = read(&old, &[])?;
+            if let Some(key) = first_difference(&before, scenario) {
+                return Err(Problem::input(format!(
+                    "--resume: `{key}` is not what it was when {} was begun: give the same arguments, or another --out",
+                    path.display()
+                )));
+            }
+        }
+    }
+    let folder = CampaignFolder::create(path, if resume { Existing::Resume } else { Existing::Replace })?;
+    write_scenario(&folder, scenario)?;
+    Ok(folder)
+}
+
+/// Opens a campaign folder for the next part, its scenario changed by `sets` in the tables `allowed`.
+pub(crate) fn open(path: &Path, sets: &[(String, String)], allowed: &[&str]) -> Result<Work, Problem> {
+    for (key, _) in sets {
+        let table = key.split(['.', '[']).next().unwrap_or_default().trim();
+        if !allowed.contains(&table) {
+            return Err(Problem::input(format!(
+                "--set {key}: the folder's trajectories were made with its value; here only {} can be set",
+                allowed.join(", ")
+            )));
+        }
+    }
+    let folder = CampaignFolder::open_to_write(path)?;
+    let setup = Setup::new(read(&folder, sets)?)?;
+    check_command(&setup.scenario)?;
+    if !sets.is_empty() {
+        write_scenario(&folder, &setup.scenario)?;
+    }
+    Ok(Work { folder, setup })
+}
+
+/// The first key of the folder's scenario that `sets` change.
+pub(crate) fn changed_by(folder: &CampaignFolder, sets: &[(String, String)]) -> Result<Option<String>, Problem> {
+    Ok(first_difference(&read(folder, &[])?, &read(folder, sets)?))
+}
+
+/// Opens a campaign folder to read it.
+pub(crate) fn look(path: &Path) -> Result<Work, Problem> {
+    let folder = CampaignFolder::open(path)?;
+    let setup = Setup::new(read(&folder, &[])?)?;
+    Ok(Work { folder, setup })
+}
+
+fn read(folder: &CampaignFolder, sets: &[(String, String)]) -> Result<Scenario, Problem> {
+    let name = folder.file("scenario.toml");
+    Ok(read_scenario(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
+}
+
+/// Writes the resolved scenario, with what the results depend on beside it.
+pub(crate) fn write_scenario(folder: &CampaignFolder, scenario: &Scenario) -> Result<(), Problem> {
+    let made_by = MadeBy {
+        version: env!("CARGO_PKG_VERSION").into(),
+        root_seed: scenario.seed,
+        simd: crate::simd::level().into(),
+    };
+    let text = scenario::to_toml(scenario, Some(&made_by)).map_err(Problem::input)?;
+    Ok(folder.write_scenario(&text)?)
+}
+
+/// `key=value` as typed; the value may hold further signs of equality.
+pub(crate) fn split(sets: &[String]) -> Result<Vec<(String, String)>, Problem> {
+    let one = |set: &String| match set.split_once('=') {
+        Some((key, value)) => Ok((key.trim().to_owned(), value.trim().to_owned())),
+        None => Err(Problem::input(format!("--set {set}: must be KEY=VALUE, such as --set execute.repeat=5"))),
+    };
+    sets.iter().map(one).collect()
+}
+
+/// `--executor COMMAND` as the scenario key it sets. JSON's strings are TOML's.
+pub(crate) fn as_command(command: &str) -> (String, String) {
+    ("execute.command".to_owned(), serde_json::Value::from(command).to_string())
+}
+
+fn check_command(scenario: &Scenario) -> Result<(), Problem> {
+    let Some(command) = &scenario.execute.command else { return Ok(()) };
+    let parsed = command.parse::<hairpin_formats::executor::Command>();
+    parsed.map(drop).map_err(|error| Problem::input(format!("`execute.command` = {command:?} {error}")))
+}
+
+/// `out/NAME`, NAME being the scenario's or robot's without folder and ending.
+fn default_folder(scenario: &str) -> PathBuf {
+    let name = Path::new(scenario).file_stem().unwrap_or_else(|| "campaign".as_ref());
+    Path::new("out").join(name)
+}
+
+/// The first key in which two scenarios differ.
+fn first_difference(a: &Scenario, b: &Scenario) -> Option<String> {
+    fn differ(key: &str, a: &serde_json::Value, b: &serde_json::Value) -> Option<String> {
+        match (a.as_object(), b.as_object()) {
+            (Some(a), Some(b)) => {
+                let null = serde_json::Value::Null;
+                let keys = a.keys().chain(b.keys().filter(|key| !a.contains_key(*key)));
+                let dotted = |name: &str| if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") };
+                keys.into_iter()
+                    .find_map(|name| differ(&dotted(name), a.get(name).unwrap_or(&null), b.get(name).unwrap_or(&null)))
+            }
+            _ => (a != b).then(|| key.to_owned()),
+        }
+    }
+    let value = |scenario| serde_json::to_value(scenario).unwrap_or_default();
+    differ("", &value(a), &value(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_are_named_after_scenarios() {
+        assert_eq!(default_folder("quadrotor.toml"), Path::new("out/quadrotor"));
+        assert_eq!(default_folder("/a/b/my.drone.toml"), Path::new("out/my.drone"));
+        assert_eq!(default_folder("anafi"), Path::new("out/anafi"));
+    }
+
+    #[test]
+    fn sets_are_split_at_the_first_sign_of_equality() {
+        assert_eq!(split(&["a.b = c=d".into()]).unwrap(), [("a.b".to_owned(), "c=d".to_owned())]);
+        assert!(split(&["a.b".into()]).is_err());
+        assert_eq!(as_command("sh -c \"x\""), ("execute.command".to_owned(), r#""sh -c \"x\"""#.to_owned()));
+    }
+}

@@ -1,0 +1,44 @@
+//! Ctrl-C: the first one asks to stop and keeps what is done, the second one quits.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use crate::console;
+
+/// Exit code of an interrupted command, as shells have it.
+pub(crate) const INTERRUPTED: i32 = 130;
+
+static ASKED: AtomicUsize = AtomicUsize::new(0);
+
+/// Listens from now on.
+pub(crate) fn listen() {
+    // It fails only where the system has no signals to listen to; then Ctrl-C quits at once.
+    let _ = ctrlc::set_handler(|| {
+        if ASKED.fetch_add(1, Ordering::SeqCst) > 0 {
+            std::process::exit(INTERRUPTED);
+        }
+        console::warn("stopping: what is done is kept (Ctrl-C again quits at once)");
+    });
+}
+
+/// Whether the user wants to stop.
+pub(crate) fn asked() -> bool {
+    ASKED.load(Ordering::Relaxed) > 0
+}
+
+/// A time limit in wall-clock seconds.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Deadline(Option<Instant>);
+
+impl Deadline {
+    /// `seconds` from now; never without.
+    pub(crate) fn after(seconds: Option<f64>) -> Self {
+        let duration = seconds.and_then(|s| std::time::Duration::try_from_secs_f64(s).ok());
+        Self(duration.and_then(|duration| Instant::now().checked_add(duration)))
+    }
+
+    /// Whether it is over.
+    pub(crate) fn passed(self) -> bool {
+        self.0.is_some_and(|end| Instant::now() >= end)
+    }
+}

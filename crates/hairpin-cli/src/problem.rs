@@ -1,0 +1,75 @@
+//! Why a command gave no verdict, as a sentence for people, an object for machines, and an exit code.
+
+use std::fmt::Display;
+
+use hairpin::campaign::Mistake;
+use hairpin_formats::scenario::Report;
+use serde_json::{Value, json};
+
+use crate::console;
+
+/// A command that could not do what was asked.
+#[derive(Debug)]
+pub(crate) enum Problem {
+    /// A scenario with mistakes, each with its line and caret.
+    Scenario(Report),
+    /// Anything else that the user gave, or the machine refused.
+    Input(String),
+    /// Ctrl-C: what is done is kept.
+    Interrupted(String),
+}
+
+impl Problem {
+    /// A problem in words.
+    pub(crate) fn input(sentence: impl Display) -> Self {
+        Self::Input(sentence.to_string())
+    }
+
+    /// Tells it, and gives the exit code.
+    pub(crate) fn tell(&self, json: bool) -> u8 {
+        let code = match self {
+            Self::Scenario(_) | Self::Input(_) => 2,
+            Self::Interrupted(_) => 130,
+        };
+        match self {
+            Self::Scenario(report) => console::warn(report.render(console::colour_on_stderr()).trim_end()),
+            Self::Input(sentence) => console::warn(&format!("Error: {sentence}")),
+            Self::Interrupted(sentence) => console::warn(sentence),
+        }
+        if json {
+            console::say(&self.object(code).to_string());
+        }
+        code
+    }
+
+    fn object(&self, code: u8) -> Value {
+        match self {
+            Self::Scenario(report) => json!({ "exit_code": code, "mistakes": report.to_json() }),
+            Self::Input(sentence) | Self::Interrupted(sentence) => json!({ "exit_code": code, "error": sentence }),
+        }
+    }
+}
+
+impl From<Report> for Problem {
+    fn from(report: Report) -> Self {
+        Self::Scenario(report)
+    }
+}
+
+impl From<Mistake> for Problem {
+    fn from(mistake: Mistake) -> Self {
+        Self::input(mistake)
+    }
+}
+
+impl From<hairpin_formats::folder::FolderError> for Problem {
+    fn from(error: hairpin_formats::folder::FolderError) -> Self {
+        Self::input(error)
+    }
+}
+
+impl From<hairpin_formats::atomic::WriteError> for Problem {
+    fn from(error: hairpin_formats::atomic::WriteError) -> Self {
+        Self::input(error)
+    }
+}
