@@ -1,14 +1,21 @@
 //! Floor 6: scores and the searches over them. Points, a reach set and a score come in; nothing else is known.
 //!
-//! [`beam`] is algorithms 1 and 2 of the paper on one graph.
+//! [`beam`] is algorithms 1 and 2 of the paper on one graph; [`exact`] is dynamic programming over the legs of a
+//! [`graph`]: best, k best, counts, the proof that none exists; [`uniform`] draws evenly from all that is feasible.
 
 pub mod beam;
+pub mod exact;
 mod frontier;
+pub mod graph;
 pub mod objective;
 #[cfg(test)]
 mod small;
 pub mod task;
+pub mod uniform;
 
 pub use beam::{BeamOutcome, BeamSettings, beam};
+pub use exact::{ExactOutcome, ExactSettings, exact};
+pub use graph::{Count, LegGraph};
 pub use objective::{Aggregate, LegView, Objective, Score, ScoreMistake};
 pub use task::{Found, Task};
+pub use uniform::{UniformOutcome, UniformSettings, uniform};

@@ -19,6 +19,9 @@ impl Octahedron {
     /// About 80 000 feasible triples in 252 points of a 30 m cube.
     pub(super) const QUADROTOR: Self = Self { centre: Vector3::new(0.0, 0.0, 2.0), half: Vector3::new(9.4, 9.4, 9.25) };
 
+    /// Wide enough that a dozen points in a cube of 11 m have many trajectories.
+    pub(super) const WIDE: Self = Self { centre: Vector3::new(0.0, 0.0, 2.0), half: Vector3::new(12.0, 12.0, 11.0) };
+
     /// Whether `d` lies in the octahedron grown `scale` times.
     fn holds(&self, d: Vector3<f64>, scale: f64) -> bool {
         (d - self.centre * scale).component_div(&self.half).abs().sum() <= scale

@@ -4,4 +4,4 @@ mod heap;
 mod tree;
 
 pub(super) use heap::IntervalHeap;
-pub(super) use tree::{Partial, Tree};
+pub(super) use tree::Tree;

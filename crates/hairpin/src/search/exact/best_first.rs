@@ -1,0 +1,106 @@
+//! Best-first search in the order of an exact bound: what comes off the queue complete is the best of what is left.
+
+use std::cmp::Ordering;
+use std::collections::HashSet;
+
+use super::super::frontier::{IntervalHeap, Tree};
+use super::super::graph::{LegGraph, Values};
+use super::super::task::Found;
+use super::ExactSettings;
+
+/// A partial trajectory and the best it can become.
+#[derive(Debug, Clone, Copy)]
+struct Entry {
+    bound: f64,
+    length: u32,
+    id: u32,
+}
+
+/// By bound, then the longer (so that equal bounds are followed to their end), then by waypoint index.
+fn order(tree: &Tree<()>, a: &Entry, b: &Entry) -> Ordering {
+    let by_bound = a.bound.total_cmp(&b.bound).then(a.length.cmp(&b.length));
+    by_bound.then_with(|| tree.lexicographic(b.id, a.id))
+}
+
+pub(super) struct BestFirst<N> {
+    /// Distinct, in the order of their scores.
+    pub(super) found: Vec<Found<N>>,
+    /// The best that what was not expanded can become; `None` if nothing is left.
+    pub(super) open_bound: Option<f64>,
+    pub(super) expansions: u64,
+}
+
+pub(super) fn best_first<N: Copy>(
+    graph: &LegGraph<'_, N>,
+    scores: &[f64],
+    values: &Values,
+    settings: &ExactSettings,
+) -> BestFirst<N> {
+    let aggregate = settings.aggregate;
+    let mut tree = Tree::new(0, 0, aggregate.neutral(), ());
+    let mut queue = IntervalHeap::new();
+    let mut result = BestFirst { found: Vec::new(), open_bound: None, expansions: 0 };
+    if let Some(bound) = values.best(0, settings.length - 1) {
+        queue.push(Entry { bound, length: 1, id: 0 }, |a, b| order(&tree, a, b));
+    }
+    let mut known = HashSet::new();
+    let mut visited = vec![false; graph.candidates().len()];
+    while let Some(entry) = queue.pop_best(|a, b| order(&tree, a, b)) {
+        let partial = *tree.get(entry.id);
+        if entry.length as usize == settings.length {
+            if known.insert(tree.waypoints(entry.id)) {
+                result.found.push(trajectory(graph, &tree, entry.id));
+            }
+            tree.release(entry.id);
+            if result.found.len() == settings.best.max(1) {
+                break;
+            }
+            continue;
+        }
+        if result.expansions == settings.expansions {
+            result.open_bound = Some(entry.bound);
+            break;
+        }
+        result.expansions += 1;
+        if !settings.revisits {
+            tree.backwards(entry.id).for_each(|p| visited[p.waypoint as usize] = true);
+        }
+        let mut grown = false;
+        for leg in graph.legs_from(partial.node) {
+            let to = graph.target(leg);
+            let Some(rest) = values.best(to, settings.length - 1 - entry.length as usize) else { continue };
+            if visited[graph.waypoint(to) as usize] {
+                continue;
+            }
+            let score = aggregate.add(partial.score, scores[leg]);
+            // Rounding must not lift a bound above that of what it continues.
+            let bound = aggregate.add(score, rest).min(entry.bound);
+            let place = (to, graph.waypoint(to));
+            let id = tree.grow(entry.id, place, graph.duration(leg), score, ());
+            queue.push(Entry { bound, length: entry.length + 1, id }, |a, b| order(&tree, a, b));
+            grown = true;
+        }
+        if !settings.revisits {
+            tree.backwards(entry.id).for_each(|p| visited[p.waypoint as usize] = false);
+        }
+        if !grown {
+            tree.release(entry.id);
+        }
+    }
+    result.found.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| a.waypoints.cmp(&b.waypoints)));
+    result
+}
+
+fn trajectory<N: Copy>(graph: &LegGraph<'_, N>, tree: &Tree<()>, id: u32) -> Found<N> {
+    let mut nodes: Vec<u32> = tree.backwards(id).map(|p| p.node).collect();
+    let mut leg_times: Vec<f64> = tree.backwards(id).map(|p| p.duration).collect();
+    nodes.reverse();
+    leg_times.pop(); // the start has no leg
+    leg_times.reverse();
+    Found {
+        waypoints: tree.waypoints(id),
+        nodes: nodes.into_iter().map(|node| graph.node(node)).collect(),
+        leg_times,
+        score: tree.get(id).score,
+    }
+}

@@ -1,0 +1,121 @@
+//! A good trajectory without revisits where the best cannot be proven: a beam over lengths in the order of the bound.
+
+use std::collections::HashMap;
+
+use rustc_hash::FxBuildHasher;
+
+use super::super::graph::{LegGraph, Values};
+use super::super::task::Found;
+use super::ExactSettings;
+use crate::math::random::hashed_unit;
+
+/// A partial trajectory without revisits.
+#[derive(Debug, Clone, Copy)]
+struct Label {
+    bound: f64,
+    score: f64,
+    node: u32,
+    /// The label it continues, in the layer before, and the leg.
+    parent: u32,
+    leg: u32,
+    /// Hash of the set of waypoints visited.
+    set: u64,
+}
+
+/// Best first, distinct; and the labels expanded. Of two labels at one node with the same waypoints visited the worse
+/// is dominated: whatever completes it completes the better one as well.
+pub(super) fn descent<N: Copy>(
+    graph: &LegGraph<'_, N>,
+    scores: &[f64],
+    values: &Values,
+    settings: &ExactSettings,
+) -> (Vec<Found<N>>, u64) {
+    let width = settings.width.max(settings.best).max(1);
+    let words = graph.candidates().len().div_ceil(64);
+    let keys: Vec<u64> = (0..graph.candidates().len() as u64).map(key).collect();
+    let start = Label { bound: 0.0, score: settings.aggregate.neutral(), node: 0, parent: 0, leg: 0, set: keys[0] };
+    let mut layers = vec![vec![start]];
+    let mut visited = vec![0u64; words];
+    visited[0] = 1;
+    let mut expansions = 0;
+    for steps_after in (0..settings.length - 1).rev() {
+        let layer = &layers[layers.len() - 1];
+        let mut next: Vec<Label> = Vec::new();
+        let mut seen: HashMap<(u32, u64), u32, FxBuildHasher> = HashMap::default();
+        for (parent, label) in layer.iter().enumerate() {
+            expansions += 1;
+            let visited = &visited[parent * words..(parent + 1) * words];
+            for leg in graph.legs_from(label.node) {
+                let to = graph.target(leg);
+                let waypoint = graph.waypoint(to) as usize;
+                let Some(rest) = values.best(to, steps_after) else { continue };
+                if visited[waypoint / 64] >> (waypoint % 64) & 1 == 1 {
+                    continue;
+                }
+                let score = settings.aggregate.add(label.score, scores[leg]);
+                let bound = settings.aggregate.add(score, rest);
+                let set = label.set ^ keys[waypoint];
+                let new = Label { bound, score, node: to, parent: parent as u32, leg: leg as u32, set };
+                let place = *seen.entry((to, set)).or_insert(next.len() as u32) as usize;
+                match next.get_mut(place) {
+                    Some(old) if old.score >= score => {}
+                    Some(old) => *old = new,
+                    None => next.push(new),
+                }
+            }
+        }
+        let best = |a: &Label, b: &Label| {
+            b.bound
+                .total_cmp(&a.bound)
+                .then(b.score.total_cmp(&a.score))
+                .then((a.parent, a.leg).cmp(&(b.parent, b.leg)))
+        };
+        if next.len() > width {
+            next.select_nth_unstable_by(width, best);
+            next.truncate(width);
+        }
+        next.sort_unstable_by(best);
+        visited = sets(&next, &visited, words, |label| graph.waypoint(label.node));
+        layers.push(next);
+    }
+    let last = layers.len() - 1;
+    let all = (0..layers[last].len()).map(|label| trace(graph, &layers, label)).collect();
+    (distinct(all), expansions)
+}
+
+/// A random word per waypoint: sets are equal where the words' exclusive or is, up to 2⁻⁶⁴.
+fn key(waypoint: u64) -> u64 {
+    let half = |salt| (hashed_unit(salt, &[waypoint]) * 4_294_967_296.0) as u64;
+    half(1) << 32 | half(2)
+}
+
+/// The visited sets of `labels`, from those of their parents.
+fn sets(labels: &[Label], parents: &[u64], words: usize, waypoint: impl Fn(&Label) -> u32) -> Vec<u64> {
+    let mut sets = Vec::with_capacity(labels.len() * words);
+    for label in labels {
+        let parent = label.parent as usize;
+        sets.extend_from_slice(&parents[parent * words..(parent + 1) * words]);
+        let at = sets.len() - words + waypoint(label) as usize / 64;
+        sets[at] |= 1 << (waypoint(label) % 64);
+    }
+    sets
+}
+
+fn trace<N: Copy>(graph: &LegGraph<'_, N>, layers: &[Vec<Label>], label: usize) -> Found<N> {
+    let last = layers.len() - 1;
+    let mut legs = vec![0; last];
+    let mut at = label;
+    for number in (1..=last).rev() {
+        legs[number - 1] = layers[number][at].leg;
+        at = layers[number][at].parent as usize;
+    }
+    graph.found(&legs, layers[last][label].score)
+}
+
+/// Best first, each list of waypoints once.
+fn distinct<N>(mut all: Vec<Found<N>>) -> Vec<Found<N>> {
+    all.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| a.waypoints.cmp(&b.waypoints)));
+    let mut known = std::collections::HashSet::new();
+    all.retain(|found| known.insert(found.waypoints.clone()));
+    all
+}

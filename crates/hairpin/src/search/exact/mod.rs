@@ -1,0 +1,97 @@
+//! The optimum over the legs of a graph, proven: dynamic programming, and best-first search in the order of its bound.
+//!
+//! With revisits the bound is the truth: the k best trajectories come off the queue first. Without, the bound is that
+//! of walks which may come back, and the first trajectories without revisits that come off the queue are the
+//! best; where the queue would grow beyond its budget, a beam in the order of the bound finds a good one and its gap is told.
+
+mod best_first;
+mod descent;
+#[cfg(test)]
+mod tests;
+
+use std::collections::HashSet;
+
+use super::graph::{Count, LegGraph};
+use super::objective::{Aggregate, Objective};
+use super::task::Found;
+
+/// What is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactSettings {
+    /// Waypoints of a trajectory, both ends included; at most the length the graph was built for.
+    pub length: usize,
+    /// Distinct trajectories wanted: the k best. 0 is taken as 1.
+    pub best: usize,
+    /// Whether a waypoint may be used twice.
+    pub revisits: bool,
+    /// How legs add up.
+    pub aggregate: Aggregate,
+    /// Partial trajectories that the best-first search expands before it gives up the proof.
+    pub expansions: u64,
+    /// Partial trajectories per length that the beam keeps where the proof was given up.
+    pub width: usize,
+}
+
+impl Default for ExactSettings {
+    fn default() -> Self {
+        Self { length: 10, best: 1, revisits: false, aggregate: Aggregate::Sum, expansions: 50_000, width: 1_000 }
+    }
+}
+
+/// The answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactOutcome<N> {
+    /// Distinct trajectories, best first.
+    pub found: Vec<Found<N>>,
+    /// How many of them, from the first, are proven to be the best there are.
+    pub proven: usize,
+    /// Proven upper bound of the best score; `None` if it is proven that there is no trajectory.
+    pub bound: Option<f64>,
+    /// Number of trajectories of this length, revisits allowed (but no way back over the leg just flown, if they are
+    /// not). Zero proves that there is none.
+    pub walks: Count,
+    /// Partial trajectories expanded.
+    pub expansions: u64,
+}
+
+impl<N> ExactOutcome<N> {
+    /// How much better than the best one found a trajectory might be; 0: proven optimal.
+    pub fn gap(&self) -> Option<f64> {
+        Some((self.bound? - self.found.first()?.score).max(0.0))
+    }
+}
+
+/// The best trajectories of `graph` under a score that is additive over legs.
+pub fn exact<N, O>(graph: &LegGraph<'_, N>, objective: &O, settings: &ExactSettings) -> ExactOutcome<N>
+where
+    N: Copy,
+    O: Objective<Memory = ()>,
+{
+    let filtered;
+    let graph = if settings.revisits {
+        graph
+    } else {
+        filtered = graph.without_returns(settings.length);
+        &filtered
+    };
+    let walks = match settings.length {
+        0 | 1 => Count::Exact(0),
+        length => graph.counts_by_length(length)[length],
+    };
+    if walks.is_zero() {
+        return ExactOutcome { found: Vec::new(), proven: 0, bound: None, walks, expansions: 0 };
+    }
+    let scores = graph.scores(objective);
+    let values = graph.values(settings.length, &scores, settings.aggregate);
+    let mut search = best_first::best_first(graph, &scores, &values, settings);
+    let proven = search.found.len();
+    if search.open_bound.is_some() && proven < settings.best.max(1) {
+        let (more, expansions) = descent::descent(graph, &scores, &values, settings);
+        search.expansions += expansions;
+        let known: HashSet<Vec<u32>> = search.found.iter().map(|found| found.waypoints.clone()).collect();
+        let new = more.into_iter().filter(|found| !known.contains(&found.waypoints));
+        search.found.extend(new.take(settings.best.max(1) - proven));
+    }
+    let bound = if proven > 0 { search.found.first().map(|found| found.score) } else { search.open_bound };
+    ExactOutcome { found: search.found, proven, bound, walks, expansions: search.expansions }
+}

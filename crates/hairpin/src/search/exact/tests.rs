@@ -1,0 +1,104 @@
+//! The optimum against brute force, with and without revisits, and what is said where it is not proven.
+
+use super::super::objective::{LegView, Score};
+use super::super::small::{Octahedron, START, enumerate, points};
+use super::super::task::Task;
+use super::*;
+
+const SMALL: Octahedron = Octahedron::WIDE;
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-12 * a.abs().max(1.0)
+}
+
+#[test]
+fn the_best_are_those_of_brute_force() {
+    let mut compared = 0;
+    for seed in 0..40 {
+        let points = points(seed, 9, 11.0);
+        let task = Task { start: START, candidates: &points, reach: &SMALL };
+        for length in [2, 3, 5, 6] {
+            let graph = LegGraph::explore(&task, length);
+            for revisits in [false, true] {
+                for aggregate in [Aggregate::Sum, Aggregate::Max] {
+                    let score = Score::Random { seed };
+                    let all = enumerate(&task, &score, (length, revisits, aggregate));
+                    for best in [1, 5, 10_000] {
+                        let settings = ExactSettings { length, best, revisits, aggregate, ..Default::default() };
+                        let outcome = exact(&graph, &score, &settings);
+                        let told = format!("seed {seed} length {length} revisits {revisits} {aggregate:?} best {best}");
+                        assert_eq!(outcome.found.len(), all.len().min(best), "{told}");
+                        assert_eq!(outcome.proven, outcome.found.len(), "{told}");
+                        assert_eq!(outcome.bound.is_none(), all.is_empty(), "{told}");
+                        for (found, (_, expected)) in outcome.found.iter().zip(&all) {
+                            assert!(close(found.score, *expected), "{told}: {} {expected}", found.score);
+                            assert!(
+                                all.iter()
+                                    .any(|(waypoints, s)| *waypoints == found.waypoints && close(*s, found.score))
+                            );
+                            compared += 1;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(compared > 5_000, "{compared}");
+}
+
+#[test]
+fn without_a_proof_the_gap_is_told() {
+    let mut open = 0;
+    for seed in 0..20 {
+        let points = points(seed, 10, 11.0);
+        let task = Task { start: START, candidates: &points, reach: &SMALL };
+        let graph = LegGraph::explore(&task, 6);
+        let score = Score::Random { seed };
+        let all = enumerate(&task, &score, (6, false, Aggregate::Sum));
+        let settings = ExactSettings { length: 6, expansions: 2, width: 10_000, ..Default::default() };
+        let outcome = exact(&graph, &score, &settings);
+        if outcome.proven == 0 && !all.is_empty() {
+            // So wide a beam is complete; the bound must stay above it.
+            assert!(close(outcome.found[0].score, all[0].1), "seed {seed}");
+            assert!(outcome.bound.unwrap() >= all[0].1 - 1e-12, "seed {seed}");
+            assert!(outcome.gap().unwrap() >= 0.0);
+            open += 1;
+        }
+        let narrow = exact(&graph, &score, &ExactSettings { width: 1, ..settings });
+        assert!(narrow.found.iter().all(|found| all.iter().any(|(waypoints, _)| *waypoints == found.waypoints)));
+    }
+    assert!(open > 5, "{open}");
+}
+
+#[test]
+fn a_count_of_zero_is_the_proof() {
+    let points = points(0, 5, 1_000.0);
+    let task = Task { start: START, candidates: &points, reach: &SMALL };
+    let graph = LegGraph::explore(&task, 6);
+    let outcome = exact(&graph, &Score::Random { seed: 0 }, &ExactSettings { length: 6, ..Default::default() });
+    assert!(outcome.walks.is_zero() && outcome.bound.is_none() && outcome.found.is_empty());
+    for length in [0, 1] {
+        let settings = ExactSettings { length, ..Default::default() };
+        assert!(exact(&graph, &Score::Random { seed: 0 }, &settings).found.is_empty());
+    }
+}
+
+#[test]
+fn worthless_legs_make_trajectories_too() {
+    let mut tested = 0;
+    for seed in 0..10 {
+        let points = points(seed, 9, 11.0);
+        let task = Task { start: START, candidates: &points, reach: &SMALL };
+        let graph = LegGraph::explore(&task, 5);
+        for aggregate in [Aggregate::Sum, Aggregate::Max] {
+            for revisits in [true, false] {
+                let exists = !enumerate(&task, &Score::Random { seed }, (5, revisits, aggregate)).is_empty();
+                let settings = ExactSettings { length: 5, aggregate, revisits, ..Default::default() };
+                let outcome = exact(&graph, &|_: &LegView<'_>| f64::NAN, &settings);
+                assert_eq!((outcome.found.len(), outcome.proven), (exists.into(), exists.into()), "seed {seed}");
+                tested += usize::from(exists);
+            }
+        }
+    }
+    assert!(tested > 10, "{tested}");
+}

@@ -1,0 +1,118 @@
+//! How many trajectories a graph has: exactly, of every length.
+
+use std::fmt;
+
+use super::LegGraph;
+
+/// A number of trajectories.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Count {
+    /// To the last one.
+    Exact(u128),
+    /// More than 2¹²⁸ − 1; printed with a `~`.
+    About(f64),
+}
+
+impl Count {
+    /// Whether there is none: a proof.
+    pub fn is_zero(self) -> bool {
+        self == Count::Exact(0)
+    }
+
+    /// The number, rounded.
+    pub fn as_f64(self) -> f64 {
+        match self {
+            Count::Exact(count) => count as f64,
+            Count::About(count) => count,
+        }
+    }
+}
+
+impl fmt::Display for Count {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Count::Exact(count) => write!(f, "{count}"),
+            Count::About(count) => write!(f, "~{count:.3e}"),
+        }
+    }
+}
+
+/// Walks to the end per node, for one number of legs.
+#[derive(Debug, Clone)]
+pub(in crate::search) enum Layer {
+    Exact(Vec<u128>),
+    About(Vec<f64>),
+}
+
+impl Layer {
+    pub(in crate::search) fn at(&self, node: u32) -> Count {
+        match self {
+            Layer::Exact(counts) => Count::Exact(counts[node as usize]),
+            Layer::About(counts) => Count::About(counts[node as usize]),
+        }
+    }
+}
+
+/// Walks from every node to the end, for every number of legs up to a length: the backward pass, kept.
+#[derive(Debug, Clone)]
+pub struct Counts {
+    layers: Vec<Layer>,
+}
+
+impl Counts {
+    /// Walks of `legs` legs from the start to the end, that is trajectories of `legs` + 1 waypoints.
+    pub fn from_start(&self, legs: usize) -> Count {
+        self.layers[legs].at(0)
+    }
+
+    pub(in crate::search) fn layer(&self, legs: usize) -> &Layer {
+        &self.layers[legs]
+    }
+}
+
+impl<N: Copy> LegGraph<'_, N> {
+    /// Number of trajectories of every length: item ℓ counts those of ℓ waypoints, for ℓ = 0 ..= `length`. With
+    /// revisits; without them it is an upper bound. Lengths beyond the one the graph was built for are undercounted.
+    pub fn counts_by_length(&self, length: usize) -> Vec<Count> {
+        let mut counts = vec![Count::Exact(0), Count::Exact(0)];
+        let mut layer = self.last_layer();
+        while counts.len() <= length {
+            layer = self.layer_before(&layer);
+            counts.push(layer.at(0));
+        }
+        counts.truncate(length + 1);
+        counts
+    }
+
+    /// The whole backward pass for trajectories of up to `length` waypoints.
+    pub fn counts(&self, length: usize) -> Counts {
+        let mut layers = vec![self.last_layer()];
+        while layers.len() < length {
+            layers.push(self.layer_before(&layers[layers.len() - 1]));
+        }
+        Counts { layers }
+    }
+
+    fn last_layer(&self) -> Layer {
+        Layer::Exact((0..self.nodes() as u32).map(|node| u128::from(self.at_end(node))).collect())
+    }
+
+    /// Walks that are one leg longer than those of `after`.
+    fn layer_before(&self, after: &Layer) -> Layer {
+        let nodes = 0..self.nodes() as u32;
+        match after {
+            Layer::Exact(after) => {
+                let sum = |node| {
+                    self.to[self.legs_from(node)].iter().try_fold(0u128, |sum, &to| sum.checked_add(after[to as usize]))
+                };
+                match nodes.map(sum).collect() {
+                    Some(counts) => Layer::Exact(counts),
+                    None => self.layer_before(&Layer::About(after.iter().map(|&count| count as f64).collect())),
+                }
+            }
+            Layer::About(after) => Layer::About(
+                nodes.map(|node| self.to[self.legs_from(node)].iter().map(|&to| after[to as usize]).sum()).collect(),
+            ),
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! The legs of one graph as a graph of their own: nodes are a reach set's nodes, and a trajectory of L waypoints is a walk of
+//! L − 1 legs from the start's node to a node at the end. What is exact about a graph is counted and optimised on it.
+
+mod build;
+mod count;
+#[cfg(test)]
+mod tests;
+mod value;
+
+use std::ops::Range;
+
+use nalgebra::Point3;
+
+use super::objective::{LegView, Objective};
+use super::task::Found;
+use crate::feasibility::reach::LegFeatures;
+pub(super) use count::Layer;
+pub use count::{Count, Counts};
+pub use value::Values;
+
+/// Nodes and legs in compressed rows; node 0 is the start's. Only what a walk from the start can meet is in it.
+#[derive(Debug, Clone)]
+pub struct LegGraph<'a, N> {
+    candidates: &'a [Point3<f64>],
+    nodes: Vec<N>,
+    /// Waypoint of every node.
+    waypoints: Vec<u32>,
+    /// Legs from node v are `first[v]..first[v + 1]`, in rising order of waypoint.
+    first: Vec<u32>,
+    /// Node that a leg leads to.
+    to: Vec<u32>,
+    details: Vec<Details>,
+}
+
+/// What only scores and results ask for.
+#[derive(Debug, Clone, Copy)]
+struct Details {
+    duration: f64,
+    features: LegFeatures,
+}
+
+impl<'a, N: Copy> LegGraph<'a, N> {
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Number of legs: for step-wise sets, of feasible triples that a walk from the start can meet.
+    pub fn legs(&self) -> usize {
+        self.to.len()
+    }
+
+    /// Waypoints of the graph, m.
+    pub fn candidates(&self) -> &'a [Point3<f64>] {
+        self.candidates
+    }
+
+    /// The waypoint index of `node`.
+    pub fn waypoint(&self, node: u32) -> u32 {
+        self.waypoints[node as usize]
+    }
+
+    pub(super) fn node(&self, node: u32) -> N {
+        self.nodes[node as usize]
+    }
+
+    pub(super) fn legs_from(&self, node: u32) -> Range<usize> {
+        self.first[node as usize] as usize..self.first[node as usize + 1] as usize
+    }
+
+    pub(super) fn target(&self, leg: usize) -> u32 {
+        self.to[leg]
+    }
+
+    pub(super) fn at_end(&self, node: u32) -> bool {
+        self.waypoint(node) as usize + 1 == self.candidates.len()
+    }
+
+    pub(super) fn duration(&self, leg: usize) -> f64 {
+        self.details[leg].duration
+    }
+
+    pub(super) fn view(&self, from: u32, leg: usize) -> LegView<'a> {
+        let Details { duration, features } = self.details[leg];
+        let to = self.waypoint(self.target(leg));
+        LegView { candidates: self.candidates, from: self.waypoint(from), to, duration, features }
+    }
+
+    /// The score of every leg.
+    pub(super) fn scores<O: Objective<Memory = ()>>(&self, objective: &O) -> Vec<f64> {
+        let mut scores = Vec::with_capacity(self.legs());
+        for node in 0..self.nodes() as u32 {
+            scores.extend(self.legs_from(node).map(|leg| objective.extend(&(), &self.view(node, leg)).0));
+        }
+        scores
+    }
+
+    /// The trajectory along `legs` from the start.
+    pub(super) fn found(&self, legs: &[u32], score: f64) -> Found<N> {
+        let targets = || legs.iter().map(|&leg| self.target(leg as usize));
+        Found {
+            waypoints: std::iter::once(0).chain(targets().map(|node| self.waypoint(node))).collect(),
+            nodes: std::iter::once(self.nodes[0]).chain(targets().map(|node| self.nodes[node as usize])).collect(),
+            leg_times: legs.iter().map(|&leg| self.duration(leg as usize)).collect(),
+            score,
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Counts and graphs against brute force.
+
+use super::super::objective::{Aggregate, Score};
+use super::super::small::{Octahedron, START, enumerate, points};
+use super::super::task::Task;
+use super::*;
+use crate::feasibility::reach::{Leg, Reach, StepNode};
+
+const SMALL: Octahedron = Octahedron::WIDE;
+
+#[test]
+fn counts_of_every_length_are_those_of_brute_force() {
+    let mut total = 0;
+    for seed in 0..40 {
+        let points = points(seed, 8, 11.0);
+        let task = Task { start: START, candidates: &points, reach: &SMALL };
+        let graph = LegGraph::explore(&task, 6);
+        let counts = graph.counts_by_length(6);
+        let kept = graph.counts(6);
+        assert_eq!(counts.len(), 7);
+        for length in 2..=6 {
+            let all = enumerate(&task, &Score::Random { seed }, (length, true, Aggregate::Sum)).len();
+            assert_eq!(counts[length], Count::Exact(all as u128), "seed {seed} length {length}");
+            assert_eq!(kept.from_start(length - 1), counts[length]);
+            total += all;
+        }
+    }
+    assert!(total > 2_000, "{total}");
+}
+
+#[test]
+fn without_returns_no_loop_free_trajectory_is_lost() {
+    for seed in 0..40 {
+        let points = points(seed, 8, 11.0);
+        let task = Task { start: START, candidates: &points, reach: &SMALL };
+        let graph = LegGraph::explore(&task, 5);
+        let fewer = graph.without_returns(5);
+        let score = Score::Random { seed };
+        let loop_free = enumerate(&task, &score, (5, false, Aggregate::Sum)).len() as f64;
+        let walks = graph.counts_by_length(5)[5].as_f64();
+        let no_returns = fewer.counts_by_length(5)[5].as_f64();
+        assert!(loop_free <= no_returns && no_returns <= walks, "seed {seed}: {loop_free} {no_returns} {walks}");
+        // At length 4 only the way straight back and the passing of an end can repeat a waypoint.
+        let short = fewer.counts_by_length(4)[4];
+        let expected = enumerate(&task, &score, (4, false, Aggregate::Sum)).len() as u128;
+        assert_eq!(short, Count::Exact(expected), "seed {seed}");
+    }
+}
+
+#[test]
+fn a_list_of_legs_is_the_same_graph() {
+    let points = points(2, 10, 11.0);
+    let task = Task { start: START, candidates: &points, reach: &SMALL };
+    let mut legs: Vec<(StepNode, Leg<StepNode>)> = Vec::new();
+    let n = points.len() as u32;
+    for node in (0..n * n).map(|i| StepNode { previous: i / n, current: i % n }) {
+        let mut out = Vec::new();
+        SMALL.legs(&node, &points, &mut out);
+        legs.extend(out.into_iter().map(|leg| (node, leg)));
+    }
+    legs.reverse();
+    let listed = LegGraph::from_legs(START, &points, &legs, 6);
+    let explored = LegGraph::explore(&task, 6);
+    assert!(explored.legs() > 50);
+    assert_eq!((listed.nodes(), listed.legs()), (explored.nodes(), explored.legs()));
+    assert_eq!(listed.counts_by_length(6), explored.counts_by_length(6));
+}
+
+#[test]
+fn counts_beyond_128_bits_are_marked() {
+    // Everything follows everything: n − 1 choices a leg, about (n − 1)^(L − 2) trajectories.
+    let everything = Octahedron { centre: nalgebra::Vector3::zeros(), half: nalgebra::Vector3::repeat(1e9) };
+    let points = points(0, 20, 1.0);
+    let task = Task { start: START, candidates: &points, reach: &everything };
+    let graph = LegGraph::explore(&task, 50);
+    let counts = graph.counts_by_length(50);
+    assert_eq!(counts[3], Count::Exact(20));
+    // Walks of s legs between two different vertices of the complete graph: ((n−1)^s − (−1)^s)/n.
+    assert_eq!(counts[20], Count::Exact((21u128.pow(19) + 1) / 22));
+    let Count::About(about) = counts[50] else { panic!("{}", counts[50]) };
+    let expected = 21f64.powi(49) / 22.0;
+    assert!((about / expected - 1.0).abs() < 1e-9, "{about} {expected}");
+    assert!(counts[50].to_string().starts_with('~'), "{}", counts[50]);
+}

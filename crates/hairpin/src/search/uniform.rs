@@ -1,0 +1,252 @@
+//! Uniform over all feasible trajectories of a graph: the honest random baseline.
+
+use std::collections::HashSet;
+
+use rand::{Rng, RngExt};
+
+use super::graph::{Count, Counts, Layer, LegGraph};
+use super::objective::{Aggregate, Objective};
+use super::task::Found;
+use crate::math::random::{Stream, stream};
+
+/// What is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UniformSettings {
+    /// Waypoints of a trajectory, both ends included; at most the length the graph was built for.
+    pub length: usize,
+    /// Trajectories wanted, with replacement.
+    pub wanted: usize,
+    /// Draws at most.
+    pub draws: u64,
+    /// Whether a waypoint may be used twice. If not, draws that do are rejected.
+    pub revisits: bool,
+    /// How legs add up.
+    pub aggregate: Aggregate,
+}
+
+impl Default for UniformSettings {
+    fn default() -> Self {
+        Self { length: 10, wanted: 1, draws: 1_000_000, revisits: false, aggregate: Aggregate::Sum }
+    }
+}
+
+/// The sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UniformOutcome<N> {
+    /// Trajectories in the order drawn: with replacement, so the same may be there twice.
+    pub found: Vec<Found<N>>,
+    /// How many different ones (by waypoints) are among them.
+    pub distinct: usize,
+    /// Draws made, those rejected for a revisit included.
+    pub draws: u64,
+    /// What was drawn from: with revisits all trajectories, without them all but those that fly straight back.
+    pub walks: Count,
+}
+
+/// Draws walks of one length from the start to the end, each equally likely.
+#[derive(Debug)]
+pub struct Sampler<'g, 'a, N> {
+    graph: &'g LegGraph<'a, N>,
+    counts: Counts,
+    length: usize,
+}
+
+impl<'g, 'a, N: Copy> Sampler<'g, 'a, N> {
+    /// `None` if there is nothing to draw from.
+    pub fn new(graph: &'g LegGraph<'a, N>, length: usize) -> Option<Self> {
+        let counts = graph.counts(length.max(2));
+        let some = length >= 2 && !counts.from_start(length - 1).is_zero();
+        some.then_some(Self { graph, counts, length })
+    }
+
+    /// Number of walks.
+    pub fn total(&self) -> Count {
+        self.counts.from_start(self.length - 1)
+    }
+
+    /// Draws one into `legs` (numbers of the graph's legs). A rank below the number of walks is drawn and its
+    /// walk looked up by the counts, in integers; where they are too large for that, leg by leg in proportion.
+    pub fn draw(&self, rng: &mut Stream, legs: &mut Vec<u32>) {
+        legs.clear();
+        let mut node = 0;
+        let mut rank = None;
+        for steps in (1..self.length).rev() {
+            let after = self.counts.layer(steps - 1);
+            let leg = match (self.counts.layer(steps).at(node), after) {
+                (Count::Exact(total), Layer::Exact(after)) => {
+                    let mut left = rank.take().unwrap_or_else(|| below(rng, total));
+                    let leg = self.graph.legs_from(node).find(|&leg| {
+                        let count = after[self.graph.target(leg) as usize];
+                        let here = left < count;
+                        if !here {
+                            left -= count;
+                        }
+                        here
+                    });
+                    rank = Some(left);
+                    leg
+                }
+                (total, after) => {
+                    let weight = |leg: &usize| after.at(self.graph.target(*leg)).as_f64();
+                    let mut left = rng.random::<f64>() * total.as_f64();
+                    let live = || self.graph.legs_from(node).filter(|leg| weight(leg) > 0.0);
+                    let chosen = live().find(|leg| {
+                        left -= weight(leg);
+                        left < 0.0
+                    });
+                    chosen.or_else(|| live().last())
+                }
+            };
+            let leg = leg.expect("a node's walks are those over its legs");
+            legs.push(leg as u32);
+            node = self.graph.target(leg);
+        }
+    }
+}
+
+/// Uniform in 0 .. `bound`, without bias.
+fn below(rng: &mut Stream, bound: u128) -> u128 {
+    if bound <= 1 {
+        return 0;
+    }
+    let bits = 128 - (bound - 1).leading_zeros();
+    loop {
+        let draw = if bits <= 64 {
+            u128::from(rng.next_u64() >> (64 - bits))
+        } else {
+            (u128::from(rng.next_u64()) << 64 | u128::from(rng.next_u64())) >> (128 - bits)
+        };
+        if draw < bound {
+            return draw;
+        }
+    }
+}
+
+/// Draws `wanted` trajectories of `graph`, each equally likely, scored under `objective`.
+pub fn uniform<N, O>(graph: &LegGraph<'_, N>, objective: &O, seed: u64, settings: &UniformSettings) -> UniformOutcome<N>
+where
+    N: Copy,
+    O: Objective,
+{
+    let filtered;
+    let graph = if settings.revisits {
+        graph
+    } else {
+        filtered = graph.without_returns(settings.length);
+        &filtered
+    };
+    let mut outcome = UniformOutcome { found: Vec::new(), distinct: 0, draws: 0, walks: Count::Exact(0) };
+    let Some(sampler) = Sampler::new(graph, settings.length) else { return outcome };
+    outcome.walks = sampler.total();
+    let (mut rng, mut legs, mut known) = (stream(seed), Vec::new(), HashSet::new());
+    let mut used = vec![u64::MAX; graph.candidates().len()];
+    while outcome.found.len() < settings.wanted && outcome.draws < settings.draws {
+        sampler.draw(&mut rng, &mut legs);
+        let draw = outcome.draws;
+        outcome.draws += 1;
+        used[0] = draw;
+        let once = |&leg: &u32| {
+            let waypoint = graph.waypoint(graph.target(leg as usize)) as usize;
+            std::mem::replace(&mut used[waypoint], draw) != draw
+        };
+        if settings.revisits || legs.iter().all(once) {
+            let found = graph.found(&legs, score(graph, objective, &legs, settings.aggregate));
+            known.insert(found.waypoints.clone());
+            outcome.found.push(found);
+        }
+    }
+    outcome.distinct = known.len();
+    outcome
+}
+
+fn score<N: Copy, O: Objective>(graph: &LegGraph<'_, N>, objective: &O, legs: &[u32], aggregate: Aggregate) -> f64 {
+    let (mut total, mut memory, mut node) = (aggregate.neutral(), objective.start(), 0);
+    for &leg in legs {
+        let (score, after) = objective.extend(&memory, &graph.view(node, leg as usize));
+        (total, memory) = (aggregate.add(total, score), after);
+        node = graph.target(leg as usize);
+    }
+    total
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::super::objective::Score;
+    use super::super::small::{Octahedron, START, enumerate, points};
+    use super::super::task::Task;
+    use super::*;
+
+    const SMALL: Octahedron = Octahedron::WIDE;
+
+    #[test]
+    fn every_trajectory_is_equally_likely() {
+        let mut tested = 0;
+        for seed in 0..40 {
+            let points = points(seed, 8, 11.0);
+            let task = Task { start: START, candidates: &points, reach: &SMALL };
+            let graph = LegGraph::explore(&task, 6);
+            let objective = Score::Random { seed };
+            for revisits in [false, true] {
+                let all = enumerate(&task, &objective, (6, revisits, Aggregate::Sum));
+                if !(10..2_000).contains(&all.len()) {
+                    continue;
+                }
+                let wanted = 50 * all.len();
+                let settings = UniformSettings { length: 6, wanted, revisits, ..Default::default() };
+                let outcome = uniform(&graph, &objective, seed, &settings);
+                assert_eq!(outcome.found.len(), wanted, "seed {seed}");
+                assert!(if revisits { outcome.draws == wanted as u64 } else { outcome.draws >= wanted as u64 });
+                let mut times: HashMap<&[u32], f64> = all.iter().map(|(w, _)| (w.as_slice(), 0.0)).collect();
+                for found in &outcome.found {
+                    *times.get_mut(found.waypoints.as_slice()).expect("feasible") += 1.0;
+                }
+                assert_eq!(outcome.distinct, times.values().filter(|&&n| n > 0.0).count());
+                let chi: f64 = times.values().map(|n| (n - 50.0).powi(2) / 50.0).sum();
+                let freedom = all.len() as f64 - 1.0;
+                assert!((chi - freedom).abs() < 5.0 * (2.0 * freedom).sqrt(), "seed {seed}: χ² {chi} of {freedom}");
+                let (waypoints, score) = &all[all.len() / 2];
+                let same = outcome.found.iter().find(|found| found.waypoints == *waypoints).expect("drawn 50 times");
+                assert_eq!(same.score, *score);
+                tested += 1;
+            }
+        }
+        assert!(tested > 10, "{tested}");
+    }
+
+    #[test]
+    fn counts_too_large_for_integers_are_sampled_in_proportion() {
+        let everything = Octahedron { centre: nalgebra::Vector3::zeros(), half: nalgebra::Vector3::repeat(1e9) };
+        let points = points(0, 20, 1.0);
+        let task = Task { start: START, candidates: &points, reach: &everything };
+        let graph = LegGraph::explore(&task, 50);
+        let sampler = Sampler::new(&graph, 50).expect("a complete graph");
+        assert!(matches!(sampler.total(), Count::About(_)));
+        let (mut rng, mut legs) = (stream(1), Vec::new());
+        let mut times = [0.0; 22];
+        let draws = 20_000;
+        for _ in 0..draws {
+            sampler.draw(&mut rng, &mut legs);
+            assert_eq!(legs.len(), 49);
+            assert!(graph.at_end(graph.target(legs[48] as usize)));
+            times[graph.waypoint(graph.target(legs[0] as usize)) as usize] += 1.0;
+        }
+        // By symmetry the first leg goes to each of the 21 others with equal odds, up to 21⁻⁴⁸.
+        assert_eq!(times[0], 0.0);
+        let expected = f64::from(draws) / 21.0;
+        let chi: f64 = times[1..].iter().map(|n| (n - expected).powi(2) / expected).sum();
+        assert!(chi < 20.0 + 5.0 * 40f64.sqrt(), "{chi}");
+    }
+
+    #[test]
+    fn ranks_are_unbiased_at_any_size() {
+        let mut rng = stream(3);
+        for bound in [1, 2, 3, 5, 1 << 64, (1 << 64) + 1, u128::MAX] {
+            assert!((0..100).all(|_| below(&mut rng, bound) < bound));
+        }
+        let mut times = [0; 3];
+        (0..30_000).for_each(|_| times[below(&mut rng, 3) as usize] += 1);
+        assert!(times.iter().all(|&n: &i32| (n - 10_000).abs() < 400), "{times:?}");
+    }
+}
