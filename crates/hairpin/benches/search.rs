@@ -71,7 +71,7 @@ fn beam_expansions(bencher: Bencher) {
 
 fn explored<'a>(hull: &Hull, points: &'a [Point3<f64>], length: usize) -> LegGraph<'a, StepNode> {
     let reach = StepReach::new(hull, points, StepSettings::default());
-    LegGraph::explore(&Task { start: START, candidates: points, reach: &reach }, length)
+    LegGraph::explore(START, points, &reach, length)
 }
 
 /// All triples and the number of trajectories of every length to 50, per graph.

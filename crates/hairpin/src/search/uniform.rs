@@ -186,7 +186,7 @@ mod tests {
         for seed in 0..40 {
             let points = points(seed, 8, 11.0);
             let task = Task { start: START, candidates: &points, reach: &SMALL };
-            let graph = LegGraph::explore(&task, 6);
+            let graph = LegGraph::explore(START, &points, task.reach, 6);
             let objective = Score::Random { seed };
             for revisits in [false, true] {
                 let all = enumerate(&task, &objective, (6, revisits, Aggregate::Sum));
@@ -220,7 +220,7 @@ mod tests {
         let everything = Octahedron { centre: nalgebra::Vector3::zeros(), half: nalgebra::Vector3::repeat(1e9) };
         let points = points(0, 20, 1.0);
         let task = Task { start: START, candidates: &points, reach: &everything };
-        let graph = LegGraph::explore(&task, 50);
+        let graph = LegGraph::explore(START, &points, task.reach, 50);
         let sampler = Sampler::new(&graph, 50).expect("a complete graph");
         assert!(matches!(sampler.total(), Count::About(_)));
         let (mut rng, mut legs) = (stream(1), Vec::new());

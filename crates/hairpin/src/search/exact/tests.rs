@@ -18,7 +18,7 @@ fn the_best_are_those_of_brute_force() {
         let points = points(seed, 9, 11.0);
         let task = Task { start: START, candidates: &points, reach: &SMALL };
         for length in [2, 3, 5, 6] {
-            let graph = LegGraph::explore(&task, length);
+            let graph = LegGraph::explore(START, &points, task.reach, length);
             for revisits in [false, true] {
                 for aggregate in [Aggregate::Sum, Aggregate::Max] {
                     let score = Score::Random { seed };
@@ -52,7 +52,7 @@ fn without_a_proof_the_gap_is_told() {
     for seed in 0..20 {
         let points = points(seed, 10, 11.0);
         let task = Task { start: START, candidates: &points, reach: &SMALL };
-        let graph = LegGraph::explore(&task, 6);
+        let graph = LegGraph::explore(START, &points, task.reach, 6);
         let score = Score::Random { seed };
         let all = enumerate(&task, &score, (6, false, Aggregate::Sum));
         let settings = ExactSettings { length: 6, expansions: 2, width: 10_000, ..Default::default() };
@@ -74,7 +74,7 @@ fn without_a_proof_the_gap_is_told() {
 fn a_count_of_zero_is_the_proof() {
     let points = points(0, 5, 1_000.0);
     let task = Task { start: START, candidates: &points, reach: &SMALL };
-    let graph = LegGraph::explore(&task, 6);
+    let graph = LegGraph::explore(START, &points, task.reach, 6);
     let outcome = exact(&graph, &Score::Random { seed: 0 }, &ExactSettings { length: 6, ..Default::default() });
     assert!(outcome.walks.is_zero() && outcome.bound.is_none() && outcome.found.is_empty());
     for length in [0, 1] {
@@ -89,7 +89,7 @@ fn worthless_legs_make_trajectories_too() {
     for seed in 0..10 {
         let points = points(seed, 9, 11.0);
         let task = Task { start: START, candidates: &points, reach: &SMALL };
-        let graph = LegGraph::explore(&task, 5);
+        let graph = LegGraph::explore(START, &points, task.reach, 5);
         for aggregate in [Aggregate::Sum, Aggregate::Max] {
             for revisits in [true, false] {
                 let exists = !enumerate(&task, &Score::Random { seed }, (5, revisits, aggregate)).is_empty();

@@ -6,15 +6,13 @@ use std::hash::Hash;
 use nalgebra::Point3;
 use rustc_hash::FxBuildHasher;
 
-use super::super::task::Task;
 use super::{Details, LegGraph};
 use crate::feasibility::reach::{Leg, Reach};
 
 impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
-    /// All legs that a trajectory of at most `length` waypoints can use, from the reach set.
-    pub fn explore<R: Reach<N> + ?Sized>(task: &Task<'a, N, R>, length: usize) -> Self {
-        Self::grow(task.start, task.candidates, length, |from, out| task.reach.legs(from, task.candidates, out))
-            .trimmed(length)
+    /// All legs that a trajectory of at most `length` waypoints can use: from `start` at `candidates[0]`, by `reach`.
+    pub fn explore<R: Reach<N> + ?Sized>(start: N, candidates: &'a [Point3<f64>], reach: &R, length: usize) -> Self {
+        Self::grow(start, candidates, length, |from, out| reach.legs(from, candidates, out)).trimmed(length)
     }
 
     /// The same from a list of (from, leg); their order does not matter. Of legs between the same two nodes the first

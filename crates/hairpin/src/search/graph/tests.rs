@@ -14,7 +14,7 @@ fn counts_of_every_length_are_those_of_brute_force() {
     for seed in 0..40 {
         let points = points(seed, 8, 11.0);
         let task = Task { start: START, candidates: &points, reach: &SMALL };
-        let graph = LegGraph::explore(&task, 6);
+        let graph = LegGraph::explore(START, &points, task.reach, 6);
         let counts = graph.counts_by_length(6);
         let kept = graph.counts(6);
         assert_eq!(counts.len(), 7);
@@ -33,7 +33,7 @@ fn without_returns_no_loop_free_trajectory_is_lost() {
     for seed in 0..40 {
         let points = points(seed, 8, 11.0);
         let task = Task { start: START, candidates: &points, reach: &SMALL };
-        let graph = LegGraph::explore(&task, 5);
+        let graph = LegGraph::explore(START, &points, task.reach, 5);
         let fewer = graph.without_returns(5);
         let score = Score::Random { seed };
         let loop_free = enumerate(&task, &score, (5, false, Aggregate::Sum)).len() as f64;
@@ -60,7 +60,7 @@ fn a_list_of_legs_is_the_same_graph() {
     }
     legs.reverse();
     let listed = LegGraph::from_legs(START, &points, &legs, 6);
-    let explored = LegGraph::explore(&task, 6);
+    let explored = LegGraph::explore(START, &points, task.reach, 6);
     assert!(explored.legs() > 50);
     assert_eq!((listed.nodes(), listed.legs()), (explored.nodes(), explored.legs()));
     assert_eq!(listed.counts_by_length(6), explored.counts_by_length(6));
@@ -72,7 +72,7 @@ fn counts_beyond_128_bits_are_marked() {
     let everything = Octahedron { centre: nalgebra::Vector3::zeros(), half: nalgebra::Vector3::repeat(1e9) };
     let points = points(0, 20, 1.0);
     let task = Task { start: START, candidates: &points, reach: &everything };
-    let graph = LegGraph::explore(&task, 50);
+    let graph = LegGraph::explore(START, &points, task.reach, 50);
     let counts = graph.counts_by_length(50);
     assert_eq!(counts[3], Count::Exact(20));
     // Walks of s legs between two different vertices of the complete graph: ((n−1)^s − (−1)^s)/n.
