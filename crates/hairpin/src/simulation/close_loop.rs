@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::SimulationError;
-use super::controller::{ControllerSettings, Demand, Measured, Pilot};
+use super::controllers::{ControllerSettings, Demand, Measured, Pilot};
 use super::course::Course;
 use super::disturbance::{Conditions, Disturbances};
 use super::hazard::Hazards;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::controller::Schedule;
+use super::controllers::Schedule;
 use crate::trajectory::Ended;
 
 /// Progress along waypoints, both ends included.

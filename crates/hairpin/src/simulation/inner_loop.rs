@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector3, Vector4};
 
-use super::controller::Demand;
+use super::controllers::Demand;
 use super::mixer::{Mixed, Mixer};
 use super::plant::{ATTITUDE, PlantState, RATES};
 use super::step::body_z;
@@ -22,6 +22,8 @@ const INTEGRAL_BOUND: f64 = 1000.0;
 const GYRO_CORNER: f64 = 30.0;
 /// Attitude gain over rate bandwidth: three loops apart a factor of three keeps them from disturbing each other.
 const ATTITUDE_OVER_RATE: f64 = 0.35;
+/// The attitude loop runs at every fourth tick of the rate loop, 250 Hz: far above its bandwidth of 7 rad/s.
+const ATTITUDE_EVERY: u32 = 4;
 /// Yaw is turned by drag moments alone, an order of magnitude weaker: its error is weighed less.
 const YAW_WEIGHT: f64 = 0.4;
 /// Largest body rate asked for, rad/s: tilt, yaw.
@@ -34,7 +36,12 @@ pub(crate) struct InnerLoop {
     inertia: Vector3<f64>,
     mass: f64,
     period: f64,
+    per_second: f64,
     least_thrust: f64,
+    /// What the attitude loop last asked for: body rates, rad/s, and thrust, N; and ticks until its next turn.
+    wanted: Vector3<f64>,
+    thrust: f64,
+    to_attitude: u32,
     attitude: f64,
     p: f64,
     i: f64,
@@ -59,6 +66,10 @@ impl InnerLoop {
             inertia: robot.inertia,
             mass: robot.mass,
             period,
+            per_second: 1.0 / period,
+            wanted: Vector3::zeros(),
+            thrust: robot.mass * robot.gravity,
+            to_attitude: 0,
             least_thrust: 0.05 * robot.mass * robot.gravity,
             attitude: ATTITUDE_OVER_RATE * bandwidth,
             p,
@@ -73,15 +84,18 @@ impl InnerLoop {
     /// Rotor speeds for the demand in force, from the measured state.
     #[inline(always)]
     pub(crate) fn command(&mut self, demand: &Demand, state: &PlantState) -> Mixed {
+        if self.to_attitude == 0 {
+            self.to_attitude = ATTITUDE_EVERY;
+            self.turn(demand, state);
+        }
+        self.to_attitude -= 1;
         let s = state.as_slice();
-        let q = [s[ATTITUDE], s[ATTITUDE + 1], s[ATTITUDE + 2], s[ATTITUDE + 3]];
         let measured = Vector3::new(s[RATES], s[RATES + 1], s[RATES + 2]);
-        let wanted = self.rates(demand, &q);
 
         let before = self.gyro.value();
         let filtered = self.gyro.next(&measured);
-        let angular = (filtered - before) * (1.0 / self.period);
-        let error = wanted - filtered;
+        let angular = (filtered - before) * self.per_second;
+        let error = self.wanted - filtered;
         if !self.saturated {
             let bound = INTEGRAL_BOUND;
             self.integral = (self.integral + error * (self.i * self.period)).map(|c| c.min(bound).max(-bound));
@@ -90,15 +104,21 @@ impl InnerLoop {
             error * self.p + self.integral - angular * self.d + demand.angular_acceleration * (1.0 + self.d);
         let momentum = self.inertia.component_mul(&measured);
         let moments = self.inertia.component_mul(&acceleration) + measured.cross(&momentum);
-        // The part of the wanted force along the thrust axis: a robot that is still turning does not push sideways.
-        let thrust = (self.mass * demand.force.dot(&body_z(&q))).max(self.least_thrust);
-        let mixed = self.mixer.mix(thrust, &moments);
+        let mixed = self.mixer.mix(self.thrust, &moments);
         self.saturated = mixed.at_limit > 0;
         mixed
     }
 
+    /// The attitude loop's turn.
+    fn turn(&mut self, demand: &Demand, state: &PlantState) {
+        let s = state.as_slice();
+        let q = [s[ATTITUDE], s[ATTITUDE + 1], s[ATTITUDE + 2], s[ATTITUDE + 3]];
+        self.wanted = self.rates(demand, &q);
+        // The part of the wanted force along the thrust axis: a robot that is still turning does not push sideways.
+        self.thrust = (self.mass * demand.force.dot(&body_z(&q))).max(self.least_thrust);
+    }
+
     /// ω = ω_ff + 2 k sgn(e_w) e for the error quaternion e = q* ⊗ q_wanted, yaw weighed less, bounded.
-    #[inline(always)]
     fn rates(&self, demand: &Demand, q: &[f64; 4]) -> Vector3<f64> {
         let ([w, x, y, z], [a, b, c, d]) = (*q, demand.attitude);
         let scalar = w * a + x * b + y * c + z * d;

@@ -38,8 +38,12 @@ impl Mixer {
     /// Rotor speeds for a thrust (N) and moments (N·m).
     #[inline(always)]
     pub(crate) fn mix(&self, thrust: f64, moments: &Vector3<f64>) -> Mixed {
-        let squares = self.inverse * Vector4::new(thrust, moments.x, moments.y, moments.z);
-        if squares.iter().all(|s| *s >= self.least && *s <= self.most) {
+        let row = |i: usize| {
+            let m = &self.inverse;
+            (m[(i, 0)] * thrust + m[(i, 1)] * moments.x) + (m[(i, 2)] * moments.y + m[(i, 3)] * moments.z)
+        };
+        let squares = Vector4::new(row(0), row(1), row(2), row(3));
+        if squares.min() >= self.least && squares.max() <= self.most {
             return Mixed { speeds: squares.map(f64::sqrt), at_limit: 0 };
         }
         self.saturate(thrust, moments)

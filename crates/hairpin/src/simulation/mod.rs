@@ -4,7 +4,7 @@
 //! the claim and nothing else.
 
 mod close_loop;
-mod controller;
+mod controllers;
 mod course;
 mod disturbance;
 mod hazard;
@@ -20,7 +20,7 @@ mod tests;
 use thiserror::Error;
 
 pub use close_loop::{FlySettings, Sortie, fly};
-pub use controller::{ControllerKind, ControllerSettings, SegmentTimes};
+pub use controllers::{ControllerKind, ControllerSettings, SegmentTimes};
 pub use disturbance::{Conditions, Disturbances, Gusts};
 pub use plant::{Plant, PlantState};
 pub use step::Stepper;

@@ -27,10 +27,10 @@ pub(super) const ROTORS: usize = 13;
 /// and moment (body) disturbing it. Without lag w = u and the rotor states stay as they are.
 #[derive(Debug, Clone)]
 pub struct Plant {
-    pub(super) mass: f64,
+    pub(super) inverse_mass: f64,
     pub(super) gravity: f64,
     /// Rows: thrust, roll, pitch and yaw moment per w².
-    pub(super) allocation: nalgebra::Matrix4<f64>,
+    pub(super) allocation: [[f64; 4]; 4],
     pub(super) inverse_inertia: Vector3<f64>,
     /// (Izz − Iyy)/Ixx and its cyclic kin.
     pub(super) gyroscopic: Vector3<f64>,
@@ -52,9 +52,9 @@ impl Plant {
     pub fn new(robot: &Quadrotor) -> Self {
         let i = robot.inertia;
         Self {
-            mass: robot.mass,
+            inverse_mass: 1.0 / robot.mass,
             gravity: robot.gravity,
-            allocation: robot.mixing(),
+            allocation: robot.mixing().transpose().into(),
             inverse_inertia: i.map(f64::recip),
             gyroscopic: Vector3::new((i.z - i.y) / i.x, (i.x - i.z) / i.y, (i.y - i.x) / i.z),
             drag_linear: robot.drag_linear,
@@ -77,11 +77,18 @@ impl Plant {
         state
     }
 
+    /// Thrust, roll, pitch and yaw moment of squared rotor speeds.
+    #[inline(always)]
+    pub(super) fn wrench(&self, squares: &Vector4<f64>) -> [f64; 4] {
+        self.allocation
+            .map(|row| row[0] * squares[0] + row[1] * squares[1] + (row[2] * squares[2] + row[3] * squares[3]))
+    }
+
     /// Acceleration by drag at velocity `v`, m/s².
     #[inline(always)]
     pub(super) fn drag(&self, v: &Vector3<f64>) -> Vector3<f64> {
         let relative = v - self.air;
-        relative * (-(self.drag_linear + self.drag_quadratic * relative.norm()) / self.mass)
+        relative * (-(self.drag_linear + self.drag_quadratic * relative.norm()) * self.inverse_mass)
     }
 
     /// Angular acceleration under the moment `m` (N·m) at body rates `w`, rad/s².
@@ -128,12 +135,12 @@ impl Dynamics for Plant {
         let rotors: Vector4<f64> = state.fixed_rows::<4>(ROTORS).into_owned();
         let lagging = self.time_constant > 0.0;
         let effective = if lagging { rotors } else { *control };
-        let wrench = self.allocation * effective.component_mul(&effective);
+        let wrench = self.wrench(&effective.component_mul(&effective));
         let mut out = PlantState::zeros();
         out.fixed_rows_mut::<3>(POSITION).copy_from(&v);
         out.as_mut_slice()[ATTITUDE..ATTITUDE + 4].copy_from_slice(&quaternion_rate(q, &w));
         let thrust = body_z(q) * wrench[0] + self.force;
-        let acceleration = thrust / self.mass - Vector3::z() * self.gravity + self.drag(&v);
+        let acceleration = thrust * self.inverse_mass - Vector3::z() * self.gravity + self.drag(&v);
         out.fixed_rows_mut::<3>(VELOCITY).copy_from(&acceleration);
         let moment = Vector3::new(wrench[1], wrench[2], wrench[3]) + self.moment;
         out.fixed_rows_mut::<3>(RATES).copy_from(&self.angular(&w, &moment));

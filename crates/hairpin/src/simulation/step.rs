@@ -50,7 +50,7 @@ impl Stepper {
         let error = rotors - command;
         let squared =
             command.component_mul(&(command + error * self.linear)) + error.component_mul(&error) * self.square;
-        let wrench = plant.allocation * squared;
+        let wrench = plant.wrench(&squared);
         let moment = Vector3::new(wrench[1], wrench[2], wrench[3]) + plant.moment;
 
         let w_mid = w + plant.angular(&w, &moment) * (0.5 * h);
@@ -58,7 +58,7 @@ impl Stepper {
         let q_end = turn(&q, &(w_mid * h));
 
         let z_mean = (body_z(&q) + body_z(&q_end)) * 0.5;
-        let pushed = (z_mean * wrench[0] + plant.force) / plant.mass - Vector3::new(0.0, 0.0, plant.gravity);
+        let pushed = (z_mean * wrench[0] + plant.force) * plant.inverse_mass - Vector3::new(0.0, 0.0, plant.gravity);
         let v_mid = v + (pushed + plant.drag(&v)) * (0.5 * h);
         let v_end = v + (pushed + plant.drag(&v_mid)) * h;
         let rotors_end = command + error * self.decay;
