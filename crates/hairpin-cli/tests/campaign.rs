@@ -1,0 +1,257 @@
+//! Whole campaigns through the binary: verdicts, exit codes, what stands in the folder, and that nothing depends on
+//! threads or interruptions.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+
+const SMALL: [&str; 4] = ["stress", "demo-quadrotor", "--set", "generate.search.cases=4"];
+
+fn hairpin(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
+    command.current_dir(folder).args(arguments);
+    command
+}
+
+/// Exit code, stdout, stderr.
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = hairpin(folder, arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let arguments = [arguments, &["--json"]].concat();
+    let (code, out, error) = run(folder, &arguments);
+    let object: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{e}: {out}{error}"));
+    assert_eq!(object["exit_code"].as_i64(), Some(code.into()), "{object}");
+    object
+}
+
+/// Every file that must not depend on clock, threads or place, with its bytes.
+fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    let mut open = vec![folder.to_path_buf()];
+    while let Some(place) = open.pop() {
+        for entry in fs::read_dir(place).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.strip_prefix(folder).unwrap().to_string_lossy().into_owned();
+            if path.is_dir() {
+                open.push(path);
+            } else if !["report.html", "junit.xml", ".lock"].contains(&name.as_str()) && !name.ends_with(".log") {
+                all.insert(name, fs::read(path).unwrap());
+            }
+        }
+    }
+    all
+}
+
+fn assert_same(a: &Path, b: &Path) {
+    let (a, b) = (contents(a), contents(b));
+    assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>());
+    for (name, bytes) in &a {
+        assert!(b[name] == *bytes, "{name} differs");
+    }
+}
+
+#[test]
+fn the_verdict_is_a_line_and_the_exit_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, out, _) =
+        run(folder.path(), &[&SMALL[..], &["--set", "spec.deviation.max_m=20", "--out", "a"]].concat());
+    assert_eq!(code, 0, "{out}");
+    assert!(out.lines().last().unwrap().starts_with("PASS 4/4 (simulated, "), "{out}");
+    assert!(out.starts_with("case"), "the table stands before it: {out}");
+
+    let strict = [&SMALL[..], &["--set", "spec.deviation.max_m=0.01"]].concat();
+    let object = json(folder.path(), &strict);
+    assert_eq!(object["exit_code"], 1);
+    assert!(object["verdict"].as_str().unwrap().starts_with("FAIL 4/4 "));
+    assert_eq!((&object["counts"]["cases"], &object["counts"]["fail"]), (&Value::from(4), &Value::from(4)));
+    assert!(object["worst"]["max_deviation_m"].as_f64().unwrap() > 0.01);
+    // Without --out the folder has the scenario's name.
+    assert_eq!(object["paths"]["folder"], "out/demo-quadrotor");
+    for (_, path) in object["paths"].as_object().unwrap() {
+        assert!(folder.path().join(path.as_str().unwrap()).exists(), "{path}");
+    }
+
+    let (code, _, error) = run(folder.path(), &strict);
+    assert_eq!(code, 2);
+    assert!(["--resume", "--force", "--out"].iter().all(|way| error.contains(way)), "{error}");
+    assert_eq!(run(folder.path(), &[&strict[..], &["--force"]].concat()).0, 1);
+}
+
+#[test]
+fn a_violation_can_be_flown_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let strict = ["--set", "spec.deviation.max_m=0.01", "--set", "execute.repeat=2", "--out", "a"];
+    let vary = ["--set", "vary.\"world.wind_m_s\".uniform=[[-1,-1,0],[1,1,0]]"];
+    let (code, _, error) = run(folder.path(), &[&SMALL[..], &strict, &vary].concat());
+    assert_eq!(code, 1, "{error}");
+    for file in fs::read_dir(folder.path().join("a/repro")).unwrap() {
+        let file = file.unwrap().path();
+        let object = json(folder.path(), &["replay", file.to_str().unwrap()]);
+        assert_eq!((&object["exit_code"], &object["reproduces"]), (&Value::from(1), &Value::from(true)), "{object}");
+    }
+    let file = folder.path().join("a/repro/0000.json");
+    let lenient = fs::read_to_string(&file).unwrap().replace("\"max_m\": 0.01", "\"max_m\": 50.0");
+    fs::write(&file, lenient).unwrap();
+    let object = json(folder.path(), &["replay", "a/repro/0000.json"]);
+    assert_eq!((&object["exit_code"], &object["reproduces"]), (&Value::from(0), &Value::from(false)), "{object}");
+}
+
+#[test]
+fn the_parts_make_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &[&SMALL[..], &["--out", "whole"]].concat());
+    let object =
+        json(folder.path(), &["generate", "demo-quadrotor", "--set", "generate.search.cases=4", "--out", "parts"]);
+    assert_eq!(object["counts"]["cases"], 4);
+    let (code, _, error) = run(folder.path(), &["judge", "parts"]);
+    assert!(code == 2 && error.contains("hairpin execute"), "{error}");
+    assert_eq!(json(folder.path(), &["execute", "parts"])["counts"]["runs"], 4);
+    assert!([0, 1].contains(&run(folder.path(), &["judge", "parts"]).0));
+    assert_eq!(run(folder.path(), &["report", "parts"]).0, 0);
+    assert!(folder.path().join("parts/report.html").is_file());
+    assert_same(&folder.path().join("whole"), &folder.path().join("parts"));
+
+    let (code, _, error) = run(folder.path(), &["execute", "parts", "--set", "task.length=3"]);
+    assert!(code == 2 && error.contains("task.length"), "{error}");
+    // Judged by another limit, the same flights get another verdict.
+    assert_eq!(run(folder.path(), &["judge", "parts", "--set", "spec.deviation.max_m=0.01"]).0, 1);
+    assert_eq!(run(folder.path(), &["judge", "parts", "--set", "spec.deviation.max_m=20"]).0, 0);
+}
+
+#[test]
+fn exported_waypoints_fly_again_as_missions() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &[&SMALL[..], &["--out", "a"]].concat());
+    let (code, _, error) = run(folder.path(), &["export", "a", "--to", "waypoints,csv,tum"]);
+    assert_eq!(code, 0, "{error}");
+    let text = fs::read_to_string(folder.path().join("a/missions/0002.csv")).unwrap();
+    assert!(text.starts_with("x_m,y_m,z_m\n") && text.lines().count() == 9, "{text}");
+    for name in ["0002.planned.csv", "0002-0.csv", "0002.ref.tum", "0002.exec.tum"] {
+        assert!(folder.path().join("a/export").join(name).is_file(), "{name}");
+    }
+    let before = json(folder.path(), &["judge", "a"]);
+    run(folder.path(), &["execute", "a", "--missions", "a/missions"]);
+    let after = json(folder.path(), &["judge", "a"]);
+    assert_eq!(before["worst"], after["worst"], "the same waypoints fly the same flight");
+
+    fs::create_dir(folder.path().join("mine")).unwrap();
+    fs::write(folder.path().join("mine/up.csv"), "x_m,y_m,z_m\n3,3,3\n3,3,9\n9,3,9\n").unwrap();
+    assert_eq!(json(folder.path(), &["execute", "a", "--missions", "mine"])["counts"]["cases"], 1);
+    let verdict = json(folder.path(), &["judge", "a"]);
+    assert!(verdict["verdict"].as_str().unwrap().contains("unchecked"), "{verdict}");
+}
+
+#[test]
+fn threads_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    for (threads, out) in [("1", "one"), ("2", "two")] {
+        run(folder.path(), &[&SMALL[..], &["--threads", threads, "--out", out, "--set", "execute.repeat=2"]].concat());
+    }
+    assert_same(&folder.path().join("one"), &folder.path().join("two"));
+}
+
+/// Starts a campaign that takes a while even on a fast machine.
+fn begin(folder: &Path, arguments: &[&str]) -> Child {
+    hairpin(folder, arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+}
+
+#[test]
+fn a_kill_at_any_moment_costs_nothing_but_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = [&SMALL[..], &["--set", "execute.repeat=20"]].concat();
+    run(folder.path(), &[&long[..], &["--out", "calm"]].concat());
+    let killed = [&long[..], &["--out", "killed", "--resume"]].concat();
+    for milliseconds in [20, 60, 110, 170, 260, 400] {
+        let mut child = begin(folder.path(), &killed);
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    let (code, _, error) = run(folder.path(), &killed);
+    assert!([0, 1].contains(&code), "{error}");
+    assert_same(&folder.path().join("calm"), &folder.path().join("killed"));
+
+    let other = [&killed[..], &["--seed", "11"]].concat();
+    let (code, _, error) = run(folder.path(), &other);
+    assert!(code == 2 && error.contains("`seed`"), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_keeps_what_is_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = [&SMALL[..], &["--set", "execute.repeat=400", "--out", "a", "--threads", "1"]].concat();
+    let child = begin(folder.path(), &long);
+    let flights = folder.path().join("a/executions");
+    let flown = || fs::read_dir(&flights).map_or(0, Iterator::count);
+    while flown() < 3 {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let pid = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let kept = flown();
+    assert!((3..1600).contains(&kept), "{kept}");
+}
+
+#[test]
+fn a_time_limit_keeps_what_exists() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments =
+        ["generate", "demo-quadrotor", "--set", "generate.search.cases=1000000", "--time-limit", "1", "--out", "a"];
+    let object = json(folder.path(), &arguments);
+    assert_eq!(object["exit_code"], 0);
+    assert!(object["counts"]["cases"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_wrong_input() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("file"), "").unwrap();
+    let (code, _, error) = run(folder.path(), &[&SMALL[..], &["--out", "file/inside"]].concat());
+    assert!(code == 2 && error.contains("file/inside"), "{error}");
+    fs::create_dir(folder.path().join("mine")).unwrap();
+    fs::write(folder.path().join("mine/thesis.txt"), "years").unwrap();
+    let (code, _, error) = run(folder.path(), &[&SMALL[..], &["--out", "mine", "--force"]].concat());
+    assert!(code == 2 && error.contains("not a campaign folder"), "{error}");
+    assert!(folder.path().join("mine/thesis.txt").is_file());
+}
+
+#[test]
+fn an_executor_of_the_users_flies_and_fails_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
+    let good = format!("python3 '{minimal}'");
+    let object = json(folder.path(), &[&SMALL[..], &["--executor", &good, "--out", "good"]].concat());
+    assert_eq!(object["exit_code"], 0, "{object}");
+    // It flies exactly on the legs.
+    assert!(object["worst"]["max_deviation_m"].as_f64().unwrap() < 1e-9, "{object}");
+
+    let broken = fs::read_to_string(minimal).unwrap().replace("def fly(mission, speed=2.0, step=0.02):", "def fly(mission, speed=2.0, step=0.02):\n    if mission['case'] == '0001':\n        raise SystemExit('rotor 3 is gone')");
+    assert!(broken.contains("rotor 3"));
+    fs::write(folder.path().join("broken.py"), broken).unwrap();
+    let object = json(folder.path(), &[&SMALL[..], &["--executor", "python3 broken.py", "--out", "bad"]].concat());
+    assert_eq!(
+        (&object["exit_code"], &object["counts"]["executor_failed"]),
+        (&Value::from(4), &Value::from(1)),
+        "{object}"
+    );
+    assert!(object["verdict"].as_str().unwrap().starts_with("EXECUTOR FAILED 1/4"), "{object}");
+    let log = fs::read_to_string(folder.path().join("bad/executor-0001-0.log")).unwrap();
+    assert!(log.contains("rotor 3 is gone"), "{log}");
+    let object = json(folder.path(), &["execute", "bad", "--executor", "no-such-program"]);
+    assert_eq!(
+        (&object["exit_code"], &object["counts"]["executor_failed"]),
+        (&Value::from(4), &Value::from(4)),
+        "{object}"
+    );
+}
