@@ -136,7 +136,7 @@ pub(crate) struct Campaign {
     #[arg(long)]
     pub(crate) force: bool,
     /// Seconds after which generation stops and keeps what exists
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) time_limit: Option<f64>,
     /// One JSON object on stdout
     #[arg(long)]

@@ -64,6 +64,12 @@ fn write_tum(folder: &CampaignFolder, cases: &[Case]) -> Result<usize, Problem> 
         let worst = results.iter().find(|result| result.case == case.number).map_or(0, |result| result.run);
         let Some(run) = folder.read_run(case.number, worst, &table)? else { continue };
         let Ok(flight) = run.outcome else { continue };
+        if case.leg_times.is_empty() {
+            return Err(Problem::input(format!(
+                "case {}: a mission made elsewhere has no timed plan to compare with",
+                case.id()
+            )));
+        }
         let planned = folder.read_planned(case.number)?;
         if let Some(reference) = at_stamps(&planned, flight.track.times()) {
             tum::write_pair(&place, &case.id(), &reference, &flight.track)?;

@@ -53,11 +53,14 @@ pub fn timed(case: &Case) -> Vec<Timed> {
 }
 
 /// The planned motion at 100 Hz with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. Attitudes are those that a
-/// witness flies; without one the robot is drawn level.
+/// witness flies; without one the robot is drawn level. A case without leg times (a mission made elsewhere) is drawn at
+/// 1 m/s: its path is planned, its clock is not.
 ///
 /// # Errors
 /// A case whose numbers are no track, as a folder that was edited may hold.
 pub fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
+    let untimed = case.leg_times.is_empty();
+    let case = &if untimed { paced(case) } else { case.clone() };
     let times = stamps(case.leg_times.iter().sum(), RATE);
     let mut poses = Vec::with_capacity(times.len());
     let mut columns: [Vec<f64>; 4] = Default::default();
@@ -77,6 +80,12 @@ pub fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
     let names = ["leg", "vx_m_s", "vy_m_s", "vz_m_s"];
     let channels = names.into_iter().zip(columns).map(|(name, values)| Channel { name: name.into(), values });
     Track::new(times, poses, channels.collect())
+}
+
+/// The case at 1 m/s along its legs; those of no length take a stamp's time.
+fn paced(case: &Case) -> Case {
+    let leg_times = case.waypoints.windows(2).map(|leg| (leg[1] - leg[0]).norm().max(1.0 / RATE)).collect();
+    Case { leg_times, profile: None, ..case.clone() }
 }
 
 fn attitude(robot: &Quadrotor, leg: &ProfileLeg, tau: f64) -> UnitQuaternion<f64> {
