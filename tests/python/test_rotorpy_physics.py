@@ -91,4 +91,4 @@ def test_same_rotor_speeds_same_flight(tmp_path, name, seed):
     x, y, z, w = theirs[-1]["q"]
     turned = 2 * math.acos(min(1.0, abs(np.dot([w, x, y, z], [ours[-1][k] for k in ("qw", "qx", "qy", "qz")]))))
     assert turned < math.radians(0.5)
-    assert turned == pytest.approx(0, abs=0.01) and abs(w) < 0.9999, "it must turn, too"
+    assert abs(w) < 0.9999, "it must turn, too"

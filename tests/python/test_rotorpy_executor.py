@@ -1,0 +1,36 @@
+"""A whole campaign flown by the shipped rotorpy executor: the protocol from end to end, in another simulator."""
+import json
+import os
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pyarrow.parquet as pq
+
+ROOT = Path(__file__).resolve().parents[2]
+HAIRPIN = os.environ.get("HAIRPIN_BIN", str(ROOT / "target" / "debug" / "hairpin"))
+EXECUTOR = ROOT / "examples" / "executors" / "rotorpy_executor.py"
+
+
+def test_rotorpy_flies_a_campaign(tmp_path):
+    command = f"{shlex.quote(sys.executable)} {shlex.quote(str(EXECUTOR))}"
+    out = tmp_path / "campaign"
+    sets = ["generate.search.cases=2", "task.length=4", "task.end_m=[9, 7, 6]", "execute.timeout_s=240",
+            "spec.deviation.max_m=10"]
+    arguments = [HAIRPIN, "stress", "demo-quadrotor", "--executor", command, "--out", str(out), "--json"]
+    for one in sets:
+        arguments += ["--set", one]
+    done = subprocess.run(arguments, capture_output=True, text=True)
+    answer = json.loads(done.stdout)
+    logs = [path.read_text() for path in out.glob("executor-*.log")]
+    assert done.returncode == 0, (answer, logs, done.stderr)
+    assert answer["counts"]["cases"] == answer["counts"]["pass"] == 2
+    for case in range(2):
+        flight = pq.read_table(out / "executions" / f"{case:04}-0.parquet").to_pydict()
+        times, legs = flight["t_s"], flight["leg"]
+        assert len(times) > 200 and times[0] == 0 and all(b > a for a, b in zip(times, times[1:]))
+        assert legs[0] == 0 and legs[-1] == 2 and all(b >= a for a, b in zip(legs, legs[1:]))
+        assert abs(flight["x_m"][-1] - 9) + abs(flight["y_m"][-1] - 7) + abs(flight["z_m"][-1] - 6) < 1.0
+    # A tracking controller in calm air neither stands still nor is perfect.
+    assert 0.01 < answer["worst"]["max_deviation_m"] < 10
