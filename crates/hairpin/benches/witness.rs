@@ -1,9 +1,11 @@
 //! What judging a witness leg costs: candidates as the roadmap meets them, and accepted legs with their full proof.
 
+use hairpin::feasibility::reach::{Roadmap, RoadmapSettings};
 use hairpin::feasibility::steering::{LegEnd, LegJudge, ProofSettings};
 use hairpin::feasibility::{Infeasible, Limits};
 use hairpin::math::random::stream;
 use hairpin::robot::quadrotor::{Quadrotor, Rotor};
+use hairpin::search::{BeamSettings, Score, Task, beam};
 use hairpin::trajectory::ProfileLeg;
 use hairpin::world::{Obstacle, Shape, World};
 use nalgebra::{Point3, Vector3};
@@ -84,9 +86,9 @@ fn accepted(judge: &LegJudge, count: usize) -> Vec<ProfileLeg> {
 fn judged(bencher: divan::Bencher) {
     let judge = judge();
     let candidates = candidates(&judge, 10_000);
-    bencher.counter(divan::counter::ItemsCount::new(candidates.len())).bench_local(|| {
-        candidates.iter().filter(|(from, to, t)| judge.judge(from, to, *t).is_ok()).count()
-    });
+    bencher
+        .counter(divan::counter::ItemsCount::new(candidates.len()))
+        .bench_local(|| candidates.iter().filter(|(from, to, t)| judge.judge(from, to, *t).is_ok()).count());
 }
 
 /// Accepted legs with the full bound between samples.
@@ -97,4 +99,30 @@ fn proven(bencher: divan::Bencher) {
     bencher
         .counter(divan::counter::ItemsCount::new(legs.len()))
         .bench_local(|| legs.iter().map(|leg| judge.prove(leg)).filter(Result::<(), Infeasible>::is_ok).count());
+}
+
+/// One graph of the shipped scenario: 250 waypoints of 8 velocities each, beam of width 5, length 10, from its roadmap to
+/// its first trajectory.
+#[divan::bench(sample_count = 20)]
+fn beam_graph(bencher: divan::Bencher) {
+    let (judge, world) = (judge(), cage());
+    let score = Score::named("high-velocity-90", 1, 8.0).expect("a known score");
+    let seed = std::cell::Cell::new(0);
+    bencher.bench_local(|| {
+        seed.set(seed.get() + 1);
+        let mut random = stream(seed.get());
+        let mut points = vec![Point3::new(3.0, 3.0, 3.0)];
+        while points.len() < 251 {
+            let p = Point3::from(Vector3::from_fn(|_, _| random.random_range(2.0..28.0)));
+            if world.is_free(&p, anafi().clearance_radius) {
+                points.push(p);
+            }
+        }
+        points.push(Point3::new(15.0, 15.0, 15.0));
+        let map = Roadmap::new(&judge, &points, &RoadmapSettings { seed: seed.get(), ..RoadmapSettings::default() });
+        let task = Task { start: map.start(), candidates: &points, reach: &map };
+        let outcome = beam(&task, &score, |node, steps| map.may_arrive(node, steps), &BeamSettings::default());
+        assert!(!outcome.found.is_empty(), "graph {} gave nothing: {:?}", seed.get(), outcome.ended);
+        outcome
+    });
 }

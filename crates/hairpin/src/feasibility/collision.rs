@@ -89,8 +89,8 @@ impl FreeSpace {
     }
 
     fn check(&self, piece: &Piece, depth: u32) -> Result<(), Infeasible> {
-        self.point_allowed(piece, 0)?;
-        self.point_allowed(piece, 7)?;
+        self.allows(&piece.point(0), piece.from)?;
+        self.allows(&piece.point(7), piece.to)?;
         let Some((limit, part)) = self.undecided(piece) else { return Ok(()) };
         if depth == 0 {
             let margin = match limit {
@@ -104,18 +104,20 @@ impl FreeSpace {
         self.check(&right, depth - 1)
     }
 
-    /// The end points of a piece are points of the path: a violation there is real.
-    fn point_allowed(&self, piece: &Piece, end: usize) -> Result<(), Infeasible> {
-        let (p, at) = (piece.point(end), if end == 0 { piece.from } else { piece.to });
+    /// Whether `p`, where the path is `at` seconds after it began, lies in the free space.
+    ///
+    /// # Errors
+    /// The wall or obstacle that is too near.
+    pub fn allows(&self, p: &Point3<f64>, at: f64) -> Result<(), Infeasible> {
         for axis in 0..3 {
-            let margin = self.wall_margin(&p, axis);
+            let margin = self.wall_margin(p, axis);
             if margin.is_nan() || margin < -TOUCH {
                 return Err(Infeasible::Violates { limit: Limit::World, part: axis as u16, at, margin });
             }
         }
         for (index, (bounds, shape)) in self.obstacles.iter().enumerate() {
-            if bounds.distance(&p) < self.clearance.max(f64::MIN_POSITIVE) {
-                let margin = shape.signed_distance(&p) - self.clearance;
+            if bounds.distance(p) < self.clearance.max(f64::MIN_POSITIVE) {
+                let margin = shape.signed_distance(p) - self.clearance;
                 if margin < 0.0 {
                     return Err(Infeasible::Violates { limit: Limit::Obstacle, part: index as u16, at, margin });
                 }

@@ -9,6 +9,7 @@ pub mod polytope;
 pub mod sampling;
 pub mod sphere;
 pub mod step;
+pub mod witness;
 
 use nalgebra::Point3;
 
@@ -19,6 +20,7 @@ pub use none::Everywhere;
 pub use polytope::{NoPolytope, Polytope};
 pub use sphere::Sphere;
 pub use step::{StepReach, StepSet, StepSettings};
+pub use witness::{Roadmap, RoadmapLeg, RoadmapSettings, WitnessNode};
 
 /// What a score sees of a leg, from its first waypoint. For step-wise sets speeds are leg ÷ step, for `witness`
 /// those at the leg's ends. On the first leg `v_in` = 0 and `turn` = 0.

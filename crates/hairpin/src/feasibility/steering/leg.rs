@@ -35,6 +35,7 @@ pub struct LegJudge {
     space: FreeSpace,
     limits: Limits,
     mass: f64,
+    top_speed: f64,
 }
 
 impl LegJudge {
@@ -54,6 +55,7 @@ impl LegJudge {
             space: FreeSpace::new(world, robot.clearance_radius),
             limits,
             mass: robot.mass,
+            top_speed: robot.max_speed.min(limits.max_speed),
         })
     }
 
@@ -65,6 +67,11 @@ impl LegJudge {
     /// The task's limits.
     pub fn limits(&self) -> &Limits {
         &self.limits
+    }
+
+    /// The speed that waypoint velocities are drawn up to, m/s: the task's limit or the robot's top speed.
+    pub fn top_speed(&self) -> f64 {
+        self.top_speed
     }
 
     /// The space that legs keep to.

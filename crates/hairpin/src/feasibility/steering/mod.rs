@@ -3,10 +3,12 @@
 pub mod flatness;
 pub mod leg;
 pub mod proof;
+pub mod timing;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use flatness::{BodyState, Demand, DependentRotors, FlatState, Flatness};
 pub use leg::{LegEnd, LegJudge};
 pub use proof::ProofSettings;
+pub use timing::LegTiming;

@@ -1,0 +1,197 @@
+//! A witness searched afterwards for waypoints that something else found: yes, no, or unknown.
+
+use nalgebra::{Point3, Vector3};
+
+use super::limits::Infeasible;
+use super::steering::{LegEnd, LegJudge, LegTiming};
+use crate::math::minimum_snap::minimum_snap;
+use crate::trajectory::Profile;
+
+/// Rounds of slowing down after which the answer is unknown.
+const ROUNDS: usize = 100;
+/// A leg that fails gets this much more time, or its ends that much less speed.
+const SLOWER: f64 = 1.12;
+
+/// What is known of a waypoint list.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Certificate {
+    /// A control witness: level at every waypoint, at rest at both ends, all limits proven.
+    Yes(Profile),
+    /// Nothing can fly it within the limits.
+    No(Impossible),
+    /// No witness was found: the leg that failed last, and why.
+    Unknown {
+        /// Number of the leg.
+        leg: usize,
+        /// Its evidence.
+        why: Infeasible,
+    },
+}
+
+/// Why nothing can fly a waypoint list.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Impossible {
+    /// A waypoint is not in the free space.
+    Waypoint {
+        /// Number of the waypoint.
+        waypoint: usize,
+        /// The wall or obstacle.
+        why: Infeasible,
+    },
+    /// A leg's straight line is too long for the speed limit in the longest time it may take.
+    Distance {
+        /// Number of the leg.
+        leg: usize,
+        /// The mean speed that it needs, m/s, above the limit.
+        needed: f64,
+    },
+}
+
+/// Searches a witness for `waypoints` (m) flown in order, from rest to rest.
+///
+/// Waypoint velocities are those of the minimum-snap curve for the current leg times (in [`LegTiming`]'s range). A leg that
+/// is refused gets more time, and when it has all it may get, less velocity at its ends; the whole is then tried again,
+/// so that leg times and velocities settle together.
+pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming) -> Certificate {
+    let (shortest, longest) = timing.range();
+    if let Some(impossible) = impossible(judge, waypoints, longest) {
+        return Certificate::No(impossible);
+    }
+    let mut times: Vec<f64> =
+        waypoints.windows(2).map(|w| first_guess(judge, (w[1] - w[0]).norm()).clamp(shortest, longest)).collect();
+    let mut share = vec![1.0; waypoints.len()];
+    let mut failed = None;
+    for _ in 0..ROUNDS {
+        let ends = ends(judge, waypoints, &times, &share);
+        let judged: Vec<_> =
+            times.iter().enumerate().map(|(k, time)| judge.judge(&ends[k], &ends[k + 1], *time)).collect();
+        failed = judged.iter().enumerate().find_map(|(leg, result)| result.as_ref().err().map(|why| (leg, *why)));
+        if failed.is_none() {
+            return Certificate::Yes(Profile { legs: judged.into_iter().flatten().collect() });
+        }
+        let mut moved = false;
+        for (leg, _) in judged.iter().enumerate().filter(|(_, result)| result.is_err()) {
+            moved |= slow_down(leg, &mut times, &mut share, longest);
+        }
+        if !moved {
+            break;
+        }
+    }
+    // Without legs nothing fails, so there is always a last failure here.
+    failed.map_or_else(|| Certificate::Yes(Profile::default()), |(leg, why)| Certificate::Unknown { leg, why })
+}
+
+/// Gives a leg more time, or its ends less velocity; whether anything changed.
+fn slow_down(leg: usize, times: &mut [f64], share: &mut [f64], longest: f64) -> bool {
+    if times[leg] < longest {
+        times[leg] = (times[leg] * SLOWER).min(longest);
+        return true;
+    }
+    let moved = share[leg].max(share[leg + 1]) > 0.0;
+    for end in &mut share[leg..=leg + 1] {
+        *end = if *end > 0.1 { *end / SLOWER } else { 0.0 };
+    }
+    moved
+}
+
+/// The level states at the waypoints, with minimum-snap velocities times `share`; at rest where the curve cannot be solved
+/// for.
+fn ends(judge: &LegJudge, waypoints: &[Point3<f64>], times: &[f64], share: &[f64]) -> Vec<LegEnd> {
+    let curve = minimum_snap(waypoints, times).unwrap_or_default();
+    let velocity = |k: usize| {
+        let interior = k > 0 && k + 1 < waypoints.len();
+        let v = curve.get(k).filter(|_| interior).map(|c| Vector3::new(c[0][1], c[1][1], c[2][1]));
+        let v = v.unwrap_or_else(Vector3::zeros) * share[k];
+        v * (judge.top_speed() / v.norm()).min(1.0)
+    };
+    waypoints.iter().enumerate().map(|(k, p)| judge.end(*p, velocity(k))).collect()
+}
+
+/// A time in which a leg of this length might be flown, s: a rest-to-rest leg peaks at 7.5 L/T², tried at half of g.
+fn first_guess(judge: &LegJudge, length: f64) -> f64 {
+    (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
+}
+
+fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64) -> Option<Impossible> {
+    let outside = waypoints
+        .iter()
+        .enumerate()
+        .find_map(|(waypoint, p)| judge.space().allows(p, 0.0).err().map(|why| Impossible::Waypoint { waypoint, why }));
+    outside.or_else(|| {
+        waypoints.windows(2).enumerate().find_map(|(leg, w)| {
+            let needed = (w[1] - w[0]).norm() / longest;
+            (needed > judge.limits().max_speed).then_some(Impossible::Distance { leg, needed })
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::feasibility::limits::{Limit, Limits};
+    use crate::feasibility::steering::ProofSettings;
+    use crate::feasibility::steering::tests::flightgoggles;
+    use crate::math::random::stream;
+    use crate::world::World;
+    use rand::RngExt;
+
+    fn judge() -> LegJudge {
+        let world = World::new(Vector3::repeat(30.0), 1.0, Vec::new()).unwrap();
+        let limits = Limits { max_speed: 8.0, max_tilt: 0.7 };
+        LegJudge::new(&flightgoggles(), &world, limits, ProofSettings::default()).unwrap()
+    }
+
+    #[test]
+    fn random_lists_get_witnesses_that_pass_through_every_waypoint() {
+        let judge = judge();
+        let mut certified = 0;
+        for seed in 0..60 {
+            let mut random = stream(seed);
+            let mut p = Vector3::repeat(15.0);
+            let waypoints: Vec<_> = (0..8)
+                .map(|_| {
+                    let step = Vector3::from_fn(|_, _| random.random_range(-4.0..4.0));
+                    p = (p + step).sup(&Vector3::repeat(4.0)).inf(&Vector3::repeat(26.0));
+                    Point3::from(p)
+                })
+                .collect();
+            let Certificate::Yes(profile) = certify(&judge, &waypoints, &LegTiming::ladder(0.3, 20.0)) else {
+                continue;
+            };
+            certified += 1;
+            assert_eq!(profile.legs.len(), 7);
+            for (k, leg) in profile.legs.iter().enumerate() {
+                assert_eq!(judge.prove(leg), Ok(()), "seed {seed}, leg {k}");
+                assert!((leg.position(leg.duration) - waypoints[k + 1]).norm() < 1e-8, "seed {seed}, leg {k}");
+                let next = profile.legs.get(k + 1).map_or(Vector3::zeros(), |next| next.derivative(0.0, 1));
+                assert!((leg.derivative(leg.duration, 1) - next).norm() < 1e-8, "seed {seed}, leg {k}");
+            }
+        }
+        // There is always time enough here; what is lost would be the search's fault.
+        assert_eq!(certified, 60);
+    }
+
+    #[test]
+    fn says_no_only_with_a_proof() {
+        let judge = judge();
+        let (a, b) = (Point3::new(5.0, 5.0, 5.0), Point3::new(15.0, 5.0, 5.0));
+        let outside = certify(&judge, &[a, Point3::new(0.5, 5.0, 5.0), b], &LegTiming::ladder(0.5, 9.0));
+        assert!(matches!(
+            outside,
+            Certificate::No(Impossible::Waypoint {
+                waypoint: 1,
+                why: Infeasible::Violates { limit: Limit::World, .. }
+            })
+        ));
+        let far = certify(&judge, &[a, b], &LegTiming::Step(1.0));
+        assert!(matches!(far, Certificate::No(Impossible::Distance { leg: 0, .. })));
+        // 10 m in 1.5 s is below the speed limit on average, but no level leg does it at this tilt.
+        assert!(matches!(certify(&judge, &[a, b], &LegTiming::Step(1.5)), Certificate::Unknown { leg: 0, .. }));
+        assert!(matches!(certify(&judge, &[a, b], &LegTiming::Step(6.0)), Certificate::Yes(_)));
+        assert!(matches!(
+            certify(&judge, &[a, Point3::new(f64::NAN, 5.0, 5.0)], &LegTiming::Step(1.0)),
+            Certificate::No(Impossible::Waypoint { waypoint: 1, .. })
+        ));
+        assert_eq!(certify(&judge, &[a], &LegTiming::Step(1.0)), Certificate::Yes(Profile::default()));
+    }
+}

@@ -1,0 +1,277 @@
+//! `witness`: a roadmap of waypoint states, whose legs each have a control witness.
+
+#[cfg(test)]
+mod tests;
+
+use std::cell::{OnceCell, RefCell};
+use std::rc::Rc;
+
+use nalgebra::{Point3, Vector3};
+use rand::RngExt;
+
+use super::{Leg, LegFeatures, Reach};
+use crate::feasibility::limits::Infeasible;
+use crate::feasibility::steering::{LegEnd, LegJudge, LegTiming};
+use crate::math::random::{named_seed, stream};
+use crate::trajectory::Profile;
+
+/// A node: a state of a waypoint and the waypoint before it, which the turn angle is seen from. Legs do not depend on
+/// `previous`, and are kept without it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct WitnessNode {
+    /// The waypoint before; equal to `waypoint` at the start.
+    pub previous: u32,
+    /// The current waypoint.
+    pub waypoint: u32,
+    /// Which of the waypoint's velocities; 0 at start and end, which have only rest.
+    pub velocity: u32,
+}
+
+/// How a roadmap is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoadmapSettings {
+    /// Velocities per waypoint, M; 0 is taken as 1.
+    pub velocities: usize,
+    /// Leg times.
+    pub timing: LegTiming,
+    /// Seed of the velocities.
+    pub seed: u64,
+}
+
+impl Default for RoadmapSettings {
+    fn default() -> Self {
+        Self { velocities: 8, timing: LegTiming::ladder(0.8, 4.0), seed: 0 }
+    }
+}
+
+/// A leg of the roadmap between two states, without what scores see.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoadmapLeg {
+    /// Waypoint and velocity left.
+    pub from: (u32, u32),
+    /// Waypoint and velocity reached.
+    pub to: (u32, u32),
+    /// Planned duration, s.
+    pub duration: f64,
+}
+
+/// A judged leg: the state it leads to, and its rung.
+#[derive(Debug, Clone, Copy)]
+struct Judged {
+    state: u32,
+    rung: u32,
+}
+
+/// The waypoint states of one graph and the legs between them, judged when first asked for and kept. One graph is one
+/// task on one thread.
+#[derive(Debug)]
+pub struct Roadmap<'a> {
+    judge: &'a LegJudge,
+    points: Vec<Point3<f64>>,
+    /// States of all waypoints, waypoint by waypoint.
+    states: Vec<LegEnd>,
+    /// First state of every waypoint, and the number of states.
+    first: Vec<u32>,
+    rungs: Vec<f64>,
+    kept: RefCell<Vec<Option<Rc<[Judged]>>>>,
+    /// Which states have a leg to the end.
+    arrivals: OnceCell<Vec<bool>>,
+    /// Distance of every waypoint to the nearest from which the end is one leg away, m.
+    approach: OnceCell<Vec<f64>>,
+}
+
+impl<'a> Roadmap<'a> {
+    /// The roadmap over `points`: index 0 the start, the last the end, both at rest; every other waypoint gets M velocities.
+    ///
+    /// Velocity k of a waypoint has a speed drawn from the k-th of M equal parts of [0, top speed] and points towards a
+    /// waypoint drawn from those that a leg at that speed can reach (the nearest one if there is none).
+    pub fn new(judge: &'a LegJudge, points: &[Point3<f64>], settings: &RoadmapSettings) -> Self {
+        let rungs = settings.timing.rungs();
+        let longest = settings.timing.range().1;
+        let many = settings.velocities.max(1);
+        let (mut states, mut first) = (Vec::with_capacity(points.len() * many), Vec::with_capacity(points.len() + 1));
+        for (w, point) in points.iter().enumerate() {
+            first.push(states.len() as u32);
+            if w == 0 || w + 1 == points.len() {
+                states.push(judge.end(*point, Vector3::zeros()));
+                continue;
+            }
+            let mut random = stream(named_seed(settings.seed, "waypoint velocities", w as u64));
+            for k in 0..many {
+                let speed = judge.top_speed() * (k as f64 + random.random_range(0.0..1.0)) / many as f64;
+                let towards = target(points, w, speed * longest, random.random_range(0.0..1.0));
+                let direction = (points[towards] - point).try_normalize(1e-9).unwrap_or_else(Vector3::zeros);
+                states.push(judge.end(*point, direction * speed));
+            }
+        }
+        first.push(states.len() as u32);
+        let kept = RefCell::new(vec![None; states.len()]);
+        let (arrivals, approach) = (OnceCell::new(), OnceCell::new());
+        Self { judge, points: points.to_vec(), states, first, rungs, kept, arrivals, approach }
+    }
+
+    /// The node at rest at the start.
+    pub fn start(&self) -> WitnessNode {
+        WitnessNode { previous: 0, waypoint: 0, velocity: 0 }
+    }
+
+    /// Number of waypoint states.
+    pub fn states(&self) -> usize {
+        self.states.len()
+    }
+
+    /// Velocity of a node, m/s.
+    pub fn velocity(&self, node: &WitnessNode) -> Vector3<f64> {
+        self.states[self.state(node)].velocity
+    }
+
+    /// Number of legs between all states; judges every leg that was not asked for yet.
+    pub fn legs_count(&self) -> usize {
+        (0..self.states.len()).map(|state| self.kept_legs(state).len()).sum()
+    }
+
+    /// All legs, ordered by the state they leave and the state they reach.
+    pub fn all_legs(&self) -> Vec<RoadmapLeg> {
+        let mut out = Vec::with_capacity(self.legs_count());
+        for state in 0..self.states.len() {
+            let from = self.place(state as u32);
+            for leg in self.kept_legs(state).iter() {
+                out.push(RoadmapLeg { from, to: self.place(leg.state), duration: self.rungs[leg.rung as usize] });
+            }
+        }
+        out
+    }
+
+    /// A necessary test for searches: false only if no `steps` legs lead from `node` to the end.
+    ///
+    /// One step is judged exactly; more steps must bring the robot, at no more than the speed limit and the longest leg
+    /// time each, to a waypoint from which the end is one leg away.
+    pub fn may_arrive(&self, node: &WitnessNode, steps: usize) -> bool {
+        match steps {
+            0 => node.waypoint as usize + 1 == self.points.len(),
+            1 => self.arrivals.get_or_init(|| self.find_arrivals())[self.state(node)],
+            _ => {
+                let approach = self.approach.get_or_init(|| self.find_approach());
+                let longest = self.rungs.last().copied().unwrap_or(0.0);
+                approach[node.waypoint as usize] <= (steps - 1) as f64 * longest * self.judge.limits().max_speed
+            }
+        }
+    }
+
+    /// The trajectory over `nodes` as polynomials, built once for what is returned.
+    ///
+    /// # Errors
+    /// Why two successive nodes are no leg: the evidence of the longest leg time.
+    pub fn profile(&self, nodes: &[WitnessNode]) -> Result<Profile, Infeasible> {
+        let leg = |pair: &[WitnessNode]| {
+            let (from, to) = (self.state(&pair[0]), self.state(&pair[1]));
+            let judged = |rung: &f64| self.judge.judge(&self.states[from], &self.states[to], *rung);
+            let (last, shorter) = self.rungs.split_last().expect("a timing has at least one rung");
+            shorter.iter().find_map(|rung| judged(rung).ok()).map_or_else(|| judged(last), Ok)
+        };
+        Ok(Profile { legs: nodes.windows(2).map(leg).collect::<Result<_, _>>()? })
+    }
+
+    fn state(&self, node: &WitnessNode) -> usize {
+        let state = self.first[node.waypoint as usize] + node.velocity;
+        assert!(state < self.first[node.waypoint as usize + 1], "a node of another roadmap: {node:?}");
+        state as usize
+    }
+
+    /// Waypoint and velocity of a state.
+    fn place(&self, state: u32) -> (u32, u32) {
+        let waypoint = self.first.partition_point(|first| *first <= state) - 1;
+        (waypoint as u32, state - self.first[waypoint])
+    }
+
+    /// The shortest feasible rung between two states. The times in which even the straight line is too long at the speed
+    /// limit are skipped.
+    fn shortest(&self, from: usize, to: usize, fastest: f64) -> Option<u32> {
+        let begin = self.rungs.partition_point(|rung| *rung < fastest);
+        (begin..self.rungs.len())
+            .find(|rung| self.judge.judge(&self.states[from], &self.states[to], self.rungs[*rung]).is_ok())
+            .map(|rung| rung as u32)
+    }
+
+    fn fastest(&self, from: &Point3<f64>, to: &Point3<f64>) -> f64 {
+        (to - from).norm() / self.judge.limits().max_speed
+    }
+
+    fn kept_legs(&self, from: usize) -> Rc<[Judged]> {
+        if let Some(legs) = &self.kept.borrow()[from] {
+            return Rc::clone(legs);
+        }
+        let own = self.place(from as u32).0 as usize;
+        let longest = self.rungs.last().copied().unwrap_or(0.0);
+        let mut legs = Vec::new();
+        for (w, point) in self.points.iter().enumerate() {
+            let fastest = self.fastest(&self.points[own], point);
+            if w == own || fastest > longest {
+                continue;
+            }
+            for state in self.first[w]..self.first[w + 1] {
+                legs.extend(self.shortest(from, state as usize, fastest).map(|rung| Judged { state, rung }));
+            }
+        }
+        let legs: Rc<[Judged]> = legs.into();
+        self.kept.borrow_mut()[from] = Some(Rc::clone(&legs));
+        legs
+    }
+
+    fn find_arrivals(&self) -> Vec<bool> {
+        let end = self.states.len() - 1;
+        let goal = self.points[self.points.len() - 1];
+        (0..self.states.len())
+            .map(|state| {
+                state != end && self.shortest(state, end, self.fastest(&self.states[state].position, &goal)).is_some()
+            })
+            .collect()
+    }
+
+    fn find_approach(&self) -> Vec<f64> {
+        let arrivals = self.arrivals.get_or_init(|| self.find_arrivals());
+        let near: Vec<Point3<f64>> = (0..self.points.len())
+            .filter(|w| (self.first[*w]..self.first[w + 1]).any(|state| arrivals[state as usize]))
+            .map(|w| self.points[w])
+            .collect();
+        let nearest = |p: &Point3<f64>| near.iter().map(|q| (q - p).norm()).fold(f64::INFINITY, f64::min);
+        self.points.iter().map(nearest).collect()
+    }
+}
+
+/// The waypoint that a velocity at `own` points to: number ⌊`draw`·n⌋ of the n others within `radius`, or the nearest.
+fn target(points: &[Point3<f64>], own: usize, radius: f64, draw: f64) -> usize {
+    let distance = |w: usize| (points[w] - points[own]).norm();
+    let near: Vec<usize> = (0..points.len()).filter(|w| *w != own && distance(*w) <= radius).collect();
+    if near.is_empty() {
+        let others = (0..points.len()).filter(|w| *w != own);
+        return others.min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(own);
+    }
+    near[((draw * near.len() as f64) as usize).min(near.len() - 1)]
+}
+
+impl Reach<WitnessNode> for Roadmap<'_> {
+    fn legs(&self, from: &WitnessNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<WitnessNode>>) {
+        assert_eq!(candidates.len(), self.points.len(), "a roadmap serves the graph that it was drawn over");
+        let here = self.points[from.waypoint as usize];
+        let incoming = here - self.points[from.previous as usize];
+        let left = self.state(from);
+        let v_in = self.states[left].velocity.norm();
+        for leg in self.kept_legs(left).iter() {
+            let (waypoint, velocity) = self.place(leg.state);
+            let outgoing = self.points[waypoint as usize] - here;
+            out.push(Leg {
+                to: WitnessNode { previous: from.waypoint, waypoint, velocity },
+                waypoint,
+                duration: self.rungs[leg.rung as usize],
+                features: LegFeatures {
+                    v_in,
+                    v_out: self.states[leg.state as usize].velocity.norm(),
+                    turn: if from.previous == from.waypoint { 0.0 } else { incoming.angle(&outgoing) },
+                    length: outgoing.norm(),
+                    climb: outgoing.z,
+                },
+            });
+        }
+    }
+}
