@@ -144,7 +144,8 @@ impl<'a> Roadmap<'a> {
 
     /// A necessary test for searches: false only if no `steps` legs lead from `node` to the end.
     ///
-    /// One step is judged exactly; more steps must bring the robot, at no more than the speed limit and the longest leg
+    /// One step is judged exactly, so a search needs no lookahead of its own, which would judge the legs of every state near
+    /// the end; more steps must bring the robot, at no more than the speed limit and the longest leg
     /// time each, to a waypoint from which the end is one leg away.
     pub fn may_arrive(&self, node: &WitnessNode, steps: usize) -> bool {
         match steps {
