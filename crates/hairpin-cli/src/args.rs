@@ -44,6 +44,8 @@ pub(crate) enum Command {
     Report(ReportArguments),
     /// Fly a rotor-speed profile open loop: poses in time as CSV
     Simulate(Simulate),
+    /// Measure what hairpin promises of its speed, on one core
+    Bench(Bench),
     /// Print the JSON Schema of scenario or robot files, for editors
     Schema(Schema),
     /// Print a shell's completions
@@ -61,6 +63,7 @@ impl Command {
             Self::Judge(a) => a.json,
             Self::Verify(a) => a.json,
             Self::Replay(a) => a.json,
+            Self::Bench(a) => a.json,
             Self::New(_)
             | Self::Export(_)
             | Self::Report(_)
@@ -267,6 +270,15 @@ pub(crate) struct Simulate {
     /// Override one key, such as robot.drag_quadratic_n_s2_m2=0; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Bench {
+    /// Only those whose name begins so, such as beam
+    pub(crate) name: Option<String>,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// What a schema can be of.

@@ -58,6 +58,7 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
         Command::Export(export) => commands::export::run(&export),
         Command::Report(report) => commands::report::run(&report),
         Command::Simulate(simulate) => commands::simulate::run(&simulate),
+        Command::Bench(bench) => commands::bench::run(&bench),
         Command::Schema(schema) => commands::schema::run(&schema),
         Command::Completions(completions) => commands::completions::run(&completions),
     }
@@ -66,7 +67,9 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
 fn apologise_when_panicking() {
     std::panic::set_hook(Box::new(|panic| {
         let place = panic.location().map_or(String::new(), |at| format!(" ({}:{})", at.file(), at.line()));
-        let message = panic.payload_as_str().unwrap_or("no message");
+        let payload = panic.payload();
+        let text = payload.downcast_ref::<String>().map(String::as_str);
+        let message = text.or_else(|| payload.downcast_ref().copied()).unwrap_or("no message");
         console::warn(&format!(
             "this is a mistake of hairpin's own, not yours: please report it with the command and its files: {message}{place}"
         ));

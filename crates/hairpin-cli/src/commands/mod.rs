@@ -1,5 +1,6 @@
 //! What each command means; one file each. `parts` are the four parts of `stress`, on an open campaign folder.
 
+pub(crate) mod bench;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod execute;
