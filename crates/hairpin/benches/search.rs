@@ -60,12 +60,12 @@ fn beam_trajectories(bencher: Bencher, (length, revisits): (usize, bool)) {
     bencher.counter(ItemsCount::new(sweep())).bench(sweep);
 }
 
-/// Expansions per second: items are partial trajectories expanded, pruned as by default but never complete.
-#[divan::bench(sample_count = 10, sample_size = 1)]
-fn beam_expansions(bencher: Bencher) {
+/// Expansions per second: items are partial trajectories expanded until the first completion, over 100 graphs a sample.
+#[divan::bench(args = [false, true], sample_count = 10, sample_size = 1)]
+fn beam_expansions_at_50(bencher: Bencher, revisits: bool) {
     let hull = flightgoggles();
-    let settings = BeamSettings { length: 50, per_graph: usize::MAX, iterations: 400, ..Default::default() };
-    let sweep = || (0..20).map(|graph| one_graph(&hull, graph, &settings).expansions).sum::<u64>();
+    let settings = BeamSettings { length: 50, revisits, ..Default::default() };
+    let sweep = || (0..100).map(|graph| one_graph(&hull, graph, &settings).expansions).sum::<u64>();
     bencher.counter(ItemsCount::new(sweep())).bench(sweep);
 }
 

@@ -143,7 +143,9 @@ where
         let parent = *self.tree.get(id);
         let steps_after = settings.length - parent.length as usize - 1;
         if !settings.revisits {
-            self.mark(id, true);
+            for partial in self.tree.backwards(id) {
+                self.visited[partial.waypoint as usize / 64] |= 1 << (partial.waypoint % 64);
+            }
         }
         let (mut grown, mut blocked) = (false, false);
         for index in self.atlas.legs(parent.node) {
@@ -175,9 +177,7 @@ where
             self.frontier.push(Entry { score, id: child }, |a, b| order(&self.tree, a, b));
             grown = true;
         }
-        if !settings.revisits {
-            self.mark(id, false);
-        }
+        self.visited.fill(0);
         if !grown {
             if !blocked {
                 self.atlas.learn_dead(parent.node, steps_after + 1);
@@ -209,15 +209,6 @@ where
             let Some(worst) = self.frontier.pop_worst(|a, b| order(&self.tree, a, b)) else { return };
             self.tree.release(worst.id);
             self.outcome.dropped += 1;
-        }
-    }
-
-    /// Sets or clears the visited bits of a partial trajectory.
-    fn mark(&mut self, id: u32, visited: bool) {
-        for partial in self.tree.backwards(id) {
-            let word = &mut self.visited[partial.waypoint as usize / 64];
-            let bit = 1u64 << (partial.waypoint % 64);
-            *word = if visited { *word | bit } else { *word & !bit };
         }
     }
 
