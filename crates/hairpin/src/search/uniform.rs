@@ -94,7 +94,7 @@ impl<'g, 'a, N: Copy> Sampler<'g, 'a, N> {
                         left -= weight(leg);
                         left < 0.0
                     });
-                    chosen.or_else(|| live().last())
+                    chosen.or_else(|| live().next_back())
                 }
             };
             let leg = leg.expect("a node's walks are those over its legs");

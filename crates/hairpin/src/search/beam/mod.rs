@@ -41,7 +41,7 @@ pub struct BeamSettings {
     /// 3, solved the same 200 graphs of 250 waypoints as `None` at lengths 8, 10 and 50, and makes hard graphs end.
     pub keep: Option<usize>,
     /// Steps from the end within which it is known exactly whether the end can be reached (lazily computed backward pass
-    /// over walks); further away only `may_arrive` is asked.
+    /// over walks), at most 64; further away only `may_arrive` is asked.
     pub lookahead: usize,
 }
 

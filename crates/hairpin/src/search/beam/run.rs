@@ -11,6 +11,9 @@ use super::reduction::Reduction;
 use super::{BeamOutcome, BeamSettings, Ended};
 use crate::feasibility::reach::Reach;
 
+/// Lookahead at most: the backward pass recurses.
+const DEEPEST: usize = 64;
+
 /// A partial trajectory on the frontier.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
@@ -154,7 +157,7 @@ where
                 blocked = true;
                 continue;
             }
-            if !self.atlas.arrives(leg.to, steps_after, settings.lookahead) {
+            if !self.atlas.arrives(leg.to, steps_after, settings.lookahead.min(DEEPEST)) {
                 self.outcome.pruned += 1;
                 continue;
             }
