@@ -70,7 +70,7 @@ fn random_ends(judge: &LegJudge, random: &mut Stream, speed: f64, size: f64) -> 
     (end(), end())
 }
 
-/// Legs that look flyable at 50 instants, so that tests spend their time near the limits.
+/// Legs of a few metres in 0.7 … 3 s, about the limits of what the robots here can fly.
 fn random_leg(judge: &LegJudge, seed: u64) -> ProfileLeg {
     let mut random = stream(seed);
     let (from, to) = random_ends(judge, &mut random, 4.0, 3.0);
