@@ -3,8 +3,9 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use super::{Case, Timed};
+use crate::feasibility::steering::Flatness;
 use crate::robot::quadrotor::Quadrotor;
-use crate::trajectory::{Channel, ProfileLeg, Track, TrackError};
+use crate::trajectory::{Channel, Track, TrackError};
 
 /// Rate of planned tracks, Hz.
 const RATE: f64 = 100.0;
@@ -62,14 +63,15 @@ pub fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
     let untimed = case.leg_times.is_empty();
     let case = &if untimed { paced(case) } else { case.clone() };
     let times = stamps(case.leg_times.iter().sum(), RATE);
+    let flatness = Flatness::new(robot).ok();
     let mut poses = Vec::with_capacity(times.len());
     let mut columns: [Vec<f64>; 4] = Default::default();
     for &t in &times {
         let (leg, tau) = locate(&case.leg_times, t);
         let now = sample(case, t).1;
-        let attitude = match &case.profile {
-            Some(profile) => attitude(robot, &profile.legs[leg], tau),
-            None => UnitQuaternion::identity(),
+        let attitude = match (&case.profile, &flatness) {
+            (Some(profile), Some(flatness)) => flatness.body_state(&profile.legs[leg], tau).attitude,
+            _ => UnitQuaternion::identity(),
         };
         poses.push(Isometry3::from_parts(Translation3::from(now.position), attitude));
         columns[0].push(leg as f64);
@@ -86,9 +88,4 @@ pub fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
 fn paced(case: &Case) -> Case {
     let leg_times = case.waypoints.windows(2).map(|leg| (leg[1] - leg[0]).norm().max(1.0 / RATE)).collect();
     Case { leg_times, profile: None, ..case.clone() }
-}
-
-fn attitude(robot: &Quadrotor, leg: &ProfileLeg, tau: f64) -> UnitQuaternion<f64> {
-    let _ = (robot, leg, tau);
-    UnitQuaternion::identity()
 }

@@ -8,7 +8,9 @@ use crate::campaign::Scenario;
 use crate::campaign::scenario::{self, SearchMethod};
 use crate::feasibility::reach::Reach;
 use crate::search::beam::Ended;
-use crate::search::{Aggregate, BeamSettings, Found, Score, Task, beam};
+use crate::search::{
+    Aggregate, BeamSettings, ExactSettings, Found, LegGraph, Score, Task, UniformSettings, beam, exact, uniform,
+};
 
 /// One graph and what is asked of it.
 pub(super) struct Question<'a, N, R> {
@@ -17,6 +19,8 @@ pub(super) struct Question<'a, N, R> {
     pub(super) reach: &'a R,
     pub(super) start: N,
     pub(super) score: Score,
+    /// Seed of what the search itself draws.
+    pub(super) seed: u64,
 }
 
 /// What the search gave.
@@ -39,8 +43,8 @@ pub(super) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
 ) -> Answer<N> {
     match question.scenario.generate.search.method {
         SearchMethod::Beam => by_beam(question, may_arrive),
-        SearchMethod::Exact => unimplemented!(),
-        SearchMethod::Uniform => unimplemented!(),
+        SearchMethod::Exact => by_dynamic_program(question),
+        SearchMethod::Uniform => by_uniform_draws(question),
     }
 }
 
@@ -79,6 +83,69 @@ fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
         duplicates: outcome.duplicates,
         reason,
     }
+}
+
+fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<N, R>) -> Answer<N> {
+    let search = &question.scenario.generate.search;
+    let graph = leg_graph(question);
+    let settings = ExactSettings {
+        length: question.scenario.task.length as usize,
+        best: search.per_graph as usize,
+        revisits: search.revisits,
+        aggregate: aggregate(search.aggregate),
+        ..ExactSettings::default()
+    };
+    let outcome = exact(&graph, &question.score, &settings);
+    let proven_empty = outcome.found.is_empty() && outcome.bound.is_none();
+    let reason = match (outcome.found.is_empty(), proven_empty) {
+        (false, _) => None,
+        (true, true) => Some(format!("none among the {} feasible legs of the last graph", graph.legs())),
+        (true, false) => Some("none without revisits was found within the search's budget".into()),
+    };
+    Answer {
+        found: outcome.found,
+        bound: outcome.bound,
+        proven_empty,
+        expansions: outcome.expansions,
+        dropped: 0,
+        duplicates: 0,
+        reason,
+    }
+}
+
+fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<N, R>) -> Answer<N> {
+    let search = &question.scenario.generate.search;
+    let graph = leg_graph(question);
+    let settings = UniformSettings {
+        length: question.scenario.task.length as usize,
+        wanted: search.per_graph as usize,
+        draws: search.iterations.max(search.per_graph),
+        revisits: search.revisits,
+        aggregate: aggregate(search.aggregate),
+    };
+    let outcome = uniform(&graph, &question.score, question.seed, &settings);
+    let proven_empty = outcome.walks.is_zero();
+    let reason = match (outcome.found.is_empty(), proven_empty) {
+        (false, _) => None,
+        (true, true) => Some(format!("none among the {} feasible legs of the last graph", graph.legs())),
+        (true, false) => Some(format!("{} draws all used a waypoint twice", outcome.draws)),
+    };
+    Answer {
+        found: outcome.found,
+        bound: None,
+        proven_empty,
+        expansions: outcome.draws,
+        dropped: 0,
+        // Repetitions are counted where they are not taken over.
+        duplicates: 0,
+        reason,
+    }
+}
+
+/// All legs of the graph that are on some way of the right length.
+fn leg_graph<'a, N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<'a, N, R>) -> LegGraph<'a, N> {
+    let task = Task { start: question.start, candidates: question.points, reach: question.reach };
+    LegGraph::explore(&task, question.scenario.task.length as usize)
 }
 
 fn aggregate(aggregate: scenario::Aggregate) -> Aggregate {

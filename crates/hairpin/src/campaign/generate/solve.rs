@@ -202,7 +202,8 @@ impl<'a> Solver<'a> {
         // The name was checked with the scenario, and top speeds are > 0 with the robot.
         let score =
             Score::named(&self.setup.scenario.generate.score, seed, self.top_speed()).unwrap_or(Score::Random { seed });
-        let question = Question { scenario: &self.setup.scenario, points, reach, start, score };
+        let draws = named_seed(self.setup.scenario.seed, "uniform", graph);
+        let question = Question { scenario: &self.setup.scenario, points, reach, start, score, seed: draws };
         search(&question, may_arrive)
     }
 }
