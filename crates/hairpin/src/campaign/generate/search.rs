@@ -144,8 +144,7 @@ fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<
 
 /// All legs of the graph that are on some way of the right length.
 fn leg_graph<'a, N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<'a, N, R>) -> LegGraph<'a, N> {
-    let task = Task { start: question.start, candidates: question.points, reach: question.reach };
-    LegGraph::explore(&task, question.scenario.task.length as usize)
+    LegGraph::explore(question.start, question.points, question.reach, question.scenario.task.length as usize)
 }
 
 fn aggregate(aggregate: scenario::Aggregate) -> Aggregate {
