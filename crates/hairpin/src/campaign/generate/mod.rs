@@ -4,10 +4,13 @@
 //! of their numbers, so that what is found depends on the seed alone. Where `[vary]` shapes the plan (keys under `task`
 //! and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
 
+mod certificates;
 mod graph;
 mod search;
 mod solve;
+mod stepwise;
 mod tally;
+mod witness;
 
 use std::collections::HashSet;
 

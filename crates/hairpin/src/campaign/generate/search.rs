@@ -21,6 +21,8 @@ pub(super) struct Question<'a, N, R> {
     pub(super) score: Score,
     /// Seed of what the search itself draws.
     pub(super) seed: u64,
+    /// Steps from the end within which the beam asks the reach set itself whether the end can be reached.
+    pub(super) lookahead: usize,
 }
 
 /// What the search gave.
@@ -61,8 +63,8 @@ fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
         aggregate: aggregate(search.aggregate),
         iterations: search.iterations as usize,
         frontier: search.frontier as usize,
-        keep: Some(search.per_graph as usize),
-        ..BeamSettings::default()
+        keep: BeamSettings::default().keep.map(|keep| keep.max(search.per_graph as usize)),
+        lookahead: question.lookahead,
     };
     let task = Task { start: question.start, candidates: question.points, reach: question.reach };
     let outcome = beam(&task, &question.score, may_arrive, &settings);

@@ -1,23 +1,17 @@
 //! One graph, from its number to its plans: the reach set asked for, the search asked for, and never another.
 
-use std::cell::RefCell;
-use std::hash::Hash;
-
 use nalgebra::Point3;
 
+use super::certificates::Certifier;
 use super::graph;
-use super::search::{Answer, Question, search};
-use crate::campaign::scenario::{EstimatedVelocity, ReachName, Timing};
+use super::search::Answer;
+use super::stepwise::Stepwise;
+use super::witness::Witness;
+use crate::campaign::scenario::ReachName;
 use crate::campaign::{Evidence, Setup};
-use crate::feasibility::reach::{
-    Everywhere, Filtered, Hull, HullSettings, Leg, PairMask, Reach, Sphere, StepNode, StepReach, StepSet, StepSettings,
-};
 use crate::math::random::named_seed;
 use crate::search::{Found, Score};
 use crate::trajectory::Profile;
-
-/// Step of the reach sets that have one, where the scenario names none, s: the paper's.
-const STEP: f64 = 1.0;
 
 /// A trajectory that a graph gave.
 #[derive(Debug, Clone)]
@@ -29,6 +23,21 @@ pub(super) struct Plan {
     pub(super) evidence: Evidence,
     pub(super) certified: Option<&'static str>,
     pub(super) profile: Option<Profile>,
+}
+
+impl Plan {
+    /// What was found among `points`, on `evidence`.
+    pub(super) fn new<N>(found: &Found<N>, points: &[Point3<f64>], evidence: Evidence) -> Self {
+        Self {
+            waypoints: found.waypoints.iter().map(|&index| points[index as usize]).collect(),
+            leg_times: found.leg_times.clone(),
+            score: found.score,
+            bound: None,
+            evidence,
+            certified: None,
+            profile: None,
+        }
+    }
 }
 
 /// What one unit of work gave.
@@ -46,6 +55,27 @@ pub(super) struct Outcome {
 }
 
 impl Outcome {
+    /// The outcome of graph number `graph`; `plan` gives `None` for what breaks a limit of whole trajectories.
+    pub(super) fn of<N>(graph: u64, answer: Answer<N>, plan: impl Fn(Found<N>) -> Option<Plan>) -> Self {
+        let found = answer.found.len();
+        let plans: Vec<(u64, Plan)> = answer
+            .found
+            .into_iter()
+            .filter_map(plan)
+            .map(|plan| (graph, Plan { bound: answer.bound, ..plan }))
+            .collect();
+        let too_long = (plans.is_empty() && found > 0).then(|| "`max_flight_time_s` is exceeded".to_string());
+        Self {
+            plans,
+            graphs: 1,
+            proven_empty: answer.proven_empty.into(),
+            expansions: answer.expansions,
+            dropped: answer.dropped,
+            duplicates: answer.duplicates,
+            reason: answer.reason.or(too_long),
+        }
+    }
+
     pub(super) fn add(&mut self, other: Outcome) {
         self.plans.extend(other.plans);
         self.graphs += other.graphs;
@@ -60,14 +90,13 @@ impl Outcome {
 /// The part of a search that is the same for every graph.
 pub(super) struct Solver<'a> {
     setup: &'a Setup,
-    set: Set,
-    step: f64,
+    set: Set<'a>,
+    certifier: Option<Certifier>,
 }
 
-enum Set {
-    Everywhere(Everywhere),
-    Sphere(Sphere),
-    Hull(Box<Hull>),
+enum Set<'a> {
+    Stepwise(Stepwise<'a>),
+    Witness(Witness<'a>),
 }
 
 impl<'a> Solver<'a> {
@@ -77,31 +106,21 @@ impl<'a> Solver<'a> {
     /// Why there is none, in a sentence's part; also where the planned duration alone is beyond its limit.
     pub(super) fn new(setup: &'a Setup) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
-        let step = match generate.timing {
-            Some(Timing { step_s: Some(step), .. }) => step,
-            _ => STEP,
-        };
-        let robot = &setup.robot;
-        let settings = HullSettings { resolution: generate.resolution as usize, step };
         let set = match generate.reach {
-            ReachName::None => Set::Everywhere(Everywhere),
-            ReachName::Sphere => Set::Sphere(Sphere { radius: robot.max_speed * step }),
-            ReachName::Hull => Set::Hull(Box::new(Hull::new(robot, &settings).map_err(|error| error.to_string())?)),
-            ReachName::Published => {
-                Set::Hull(Box::new(Hull::published(robot, &settings).map_err(|error| error.to_string())?))
-            }
-            ReachName::Witness => return Err("not yet".into()),
+            ReachName::Witness => Set::Witness(Witness::new(setup)?),
+            _ => Set::Stepwise(Stepwise::new(setup)?),
         };
-        if let Some(limit) = generate.limits.max_flight_time_s {
-            let planned = (setup.scenario.task.length - 1) as f64 * step;
-            if planned > limit {
-                return Err(format!(
-                    "{} legs of {step} s take {planned} s > {limit} s",
-                    setup.scenario.task.length - 1
-                ));
-            }
+        let shortest = match &set {
+            Set::Stepwise(set) => set.step(),
+            Set::Witness(set) => set.shortest_leg(),
+        };
+        let legs = setup.scenario.task.length - 1;
+        if let Some(limit) = generate.limits.max_flight_time_s.filter(|limit| legs as f64 * shortest > *limit) {
+            return Err(format!("{legs} legs of at least {shortest} s take longer than max_flight_time_s = {limit}"));
         }
-        Ok(Self { setup, set, step })
+        let wanted = generate.certify && generate.reach != ReachName::Witness;
+        let certifier = if wanted { Some(Certifier::new(setup)?) } else { None };
+        Ok(Self { setup, set, certifier })
     }
 
     /// Searches graph number `graph`.
@@ -110,123 +129,20 @@ impl<'a> Solver<'a> {
             Ok(points) => points,
             Err(error) => return Outcome { graphs: 1, reason: Some(error.to_string()), ..Outcome::default() },
         };
-        match &self.set {
-            Set::Everywhere(set) => self.stepwise(set, graph, &points, |_, _| true),
-            Set::Sphere(set) => {
-                let (radius, end) = (set.radius, points[points.len() - 1]);
-                let near = |node: &StepNode, steps: usize| {
-                    (end - points[node.current as usize]).norm() <= radius * steps as f64 + 1e-9
-                };
-                self.stepwise(set, graph, &points, near)
-            }
-            Set::Hull(hull) => {
-                let end = points[points.len() - 1].coords;
-                let average = self.average_velocity();
-                let may_arrive = |node: &StepNode, steps: usize| {
-                    let here = points[node.current as usize].coords;
-                    !average
-                        || hull.may_reach(&here, &(here - points[node.previous as usize].coords), &end, steps as u32)
-                };
-                self.stepwise(hull.as_ref(), graph, &points, may_arrive)
-            }
+        let mut outcome = match &self.set {
+            Set::Stepwise(set) => set.solve(graph, &points),
+            Set::Witness(set) => set.solve(graph, &points),
+        };
+        if let Some(certifier) = &self.certifier {
+            outcome.plans.iter_mut().for_each(|(_, plan)| certifier.certify(plan));
         }
-    }
-
-    fn average_velocity(&self) -> bool {
-        self.setup.scenario.generate.estimate.velocity == EstimatedVelocity::Average
-    }
-
-    /// Speed that scores 1, m/s: the farthest sampled end ÷ step where ends are sampled, else the robot's top speed.
-    fn top_speed(&self) -> f64 {
-        match &self.set {
-            Set::Hull(hull) => hull.farthest() / self.step,
-            _ => self.setup.robot.max_speed,
-        }
-    }
-
-    fn stepwise<S: StepSet>(
-        &self,
-        set: &S,
-        graph: u64,
-        points: &[Point3<f64>],
-        may_arrive: impl Fn(&StepNode, usize) -> bool,
-    ) -> Outcome {
-        let limits = &self.setup.scenario.generate.limits;
-        let settings = StepSettings {
-            step: self.step,
-            average_velocity: self.average_velocity(),
-            max_speed: limits.max_speed_m_s.unwrap_or(f64::INFINITY),
-        };
-        let reach = StepReach::new(set, points, settings);
-        let start = StepNode { previous: 0, current: 0 };
-        let answer = if self.setup.world.obstacles().is_empty() {
-            self.ask(graph, points, &reach, start, may_arrive)
-        } else {
-            let clear = RefCell::new(PairMask::new(points.len()));
-            let radius = self.setup.robot.clearance_radius;
-            let keep = |from: &StepNode, leg: &Leg<StepNode>| {
-                clear.borrow_mut().allows(from.current, leg.waypoint, || {
-                    let (a, b) = (&points[from.current as usize], &points[leg.waypoint as usize]);
-                    self.setup.world.segment_distance(a, b) >= radius
-                })
-            };
-            self.ask(graph, points, &Filtered { inner: reach, keep }, start, may_arrive)
-        };
-        let evidence = match self.set {
-            Set::Hull(_) => Evidence::HullFeasible,
-            _ => Evidence::Unchecked,
-        };
-        self.outcome(graph, answer, |found| {
-            let waypoints = found.waypoints.iter().map(|&index| points[index as usize]).collect();
-            Some(Plan {
-                waypoints,
-                leg_times: found.leg_times,
-                score: found.score,
-                bound: None,
-                evidence,
-                certified: None,
-                profile: None,
-            })
-        })
-    }
-
-    fn ask<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
-        &self,
-        graph: u64,
-        points: &[Point3<f64>],
-        reach: &R,
-        start: N,
-        may_arrive: impl Fn(&N, usize) -> bool,
-    ) -> Answer<N> {
-        let seed = named_seed(self.setup.scenario.seed, "score", graph);
-        // The name was checked with the scenario, and top speeds are > 0 with the robot.
-        let score =
-            Score::named(&self.setup.scenario.generate.score, seed, self.top_speed()).unwrap_or(Score::Random { seed });
-        let draws = named_seed(self.setup.scenario.seed, "uniform", graph);
-        let question = Question { scenario: &self.setup.scenario, points, reach, start, score, seed: draws };
-        search(&question, may_arrive)
+        outcome
     }
 }
 
-impl Solver<'_> {
-    /// Turns what a search found into plans; `plan` gives `None` for what breaks a limit of whole trajectories.
-    fn outcome<N>(&self, graph: u64, answer: Answer<N>, plan: impl Fn(Found<N>) -> Option<Plan>) -> Outcome {
-        let found = answer.found.len();
-        let plans: Vec<(u64, Plan)> = answer
-            .found
-            .into_iter()
-            .filter_map(plan)
-            .map(|plan| (graph, Plan { bound: answer.bound, ..plan }))
-            .collect();
-        let too_long = (plans.is_empty() && found > 0).then(|| "the flight time limit is exceeded".to_string());
-        Outcome {
-            plans,
-            graphs: 1,
-            proven_empty: answer.proven_empty.into(),
-            expansions: answer.expansions,
-            dropped: answer.dropped,
-            duplicates: answer.duplicates,
-            reason: answer.reason.or(too_long),
-        }
-    }
+/// The scenario's score for graph number `graph`; `top_speed` (m/s) scores 1.
+pub(super) fn score(setup: &Setup, graph: u64, top_speed: f64) -> Score {
+    let seed = named_seed(setup.scenario.seed, "score", graph);
+    // The name was checked with the scenario, and top speeds are > 0 with the robot.
+    Score::named(&setup.scenario.generate.score, seed, top_speed).unwrap_or(Score::Random { seed })
 }

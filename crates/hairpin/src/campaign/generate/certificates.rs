@@ -1,0 +1,41 @@
+//! Witnesses searched afterwards for what another reach set found.
+
+use super::solve::Plan;
+use super::witness::judge;
+use crate::campaign::{Evidence, Setup};
+use crate::feasibility::certify::{Certificate, certify};
+use crate::feasibility::steering::{LegJudge, LegTiming};
+
+/// A certificate may take legs from this share of the step …
+const QUICKEST: f64 = 0.25;
+/// … to this multiple of it.
+const SLOWEST: f64 = 10.0;
+
+/// Certifies plans under the scenario's limits.
+pub(super) struct Certifier {
+    judge: LegJudge,
+    timing: LegTiming,
+}
+
+impl Certifier {
+    /// # Errors
+    /// As [`judge`].
+    pub(super) fn new(setup: &Setup) -> Result<Self, String> {
+        let step = setup.scenario.generate.timing_in_force().step_s.unwrap_or(1.0);
+        Ok(Self { judge: judge(setup)?, timing: LegTiming::ladder(QUICKEST * step, SLOWEST * step) })
+    }
+
+    /// Notes the answer in the plan; a `yes` brings its witness, with leg times of its own.
+    pub(super) fn certify(&self, plan: &mut Plan) {
+        match certify(&self.judge, &plan.waypoints, &self.timing) {
+            Certificate::Yes(profile) => {
+                plan.certified = Some("yes");
+                plan.evidence = Evidence::Witnessed;
+                plan.leg_times = profile.legs.iter().map(|leg| leg.duration).collect();
+                plan.profile = Some(profile);
+            }
+            Certificate::No(_) => plan.certified = Some("no"),
+            Certificate::Unknown { .. } => plan.certified = Some("unknown"),
+        }
+    }
+}

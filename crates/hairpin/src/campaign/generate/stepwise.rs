@@ -1,0 +1,174 @@
+//! Reach sets with one fixed step per leg: `none`, `sphere`, `hull`, `published`, and `hull` with a state carried over
+//! the waypoint.
+
+use std::cell::RefCell;
+use std::hash::Hash;
+
+use nalgebra::Point3;
+
+use super::search::{Question, search};
+use super::solve::{Outcome, Plan, score};
+use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
+use crate::campaign::{Evidence, Setup};
+use crate::feasibility::reach::{
+    BruteForce, BruteForceSettings, CarriedNode, Everywhere, Filtered, Hull, HullSettings, Leg, PairMask, Reach,
+    Sphere, StepNode, StepReach, StepSet, StepSettings,
+};
+use crate::math::random::named_seed;
+
+/// Steps from the end within which the beam knows exactly whether the end can be reached: cheap where legs are.
+const LOOKAHEAD: usize = 3;
+
+enum Set {
+    Everywhere(Everywhere),
+    Sphere(Sphere),
+    Hull(Box<Hull>),
+    /// The hull from every state that a leg before may have left, and how far its samples reach.
+    Carried(BruteForceSettings, f64),
+}
+
+/// A step-wise reach set and what it assumes.
+pub(super) struct Stepwise<'a> {
+    setup: &'a Setup,
+    set: Set,
+    settings: StepSettings,
+}
+
+impl<'a> Stepwise<'a> {
+    /// # Errors
+    /// Why there is no such set, in a sentence's part.
+    pub(super) fn new(setup: &'a Setup) -> Result<Self, String> {
+        let generate = &setup.scenario.generate;
+        let step = generate.timing_in_force().step_s.ok_or("`timing.step_s` is missing")?;
+        let robot = &setup.robot;
+        let hull = HullSettings { resolution: generate.resolution as usize, step };
+        let settings = StepSettings {
+            step,
+            average_velocity: generate.estimate.velocity == EstimatedVelocity::Average,
+            max_speed: generate.limits.max_speed_m_s.unwrap_or(f64::INFINITY),
+        };
+        let keep_attitude = generate.estimate.attitude == EstimatedAttitude::Keep;
+        let keep_rates = generate.estimate.rates == EstimatedRates::Keep;
+        let set = match generate.reach {
+            ReachName::None => Set::Everywhere(Everywhere),
+            ReachName::Sphere => Set::Sphere(Sphere { radius: robot.max_speed * step }),
+            ReachName::Hull if keep_attitude || keep_rates => {
+                let farthest = Hull::new(robot, &hull).map_err(|error| error.to_string())?.farthest();
+                let settings = BruteForceSettings {
+                    hull,
+                    step: settings,
+                    keep_attitude,
+                    keep_rates,
+                    full_drag: false,
+                    velocity_bin: 0.0,
+                };
+                Set::Carried(settings, farthest)
+            }
+            ReachName::Published => Set::Hull(Box::new(Hull::published(robot, &hull).map_err(|e| e.to_string())?)),
+            _ => Set::Hull(Box::new(Hull::new(robot, &hull).map_err(|error| error.to_string())?)),
+        };
+        Ok(Self { setup, set, settings })
+    }
+
+    /// Duration of every leg, s.
+    pub(super) fn step(&self) -> f64 {
+        self.settings.step
+    }
+
+    /// Searches graph number `graph` over `points`.
+    pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
+        let end = points[points.len() - 1];
+        match &self.set {
+            Set::Everywhere(set) => self.bound(set, graph, points, |_, _| true),
+            Set::Sphere(set) => {
+                let near = |node: &StepNode, steps: usize| {
+                    (end - points[node.current as usize]).norm() <= set.radius * steps as f64 + 1e-9
+                };
+                self.bound(set, graph, points, near)
+            }
+            Set::Hull(hull) => {
+                let may_arrive = |node: &StepNode, steps: usize| {
+                    let (here, before) = (points[node.current as usize], points[node.previous as usize]);
+                    !self.settings.average_velocity
+                        || hull.may_reach(&here.coords, &(here - before), &end.coords, steps as u32)
+                };
+                self.bound(hull.as_ref(), graph, points, may_arrive)
+            }
+            Set::Carried(settings, _) => {
+                let start = CarriedNode { previous: 0, current: 0, carried: 0 };
+                let reach = BruteForce::new(&self.setup.robot, *settings);
+                self.clear_of_obstacles(graph, points, reach, start, |node| node.current, |_, _| true)
+            }
+        }
+    }
+
+    /// Speed that scores 1, m/s: the farthest sampled end ÷ step where ends are sampled, else the robot's top speed.
+    fn top_speed(&self) -> f64 {
+        match &self.set {
+            Set::Hull(hull) => hull.farthest() / self.settings.step,
+            Set::Carried(_, farthest) => farthest / self.settings.step,
+            _ => self.setup.robot.max_speed,
+        }
+    }
+
+    fn bound<S: StepSet>(
+        &self,
+        set: &S,
+        graph: u64,
+        points: &[Point3<f64>],
+        may_arrive: impl Fn(&StepNode, usize) -> bool,
+    ) -> Outcome {
+        let start = StepNode { previous: 0, current: 0 };
+        let reach = StepReach::new(set, points, self.settings);
+        self.clear_of_obstacles(graph, points, reach, start, |node| node.current, may_arrive)
+    }
+
+    /// Keeps the legs whose segment is clear of obstacles by the robot's radius, and searches.
+    fn clear_of_obstacles<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
+        &self,
+        graph: u64,
+        points: &[Point3<f64>],
+        reach: R,
+        start: N,
+        place: impl Fn(&N) -> u32,
+        may_arrive: impl Fn(&N, usize) -> bool,
+    ) -> Outcome {
+        if self.setup.world.obstacles().is_empty() {
+            return self.ask(graph, points, &reach, start, may_arrive);
+        }
+        let clear = RefCell::new(PairMask::new(points.len()));
+        let radius = self.setup.robot.clearance_radius;
+        let keep = |from: &N, leg: &Leg<N>| {
+            let here = place(from);
+            clear.borrow_mut().allows(here, leg.waypoint, || {
+                let (a, b) = (&points[here as usize], &points[leg.waypoint as usize]);
+                self.setup.world.segment_distance(a, b) >= radius
+            })
+        };
+        self.ask(graph, points, &Filtered { inner: reach, keep }, start, may_arrive)
+    }
+
+    fn ask<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
+        &self,
+        graph: u64,
+        points: &[Point3<f64>],
+        reach: &R,
+        start: N,
+        may_arrive: impl Fn(&N, usize) -> bool,
+    ) -> Outcome {
+        let question = Question {
+            scenario: &self.setup.scenario,
+            points,
+            reach,
+            start,
+            score: score(self.setup, graph, self.top_speed()),
+            seed: named_seed(self.setup.scenario.seed, "uniform", graph),
+            lookahead: LOOKAHEAD,
+        };
+        let evidence = match self.set {
+            Set::Hull(_) | Set::Carried(..) => Evidence::HullFeasible,
+            _ => Evidence::Unchecked,
+        };
+        Outcome::of(graph, search(&question, may_arrive), |found| Some(Plan::new(&found, points, evidence)))
+    }
+}

@@ -1,0 +1,78 @@
+//! The reach set `witness`: a roadmap of waypoint states per graph, and the profile of what is found.
+
+use nalgebra::Point3;
+
+use super::search::{Question, search};
+use super::solve::{Outcome, Plan, score};
+use crate::campaign::scenario::Timing;
+use crate::campaign::{Evidence, Setup};
+use crate::feasibility::Limits;
+use crate::feasibility::reach::{Roadmap, RoadmapSettings};
+use crate::feasibility::steering::{LegJudge, LegTiming, ProofSettings};
+use crate::math::random::named_seed;
+
+/// What judges legs, and how long they may take.
+pub(super) struct Witness<'a> {
+    setup: &'a Setup,
+    judge: LegJudge,
+    timing: LegTiming,
+}
+
+/// The judge of legs under the scenario's limits.
+///
+/// # Errors
+/// A rotor layout without a flatness map, in a sentence's part.
+pub(super) fn judge(setup: &Setup) -> Result<LegJudge, String> {
+    let given = &setup.scenario.generate.limits;
+    let limits = Limits {
+        max_speed: given.max_speed_m_s.unwrap_or(f64::INFINITY),
+        max_tilt: given.max_tilt_deg.map_or(Limits::default().max_tilt, f64::to_radians),
+    };
+    LegJudge::new(&setup.robot, &setup.world, limits, ProofSettings::default()).map_err(|error| error.to_string())
+}
+
+impl<'a> Witness<'a> {
+    /// # Errors
+    /// As [`judge`].
+    pub(super) fn new(setup: &'a Setup) -> Result<Self, String> {
+        let timing = match setup.scenario.generate.timing_in_force() {
+            Timing { step_s: Some(step), .. } => LegTiming::Step(step),
+            Timing { leg_time_s: Some([shortest, longest]), .. } => LegTiming::ladder(shortest, longest),
+            Timing { .. } => return Err("`timing` names neither leg_time_s nor step_s".into()),
+        };
+        Ok(Self { setup, judge: judge(setup)?, timing })
+    }
+
+    /// The shortest leg time tried, s.
+    pub(super) fn shortest_leg(&self) -> f64 {
+        self.timing.range().0
+    }
+
+    /// Searches graph number `graph` over `points`.
+    pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
+        let scenario = &self.setup.scenario;
+        let settings = RoadmapSettings {
+            velocities: scenario.generate.velocities as usize,
+            timing: self.timing,
+            seed: named_seed(scenario.seed, "roadmap", graph),
+        };
+        let roadmap = Roadmap::new(&self.judge, points, &settings);
+        let question = Question {
+            scenario,
+            points,
+            reach: &roadmap,
+            start: roadmap.start(),
+            score: score(self.setup, graph, self.judge.top_speed()),
+            seed: named_seed(scenario.seed, "uniform", graph),
+            // The roadmap's own test is exact one step from the end, and legs are dear.
+            lookahead: 0,
+        };
+        let answer = search(&question, |node, steps| roadmap.may_arrive(node, steps));
+        let longest = scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
+        Outcome::of(graph, answer, |found| {
+            let profile = roadmap.profile(&found.nodes).ok()?;
+            let fits = profile.duration() <= longest;
+            fits.then(|| Plan { profile: Some(profile), ..Plan::new(&found, points, Evidence::Witnessed) })
+        })
+    }
+}
