@@ -96,7 +96,7 @@ pub(super) struct Solver<'a> {
 
 enum Set<'a> {
     Stepwise(Stepwise<'a>),
-    Witness(Witness<'a>),
+    Witness(Box<Witness<'a>>),
 }
 
 impl<'a> Solver<'a> {
@@ -107,7 +107,7 @@ impl<'a> Solver<'a> {
     pub(super) fn new(setup: &'a Setup) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let set = match generate.reach {
-            ReachName::Witness => Set::Witness(Witness::new(setup)?),
+            ReachName::Witness => Set::Witness(Box::new(Witness::new(setup)?)),
             _ => Set::Stepwise(Stepwise::new(setup)?),
         };
         let shortest = match &set {

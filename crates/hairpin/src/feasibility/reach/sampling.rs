@@ -51,7 +51,7 @@ pub fn steps(robot: &Quadrotor, time: f64) -> usize {
         })
         .fold(0.0, f64::max);
     let half = 0.5 * STEPS_PER_RADIAN * fastest * time * time;
-    2 * (half.ceil().max(16.0).min(1e6) as usize)
+    2 * (half.ceil().clamp(16.0, 1e6) as usize)
 }
 
 /// End points R(u) relative to the start, m, of runs of `time` s from level rest under each of `speeds`, with linear
