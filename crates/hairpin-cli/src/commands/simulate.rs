@@ -5,7 +5,7 @@ use std::path::Path;
 use hairpin::campaign::Setup;
 use hairpin::robot::Dynamics;
 use hairpin::robot::quadrotor::Quadrotor;
-use hairpin::simulation::{Plant, PlantState, Stepper};
+use hairpin::simulation::{Motion, Plant, PlantState, Stepper};
 use hairpin::trajectory::{Channel, Track};
 use hairpin_formats::csv;
 use hairpin_formats::scenario::scenario_for;
@@ -43,16 +43,16 @@ pub(crate) fn run(simulate: &Simulate) -> Result<u8, Problem> {
 /// From level and rest at the origin, rotors at the first row's speeds; one pose per row.
 fn fly(robot: &Quadrotor, rows: &[Row]) -> Result<Track, Problem> {
     let plant = Plant::new(robot);
-    let mut state = Plant::at_rest(&Vector3::zeros(), &rows[0].speeds);
-    let mut states = vec![state];
+    let start = Plant::at_rest(&Vector3::zeros(), &rows[0].speeds);
+    let (mut states, mut motion) = (vec![start], Motion::new(&plant, &start));
     for pair in rows.windows(2) {
         let duration = pair[1].t - pair[0].t;
         let steps = (duration / STEP_S).ceil().max(1.0);
         let stepper = Stepper::new(&plant, duration / steps);
         for _ in 0..steps as usize {
-            stepper.advance(&plant, &mut state, &pair[0].speeds);
+            stepper.advance(&plant, &mut motion, &pair[0].speeds);
         }
-        states.push(state);
+        states.push(motion.state());
     }
     let column = |index: usize| states.iter().map(|state: &PlantState| state[index]).collect();
     let quantities = Plant::STATE.iter().enumerate().skip(7);

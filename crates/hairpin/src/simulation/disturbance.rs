@@ -85,6 +85,12 @@ impl Disturbances {
         Self { wind: conditions.wind, gusts, noise }
     }
 
+    /// Whether nothing ever disturbs: still air and no noise.
+    #[inline(always)]
+    pub(super) fn none(&self) -> bool {
+        self.gusts.is_none() && self.noise.is_none() && self.wind == Vector3::zeros()
+    }
+
     /// Sets what acts on the plant during the next step.
     #[inline(always)]
     pub fn act_on(&mut self, plant: &mut Plant) {

@@ -1,11 +1,12 @@
 //! The loops that every controller flies on: attitude to body rates, body rates to moments, moments to rotor speeds.
 
 use nalgebra::{Vector3, Vector4};
+use wide::f64x4;
 
 use super::controllers::Demand;
+use super::lanes::{coupled, lanes, vector};
 use super::mixer::{Mixed, Mixer};
-use super::plant::{ATTITUDE, PlantState, RATES};
-use super::step::body_z;
+use super::step::Motion;
 use crate::robot::quadrotor::Quadrotor;
 
 /// Bandwidth of the closed rate loop, rad/s. FlightGoggles' own rate loop, 9 e + 3 ∫e − 0.3 ω̇, closes at 7 rad/s, which
@@ -26,27 +27,34 @@ const ATTITUDE_OVER_RATE: f64 = 0.35;
 const ATTITUDE_EVERY: u32 = 4;
 /// Yaw is turned by drag moments alone, an order of magnitude weaker: its error is weighed less.
 const YAW_WEIGHT: f64 = 0.4;
+/// Least thrust asked for, in g: without any there is no moment either.
+const LEAST_THRUST: f64 = 0.05;
 /// Largest body rate asked for, rad/s: tilt, yaw.
 const MAX_RATES: (f64, f64) = (12.0, 2.0);
 
-/// Attitude and rate loop of one robot, with the mixer below them.
+/// Attitude and rate loop of one robot, with the mixer below them. Vectors have a spare lane for the thrust.
 #[derive(Debug, Clone)]
 pub(crate) struct InnerLoop {
     mixer: Mixer,
-    inertia: Vector3<f64>,
-    mass: f64,
-    period: f64,
-    per_second: f64,
-    least_thrust: f64,
-    /// What the attitude loop last asked for: body rates, rad/s, and thrust, N; and ticks until its next turn.
-    wanted: Vector3<f64>,
-    thrust: f64,
+    /// (Izz − Iyy)/Ixx and its cyclic kin.
+    gyroscopic: f64x4,
+    gravity: f64,
+    demand: Demand,
+    /// The demand's angular acceleration as the damping lets it through.
+    fed_forward: f64x4,
+    /// What the attitude loop last asked for: body rates, rad/s; thrust per mass, m/s², in the last lane, alone; and
+    /// ticks until its next turn.
+    wanted: f64x4,
+    thrust: f64x4,
     to_attitude: u32,
     attitude: f64,
-    p: f64,
-    i: f64,
+    /// Gains in every lane: a broadcast costs an instruction. The integral's is per tick.
+    p: f64x4,
+    i: f64x4,
+    /// Damping, as it is and per tick.
     d: f64,
-    integral: Vector3<f64>,
+    damping: f64x4,
+    integral: f64x4,
     gyro: LowPass,
     saturated: bool,
 }
@@ -61,73 +69,76 @@ impl InnerLoop {
         let bandwidth = RATE_BANDWIDTH.min(1.0 / (3.0 * lag));
         // Damped, the body answers a demand like 1/(1 + d).
         let p = bandwidth * (1.0 + d);
+        let i = robot.inertia;
         Some(Self {
             mixer: Mixer::new(robot)?,
-            inertia: robot.inertia,
-            mass: robot.mass,
-            period,
-            per_second: 1.0 / period,
-            wanted: Vector3::zeros(),
-            thrust: robot.mass * robot.gravity,
+            gyroscopic: lanes(&Vector3::new((i.z - i.y) / i.x, (i.x - i.z) / i.y, (i.y - i.x) / i.z)),
+            gravity: robot.gravity,
+            demand: Demand::along(Vector3::z() * robot.gravity),
+            fed_forward: f64x4::ZERO,
+            wanted: f64x4::ZERO,
+            thrust: f64x4::new([0.0, 0.0, 0.0, robot.gravity]),
             to_attitude: 0,
-            least_thrust: 0.05 * robot.mass * robot.gravity,
             attitude: ATTITUDE_OVER_RATE * bandwidth,
-            p,
-            i: p * INTEGRAL_RATIO,
+            p: f64x4::splat(p),
+            i: f64x4::splat(p * INTEGRAL_RATIO * period),
             d,
-            integral: Vector3::zeros(),
+            damping: f64x4::splat(d / period),
+            integral: f64x4::ZERO,
             gyro: LowPass::new(GYRO_CORNER, period),
             saturated: false,
         })
     }
 
-    /// Rotor speeds for the demand in force, from the measured state.
+    /// The demand from now on.
+    pub(crate) fn follow(&mut self, demand: Demand) {
+        self.fed_forward = lanes(&(demand.angular_acceleration * (1.0 + self.d)));
+        self.demand = demand;
+    }
+
+    /// Rotor speeds for the demand in force, from the measured motion.
     #[inline(always)]
-    pub(crate) fn command(&mut self, demand: &Demand, state: &PlantState) -> Mixed {
+    pub(crate) fn command(&mut self, motion: &Motion) -> Mixed {
         if self.to_attitude == 0 {
             self.to_attitude = ATTITUDE_EVERY;
-            self.turn(demand, state);
+            self.turn(motion);
         }
         self.to_attitude -= 1;
-        let s = state.as_slice();
-        let measured = Vector3::new(s[RATES], s[RATES + 1], s[RATES + 2]);
-
-        let before = self.gyro.value();
-        let filtered = self.gyro.next(&measured);
-        let angular = (filtered - before) * self.per_second;
+        let measured = motion.rates;
+        let before = self.gyro.out;
+        let filtered = self.gyro.next(measured);
         let error = self.wanted - filtered;
         if !self.saturated {
-            let bound = INTEGRAL_BOUND;
-            self.integral = (self.integral + error * (self.i * self.period)).map(|c| c.min(bound).max(-bound));
+            let bound = f64x4::splat(INTEGRAL_BOUND);
+            self.integral = (self.integral + error * self.i).fast_min(bound).fast_max(-bound);
         }
-        let acceleration =
-            error * self.p + self.integral - angular * self.d + demand.angular_acceleration * (1.0 + self.d);
-        let momentum = self.inertia.component_mul(&measured);
-        let moments = self.inertia.component_mul(&acceleration) + measured.cross(&momentum);
-        let mixed = self.mixer.mix(self.thrust, &moments);
+        // The moment ω × Iω that keeps the rates' products from coupling the axes is the gyroscopic term.
+        let asked = (error * self.p - (filtered - before) * self.damping)
+            + (self.integral + self.fed_forward + self.thrust)
+            + coupled(measured) * self.gyroscopic;
+        let mixed = self.mixer.mix(asked);
         self.saturated = mixed.at_limit > 0;
         mixed
     }
 
     /// The attitude loop's turn.
-    fn turn(&mut self, demand: &Demand, state: &PlantState) {
-        let s = state.as_slice();
-        let q = [s[ATTITUDE], s[ATTITUDE + 1], s[ATTITUDE + 2], s[ATTITUDE + 3]];
-        self.wanted = self.rates(demand, &q);
+    fn turn(&mut self, motion: &Motion) {
+        self.wanted = lanes(&self.rates(&motion.quaternion()));
         // The part of the wanted force along the thrust axis: a robot that is still turning does not push sideways.
-        self.thrust = (self.mass * demand.force.dot(&body_z(&q))).max(self.least_thrust);
+        let thrust = self.demand.force.dot(&vector(motion.up)).max(LEAST_THRUST * self.gravity);
+        self.thrust = f64x4::new([0.0, 0.0, 0.0, thrust]);
     }
 
     /// ω = ω_ff + 2 k sgn(e_w) e for the error quaternion e = q* ⊗ q_wanted, yaw weighed less, bounded.
-    fn rates(&self, demand: &Demand, q: &[f64; 4]) -> Vector3<f64> {
-        let ([w, x, y, z], [a, b, c, d]) = (*q, demand.attitude);
+    fn rates(&self, q: &[f64; 4]) -> Vector3<f64> {
+        let ([w, x, y, z], [a, b, c, d]) = (*q, self.demand.attitude);
         let scalar = w * a + x * b + y * c + z * d;
         let error =
             Vector3::new(w * b - x * a - y * d + z * c, w * c + x * d - y * a - z * b, w * d - x * c + y * b - z * a);
         let gain = if scalar < 0.0 { -2.0 * self.attitude } else { 2.0 * self.attitude };
         let turn = error * gain;
         let (tilt, yaw) = MAX_RATES;
-        demand.rates
+        self.demand.rates
             + Vector3::new(
                 turn.x.min(tilt).max(-tilt),
                 turn.y.min(tilt).max(-tilt),
@@ -137,19 +148,20 @@ impl InnerLoop {
 
     /// The rotor speeds of level hover, as far as the limits allow.
     pub(crate) fn hover(&self, robot: &Quadrotor) -> Vector4<f64> {
-        self.mixer.mix(robot.mass * robot.gravity, &Vector3::zeros()).speeds
+        let hover = f64x4::new([0.0, 0.0, 0.0, robot.gravity]);
+        Vector4::from(self.mixer.mix(hover).speeds.to_array())
     }
 }
 
 /// Second-order Butterworth low-pass, bilinear with the corner prewarped, transposed direct form II.
 #[derive(Debug, Clone)]
 struct LowPass {
-    b: f64,
-    a1: f64,
-    a2: f64,
-    s1: Vector3<f64>,
-    s2: Vector3<f64>,
-    out: Vector3<f64>,
+    b: f64x4,
+    a1: f64x4,
+    a2: f64x4,
+    s1: f64x4,
+    s2: f64x4,
+    out: f64x4,
 }
 
 impl LowPass {
@@ -157,24 +169,20 @@ impl LowPass {
         let k = (std::f64::consts::PI * corner_hz * period).tan();
         let norm = 1.0 / (1.0 + std::f64::consts::SQRT_2 * k + k * k);
         Self {
-            b: k * k * norm,
-            a1: 2.0 * (k * k - 1.0) * norm,
-            a2: (1.0 - std::f64::consts::SQRT_2 * k + k * k) * norm,
-            s1: Vector3::zeros(),
-            s2: Vector3::zeros(),
-            out: Vector3::zeros(),
+            b: f64x4::splat(k * k * norm),
+            a1: f64x4::splat(2.0 * (k * k - 1.0) * norm),
+            a2: f64x4::splat((1.0 - std::f64::consts::SQRT_2 * k + k * k) * norm),
+            s1: f64x4::ZERO,
+            s2: f64x4::ZERO,
+            out: f64x4::ZERO,
         }
     }
 
-    fn value(&self) -> Vector3<f64> {
-        self.out
-    }
-
     #[inline(always)]
-    fn next(&mut self, input: &Vector3<f64>) -> Vector3<f64> {
+    fn next(&mut self, input: f64x4) -> f64x4 {
         let x = input * self.b;
         self.out = x + self.s1;
-        self.s1 = x * 2.0 - self.out * self.a1 + self.s2;
+        self.s1 = (x + x + self.s2) - self.out * self.a1;
         self.s2 = x - self.out * self.a2;
         self.out
     }
@@ -190,9 +198,9 @@ mod tests {
             let mut filter = LowPass::new(30.0, 0.001);
             let mut peak: f64 = 0.0;
             for i in 0..4000 {
-                let out = filter.next(&Vector3::repeat((std::f64::consts::TAU * hz * i as f64 * 0.001).sin()));
+                let out = filter.next(f64x4::splat((std::f64::consts::TAU * hz * i as f64 * 0.001).sin()));
                 if i > 2000 {
-                    peak = peak.max(out.x.abs());
+                    peak = peak.max(out.to_array()[0].abs());
                 }
             }
             assert!((peak - expected).abs() < 0.01, "{hz} Hz: {peak}");

@@ -1,7 +1,9 @@
 //! Thrust and moments into rotor speeds, and what is given up first when the rotors cannot do it all.
 
-use nalgebra::{Matrix4, Vector3, Vector4};
+use nalgebra::{Matrix4, Vector4};
+use wide::f64x4;
 
+use super::lanes::{lanes4, transform};
 use crate::robot::quadrotor::Quadrotor;
 
 /// Inverts the rotor allocation within the rotor speed limits.
@@ -10,7 +12,8 @@ use crate::robot::quadrotor::Quadrotor;
 /// left. If even roll and pitch do not fit, both are scaled alike and the thrust goes where they fit best.
 #[derive(Debug, Clone)]
 pub(crate) struct Mixer {
-    inverse: Matrix4<f64>,
+    /// Columns: w² per angular acceleration about body x, y, z and per acceleration by thrust.
+    inverse: [f64x4; 4],
     /// Limits of w², (rad/s)².
     least: f64,
     most: f64,
@@ -20,7 +23,7 @@ pub(crate) struct Mixer {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mixed {
     /// rad/s.
-    pub speeds: Vector4<f64>,
+    pub speeds: f64x4,
     /// 0 … 4.
     pub at_limit: u32,
 }
@@ -29,31 +32,31 @@ impl Mixer {
     /// `None` where the rotors cannot give thrust and all three moments independently, or one of them would have to
     /// push down to hover.
     pub(crate) fn new(robot: &Quadrotor) -> Option<Self> {
-        let inverse = robot.unmixing()?;
+        let inverse: Matrix4<f64> = robot.unmixing()?;
         let usable = inverse.iter().all(|c| c.is_finite()) && inverse.column(0).iter().all(|c| *c > 0.0);
         let (least, most) = (robot.rotor_speed.0.powi(2), robot.rotor_speed.1.powi(2));
+        let i = robot.inertia;
+        let columns = [(1, i.x), (2, i.y), (3, i.z), (0, robot.mass)];
+        let inverse = columns.map(|(k, scale)| lanes4(&(inverse.column(k) * scale)));
         usable.then_some(Self { inverse, least, most })
     }
 
-    /// Rotor speeds for a thrust (N) and moments (N·m).
+    /// Rotor speeds for angular accelerations about body x, y and z (rad/s²) and an acceleration by thrust (m/s²).
     #[inline(always)]
-    pub(crate) fn mix(&self, thrust: f64, moments: &Vector3<f64>) -> Mixed {
-        let row = |i: usize| {
-            let m = &self.inverse;
-            (m[(i, 0)] * thrust + m[(i, 1)] * moments.x) + (m[(i, 2)] * moments.y + m[(i, 3)] * moments.z)
-        };
-        let squares = Vector4::new(row(0), row(1), row(2), row(3));
-        if squares.min() >= self.least && squares.max() <= self.most {
-            return Mixed { speeds: squares.map(f64::sqrt), at_limit: 0 };
+    pub(crate) fn mix(&self, wanted: f64x4) -> Mixed {
+        let squares = transform(&self.inverse, wanted);
+        let within = squares.simd_ge(f64x4::splat(self.least)) & squares.simd_le(f64x4::splat(self.most));
+        if within.all() {
+            return Mixed { speeds: squares.sqrt(), at_limit: 0 };
         }
-        self.saturate(thrust, moments)
+        self.saturate(wanted.to_array())
     }
 
     #[cold]
-    fn saturate(&self, thrust: f64, moments: &Vector3<f64>) -> Mixed {
-        let collective: Vector4<f64> = self.inverse.column(0).into_owned();
-        let tilting = self.inverse * Vector4::new(0.0, moments.x, moments.y, 0.0);
-        let yawing = self.inverse * Vector4::new(0.0, 0.0, 0.0, moments.z);
+    fn saturate(&self, [roll, pitch, yaw, thrust]: [f64; 4]) -> Mixed {
+        let [per_roll, per_pitch, per_yaw, collective] = self.inverse.map(|c| Vector4::from(c.to_array()));
+        let tilting = per_roll * roll + per_pitch * pitch;
+        let yawing = per_yaw * yaw;
         // least ≤ c_i T + s·r_i ≤ most must leave a T: for each pair, (least − s r_i)/c_i ≤ (most − s r_j)/c_j.
         let mut share: f64 = 1.0;
         for i in 0..4 {
@@ -84,7 +87,7 @@ impl Mixer {
         let squares = (base + yawing * share).map(|s| s.min(self.most).max(self.least));
         let slack = 1e-9 * self.most;
         let at_limit = squares.iter().filter(|s| **s >= self.most - slack || **s <= self.least + slack).count() as u32;
-        Mixed { speeds: squares.map(f64::sqrt), at_limit }
+        Mixed { speeds: lanes4(&squares.map(f64::sqrt)), at_limit }
     }
 }
 
@@ -92,51 +95,68 @@ impl Mixer {
 mod tests {
     use super::*;
     use crate::math::random::{named_seed, stream};
-    use crate::simulation::tests::flightgoggles;
+    use crate::simulation::tests::{flightgoggles, shipped};
+    use nalgebra::Vector3;
     use rand::RngExt;
 
-    fn wrench(robot: &Quadrotor, mixed: &Mixed) -> Vector4<f64> {
-        robot.wrench(&mixed.speeds)
+    /// Thrust (N) and moments (N·m) of what the mixer makes of a thrust and moments.
+    fn mixed(robot: &Quadrotor, thrust: f64, moments: &Vector3<f64>) -> (Vector4<f64>, Vector4<f64>, u32) {
+        let angular = moments.component_div(&robot.inertia);
+        let wanted = f64x4::new([angular.x, angular.y, angular.z, thrust / robot.mass]);
+        let mixed = Mixer::new(robot).unwrap().mix(wanted);
+        let speeds = Vector4::from(mixed.speeds.to_array());
+        (robot.wrench(&speeds), speeds, mixed.at_limit)
     }
 
     #[test]
     fn what_fits_is_given_exactly() {
-        let robot = flightgoggles();
-        let mixed = Mixer::new(&robot).unwrap().mix(12.0, &Vector3::new(0.1, -0.2, 0.05));
-        assert!((wrench(&robot, &mixed) - Vector4::new(12.0, 0.1, -0.2, 0.05)).norm() < 1e-12);
-        assert_eq!(mixed.at_limit, 0);
+        let mut rng = stream(named_seed(2, "mixer", 0));
+        for robot in shipped() {
+            let squares = robot.hover_speed().powi(2);
+            for case in 0..1000 {
+                // Rotor by rotor ±30 % of hover: what they make is a wrench that fits.
+                let speeds = Vector4::from_fn(|_, _| (squares * rng.random_range(0.7..1.3)).sqrt());
+                let wanted = robot.wrench(&speeds);
+                let moments = Vector3::new(wanted[1], wanted[2], wanted[3]);
+                let (_, got, at_limit) = mixed(&robot, wanted[0], &moments);
+                assert!((got - speeds).norm() < 1e-9 * speeds.norm(), "{} case {case}: {got}", robot.name);
+                assert_eq!(at_limit, 0, "{} case {case}", robot.name);
+            }
+        }
     }
 
     #[test]
     fn roll_and_pitch_come_before_thrust_and_thrust_before_yaw() {
         let robot = flightgoggles();
-        let mixer = Mixer::new(&robot).unwrap();
-        let full = mixer.mix(37.0, &Vector3::new(0.4, 0.3, 0.0));
-        let got = wrench(&robot, &full);
+        let (got, ..) = mixed(&robot, 37.0, &Vector3::new(0.4, 0.3, 0.0));
         assert!((got[1] - 0.4).abs() < 1e-9 && (got[2] - 0.3).abs() < 1e-9 && got[0] < 36.0, "{got}");
-        let twisted = mixer.mix(30.0, &Vector3::new(0.2, 0.0, 9.0));
-        let got = wrench(&robot, &twisted);
+        let (got, _, at_limit) = mixed(&robot, 30.0, &Vector3::new(0.2, 0.0, 9.0));
         assert!((got[0] - 30.0).abs() < 1e-9 && (got[1] - 0.2).abs() < 1e-9 && got[3] > 0.1 && got[3] < 5.0, "{got}");
-        assert!(twisted.at_limit >= 1);
+        assert!(at_limit >= 1);
     }
 
     #[test]
     fn whatever_is_asked_the_speeds_are_within_limits() {
-        let robot = flightgoggles();
-        let mixer = Mixer::new(&robot).unwrap();
         let mut rng = stream(named_seed(1, "mixer", 0));
-        for case in 0..20_000 {
-            let size = 10f64.powf(rng.random_range(-2.0..6.0));
-            let moments = Vector3::from([0, 1, 2].map(|_| size * rng.random_range(-1.0..1.0)));
-            let thrust = rng.random_range(-50.0..100.0);
-            let mixed = mixer.mix(thrust, &moments);
+        for robot in shipped() {
             let (min, max) = robot.rotor_speed;
-            assert!(mixed.speeds.iter().all(|w| (min..=max).contains(w)), "case {case}: {}", mixed.speeds);
-            let got = wrench(&robot, &mixed);
-            // Never a roll or pitch moment of the wrong sign or direction.
-            let cross = got[1] * moments.y - got[2] * moments.x;
-            assert!(cross.abs() < 1e-6 * moments.norm().max(1.0), "case {case}: {got}");
-            assert!(got[1] * moments.x > -1e-9 * size && got[2] * moments.y > -1e-9 * size, "case {case}");
+            // In shares of what the robot can: all thrust, and all thrust at the longest arm.
+            let arm = robot.rotors.iter().map(|rotor| rotor.x.hypot(rotor.y)).fold(0.0, f64::max);
+            let (most, turning) = (robot.max_thrust(), robot.max_thrust() * arm);
+            for case in 0..5_000 {
+                let size = turning * 10f64.powf(rng.random_range(-2.0..6.0));
+                let moments = Vector3::from([0, 1, 2].map(|_| size * rng.random_range(-1.0..1.0)));
+                let (got, speeds, _) = mixed(&robot, most * rng.random_range(-1.5..3.0), &moments);
+                let told = format!("{} case {case}: {speeds} makes {got}", robot.name);
+                assert!(speeds.iter().all(|w| (min..=max).contains(w)), "{told}");
+                // Never a roll or pitch moment of the wrong sign or direction.
+                let cross = got[1] * moments.y - got[2] * moments.x;
+                assert!(cross.abs() < 1e-9 * turning * moments.norm().max(turning), "{told}");
+                assert!(
+                    got[1] * moments.x > -1e-9 * turning * size && got[2] * moments.y > -1e-9 * turning * size,
+                    "{told}"
+                );
+            }
         }
     }
 }

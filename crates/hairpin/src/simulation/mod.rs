@@ -9,6 +9,7 @@ mod course;
 mod disturbance;
 mod hazard;
 mod inner_loop;
+mod lanes;
 mod mixer;
 mod plant;
 mod recorder;
@@ -23,7 +24,7 @@ pub use close_loop::{FlySettings, Sortie, fly};
 pub use controllers::{ControllerKind, ControllerSettings, SegmentTimes};
 pub use disturbance::{Conditions, Disturbances, Gusts};
 pub use plant::{Plant, PlantState};
-pub use step::Stepper;
+pub use step::{Motion, Stepper};
 
 /// Why a flight cannot be simulated.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -78,21 +78,17 @@ impl Plant {
     }
 
     /// Thrust, roll, pitch and yaw moment of squared rotor speeds.
-    #[inline(always)]
-    pub(super) fn wrench(&self, squares: &Vector4<f64>) -> [f64; 4] {
+    fn wrench(&self, squares: &Vector4<f64>) -> [f64; 4] {
         self.allocation
             .map(|row| row[0] * squares[0] + row[1] * squares[1] + (row[2] * squares[2] + row[3] * squares[3]))
     }
 
-    /// Acceleration by drag at velocity `v`, m/s².
-    #[inline(always)]
-    pub(super) fn drag(&self, v: &Vector3<f64>) -> Vector3<f64> {
-        let relative = v - self.air;
-        relative * (-(self.drag_linear + self.drag_quadratic * relative.norm()) * self.inverse_mass)
+    /// Drag force over the velocity through the air, N s/m, at a speed through it.
+    pub(super) fn drag_per_speed(&self, speed: f64) -> f64 {
+        self.drag_linear + self.drag_quadratic * speed
     }
 
     /// Angular acceleration under the moment `m` (N·m) at body rates `w`, rad/s².
-    #[inline(always)]
     pub(super) fn angular(&self, w: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
         let m = m - w * (self.aerodynamic_moment * w.norm());
         let coupled = Vector3::new(w.y * w.z, w.x * w.z, w.x * w.y);
@@ -139,8 +135,10 @@ impl Dynamics for Plant {
         let mut out = PlantState::zeros();
         out.fixed_rows_mut::<3>(POSITION).copy_from(&v);
         out.as_mut_slice()[ATTITUDE..ATTITUDE + 4].copy_from_slice(&quaternion_rate(q, &w));
-        let thrust = body_z(q) * wrench[0] + self.force;
-        let acceleration = thrust * self.inverse_mass - Vector3::z() * self.gravity + self.drag(&v);
+        let through_air = v - self.air;
+        let drag = through_air * -self.drag_per_speed(through_air.norm());
+        let force = body_z(q) * wrench[0] + drag + self.force;
+        let acceleration = force * self.inverse_mass - Vector3::z() * self.gravity;
         out.fixed_rows_mut::<3>(VELOCITY).copy_from(&acceleration);
         let moment = Vector3::new(wrench[1], wrench[2], wrench[3]) + self.moment;
         out.fixed_rows_mut::<3>(RATES).copy_from(&self.angular(&w, &moment));

@@ -1,8 +1,9 @@
 //! The log of a run: poses and channels at a fixed rate, in columns that are allocated once.
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Translation3};
 
-use super::plant::{PlantState, RATES, ROTORS, VELOCITY};
+use super::step::Motion;
+use crate::math::rotation::unit_quaternion;
 use crate::trajectory::{Channel, Track};
 
 const NAMES: [&str; 12] = [
@@ -43,22 +44,17 @@ impl Recorder {
     }
 
     /// Appends a sample; one that is not finite or not later than the last is left out.
-    pub(crate) fn push(&mut self, t: f64, pose: &Isometry3<f64>, state: &PlantState, leg: usize, saturated: f64) {
-        if self.times.last().is_some_and(|last| t <= *last) || !state.iter().all(|x| x.is_finite()) {
+    pub(crate) fn push(&mut self, t: f64, motion: &Motion, leg: usize, saturated: f64) {
+        if self.times.last().is_some_and(|last| t <= *last) || !motion.is_finite() {
             return;
         }
+        let [[x, y, z, _], [vx, vy, vz, _], [p, q, r, _], [w1, w2, w3, w4]] = motion.logged();
+        let attitude = unit_quaternion(&motion.quaternion());
         self.times.push(t);
-        self.poses.push(*pose);
-        let s = state.as_slice();
-        let (leg, saturated) = ([leg as f64], [saturated]);
-        let values = leg
-            .iter()
-            .chain(&s[VELOCITY..VELOCITY + 3])
-            .chain(&s[RATES..RATES + 3])
-            .chain(&s[ROTORS..ROTORS + 4])
-            .chain(&saturated);
+        self.poses.push(Isometry3::from_parts(Translation3::new(x, y, z), attitude));
+        let values = [leg as f64, vx, vy, vz, p, q, r, w1, w2, w3, w4, saturated];
         for (column, value) in self.columns.iter_mut().zip(values) {
-            column.push(*value);
+            column.push(value);
         }
     }
 

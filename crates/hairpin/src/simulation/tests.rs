@@ -26,7 +26,7 @@ pub(crate) fn flightgoggles() -> Quadrotor {
     shipped().remove(0)
 }
 
-fn cage() -> World {
+pub(super) fn cage() -> World {
     World::new(Vector3::repeat(30.0), 0.0, vec![]).unwrap()
 }
 
@@ -56,13 +56,13 @@ fn vacuum() -> Quadrotor {
 
 fn run(plant: &Plant, state: PlantState, command: impl Fn(f64) -> Vector4<f64>, time: f64, h: f64) -> PlantState {
     let stepper = Stepper::new(plant, h);
-    let mut state = state;
+    let mut motion = Motion::new(plant, &state);
     for i in 0..(time / h).round() as usize {
         // Commands change every millisecond, whatever the step.
         let millisecond = (i as f64 * h / 0.001 + 1e-6).floor() * 0.001;
-        stepper.advance(plant, &mut state, &command(millisecond));
+        stepper.advance(plant, &mut motion, &command(millisecond));
     }
-    state
+    motion.state()
 }
 
 fn level(position: Vector3<f64>, rotors: f64) -> PlantState {
@@ -196,11 +196,12 @@ fn noise_is_a_random_walk_of_the_robots_density() {
         for seed in 0..runs {
             let conditions = Conditions { noise: true, ..Default::default() };
             let mut noise = Disturbances::new(&robot, &conditions, h, seed);
-            let mut state = level(Vector3::zeros(), 0.0);
+            let mut motion = Motion::new(&plant, &level(Vector3::zeros(), 0.0));
             for _ in 0..(time / h) as usize {
                 noise.act_on(&mut plant);
-                stepper.advance(&plant, &mut state, &Vector4::zeros());
+                stepper.advance(&plant, &mut motion, &Vector4::zeros());
             }
+            let state = motion.state();
             velocity += (state[7].powi(2) + state[8].powi(2)) / (2 * runs) as f64;
             rates += (state[10].powi(2) + state[11].powi(2)) / (2 * runs) as f64;
         }

@@ -107,7 +107,7 @@ impl Envelope {
     pub(crate) fn limit(&self, acceleration: &Vector3<f64>) -> (Vector3<f64>, bool) {
         let wanted = acceleration.z + self.gravity;
         let up = wanted.min(self.most).max(self.least);
-        let horizontal = acceleration.x.hypot(acceleration.y);
+        let horizontal = (acceleration.x * acceleration.x + acceleration.y * acceleration.y).sqrt();
         let room = (up * self.tan_tilt).min((self.most * self.most - up * up).max(0.0).sqrt());
         let scale = if horizontal > room { room / horizontal } else { 1.0 };
         let force = Vector3::new(acceleration.x * scale, acceleration.y * scale, up);
