@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::scenario::distribution::zip;
 use super::scenario::{Distribution, KeyPath, Mistake, Scenario};
-use crate::math::random::{Stream, named_seed, stream};
+use crate::math::random::{Stream, named_seed, standard_normals, stream};
 
 /// How often a truncated draw is repeated. [`Scenario::check`] refuses truncations that keep less than one draw in a
 /// hundred, so this many failures in a row have a probability of 10⁻⁴³.
@@ -65,7 +65,7 @@ fn sample(distribution: &Distribution, nominal: Option<&Value>, random: &mut Str
     if let Some([mean, deviation]) = &distribution.normal {
         return zip(mean, deviation, nominal, &mut |mean, deviation, _| {
             let (low, high) = distribution.interval(mean, deviation);
-            let mut draws = (0..REDRAWS).map(|_| mean + deviation * standard_normal(random));
+            let mut draws = (0..REDRAWS).map(|_| mean + deviation * standard_normals::<1>(random)[0]);
             draws.find(|x| (low..=high).contains(x)).unwrap_or(mean.clamp(low, high.max(low)))
         });
     }
@@ -76,12 +76,6 @@ fn sample(distribution: &Distribution, nominal: Option<&Value>, random: &mut Str
 /// Uniform in [0, 1).
 fn unit(random: &mut Stream) -> f64 {
     (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
-}
-
-/// Mean 0, deviation 1 (Box and Muller 1958), by `libm`: the same bits on every machine.
-fn standard_normal(random: &mut Stream) -> f64 {
-    let radius = (-2.0 * libm::log(1.0 - unit(random))).sqrt();
-    radius * libm::cos(std::f64::consts::TAU * unit(random))
 }
 
 fn patch(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario, Mistake> {

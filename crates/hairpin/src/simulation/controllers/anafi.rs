@@ -1,7 +1,7 @@
 //! `anafi`: flies to a waypoint and brakes for it, within the Anafi's limits. A stand-in: the real one is closed.
 //!
-//! Limits from Parrot's data sheet of the Anafi: 15 m/s horizontally, 4 m/s vertically. Its tilt limit and braking are
-//! ours: 35° and a constant deceleration that leaves half of the tilt in hand.
+//! Its limits are chosen, not measured, in the range of small camera drones: 15 m/s horizontally, 4 m/s vertically, 35°
+//! of tilt, and a constant deceleration that leaves half of the tilt in hand.
 
 use nalgebra::Vector3;
 

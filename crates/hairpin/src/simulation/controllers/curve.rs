@@ -92,3 +92,29 @@ fn leg_times(robot: &Quadrotor, waypoints: &[Point3<f64>], rule: SegmentTimes) -
     }
     times.iter().map(|t| t.max(LEAST_LEG_TIME)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::tests::flightgoggles;
+
+    /// Legs of 1, 4 and 9 m, all long enough to count and short enough for the top speed.
+    #[test]
+    fn leg_times_follow_their_rule_and_share_their_total() {
+        let x = [0.0, 1.0, 5.0, 14.0].map(|x| Point3::new(x, 2.0, 3.0));
+        let by_root = leg_times(&flightgoggles(), &x, SegmentTimes::SqrtLength);
+        let by_length = leg_times(&flightgoggles(), &x, SegmentTimes::Length);
+        for (i, (root, length)) in [(1.0, 1.0), (2.0, 4.0), (3.0, 9.0)].into_iter().enumerate() {
+            assert!((by_root[i] - root * by_root[0]).abs() < 1e-12, "{by_root:?}");
+            assert!((by_length[i] - length * by_length[0]).abs() < 1e-12, "{by_length:?}");
+        }
+        let total = |times: &[f64]| times.iter().sum::<f64>();
+        assert!((total(&by_root) - total(&by_length)).abs() < 1e-12 && by_root[0] > LEAST_LEG_TIME);
+        // The middle waypoint's time is where the curve passes it.
+        for (rule, times) in [(SegmentTimes::SqrtLength, by_root), (SegmentTimes::Length, by_length)] {
+            let mut curve = Curve::through(&flightgoggles(), &x, rule).unwrap();
+            curve.advance(times[0] + times[1]);
+            assert!((curve.sample()[0] - x[2].coords).norm() < 1e-9, "{rule:?}");
+        }
+    }
+}
