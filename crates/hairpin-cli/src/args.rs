@@ -239,6 +239,8 @@ pub(crate) struct Export {
 pub(crate) enum Format {
     /// missions/CASE.csv: x_m,y_m,z_m
     Waypoints,
+    /// missions/CASE.geodetic.csv: lat_deg,lon_deg,alt_amsl_m,relative_alt_m by the scenario's world.origin
+    Geodetic,
     /// export/CASE.planned.csv and export/CASE-RUN.csv: poses in time
     Csv,
     /// export/CASE.ref.tum and CASE.exec.tum: planned motion and worst run, same stamps

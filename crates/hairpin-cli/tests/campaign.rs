@@ -150,6 +150,29 @@ fn exported_waypoints_fly_again_as_missions() {
 }
 
 #[test]
+fn waypoints_on_earth_need_the_cages_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let origin = "world.origin={lat_deg=47.3977,lon_deg=8.5456,alt_amsl_m=488.0,x_axis_heading_deg=73.5}";
+    run(folder.path(), &[&SMALL[..], &["--out", "a", "--set", origin]].concat());
+    let (code, out, error) = run(folder.path(), &["export", "a", "--to", "geodetic,waypoints"]);
+    assert_eq!(code, 0, "{out}{error}");
+    let text = fs::read_to_string(folder.path().join("a/missions/0001.geodetic.csv")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!((lines[0], lines.len()), ("lat_deg,lon_deg,alt_amsl_m,relative_alt_m", 9));
+    assert!(lines[1..].iter().all(|line| line.starts_with("47.397") && line.contains(",8.545")), "{text}");
+    // Both kinds of file side by side: those in metres fly.
+    assert_eq!(json(folder.path(), &["execute", "a", "--missions", "a/missions"])["counts"]["cases"], 4);
+
+    // The demo's world may have a place of its own, so one without is asked for by name.
+    let unplaced = fs::read_to_string(folder.path().join("a/scenario.toml")).unwrap();
+    let start = unplaced.find("[world.origin]").expect("written as a table");
+    let end = start + unplaced[start + 1..].find('[').map_or(unplaced.len() - start, |at| at + 1);
+    fs::write(folder.path().join("a/scenario.toml"), format!("{}{}", &unplaced[..start], &unplaced[end..])).unwrap();
+    let (code, _, error) = run(folder.path(), &["export", "a", "--to", "geodetic"]);
+    assert!(code == 2 && error.contains("`world.origin`"), "{error}");
+}
+
+#[test]
 fn threads_change_nothing() {
     let folder = tempfile::tempdir().unwrap();
     for (threads, out) in [("1", "one"), ("2", "two")] {

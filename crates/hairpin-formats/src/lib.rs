@@ -4,6 +4,8 @@ pub mod atomic;
 pub mod csv;
 pub mod executor;
 pub mod folder;
+pub mod frames;
+pub mod geodetic;
 pub mod junit;
 pub mod library;
 pub mod mesh;

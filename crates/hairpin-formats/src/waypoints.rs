@@ -8,6 +8,7 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
+use crate::geodetic;
 
 const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
 
@@ -97,7 +98,8 @@ pub fn write(path: &Path, waypoints: &[Point3<f64>]) -> Result<(), WriteError> {
 /// A mission made elsewhere: its name and waypoints.
 pub type Named = (String, Vec<Point3<f64>>);
 
-/// Reads the `.csv` files of a folder, sorted by name: name without the ending, and waypoints.
+/// Reads the `.csv` files of a folder, sorted by name: name without the ending, and waypoints. Files in degrees
+/// ([`crate::geodetic`]), which `export` puts beside those in metres, are passed over.
 ///
 /// # Errors
 /// As [`read`]; a folder that cannot be read or has no such file.
@@ -106,6 +108,7 @@ pub fn read_folder(folder: &Path) -> Result<Vec<Named>, WaypointsError> {
     let entries = fs::read_dir(folder).map_err(refuse)?;
     let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
     paths.retain(|path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")));
+    paths.retain(|path| !path.to_string_lossy().ends_with(geodetic::ENDING));
     paths.sort();
     if paths.is_empty() {
         return Err(WaypointsError::Empty { path: folder.into() });

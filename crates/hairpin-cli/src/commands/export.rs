@@ -3,10 +3,12 @@
 use hairpin::campaign::Case;
 use hairpin::trajectory::Track;
 use hairpin_formats::folder::CampaignFolder;
-use hairpin_formats::{atomic, csv, tum, waypoints};
+use hairpin_formats::frames::Cage;
+use hairpin_formats::{atomic, csv, geodetic, tum, waypoints};
 use nalgebra::Isometry3;
 
 use crate::args::{Export, Format};
+use crate::folder::Work;
 use crate::problem::Problem;
 use crate::{console, folder};
 
@@ -17,6 +19,7 @@ pub(crate) fn run(export: &Export) -> Result<u8, Problem> {
     for format in &export.to {
         let (count, place) = match format {
             Format::Waypoints => (write_waypoints(&work.folder, &cases)?, "missions/CASE.csv"),
+            Format::Geodetic => (write_geodetic(&work, &cases)?, "missions/CASE.geodetic.csv"),
             Format::Csv => (write_csv(&work.folder, &cases)?, "export/CASE.planned.csv, export/CASE-RUN.csv"),
             Format::Tum => (write_tum(&work.folder, &cases)?, "export/CASE.ref.tum, export/CASE.exec.tum"),
         };
@@ -31,6 +34,22 @@ fn write_waypoints(folder: &CampaignFolder, cases: &[Case]) -> Result<usize, Pro
     atomic::make_folder(&place)?;
     for case in cases {
         waypoints::write(&place.join(format!("{}.csv", case.id())), &case.waypoints)?;
+    }
+    Ok(cases.len())
+}
+
+fn write_geodetic(work: &Work, cases: &[Case]) -> Result<usize, Problem> {
+    let Some(origin) = &work.setup.scenario.world.origin else {
+        return Err(Problem::input(
+            "--to geodetic: the scenario has no `world.origin`, such as \
+             origin = { lat_deg = 47.3977, lon_deg = 8.5456, alt_amsl_m = 488.0, x_axis_heading_deg = 73.5 }",
+        ));
+    };
+    let cage = Cage::new(origin);
+    let place = work.folder.file("missions");
+    atomic::make_folder(&place)?;
+    for case in cases {
+        geodetic::write(&place.join(format!("{}{}", case.id(), geodetic::ENDING)), &cage, &case.waypoints)?;
     }
     Ok(cases.len())
 }
