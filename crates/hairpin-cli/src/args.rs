@@ -278,6 +278,9 @@ pub(crate) struct Simulate {
 pub(crate) struct Bench {
     /// Only those whose name begins so, such as beam
     pub(crate) name: Option<String>,
+    /// Length of the campaign whose memory is measured
+    #[arg(long, value_name = "M", default_value_t = 0.2)]
+    pub(crate) minutes: f64,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,

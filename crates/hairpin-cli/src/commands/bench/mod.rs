@@ -1,11 +1,12 @@
 //! `hairpin bench`: the speeds that hairpin promises, measured here and now on one core, beside their targets.
 
+mod clock;
+mod exact;
+mod memory;
 mod reach;
 mod search;
 mod simulation;
-
-use std::hint::black_box;
-use std::time::Instant;
+mod witness;
 
 use hairpin::campaign::Setup;
 use hairpin::robot::quadrotor::Quadrotor;
@@ -21,7 +22,7 @@ struct Row {
     name: &'static str,
     unit: &'static str,
     target: Option<Target>,
-    measure: fn() -> Result<f64, Problem>,
+    measure: fn(&Bench) -> Result<f64, Problem>,
 }
 
 /// Which side of the number is good.
@@ -29,7 +30,7 @@ struct Row {
 enum Target {
     /// A rate.
     AtLeast(f64),
-    /// A time or an error.
+    /// A time, an error, a size.
     AtMost(f64),
 }
 
@@ -51,7 +52,8 @@ impl Target {
 
 /// Runs the command: 0 when it has measured, whatever came out (a busy machine is no violation).
 pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
-    let all: Vec<Row> = reach::rows().into_iter().chain(search::rows()).chain(simulation::rows()).collect();
+    let rooms = [reach::rows(), search::rows(), exact::rows(), witness::rows(), simulation::rows(), memory::rows()];
+    let all: Vec<Row> = rooms.into_iter().flatten().collect();
     let wanted = |row: &&Row| bench.name.as_ref().is_none_or(|name| row.name.starts_with(name.as_str()));
     let rows: Vec<&Row> = all.iter().filter(wanted).collect();
     if rows.is_empty() {
@@ -65,7 +67,7 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
     let mut objects = Vec::new();
     for row in rows {
         tracing::info!("{}", row.name);
-        let value = (row.measure)()?;
+        let value = (row.measure)(bench)?;
         let met = row.target.map(|target| target.met(value));
         let target = row.target.map_or("–".into(), Target::words);
         let shown = if value < 10.0 { format!("{value:.3}") } else { format!("{value:.0}") };
@@ -74,32 +76,12 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
         table.push(vec![row.name.into(), shown, row.unit.into(), target, word.into()]);
     }
     if bench.json {
-        console::say(&json!({ "simd": simd::level(), "benches": objects }).to_string());
+        console::say(&json!({ "simd": simd::level(), "clock": clock::NAME, "benches": objects }).to_string());
     } else {
         console::say(&console::table(&table));
-        console::say(&format!("best of several runs, one core, SIMD level {}", simd::level()));
+        console::say(&format!("median of several runs, one core, {}, SIMD level {}", clock::NAME, simd::level()));
     }
     Ok(0)
-}
-
-/// Best of `times` runs of `work`, s: what the machine can do when nothing else disturbs it.
-fn best<T>(times: usize, mut work: impl FnMut() -> T) -> f64 {
-    let run = |_| {
-        let begun = Instant::now();
-        black_box(work());
-        begun.elapsed().as_secs_f64()
-    };
-    (0..times).map(run).fold(f64::INFINITY, f64::min)
-}
-
-/// Items per second, best of `times` runs of `work`, which returns how many items it made.
-fn rate(times: usize, mut work: impl FnMut() -> u64) -> f64 {
-    let run = |_| {
-        let begun = Instant::now();
-        let items = black_box(work());
-        items as f64 / begun.elapsed().as_secs_f64()
-    };
-    (0..times).map(run).fold(0.0, f64::max)
 }
 
 fn robot(name: &str) -> Result<Quadrotor, Problem> {

@@ -1,74 +1,52 @@
-//! The beam on `hull`: FlightGoggles, 250 waypoints, width 5, start (10, 10, 10), end (20, 20, 20), no speed cap. Every
-//! trajectory counted includes its graph: sampling, set-up, pruning.
+//! The beam on `hull`: FlightGoggles, 250 waypoints, width 5, start (10, 10, 10), end (20, 20, 20), no speed cap; the first
+//! completion ends a graph. Through the pipeline as a campaign runs it: sampling, set-up and pruning of every graph are
+//! counted, and one distinct trajectory a graph.
 
-use hairpin::feasibility::reach::{Hull, HullSettings, StepNode, StepReach, StepSettings};
-use hairpin::math::random::named_seed;
-use hairpin::search::{BeamOutcome, BeamSettings, Score, Task, beam};
-use hairpin::world::{Sampling, World, sample_free};
-use nalgebra::{Point3, Vector3};
+use hairpin::campaign::{Known, Setup, Stop, Tally, generate};
+use hairpin_formats::scenario::scenario_for;
 
-use super::{Row, Target, rate, robot};
+use super::clock::median_rate;
+use super::{Row, Target};
 use crate::problem::Problem;
+
+/// Trajectories per run.
+const CASES: u64 = 2000;
 
 pub(super) fn rows() -> Vec<Row> {
     let row = |name, target, measure| Row { name, unit: "1/s", target: Some(Target::AtLeast(target)), measure };
     vec![
-        row("beam-expansions", 700_000.0, expansions),
-        row("beam-trajectories-8", 2_000.0, || trajectories(8, false)),
-        row("beam-trajectories-10", 2_000.0, || trajectories(10, false)),
-        row("beam-trajectories-50", 1_000.0, || trajectories(50, false)),
-        row("beam-trajectories-50-revisits", 1_000.0, || trajectories(50, true)),
+        row("beam-expansions", 700_000.0, |_| beam(50, true, |tally| tally.expansions)),
+        row("beam-trajectories-8", 2_000.0, |_| beam(8, false, |tally| tally.solved)),
+        row("beam-trajectories-10", 2_000.0, |_| beam(10, false, |tally| tally.solved)),
+        row("beam-trajectories-50", 1_000.0, |_| beam(50, false, |tally| tally.solved)),
+        row("beam-trajectories-50-revisits", 1_000.0, |_| beam(50, true, |tally| tally.solved)),
     ]
 }
 
-struct Bench {
-    hull: Hull,
-    graphs: Vec<Vec<Point3<f64>>>,
+/// The scenario of these benches with `cases` of `length` waypoints.
+pub(super) fn scenario(length: usize, revisits: bool, cases: u64) -> Result<Setup, Problem> {
+    let set = |key: &str, value: String| (key.to_owned(), value);
+    let sets = [
+        set("world", "{ size_m = [30, 30, 30] }".into()),
+        set("task", format!("{{ start_m = [10, 10, 10], end_m = [20, 20, 20], length = {length} }}")),
+        set("generate", "{ reach = \"hull\", score = \"high-velocity-90\" }".into()),
+        set("generate.search", format!("{{ waypoints = 250, width = 5, revisits = {revisits}, cases = {cases} }}")),
+    ];
+    Ok(Setup::new(scenario_for("flightgoggles", &sets)?)?)
 }
 
-impl Bench {
-    fn new(graphs: u64) -> Result<Self, Problem> {
-        let hull = Hull::new(&robot("flightgoggles")?, &HullSettings::default()).map_err(Problem::input)?;
-        let world = World::new(Vector3::repeat(30.0), 0.0, Vec::new()).map_err(Problem::input)?;
-        let sample = |graph| {
-            let free = sample_free(&world, 250, 0.0, Sampling::Uniform, named_seed(1, "bench graph", graph));
-            let mut points = vec![Point3::new(10.0, 10.0, 10.0)];
-            points.extend(free.map_err(Problem::input)?);
-            points.push(Point3::new(20.0, 20.0, 20.0));
-            Ok(points)
-        };
-        Ok(Self { hull, graphs: (0..graphs).map(sample).collect::<Result<_, Problem>>()? })
-    }
-
-    fn solve(&self, points: &[Point3<f64>], settings: &BeamSettings) -> Result<BeamOutcome<StepNode>, Problem> {
-        let hull = &self.hull;
-        let reach = StepReach::new(hull, points, StepSettings::default());
-        let end = points[points.len() - 1].coords;
-        let may_arrive = |node: &StepNode, steps: usize| {
-            let (before, now) = (points[node.previous as usize], points[node.current as usize]);
-            hull.may_reach(&now.coords, &(now - before), &end, steps as u32)
-        };
-        let score = Score::named("high-velocity-90", 0, hull.farthest() / hull.step());
-        let score = score.map_err(Problem::input)?;
-        let task = Task { start: StepNode { previous: 0, current: 0 }, candidates: points, reach: &reach };
-        Ok(beam(&task, &score, may_arrive, settings))
-    }
-
-    /// Items per second over all graphs.
-    fn sweep(&self, settings: &BeamSettings, items: fn(BeamOutcome<StepNode>) -> u64) -> Result<f64, Problem> {
-        // What can go wrong goes wrong the first time.
-        self.solve(&self.graphs[0], settings)?;
-        let all = || self.graphs.iter().filter_map(|points| self.solve(points, settings).ok()).map(items).sum();
-        Ok(rate(3, all))
+/// Generates on this thread alone, so that its clock sees all of it.
+pub(super) fn on_one_thread(setup: &Setup, stop: &Stop) -> Tally {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+    let run = || generate(setup, &Known::default(), stop, &mut |_, _| ());
+    match pool {
+        Ok(pool) => pool.install(run),
+        // The thread is in a pool already, that of an earlier bench.
+        Err(_) => run(),
     }
 }
 
-fn expansions() -> Result<f64, Problem> {
-    let settings = BeamSettings { length: 50, per_graph: usize::MAX, iterations: 400, ..Default::default() };
-    Bench::new(20)?.sweep(&settings, |outcome| outcome.expansions)
-}
-
-fn trajectories(length: usize, revisits: bool) -> Result<f64, Problem> {
-    let settings = BeamSettings { length, revisits, ..Default::default() };
-    Bench::new(200)?.sweep(&settings, |outcome| outcome.found.len() as u64)
+fn beam(length: usize, revisits: bool, items: fn(&Tally) -> u64) -> Result<f64, Problem> {
+    let setup = scenario(length, revisits, CASES)?;
+    Ok(median_rate(5, || items(&on_one_thread(&setup, &Stop::never()))))
 }

@@ -1,0 +1,40 @@
+//! Time that this thread was on a processor: what others do on the machine does not count.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+/// What is told, for the table.
+pub(super) const NAME: &str = if cfg!(target_os = "linux") { "processor time" } else { "wall-clock time" };
+
+/// Seconds on a processor since the thread began; where the system does not tell, since `origin`.
+fn now(origin: Instant) -> f64 {
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<u64>().ok());
+    nanoseconds.map_or_else(|| origin.elapsed().as_secs_f64(), |ns| ns as f64 * 1e-9)
+}
+
+/// Median over `times` runs of `work` of its time, s.
+pub(super) fn median_time<T>(times: usize, mut work: impl FnMut() -> T) -> f64 {
+    let origin = Instant::now();
+    median((0..times).map(|_| {
+        let begun = now(origin);
+        black_box(work());
+        now(origin) - begun
+    }))
+}
+
+/// Median over `times` runs of `work`, which returns how many items it made, of items per second.
+pub(super) fn median_rate(times: usize, mut work: impl FnMut() -> u64) -> f64 {
+    let origin = Instant::now();
+    median((0..times).map(|_| {
+        let begun = now(origin);
+        let items = black_box(work());
+        items as f64 / (now(origin) - begun)
+    }))
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
