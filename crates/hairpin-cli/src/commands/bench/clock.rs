@@ -13,23 +13,29 @@ fn now(origin: Instant) -> f64 {
     nanoseconds.map_or_else(|| origin.elapsed().as_secs_f64(), |ns| ns as f64 * 1e-9)
 }
 
+/// The system tells this clock in ticks of some milliseconds: a run shorter than this many seconds is repeated.
+const SHORTEST_RUN: f64 = 0.1;
+
 /// Median over `times` runs of `work` of its time, s.
 pub(super) fn median_time<T>(times: usize, mut work: impl FnMut() -> T) -> f64 {
-    let origin = Instant::now();
-    median((0..times).map(|_| {
-        let begun = now(origin);
+    1.0 / median_rate(times, || {
         black_box(work());
-        now(origin) - begun
-    }))
+        1
+    })
 }
 
 /// Median over `times` runs of `work`, which returns how many items it made, of items per second.
 pub(super) fn median_rate(times: usize, mut work: impl FnMut() -> u64) -> f64 {
     let origin = Instant::now();
     median((0..times).map(|_| {
-        let begun = now(origin);
-        let items = black_box(work());
-        items as f64 / (now(origin) - begun)
+        let (begun, mut items) = (now(origin), 0);
+        loop {
+            items += black_box(work());
+            let spent = now(origin) - begun;
+            if spent > SHORTEST_RUN {
+                return items as f64 / spent;
+            }
+        }
     }))
 }
 

@@ -28,5 +28,5 @@ fn stable_waypoint(_: &Bench) -> Result<f64, Problem> {
     let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
     let once = || fly(&sortie, &controller, &Conditions::default(), &settings, 1);
     once().map_err(Problem::input)?;
-    Ok(FLOWN_S / median_time(21, once))
+    Ok(FLOWN_S / median_time(9, once))
 }
