@@ -34,7 +34,7 @@ fn end_points_of_625_runs(bencher: Bencher, name: &str) {
     bencher.bench(|| sampling::end_points(black_box(&robot), &speeds, 1.0, sampling::steps(&robot, 1.0)));
 }
 
-#[divan::bench(args = ["flightgoggles", "anafi"])]
+#[divan::bench(args = ["flightgoggles", "anafi", "anafi-real", "crazyflie", "paper-flightgoggles"])]
 fn hull_of_625_points(bencher: Bencher, name: &str) {
     let hull = Hull::new(&shipped(name), &HullSettings::default()).expect("a hull");
     bencher.bench(|| Polytope::hull(black_box(hull.samples())));
@@ -54,11 +54,11 @@ fn pairs(reach: &StepReach<Hull>) -> Vec<StepNode> {
 }
 
 #[divan::bench]
-fn a_thousand_expansions(bencher: Bencher) {
+fn every_feasible_node_expanded(bencher: Bencher) {
     let hull = Hull::new(&shipped("flightgoggles"), &HullSettings::default()).expect("a hull");
     let points = graph();
     let reach = StepReach::new(&hull, &points, StepSettings::default());
-    let nodes: Vec<StepNode> = pairs(&reach).into_iter().take(1000).collect();
+    let nodes: Vec<StepNode> = pairs(&reach);
     let mut legs: Vec<Leg<StepNode>> = Vec::new();
     bencher.counter(divan::counter::ItemsCount::new(nodes.len())).bench_local(|| {
         let mut found = 0;

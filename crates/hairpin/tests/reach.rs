@@ -3,8 +3,8 @@
 use std::cell::{Cell, RefCell};
 
 use hairpin::feasibility::reach::{
-    BruteForce, BruteForceSettings, CarriedNode, Everywhere, Filtered, Hull, HullSettings, Leg, NoHull, NoPolytope,
-    PairMask, Polytope, Reach, Sphere, StepNode, StepReach, StepSet, StepSettings, sampling,
+    Everywhere, Filtered, Hull, HullSettings, Leg, NoHull, PairMask, Reach, Sphere, StepNode, StepReach, StepSet,
+    StepSettings, sampling,
 };
 use hairpin::math::random::{Stream, named_seed, stream};
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
@@ -68,35 +68,6 @@ fn hulls_hold_their_samples_and_no_more_than_their_hull() {
         assert!(k.volume() > 0.0 && k.volume() < (extent.1 - extent.0).product());
         assert!(hull.farthest() >= k.vertices().iter().map(|v| v.norm()).fold(0.0, f64::max) - 1e-12);
     }
-}
-
-#[test]
-fn the_polytope_of_a_cube_has_six_facets() {
-    let mut points = Vec::new();
-    for i in 0..125 {
-        points.push(Vector3::new((i % 5) as f64, (i / 5 % 5) as f64, (i / 25) as f64) * 0.5);
-    }
-    let cube = Polytope::hull(&points).expect("a cube");
-    assert_eq!(cube.facets(), 6);
-    assert!((cube.volume() - 8.0).abs() < 1e-9);
-    assert!(cube.contains(&Vector3::new(2.0, 0.0, 1.0)) && !cube.contains(&Vector3::new(2.0 + 1e-9, 0.0, 1.0)));
-    let flat: Vec<_> = points.iter().map(|p| Vector3::new(p.x, p.y, p.x + p.y)).collect();
-    assert!(matches!(Polytope::hull(&flat), Err(NoPolytope::Flat { .. })), "{:?}", Polytope::hull(&flat));
-    assert!(matches!(Polytope::hull(&points[..3]), Err(NoPolytope::Points { points: 3 })));
-    points[7].y = f64::NAN;
-    assert!(matches!(Polytope::hull(&points), Err(NoPolytope::Points { .. })));
-}
-
-#[test]
-fn published_hulls_jump_with_the_resolution() {
-    let robot = shipped("paper-flightgoggles");
-    let volume = |resolution| {
-        Hull::published(&robot, &HullSettings { resolution, step: 1.0 }).expect("a hull").polytope().volume()
-    };
-    let volumes: Vec<f64> = (4..=8).map(volume).collect();
-    assert!(volumes.iter().all(|v| (15_000.0..65_000.0).contains(v)), "{volumes:?}");
-    let (low, high) = volumes.iter().fold((f64::MAX, 0.0f64), |(l, h), v| (l.min(*v), h.max(*v)));
-    assert!(high > 1.3 * low, "{volumes:?}");
 }
 
 #[test]
@@ -197,63 +168,4 @@ fn settings_out_of_bounds_are_refused() {
     for (resolution, step) in [(1, 1.0), (13, 1.0), (5, 0.0), (5, f64::NAN), (5, 11.0)] {
         assert!(matches!(Hull::new(&robot, &HullSettings { resolution, step }), Err(NoHull::Setting { .. })));
     }
-}
-
-fn brute_settings(resolution: usize) -> BruteForceSettings {
-    BruteForceSettings {
-        hull: HullSettings { resolution, step: 1.0 },
-        step: StepSettings::default(),
-        keep_attitude: false,
-        keep_rates: false,
-        full_drag: false,
-        velocity_bin: 0.0,
-    }
-}
-
-/// The identity itself: the constant polytope against all runs simulated from the node's own velocity.
-#[test]
-fn the_constant_polytope_and_brute_force_agree() {
-    let robot =
-        Quadrotor { drag_linear: 0.1, drag_quadratic: 0.0, aerodynamic_moment: 0.0, ..shipped("flightgoggles") };
-    let hull = Hull::new(&robot, &HullSettings { resolution: 3, step: 1.0 }).expect("a hull");
-    // Full drag with no quadratic term: every velocity gets its own simulated hull.
-    let brute = BruteForce::new(&robot, BruteForceSettings { full_drag: true, ..brute_settings(3) });
-    let mut rng = stream(named_seed(6, "brute force", 0));
-    let points = random_points(&mut rng, 200, 16.0);
-    let reach = StepReach::new(&hull, &points, StepSettings::default());
-    let (mut ours, mut theirs, mut found) = (Vec::new(), Vec::new(), 0);
-    for case in 0..12 {
-        let (previous, current) = (rng.random_range(0..200u32), rng.random_range(0..200u32));
-        ours.clear();
-        theirs.clear();
-        reach.successors(previous, current, &mut ours);
-        brute.legs(&CarriedNode { previous, current, carried: 0 }, &points, &mut theirs);
-        // A point within the integrators' disagreement of a facet may fall on either side.
-        let carry = StepSet::carry(&hull);
-        let near = |i: u32| {
-            let [w0, w1, w2] = [previous, current, i].map(|k| points[k as usize]);
-            let d = (w2 - w1) - (w1 - w0) * carry;
-            hull.polytope().planes().any(|(n, b)| (n.dot(&d) - b).abs() < 0.005)
-        };
-        for i in 0..200 {
-            assert!(ours.contains(&i) == theirs.iter().any(|leg| leg.waypoint == i) || near(i), "case {case}, {i}");
-        }
-        found += ours.len();
-    }
-    assert!(found > 5, "{found}: too few legs to tell");
-}
-
-#[test]
-fn carried_attitudes_are_those_of_the_nearest_run() {
-    let robot = shipped("flightgoggles");
-    let brute = BruteForce::new(&robot, BruteForceSettings { keep_attitude: true, ..brute_settings(2) });
-    let points = random_points(&mut stream(named_seed(7, "kept", 0)), 60, 8.0);
-    let start = CarriedNode { previous: 0, current: 0, carried: 0 };
-    let (mut legs, mut again) = (Vec::new(), Vec::new());
-    brute.legs(&start, &points, &mut legs);
-    brute.legs(&start, &points, &mut again);
-    assert!(legs == again && !legs.is_empty());
-    let state = brute.carried_state(legs[0].to.carried);
-    assert!((state[..4].iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-9 && state[4..] == [0.0; 3]);
-    assert!(legs.iter().any(|leg| leg.to.carried != 0));
 }

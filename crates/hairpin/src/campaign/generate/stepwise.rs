@@ -24,7 +24,7 @@ enum Set {
     Sphere(Sphere),
     Hull(Box<Hull>),
     /// The hull from every state that a leg before may have left, and how far its samples reach.
-    Carried(BruteForceSettings, f64),
+    Carried(Box<BruteForce>, f64),
 }
 
 /// A step-wise reach set and what it assumes.
@@ -59,10 +59,10 @@ impl<'a> Stepwise<'a> {
                     step: settings,
                     keep_attitude,
                     keep_rates,
-                    full_drag: false,
-                    velocity_bin: 0.0,
+                    ..BruteForceSettings::default()
                 };
-                Set::Carried(settings, farthest)
+                let reach = BruteForce::new(robot, settings).map_err(|error| error.to_string())?;
+                Set::Carried(Box::new(reach), farthest)
             }
             ReachName::Published => Set::Hull(Box::new(Hull::published(robot, &hull).map_err(|e| e.to_string())?)),
             _ => Set::Hull(Box::new(Hull::new(robot, &hull).map_err(|error| error.to_string())?)),
@@ -94,10 +94,9 @@ impl<'a> Stepwise<'a> {
                 };
                 self.bound(hull.as_ref(), graph, points, may_arrive)
             }
-            Set::Carried(settings, _) => {
-                let start = CarriedNode { previous: 0, current: 0, carried: 0 };
-                let reach = BruteForce::new(&self.setup.robot, *settings);
-                self.clear_of_obstacles(graph, points, reach, start, |node| node.current, |_, _| true)
+            Set::Carried(reach, _) => {
+                let start = CarriedNode { previous: 0, current: 0, carried: [0; 6] };
+                self.clear_of_obstacles(graph, points, reach.as_ref(), start, |node| node.current, |_, _| true)
             }
         }
     }

@@ -1,67 +1,76 @@
-//! A graph's waypoints by coordinate, and the box test over all of them at once.
+//! A graph's waypoints, and the box test over all of them at once.
 
 use multiversion::multiversion;
 use nalgebra::{Point3, Vector3};
 
 /// Waypoints per word of the box test's answer.
-const WORD: usize = 64;
+pub(super) const WORD: usize = 64;
 
-/// Waypoints, one array per coordinate, padded to whole words with points that are in no box.
+/// Waypoints, exact and again rounded to single precision in whole words, one row per coordinate; the last word is
+/// filled up with points that are in no box.
 #[derive(Debug, Clone)]
-pub(crate) struct Graph {
-    words: Vec<[[f64; WORD]; 3]>,
-    len: usize,
+pub(super) struct Graph {
+    points: Vec<Vector3<f64>>,
+    words: Vec<[[f32; WORD]; 3]>,
+    /// More than single precision can lose of a coordinate, m.
+    margin: f64,
 }
+
+/// The largest relative error of four roundings to single precision.
+const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
 impl Graph {
-    pub(crate) fn new(points: &[Point3<f64>]) -> Self {
-        let mut words = vec![[[f64::NAN; WORD]; 3]; points.len().div_ceil(WORD)];
+    pub(super) fn new(points: &[Point3<f64>]) -> Self {
+        let mut words = vec![[[f32::NAN; WORD]; 3]; points.len().div_ceil(WORD)];
+        let mut farthest: f64 = 0.0;
         for (i, point) in points.iter().enumerate() {
             for axis in 0..3 {
-                words[i / WORD][axis][i % WORD] = point[axis];
+                words[i / WORD][axis][i % WORD] = point[axis] as f32;
+                farthest = farthest.max(point[axis].abs());
             }
         }
-        Self { words, len: points.len() }
+        // Below the smallest normal number rounding is no longer relative.
+        let margin = ROUNDING * farthest + f64::from(f32::MIN_POSITIVE);
+        Self { points: points.iter().map(|point| point.coords).collect(), words, margin }
     }
 
-    pub(crate) fn len(&self) -> usize {
-        self.len
+    pub(super) fn points(&self) -> &[Vector3<f64>] {
+        &self.points
+    }
+
+    pub(super) fn words(&self) -> usize {
+        self.words.len()
     }
 
     #[inline]
-    pub(crate) fn point(&self, index: u32) -> Vector3<f64> {
-        let word = &self.words[index as usize / WORD];
-        let lane = index as usize % WORD;
-        Vector3::new(word[0][lane], word[1][lane], word[2][lane])
+    pub(super) fn point(&self, index: u32) -> Vector3<f64> {
+        self.points[index as usize]
     }
 
-    /// Calls `each` with every waypoint in the box, in rising order.
+    /// Sets bit i of `bits` for every waypoint i, from word `first` on, in the box; also for some that are a rounding
+    /// to single precision outside of it. Clears the others.
     #[inline]
-    pub(crate) fn inside(&self, min: &Vector3<f64>, max: &Vector3<f64>, mut each: impl FnMut(u32)) {
-        let (min, max) = ([min.x, min.y, min.z], [max.x, max.y, max.z]);
-        for (number, word) in self.words.iter().enumerate() {
-            let mut bits = in_box(word, min, max);
-            while bits != 0 {
-                each((number * WORD) as u32 + bits.trailing_zeros());
-                bits &= bits - 1;
-            }
-        }
+    pub(super) fn near_box(&self, min: &Vector3<f64>, max: &Vector3<f64>, first: usize, bits: &mut [u64]) {
+        let outward = |c: f64| ROUNDING * c.abs() + self.margin;
+        let low = [0, 1, 2].map(|i| (min[i] - outward(min[i])) as f32);
+        let high = [0, 1, 2].map(|i| (max[i] + outward(max[i])) as f32);
+        in_box(&self.words[first..first + bits.len()], low, high, bits);
     }
 }
 
-/// Bit i: waypoint i of the word lies in the box.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw", "x86_64+avx2", "aarch64+neon"))]
-fn in_box(word: &[[f64; WORD]; 3], min: [f64; 3], max: [f64; 3]) -> u64 {
-    let mut bits = 0u64;
-    for group in 0..WORD / 8 {
-        let mut byte = 0u8;
-        for lane in 0..8 {
-            let i = group * 8 + lane;
-            let (x, y, z) = (word[0][i], word[1][i], word[2][i]);
-            let inside = (x >= min[0]) & (x <= max[0]) & (y >= min[1]) & (y <= max[1]) & (z >= min[2]) & (z <= max[2]);
-            byte |= (inside as u8) << lane;
+fn in_box(words: &[[[f32; WORD]; 3]], min: [f32; 3], max: [f32; 3], bits: &mut [u64]) {
+    for ([x, y, z], bits) in words.iter().zip(bits) {
+        let mut found = 0;
+        for i in 0..WORD {
+            let inside = (x[i] >= min[0])
+                & (x[i] <= max[0])
+                & (y[i] >= min[1])
+                & (y[i] <= max[1])
+                & (z[i] >= min[2])
+                & (z[i] <= max[2]);
+            found |= u64::from(inside) << i;
         }
-        bits |= (byte as u64) << (group * 8);
+        *bits = found;
     }
-    bits
 }

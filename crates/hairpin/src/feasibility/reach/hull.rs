@@ -179,6 +179,10 @@ impl StepSet for Hull {
     fn contains(&self, d: &Vector3<f64>) -> bool {
         self.polytope.contains(d)
     }
+    #[inline]
+    fn select(&self, from: &Vector3<f64>, points: &[Vector3<f64>], bits: &mut [u64]) {
+        self.polytope.select(from, points, bits);
+    }
     fn carry(&self) -> f64 {
         self.carry
     }
@@ -198,7 +202,8 @@ pub(super) fn simulate(model: &Quadrotor, start: QuadrotorState, speeds: &Vector
     state
 }
 
-fn check(settings: &HullSettings) -> Result<(), NoHull> {
+/// Whether the settings are within bounds.
+pub(super) fn check(settings: &HullSettings) -> Result<(), NoHull> {
     if !(2..=12).contains(&settings.resolution) {
         let value = settings.resolution as f64;
         return Err(NoHull::Setting { field: "resolution", value, bound: "2 to 12 rotor speeds per rotor" });

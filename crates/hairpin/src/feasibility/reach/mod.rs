@@ -1,11 +1,16 @@
 //! Reach sets: which waypoints follow a node of the search, and what is known of the legs to them.
 
 pub mod brute_force;
+mod cloud;
+mod convex_hull;
+mod features;
 pub mod filtered;
 mod graph;
+mod growing;
 pub mod hull;
 pub mod none;
 pub mod polytope;
+mod refusal;
 pub mod sampling;
 pub mod sphere;
 pub mod step;
@@ -56,6 +61,12 @@ pub struct Leg<N> {
 pub trait Reach<N> {
     /// Appends the feasible legs from `from` to `out`.
     fn legs(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>);
+}
+
+impl<N, R: Reach<N> + ?Sized> Reach<N> for &R {
+    fn legs(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>) {
+        (**self).legs(from, candidates, out);
+    }
 }
 
 /// The node of step-wise reach sets: the last two waypoints, as indices into the graph. The start is (0, 0).

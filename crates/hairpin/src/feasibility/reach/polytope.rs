@@ -1,12 +1,22 @@
-//! A convex polytope as half-spaces, and the convex hull of points that it is made from.
+//! A convex polytope as half-spaces: made from points, and asked whether it holds others.
 
+use multiversion::multiversion;
 use nalgebra::Vector3;
-use parry3d_f64::math::Vector;
-use parry3d_f64::transformation::try_convex_hull;
 use thiserror::Error;
+
+use super::cloud::{Plane, beyond};
+use super::convex_hull::{Found, convex_hull};
+use super::growing::Triangle;
+use super::refusal::refusal_order;
 
 /// Half-spaces per group of the membership test.
 const GROUP: usize = 8;
+
+/// Thinner than this share of its extent, a polytope is flat.
+const FLAT: f64 = 1e-6;
+
+/// Triangles whose corners all lie this near to a plane, as a share of the extent, are of that plane's facet.
+const COPLANAR: f64 = 1e-8;
 
 /// Why points span no polytope.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -20,24 +30,21 @@ pub enum NoPolytope {
     /// All points in one plane, line or point, up to a millionth of their extent.
     #[error("the reach set is flat: {thickness:.3e} m thick over {extent:.3e} m, so it has no inside")]
     Flat {
-        /// Smallest extent over all facet normals, m.
+        /// Smallest extent found over axes and facet normals, m.
         thickness: f64,
         /// Diagonal of the bounding box, m.
         extent: f64,
     },
-    /// The construction of the hull broke down.
-    #[error("the convex hull of the end points could not be built: {reason}")]
-    Broken {
-        /// The library's reason.
-        reason: String,
-    },
 }
+
+/// Rows (nx, ny, nz, b) of eight half-spaces n · x ≤ b.
+type Group = [[f64; GROUP]; 4];
 
 /// {x : n_i · x ≤ b_i for every facet i}, |n_i| = 1, with everything asked of it precomputed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polytope {
-    /// Rows (nx, ny, nz, b) in groups of eight facets, padded with ones that hold everywhere.
-    groups: Vec<[[f64; GROUP]; 4]>,
+    /// Padded with half-spaces that hold everywhere.
+    groups: Vec<Group>,
     facets: usize,
     vertices: Vec<Vector3<f64>>,
     min: Vector3<f64>,
@@ -57,40 +64,37 @@ impl Polytope {
         }
         let (min, max) = bounds(points);
         let extent = (max - min).norm();
-        if (max - min).min() < 1e-6 * extent || extent == 0.0 {
+        if (max - min).min() <= FLAT * extent {
             return Err(NoPolytope::Flat { thickness: (max - min).min(), extent });
         }
-        let candidates: Vec<Vector> = distinct(points).into_iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
-        let (vertices, triangles) =
-            try_convex_hull(&candidates).map_err(|error| NoPolytope::Broken { reason: error.to_string() })?;
-        let vertices: Vec<Vector3<f64>> = vertices.into_iter().map(|v| Vector3::new(v.x, v.y, v.z)).collect();
-        let planes = facets(&vertices, &triangles, points, extent);
-        let thickness = planes
-            .iter()
-            .map(|(n, b)| b - points.iter().map(|p| n.dot(p)).fold(f64::INFINITY, f64::min))
-            .fold(f64::INFINITY, f64::min);
-        if planes.len() < 4 || thickness < 1e-6 * extent {
+        let Some(Found { triangles, shell }) = convex_hull(points, extent) else {
+            return Err(NoPolytope::Flat { thickness: FLAT * extent, extent });
+        };
+        let mut planes = facets(points, &triangles, COPLANAR * extent);
+        let spans = shell.spans(&planes);
+        let thickness = spans.iter().map(|(low, high)| high - low).fold(f64::INFINITY, f64::min);
+        if planes.len() < 4 || thickness < FLAT * extent {
             return Err(NoPolytope::Flat { thickness, extent });
         }
+        for (plane, (_, high)) in planes.iter_mut().zip(spans) {
+            plane[3] = high + 1e-13 * extent;
+        }
+        let vertices = vertices(points, &triangles);
         let centre = vertices.iter().sum::<Vector3<f64>>() / vertices.len() as f64;
-        let volume = triangles
-            .iter()
-            .map(|t| t.map(|i| vertices[i as usize] - centre))
-            .map(|[a, b, c]| a.dot(&b.cross(&c)).abs() / 6.0)
-            .sum();
-        Ok(Self { groups: grouped(&planes, extent), facets: planes.len(), vertices, min, max, volume })
+        // Each triangle is the base of a pyramid with its top in the centre.
+        let volume = triangles.iter().map(|t| -beyond(&t.plane, &centre) * t.area / 6.0).sum();
+        Ok(Self { groups: grouped(&planes, &min, &max), facets: planes.len(), vertices, min, max, volume })
     }
 
     /// Whether n_i · x ≤ b_i for all facets.
     #[inline]
     pub fn contains(&self, x: &Vector3<f64>) -> bool {
-        self.groups.iter().all(|[nx, ny, nz, b]| {
-            let mut holds = true;
-            for i in 0..GROUP {
-                holds &= nx[i] * x.x + ny[i] * x.y + nz[i] * x.z <= b[i];
-            }
-            holds
-        })
+        holds(&self.groups, x)
+    }
+
+    /// Clears bit i of `bits` (64 a word) where `points[i]` − `from` lies outside.
+    pub(crate) fn select(&self, from: &Vector3<f64>, points: &[Vector3<f64>], bits: &mut [u64]) {
+        select(&self.groups, from, points, bits);
     }
 
     /// max n · x over the polytope, m: its support in direction `n`.
@@ -128,6 +132,31 @@ impl Polytope {
     }
 }
 
+#[inline(always)]
+fn holds(groups: &[Group], x: &Vector3<f64>) -> bool {
+    groups.iter().all(|[nx, ny, nz, b]| {
+        let mut holds = true;
+        for i in 0..GROUP {
+            holds &= nx[i] * x.x + ny[i] * x.y + nz[i] * x.z <= b[i];
+        }
+        holds
+    })
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+bmi1", "x86_64+avx2+bmi1", "aarch64+neon"))]
+fn select(groups: &[Group], from: &Vector3<f64>, points: &[Vector3<f64>], bits: &mut [u64]) {
+    for (word, points) in bits.iter_mut().zip(points.chunks(64)) {
+        let mut asked = *word;
+        while asked != 0 {
+            let lane = asked.trailing_zeros();
+            asked &= asked - 1;
+            if !holds(groups, &(points[lane as usize] - from)) {
+                *word &= !(1 << lane);
+            }
+        }
+    }
+}
+
 fn bounds(points: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
     let mut min = Vector3::repeat(f64::INFINITY);
     let mut max = -min;
@@ -138,61 +167,51 @@ fn bounds(points: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
     (min, max)
 }
 
-/// The points, each once: symmetric runs end in the same place by the dozen.
-fn distinct(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-    let mut kept: Vec<Vector3<f64>> = points.to_vec();
-    kept.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
-    kept.dedup();
-    kept
+/// The points that are corners of a triangle, in rising order.
+fn vertices(points: &[Vector3<f64>], triangles: &[Triangle]) -> Vec<Vector3<f64>> {
+    let mut corner = vec![false; points.len()];
+    for number in triangles.iter().flat_map(|triangle| triangle.corners) {
+        corner[number as usize] = true;
+    }
+    points.iter().zip(corner).filter(|(_, corner)| *corner).map(|(point, _)| *point).collect()
 }
 
-/// One plane per set of coplanar triangles, each holding all `points`.
-fn facets(
-    vertices: &[Vector3<f64>],
-    triangles: &[[u32; 3]],
-    points: &[Vector3<f64>],
-    extent: f64,
-) -> Vec<(Vector3<f64>, f64)> {
-    let mut with_area: Vec<(f64, Vector3<f64>, f64)> = triangles
-        .iter()
-        .filter_map(|t| {
-            let [a, b, c] = t.map(|i| vertices[i as usize]);
-            let normal = (b - a).cross(&(c - a));
-            let area = normal.norm();
-            // A sliver's normal is noise; its neighbours hold its edge.
-            (area > 1e-12 * extent * extent).then(|| (area, normal / area, normal.dot(&a) / area))
-        })
-        .collect();
+/// One plane per set of neighbouring triangles whose corners lie within `near` (m) of it.
+fn facets(points: &[Vector3<f64>], triangles: &[Triangle], near: f64) -> Vec<Plane> {
+    let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
     // Large triangles have the best normals, so they stand for their plane.
-    with_area.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut planes: Vec<(Vector3<f64>, f64)> = Vec::new();
-    for (_, normal, offset) in with_area {
-        if !planes.iter().any(|(n, b)| (n - normal).norm_squared() < 1e-14 && (b - offset).abs() < 1e-7 * extent) {
-            planes.push((normal, offset));
+    order.sort_unstable_by(|a, b| triangles[*b as usize].area.total_cmp(&triangles[*a as usize].area).then(a.cmp(b)));
+    let mut taken = vec![false; triangles.len()];
+    let (mut planes, mut open) = (Vec::new(), Vec::new());
+    for seed in order {
+        if taken[seed as usize] {
+            continue;
         }
-    }
-    for (normal, offset) in &mut planes {
-        *offset = points.iter().map(|p| normal.dot(p)).fold(f64::NEG_INFINITY, f64::max);
+        let plane = triangles[seed as usize].plane;
+        planes.push(plane);
+        taken[seed as usize] = true;
+        open.push(seed);
+        while let Some(triangle) = open.pop() {
+            for other in triangles[triangle as usize].neighbours {
+                let corners = triangles[other as usize].corners.iter();
+                let mut corners = corners.map(|corner| beyond(&plane, &points[*corner as usize]).abs());
+                if !taken[other as usize] && corners.all(|distance| distance <= near) {
+                    taken[other as usize] = true;
+                    open.push(other);
+                }
+            }
+        }
     }
     planes
 }
 
-/// The planes in the order that refuses soonest: each the farthest in direction from all before it.
-fn grouped(planes: &[(Vector3<f64>, f64)], extent: f64) -> Vec<[[f64; GROUP]; 4]> {
-    let mut nearest = vec![f64::INFINITY; planes.len()];
+/// The half-spaces in the order that refuses soonest.
+fn grouped(planes: &[Plane], min: &Vector3<f64>, max: &Vector3<f64>) -> Vec<Group> {
     let mut groups = vec![[[0.0; GROUP], [0.0; GROUP], [0.0; GROUP], [1.0; GROUP]]; planes.len().div_ceil(GROUP)];
-    let mut next = 0;
-    for place in 0..planes.len() {
-        let (normal, offset) = planes[next];
-        let group = &mut groups[place / GROUP];
-        for (row, value) in [normal.x, normal.y, normal.z, offset + 1e-13 * extent].into_iter().enumerate() {
-            group[row][place % GROUP] = value;
+    for (place, next) in refusal_order(planes, min, max).into_iter().enumerate() {
+        for (row, value) in planes[next as usize].into_iter().enumerate() {
+            groups[place / GROUP][row][place % GROUP] = value;
         }
-        nearest[next] = -1.0;
-        for (distance, (other, _)) in nearest.iter_mut().zip(planes) {
-            *distance = distance.min((other - normal).norm_squared());
-        }
-        next = (0..planes.len()).max_by(|a, b| nearest[*a].total_cmp(&nearest[*b]).then(b.cmp(a))).unwrap_or(0);
     }
     groups
 }

@@ -2,15 +2,28 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::graph::Graph;
+use super::features::{LANES, eight_features, features};
+use super::graph::{Graph, WORD};
 use super::{Leg, LegFeatures, Reach, StepNode};
 
 /// A set of displacements for one step of fixed duration: the end is `x0 + v0·carry + d` with `d` in the set.
 pub trait StepSet: Sync {
-    /// Corners of a box around the set, m; infinite for a set without bounds.
+    /// Corners of a box around the set, m; infinite for a set without bounds. Waypoints well outside are not asked for.
     fn bounding_box(&self) -> (Vector3<f64>, Vector3<f64>);
-    /// Whether the displacement `d`, inside the box, lies in the set.
+    /// Whether the displacement `d` lies in the set.
     fn contains(&self, d: &Vector3<f64>) -> bool;
+    /// Clears bit i of `bits` (64 a word) where [`Self::contains`] refuses `points[i]` − `from`.
+    #[inline]
+    fn select(&self, from: &Vector3<f64>, points: &[Vector3<f64>], bits: &mut [u64]) {
+        for (word, points) in bits.iter_mut().zip(points.chunks(WORD)) {
+            let mut asked = *word;
+            while asked != 0 {
+                let lane = asked.trailing_zeros();
+                asked &= asked - 1;
+                *word &= !(u64::from(!self.contains(&(points[lane as usize] - from))) << lane);
+            }
+        }
+    }
     /// Seconds of the entry velocity that the step carries on: the step itself without drag, 0 for a set that does not
     /// ask for the velocity.
     fn carry(&self) -> f64;
@@ -32,6 +45,9 @@ impl Default for StepSettings {
         Self { step: 1.0, average_velocity: true, max_speed: f64::INFINITY }
     }
 }
+
+/// Words of 64 waypoints that are asked for at once.
+const CHUNK: usize = 8;
 
 /// A [`StepSet`] bound to the waypoints of one graph.
 #[derive(Debug, Clone)]
@@ -57,12 +73,12 @@ impl<'a, S: StepSet> StepReach<'a, S> {
 
     /// Number of waypoints of the graph.
     pub fn len(&self) -> usize {
-        self.graph.len()
+        self.graph.points().len()
     }
 
     /// Whether the graph has no waypoint.
     pub fn is_empty(&self) -> bool {
-        self.graph.len() == 0
+        self.graph.points().is_empty()
     }
 
     /// The settings it was built with.
@@ -72,23 +88,38 @@ impl<'a, S: StepSet> StepReach<'a, S> {
 
     /// Whether a leg of displacement `leg` (m) follows one of displacement `before` (0 at the start).
     pub fn feasible(&self, before: &Vector3<f64>, leg: &Vector3<f64>) -> bool {
-        let d = leg - before * self.drift;
-        let inside = (0..3).all(|i| d[i] >= self.min[i] && d[i] <= self.max[i]);
-        inside && leg.norm_squared() <= self.longest * self.longest && self.set.contains(&d)
+        leg.norm_squared() <= self.longest * self.longest && self.set.contains(&(leg - before * self.drift))
     }
 
     /// Appends, in rising order, the waypoints that can follow `previous`, `current` (equal at the start).
     #[inline]
     pub fn successors(&self, previous: u32, current: u32, out: &mut Vec<u32>) {
+        self.each(previous, current, |next| out.push(next));
+    }
+
+    /// Calls `found` with the waypoints that can follow, in rising order.
+    #[inline]
+    fn each(&self, previous: u32, current: u32, mut found: impl FnMut(u32)) {
         let here = self.graph.point(current);
         let from = here + (here - self.graph.point(previous)) * self.drift;
+        let (min, max) = (from + self.min, from + self.max);
         let square = self.longest * self.longest;
-        self.graph.inside(&(from + self.min), &(from + self.max), |candidate| {
-            let there = self.graph.point(candidate);
-            if candidate != current && self.set.contains(&(there - from)) && (there - here).norm_squared() <= square {
-                out.push(candidate);
+        let points = self.graph.points();
+        for first in (0..self.graph.words()).step_by(CHUNK) {
+            let mut chunk = [0; CHUNK];
+            let bits = &mut chunk[..(self.graph.words() - first).min(CHUNK)];
+            self.graph.near_box(&min, &max, first, bits);
+            self.set.select(&from, &points[first * WORD..], bits);
+            for (number, mut bits) in (first..).zip(bits.iter().copied()) {
+                while bits != 0 {
+                    let next = (number * WORD) as u32 + bits.trailing_zeros();
+                    bits &= bits - 1;
+                    if next != current && (points[next as usize] - here).norm_squared() <= square {
+                        found(next);
+                    }
+                }
             }
-        });
+        }
     }
 
     /// What scores see of the leg from `node` to waypoint `to`.
@@ -101,30 +132,41 @@ impl<'a, S: StepSet> StepReach<'a, S> {
     }
 }
 
-/// What scores see of the displacement `leg` (m) after `before` (0 at the start), both flown in `step` s.
-#[inline]
-pub(super) fn features(before: &Vector3<f64>, leg: &Vector3<f64>, step: f64) -> LegFeatures {
-    let (length, length_before) = (leg.norm(), before.norm());
-    let turn = if length_before > 0.0 && length > 0.0 { before.cross(leg).norm().atan2(before.dot(leg)) } else { 0.0 };
-    LegFeatures { v_in: length_before / step, v_out: length / step, turn, length, climb: leg.z }
+/// Up to eight legs on their way to the vector unit.
+struct Waiting {
+    legs: [[f64; LANES]; 3],
+    waypoints: [u32; LANES],
+    count: usize,
 }
 
 impl<S: StepSet> Reach<StepNode> for StepReach<'_, S> {
     fn legs(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
-        debug_assert_eq!(candidates.len(), self.graph.len(), "the reach set is bound to another graph");
+        debug_assert_eq!(candidates.len(), self.graph.points().len(), "the reach set is bound to another graph");
         let here = self.graph.point(from.current);
-        let ahead = here + (here - self.graph.point(from.previous)) * self.drift;
-        let square = self.longest * self.longest;
-        self.graph.inside(&(ahead + self.min), &(ahead + self.max), |candidate| {
-            let there = self.graph.point(candidate);
-            if candidate != from.current
-                && self.set.contains(&(there - ahead))
-                && (there - here).norm_squared() <= square
-            {
-                let to = StepNode { previous: from.current, current: candidate };
-                let features = self.features(from, candidate);
-                out.push(Leg { to, waypoint: candidate, duration: self.settings.step, features });
+        let before = here - self.graph.point(from.previous);
+        let mut waiting = Waiting { legs: [[0.0; LANES]; 3], waypoints: [0; LANES], count: 0 };
+        let mut flush = |waiting: &mut Waiting| {
+            let features = eight_features(&before, &waiting.legs, self.settings.step);
+            out.extend((0..waiting.count).map(|lane| {
+                let waypoint = waiting.waypoints[lane];
+                let to = StepNode { previous: from.current, current: waypoint };
+                Leg { to, waypoint, duration: self.settings.step, features: features[lane] }
+            }));
+            waiting.count = 0;
+        };
+        self.each(from.previous, from.current, |next| {
+            let leg = self.graph.point(next) - here;
+            for axis in 0..3 {
+                waiting.legs[axis][waiting.count] = leg[axis];
+            }
+            waiting.waypoints[waiting.count] = next;
+            waiting.count += 1;
+            if waiting.count == LANES {
+                flush(&mut waiting);
             }
         });
+        if waiting.count > 0 {
+            flush(&mut waiting);
+        }
     }
 }
