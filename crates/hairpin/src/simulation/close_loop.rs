@@ -228,10 +228,15 @@ impl ClosedLoop {
     #[inline(always)]
     fn fly_on(&mut self, ticks: u64) {
         self.ticks += ticks;
+        // No closures here: they would be compiled for the least of machines.
         if self.disturbances.none() {
-            (0..ticks).for_each(|_| self.tick::<false>());
+            for _ in 0..ticks {
+                self.tick::<false>();
+            }
         } else {
-            (0..ticks).for_each(|_| self.tick::<true>());
+            for _ in 0..ticks {
+                self.tick::<true>();
+            }
         }
     }
 
