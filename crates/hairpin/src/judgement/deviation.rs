@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::LegSource;
 use super::assign::{Piece, leg_pieces, monotone};
-use super::measure::{JudgementError, Reference, Settings};
+use super::settings::{JudgementError, Reference, Settings};
 use crate::math::segment::point_distance;
 use crate::trajectory::Track;
 

@@ -3,79 +3,12 @@
 //! not there.
 
 use nalgebra::{Point3, Vector3};
-use thiserror::Error;
 
 use super::deviation::{deviations, legs_flown};
+use super::settings::{JudgementError, Settings};
 use super::{AccelerationSource, LegMeasures, Measures};
 use crate::math::segment::nearest_point;
 use crate::trajectory::Track;
-
-/// What the deviation is the distance from.
-#[derive(Debug, Clone, Copy, Default)]
-pub enum Reference<'a> {
-    /// The segment of the leg being flown.
-    #[default]
-    Leg,
-    /// The nearest of the previous and the current leg's segments.
-    NearestLeg,
-    /// A programmed path: the polyline through the track's positions.
-    Path(&'a Track),
-}
-
-/// Signed distance of a position to the nearest obstacle, m, the robot's radius subtracted; +∞: none.
-pub type Clearance<'a> = dyn Fn(&Point3<f64>) -> f64 + Sync + 'a;
-
-/// How a track is judged.
-#[derive(Clone, Copy, Default)]
-pub struct Settings<'a> {
-    /// What the deviation is the distance from.
-    pub reference: Reference<'a>,
-    /// Samples within this distance (m) of one of the two waypoints of the leg being flown do not count in the
-    /// deviation: there overshoot judges. Not used with [`Reference::Path`], which says itself how corners are flown.
-    pub corner: f64,
-    /// Distance to obstacles; without it clearance is not measured.
-    pub clearance: Option<&'a Clearance<'a>>,
-}
-
-/// Why a track cannot be judged.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum JudgementError {
-    /// No sample.
-    #[error("the track has no sample")]
-    NoSamples,
-    /// A leg needs two waypoints.
-    #[error("{found} waypoints: must be at least 2")]
-    Waypoints {
-        /// How many there are.
-        found: usize,
-    },
-    /// A programmed path without a segment.
-    #[error("the programmed path has {found} positions: must be at least 2")]
-    Path {
-        /// How many there are.
-        found: usize,
-    },
-    /// A number that is not finite.
-    #[error("{field} = {value}: must be finite{bound}")]
-    NotFinite {
-        /// `waypoints[3]`, `corner_m`.
-        field: String,
-        /// As given.
-        value: String,
-        /// What else it must be.
-        bound: &'static str,
-    },
-    /// The executor told of a leg that there is not.
-    #[error("leg = {value} at sample {index}: must be a whole number from 0 to {last}")]
-    Leg {
-        /// Sample.
-        index: usize,
-        /// Value of the channel `leg`.
-        value: f64,
-        /// Number of the last leg.
-        last: usize,
-    },
-}
 
 /// Measures `track` against the polyline through `waypoints`.
 ///

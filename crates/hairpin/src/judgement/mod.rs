@@ -4,6 +4,7 @@ mod assign;
 mod deviation;
 pub mod measure;
 pub mod measures;
+pub mod settings;
 pub mod spec;
 pub mod statistics;
 pub mod verdict;
@@ -11,8 +12,9 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
-pub use measure::{Clearance, JudgementError, Reference, Settings, deviation_of_samples, measure};
+pub use measure::{deviation_of_samples, measure};
 pub use measures::{AccelerationSource, LegMeasures, LegSource, Measures};
+pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
 pub use statistics::{Share, Statistics, rule_of_three, share, skewness};
 pub use verdict::{Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};

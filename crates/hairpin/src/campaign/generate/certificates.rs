@@ -1,7 +1,6 @@
 //! Witnesses searched afterwards for what another reach set found.
 
-use super::solve::Plan;
-use super::witness::judge;
+use super::outcome::{Plan, judge};
 use crate::campaign::{Evidence, Setup};
 use crate::feasibility::certify::{Certificate, certify};
 use crate::feasibility::steering::{LegJudge, LegTiming};

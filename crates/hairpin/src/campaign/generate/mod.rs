@@ -6,6 +6,7 @@
 
 mod certificates;
 mod graph;
+mod outcome;
 mod search;
 mod solve;
 mod stepwise;
@@ -19,7 +20,8 @@ use rayon::prelude::*;
 
 use super::{Case, Setup, Stop, vary};
 use crate::math::random::case_seed;
-use solve::{Outcome, Plan, Solver};
+use outcome::{Outcome, Plan};
+use solve::Solver;
 pub use tally::Tally;
 
 /// Graphs sampled per case asked for, where the scenario sets no limit.

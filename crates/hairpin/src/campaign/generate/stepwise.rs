@@ -6,8 +6,8 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
+use super::outcome::{Outcome, Plan, score};
 use super::search::{Question, search};
-use super::solve::{Outcome, Plan, score};
 use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
 use crate::campaign::{Evidence, Setup};
 use crate::feasibility::reach::{

@@ -2,13 +2,12 @@
 
 use nalgebra::Point3;
 
+use super::outcome::{Outcome, Plan, judge, score};
 use super::search::{Question, search};
-use super::solve::{Outcome, Plan, score};
 use crate::campaign::scenario::Timing;
 use crate::campaign::{Evidence, Setup};
-use crate::feasibility::Limits;
 use crate::feasibility::reach::{Roadmap, RoadmapSettings};
-use crate::feasibility::steering::{LegJudge, LegTiming, ProofSettings};
+use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::math::random::named_seed;
 
 /// What judges legs, and how long they may take.
@@ -16,19 +15,6 @@ pub(super) struct Witness<'a> {
     setup: &'a Setup,
     judge: LegJudge,
     timing: LegTiming,
-}
-
-/// The judge of legs under the scenario's limits.
-///
-/// # Errors
-/// A rotor layout without a flatness map, in a sentence's part.
-pub(super) fn judge(setup: &Setup) -> Result<LegJudge, String> {
-    let given = &setup.scenario.generate.limits;
-    let limits = Limits {
-        max_speed: given.max_speed_m_s.unwrap_or(f64::INFINITY),
-        max_tilt: given.max_tilt_deg.map_or(Limits::default().max_tilt, f64::to_radians),
-    };
-    LegJudge::new(&setup.robot, &setup.world, limits, ProofSettings::default()).map_err(|error| error.to_string())
 }
 
 impl<'a> Witness<'a> {
