@@ -110,11 +110,16 @@ pub(crate) struct New {
     pub(crate) force: bool,
 }
 
+/// More than any machine has cores for; each takes memory, and graphs that are searched ahead.
+const MOST_THREADS: i64 = 1024;
+/// Whole numbers of TOML end here, and the seed is written to scenario.toml.
+const LARGEST_SEED: u64 = i64::MAX as u64;
+
 /// Threads of the computation.
 #[derive(Debug, Args)]
 pub(crate) struct Threads {
     /// Threads; all cores if not given. The results do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     pub(crate) threads: Option<u16>,
 }
 
@@ -127,7 +132,7 @@ pub(crate) struct Campaign {
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Root seed, instead of the scenario's
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED), allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
     /// Override one scenario key: dotted key, TOML value; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]

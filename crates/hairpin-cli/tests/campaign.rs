@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-const SMALL: [&str; 4] = ["stress", "demo-quadrotor", "--set", "generate.search.cases=4"];
+const SMALL: [&str; 6] = ["stress", "demo-quadrotor", "--set", "generate.search.cases=4", "--set", "execute.repeat=1"];
 
 fn hairpin(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
@@ -108,8 +108,7 @@ fn a_violation_can_be_flown_again() {
 fn the_parts_make_the_whole() {
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), &[&SMALL[..], &["--out", "whole"]].concat());
-    let object =
-        json(folder.path(), &["generate", "demo-quadrotor", "--set", "generate.search.cases=4", "--out", "parts"]);
+    let object = json(folder.path(), &[&["generate"], &SMALL[1..], &["--out", "parts"]].concat());
     assert_eq!(object["counts"]["cases"], 4);
     let (code, _, error) = run(folder.path(), &["judge", "parts"]);
     assert!(code == 2 && error.contains("hairpin execute"), "{error}");
@@ -207,6 +206,42 @@ fn a_kill_at_any_moment_costs_nothing_but_time() {
     assert!(code == 2 && error.contains("`seed`"), "{error}");
 }
 
+#[test]
+fn a_kill_between_the_files_of_a_checkpoint_costs_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let asked = ["generate", "demo-quadrotor", "--set", "generate.search.cases=6", "--set", "execute.repeat=1"];
+    run(folder.path(), &[&asked[..], &["--out", "calm"]].concat());
+    let calm = folder.path().join("calm");
+    run(folder.path(), &["generate", "demo-quadrotor", "--set", "generate.search.cases=3", "--out", "few"]);
+    let early = fs::read_to_string(folder.path().join("few/generation.json")).unwrap();
+    let early = early.replace("\"complete\": true", "\"complete\": false");
+    // The files that a checkpoint of all six had written when it was killed, over those of three.
+    for (out, written) in [("a", 0), ("b", 1), ("c", 2)] {
+        let killed = folder.path().join(out);
+        run(folder.path(), &[&asked[..], &["--out", out]].concat());
+        fs::write(killed.join("generation.json"), &early).unwrap();
+        let old = ["waypoints.parquet", "results.parquet"];
+        for name in &old[written..] {
+            fs::copy(folder.path().join("few").join(name), killed.join(name)).unwrap();
+        }
+        if written == 1 {
+            let object = json(folder.path(), &["execute", out]);
+            assert_eq!(object["counts"]["cases"], 3, "what is whole can be used: {object}");
+            for flight in fs::read_dir(killed.join("executions")).unwrap() {
+                fs::remove_file(flight.unwrap().path()).unwrap();
+            }
+            fs::remove_file(killed.join("runs.parquet")).unwrap();
+        }
+        let (code, _, error) = run(folder.path(), &[&asked[..], &["--out", out, "--resume"]].concat());
+        assert_eq!(code, 0, "{error}");
+        assert_same(&calm, &killed);
+    }
+    // Before the first tally nothing is known.
+    fs::remove_file(calm.join("generation.json")).unwrap();
+    assert_eq!(run(folder.path(), &[&asked[..], &["--out", "calm", "--resume"]].concat()).0, 0);
+    assert_same(&calm, &folder.path().join("a"));
+}
+
 #[cfg(unix)]
 #[test]
 fn ctrl_c_keeps_what_is_done() {
@@ -230,7 +265,7 @@ fn ctrl_c_keeps_what_is_done() {
 fn a_time_limit_keeps_what_exists() {
     let folder = tempfile::tempdir().unwrap();
     let arguments =
-        ["generate", "demo-quadrotor", "--set", "generate.search.cases=1000000", "--time-limit", "1", "--out", "a"];
+        ["generate", "demo-quadrotor", "--set", "generate.search.cases=1000000", "--time-limit", "3", "--out", "a"];
     let object = json(folder.path(), &arguments);
     assert_eq!(object["exit_code"], 0);
     assert!(object["counts"]["cases"].as_u64().unwrap() > 0);
@@ -271,6 +306,21 @@ fn an_executor_of_the_users_flies_and_fails_alone() {
     assert!(object["verdict"].as_str().unwrap().starts_with("EXECUTOR FAILED 1/4"), "{object}");
     let log = fs::read_to_string(folder.path().join("bad/executor-0001-0.log")).unwrap();
     assert!(log.contains("rotor 3 is gone"), "{log}");
+    // Done at once, without attitudes: judged by what was flown, which is nothing.
+    let idle = fs::read_to_string(minimal).unwrap().replace("def fly(mission, speed=2.0, step=0.02):", "def fly(mission, speed=2.0, step=0.02):\n    say(type='pose', t_s=0, p_m=[1, 1, 1])\n    return say(type='end', reason='done')");
+    fs::write(folder.path().join("idle.py"), idle).unwrap();
+    let (code, out, error) = run(folder.path(), &["execute", "bad", "--executor", "python3 idle.py"]);
+    assert!(code == 0 && error.contains("4 runs came without q_wxyz"), "{out}{error}");
+    let verdict = json(folder.path(), &["judge", "bad", "--set", "spec.deviation.max_m=100"]);
+    assert!(verdict["verdict"].as_str().unwrap().starts_with("FAIL 4/4"), "{verdict}");
+    assert_eq!(verdict["worst"]["ended"], "done", "{verdict}");
+    assert!(
+        verdict["worst"]["violations"][0].as_str().unwrap().starts_with("stopped at 1 of 8 waypoints"),
+        "{verdict}"
+    );
+    assert_eq!(run(folder.path(), &["report", "bad"]).0, 0);
+    assert!(fs::read_to_string(folder.path().join("bad/report.html")).unwrap().contains("sent no attitudes"));
+
     let object = json(folder.path(), &["execute", "bad", "--executor", "no-such-program"]);
     assert_eq!(
         (&object["exit_code"], &object["counts"]["executor_failed"]),

@@ -13,8 +13,8 @@
 //! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
 //!
-//! Files are written one by one and each at once; `results.parquet` comes last, so its presence says that the cases are
-//! complete.
+//! Files are written one by one and each at once, in an order in which each says no more than those before it: the cases'
+//! own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
@@ -195,7 +195,15 @@ impl CampaignFolder {
     /// # Errors
     /// A file cannot be written.
     pub fn write_cases(&self, all: &[Case]) -> Result<(), FolderError> {
-        for case in all {
+        self.write_new_cases(all, 0)
+    }
+
+    /// As [`Self::write_cases`], where the profiles of the first `old` cases are in the folder already.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write_new_cases(&self, all: &[Case], old: usize) -> Result<(), FolderError> {
+        for case in &all[old..] {
             if let Some(witness) = &case.profile {
                 profile::write(&self.profile_path(case.number), witness)?;
             }
@@ -204,7 +212,12 @@ impl CampaignFolder {
         self.write_results(all, &[])
     }
 
-    /// Whether generation has finished here.
+    /// Whether it is known what the search did.
+    pub fn has_tally(&self) -> bool {
+        self.file(GENERATION).is_file()
+    }
+
+    /// Whether there are cases, those of a checkpoint at least.
     pub fn has_cases(&self) -> bool {
         self.file(RESULTS).is_file() && self.file(WAYPOINTS).is_file()
     }
@@ -239,9 +252,13 @@ impl CampaignFolder {
             (case.waypoints, case.leg_times) = (route.waypoints, route.leg_times);
             all.push(case);
         }
+        // Waypoints are written first: those of higher numbers are of a checkpoint that a kill cut short.
+        let last = all.iter().map(|case| case.number).max();
         match routes.keys().next() {
-            Some(&number) => Err(contradiction(number, "is not in results.parquet")),
-            None => Ok(all),
+            Some(&number) if last.is_some_and(|last| number < last) => {
+                Err(contradiction(number, "is not in results.parquet"))
+            }
+            _ => Ok(all),
         }
     }
 

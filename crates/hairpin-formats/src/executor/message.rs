@@ -137,11 +137,11 @@ pub struct PoseMessage {
     pub t_s: f64,
     /// Position.
     pub p_m: [f64; 3],
-    /// Attitude, `world_from_body`, w first.
-    pub q_wxyz: [f64; 4],
-    /// Velocity: in every pose or in none.
+    /// Attitude, `world_from_body`, w first. It counts as unknown unless every pose has it.
+    pub q_wxyz: Option<[f64; 4]>,
+    /// Velocity; differentiated from positions unless every pose has it.
     pub v_m_s: Option<[f64; 3]>,
-    /// The leg being flown, numbered by its first waypoint: in every pose or in none.
+    /// The leg being flown, numbered by its first waypoint; assigned along the path unless every pose has it.
     pub leg: Option<u64>,
 }
 

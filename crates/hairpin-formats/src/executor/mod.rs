@@ -12,6 +12,10 @@
 //! > {"type":"bye"}
 //! ```
 //!
+//! `leg`, `v_m_s` and `q_wxyz` may be left out: legs are then assigned along the path, velocities differentiated, and the
+//! attitude counts as unknown (channel [`ATTITUDE_UNKNOWN`]). The first pose may lie anywhere, and `done` may be claimed
+//! anywhere: the judge sees what was flown, and a `done` without the last waypoint is an unfinished mission.
+//!
 //! Whatever the program does wrong fails the mission it was flying and no other: the process is ended with all its
 //! children, the end of its stderr is kept, and a new one is started for the next mission.
 
@@ -28,5 +32,5 @@ mod worker;
 pub use failure::{Failed, Failure};
 pub use message::{EndReason, FromExecutor, PoseMessage, TimedMessage, ToExecutor, mission_message};
 pub use pool::fly_all;
-pub use recording::{PoseError, Recording};
+pub use recording::{ATTITUDE_UNKNOWN, PoseError, Recording};
 pub use worker::{Command, CommandError, Limits, Worker};

@@ -16,8 +16,8 @@ pub struct Limits {
     pub acceleration: Option<f64>,
     /// Longest duration of a run, s.
     pub total_time: Option<f64>,
-    /// Whether a run that is stopped by its time limit before the last waypoint violates: it has not flown the
-    /// mission, and what it did not fly cannot be judged.
+    /// Whether a run violates that is stopped by its time limit before the last waypoint, or that claims to be done
+    /// without having been there: it has not flown the mission, and what it did not fly cannot be judged.
     pub unfinished: bool,
 }
 
@@ -130,12 +130,16 @@ fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violatio
     if let Some(at) = flight.left_world {
         found.push(event("left-world", at, 0.0, "s", at, leg_at(measures, flight, at)));
     }
-    if limits.unfinished && flight.ended == Ended::Time {
-        let reached = flight.reached.iter().filter(|time| time.is_some()).count();
-        let all = measures.legs.len() + 1;
-        if reached < all {
-            found.push(event("unfinished", reached as f64, all as f64, "waypoints", end, last));
-        }
+    let reached = flight.reached.iter().filter(|time| time.is_some()).count();
+    let all = measures.legs.len() + 1;
+    let unfinished = match flight.ended {
+        Ended::Time => reached < all,
+        // An executor's word against what it flew: waypoints on the way it may have passed by a radius of its own.
+        Ended::Done => flight.reached.last() == Some(&None),
+        _ => false,
+    };
+    if limits.unfinished && unfinished {
+        found.push(event("unfinished", reached as f64, all as f64, "waypoints", end, last));
     }
     found
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use hairpin::campaign::{Case, Run, Setup, execute_run, mission};
 use hairpin_formats::atomic;
-use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
+use hairpin_formats::executor::{ATTITUDE_UNKNOWN, Command, Failed, Failure, Limits, fly_all};
 use hairpin_formats::folder::{CampaignFolder, FolderError};
 use hairpin_formats::parquet::runs::RunFacts;
 use rayon::prelude::*;
@@ -24,7 +24,11 @@ pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<(), Problem> {
     let bar = console::progress("execute", all().count());
     bar.set_position((all().count() - missing.len()) as u64);
     let trouble = Mutex::new(None);
+    let unknown = AtomicUsize::new(0);
     let landed = |run: Run| {
+        let flight = run.outcome.as_ref().ok();
+        let known = flight.is_none_or(|flight| flight.track.channel(ATTITUDE_UNKNOWN).is_none());
+        unknown.fetch_add(usize::from(!known), Ordering::Relaxed);
         if let Err(error) = work.folder.write_run(&run) {
             trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get_or_insert(error);
         }
@@ -41,6 +45,12 @@ pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<(), Problem> {
         Some((command, limits)) => fly_with(work, &missing, &command, limits, &landed, &stop),
     }
     bar.finish_and_clear();
+    match unknown.into_inner() {
+        0 => {}
+        runs => console::warn(&format!(
+            "Warning: {runs} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing"
+        )),
+    }
     if let Some(error) = trouble.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
         return Err(error.into());
     }

@@ -15,18 +15,13 @@ const CHECKPOINT: Duration = Duration::from_secs(30);
 
 /// Finds the cases and writes them. An interrupted generation goes on where its last checkpoint was.
 pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Tally), Problem> {
-    let folder = &work.folder;
-    let known = if folder.has_cases() {
-        Known { cases: folder.read_cases()?, tally: folder.read_tally()? }
-    } else {
-        Known::default()
-    };
+    let known = known(work)?;
     if known.tally.complete {
         tracing::info!("generation is complete already");
         return Ok((known.cases, known.tally));
     }
     let mut cases = known.cases.clone();
-    let mut saved = Instant::now();
+    let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
     let bar = console::progress("generate", 0);
     let tally = hairpin::campaign::generate(
@@ -41,9 +36,9 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
         },
         &mut |new, tally| {
             cases.extend_from_slice(new);
-            if saved.elapsed() > CHECKPOINT {
-                trouble = trouble.take().or(save(work, &cases, tally).err());
-                saved = Instant::now();
+            if at.elapsed() > CHECKPOINT && trouble.is_none() {
+                trouble = save(work, &cases, saved, tally).err();
+                (saved, at) = (cases.len(), Instant::now());
             }
         },
     );
@@ -51,9 +46,7 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     if let Some(problem) = trouble {
         return Err(problem);
     }
-    if cases.len() != known.cases.len() || tally != known.tally || !folder.has_cases() {
-        save(work, &cases, &tally)?;
-    }
+    save(work, &cases, saved, &tally)?;
     if interrupt::asked() {
         return Err(Problem::Interrupted(format!("stopped after {} cases; --resume goes on", cases.len())));
     }
@@ -61,23 +54,27 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     Ok((cases, tally))
 }
 
-/// Cases and the tally that belongs to them. The table that says they are whole goes first and comes last: a kill in
-/// between costs the generation, and the same cases are found again.
-fn save(work: &Work, cases: &[Case], tally: &Tally) -> Result<(), Problem> {
-    let table = work.folder.file("results.parquet");
-    match std::fs::remove_file(&table) {
-        Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
-            return Err(Problem::input(format!("cannot remove {}: {cause}", table.display())));
-        }
-        _ => {}
+/// What an interrupted generation left: the tally, which is written last, and the cases that it counts. Cases beyond it
+/// are of a checkpoint that a kill cut short; they are found again.
+fn known(work: &Work) -> Result<Known, Problem> {
+    let folder = &work.folder;
+    if !folder.has_cases() || !folder.has_tally() {
+        return Ok(Known::default());
     }
-    for case in cases {
+    let known = Known { cases: folder.read_cases()?, tally: folder.read_tally()? };
+    Ok(hairpin::campaign::generate::counted(&work.setup.scenario, known))
+}
+
+/// Writes the cases from number `from` of the list on, the tables of all, and the tally that belongs to them. Each file
+/// says no more than those before it: a kill in between leaves cases too many, never too few.
+fn save(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {
+    for case in &cases[from..] {
         let planned = plan::track(&work.setup.robot, case);
         let planned = planned.map_err(|error| Problem::input(format!("case {}: {error}", case.id())))?;
         work.folder.write_planned(case.number, &planned)?;
     }
-    work.folder.write_tally(tally)?;
-    Ok(work.folder.write_cases(cases)?)
+    work.folder.write_new_cases(cases, from)?;
+    Ok(work.folder.write_tally(tally)?)
 }
 
 /// Puts waypoint lists that were made elsewhere in the place of the folder's cases. A list that equals a case of the
@@ -104,5 +101,5 @@ pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>
     }
     let tally = Tally { complete: true, ..Tally::default() };
     work.folder.forget_cases()?;
-    save(work, &cases, &tally)
+    save(work, &cases, 0, &tally)
 }

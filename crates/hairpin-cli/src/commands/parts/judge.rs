@@ -1,7 +1,11 @@
 //! Parts three and four: the verdict on the flights in the folder, and the report.
 
-use hairpin::campaign::{self, Case, CaseResult, Status, Tally, report::worst_first};
+use hairpin::campaign::{
+    self, Case, CaseResult, Status, Tally,
+    report::{Shown, worst_first},
+};
 use hairpin::judgement::Verdict;
+use hairpin_formats::executor::ATTITUDE_UNKNOWN;
 use hairpin_formats::junit::{self, Suite};
 use rayon::prelude::*;
 
@@ -72,7 +76,11 @@ fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(
 /// Writes `report.html`.
 pub(crate) fn report(work: &Work, cases: &[Case], tally: &Tally, verdict: &Verdict) -> Result<(), Problem> {
     let assumptions = campaign::assumptions(&work.setup, cases, tally);
-    let data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions)
+    let mut data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions)
         .map_err(Problem::input)?;
+    let level = |shown: &Shown| shown.flown.as_ref().is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some());
+    if data.shown.iter().any(level) {
+        data.assumptions.push("The executor sent no attitudes: they are unknown, and drawn level.".into());
+    }
     Ok(hairpin_formats::report::write(&work.folder.file("report.html"), &data)?)
 }

@@ -18,7 +18,7 @@ use std::collections::HashSet;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::{Case, Setup, Stop, vary};
+use super::{Case, Scenario, Setup, Stop, vary};
 use crate::math::random::case_seed;
 use outcome::{Outcome, Plan};
 use solve::Solver;
@@ -36,6 +36,19 @@ pub struct Known {
     pub tally: Tally,
 }
 
+/// `known` without the cases that its tally does not count, as a kill between the writing of both may leave them.
+pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
+    let varied = varies(scenario);
+    let units = known.tally.units;
+    known.cases.retain(|case| if varied { (case.number as u64) < units } else { case.graph < units });
+    known
+}
+
+/// Whether units of work are cases of plans of their own, not graphs.
+fn varies(scenario: &Scenario) -> bool {
+    scenario.vary.keys().any(|key| vary::shapes_the_plan(key))
+}
+
 /// Generates cases until `generate.search.cases` are found, the graphs are used up, or `stop` says so.
 ///
 /// `sink` gets the new cases of each unit of work with the tally that includes it; what it was given is enough to go
@@ -51,7 +64,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
             return collector.tally;
         }
     };
-    let varied = setup.scenario.vary.keys().any(|key| vary::shapes_the_plan(key));
+    let varied = varies(&setup.scenario);
     let units = match setup.scenario.generate.search.graphs {
         _ if varied => wanted,
         Some(graphs) => graphs,

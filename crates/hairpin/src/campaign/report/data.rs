@@ -126,10 +126,15 @@ pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
         Status::Pass => 2,
         Status::ExecutorFailed => 3,
     };
+    let crashed = |result: &CaseResult| result.violations.first().is_some_and(|violation| violation.what == "crash");
     let deviation = |result: &CaseResult| result.measures.as_ref().map_or(0.0, |m| m.max_deviation);
     let mut ordered: Vec<&CaseResult> = results.iter().collect();
-    ordered
-        .sort_by(|a, b| (rank(a).cmp(&rank(b))).then(deviation(b).total_cmp(&deviation(a))).then(a.case.cmp(&b.case)));
+    ordered.sort_by(|a, b| {
+        (rank(a).cmp(&rank(b)))
+            .then(crashed(b).cmp(&crashed(a)))
+            .then(deviation(b).total_cmp(&deviation(a)))
+            .then(a.case.cmp(&b.case))
+    });
     ordered
 }
 
