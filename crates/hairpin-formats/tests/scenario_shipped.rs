@@ -26,7 +26,9 @@ fn robot_name(scenario: &Scenario) -> &str {
 #[test]
 fn every_shipped_scenario_is_fine_and_survives_its_own_writing() {
     let names: Vec<_> = library::scenarios().map(|shipped| shipped.name).collect();
-    for expected in ["quadrotor", "demo-quadrotor", "corridor", "paper-unstable", "paper-stable", "paper-anafi"] {
+    for expected in
+        ["quadrotor", "demo-quadrotor", "corridor", "paper-unstable", "paper-stable", "paper-random", "paper-anafi"]
+    {
         assert!(names.contains(&expected), "{names:?}");
     }
     for name in names {
