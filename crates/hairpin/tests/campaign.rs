@@ -1,0 +1,243 @@
+//! Whole campaigns through the library: what a case claims is checked again by equations written here.
+
+use hairpin::campaign::generate::Known;
+use hairpin::campaign::{Case, Evidence, Scenario, Setup, Stop, Tally, generate, verdict, verify};
+use hairpin::feasibility::reach::sampling;
+use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
+use nalgebra::{Point3, Vector3};
+use serde_json::{Value, json};
+
+fn robot(name: &str) -> Value {
+    let path = format!("{}/../../data/robots/quadrotor/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).expect("shipped robots are in data/robots/quadrotor");
+    serde_json::to_value(toml::from_str::<QuadrotorDescription>(&text).expect(name)).expect(name)
+}
+
+/// A small campaign in a cage with a mast; `generate` is put over the section's own values.
+fn setup(name: &str, length: usize, generate: Value) -> Setup {
+    let scenario = json!({
+        "hairpin": 1, "robot": robot(name), "seed": 7,
+        "world": { "size_m": [20, 20, 20], "keep_in_margin_m": 1.0,
+            "obstacles": [{ "name": "mast", "box": { "center_m": [8, 7, 5], "size_m": [1, 1, 10] } }] },
+        "task": { "start_m": [3, 3, 3], "end_m": [12, 12, 12], "length": length },
+        "generate": generate,
+    });
+    Setup::new(serde_json::from_value::<Scenario>(scenario).expect("a scenario")).expect("a campaign")
+}
+
+fn asked(reach: &str, method: &str, cases: usize) -> Value {
+    let limits = json!({ "max_speed_m_s": 8.0, "max_tilt_deg": 45, "max_flight_time_s": 60 });
+    let search = json!({ "method": method, "waypoints": 60, "width": 5, "cases": cases });
+    json!({ "reach": reach, "resolution": 3, "velocities": 4, "search": search, "limits": limits })
+}
+
+const ENDLESS: Stop = Stop { cancelled: &|| false, progress: &|_, _| {} };
+
+fn run(setup: &Setup, known: &Known) -> (Vec<Case>, Tally) {
+    let mut cases = known.cases.clone();
+    let tally = generate(setup, known, &ENDLESS, &mut |new, _| cases.extend_from_slice(new));
+    (cases, tally)
+}
+
+/// Convex-hull membership by projection (Gilbert's algorithm): the distance of `d` from the hull of `points`.
+fn distance_to_hull(points: &[Vector3<f64>], d: &Vector3<f64>) -> f64 {
+    let mut nearest = points[0];
+    for _ in 0..200_000 {
+        let towards = d - nearest;
+        let support = points.iter().max_by(|a, b| a.dot(&towards).total_cmp(&b.dot(&towards))).expect("not empty");
+        let edge = support - nearest;
+        // No point of the hull lies farther towards `d` by more than this: the gap bounds what is left to gain.
+        if edge.dot(&towards) <= 1e-6 * towards.norm() || towards.norm() < 1e-3 {
+            break;
+        }
+        nearest += edge * (edge.dot(&towards) / edge.norm_squared()).clamp(0.0, 1.0);
+    }
+    (d - nearest).norm()
+}
+
+/// Distance of a point from the mast's surface, from its six planes.
+fn from_mast(p: &Point3<f64>) -> f64 {
+    let out = Vector3::new((p.x - 8.0).abs() - 0.5, (p.y - 7.0).abs() - 0.5, (p.z - 5.0).abs() - 5.0);
+    out.map(|c| c.max(0.0)).norm()
+}
+
+/// What holds for every case of every reach set.
+fn check_common(setup: &Setup, case: &Case, what: &str) {
+    let w = &case.waypoints;
+    assert_eq!(w.len() as u64, setup.scenario.task.length, "{what}");
+    assert_eq!((w[0], w[w.len() - 1]), (Point3::new(3.0, 3.0, 3.0), Point3::new(12.0, 12.0, 12.0)), "{what}");
+    assert_eq!(case.leg_times.len(), w.len() - 1, "{what}");
+    assert!(case.leg_times.iter().sum::<f64>() <= 60.0, "{what}");
+    assert!(w.iter().all(|p| p.iter().all(|c| (1.0..=19.0).contains(c))), "{what}");
+    for (i, p) in w.iter().enumerate() {
+        assert!(!w[..i].contains(p), "{what}: waypoint {i} is visited twice");
+    }
+    for (leg, time) in w.windows(2).zip(&case.leg_times) {
+        assert!((leg[1] - leg[0]).norm() <= 8.0 * time * (1.0 + 1e-9), "{what}: faster than 8 m/s");
+    }
+}
+
+/// Straight steps stay clear of the mast by the robot's radius.
+fn check_straight(robot: &Quadrotor, case: &Case, what: &str) {
+    for leg in case.waypoints.windows(2) {
+        for k in 0..=400 {
+            let p = leg[0] + (leg[1] - leg[0]) * (f64::from(k) / 400.0);
+            assert!(from_mast(&p) >= robot.clearance_radius - 1e-9, "{what}: {p}");
+        }
+    }
+}
+
+/// The witness proves itself to independent code; between its ends it keeps clear and below the cap.
+fn check_witness(setup: &Setup, case: &Case, what: &str) {
+    let proof = verify(&setup.robot, case).proof.expect("a witnessed case has a proof");
+    assert!(proof.findings.is_empty(), "{what}: {:?}", proof.findings);
+    for leg in &case.profile.as_ref().expect("a witness").legs {
+        for k in 0..=1000 {
+            let t = leg.duration * f64::from(k) / 1000.0;
+            let horner = |c: &[f64; 8]| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
+            let slope = |c: &[f64; 8]| (1..8).rev().fold(0.0, |sum, i| sum * t + i as f64 * c[i]);
+            let p = Point3::from(leg.coefficients.each_ref().map(horner));
+            let v = Vector3::from(leg.coefficients.each_ref().map(slope));
+            assert!(v.norm() <= 8.0 + 1e-9, "{what}: {} m/s", v.norm());
+            assert!(from_mast(&p) >= setup.robot.clearance_radius - 1e-9, "{what}: {p}");
+            assert!(p.iter().all(|c| (1.0 - 1e-9..=19.0 + 1e-9).contains(c)), "{what}: {p}");
+        }
+    }
+}
+
+#[test]
+fn every_reach_set_by_every_search_gives_what_it_claims() {
+    for reach in ["none", "sphere", "hull", "witness"] {
+        for method in ["beam", "exact", "uniform"] {
+            let length = if reach == "witness" { 5 } else { 7 };
+            let setup = setup("flightgoggles", length, asked(reach, method, 3));
+            let (cases, tally) = run(&setup, &Known::default());
+            assert_eq!(cases.len(), 3, "{reach}, {method}: {tally:?}");
+            for case in &cases {
+                let what = format!("{reach}, {method}, case {}", case.number);
+                check_common(&setup, case, &what);
+                let claimed = match reach {
+                    "witness" => Evidence::Witnessed,
+                    "hull" => Evidence::HullFeasible,
+                    _ => Evidence::Unchecked,
+                };
+                assert_eq!(case.evidence, claimed, "{what}");
+                if reach == "witness" {
+                    check_witness(&setup, case, &what);
+                } else {
+                    check_straight(&setup.robot, case, &what);
+                }
+                if reach == "hull" {
+                    check_hull(&setup.robot, case, &what);
+                }
+            }
+        }
+    }
+}
+
+/// Every second difference lies in the hull of simulated ends; the robot has no linear drag, so velocity is carried whole.
+fn check_hull(robot: &Quadrotor, case: &Case, what: &str) {
+    assert_eq!(robot.drag_linear, 0.0);
+    let speeds = sampling::constant_speeds(robot, 3);
+    let ends = sampling::end_points(robot, &speeds, 1.0, 2 * sampling::steps(robot, 1.0));
+    let mut before = Vector3::zeros();
+    for leg in case.waypoints.windows(2) {
+        let difference = (leg[1] - leg[0]) - before;
+        let off = distance_to_hull(&ends, &difference);
+        assert!(off < 0.02, "{what}: {off} m outside the hull");
+        before = leg[1] - leg[0];
+    }
+    assert!(distance_to_hull(&ends, &Vector3::new(0.0, 0.0, 500.0)) > 100.0, "the oracle can say no");
+}
+
+#[test]
+fn the_exact_search_is_never_beaten_on_the_same_graph() {
+    for reach in ["hull", "witness"] {
+        let best = |method: &str| run(&setup("flightgoggles", 5, asked(reach, method, 4)), &Known::default()).0;
+        let (exact, beam) = (best("exact"), best("beam"));
+        let mut compared = 0;
+        for case in &beam {
+            if let Some(optimum) = exact.iter().find(|other| other.graph == case.graph) {
+                assert!(optimum.score >= case.score - 1e-9, "{reach}: {} < {}", optimum.score, case.score);
+                compared += 1;
+            }
+        }
+        assert!(compared > 0, "{reach}");
+    }
+}
+
+#[test]
+fn interruptions_and_threads_change_nothing() {
+    let setup = setup("flightgoggles", 6, asked("hull", "beam", 4));
+    let mut prefixes = vec![Known::default()];
+    let mut cases = Vec::new();
+    let tally = generate(&setup, &Known::default(), &ENDLESS, &mut |new, tally| {
+        cases.extend_from_slice(new);
+        prefixes.push(Known { cases: cases.clone(), tally: tally.clone() });
+    });
+    assert!(prefixes.len() > 4 && tally.complete);
+    for known in &prefixes {
+        assert_eq!(run(&setup, known), (cases.clone(), tally.clone()), "from {:?}", known.tally);
+    }
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        assert_eq!(pool.install(|| run(&setup, &Known::default())), (cases.clone(), tally.clone()), "{threads}");
+    }
+}
+
+#[test]
+fn nothing_feasible_is_told_with_its_proof() {
+    let setup = setup("flightgoggles", 2, asked("hull", "beam", 2));
+    let (cases, tally) = run(&setup, &Known::default());
+    assert!(cases.is_empty() && tally.proven_empty == tally.graphs && tally.graphs > 0, "{tally:?}");
+    let verdict = verdict(&setup, &[], &[], &tally);
+    assert_eq!(verdict.exit_code, 3);
+    assert!(verdict.sentence.starts_with("NOTHING FEASIBLE (proof, hull)"), "{}", verdict.sentence);
+}
+
+#[test]
+fn lengths_that_vary_are_drawn_per_case() {
+    let mut scenario = setup("flightgoggles", 6, asked("hull", "beam", 6)).scenario;
+    let lengths = serde_json::from_value(json!({ "uniform": [5, 9] })).expect("a distribution");
+    scenario.vary.insert("task.length".into(), lengths);
+    let setup = Setup::new(scenario).expect("a campaign");
+    let (cases, _) = run(&setup, &Known::default());
+    assert_eq!(cases.first().map(|case| case.waypoints.len()), Some(6), "case 0 is nominal");
+    assert!(cases.iter().all(|case| (5..=9).contains(&case.waypoints.len())));
+    assert!(cases.iter().any(|case| case.waypoints.len() != 6), "something varies");
+}
+
+#[test]
+fn certificates_bring_a_witness_with_every_yes() {
+    let mut generate = asked("hull", "beam", 4);
+    generate["certify"] = json!(true);
+    let setup = setup("flightgoggles", 6, generate);
+    let (cases, _) = run(&setup, &Known::default());
+    for case in &cases {
+        match case.certified {
+            Some("yes") => check_witness(&setup, case, "certified"),
+            Some("no" | "unknown") => assert!(case.profile.is_none() && case.evidence == Evidence::HullFeasible),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(!cases.is_empty());
+}
+
+#[test]
+fn any_coefficient_off_by_a_percent_is_found() {
+    for name in ["flightgoggles", "anafi"] {
+        let setup = setup(name, 4, asked("witness", "beam", 1));
+        let case = run(&setup, &Known::default()).0.remove(0);
+        let legs = case.profile.as_ref().expect("a witness").legs.len();
+        for (leg, axis, power) in (0..legs).flat_map(|l| (0..3).flat_map(move |a| (0..8).map(move |p| (l, a, p)))) {
+            let mut wrong = case.clone();
+            let coefficient = &mut wrong.profile.as_mut().expect("a witness").legs[leg].coefficients[axis][power];
+            if *coefficient == 0.0 {
+                continue;
+            }
+            *coefficient *= 1.01;
+            let proof = verify(&setup.robot, &wrong).proof.expect("a proof");
+            assert!(!proof.findings.is_empty(), "{name}: leg {leg}, axis {axis}, power {power} passes");
+        }
+    }
+}
