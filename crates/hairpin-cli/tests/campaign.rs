@@ -149,6 +149,38 @@ fn exported_waypoints_fly_again_as_missions() {
 }
 
 #[test]
+fn the_header_and_the_parameter_that_did_it_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let origin = "world.origin={lat_deg=47.3977,lon_deg=8.5456,alt_amsl_m=488.0,x_axis_heading_deg=73.5}";
+    let arguments = [&SMALL[..], &["--out", "a", "--set", origin, "--set", "execute.repeat=5"]].concat();
+    let wind = "vary.\"world.wind_m_s\".uniform=[[-3,0,0],[3,0,0]]";
+    let limit = "vary.\"spec.deviation.max_m\".uniform=[0.001,0.002]";
+    let object = json(folder.path(), &[&arguments[..], &["--set", wind, "--set", limit]].concat());
+    let frame = &object["frame"];
+    assert_eq!((&frame["origin"]["x_axis_heading_deg"], &frame["aligned"]), (&Value::from(73.5), &Value::from(false)));
+    assert_eq!(
+        (&frame["length_counts"], &frame["leg_source"]["executor"]),
+        (&Value::from("waypoints"), &Value::from(4))
+    );
+    let above = frame["start"]["alt_amsl_m"].as_f64().unwrap() - 488.0;
+    assert!((above - 3.0).abs() < 0.01, "{frame}");
+    let found = object["influences"].as_array().unwrap();
+    let keys: Vec<&str> = found.iter().map(|one| one["key"].as_str().unwrap()).collect();
+    assert!(keys.contains(&"world.wind_m_s[0]") && !keys.contains(&"world.wind_m_s[1]"), "{keys:?}");
+    assert!(found.iter().all(|one| one["rank_correlation"].as_f64().unwrap().abs() <= 1.0));
+    // Limits drawn per run are those it is judged by.
+    assert_eq!(object["counts"]["fail"], 4, "{object}");
+    assert_eq!(object["worst"]["evidence"], "hull-feasible");
+    let report = fs::read_to_string(folder.path().join("a/report.html")).unwrap();
+    let page = &report[..report.find("<script").unwrap()];
+    for words in ["x heads 73.5° by compass", "not aligned", "Which parameter did it", "at the worst moment: "] {
+        assert!(page.contains(words), "{words}");
+    }
+    let (_, out, _) = run(folder.path(), &["judge", "a"]);
+    assert!(out.contains("length: 8 counts waypoints") && out.contains("  world.wind_m_s[0]"), "{out}");
+}
+
+#[test]
 fn waypoints_on_earth_need_the_cages_place() {
     let folder = tempfile::tempdir().unwrap();
     let origin = "world.origin={lat_deg=47.3977,lon_deg=8.5456,alt_amsl_m=488.0,x_axis_heading_deg=73.5}";

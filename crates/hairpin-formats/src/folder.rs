@@ -11,6 +11,7 @@
 //! | `trajectories/CASE.parquet` | the planned motion, sampled |
 //! | `executions/CASE-RUN.parquet` | one flight: poses, velocities, rotor speeds |
 //! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
+//! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
 //!
 //! Files are written one by one and each at once, in an order in which each says no more than those before it: the cases'
@@ -21,7 +22,7 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{Case, CaseResult, Run, Tally};
+use hairpin::campaign::{Case, CaseResult, Influence, Run, Tally};
 use hairpin::trajectory::Track;
 use thiserror::Error;
 
@@ -35,6 +36,7 @@ const GENERATION: &str = "generation.json";
 const RESULTS: &str = "results.parquet";
 const WAYPOINTS: &str = "waypoints.parquet";
 const RUNS: &str = "runs.parquet";
+const INFLUENCE: &str = "influence.json";
 const LOCK: &str = ".lock";
 const FOLDERS: [&str; 5] = ["trajectories", "profiles", "executions", "missions", "repro"];
 
@@ -382,6 +384,38 @@ impl CampaignFolder {
         Ok(self.read_rows()?.into_iter().filter_map(|row| row.result).collect())
     }
 
+    /// Writes which parameter did it; nothing to say leaves no file.
+    ///
+    /// # Errors
+    /// The file cannot be written, or an older one not be removed.
+    pub fn write_influences(&self, found: &[Influence]) -> Result<(), FolderError> {
+        if found.is_empty() {
+            let path = self.file(INFLUENCE);
+            return match fs::remove_file(&path) {
+                Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }.into()),
+                _ => Ok(()),
+            };
+        }
+        let mut text = serde_json::to_string_pretty(found).expect("influences are plain data");
+        text.push('\n');
+        Ok(atomic::write(&self.file(INFLUENCE), text.as_bytes())?)
+    }
+
+    /// Which parameter did it; nothing where nothing was varied or judged.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_influences(&self) -> Result<Vec<Influence>, FolderError> {
+        let path = self.file(INFLUENCE);
+        match fs::read_to_string(&path) {
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+            text => {
+                let found = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
+                found.map_err(|cause| FolderError::Unreadable { path, cause })
+            }
+        }
+    }
+
     /// `profiles/CASE.parquet`.
     pub fn profile_path(&self, case: usize) -> PathBuf {
         self.path.join("profiles").join(format!("{case:04}.parquet"))
@@ -409,7 +443,7 @@ impl CampaignFolder {
     /// # Errors
     /// A file cannot be removed.
     pub fn forget_runs(&self) -> Result<(), FolderError> {
-        self.remove(&[RUNS, "junit.xml", "report.html"], &["executions"])
+        self.remove(&[RUNS, INFLUENCE, "junit.xml", "report.html"], &["executions"])
     }
 
     /// Removes the campaign's products, the ones first whose presence says that others are complete.
@@ -417,7 +451,7 @@ impl CampaignFolder {
     /// # Errors
     /// A file cannot be removed.
     pub fn forget_cases(&self) -> Result<(), FolderError> {
-        let names = [RESULTS, RUNS, WAYPOINTS, GENERATION, "junit.xml", "report.html"];
+        let names = [RESULTS, RUNS, INFLUENCE, WAYPOINTS, GENERATION, "junit.xml", "report.html"];
         self.remove(&names, &["trajectories", "profiles", "executions"])
     }
 

@@ -6,6 +6,7 @@ pub mod executor;
 pub mod folder;
 pub mod frames;
 pub mod geodetic;
+pub mod header;
 pub mod junit;
 pub mod library;
 pub mod mesh;

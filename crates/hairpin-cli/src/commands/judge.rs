@@ -11,8 +11,8 @@ pub(crate) fn run(judge: &Judge) -> Result<u8, Problem> {
     let work = folder::open(&judge.folder, &folder::split(&judge.sets)?, &["spec"])?;
     let cases = work.folder.read_cases()?;
     let tally = work.folder.read_tally()?;
-    let (results, verdict) = parts::judge(&work, &cases, &tally)?;
+    let judgement = parts::judge(&work, &cases, &tally)?;
     let asked = work.setup.scenario.generate.search.cases as usize;
-    let answer = Answer { folder: work.folder.path(), asked, cases: &cases, results: &results, verdict: &verdict };
+    let answer = Answer { work: &work, asked, cases: &cases, judgement: &judgement };
     Ok(answer.say(judge.json))
 }

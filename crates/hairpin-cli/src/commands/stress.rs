@@ -1,7 +1,5 @@
 //! `hairpin stress`: generate, execute, judge, report.
 
-use hairpin::judgement::Verdict;
-
 use super::parts::{self, Answer};
 use crate::args::Stress;
 use crate::folder::{self, Work};
@@ -18,9 +16,9 @@ pub(crate) fn run(stress: &Stress) -> Result<u8, Problem> {
 pub(crate) fn campaign(work: &Work, deadline: Deadline, json: bool) -> Result<u8, Problem> {
     let (cases, tally) = parts::generate(work, deadline)?;
     parts::execute(work, &cases)?;
-    let (results, verdict): (_, Verdict) = parts::judge(work, &cases, &tally)?;
-    parts::report(work, &cases, &tally, &verdict)?;
+    let judgement = parts::judge(work, &cases, &tally)?;
+    parts::report(work, &cases, &tally, &judgement.verdict)?;
     let asked = work.setup.scenario.generate.search.cases as usize;
-    let answer = Answer { folder: work.folder.path(), asked, cases: &cases, results: &results, verdict: &verdict };
+    let answer = Answer { work: work, asked, cases: &cases, judgement: &judgement };
     Ok(answer.say(json))
 }

@@ -14,6 +14,7 @@ use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
 use crate::folder::{CampaignFolder, FolderError};
+use crate::header::Header;
 
 pub use page::html;
 
@@ -61,8 +62,17 @@ pub fn from_folder(
         let flight = |cause| ReportError::Flight { case: case.number, run: result.run, cause };
         in_full.push(shown(setup, case, result, planned, run.as_ref()).map_err(flight)?);
     }
-    let pieces =
-        Pieces { setup, cases: &cases, results: &results, tally: &tally, verdict, assumptions, shown: in_full };
+    let pieces = Pieces {
+        setup,
+        cases: &cases,
+        results: &results,
+        tally: &tally,
+        verdict,
+        assumptions,
+        shown: in_full,
+        frame: Header::of(setup, &results).lines(),
+        influences: folder.read_influences()?,
+    };
     Ok(report::assemble(pieces))
 }
 

@@ -2,8 +2,8 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use hairpin::campaign::CaseResult;
 use hairpin::campaign::report::{COLUMNS, ReportData, Shown, cells, number, violation};
+use hairpin::campaign::{CaseResult, Influence};
 use hairpin::judgement::Statistics;
 use sha2::{Digest, Sha256};
 
@@ -59,16 +59,18 @@ fn body(data: &ReportData) -> String {
     [
         format!(
             "<header class=\"verdict {}\"><p class=\"brand\">hairpin · stress test of <b>{}</b></p>\
-             <h1><span class=\"mark\" aria-hidden=\"true\">{}</span>{}</h1></header>\n<main>",
+             <h1><span class=\"mark\" aria-hidden=\"true\">{}</span>{}</h1><p class=\"frame\">{}</p></header>\n<main>",
             outcome.0,
             escape(&data.title),
             outcome.1,
-            sentence(&data.verdict.sentence)
+            sentence(&data.verdict.sentence),
+            frame(data)
         ),
         key_numbers(data),
         flight(data),
         table(data),
         distributions(data),
+        influences(data),
         setup(data),
         "</main>\n<footer><p>hairpin is a test generator. What it writes is stressful by design and is no safety \
          certificate.</p></footer>"
@@ -82,6 +84,31 @@ fn sentence(text: &str) -> String {
     let head = first_words(text);
     let rest = &text[head.len()..];
     format!("<span class=\"outcome\">{}</span> <span class=\"rest\">{}</span>", escape(head), escape(rest.trim_start()))
+}
+
+/// Frames and what is counted, before anything is read.
+fn frame(data: &ReportData) -> String {
+    let lines = data.frame.iter().map(|[label, value]| format!("<b>{}</b> {}", escape(label), escape(value)));
+    lines.collect::<Vec<_>>().join(" · ")
+}
+
+/// Which parameter did it.
+fn influences(data: &ReportData) -> String {
+    if data.influences.is_empty() {
+        return String::new();
+    }
+    let row = |found: &Influence| {
+        let (rank, runs) = (found.rank_correlation, found.runs);
+        format!("<tr><th scope=\"row\">{}</th><td>{rank:+.2}</td><td>{runs}</td></tr>", escape(&found.key))
+    };
+    format!(
+        "<section class=\"panel\" id=\"influences\"><h2>Which parameter did it</h2><p class=\"note\">Spearman's rank \
+         correlation of what was varied with the run's largest deviation, over all runs: +1 where more of it always gave \
+         a larger deviation, −1 where less of it did, 0 where it did not matter.</p><div class=\"scroll\">\
+         <table class=\"spread\"><thead><tr><th scope=\"col\">parameter</th><th scope=\"col\">ρ</th>\
+         <th scope=\"col\">runs</th></tr></thead><tbody>{}</tbody></table></div></section>",
+        data.influences.iter().map(row).collect::<String>()
+    )
 }
 
 fn first_words(text: &str) -> &str {
@@ -135,6 +162,9 @@ fn findings(shown: &Shown, first: bool) -> String {
     if findings.is_empty() {
         findings.push("within the specification".into());
     }
+    if let Some(attitude) = &shown.attitude {
+        findings.push(format!("at the worst moment: {attitude}"));
+    }
     let drawn: Vec<String> = shown.result.drawn.iter().map(|(key, value)| format!("{key} = {value}")).collect();
     let drawn = if drawn.is_empty() { "nominal values".to_owned() } else { drawn.join(", ") };
     let list: String = findings.iter().map(|finding| format!("<li>{}</li>", escape(finding))).collect();
@@ -145,7 +175,7 @@ fn findings(shown: &Shown, first: bool) -> String {
         if first { "" } else { " hidden" },
         shown.result.run,
         escape(&drawn),
-        shown.evidence,
+        escape(&shown.claim),
         number(Some(shown.score)),
         statistics(shown.statistics.as_ref())
     )
@@ -177,6 +207,7 @@ fn statistics(found: Option<&Statistics>) -> String {
 fn table(data: &ReportData) -> String {
     let head: String = COLUMNS
         .iter()
+        .chain(&["evidence"])
         .map(|name| format!("<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">{name}</button></th>"))
         .collect();
     let rows: String = data.results.iter().take(ROWS).map(|result| row(data, result)).collect();
@@ -206,7 +237,8 @@ fn row(data: &ReportData, result: &CaseResult) -> String {
         })
         .collect();
     let class = if shown.is_some() { " class=\"shown\"" } else { "" };
-    format!("<tr{class} data-case=\"{}\">{text}</tr>", cells[0])
+    let claim = data.claims.get(&result.case).map_or("–", String::as_str);
+    format!("<tr{class} data-case=\"{}\">{text}<td>{}</td></tr>", cells[0], escape(claim))
 }
 
 fn distributions(data: &ReportData) -> String {

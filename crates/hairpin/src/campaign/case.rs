@@ -66,6 +66,26 @@ impl Case {
     pub fn id(&self) -> String {
         format!("{:04}", self.number)
     }
+
+    /// How far below the proven bound the score lies, as a share of the score's size: 0 for the best there is. `None`
+    /// without a bound.
+    pub fn gap(&self) -> Option<f64> {
+        let short = (self.bound? - self.score).max(0.0);
+        Some(if short == 0.0 { 0.0 } else { short / self.score.abs() })
+    }
+
+    /// The evidence word, and where the search proved a bound `optimal` or `gap 3.1 %`.
+    pub fn claim(&self) -> String {
+        match self.gap() {
+            None => self.evidence.word().into(),
+            Some(gap) => format!("{}, {}", self.evidence.word(), gap_word(gap, "gap")),
+        }
+    }
+}
+
+/// `optimal` for no gap that is more than rounding, else `{gap} 3.1 %`.
+pub(super) fn gap_word(share: f64, gap: &str) -> String {
+    if share <= 1e-9 { "optimal".into() } else { format!("{gap} {} %", super::report::percent_digits(share)) }
 }
 
 /// One execution of a case: run 0 is the nominal one.
@@ -134,4 +154,30 @@ pub struct CaseResult {
     pub drawn: Vec<(String, serde_json::Value)>,
     /// Message of a failed executor.
     pub message: Option<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bound_makes_a_claim_stronger() {
+        let case = |score, bound| Case {
+            number: 7,
+            seed: 0,
+            graph: 0,
+            waypoints: Vec::new(),
+            leg_times: Vec::new(),
+            score,
+            bound,
+            evidence: Evidence::HullFeasible,
+            certified: None,
+            profile: None,
+        };
+        assert_eq!(case(2.0, None).claim(), "hull-feasible");
+        assert_eq!(case(2.0, Some(2.0)).claim(), "hull-feasible, optimal");
+        assert_eq!(case(-2.0, Some(-1.9)).claim(), "hull-feasible, gap 5.0 %");
+        assert_eq!(case(2.0, Some(2.001)).claim(), "hull-feasible, gap 0.050 %");
+        assert_eq!(case(0.0, Some(0.0)).gap(), Some(0.0));
+    }
 }

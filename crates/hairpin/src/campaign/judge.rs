@@ -2,6 +2,8 @@
 
 use nalgebra::Point3;
 
+use super::case::gap_word;
+use super::influence::RunDeviation;
 use super::scenario::DeviationFrom;
 use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, plan, vary};
 use crate::judgement::{
@@ -18,7 +20,16 @@ const CONFIDENCE: f64 = 0.95;
 /// # Errors
 /// Values drawn for a run that the scenario's keys do not take, as happens with a folder that was edited.
 pub fn judge(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Mistake> {
+    judge_runs(setup, case, runs).map(|(result, _)| result)
+}
+
+/// [`judge`], with the deviation of every run that could be measured: what [`super::influences`] is made of.
+///
+/// # Errors
+/// As [`judge`].
+pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResult, Vec<RunDeviation>), Mistake> {
     let mut worst: Option<(JudgedRun, &Run)> = None;
+    let mut deviations = Vec::with_capacity(runs.len());
     let (mut failed, mut unflown) = (None, None);
     for run in runs {
         let flight = match &run.outcome {
@@ -30,6 +41,12 @@ pub fn judge(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Mis
         };
         match judge_run(setup, case, run, flight)? {
             Ok(judged) => {
+                deviations.push(RunDeviation {
+                    case: case.number,
+                    run: run.run,
+                    max_deviation: judged.measures.max_deviation,
+                    drawn: run.drawn.clone(),
+                });
                 if worst.as_ref().is_none_or(|(so_far, _)| judged.rank() > so_far.rank()) {
                     worst = Some((judged, run));
                 }
@@ -46,7 +63,7 @@ pub fn judge(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Mis
         (false, None, None) => Status::Pass,
     };
     let message = unflown.or(failed);
-    Ok(match worst {
+    let result = match worst {
         Some((judged, run)) => CaseResult {
             case: case.number,
             status,
@@ -69,7 +86,8 @@ pub fn judge(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Mis
             drawn: runs.first().map_or_else(Vec::new, |run| run.drawn.clone()),
             message,
         },
-    })
+    };
+    Ok((result, deviations))
 }
 
 struct JudgedRun {
@@ -160,6 +178,8 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
     let worst = worst_of(setup, results);
     let how = how_obtained(setup);
     let how: Vec<&str> = how.iter().map(String::as_str).collect();
+    let gaps: Option<Vec<f64>> = cases.iter().map(Case::gap).collect();
+    let proof = gaps.map(|gaps| gap_word(gaps.into_iter().fold(0.0, f64::max), "gap at most"));
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
     judgement::verdict(&Judged {
         how: &how,
@@ -173,6 +193,7 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         share_limit: setup.scenario.spec.violation_share,
         confidence: setup.scenario.spec.confidence.unwrap_or(CONFIDENCE),
         claims: &claims,
+        proof: proof.as_deref(),
     })
 }
 

@@ -16,5 +16,5 @@ pub use measure::{deviation_of_samples, measure};
 pub use measures::{AccelerationSource, LegMeasures, LegSource, Measures};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
-pub use statistics::{Share, Statistics, rule_of_three, share, skewness};
+pub use statistics::{Share, Statistics, rank_correlation, rule_of_three, share, skewness};
 pub use verdict::{Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};

@@ -62,6 +62,8 @@ pub struct Judged<'a> {
     pub confidence: f64,
     /// Evidence of the cases, those of count 0 left out.
     pub claims: &'a [Claim<'a>],
+    /// How far from the best the cases' scores can be, where every case has a proof: `optimal`, `gap at most 3.1 %`.
+    pub proof: Option<&'a str>,
 }
 
 impl Default for Judged<'_> {
@@ -78,6 +80,7 @@ impl Default for Judged<'_> {
             share_limit: None,
             confidence: 0.95,
             claims: &[],
+            proof: None,
         }
     }
 }
@@ -150,12 +153,13 @@ fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> 
     if judged.inconclusive > 0 {
         parts.push(format!("data of {}/{} inconclusive, not counted", judged.inconclusive, judged.cases));
     }
+    let proof = judged.proof.map_or(String::new(), |proof| format!(", {proof}"));
     match judged.claims {
         [] => {}
-        [claim] if claim.count == judged.cases => parts.push(format!("all {} {}", claim.count, claim.word)),
+        [claim] if claim.count == judged.cases => parts.push(format!("all {} {}{proof}", claim.count, claim.word)),
         claims => {
             let counts: Vec<String> = claims.iter().map(|claim| format!("{} {}", claim.count, claim.word)).collect();
-            parts.push(counts.join(", "));
+            parts.push(format!("{}{proof}", counts.join(", ")));
         }
     }
     if parts.is_empty() { vec!["nothing to judge".into()] } else { parts }
@@ -345,6 +349,13 @@ mod tests {
         assert_eq!(reset.sentence, "INVALID 0118 (flown, log_25.ulg): position reset of 1.2 m at t = 8.1 s");
         assert_eq!(reset.exit_code, 5);
         assert_eq!(inconclusive("0117", &["flown"], "x").sentence, "INCONCLUSIVE 0117 (flown): x");
+    }
+
+    #[test]
+    fn a_proof_of_the_best_stands_with_the_evidence() {
+        let value = violation("deviation", 0.65, 0.5);
+        let proven = verdict(&Judged { proof: Some("optimal"), ..with(3, &value) });
+        assert!(proven.sentence.ends_with("; all 200 witnessed, optimal"), "{}", proven.sentence);
     }
 
     #[test]

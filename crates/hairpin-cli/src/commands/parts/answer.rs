@@ -1,24 +1,23 @@
 //! What a campaign says on stdout: for people a table of the worst cases and the verdict, for machines one object.
 
-use std::path::Path;
-
 use hairpin::campaign::report::{COLUMNS, cells, violation, worst_first};
 use hairpin::campaign::{Case, CaseResult, Status};
-use hairpin::judgement::Verdict;
+use hairpin_formats::header::Header;
 use serde_json::{Value, json};
 
+use super::Judgement;
 use crate::console;
+use crate::folder::Work;
 
 /// Rows of the table.
 const WORST: usize = 5;
 
 /// A verdict and what it is about.
 pub(crate) struct Answer<'a> {
-    pub(crate) folder: &'a Path,
+    pub(crate) work: &'a Work,
     pub(crate) asked: usize,
     pub(crate) cases: &'a [Case],
-    pub(crate) results: &'a [CaseResult],
-    pub(crate) verdict: &'a Verdict,
+    pub(crate) judgement: &'a Judgement,
 }
 
 impl Answer<'_> {
@@ -27,37 +26,55 @@ impl Answer<'_> {
         if json {
             console::say(&self.object().to_string());
         } else {
-            if !self.results.is_empty() {
+            if !self.judgement.results.is_empty() {
                 console::say(&self.table());
                 console::say("");
             }
-            console::say(&self.verdict.sentence);
-            let report = self.folder.join("report.html");
+            let header = self.header().lines();
+            let header: Vec<String> = header.iter().map(|[label, value]| format!("{label}: {value}")).collect();
+            console::say(&format!("{}\n", header.join("; ")));
+            for found in &self.judgement.influences {
+                console::say(&format!("{:+.2}  {}", found.rank_correlation, found.key));
+            }
+            if !self.judgement.influences.is_empty() {
+                console::say("rank correlation of what was varied with the largest deviation, over all runs\n");
+            }
+            console::say(&self.judgement.verdict.sentence);
+            let report = self.work.folder.path().join("report.html");
             if report.is_file() {
                 console::warn(&format!("report: {}", report.display()));
             }
         }
-        self.verdict.exit_code
+        self.judgement.verdict.exit_code
+    }
+
+    fn header(&self) -> Header {
+        Header::of(&self.work.setup, &self.judgement.results)
+    }
+
+    fn claim(&self, result: &CaseResult) -> Option<String> {
+        self.cases.iter().find(|case| case.number == result.case).map(Case::claim)
     }
 
     fn table(&self) -> String {
-        let header = COLUMNS.iter().map(|name| (*name).to_owned()).collect();
-        let rows = worst_first(self.results).into_iter().take(WORST).map(|result| cells(result).to_vec());
+        let header = COLUMNS.iter().chain(&["evidence"]).map(|name| (*name).to_owned()).collect();
+        let worst = worst_first(&self.judgement.results).into_iter().take(WORST);
+        let rows = worst.map(|result| cells(result).into_iter().chain(self.claim(result)).collect());
         console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>())
     }
 
     fn count(&self, status: Status) -> usize {
-        self.results.iter().filter(|result| result.status == status).count()
+        self.judgement.results.iter().filter(|result| result.status == status).count()
     }
 
     fn object(&self) -> Value {
         let file = |name: &str| {
-            let path = self.folder.join(name);
+            let path = self.work.folder.path().join(name);
             if path.exists() { json!(path) } else { Value::Null }
         };
         json!({
-            "verdict": self.verdict.sentence,
-            "exit_code": self.verdict.exit_code,
+            "verdict": self.judgement.verdict.sentence,
+            "exit_code": self.judgement.verdict.exit_code,
             "counts": {
                 "asked": self.asked,
                 "cases": self.cases.len(),
@@ -66,9 +83,15 @@ impl Answer<'_> {
                 "executor_failed": self.count(Status::ExecutorFailed),
                 "inconclusive": self.count(Status::Inconclusive),
             },
-            "worst": worst_first(self.results).first().map(|result| worst(result)),
+            "frame": self.header(),
+            "worst": worst_first(&self.judgement.results).first().map(|result| {
+                let mut object = worst(result);
+                object["evidence"] = json!(self.claim(result));
+                object
+            }),
+            "influences": self.judgement.influences,
             "paths": {
-                "folder": self.folder,
+                "folder": self.work.folder.path(),
                 "scenario": file("scenario.toml"),
                 "results": file("results.parquet"),
                 "junit": file("junit.xml"),

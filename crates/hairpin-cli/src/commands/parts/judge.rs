@@ -1,7 +1,7 @@
 //! Parts three and four: the verdict on the flights in the folder, and the report.
 
 use hairpin::campaign::{
-    self, Case, CaseResult, Status, Tally,
+    self, Case, CaseResult, Influence, RunDeviation, Status, Tally,
     report::{Shown, worst_first},
 };
 use hairpin::judgement::Verdict;
@@ -16,10 +16,17 @@ use crate::problem::Problem;
 /// Violating cases that get a `repro/CASE.json`, the worst ones.
 const REPROS: usize = 20;
 
-/// Judges every case and writes results, JUnit and repro files.
-pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<(Vec<CaseResult>, Verdict), Problem> {
+/// What judging came to.
+pub(crate) struct Judgement {
+    pub(crate) results: Vec<CaseResult>,
+    pub(crate) verdict: Verdict,
+    pub(crate) influences: Vec<Influence>,
+}
+
+/// Judges every case and writes results, JUnit, repro files, and which parameter did it.
+pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgement, Problem> {
     let table = work.folder.read_runs_table()?;
-    let judged: Result<Vec<CaseResult>, Problem> = cases
+    let judged: Result<Vec<(CaseResult, Vec<RunDeviation>)>, Problem> = cases
         .par_iter()
         .map(|case| {
             let runs = work.folder.read_runs(case.number, &table)?;
@@ -30,15 +37,17 @@ pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<(Vec<C
                     work.folder.path().display()
                 )));
             }
-            Ok(campaign::judge(&work.setup, case, &runs)?)
+            Ok(campaign::judge_runs(&work.setup, case, &runs)?)
         })
         .collect();
-    let results = judged?;
+    let (results, deviations): (Vec<_>, Vec<_>) = judged?.into_iter().unzip();
+    let influences = campaign::influences(&work.setup.scenario, &deviations.concat());
     let verdict = campaign::verdict(&work.setup, cases, &results, tally);
     work.folder.write_results(cases, &results)?;
     junit::write(&work.folder.file("junit.xml"), &suite(work, tally, &verdict), &results)?;
     write_repros(work, cases, &results)?;
-    Ok((results, verdict))
+    work.folder.write_influences(&influences)?;
+    Ok(Judgement { results, verdict, influences })
 }
 
 fn suite(work: &Work, tally: &Tally, verdict: &Verdict) -> Suite {

@@ -9,5 +9,5 @@ mod repro;
 pub(crate) use answer::Answer;
 pub(crate) use execute::{execute, fly_one};
 pub(crate) use generate::{adopt, generate};
-pub(crate) use judge::{judge, report};
+pub(crate) use judge::{Judgement, judge, report};
 pub(crate) use repro::Repro;

@@ -1,12 +1,14 @@
 //! A report's contents: assembled once from a judged campaign, shown by whatever format.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 
 use super::solid::{Surface, surface};
-use super::text::{cells, leg, number};
+use super::text::{attitude, cells, leg, number};
 use crate::campaign::scenario::DeviationFrom;
-use crate::campaign::{Case, CaseResult, Run, Setup, Status, Tally};
+use crate::campaign::{Case, CaseResult, Influence, Run, Setup, Status, Tally, vary};
 use crate::judgement::{
     JudgementError, Measures, Reference, Settings, Statistics, Verdict, deviation_of_samples, share,
 };
@@ -58,8 +60,10 @@ pub struct Shown {
     pub result: CaseResult,
     /// Waypoints, m.
     pub waypoints: Vec<Point3<f64>>,
-    /// Evidence word.
-    pub evidence: &'static str,
+    /// Evidence word, with what was proven of the score: [`Case::claim`].
+    pub claim: String,
+    /// The attitude at the worst moment, in words: `nose up 12°, left side up 8°`.
+    pub attitude: Option<String>,
     /// Score.
     pub score: f64,
     /// The planned motion.
@@ -97,6 +101,12 @@ pub struct ReportData {
     pub shown: Vec<Shown>,
     /// Assumptions and limits of this run.
     pub assumptions: Vec<String>,
+    /// Label and value: frames, altitudes and what is counted, before anything is judged.
+    pub frame: Vec<[String; 2]>,
+    /// [`Case::claim`] of every case, by number.
+    pub claims: BTreeMap<usize, String>,
+    /// Which parameter did it.
+    pub influences: Vec<Influence>,
 }
 
 /// What [`assemble`] is given.
@@ -116,6 +126,10 @@ pub struct Pieces<'a> {
     pub assumptions: Vec<String>,
     /// The cases to show in full, from [`shown`], in any order.
     pub shown: Vec<Shown>,
+    /// Label and value: frames, altitudes and what is counted.
+    pub frame: Vec<[String; 2]>,
+    /// Rank correlations of what was varied.
+    pub influences: Vec<Influence>,
 }
 
 /// The results' order in tables: failures, then doubts, then passes, each by its deviation, the largest first.
@@ -151,7 +165,9 @@ pub fn shown(
 ) -> Result<Shown, JudgementError> {
     let flown = run.and_then(|run| run.outcome.as_ref().ok()).map(|flight| flight.track.clone());
     let flown = flown.filter(|track| !track.is_empty());
-    let deviation = setup.scenario.spec.deviation;
+    // What was judged was judged by the run's own limits. Keys of an edited folder that fit nowhere are the judge's to tell.
+    let drawn = vary::apply(&setup.scenario, &result.drawn);
+    let deviation = drawn.as_ref().unwrap_or(&setup.scenario).spec.deviation;
     let reference = match deviation.map_or(DeviationFrom::Leg, |spec| spec.from) {
         DeviationFrom::Leg => Reference::Leg,
         DeviationFrom::NearestLeg => Reference::NearestLeg,
@@ -169,7 +185,8 @@ pub fn shown(
     Ok(Shown {
         result: result.clone(),
         waypoints: case.waypoints.clone(),
-        evidence: case.evidence.word(),
+        claim: case.claim(),
+        attitude: flown.as_ref().zip(result.measures.as_ref()).map(|(track, measures)| worst_attitude(track, measures)),
         score: case.score,
         planned,
         flown,
@@ -177,6 +194,15 @@ pub fn shown(
         judged,
         statistics: Statistics::of(&counted),
     })
+}
+
+/// The attitude at the stamp nearest to the worst moment, in words.
+fn worst_attitude(track: &Track, measures: &Measures) -> String {
+    let after = track.times().partition_point(|t| *t < measures.t_worst).min(track.len() - 1);
+    let before = after.saturating_sub(1);
+    let apart = |stamp: usize| (track.times()[stamp] - measures.t_worst).abs();
+    let nearest = if apart(before) < apart(after) { before } else { after };
+    attitude(&track.poses()[nearest].rotation)
 }
 
 /// Puts the pieces of a report together.
@@ -204,6 +230,9 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         metrics: metrics(&pieces),
         shown,
         assumptions: pieces.assumptions,
+        frame: pieces.frame,
+        claims: pieces.cases.iter().map(|case| (case.number, case.claim())).collect(),
+        influences: pieces.influences,
     }
 }
 

@@ -6,4 +6,5 @@ mod text;
 
 pub use data::{Drawing, Metric, Pieces, ReportData, Rotor, Shown, assemble, shown, worst_first};
 pub use solid::{Surface, surface};
-pub use text::{COLUMNS, cells, leg, number, percent, violation};
+pub(in crate::campaign) use text::percent_digits;
+pub use text::{COLUMNS, attitude, cells, leg, number, percent, violation};

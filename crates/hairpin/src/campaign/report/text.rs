@@ -1,5 +1,7 @@
 //! Numbers as people read them: the one place that rounds, so that table, report, JUnit and verdict agree.
 
+use nalgebra::{UnitQuaternion, Vector3};
+
 use crate::campaign::CaseResult;
 use crate::judgement::Violation;
 use crate::judgement::verdict::apart;
@@ -21,6 +23,33 @@ pub fn percent(share: Option<f64>) -> String {
         Some(share) if share != 0.0 && share.abs() < 0.0995 => format!("{:.1} %", 100.0 * share),
         Some(share) => format!("{:.0} %", 100.0 * share),
     }
+}
+
+/// A share in percent with two digits, but at most one decimal from 1 % on: `5.0`, `0.050`.
+pub(in crate::campaign) fn percent_digits(share: f64) -> String {
+    let percent = 100.0 * share;
+    let mut decimals = 1;
+    while decimals < 8 && percent < 10f64.powi(1 - decimals) {
+        decimals += 1;
+    }
+    format!("{percent:.*}", decimals as usize)
+}
+
+/// `nose up 12°, left side down 8°`: how far the body's forward and left axes point above or below the horizon, which
+/// needs no convention of signs; `upside down` is said too. The body is forward, left, up.
+pub fn attitude(world_from_body: &UnitQuaternion<f64>) -> String {
+    let side = |name: &str, axis: Vector3<f64>| {
+        let degrees = (world_from_body * axis).z.clamp(-1.0, 1.0).asin().to_degrees().round();
+        let way = if degrees > 0.0 { "up" } else { "down" };
+        (degrees != 0.0).then(|| format!("{name} {way} {}°", degrees.abs()))
+    };
+    let turned = (world_from_body * Vector3::z()).z < 0.0;
+    let parts: Vec<String> = [side("nose", Vector3::x()), side("left side", Vector3::y())]
+        .into_iter()
+        .flatten()
+        .chain(turned.then(|| "upside down".to_owned()))
+        .collect();
+    if parts.is_empty() { "level".into() } else { parts.join(", ") }
 }
 
 /// `4→5`: the leg that joins waypoints 4 and 5.
@@ -93,6 +122,20 @@ mod tests {
         assert_eq!(violation(&crash), "crash at t=3.00 s");
         let near = Violation { what: "clearance".into(), value: 0.1, limit: 0.25, unit: "m".into(), at: 1.0, leg: 0 };
         assert_eq!(violation(&near), "clearance 0.10 m < 0.25 m at t=1.00 s");
+    }
+
+    #[test]
+    fn attitudes_are_said_as_people_say_them() {
+        let of = |roll: f64, pitch: f64, yaw: f64| {
+            let degrees = [roll, pitch, yaw].map(f64::to_radians);
+            attitude(&UnitQuaternion::from_euler_angles(degrees[0], degrees[1], degrees[2]))
+        };
+        // Forward, left, up: a positive pitch is nose down, a positive roll lifts the left side; yaw says nothing.
+        assert_eq!(of(0.0, -12.0, 130.0), "nose up 12°");
+        assert_eq!(of(8.0, 0.0, -75.0), "left side up 8°");
+        assert_eq!(of(-20.0, 30.0, 10.0), "nose down 30°, left side down 17°");
+        assert_eq!(of(180.0, 0.0, 40.0), "upside down");
+        assert_eq!(of(0.2, -0.3, 77.0), "level");
     }
 
     #[test]

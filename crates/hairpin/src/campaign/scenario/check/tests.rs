@@ -130,7 +130,9 @@ fn vary_is_tried_before_anything_flies() {
         ("generate.search.width", json!({ "choice": [0] }), "generate.search.width = 0"),
         ("seed", json!({ "uniform": [1, 5] }), "this one may not"),
         ("hairpin", json!({ "uniform": [1, 5] }), "this one may not"),
-        ("spec.deviation.max_m", json!({ "uniform": [1, 5] }), "this one may not"),
+        ("spec.deviation.max_m", json!({ "uniform": [-1.0, 5.0] }), "within bounds: spec.deviation.max_m = -1"),
+        ("spec.confidence", json!({ "uniform": [0.9, 0.95] }), "this one may not: it judges all cases together"),
+        ("vary.x", json!({ "uniform": [1, 5] }), "this one may not: it says what varies"),
         ("a b", json!({ "uniform": [1, 5] }), "a dotted key"),
     ];
     for (key, distribution, words) in table {

@@ -8,20 +8,23 @@ use crate::campaign::scenario::{Distribution, KeyPath, Mistake, Scenario};
 use crate::campaign::vary::{apply, as_value};
 
 /// Keys that say what the campaign is, not what happens in a case.
-const FIXED: &[&str] = &[
-    "hairpin",
-    "seed",
-    "vary",
-    "robot",
-    "world.base",
-    "generate.search.cases",
-    "generate.search.graphs",
-    "generate.search.per_graph",
-    "execute.command",
-    "execute.logs",
-    "execute.repeat",
-    "execute.timeout_s",
-    "execute.workers",
+const FIXED: &[(&str, &str)] = &[
+    ("hairpin", "it is the format of the whole file"),
+    ("seed", "all draws come from it"),
+    ("vary", "it says what varies"),
+    ("robot", "its numbers may, such as \"robot.mass_kg\""),
+    ("world.base", "it is merged before anything is drawn"),
+    ("generate.search.cases", "it is the number of cases"),
+    ("generate.search.graphs", "it is a budget of the whole search"),
+    ("generate.search.per_graph", "it is the number of cases of a graph"),
+    ("execute.command", "one program flies all runs"),
+    ("execute.logs", "it belongs to the whole campaign"),
+    ("execute.repeat", "it is the number of runs"),
+    ("execute.timeout_s", "one program flies all runs"),
+    ("execute.workers", "one program flies all runs"),
+    ("spec", "its limits may, such as \"spec.deviation.max_m\""),
+    ("spec.violation_share", "it judges all cases together"),
+    ("spec.confidence", "it judges all cases together"),
 ];
 /// Each is tried before anything flies.
 const MOST_CHOICES: usize = 1000;
@@ -42,8 +45,12 @@ fn check_entry(scenario: &Scenario, nominal: &Value, key: &str, distribution: &D
         return refuse(format!("\"{key}\""), "a dotted key of the scenario, such as \"world.wind_m_s\"".into());
     };
     let whole_key = path.to_string();
-    if FIXED.contains(&whole_key.as_str()) || ["spec", "vary"].contains(&path.segments()[0].as_str()) {
-        return refuse(format!("\"{key}\""), "a key that may differ between cases or runs; this one may not".into());
+    let within_vary = path.segments()[0] == "vary";
+    if let Some((_, why)) = FIXED.iter().find(|(fixed, _)| *fixed == whole_key || (within_vary && *fixed == "vary")) {
+        return refuse(
+            format!("\"{key}\""),
+            format!("a key that may differ between cases or runs; this one may not: {why}"),
+        );
     }
     let ends = match ends(distribution, path.get(nominal)) {
         Ok(ends) => ends,

@@ -1,0 +1,111 @@
+//! What stands before a judgement: in which frame, from which origin, what is counted. Nothing here is left to guess.
+
+use hairpin::campaign::scenario::Origin;
+use hairpin::campaign::{CaseResult, Setup};
+use hairpin::judgement::LegSource;
+use nalgebra::Point3;
+use serde::Serialize;
+
+use crate::frames::{Cage, Geodetic};
+
+/// The header of a judgement, in words by [`Header::lines`] and as it stands under `frame` in JSON.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Header {
+    /// The cage's origin and heading on Earth; `null` where the scenario does not place it.
+    pub origin: Option<Origin>,
+    /// Where on Earth the first waypoint is.
+    pub start: Option<Geodetic>,
+    /// What positions and z are relative to: always `cage origin`, never a vehicle's local origin or home.
+    pub relative_to: &'static str,
+    /// Waypoints of a trajectory.
+    pub length: u64,
+    /// Always `waypoints`, both ends included.
+    pub length_counts: &'static str,
+    /// Always false: tracks are compared as they are.
+    pub aligned: bool,
+    /// From where the leg being flown is known.
+    pub leg_source: LegSources,
+}
+
+/// Judged cases by where the leg being flown is known from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct LegSources {
+    /// The executor told it.
+    pub executor: usize,
+    /// Monotone assignment along the path.
+    pub assigned: usize,
+}
+
+impl Header {
+    /// The header of `results`.
+    pub fn of(setup: &Setup, results: &[CaseResult]) -> Self {
+        let scenario = &setup.scenario;
+        let from = |source: LegSource| {
+            results.iter().filter(|r| r.measures.as_ref().is_some_and(|m| m.leg_source == source)).count()
+        };
+        Self {
+            origin: scenario.world.origin,
+            start: scenario
+                .world
+                .origin
+                .map(|origin| Cage::new(&origin).geodetic(&Point3::from(scenario.task.start_m))),
+            relative_to: "cage origin",
+            length: scenario.task.length,
+            length_counts: "waypoints",
+            aligned: false,
+            leg_source: LegSources { executor: from(LegSource::Executor), assigned: from(LegSource::Assigned) },
+        }
+    }
+
+    /// Label and value.
+    pub fn lines(&self) -> Vec<[String; 2]> {
+        let line = |label: &str, value: String| [label.to_owned(), value];
+        let mut lines = Vec::new();
+        match (&self.origin, &self.start) {
+            (Some(origin), Some(start)) => {
+                lines.push(line(
+                    "frame",
+                    format!("cage: x heads {}° by compass, y to its left, z up, m", origin.x_axis_heading_deg),
+                ));
+                lines.push(line(
+                    "cage origin",
+                    format!("{:.7}°, {:.7}° WGS 84, {} m AMSL", origin.lat_deg, origin.lon_deg, origin.alt_amsl_m),
+                ));
+                lines.push(line(
+                    "start",
+                    format!("{:.7}°, {:.7}°, {:.2} m AMSL", start.lat_deg, start.lon_deg, start.alt_amsl_m),
+                ));
+                lines.push(line(
+                    "altitude",
+                    format!(
+                        "z is relative to the cage origin; AMSL is {} m more; ellipsoid and geoid are not told apart",
+                        origin.alt_amsl_m
+                    ),
+                ));
+            }
+            _ => {
+                lines.push(line(
+                    "frame",
+                    "cage: x and y along its edges, z up, m; not placed on Earth (no world.origin)".into(),
+                ));
+                lines.push(line("altitude", "z is relative to the cage origin; AMSL is not known".into()));
+            }
+        }
+        lines.push(line(
+            "origins",
+            "the cage origin is neither a vehicle's local origin nor its home: differences are the executor's".into(),
+        ));
+        lines.push(line("length", format!("{} counts waypoints, both ends included", self.length)));
+        lines.push(line("alignment", "not aligned".into()));
+        let LegSources { executor, assigned } = self.leg_source;
+        lines.push(line(
+            "leg being flown",
+            match (executor, assigned) {
+                (_, 0) => "told by the executor".into(),
+                (0, _) => "by monotone assignment along the path".into(),
+                _ => format!("told by the executor in {executor} cases, by monotone assignment in {assigned}"),
+            },
+        ));
+        lines
+    }
+}
