@@ -19,6 +19,6 @@ pub(crate) fn campaign(work: &Work, deadline: Deadline, json: bool) -> Result<u8
     let judgement = parts::judge(work, &cases, &tally)?;
     parts::report(work, &cases, &tally, &judgement.verdict)?;
     let asked = work.setup.scenario.generate.search.cases as usize;
-    let answer = Answer { work: work, asked, cases: &cases, judgement: &judgement };
+    let answer = Answer { work, asked, cases: &cases, judgement: &judgement };
     Ok(answer.say(json))
 }
