@@ -8,6 +8,7 @@ use hairpin::judgement::Statistics;
 use sha2::{Digest, Sha256};
 
 use super::{data, svg};
+use crate::executor::ATTITUDE_UNKNOWN;
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
@@ -162,7 +163,8 @@ fn findings(shown: &Shown, first: bool) -> String {
     if findings.is_empty() {
         findings.push("within the specification".into());
     }
-    if let Some(attitude) = &shown.attitude {
+    let unknown = shown.flown.as_ref().is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some());
+    if let Some(attitude) = shown.attitude.as_ref().filter(|_| !unknown) {
         findings.push(format!("at the worst moment: {attitude}"));
     }
     let drawn: Vec<String> = shown.result.drawn.iter().map(|(key, value)| format!("{key} = {value}")).collect();
