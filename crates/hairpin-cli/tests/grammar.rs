@@ -42,11 +42,13 @@ fn every_listed_command_has_help() {
 fn wrong_input_is_2_and_says_what_to_do() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("broken.toml"), "hairpin = 1\nrobot = \"anafi\"\n[task]\nlenght = 3\n").unwrap();
+    fs::write(folder.path().join("empty.toml"), "").unwrap();
     for (arguments, told) in [
         (vec!["strees"], "unrecognized subcommand"),
         (vec!["stress"], "<SCENARIO>"),
         (vec!["stress", "no-such.toml"], "no-such.toml"),
         (vec!["stress", "broken.toml"], "lenght"),
+        (vec!["stress", "empty.toml"], "Error: empty.toml: `robot` is missing"),
         (vec!["stress", "demo-quadrotor", "--threads", "0"], "--threads"),
         (vec!["stress", "demo-quadrotor", "--threads", "65535"], "1..=1024"),
         (vec!["stress", "demo-quadrotor", "--seed", "-1"], "invalid value '-1' for '--seed <N>'"),
@@ -72,7 +74,7 @@ fn wrong_input_is_2_and_says_what_to_do() {
         assert!(out.is_empty(), "{arguments:?} wrote to stdout: {out}");
         assert!(!error.contains('\u{1b}'), "colour where nobody looks: {error:?}");
     }
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "a mistake must leave nothing behind");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "a mistake must leave nothing behind");
 }
 
 #[test]

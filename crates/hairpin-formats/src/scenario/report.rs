@@ -60,7 +60,9 @@ impl Report {
             let name = &complaint.file;
             let text = &self.sources[complaint.place.source].text;
             if text.is_empty() {
-                out.extend(format!("Error: {}\n", complaint.message).into_bytes());
+                // Nothing to point at: an empty file is named; what is said of a whole file names it already.
+                let place = if complaint.field.is_empty() { String::new() } else { format!("{name}: ") };
+                out.extend(format!("Error: {place}{}\n", complaint.message).into_bytes());
                 continue;
             }
             let span = char_boundaries(text, &complaint.place.span);
