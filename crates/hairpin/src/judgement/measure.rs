@@ -13,7 +13,7 @@ use crate::trajectory::Track;
 /// Measures `track` against the polyline through `waypoints`.
 ///
 /// With position p_i, time t_i and leg l(i) of sample i, waypoints w_k, and direction u_k of leg k:
-/// - deviation d_i = ‖p_i − segment(w_l, w_l+1)‖ (or [`Reference`]); its mean is weighted by time,
+/// - deviation d_i = ‖p_i − segment(w_l, w_l+1)‖ (or [`super::Reference`]); its mean is weighted by time,
 ///   h_i = (t_i+1 − t_i−1)/2, over the samples that count (see [`Settings::corner`]);
 /// - overshoot at waypoint k = max over samples of (p_i − q_i)·u_k−1, at least 0, with q_i = w_k while leg k−1 is
 ///   flown, and q_i = the point of leg k's segment nearest to p_i while leg k is flown: how far the robot is carried

@@ -1,0 +1,40 @@
+//! Every shipped scenario gives the cases that it promises.
+
+use hairpin::campaign::{Evidence, Known, Setup, Stop, generate};
+use hairpin_formats::library;
+use hairpin_formats::scenario::scenario_for;
+
+/// Cases asked for here; the files ask for more.
+const CASES: u64 = 10;
+
+#[test]
+fn every_shipped_scenario_gives_nine_tenths_of_its_cases() {
+    let sets = [("generate.search.cases".to_owned(), CASES.to_string())];
+    for shipped in library::scenarios() {
+        let name = shipped.name;
+        let scenario = scenario_for(name, &sets).unwrap_or_else(|report| panic!("{name}: {report}"));
+        let setup = Setup::new(scenario).unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
+        let mut cases = Vec::new();
+        let tally = generate(&setup, &Known::default(), &Stop::never(), &mut |new, _| cases.extend_from_slice(new));
+        assert!(10 * cases.len() as u64 >= 9 * CASES, "{name}: {} of {CASES} cases, {tally:?}", cases.len());
+        for case in &cases {
+            assert_eq!(case.waypoints.len() as u64, setup.scenario.task.length, "{name}");
+            assert_eq!(case.evidence == Evidence::Witnessed, case.profile.is_some(), "{name}");
+        }
+    }
+}
+
+/// From corner to centre in one step: the answer is a reason, never another reach set.
+#[test]
+fn nothing_feasible_is_an_answer_with_its_reason() {
+    let sets = [("task.length".to_owned(), "2".to_owned()), ("generate.search.graphs".to_owned(), "3".to_owned())];
+    let setup = Setup::new(scenario_for("paper-stable", &sets).expect("a sound scenario")).expect("a sound set-up");
+    let mut cases = 0;
+    let tally = generate(&setup, &Known::default(), &Stop::never(), &mut |new, _| cases += new.len());
+    let verdict = hairpin::campaign::verdict(&setup, &[], &[], &tally);
+    assert_eq!((cases, tally.proven_empty, verdict.exit_code), (0, 3, 3));
+    assert!(
+        verdict.sentence.starts_with("NOTHING FEASIBLE (proof, published): no chain of 2 waypoints"),
+        "{verdict:?}"
+    );
+}
