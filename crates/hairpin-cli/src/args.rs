@@ -179,7 +179,7 @@ pub(crate) struct Execute {
     /// Program that flies the missions (sets execute.command); see examples/executors
     #[arg(long, value_name = "COMMAND")]
     pub(crate) executor: Option<String>,
-    /// Override one key of [execute], [vary] or [spec]; repeatable
+    /// Override one key of execute, vary or spec; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,
     /// Keep the runs that are there
@@ -197,7 +197,7 @@ pub(crate) struct Judge {
     /// Campaign folder
     #[arg(value_name = "OUT")]
     pub(crate) folder: PathBuf,
-    /// Override one key of [spec]; repeatable
+    /// Override one key of spec; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,
     /// One JSON object on stdout

@@ -170,7 +170,7 @@ fn the_header_and_the_parameter_that_did_it_are_told() {
     assert!(found.iter().all(|one| one["rank_correlation"].as_f64().unwrap().abs() <= 1.0));
     // Limits drawn per run are those it is judged by.
     assert_eq!(object["counts"]["fail"], 4, "{object}");
-    assert_eq!(object["worst"]["evidence"], "hull-feasible");
+    assert_eq!(object["worst"]["evidence"], "witnessed");
     let report = fs::read_to_string(folder.path().join("a/report.html")).unwrap();
     let page = &report[..report.find("<script").unwrap()];
     for words in ["x heads 73.5° by compass", "not aligned", "Which parameter did it", "at the worst moment: "] {

@@ -31,7 +31,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// any moment leaves the old file or the new one, and at worst a temporary that [`remove_leftovers`] takes away.
 ///
 /// # Errors
-/// As [`write`], and whatever `fill` returns.
+/// As [`write()`], and whatever `fill` returns.
 pub fn write_with(path: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> Result<(), WriteError> {
     let refuse = |cause| WriteError { path: path.into(), cause };
     let folder = match path.parent() {

@@ -31,7 +31,7 @@ fn overrides() -> impl Strategy<Value = Vec<(String, String)>> {
         prop_oneof![Just("beam"), Just("exact"), Just("uniform")],
         1u64..1000,
         any::<bool>(),
-        0.01..60.0,
+        0.01..10.0,
     );
     let execute = (prop_oneof![Just("minimum-snap"), Just("geometric")], 1u64..100, 1e-5..1e-3, any::<bool>());
     let seed = 0u64..=i64::MAX as u64;

@@ -188,7 +188,8 @@ fn violations_come_gravest_first() {
         let found = violations(&measures, &flight(ended, left), &limits);
         found.into_iter().map(|v| v.what).collect::<Vec<_>>()
     };
-    assert_eq!(what(Ended::Done, None), ["total-time", "clearance", "deviation"]);
+    // An executor's "done" does not make up for a last waypoint that was never reached.
+    assert_eq!(what(Ended::Done, None), ["unfinished", "total-time", "clearance", "deviation"]);
     assert_eq!(what(Ended::Ground, Some(1.0)), ["crash", "left-world", "total-time", "clearance", "deviation"]);
     assert_eq!(what(Ended::Time, None)[0], "unfinished");
     let found = violations(&measures, &flight(Ended::Time, Some(1.0)), &limits);

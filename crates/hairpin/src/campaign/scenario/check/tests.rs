@@ -70,7 +70,7 @@ fn every_bound_holds() {
         ("generate.timing", json!({ "leg_time_s": [4.0, 0.8] }), "must be rising"),
         ("generate.timing", json!({}), "must be exactly one of leg_time_s and step_s"),
         ("generate.timing", json!({ "step_s": 0.0 }), "step_s = 0: must be > 0"),
-        ("generate.resolution", json!(1), "generate.resolution = 1: must be 2 … 20"),
+        ("generate.resolution", json!(1), "generate.resolution = 1: must be 2 … 12"),
         ("generate.velocities", json!(0), "generate.velocities = 0: must be 1 … 64"),
         ("generate.search.waypoints", json!(0), "generate.search.waypoints = 0: must be 1 … 100 000"),
         ("generate.search.waypoints", json!(1_000_000_000), "waypoints = 1000000000: must be 1 … 100 000"),
