@@ -1,6 +1,7 @@
 //! Floor 4: motions as data. A [`Track`] is poses in time with named channels; a [`Profile`] is the polynomial
 //! witness of a quadrotor's motion. Neither knows the world nor how it was found.
 
+pub mod drive;
 pub mod flight;
 pub mod profile;
 pub mod track;

@@ -3,6 +3,7 @@
 pub mod flatness;
 pub mod leg;
 pub mod proof;
+pub mod shooting;
 pub mod timing;
 
 #[cfg(test)]

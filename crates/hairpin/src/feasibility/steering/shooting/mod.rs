@@ -1,0 +1,5 @@
+//! Boundary-value trajectories of ground vehicles: find controls whose motion ends where it was asked to.
+
+pub mod query;
+
+pub use query::{Curvatures, Goal, Precision, Query, Refusal};
