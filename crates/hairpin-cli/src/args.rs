@@ -17,8 +17,9 @@ pub(crate) struct Arguments {
     pub(crate) verbose: u8,
 }
 
-const EXIT_CODES: &str =
-    "Exit codes: 0 within spec, 1 violation, 2 wrong input, 3 nothing feasible, 4 executor failed, 5 inconclusive";
+const EXIT_CODES: &str = "\
+Exit codes: 0 within spec, 1 violation or finding, 2 wrong input, 3 nothing feasible, 4 executor failed, \
+5 inconclusive; and beside verdicts 70 a mistake of hairpin's own, 130 interrupted (--resume goes on)";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -64,12 +65,10 @@ impl Command {
             Self::Verify(a) => a.json,
             Self::Replay(a) => a.json,
             Self::Bench(a) => a.json,
-            Self::New(_)
-            | Self::Export(_)
-            | Self::Report(_)
-            | Self::Simulate(_)
-            | Self::Schema(_)
-            | Self::Completions(_) => false,
+            Self::New(a) => a.json,
+            Self::Export(a) => a.json,
+            Self::Report(a) => a.json,
+            Self::Simulate(_) | Self::Schema(_) | Self::Completions(_) => false,
         }
     }
 }
@@ -108,6 +107,9 @@ pub(crate) struct New {
     /// Overwrite the file
     #[arg(long)]
     pub(crate) force: bool,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// More than any machine has cores for; each takes memory, and graphs that are searched ahead.
@@ -234,9 +236,12 @@ pub(crate) struct Export {
     /// Campaign folder
     #[arg(value_name = "OUT")]
     pub(crate) folder: PathBuf,
-    /// Formats, separated by commas
+    /// Formats, separated by commas; the files go into the campaign folder
     #[arg(long, value_enum, value_delimiter = ',', required = true)]
     pub(crate) to: Vec<Format>,
+    /// One JSON object on stdout: the files
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// Formats of `export`.
@@ -246,9 +251,9 @@ pub(crate) enum Format {
     Waypoints,
     /// missions/CASE.geodetic.csv: lat_deg,lon_deg,alt_amsl_m,relative_alt_m by the scenario's world.origin
     Geodetic,
-    /// export/CASE.planned.csv and export/CASE-RUN.csv: poses in time
+    /// CASE.planned.csv and CASE-RUN.csv: poses in time, quaternions w first
     Csv,
-    /// export/CASE.ref.tum and CASE.exec.tum: planned motion and worst run, same stamps
+    /// CASE.ref.tum and CASE.exec.tum: planned motion and worst run on the same stamps, not aligned
     Tum,
 }
 
@@ -260,6 +265,9 @@ pub(crate) struct ReportArguments {
     /// Open it in the browser
     #[arg(long)]
     pub(crate) open: bool,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// The flight begins level and at rest at the origin, rotors at the first row's speeds. Each row's speeds are asked for

@@ -6,7 +6,7 @@ use std::time::Instant;
 use crate::console;
 
 /// Exit code of an interrupted command, as shells have it.
-pub(crate) const INTERRUPTED: i32 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
 
 static ASKED: AtomicUsize = AtomicUsize::new(0);
 
@@ -15,7 +15,7 @@ pub(crate) fn listen() {
     // It fails only where the system has no signals to listen to; then Ctrl-C quits at once.
     let _ = ctrlc::set_handler(|| {
         if ASKED.fetch_add(1, Ordering::SeqCst) > 0 {
-            std::process::exit(INTERRUPTED);
+            std::process::exit(INTERRUPTED.into());
         }
         console::warn("stopping: what is done is kept (Ctrl-C again quits at once)");
     });

@@ -24,15 +24,17 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use args::{Arguments, Command};
-use problem::Problem;
+use problem::{Problem, WRONG_INPUT};
 
 /// A mistake of hairpin's own (`EX_SOFTWARE` of sysexits.h).
 const OUR_MISTAKE: u8 = 70;
 
 fn main() -> ExitCode {
     apologise_when_panicking();
-    // Wrong usage exits with 2, help and version with 0, as clap has it.
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(usage) => return explain(&usage),
+    };
     let json = arguments.command.json();
     // A panic has told its sentence already; it must not look like a verdict.
     let outcome = std::panic::catch_unwind(|| run(arguments));
@@ -41,6 +43,21 @@ fn main() -> ExitCode {
         Ok(Err(problem)) => problem.tell(json),
         Err(_) => OUR_MISTAKE,
     })
+}
+
+/// Help and version on stdout with 0, wrong usage on stderr with 2, as clap has it; machines get the latter as an object.
+fn explain(usage: &clap::Error) -> ExitCode {
+    // It fails only where nobody reads on.
+    let _ = usage.print();
+    if usage.exit_code() == 0 {
+        return ExitCode::SUCCESS;
+    }
+    if std::env::args_os().any(|argument| argument == "--json") {
+        let text = usage.render().to_string();
+        let sentence = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        console::say(&Problem::input(sentence).object().to_string());
+    }
+    ExitCode::from(WRONG_INPUT)
 }
 
 fn run(arguments: Arguments) -> Result<u8, Problem> {

@@ -7,6 +7,10 @@ use hairpin_formats::scenario::Report;
 use serde_json::{Value, json};
 
 use crate::console;
+use crate::interrupt::INTERRUPTED;
+
+/// Exit code of wrong input.
+pub(crate) const WRONG_INPUT: u8 = 2;
 
 /// A command that could not do what was asked.
 #[derive(Debug)]
@@ -27,22 +31,27 @@ impl Problem {
 
     /// Tells it, and gives the exit code.
     pub(crate) fn tell(&self, json: bool) -> u8 {
-        let code = match self {
-            Self::Scenario(_) | Self::Input(_) => 2,
-            Self::Interrupted(_) => 130,
-        };
         match self {
             Self::Scenario(report) => console::warn(report.render(console::colour_on_stderr()).trim_end()),
             Self::Input(sentence) => console::warn(&format!("Error: {sentence}")),
             Self::Interrupted(sentence) => console::warn(sentence),
         }
         if json {
-            console::say(&self.object(code).to_string());
+            console::say(&self.object().to_string());
         }
-        code
+        self.code()
     }
 
-    fn object(&self, code: u8) -> Value {
+    fn code(&self) -> u8 {
+        match self {
+            Self::Scenario(_) | Self::Input(_) => WRONG_INPUT,
+            Self::Interrupted(_) => INTERRUPTED,
+        }
+    }
+
+    /// What machines get on stdout.
+    pub(crate) fn object(&self) -> Value {
+        let code = self.code();
         match self {
             Self::Scenario(report) => json!({ "exit_code": code, "mistakes": report.to_json() }),
             Self::Input(sentence) | Self::Interrupted(sentence) => json!({ "exit_code": code, "error": sentence }),

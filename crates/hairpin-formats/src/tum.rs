@@ -1,6 +1,6 @@
 //! Tracks in the format of the TUM RGB-D benchmark: `t x y z qx qy qz qw`, one space between, one pose a line.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hairpin::trajectory::Track;
 
@@ -18,15 +18,17 @@ pub fn text(track: &Track) -> String {
 }
 
 /// Writes `CASE.ref.tum` and `CASE.exec.tum` into `folder`: [`hairpin::trajectory::Track`]s on the same stamps, so that
-/// a comparison pairs them without tolerance and aligns nothing.
+/// a comparison pairs them without tolerance and aligns nothing. Returns their paths.
 ///
 /// # Errors
 /// A file cannot be written.
 ///
 /// # Panics
 /// If the stamps differ: a mistake of the caller's.
-pub fn write_pair(folder: &Path, case: &str, reference: &Track, executed: &Track) -> Result<(), WriteError> {
+pub fn write_pair(folder: &Path, case: &str, reference: &Track, executed: &Track) -> Result<[PathBuf; 2], WriteError> {
     assert_eq!(reference.times(), executed.times(), "reference and execution stand on the same stamps");
-    atomic::write(&folder.join(format!("{case}.ref.tum")), text(reference).as_bytes())?;
-    atomic::write(&folder.join(format!("{case}.exec.tum")), text(executed).as_bytes())
+    let paths = ["ref", "exec"].map(|which| folder.join(format!("{case}.{which}.tum")));
+    atomic::write(&paths[0], text(reference).as_bytes())?;
+    atomic::write(&paths[1], text(executed).as_bytes())?;
+    Ok(paths)
 }

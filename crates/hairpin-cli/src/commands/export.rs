@@ -1,44 +1,101 @@
 //! `hairpin export`: a campaign's trajectories as files that other programs open.
 
-use hairpin::campaign::Case;
+use std::path::PathBuf;
+
+use hairpin::campaign::{Case, Evidence};
 use hairpin::trajectory::Track;
-use hairpin_formats::folder::CampaignFolder;
+use hairpin_formats::executor::ATTITUDE_UNKNOWN;
 use hairpin_formats::frames::Cage;
 use hairpin_formats::{atomic, csv, geodetic, tum, waypoints};
 use nalgebra::Isometry3;
+use serde_json::json;
 
 use crate::args::{Export, Format};
 use crate::folder::Work;
 use crate::problem::Problem;
 use crate::{console, folder};
 
-/// Runs the command.
+/// What came of one format.
+#[derive(Default)]
+struct Written {
+    files: Vec<PathBuf>,
+    /// Of these, files of a format that asks for attitudes, where nobody knows them: they say level.
+    level: Vec<PathBuf>,
+    /// Cases that have no such file, with the reason.
+    missing: Vec<String>,
+}
+
+impl Written {
+    fn all(files: Vec<PathBuf>) -> Self {
+        Self { files, ..Self::default() }
+    }
+}
+
+/// Runs the command: 0 when everything is written that there is to write.
 pub(crate) fn run(export: &Export) -> Result<u8, Problem> {
     let work = folder::look(&export.folder)?;
     let cases = work.folder.read_cases_without_profiles()?;
+    let mut formats = Vec::new();
+    let mut all = Written::default();
     for format in &export.to {
-        let (count, place) = match format {
-            Format::Waypoints => (write_waypoints(&work.folder, &cases)?, "missions/CASE.csv"),
-            Format::Geodetic => (write_geodetic(&work, &cases)?, "missions/CASE.geodetic.csv"),
-            Format::Csv => (write_csv(&work.folder, &cases)?, "export/CASE.planned.csv, export/CASE-RUN.csv"),
-            Format::Tum => (write_tum(&work.folder, &cases)?, "export/CASE.ref.tum, export/CASE.exec.tum"),
+        let written = match format {
+            Format::Waypoints => write_waypoints(&work, &cases)?,
+            Format::Geodetic => write_geodetic(&work, &cases)?,
+            Format::Csv => write_csv(&work, &cases)?,
+            Format::Tum => write_tum(&work, &cases)?,
         };
-        let path = work.folder.path().display();
-        console::say(&format!("{count} files: {path}/{place}"));
+        let (count, (word, programs)) = (written.files.len(), of_format(*format));
+        formats.push(json!({ "format": word, "files": count, "opened_by": programs }));
+        if !export.json {
+            written.files.iter().for_each(|path| console::say(&path.display().to_string()));
+            console::warn(&format!("{count} files {word}, opened by {programs}"));
+        }
+        all.files.extend(written.files);
+        all.level.extend(written.level);
+        all.missing.extend(written.missing);
+    }
+    if let Some(first) = all.level.first() {
+        console::warn(&format!(
+            "Warning: the attitude is unknown in {} files, such as {}: its columns say level",
+            all.level.len(),
+            first.display()
+        ));
+    }
+    for why in &all.missing {
+        console::warn(&format!("Warning: {why}"));
+    }
+    if export.json {
+        let object = json!({
+            "exit_code": 0, "formats": formats, "files": all.files, "attitude_unknown": all.level, "missing": all.missing,
+        });
+        console::say(&object.to_string());
     }
     Ok(0)
 }
 
-fn write_waypoints(folder: &CampaignFolder, cases: &[Case]) -> Result<usize, Problem> {
-    let place = folder.file("missions");
-    atomic::make_folder(&place)?;
-    for case in cases {
-        waypoints::write(&place.join(format!("{}.csv", case.id())), &case.waypoints)?;
+/// The format's word, and who opens its files.
+fn of_format(format: Format) -> (&'static str, &'static str) {
+    match format {
+        Format::Waypoints => ("waypoints", "`hairpin execute OUT --missions DIR` and spreadsheets"),
+        Format::Geodetic => ("geodetic", "spreadsheets and geographic information systems"),
+        Format::Csv => ("csv", "spreadsheets, pandas, PlotJuggler"),
+        Format::Tum => ("tum", "evo: `evo_ape tum CASE.ref.tum CASE.exec.tum`, never with --align"),
     }
-    Ok(cases.len())
 }
 
-fn write_geodetic(work: &Work, cases: &[Case]) -> Result<usize, Problem> {
+/// `missions/CASE.csv`.
+fn write_waypoints(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
+    let place = work.folder.file("missions");
+    atomic::make_folder(&place)?;
+    let one = |case: &Case| {
+        let path = place.join(format!("{}.csv", case.id()));
+        waypoints::write(&path, &case.waypoints).map(|()| path)
+    };
+    Ok(Written::all(cases.iter().map(one).collect::<Result<_, _>>()?))
+}
+
+/// `missions/CASE.geodetic.csv`.
+fn write_geodetic(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     let Some(origin) = &work.setup.scenario.world.origin else {
         return Err(Problem::input(
             "--to geodetic: the scenario has no `world.origin`, such as \
@@ -48,57 +105,82 @@ fn write_geodetic(work: &Work, cases: &[Case]) -> Result<usize, Problem> {
     let cage = Cage::new(origin);
     let place = work.folder.file("missions");
     atomic::make_folder(&place)?;
-    for case in cases {
-        geodetic::write(&place.join(format!("{}{}", case.id(), geodetic::ENDING)), &cage, &case.waypoints)?;
-    }
-    Ok(cases.len())
+    let one = |case: &Case| {
+        let path = place.join(format!("{}{}", case.id(), geodetic::ENDING));
+        geodetic::write(&path, &cage, &case.waypoints).map(|()| path)
+    };
+    Ok(Written::all(cases.iter().map(one).collect::<Result<_, _>>()?))
 }
 
-fn write_csv(folder: &CampaignFolder, cases: &[Case]) -> Result<usize, Problem> {
-    let place = folder.file("export");
-    atomic::make_folder(&place)?;
+/// `CASE.planned.csv` and `CASE-RUN.csv`.
+fn write_csv(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
+    let folder = &work.folder;
     let table = folder.read_runs_table()?;
-    let mut count = 0;
+    let mut written = Written::default();
+    let mut write = |path: PathBuf, track: &Track, level: bool| -> Result<(), Problem> {
+        csv::write(&path, track)?;
+        written.level.extend(level.then(|| path.clone()));
+        written.files.push(path);
+        Ok(())
+    };
     for case in cases {
-        csv::write(&place.join(format!("{}.planned.csv", case.id())), &folder.read_planned(case.number)?)?;
-        count += 1;
+        write(folder.planned_csv_path(case.number), &folder.read_planned(case.number)?, !is_planned(case))?;
         for run in folder.read_runs(case.number, &table)? {
             if let Ok(flight) = &run.outcome {
-                csv::write(&place.join(format!("{}-{}.csv", case.id(), run.run)), &flight.track)?;
-                count += 1;
+                write(folder.run_csv_path(case.number, run.run), &flight.track, is_level(&flight.track))?;
             }
         }
     }
-    Ok(count)
+    Ok(written)
 }
 
-/// Pairs of the planned motion and the worst run of every judged case (run 0 before judging).
-fn write_tum(folder: &CampaignFolder, cases: &[Case]) -> Result<usize, Problem> {
-    let place = folder.file("export");
-    atomic::make_folder(&place)?;
+/// `CASE.ref.tum` and `CASE.exec.tum`: the planned motion and the worst run of every judged case (run 0 before judging).
+fn write_tum(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
+    let folder = &work.folder;
     let table = folder.read_runs_table()?;
     let results = folder.read_results()?;
-    let mut count = 0;
+    let mut written = Written::default();
     for case in cases {
+        let mut miss = |why: &str| written.missing.push(format!("case {} has no .tum: {why}", case.id()));
         let worst = results.iter().find(|result| result.case == case.number).map_or(0, |result| result.run);
-        let Some(run) = folder.read_run(case.number, worst, &table)? else { continue };
-        let Ok(flight) = run.outcome else { continue };
+        let Some(run) = folder.read_run(case.number, worst, &table)? else {
+            miss("it has not been flown");
+            continue;
+        };
+        let Ok(flight) = run.outcome else {
+            miss("its executor failed");
+            continue;
+        };
         if case.leg_times.is_empty() {
-            return Err(Problem::input(format!(
-                "case {}: a mission made elsewhere has no timed plan to compare with",
-                case.id()
-            )));
+            miss("a mission made elsewhere has no timed plan to compare with");
+            continue;
         }
         let planned = folder.read_planned(case.number)?;
-        if let Some(reference) = at_stamps(&planned, flight.track.times()) {
-            tum::write_pair(&place, &case.id(), &reference, &flight.track)?;
-            count += 2;
+        let Some(reference) = at_stamps(&planned, flight.track.times()) else {
+            miss("its plan is empty");
+            continue;
+        };
+        let [reference, executed] = tum::write_pair(folder.path(), &case.id(), &reference, &flight.track)?;
+        written.level.extend((!is_planned(case)).then(|| reference.clone()));
+        written.level.extend(is_level(&flight.track).then(|| executed.clone()));
+        written.files.extend([reference, executed]);
+    }
+    match written.missing.first() {
+        Some(why) if written.files.is_empty() => {
+            Err(Problem::input(format!("--to tum: {why} (hairpin execute {})", folder.path().display())))
         }
+        _ => Ok(written),
     }
-    if count == 0 {
-        return Err(Problem::input(format!("no flights to export: hairpin execute {}", folder.path().display())));
-    }
-    Ok(count)
+}
+
+/// Whether attitudes are planned: only a witness has them.
+fn is_planned(case: &Case) -> bool {
+    case.evidence == Evidence::Witnessed
+}
+
+/// Whether the executor sent no attitudes.
+fn is_level(track: &Track) -> bool {
+    track.channel(ATTITUDE_UNKNOWN).is_some()
 }
 
 /// The planned motion at other stamps, interpolated; before its start and after its end it stands still.

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hairpin_formats::{atomic, template};
+use serde_json::json;
 
 use crate::args::{Kind, New};
 use crate::console;
@@ -18,7 +19,11 @@ pub(crate) fn run(new: &New) -> Result<u8, Problem> {
         return Err(Problem::input(format!("{file} exists already: --force overwrites it")));
     }
     atomic::write(path, text.as_bytes())?;
-    console::say(&format!("{file} written; now: hairpin stress {file}"));
+    if new.json {
+        console::say(&json!({ "exit_code": 0, "file": file }).to_string());
+    } else {
+        console::say(&format!("{file} written; now: hairpin stress {file}"));
+    }
     Ok(0)
 }
 

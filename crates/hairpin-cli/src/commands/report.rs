@@ -1,6 +1,7 @@
 //! `hairpin report`: one HTML file from a judged campaign.
 
 use hairpin::campaign;
+use serde_json::json;
 
 use super::parts;
 use crate::args::ReportArguments;
@@ -19,7 +20,11 @@ pub(crate) fn run(report: &ReportArguments) -> Result<u8, Problem> {
     let verdict = campaign::verdict(&work.setup, &cases, &results, &tally);
     parts::report(&work, &cases, &tally, &verdict)?;
     let path = work.folder.file("report.html");
-    console::say(&path.display().to_string());
+    if report.json {
+        console::say(&json!({ "verdict": verdict.sentence, "exit_code": 0, "report": path }).to_string());
+    } else {
+        console::say(&path.display().to_string());
+    }
     if report.open {
         let opener = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
         std::process::Command::new(opener)

@@ -1,0 +1,119 @@
+//! The cases of a campaign folder: what `generate` writes, and every later part reads.
+
+use std::path::PathBuf;
+
+use hairpin::campaign::Case;
+use hairpin::trajectory::{Profile, Track};
+
+use super::{CampaignFolder, FolderError, RESULTS, WAYPOINTS};
+use crate::parquet::results::Row;
+use crate::parquet::{cases, profile, track};
+
+impl CampaignFolder {
+    /// Writes generated cases; `results.parquet` has them with status `generated`.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write_cases(&self, all: &[Case]) -> Result<(), FolderError> {
+        self.write_new_cases(all, 0)
+    }
+
+    /// As [`Self::write_cases`], where the profiles of the first `old` cases are in the folder already.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write_new_cases(&self, all: &[Case], old: usize) -> Result<(), FolderError> {
+        for case in &all[old..] {
+            if let Some(witness) = &case.profile {
+                profile::write(&self.profile_path(case.number), witness)?;
+            }
+        }
+        cases::write(&self.file(WAYPOINTS), all)?;
+        self.write_results(all, &[])
+    }
+
+    /// Whether there are cases, those of a checkpoint at least.
+    pub fn has_cases(&self) -> bool {
+        self.file(RESULTS).is_file() && self.file(WAYPOINTS).is_file()
+    }
+
+    /// Reads all cases, with their profiles where they have one.
+    ///
+    /// # Errors
+    /// A file is missing or broken, or two contradict each other.
+    pub fn read_cases(&self) -> Result<Vec<Case>, FolderError> {
+        let mut all = self.read_cases_without_profiles()?;
+        for case in &mut all {
+            case.profile = self.read_profile(case.number)?;
+        }
+        Ok(all)
+    }
+
+    /// Reads all cases and leaves `profile` empty: for `verify`, where a broken profile is a finding about its case.
+    ///
+    /// # Errors
+    /// As [`Self::read_cases`].
+    pub fn read_cases_without_profiles(&self) -> Result<Vec<Case>, FolderError> {
+        let path = self.file(WAYPOINTS);
+        let mut routes = cases::read(&path)?;
+        let contradiction = |case, what| FolderError::Contradiction { path: path.clone(), case, what };
+        let mut all = Vec::new();
+        for Row { mut case, length, .. } in self.read_rows()? {
+            let number = case.number;
+            let route = routes.remove(&number).ok_or_else(|| contradiction(number, "has no waypoints"))?;
+            if route.waypoints.len() != length {
+                return Err(contradiction(number, "has another number of waypoints than in results.parquet"));
+            }
+            (case.waypoints, case.leg_times) = (route.waypoints, route.leg_times);
+            all.push(case);
+        }
+        // Waypoints are written first: those of higher numbers are of a checkpoint that a kill cut short.
+        let last = all.iter().map(|case| case.number).max();
+        match routes.keys().next() {
+            Some(&number) if last.is_some_and(|last| number < last) => {
+                Err(contradiction(number, "is not in results.parquet"))
+            }
+            _ => Ok(all),
+        }
+    }
+
+    /// Reads the control witness of a case; `None` where it has none.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_profile(&self, case: usize) -> Result<Option<Profile>, FolderError> {
+        let path = self.profile_path(case);
+        Ok(if path.exists() { Some(profile::read(&path)?) } else { None })
+    }
+
+    /// Writes the planned motion of a case, sampled.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_planned(&self, case: usize, planned: &Track) -> Result<(), FolderError> {
+        Ok(track::write(&self.trajectory_path(case), planned)?)
+    }
+
+    /// Reads the planned motion of a case.
+    ///
+    /// # Errors
+    /// The file is missing or broken.
+    pub fn read_planned(&self, case: usize) -> Result<Track, FolderError> {
+        Ok(track::read(&self.trajectory_path(case))?)
+    }
+
+    /// `profiles/CASE.parquet`.
+    pub fn profile_path(&self, case: usize) -> PathBuf {
+        self.path.join("profiles").join(format!("{case:04}.parquet"))
+    }
+
+    /// `trajectories/CASE.parquet`.
+    pub fn trajectory_path(&self, case: usize) -> PathBuf {
+        self.path.join("trajectories").join(format!("{case:04}.parquet"))
+    }
+
+    /// `CASE.planned.csv`: the planned motion as text, exported.
+    pub fn planned_csv_path(&self, case: usize) -> PathBuf {
+        self.path.join(format!("{case:04}.planned.csv"))
+    }
+}

@@ -1,0 +1,57 @@
+//! Why a campaign folder cannot be used.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::SCENARIO;
+use crate::atomic::WriteError;
+use crate::parquet::TableError;
+
+/// Why a campaign folder cannot be used.
+#[derive(Debug, Error)]
+pub enum FolderError {
+    /// A file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A table cannot be read.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// A file cannot be read.
+    #[error("cannot read {}: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The system's answer.
+        cause: io::Error,
+    },
+    /// Not ours: writing into it could destroy something.
+    #[error("{} is not empty and not a campaign folder (no {SCENARIO} in it): choose another --out", path.display())]
+    Foreign {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// No campaign stands here.
+    #[error("{} is not a campaign folder: no {SCENARIO} in it", path.display())]
+    NoCampaign {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Another process writes here.
+    #[error("another hairpin is writing to {}", path.display())]
+    Locked {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Files of one folder contradict each other.
+    #[error("{}: case {case:04} {what}", path.display())]
+    Contradiction {
+        /// The file.
+        path: PathBuf,
+        /// Number of the case.
+        case: usize,
+        /// What is wrong with it.
+        what: &'static str,
+    },
+}

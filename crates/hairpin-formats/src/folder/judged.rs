@@ -1,0 +1,68 @@
+//! The judgement in a campaign folder: results, and which parameter did it.
+
+use std::fs;
+use std::io;
+
+use hairpin::campaign::{Case, CaseResult, Influence};
+
+use super::{CampaignFolder, FolderError, INFLUENCE, RESULTS};
+use crate::atomic::{self, WriteError};
+use crate::parquet::results::{self, Row};
+
+impl CampaignFolder {
+    /// Writes `results.parquet`: every case, with its result where it has one.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_results(&self, all: &[Case], judged: &[CaseResult]) -> Result<(), FolderError> {
+        Ok(results::write(&self.file(RESULTS), all, judged)?)
+    }
+
+    /// Reads `results.parquet` as it is, without waypoints and profiles.
+    ///
+    /// # Errors
+    /// The file is missing or broken.
+    pub fn read_rows(&self) -> Result<Vec<Row>, FolderError> {
+        Ok(results::read(&self.file(RESULTS))?)
+    }
+
+    /// Reads the results of all judged cases.
+    ///
+    /// # Errors
+    /// The file is missing or broken.
+    pub fn read_results(&self) -> Result<Vec<CaseResult>, FolderError> {
+        Ok(self.read_rows()?.into_iter().filter_map(|row| row.result).collect())
+    }
+
+    /// Writes which parameter did it; nothing to say leaves no file.
+    ///
+    /// # Errors
+    /// The file cannot be written, or an older one not be removed.
+    pub fn write_influences(&self, found: &[Influence]) -> Result<(), FolderError> {
+        if found.is_empty() {
+            let path = self.file(INFLUENCE);
+            return match fs::remove_file(&path) {
+                Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }.into()),
+                _ => Ok(()),
+            };
+        }
+        let mut text = serde_json::to_string_pretty(found).expect("influences are plain data");
+        text.push('\n');
+        Ok(atomic::write(&self.file(INFLUENCE), text.as_bytes())?)
+    }
+
+    /// Which parameter did it; nothing where nothing was varied or judged.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_influences(&self) -> Result<Vec<Influence>, FolderError> {
+        let path = self.file(INFLUENCE);
+        match fs::read_to_string(&path) {
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+            text => {
+                let found = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
+                found.map_err(|cause| FolderError::Unreadable { path, cause })
+            }
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! The campaign folder: where everything stands, and that it is whole. What `generate` leaves in it is enough for
+//! `execute`, `judge`, `verify`, `replay` and `export`:
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `scenario.toml` | the resolved scenario |
+//! | `generation.json` | what the search did, in numbers |
+//! | `results.parquet` | one row per case: seed, score, evidence; once judged, its worst run |
+//! | `waypoints.parquet` | one row per waypoint of every case, with the planned leg times |
+//! | `profiles/CASE.parquet` | the control witness, polynomials |
+//! | `trajectories/CASE.parquet` | the planned motion, sampled |
+//! | `executions/CASE-RUN.parquet` | one flight: poses, velocities, rotor speeds |
+//! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
+//! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
+//! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
+//! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
+//!
+//! Files are written one by one and each at once, in an order in which each says no more than those before it: the cases'
+//! own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
+
+mod cases;
+mod error;
+mod forget;
+mod judged;
+mod runs;
+
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use hairpin::campaign::Tally;
+
+use crate::atomic::{self, WriteError};
+
+pub use error::FolderError;
+
+const SCENARIO: &str = "scenario.toml";
+const GENERATION: &str = "generation.json";
+const RESULTS: &str = "results.parquet";
+const WAYPOINTS: &str = "waypoints.parquet";
+const RUNS: &str = "runs.parquet";
+const INFLUENCE: &str = "influence.json";
+const LOCK: &str = ".lock";
+const FOLDERS: [&str; 5] = ["trajectories", "profiles", "executions", "missions", "repro"];
+
+/// What [`CampaignFolder::create`] does about a campaign that already stands there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Existing {
+    /// Its cases, runs and results go; `missions/` and `repro/` stay.
+    Replace,
+    /// It goes on (`--resume`).
+    Resume,
+}
+
+/// A campaign folder. One that was created or opened for writing holds a lock until it is dropped.
+#[derive(Debug)]
+pub struct CampaignFolder {
+    path: PathBuf,
+    _lock: Option<File>,
+}
+
+impl CampaignFolder {
+    /// Makes `path` a campaign folder to write to, and clears what a killed process left half-written.
+    ///
+    /// # Errors
+    /// A folder with other things in it, one that another process writes to, one that cannot be made.
+    pub fn create(path: &Path, existing: Existing) -> Result<Self, FolderError> {
+        atomic::make_folder(path)?;
+        if !is_campaign(path) && !is_vacant(path)? {
+            return Err(FolderError::Foreign { path: path.into() });
+        }
+        let folder = Self { path: path.into(), _lock: lock(path)? };
+        for name in FOLDERS {
+            atomic::make_folder(&path.join(name))?;
+        }
+        folder.remove_leftovers();
+        if existing == Existing::Replace {
+            folder.forget_cases()?;
+        }
+        Ok(folder)
+    }
+
+    /// Opens a campaign to read it.
+    ///
+    /// # Errors
+    /// `path` holds no campaign.
+    pub fn open(path: &Path) -> Result<Self, FolderError> {
+        if !is_campaign(path) {
+            return Err(FolderError::NoCampaign { path: path.into() });
+        }
+        Ok(Self { path: path.into(), _lock: None })
+    }
+
+    /// Opens a campaign to read it and to add to it.
+    ///
+    /// # Errors
+    /// `path` holds no campaign; another process writes to it.
+    pub fn open_to_write(path: &Path) -> Result<Self, FolderError> {
+        Self::open(path)?;
+        Self::create(path, Existing::Resume)
+    }
+
+    /// Where it stands.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// `NAME` in the folder, for files that others write (`junit.xml`, `missions/0007.plan`).
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes the resolved scenario's text.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_scenario(&self, text: &str) -> Result<(), FolderError> {
+        Ok(atomic::write(&self.file(SCENARIO), text.as_bytes())?)
+    }
+
+    /// The resolved scenario's text.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn read_scenario(&self) -> Result<String, FolderError> {
+        let path = self.file(SCENARIO);
+        fs::read_to_string(&path).map_err(|cause| FolderError::Unreadable { path, cause })
+    }
+
+    /// Writes what the search did.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_tally(&self, tally: &Tally) -> Result<(), FolderError> {
+        let mut text = serde_json::to_string_pretty(tally).expect("a tally is plain data");
+        text.push('\n');
+        Ok(atomic::write(&self.file(GENERATION), text.as_bytes())?)
+    }
+
+    /// What the search did.
+    ///
+    /// # Errors
+    /// The file is missing or broken.
+    pub fn read_tally(&self) -> Result<Tally, FolderError> {
+        let path = self.file(GENERATION);
+        let text = fs::read_to_string(&path);
+        let tally = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
+        tally.map_err(|cause| FolderError::Unreadable { path, cause })
+    }
+
+    /// Whether it is known what the search did.
+    pub fn has_tally(&self) -> bool {
+        self.file(GENERATION).is_file()
+    }
+}
+
+fn is_campaign(path: &Path) -> bool {
+    path.join(SCENARIO).is_file()
+}
+
+/// Whether there is nothing in a folder but what a killed `create` may have left.
+fn is_vacant(path: &Path) -> Result<bool, FolderError> {
+    let ours = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let empty = || entries(path).is_ok_and(|inside| inside.is_empty());
+        name == LOCK || atomic::is_temporary(&name) || (FOLDERS.contains(&name.as_str()) && empty())
+    };
+    Ok(entries(path)?.iter().all(ours))
+}
+
+fn entries(path: &Path) -> Result<Vec<PathBuf>, FolderError> {
+    let refuse = |cause| FolderError::Unreadable { path: path.into(), cause };
+    let entries = fs::read_dir(path).map_err(refuse)?;
+    entries.map(|entry| entry.map(|entry| entry.path()).map_err(refuse)).collect()
+}
+
+/// The folder's lock, held by the open file. Where the file system knows no locks there is none.
+fn lock(path: &Path) -> Result<Option<File>, FolderError> {
+    let file = path.join(LOCK);
+    let open = File::options().create(true).append(true).open(&file);
+    let opened = open.map_err(|cause| FolderError::Write(WriteError { path: file, cause }))?;
+    match opened.try_lock() {
+        Ok(()) => Ok(Some(opened)),
+        Err(TryLockError::WouldBlock) => Err(FolderError::Locked { path: path.into() }),
+        Err(TryLockError::Error(_)) => Ok(None),
+    }
+}

@@ -1,0 +1,92 @@
+//! The flights of a campaign folder: what `execute` writes, one file a run, and the table of them all.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use hairpin::campaign::Run;
+
+use super::{CampaignFolder, FolderError, RUNS};
+use crate::parquet::runs::{self, RunFacts};
+
+impl CampaignFolder {
+    /// Writes one run.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_run(&self, run: &Run) -> Result<(), FolderError> {
+        Ok(runs::write_run(&self.run_path(run.case, run.run), run)?)
+    }
+
+    /// Whether this run was executed and can be read: what `--resume` skips.
+    pub fn has_valid_run(&self, case: usize, run: usize) -> bool {
+        let found = runs::read_run(&self.run_path(case, run));
+        found.is_ok_and(|(_, facts)| facts.is_some_and(|facts| facts.case == case && facts.run == run))
+    }
+
+    /// Writes `runs.parquet`, once all runs are executed.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_runs_table(&self, facts: &[RunFacts]) -> Result<(), FolderError> {
+        Ok(runs::write_facts(&self.file(RUNS), facts)?)
+    }
+
+    /// Reads the runs of `case`, by number, as many as there are files `executions/CASE-RUN.parquet` from run 0 on.
+    /// `table` is [`Self::read_runs_table`]'s: it fills in for files that another program rewrote.
+    ///
+    /// # Errors
+    /// As [`Self::read_run`].
+    pub fn read_runs(&self, case: usize, table: &BTreeMap<(usize, usize), RunFacts>) -> Result<Vec<Run>, FolderError> {
+        let mut all = Vec::new();
+        while let Some(run) = self.read_run(case, all.len(), table)? {
+            all.push(run);
+        }
+        Ok(all)
+    }
+
+    /// Reads one run; `None` where it was not executed.
+    ///
+    /// # Errors
+    /// The file is broken; nothing is known about the run; it says that it is another one.
+    pub fn read_run(
+        &self,
+        case: usize,
+        run: usize,
+        table: &BTreeMap<(usize, usize), RunFacts>,
+    ) -> Result<Option<Run>, FolderError> {
+        let path = self.run_path(case, run);
+        if !path.exists() {
+            return Ok(None);
+        }
+        let (track, facts) = runs::read_run(&path)?;
+        let contradiction = |what| FolderError::Contradiction { path: path.clone(), case, what };
+        let facts = facts.or_else(|| table.get(&(case, run)).cloned());
+        let facts = facts.ok_or_else(|| contradiction("has lost its metadata and is not in runs.parquet"))?;
+        if (facts.case, facts.run) != (case, run) {
+            return Err(contradiction("holds another run than its name says"));
+        }
+        facts.with_track(track).map(Some).ok_or_else(|| contradiction("ended for an unknown reason"))
+    }
+
+    /// Reads `runs.parquet`; empty where there is none.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_runs_table(&self) -> Result<BTreeMap<(usize, usize), RunFacts>, FolderError> {
+        let path = self.file(RUNS);
+        if !path.exists() {
+            return Ok(BTreeMap::new());
+        }
+        Ok(runs::read_facts(&path)?.into_iter().map(|facts| ((facts.case, facts.run), facts)).collect())
+    }
+
+    /// `executions/CASE-RUN.parquet`.
+    pub fn run_path(&self, case: usize, run: usize) -> PathBuf {
+        self.path.join("executions").join(format!("{case:04}-{run}.parquet"))
+    }
+
+    /// `CASE-RUN.csv`: the flight as text, exported.
+    pub fn run_csv_path(&self, case: usize, run: usize) -> PathBuf {
+        self.path.join(format!("{case:04}-{run}.csv"))
+    }
+}
