@@ -134,7 +134,7 @@ fn exported_waypoints_fly_again_as_missions() {
     let text = fs::read_to_string(folder.path().join("a/missions/0002.csv")).unwrap();
     assert!(text.starts_with("x_m,y_m,z_m\n") && text.lines().count() == 9, "{text}");
     for name in ["0002.planned.csv", "0002-0.csv", "0002.ref.tum", "0002.exec.tum"] {
-        assert!(folder.path().join("a/export").join(name).is_file(), "{name}");
+        assert!(folder.path().join("a").join(name).is_file(), "{name}");
     }
     let before = json(folder.path(), &["judge", "a"]);
     run(folder.path(), &["execute", "a", "--missions", "a/missions"]);

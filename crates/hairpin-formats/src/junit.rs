@@ -1,6 +1,7 @@
 //! `junit.xml` for build servers, in the subset that Jenkins' xUnit schema takes: it drops the whole file for one
 //! attribute too many. A `testcase` has a name, a classname and a time, and nothing else; properties stand on the suite.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::Duration;
 
@@ -18,6 +19,8 @@ pub struct Suite {
     pub asked: usize,
     /// Why cases are missing.
     pub missing: String,
+    /// Why the campaign as a whole allows no verdict, where no single case is to blame: then no case is a pass.
+    pub inconclusive: Option<String>,
     /// Name and value.
     pub properties: Vec<(String, String)>,
 }
@@ -33,11 +36,10 @@ pub fn text(suite: &Suite, results: &[CaseResult]) -> String {
     for result in &ordered {
         tests.add_test_case(test_case(suite, result));
     }
-    let first_free = ordered.last().map_or(0, |result| result.case + 1);
-    for number in first_free..first_free + suite.asked.saturating_sub(results.len()) {
-        let mut status = TestCaseStatus::skipped();
-        status.set_message(clean(&suite.missing));
-        tests.add_test_case(named(suite, number, status));
+    let judged: BTreeSet<usize> = results.iter().map(|result| result.case).collect();
+    let missing = (0..).filter(|number| !judged.contains(number)).take(suite.asked.saturating_sub(results.len()));
+    for number in missing {
+        tests.add_test_case(named(suite, number, not_found(suite, results.is_empty())));
     }
     let mut report = Report::new("hairpin");
     report.add_test_suite(tests);
@@ -56,7 +58,10 @@ pub fn write(path: &Path, suite: &Suite, results: &[CaseResult]) -> Result<(), W
 fn test_case(suite: &Suite, result: &CaseResult) -> TestCase {
     let violations: Vec<String> = result.violations.iter().map(report::violation).collect();
     let status = match result.status {
-        Status::Pass => TestCaseStatus::success(),
+        Status::Pass => match &suite.inconclusive {
+            None => TestCaseStatus::success(),
+            Some(why) => not_passed(NonSuccessKind::Error, "Inconclusive", why, &[]),
+        },
         Status::Fail => {
             let gravest = violations.first().map_or("violates the specification", String::as_str);
             not_passed(NonSuccessKind::Failure, "SpecViolation", gravest, violations.get(1..).unwrap_or_default())
@@ -79,6 +84,18 @@ fn test_case(suite: &Suite, result: &CaseResult) -> TestCase {
         case.set_time(Duration::try_from_secs_f64(measures.total_time).unwrap_or_default());
     }
     case
+}
+
+/// A case that was not found is skipped; where there is none at all and nobody knows why, that is no success.
+fn not_found(suite: &Suite, none_at_all: bool) -> TestCaseStatus {
+    match suite.inconclusive.as_ref().filter(|_| none_at_all) {
+        Some(why) => not_passed(NonSuccessKind::Error, "Inconclusive", why, &[]),
+        None => {
+            let mut status = TestCaseStatus::skipped();
+            status.set_message(clean(&suite.missing));
+            status
+        }
+    }
 }
 
 fn not_passed(kind: NonSuccessKind, ty: &str, message: &str, more: &[String]) -> TestCaseStatus {

@@ -13,6 +13,7 @@ fn suite() -> junit::Suite {
         name: "anafi <cage>".into(),
         asked: 5,
         missing: "not found in 40 graphs".into(),
+        inconclusive: None,
         properties: vec![("seed".into(), "10".into()), ("verdict".into(), "FAIL 1/5: worst 0.65 m > 0.50 m".into())],
     }
 }

@@ -5,7 +5,7 @@ use hairpin_formats::{folder::CampaignFolder, waypoints};
 use nalgebra::Point3;
 use serde_json::json;
 
-use super::parts;
+use super::parts::{self, Flown};
 use crate::args::Execute;
 use crate::problem::Problem;
 use crate::{console, folder};
@@ -31,18 +31,22 @@ pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
     let cases = work.folder.read_cases()?;
     // What was judged was judged on other runs, or on fewer.
     work.folder.write_results(&cases, &[])?;
-    parts::execute(&work, &cases)?;
-    let table = work.folder.read_runs_table()?;
-    let failed = table.values().filter(|facts| facts.message.is_some()).count();
+    let Flown { runs, failed, attitude_unknown } = parts::execute(&work, &cases)?;
     let (sentence, code) = if failed == 0 {
-        (format!("EXECUTED {} runs of {} cases", table.len(), cases.len()), 0)
+        (format!("EXECUTED {runs} runs of {} cases", cases.len()), 0)
     } else {
-        (format!("EXECUTOR FAILED {failed}/{} runs (stderr kept in executor-CASE-RUN.log)", table.len()), 4)
+        (format!("EXECUTOR FAILED {failed}/{runs} runs (stderr kept in executor-CASE-RUN.log)"), 4)
     };
     if execute.json {
-        let counts = json!({ "cases": cases.len(), "runs": table.len(), "executor_failed": failed });
+        let counts = json!({
+            "cases": cases.len(), "runs": runs, "executor_failed": failed, "attitude_unknown": attitude_unknown,
+        });
+        let missions: Vec<&String> = missions.iter().flatten().map(|(name, _)| name).collect();
         let paths = json!({ "folder": work.folder.path(), "executions": work.folder.file("executions") });
-        console::say(&json!({ "verdict": sentence, "exit_code": code, "counts": counts, "paths": paths }).to_string());
+        let object = json!({
+            "verdict": sentence, "exit_code": code, "counts": counts, "missions": missions, "paths": paths,
+        });
+        console::say(&object.to_string());
     } else {
         console::say(&sentence);
     }

@@ -17,8 +17,7 @@ pub(crate) fn run(generate: &Generate) -> Result<u8, Problem> {
     let deadline = Deadline::after(arguments.time_limit);
     let (cases, tally) = parts::generate(&work, deadline)?;
     let asked = work.setup.scenario.generate.search.cases;
-    let in_time = arguments.time_limit.is_some() && tally.nothing.is_none();
-    let outcome = if cases.is_empty() && !in_time {
+    let outcome = if cases.is_empty() && !tally.stopped {
         campaign::verdict(&work.setup, &cases, &[], &tally)
     } else {
         let word = cases.first().map_or("none", |case| case.evidence.word());

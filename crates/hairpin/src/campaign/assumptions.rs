@@ -78,6 +78,10 @@ fn claim(setup: &Setup, cases: &[Case], said: &mut Vec<String>) {
 fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     let search = &generate.search;
+    if !tally.missions.is_empty() {
+        said.push(format!("Missions: {} waypoint files made elsewhere; nothing was searched.", tally.missions.len()));
+        return;
+    }
     let method = match search.method {
         SearchMethod::Beam => "best-first with a beam: no optimum is claimed",
         SearchMethod::Exact => "exact in each sampled graph, over its waypoints only",

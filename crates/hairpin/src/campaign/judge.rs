@@ -163,8 +163,9 @@ fn judge_run(
 
 /// The verdict on a campaign: on its results, or that nothing was feasible.
 pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Tally) -> Verdict {
+    let asked = tally.asked(setup.scenario.generate.search.cases);
     if cases.is_empty() {
-        return nothing_feasible(setup, tally);
+        return if tally.stopped { nothing_found(setup, tally, asked) } else { nothing_feasible(setup, tally) };
     }
     let count = |status: Status| results.iter().filter(|result| result.status == status).count();
     let claims: Vec<Claim> = super::Evidence::ALL
@@ -185,6 +186,7 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         how: &how,
         runs: setup.scenario.execute.repeat as usize,
         cases: results.len(),
+        asked,
         failed: count(Status::Fail),
         executor_failed: count(Status::ExecutorFailed),
         inconclusive: count(Status::Inconclusive),
@@ -237,6 +239,13 @@ fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation,
     let value = result.violations.first().cloned().or_else(nearest)?;
     let saturation = measures.legs.get(value.leg).and_then(|leg| leg.saturation_share).or(measures.saturation_share);
     Some((format!("{:04}", result.case), value, saturation))
+}
+
+/// The verdict of exit 5 on a search that a time limit ended too soon: that nothing is feasible was not found out.
+fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
+    let searched = format!("{} graphs searched", tally.graphs);
+    let how = [searched.as_str(), setup.scenario.generate.reach.word()];
+    judgement::inconclusive(&format!("0/{asked}"), &how, "stopped before the first trajectory was found")
 }
 
 /// The verdict of exit 3, with what it rests on.

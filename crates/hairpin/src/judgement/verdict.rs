@@ -46,6 +46,8 @@ pub struct Judged<'a> {
     pub runs: usize,
     /// Cases in all.
     pub cases: usize,
+    /// Cases asked for, where fewer were found; told, not counted.
+    pub asked: usize,
     /// Cases with a violation.
     pub failed: usize,
     /// Cases that the executor failed to fly.
@@ -72,6 +74,7 @@ impl Default for Judged<'_> {
             how: &[],
             runs: 1,
             cases: 0,
+            asked: 0,
             failed: 0,
             executor_failed: 0,
             inconclusive: 0,
@@ -153,6 +156,9 @@ fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> 
     if judged.inconclusive > 0 {
         parts.push(format!("data of {}/{} inconclusive, not counted", judged.inconclusive, judged.cases));
     }
+    if judged.cases < judged.asked {
+        parts.push(format!("{} of {} cases asked for were found", judged.cases, judged.asked));
+    }
     let proof = judged.proof.map_or(String::new(), |proof| format!(", {proof}"));
     match judged.claims {
         [] => {}
@@ -197,7 +203,7 @@ fn worst_and_where(worst: &Worst) -> String {
     let finding = match violation.what.as_str() {
         "crash" => "crash".into(),
         "left-world" => "left the world".into(),
-        "unfinished" => format!("stopped by the time limit at {} of {} waypoints", violation.value, violation.limit),
+        "unfinished" => format!("stopped at {} of {} waypoints", violation.value, violation.limit),
         what => {
             let (value, limit) = apart(violation.value, violation.limit);
             let relation = match (violation.is_lower_limit(), violation.value.total_cmp(&violation.limit)) {
@@ -286,6 +292,14 @@ mod tests {
              (3/N, 95 %); all 200 witnessed"
         );
         assert_eq!(verdict.exit_code, 0);
+    }
+
+    #[test]
+    fn cases_that_were_not_found_are_told() {
+        let value = violation("deviation", 0.65, 0.5);
+        let of = |asked| verdict(&Judged { asked, ..with(3, &value) }).sentence;
+        assert!(of(250).contains("; 200 of 250 cases asked for were found; all 200 witnessed"), "{}", of(250));
+        assert_eq!(of(200), verdict(&with(3, &value)).sentence);
     }
 
     #[test]

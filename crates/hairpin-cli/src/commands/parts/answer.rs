@@ -82,6 +82,7 @@ impl Answer<'_> {
                 "fail": self.count(Status::Fail),
                 "executor_failed": self.count(Status::ExecutorFailed),
                 "inconclusive": self.count(Status::Inconclusive),
+                "attitude_unknown": self.judgement.attitude_unknown,
             },
             "frame": self.header(),
             "worst": worst_first(&self.judgement.results).first().map(|result| {

@@ -15,8 +15,18 @@ use crate::folder::Work;
 use crate::problem::Problem;
 use crate::{console, interrupt};
 
+/// What the runs of a campaign are.
+pub(crate) struct Flown {
+    /// All runs.
+    pub(crate) runs: usize,
+    /// Of these, runs that the executor failed to fly.
+    pub(crate) failed: usize,
+    /// Of these, runs of which the executor sent no attitudes.
+    pub(crate) attitude_unknown: usize,
+}
+
 /// Flies all runs of `cases` that are not in the folder yet.
-pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<(), Problem> {
+pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
     let repeat = work.setup.scenario.execute.repeat as usize;
     let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));
     let missing: Vec<(&Case, usize)> =
@@ -24,11 +34,7 @@ pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<(), Problem> {
     let bar = console::progress("execute", all().count());
     bar.set_position((all().count() - missing.len()) as u64);
     let trouble = Mutex::new(None);
-    let unknown = AtomicUsize::new(0);
     let landed = |run: Run| {
-        let flight = run.outcome.as_ref().ok();
-        let known = flight.is_none_or(|flight| flight.track.channel(ATTITUDE_UNKNOWN).is_none());
-        unknown.fetch_add(usize::from(!known), Ordering::Relaxed);
         if let Err(error) = work.folder.write_run(&run) {
             trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get_or_insert(error);
         }
@@ -45,30 +51,45 @@ pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<(), Problem> {
         Some((command, limits)) => fly_with(work, &missing, &command, limits, &landed, &stop),
     }
     bar.finish_and_clear();
-    match unknown.into_inner() {
-        0 => {}
-        runs => console::warn(&format!(
-            "Warning: {runs} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing"
-        )),
-    }
     if let Some(error) = trouble.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
         return Err(error.into());
     }
     if interrupt::asked() {
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
     }
-    write_table(&work.folder, all())
+    let flown = write_table(&work.folder, all())?;
+    if flown.attitude_unknown > 0 {
+        console::warn(&format!(
+            "Warning: {} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing",
+            flown.attitude_unknown
+        ));
+    }
+    Ok(flown)
 }
 
 /// The table of all runs, in order; it says that execution is complete.
-fn write_table<'a>(folder: &CampaignFolder, all: impl Iterator<Item = (&'a Case, usize)>) -> Result<(), Problem> {
+fn write_table<'a>(folder: &CampaignFolder, all: impl Iterator<Item = (&'a Case, usize)>) -> Result<Flown, Problem> {
     let jobs: Vec<_> = all.collect();
     let none = Default::default();
-    let facts: Result<Vec<Option<RunFacts>>, FolderError> = jobs
+    let read: Result<Vec<Option<(RunFacts, bool)>>, FolderError> = jobs
         .par_iter()
-        .map(|(case, run)| Ok(folder.read_run(case.number, *run, &none)?.map(|run| RunFacts::of(&run))))
+        .map(|(case, run)| {
+            let run = folder.read_run(case.number, *run, &none)?;
+            Ok(run.map(|run| (RunFacts::of(&run), attitude_unknown(&run))))
+        })
         .collect();
-    Ok(folder.write_runs_table(&facts?.into_iter().flatten().collect::<Vec<_>>())?)
+    let (facts, unknown): (Vec<_>, Vec<_>) = read?.into_iter().flatten().unzip();
+    folder.write_runs_table(&facts)?;
+    Ok(Flown {
+        runs: facts.len(),
+        failed: facts.iter().filter(|facts| facts.message.is_some()).count(),
+        attitude_unknown: unknown.into_iter().filter(|unknown| *unknown).count(),
+    })
+}
+
+/// Whether the executor flew and sent no attitudes.
+pub(crate) fn attitude_unknown(run: &Run) -> bool {
+    run.outcome.as_ref().is_ok_and(|flight| flight.track.channel(ATTITUDE_UNKNOWN).is_some())
 }
 
 fn fly_with(

@@ -62,6 +62,12 @@ fn known(work: &Work) -> Result<Known, Problem> {
         return Ok(Known::default());
     }
     let known = Known { cases: folder.read_cases()?, tally: folder.read_tally()? };
+    if !known.tally.missions.is_empty() {
+        return Err(Problem::input(format!(
+            "--resume: {} holds missions made elsewhere, not an interrupted generation; --force replaces them",
+            folder.path().display()
+        )));
+    }
     Ok(hairpin::campaign::generate::counted(&work.setup.scenario, known))
 }
 
@@ -99,7 +105,8 @@ pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>
             None => commands::execute::bare_case(number, seed, waypoints.clone()),
         });
     }
-    let tally = Tally { complete: true, ..Tally::default() };
+    let names = missions.iter().map(|(name, _)| name.clone());
+    let tally = Tally { complete: true, missions: names.collect(), ..Tally::default() };
     work.folder.forget_cases()?;
     save(work, &cases, 0, &tally)
 }

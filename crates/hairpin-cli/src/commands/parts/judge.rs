@@ -8,6 +8,7 @@ use hairpin::judgement::Verdict;
 use hairpin_formats::executor::ATTITUDE_UNKNOWN;
 use hairpin_formats::junit::{self, Suite};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::Repro;
 use crate::folder::Work;
@@ -21,11 +22,14 @@ pub(crate) struct Judgement {
     pub(crate) results: Vec<CaseResult>,
     pub(crate) verdict: Verdict,
     pub(crate) influences: Vec<Influence>,
+    /// Cases of which a flight came without attitudes.
+    pub(crate) attitude_unknown: usize,
 }
 
 /// Judges every case and writes results, JUnit, repro files, and which parameter did it.
 pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgement, Problem> {
     let table = work.folder.read_runs_table()?;
+    let attitude_unknown = AtomicUsize::new(0);
     let judged: Result<Vec<(CaseResult, Vec<RunDeviation>)>, Problem> = cases
         .par_iter()
         .map(|case| {
@@ -37,6 +41,7 @@ pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgem
                     work.folder.path().display()
                 )));
             }
+            attitude_unknown.fetch_add(runs.iter().any(super::attitude_unknown).into(), Ordering::Relaxed);
             Ok(campaign::judge_runs(&work.setup, case, &runs)?)
         })
         .collect();
@@ -44,19 +49,21 @@ pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgem
     let influences = campaign::influences(&work.setup.scenario, &deviations.concat());
     let verdict = campaign::verdict(&work.setup, cases, &results, tally);
     work.folder.write_results(cases, &results)?;
-    junit::write(&work.folder.file("junit.xml"), &suite(work, tally, &verdict), &results)?;
+    junit::write(&work.folder.file("junit.xml"), &suite(work, tally, &verdict, &results), &results)?;
     write_repros(work, cases, &results)?;
     work.folder.write_influences(&influences)?;
-    Ok(Judgement { results, verdict, influences })
+    Ok(Judgement { results, verdict, influences, attitude_unknown: attitude_unknown.into_inner() })
 }
 
-fn suite(work: &Work, tally: &Tally, verdict: &Verdict) -> Suite {
+fn suite(work: &Work, tally: &Tally, verdict: &Verdict, results: &[CaseResult]) -> Suite {
     let scenario = &work.setup.scenario;
+    let by_a_case = results.iter().any(|result| result.status == Status::Inconclusive);
     let property = |name: &str, value: String| (name.to_owned(), value);
     Suite {
         name: work.setup.robot.name.clone(),
-        asked: scenario.generate.search.cases as usize,
+        asked: tally.asked(scenario.generate.search.cases),
         missing: tally.nothing.clone().unwrap_or_else(|| "not found within the budget".into()),
+        inconclusive: (verdict.exit_code == 5 && !by_a_case).then(|| verdict.sentence.clone()),
         properties: vec![
             property("verdict", verdict.sentence.clone()),
             property("seed", scenario.seed.to_string()),

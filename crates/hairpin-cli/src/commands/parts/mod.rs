@@ -7,7 +7,7 @@ mod judge;
 mod repro;
 
 pub(crate) use answer::Answer;
-pub(crate) use execute::{execute, fly_one};
+pub(crate) use execute::{Flown, attitude_unknown, execute, fly_one};
 pub(crate) use generate::{adopt, generate};
 pub(crate) use judge::{Judgement, judge, report};
 pub(crate) use repro::Repro;

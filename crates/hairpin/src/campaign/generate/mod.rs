@@ -83,7 +83,10 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
             .collect();
         for outcome in outcomes {
             // A unit that was not done ends the row: what lies behind the gap is done again.
-            let Some(outcome) = outcome else { break 'units };
+            let Some(outcome) = outcome else {
+                collector.tally.stopped = true;
+                break 'units;
+            };
             let number = varied.then_some(collector.tally.units as usize);
             let new = collector.take(outcome, number, wanted);
             sink(&new, &collector.tally);
@@ -130,7 +133,8 @@ struct Collector<'a> {
 impl<'a> Collector<'a> {
     fn new(setup: &'a Setup, known: &Known) -> Self {
         let seen = known.cases.iter().map(|case| fingerprint(&case.waypoints)).collect();
-        Self { setup, tally: known.tally.clone(), cases: known.cases.len(), seen }
+        let tally = Tally { stopped: false, ..known.tally.clone() };
+        Self { setup, tally, cases: known.cases.len(), seen }
     }
 
     fn take(&mut self, outcome: Outcome, number: Option<usize>, wanted: u64) -> Vec<Case> {

@@ -22,6 +22,18 @@ pub struct Tally {
     pub duplicates: u64,
     /// Whether every case asked for was found.
     pub complete: bool,
+    /// Whether it was stopped, by a time limit or by Ctrl-C, before its graphs were used up.
+    pub stopped: bool,
     /// Where nothing was found: why, in a sentence's part.
     pub nothing: Option<String>,
+    /// Names of the files that the cases were read from, in their order, where these are missions made elsewhere.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub missions: Vec<String>,
+}
+
+impl Tally {
+    /// Cases asked for: as many as `wanted`, or as there were missions.
+    pub fn asked(&self, wanted: u64) -> usize {
+        if self.missions.is_empty() { wanted as usize } else { self.missions.len() }
+    }
 }

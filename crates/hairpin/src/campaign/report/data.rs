@@ -253,9 +253,14 @@ fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
         format!("{:.1} % [{:.1}, {:.1}]", 100.0 * share.value, 100.0 * share.low, 100.0 * share.high)
     });
     numbers.push(of("violations", format!("{failed} of {judged}"), interval));
+    let tally = pieces.tally;
     let asked = pieces.setup.scenario.generate.search.cases;
-    let graphs = format!("{asked} asked for; {} of {} graphs had one", pieces.tally.solved, pieces.tally.graphs);
-    numbers.push(of("cases", pieces.cases.len().to_string(), graphs));
+    let origin = if tally.missions.is_empty() {
+        format!("{asked} asked for; {} of {} graphs had one", tally.solved, tally.graphs)
+    } else {
+        "missions made elsewhere".into()
+    };
+    numbers.push(of("cases", pieces.cases.len().to_string(), origin));
     numbers
 }
 
