@@ -1,5 +1,6 @@
 //! Floor 1: numbers without robots or time stamps.
 
+pub mod fresnel;
 pub mod integrate;
 pub mod interval;
 pub mod minimum_snap;

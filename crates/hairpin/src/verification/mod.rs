@@ -4,11 +4,13 @@
 //! level and at rest in its rates at each. Here that is checked by other means than those that found it: rotor speeds
 //! from truncated Taylor series of the thrust vector (`demand`), the rigid body with a rotation matrix
 //! (`body`), implicit Gauss collocation of order 12 (`gauss`). Nothing is shared with feasibility, search,
-//! simulation, the robot's own equations or the integrators of `math`.
+//! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have a replay of their
+//! own (`drive`).
 
 mod body;
 mod claim;
 mod demand;
+mod drive;
 mod finding;
 mod gauss;
 mod jet;
@@ -22,5 +24,6 @@ mod tests;
 
 pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
+pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive};
 pub use finding::{EndError, Finding, Proof, Tolerances, Worst};
 pub use proof::{open_loop_with_lag, verify};

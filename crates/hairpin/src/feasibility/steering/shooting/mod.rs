@@ -1,5 +1,6 @@
 //! Boundary-value trajectories of ground vehicles: find controls whose motion ends where it was asked to.
 
+pub mod cc;
 pub mod query;
 
 pub use query::{Curvatures, Goal, Precision, Query, Refusal};

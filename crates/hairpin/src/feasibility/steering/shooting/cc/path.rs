@@ -1,0 +1,178 @@
+//! Paths between states of any curvature: words between the states themselves, and between poses at zero curvature that
+//! clothoids lead to and from.
+
+use crate::math::fresnel::clothoid;
+use crate::trajectory::drive::{Gear, Segment};
+
+use super::super::query::{Curvatures, Query};
+use super::turn::{Circle, gear_of};
+use super::words::{self, Family, Plan, Pose};
+
+/// What may be driven.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Gears {
+    /// One gear all the way.
+    Only(Gear),
+    /// With cusps.
+    Both,
+}
+
+/// A path of continuous curvature: straights, arcs and clothoids. Curvature may jump at cusps, where the vehicle stands.
+#[derive(Debug, Clone, Copy)]
+pub struct Path {
+    length_m: f64,
+    circle: Circle,
+    lead_in: Option<Lead>,
+    core: Core,
+    lead_out: Option<Lead>,
+    /// +1: as found; −1: found forward, to be driven in reverse, as its mirror image.
+    gear: f64,
+}
+
+/// Between the leads.
+#[derive(Debug, Clone, Copy)]
+enum Core {
+    /// Straight on, or back: metres, negative in reverse.
+    Straight(f64),
+    Turns(Plan),
+}
+
+/// A clothoid to or from zero curvature before or after the words.
+#[derive(Debug, Clone, Copy)]
+struct Lead {
+    length: f64,
+    from: f64,
+    to: f64,
+    gear: f64,
+}
+
+/// A state that words may begin or end in.
+#[derive(Debug, Clone, Copy)]
+struct Anchor {
+    pose: Pose,
+    curvature: f64,
+    lead: Option<Lead>,
+}
+
+/// Shares of the largest curvature that are tried: gentler circles have shorter clothoids, and small moves want those.
+const SHARES: [f64; 2] = [1.0, 0.5];
+/// Lateral offset (m) and heading (rad) that count as straight ahead.
+const STRAIGHT: f64 = 1e-10;
+
+/// The shortest path of these words that solves `query` within `bounds`; there is one for every checked query.
+///
+/// With [`Gears::Both`] the words of Reeds and Shepp (Pacific J. Math. 145, 1990), else of Dubins, with turns of
+/// clothoid, arc, clothoid (Fraichard and Scheuer, IEEE T-RO 20, 2004) that may stand at cusps with their wheels at the
+/// stop (Banzhaf et al., IEEE ITSC 2017). Each is the shortest of its family, not of all paths. `None` only where
+/// `query` or `bounds` hold numbers that [`Query::new`] refuses.
+pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
+    let reverse = gears == Gears::Only(Gear::Reverse);
+    // In reverse: the mirror image about the y axis is driven forward.
+    let mirror = if reverse { -1.0 } else { 1.0 };
+    let goal = query.goal;
+    let end = Pose { x: mirror * goal.x, y: goal.y, heading: mirror * goal.yaw };
+    let start = Pose { x: 0.0, y: 0.0, heading: 0.0 };
+    let family = if gears == Gears::Both { Family::ReedsShepp } else { Family::Dubins };
+    let mut best: Option<Path> = None;
+    for share in SHARES {
+        let circle = Circle::new(bounds, share);
+        let starts = anchors(start, query.start_curvature, &circle, family, 1.0);
+        let ends = anchors(end, goal.curvature, &circle, family, -1.0);
+        for from in starts.iter().flatten() {
+            for to in ends.iter().flatten() {
+                let leads = from.length() + to.length();
+                let below = best.map_or(f64::INFINITY, |path| path.length_m) - leads;
+                if (to.pose.x - from.pose.x).hypot(to.pose.y - from.pose.y) >= below {
+                    continue;
+                }
+                if let Some((core, length)) = between(&circle, family, from, to, below) {
+                    let (lead_in, lead_out) = (from.lead, to.lead);
+                    best = Some(Path { length_m: length + leads, circle, lead_in, core, lead_out, gear: mirror });
+                }
+            }
+        }
+    }
+    best
+}
+
+fn between(circle: &Circle, family: Family, from: &Anchor, to: &Anchor, below: f64) -> Option<(Core, f64)> {
+    if from.curvature == 0.0 && to.curvature == 0.0 {
+        let (sin, cos) = from.pose.heading.sin_cos();
+        let (dx, dy) = (to.pose.x - from.pose.x, to.pose.y - from.pose.y);
+        let (ahead, aside) = (cos * dx + sin * dy, cos * dy - sin * dx);
+        let turned =
+            (to.pose.heading - from.pose.heading).sin().abs().max(1.0 - (to.pose.heading - from.pose.heading).cos());
+        let drivable = ahead >= 0.0 || family == Family::ReedsShepp;
+        if aside.abs() < STRAIGHT && turned < STRAIGHT && drivable {
+            return (ahead.abs() < below).then_some((Core::Straight(ahead), ahead.abs()));
+        }
+    }
+    let ends = ((from.pose, from.curvature), (to.pose, to.curvature));
+    words::shortest(circle, family, ends.0, ends.1, below).map(|plan| (Core::Turns(plan), plan.length))
+}
+
+/// The states that stand for a start (`along` = 1) or an end (`along` = −1): itself, where the circle can be reached from
+/// it, and those at zero curvature that a clothoid joins to it.
+fn anchors(pose: Pose, curvature: f64, circle: &Circle, family: Family, along: f64) -> [Option<Anchor>; 3] {
+    if curvature == 0.0 {
+        return [Some(Anchor { pose, curvature, lead: None }), None, None];
+    }
+    let direct = curvature.abs() <= circle.curvature * (1.0 + 1e-9);
+    let lead = |gear: f64| {
+        let length = curvature.abs() / circle.rate;
+        // Away from the state: at a start in the gear, at an end against it.
+        let way = gear * along;
+        let (x, y) = clothoid(curvature, 0.0, circle.rate);
+        let (px, py) = pose.place((way * x, y));
+        let heading = pose.heading + way * 0.5 * curvature * length;
+        let (from, to) = if along > 0.0 { (curvature, 0.0) } else { (0.0, curvature) };
+        Anchor { pose: Pose { x: px, y: py, heading }, curvature: 0.0, lead: Some(Lead { length, from, to, gear }) }
+    };
+    [
+        direct.then_some(Anchor { pose, curvature, lead: None }),
+        Some(lead(1.0)),
+        (family == Family::ReedsShepp).then(|| lead(-1.0)),
+    ]
+}
+
+impl Anchor {
+    fn length(&self) -> f64 {
+        self.lead.map_or(0.0, |lead| lead.length)
+    }
+}
+
+impl Path {
+    /// Metres driven.
+    pub fn length_m(&self) -> f64 {
+        self.length_m
+    }
+
+    /// Hands over its segments in order, none of them empty; a path of nothing is one straight of 0 m.
+    pub fn segments(&self, mut take: impl FnMut(Segment)) {
+        let mut taken = 0;
+        let mut push = |segment: Segment| {
+            if segment.length_m() > 0.0 {
+                let gear = if self.gear < 0.0 { segment.gear.opposite() } else { segment.gear };
+                take(Segment { gear, ..segment });
+                taken += 1;
+            }
+        };
+        let lead = |lead: &Lead| Segment::clothoid(lead.length, lead.from, lead.to, gear_of(lead.gear));
+        self.lead_in.iter().for_each(|on| push(lead(on)));
+        match &self.core {
+            Core::Straight(metres) => push(Segment::straight(metres.abs(), gear_of(*metres))),
+            Core::Turns(plan) => {
+                for (i, turn) in plan.turns[..plan.count].iter().enumerate() {
+                    turn.segments(&self.circle, &mut push);
+                    if let Some(straight) = plan.straight.filter(|straight| straight.after == i) {
+                        push(Segment::straight(straight.length, gear_of(straight.gear)));
+                    }
+                }
+            }
+        }
+        self.lead_out.iter().for_each(|off| push(lead(off)));
+        if taken == 0 {
+            take(Segment::straight(0.0, gear_of(self.gear)));
+        }
+    }
+}

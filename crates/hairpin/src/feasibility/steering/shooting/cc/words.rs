@@ -1,0 +1,349 @@
+//! The words of Reeds and Shepp, spelt with turns of continuous curvature.
+//!
+//! A turn ends where its circle's centre stands at a fixed place in the vehicle's frame (`Lead::center`), so two turns
+//! that meet at a heading θ have centres Rot(θ)·D apart, with D known, and a straight of length L adds (±L, 0) to it. Each
+//! word is then a triangle, or less, between the first and the last centre. At a cusp the vehicle stands: it may come
+//! there at zero curvature, or at full curvature and swing its wheels over.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::turn::{Circle, Lead, Turn, WAYS, Way, index};
+
+/// What may be driven.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Family {
+    /// Forward only.
+    Dubins,
+    /// With cusps.
+    ReedsShepp,
+}
+
+/// A pose in the plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pose {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) heading: f64,
+}
+
+impl Pose {
+    /// Places a point of the pose's frame in the world.
+    pub(super) fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        let (sin, cos) = self.heading.sin_cos();
+        (self.x + cos * x - sin * y, self.y + sin * x + cos * y)
+    }
+}
+
+/// A straight between the turns `after` and `after` + 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Straight {
+    pub(super) after: usize,
+    pub(super) gear: f64,
+    pub(super) length: f64,
+}
+
+/// A path that was found.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plan {
+    pub(super) length: f64,
+    pub(super) turns: [Turn; 4],
+    pub(super) count: usize,
+    pub(super) straight: Option<Straight>,
+}
+
+/// Both ends' leads by the turn's way, and where their circles stand.
+struct Ends {
+    first: [(Lead, (f64, f64)); 4],
+    last: [(Lead, (f64, f64)); 4],
+    start: f64,
+    end: f64,
+}
+
+/// One word being spelt: its turns' ways and leads, without angles.
+#[derive(Clone, Copy)]
+struct Word<'f> {
+    ways: [Way; 4],
+    entries: [&'f Lead; 4],
+    exits: [&'f Lead; 4],
+    count: usize,
+}
+
+/// Centres this close are one, and a single turn is the path, m.
+const ON_ONE_CIRCLE: f64 = 1e-9;
+
+/// Looks through the words for the shortest path.
+pub(super) struct Finder<'c> {
+    circle: &'c Circle,
+    ends: &'c Ends,
+    best: Option<Plan>,
+    shortest: f64,
+}
+
+/// The shortest path of `family` between two poses with these curvatures; `None` if all are longer than `below`.
+pub(super) fn shortest(
+    circle: &Circle,
+    family: Family,
+    (start, k0): (Pose, f64),
+    (end, kf): (Pose, f64),
+    below: f64,
+) -> Option<Plan> {
+    let ends = Ends {
+        first: WAYS.map(|way| {
+            let lead = circle.entry_from(way, k0);
+            (lead, start.place(lead.center))
+        }),
+        last: WAYS.map(|way| {
+            let lead = circle.exit_to(way, kf);
+            (lead, end.place(lead.center))
+        }),
+        start: start.heading,
+        end: end.heading,
+    };
+    let mut finder = Finder { circle, ends: &ends, best: None, shortest: below };
+    let ways = if family == Family::Dubins { &WAYS[..2] } else { &WAYS[..] };
+    for &first in ways {
+        for &last in ways {
+            finder.pair(family, first, last);
+        }
+    }
+    finder.best
+}
+
+impl<'c> Finder<'c> {
+    /// All words that begin and end with these turns.
+    fn pair(&mut self, family: Family, first: Way, last: Way) {
+        let (from, to) = (self.ends.first[index(first)].1, self.ends.last[index(last)].1);
+        let between = Span::new(to.0 - from.0, to.1 - from.1);
+        let cusps = family == Family::ReedsShepp;
+        if first == last && between.distance < ON_ONE_CIRCLE {
+            let word = self.word(&[first], &[]);
+            self.offer(&word, &[], None);
+        }
+        self.turn_straight_turn(between, first, last, 1.0);
+        if first.sense == last.sense {
+            self.three_turns(between, first, last, 1.0);
+        }
+        if !cusps {
+            return;
+        }
+        self.turn_straight_turn(between, first, last, -1.0);
+        if first.sense == last.sense {
+            self.three_turns(between, first, last, -1.0);
+        }
+        for swing in [true, false] {
+            if first.sense != last.sense {
+                self.four_turns(between, first, last, swing);
+            }
+            self.quarter_turns(between, first, last, swing);
+        }
+    }
+
+    /// C S C, with a cusp wherever the gear changes.
+    fn turn_straight_turn(&mut self, between: Span, first: Way, last: Way, gear: f64) {
+        let word = self.word(&[first, last], &[false]);
+        let step = word.step(0);
+        if let Some((heading, length)) = straight(between, step, gear) {
+            self.offer(&word, &[heading], Some(Straight { after: 0, gear, length }));
+        }
+    }
+
+    /// C C C with the middle turn in `gear`.
+    fn three_turns(&mut self, between: Span, first: Way, last: Way, gear: f64) {
+        let middle = Way { sense: -first.sense, gear };
+        let swings = |a: Way, b: Way| if a.gear == b.gear { &[false][..] } else { &[true, false] };
+        for &before in swings(first, middle) {
+            for &after in swings(middle, last) {
+                let word = self.word(&[first, middle, last], &[before, after]);
+                for [a, b] in triangle(between, word.step(0), word.step(1)).into_iter().flatten() {
+                    self.offer(&word, &[a, b], None);
+                }
+            }
+        }
+    }
+
+    /// C Cu | Cu C and C | Cu Cu | C, whose two middle turns are equal.
+    fn four_turns(&mut self, between: Span, first: Way, last: Way, swing: bool) {
+        let second = Way { sense: -first.sense, gear: if first.gear == last.gear { -first.gear } else { first.gear } };
+        let third = Way { sense: first.sense, gear: if first.gear == last.gear { second.gear } else { last.gear } };
+        let cusp = |a: Way, b: Way| swing && a.gear != b.gear;
+        let joints = [cusp(first, second), cusp(second, third), cusp(third, last)];
+        let word = self.word(&[first, second, third, last], &joints);
+        let (d1, d2, d3) = (word.step(0), word.step(1), word.step(2));
+        if first.gear == last.gear {
+            // The middle turns cancel: both cusps have the same heading.
+            for [a, b] in triangle(between, (d1.0 + d3.0, d1.1 + d3.1), d2).into_iter().flatten() {
+                self.offer(&word, &[a, b, a], None);
+            }
+            return;
+        }
+        // The headings rise evenly, θ − u, θ, θ + u, and D1, D3 are mirror images about y, so that what they add up to
+        // lies along the y axis of the cusp: D2y + 2 (D1y cos u − D1x sin u) = ± distance.
+        let reach = d1.0.hypot(d1.1);
+        let phase = d1.0.atan2(d1.1);
+        for signed in [between.distance, -between.distance] {
+            let cosine = (signed - d2.1) / (2.0 * reach);
+            if cosine.abs() > 1.0 {
+                continue;
+            }
+            let heading = between.angle - if signed < 0.0 { -FRAC_PI_2 } else { FRAC_PI_2 };
+            for u in [cosine.acos() - phase, -cosine.acos() - phase] {
+                self.offer(&word, &[heading - u, heading, heading + u], None);
+            }
+        }
+    }
+
+    /// C | C½π S C, C S C½π | C and C | C½π S C½π | C: after a quarter turn the step over the cusp lies along the straight.
+    fn quarter_turns(&mut self, between: Span, first: Way, last: Way, swing: bool) {
+        if first.gear == last.gear {
+            let second = Way { sense: -first.sense, gear: -first.gear };
+            let third = Way { sense: -last.sense, gear: -last.gear };
+            let word = self.word(&[first, second, third, last], &[swing, false, swing]);
+            let (before, step, after) = (word.step(0), word.step(1), word.step(2));
+            let gear = second.gear;
+            let along = step.0 + second.sense * gear * before.1 - third.sense * gear * after.1;
+            if let Some((heading, length)) = straight(between, (along, step.1), gear) {
+                let headings =
+                    [heading - second.sense * gear * FRAC_PI_2, heading, heading + third.sense * gear * FRAC_PI_2];
+                self.offer(&word, &headings, Some(Straight { after: 1, gear, length }));
+            }
+            return;
+        }
+        let second = Way { sense: -first.sense, gear: last.gear };
+        let word = self.word(&[first, second, last], &[swing, false]);
+        let (before, step, gear) = (word.step(0), word.step(1), second.gear);
+        let along = step.0 + second.sense * gear * before.1;
+        if let Some((heading, length)) = straight(between, (along, step.1), gear) {
+            let headings = [heading - second.sense * gear * FRAC_PI_2, heading];
+            self.offer(&word, &headings, Some(Straight { after: 1, gear, length }));
+        }
+        let second = Way { sense: -last.sense, gear: first.gear };
+        let word = self.word(&[first, second, last], &[false, swing]);
+        let (step, after, gear) = (word.step(0), word.step(1), second.gear);
+        let along = step.0 - second.sense * gear * after.1;
+        if let Some((heading, length)) = straight(between, (along, step.1), gear) {
+            let headings = [heading, heading + second.sense * gear * FRAC_PI_2];
+            self.offer(&word, &headings, Some(Straight { after: 0, gear, length }));
+        }
+    }
+
+    /// Ways with their leads; `swings[i]`: full curvature between the turns i and i + 1.
+    fn word(&self, ways: &[Way], swings: &[bool]) -> Word<'c> {
+        let last = ways.len() - 1;
+        let (first_way, last_way) = (ways[0], ways[last]);
+        let mut word = Word {
+            ways: [first_way; 4],
+            entries: [&self.ends.first[index(first_way)].0; 4],
+            exits: [&self.ends.last[index(last_way)].0; 4],
+            count: ways.len(),
+        };
+        for (i, &way) in ways.iter().enumerate() {
+            word.ways[i] = way;
+            if i > 0 {
+                word.entries[i] = if swings[i - 1] { self.circle.standing(way) } else { self.circle.entry(way) };
+            }
+            if i < last {
+                word.exits[i] = if swings[i] { self.circle.standing(way) } else { self.circle.exit(way) };
+            }
+        }
+        word
+    }
+
+    /// Takes the path with these headings between the turns if it is the shortest so far.
+    fn offer(&mut self, word: &Word, headings: &[f64], straight: Option<Straight>) {
+        let angle = |i: usize| {
+            let before = if i == 0 { self.ends.start } else { headings[i - 1] };
+            let after = if i + 1 == word.count { self.ends.end } else { headings[i] };
+            after - before
+        };
+        // Most words are too long: see that before anything is computed for good.
+        let metres = straight.map_or(0.0, |straight| straight.length);
+        let mut least = metres;
+        for i in 0..word.count {
+            least += self.circle.at_least(word.ways[i], word.entries[i], word.exits[i], angle(i));
+            // Lengths that are no numbers are refused as well.
+            if least.total_cmp(&self.shortest).is_ge() {
+                return;
+            }
+        }
+        let mut length = metres;
+        let mut turns = [None; 4];
+        for (i, slot) in turns.iter_mut().enumerate().take(word.count) {
+            let (turn, metres) = self.circle.turn(word.ways[i], word.entries[i], word.exits[i], angle(i));
+            length += metres;
+            // A turn of nothing at an end would swing the wheels before the start or after the goal.
+            let at_end = i == 0 || i + 1 == word.count;
+            if (at_end && metres == 0.0) || length >= self.shortest {
+                return;
+            }
+            *slot = Some(turn);
+        }
+        let Some(first) = turns[0] else { return };
+        self.shortest = length;
+        let turns = turns.map(|turn| turn.unwrap_or(first));
+        self.best = Some(Plan { length, turns, count: word.count, straight });
+    }
+}
+
+impl Word<'_> {
+    /// From the centre of turn `i` to that of turn `i` + 1, in the frame of the vehicle between them.
+    fn step(&self, i: usize) -> (f64, f64) {
+        let (from, to) = (self.exits[i].center, self.entries[i + 1].center);
+        (to.0 - from.0, to.1 - from.1)
+    }
+}
+
+/// From the first centre to the last: distance in m, direction in rad.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    distance: f64,
+    angle: f64,
+}
+
+impl Span {
+    fn new(x: f64, y: f64) -> Self {
+        Self { distance: x.hypot(y), angle: y.atan2(x) }
+    }
+}
+
+/// Heading and length L ≥ 0 of a straight in `gear` with Rot(heading)·(step.x + gear·L, step.y) = span.
+fn straight(span: Span, step: (f64, f64), gear: f64) -> Option<(f64, f64)> {
+    let square = span.distance * span.distance - step.1 * step.1;
+    if square < 0.0 {
+        return None;
+    }
+    let along = gear * square.sqrt();
+    let length = gear * (along - step.0);
+    // A straight of nothing, but for rounding, is one.
+    (length > -1e-10).then(|| (span.angle - step.1.atan2(along), length.max(0.0)))
+}
+
+/// Headings (a, b) with Rot(a)·first + Rot(b)·second = span, both ways round.
+fn triangle(span: Span, first: (f64, f64), second: (f64, f64)) -> Option<[[f64; 2]; 2]> {
+    let (p, q, d) = (norm(first), norm(second), span.distance);
+    // Most triangles do not close: no need of angles to see that.
+    if d > (p + q) * (1.0 + 1e-12) || d < (p - q).abs() * (1.0 - 1e-12) {
+        return None;
+    }
+    let (alpha, beta) = if d + (p - q).abs() < 1e-12 * (p + q) {
+        // Centres on top of each other leave the direction free: any will do.
+        (FRAC_PI_2, FRAC_PI_2)
+    } else {
+        (angle(p * p + d * d - q * q, 2.0 * p * d), angle(q * q + d * d - p * p, 2.0 * q * d))
+    };
+    let (to_first, to_second) = (direction(first), direction(second));
+    Some([1.0, -1.0].map(|side| [span.angle + side * alpha - to_first, span.angle - side * beta - to_second]))
+}
+
+/// The angle with this cosine, which exceeds 1 by rounding only.
+fn angle(adjacent: f64, hypotenuse: f64) -> f64 {
+    (adjacent / hypotenuse).clamp(-1.0, 1.0).acos()
+}
+
+fn norm((x, y): (f64, f64)) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
+/// Steps over cusps lie along y: nothing to compute for them.
+fn direction((x, y): (f64, f64)) -> f64 {
+    if x == 0.0 { FRAC_PI_2.copysign(y) } else { y.atan2(x) }
+}

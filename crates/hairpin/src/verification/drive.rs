@@ -1,0 +1,263 @@
+//! Replay of a ground vehicle's drive on flat ground: what was written, integrated again, against what was asked.
+
+/// One piece of a drive as it was written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DrivePiece {
+    /// κ(s) = Σ aᵢ sⁱ for s from 0 to `length_m`; ψ̇ = direction · v · κ.
+    Arc {
+        /// Metres, ≥ 0.
+        length_m: f64,
+        /// a₀ … a₅, 1/m^(i+1).
+        curvature: [f64; 6],
+        /// +1 forward, −1 in reverse.
+        direction: f64,
+    },
+    /// In place: the wheels may stand anyhow before, and straight after it.
+    Turn {
+        /// Radians, left positive.
+        angle_rad: f64,
+    },
+}
+
+/// What a drive was asked to do, in the frame of the start: x forward, y left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DriveClaim {
+    /// κ at the start, 1/m.
+    pub start_curvature: f64,
+    /// Direction of travel in the body, rad: 0 along x, left positive.
+    pub crab: f64,
+    /// x (m), y (m), yaw (rad) to end in.
+    pub end: [f64; 3],
+    /// κ to end with, 1/m.
+    pub end_curvature: f64,
+}
+
+/// What the drive does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DriveReplay {
+    /// Where it ends less where it should, in the start's frame: x, y (m), yaw (rad, in (−π, π]).
+    pub error: [f64; 3],
+    /// Curvature at the end less what it should be, 1/m.
+    pub error_curvature: f64,
+    /// Curvature at the start less what it should be, 1/m.
+    pub start_error_curvature: f64,
+    /// Largest |κ|, 1/m.
+    pub max_curvature: f64,
+    /// Largest |dκ/ds|, 1/m².
+    pub max_curvature_rate: f64,
+    /// Largest jump of κ between pieces of one direction, 1/m.
+    pub max_jump: f64,
+    /// Metres driven.
+    pub length: f64,
+    /// Changes of direction.
+    pub reversals: usize,
+    /// Steps of the integrator.
+    pub steps: usize,
+}
+
+/// Steps of a replay at least.
+pub const LEAST_STEPS: usize = 2000;
+/// Longest turn of the heading in a step, rad.
+const LONGEST_TURN: f64 = 0.01;
+/// Steps of one piece at most: a piece that would need more turns by more than a thousand circles.
+const MOST_STEPS: f64 = 1e6;
+
+/// Integrates x' = direction·cos(ψ + δ), y' = direction·sin(ψ + δ), ψ' = direction·κ(s) over every piece by the classical
+/// Runge-Kutta method, [`LEAST_STEPS`] steps or more in all, and looks for the largest curvature on the same grid, bisected
+/// where it is largest. Numbers that are none give errors that are none.
+pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
+    let total: f64 = pieces.iter().map(DrivePiece::length).sum();
+    let mut state = [0.0; 3];
+    let mut replay = DriveReplay {
+        error: [0.0; 3],
+        error_curvature: 0.0,
+        start_error_curvature: 0.0,
+        max_curvature: 0.0,
+        max_curvature_rate: 0.0,
+        max_jump: 0.0,
+        length: total,
+        reversals: 0,
+        steps: 0,
+    };
+    // Curvature and direction at the end of the piece before; a turn in place leaves the wheels straight and no direction.
+    let mut before: (f64, Option<f64>) = (claim.start_curvature, None);
+    let mut last_direction = None;
+    for (i, piece) in pieces.iter().enumerate() {
+        let DrivePiece::Arc { length_m, curvature, direction } = *piece else {
+            let DrivePiece::Turn { angle_rad } = *piece else { continue };
+            state[2] += angle_rad;
+            before = (0.0, None);
+            continue;
+        };
+        let bend = |s: f64| curvature.iter().rev().fold(0.0, |sum, a| sum * s + a);
+        if i == 0 {
+            replay.start_error_curvature = bend(0.0) - claim.start_curvature;
+        } else if before.1 == Some(direction) {
+            replay.max_jump = largest(replay.max_jump, (bend(0.0) - before.0).abs());
+        }
+        if last_direction.is_some_and(|last| last != direction) {
+            replay.reversals += 1;
+        }
+        last_direction = Some(direction);
+        let steps = steps(length_m, total, &curvature);
+        replay.steps += steps;
+        state = integrate(state, claim.crab, direction, length_m, steps, &bend);
+        let slope = |s: f64| (1..6).rev().fold(0.0, |sum, i| sum * s + i as f64 * curvature[i]);
+        replay.max_curvature = largest(replay.max_curvature, peak(&bend, length_m, steps));
+        replay.max_curvature_rate = largest(replay.max_curvature_rate, peak(&slope, length_m, steps));
+        before = (bend(length_m), Some(direction));
+    }
+    let yaw = state[2] - claim.end[2];
+    replay.error = [state[0] - claim.end[0], state[1] - claim.end[1], yaw.sin().atan2(yaw.cos())];
+    replay.error_curvature = before.0 - claim.end_curvature;
+    replay
+}
+
+impl DrivePiece {
+    fn length(&self) -> f64 {
+        match self {
+            Self::Arc { length_m, .. } => *length_m,
+            Self::Turn { .. } => 0.0,
+        }
+    }
+}
+
+/// A share of the least steps by length, and more where the path bends.
+fn steps(length: f64, total: f64, curvature: &[f64; 6]) -> usize {
+    let share = if total > 0.0 { LEAST_STEPS as f64 * length / total } else { 0.0 };
+    let most: f64 = curvature.iter().rev().fold(0.0, |sum, a| sum * length + a.abs());
+    share.max(length * most / LONGEST_TURN).ceil().clamp(16.0, MOST_STEPS) as usize
+}
+
+fn integrate(
+    start: [f64; 3],
+    crab: f64,
+    direction: f64,
+    length: f64,
+    steps: usize,
+    bend: &impl Fn(f64) -> f64,
+) -> [f64; 3] {
+    let h = length / steps as f64;
+    let rate = |s: f64, yaw: f64| {
+        let (sin, cos) = (yaw + crab).sin_cos();
+        [direction * cos, direction * sin, direction * bend(s)]
+    };
+    let mut state = start;
+    for step in 0..steps {
+        let s = length * step as f64 / steps as f64;
+        let yaw = state[2];
+        let k1 = rate(s, yaw);
+        let k2 = rate(s + 0.5 * h, yaw + 0.5 * h * k1[2]);
+        let k3 = rate(s + 0.5 * h, yaw + 0.5 * h * k2[2]);
+        let k4 = rate(s + h, yaw + h * k3[2]);
+        for (i, x) in state.iter_mut().enumerate() {
+            *x += h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+        }
+    }
+    state
+}
+
+/// Largest |f| on [0, length]: on a grid, and around its largest value by golden sections.
+fn peak(f: &impl Fn(f64) -> f64, length: f64, steps: usize) -> f64 {
+    let at = |i: usize| length * i as f64 / steps as f64;
+    let mut best = (0, f(0.0).abs());
+    for i in 1..=steps {
+        let value = f(at(i)).abs();
+        // Written so that no number wins over any.
+        if value.total_cmp(&best.1).is_gt() {
+            best = (i, value);
+        }
+    }
+    let (mut low, mut high) = (at(best.0.saturating_sub(1)), at((best.0 + 1).min(steps)));
+    let mut most = best.1;
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    for _ in 0..40 {
+        let (left, right) = (high - golden * (high - low), low + golden * (high - low));
+        let (a, b) = (f(left).abs(), f(right).abs());
+        most = largest(most, largest(a, b));
+        if a > b { high = right } else { low = left }
+    }
+    most
+}
+
+/// The larger, or no number if one is none.
+fn largest(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    const CLAIM: DriveClaim = DriveClaim { start_curvature: 0.0, crab: 0.0, end: [0.0; 3], end_curvature: 0.0 };
+
+    fn arc(length_m: f64, curvature: [f64; 6], direction: f64) -> DrivePiece {
+        DrivePiece::Arc { length_m, curvature, direction }
+    }
+
+    fn near(replay: &DriveReplay, end: [f64; 3]) {
+        for (found, expected) in replay.error.iter().zip(end) {
+            assert!((found - expected).abs() < 1e-9, "{replay:?}, not {end:?}");
+        }
+    }
+
+    #[test]
+    fn lines_circles_and_turns_end_where_geometry_says() {
+        let half = |direction| replay_drive(&[arc(PI / 2.0, [2.0, 0.0, 0.0, 0.0, 0.0, 0.0], direction)], &CLAIM);
+        near(&half(1.0), [0.0, 1.0, PI]);
+        near(&half(-1.0), [0.0, 1.0, -PI]);
+        let line = replay_drive(&[arc(3.0, [0.0; 6], -1.0)], &CLAIM);
+        near(&line, [-3.0, 0.0, 0.0]);
+        assert!(line.steps >= LEAST_STEPS && line.length == 3.0);
+        let there = [DrivePiece::Turn { angle_rad: -PI / 2.0 }, arc(2.0, [0.0; 6], 1.0)];
+        near(&replay_drive(&there, &CLAIM), [0.0, -2.0, -PI / 2.0]);
+        let crab = DriveClaim { crab: PI / 2.0, ..CLAIM };
+        near(&replay_drive(&[arc(1.0, [0.0; 6], 1.0)], &crab), [0.0, 1.0, 0.0]);
+        // A whole turn is no error of the heading.
+        let round = replay_drive(&[arc(2.0 * PI, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], 1.0)], &CLAIM);
+        near(&round, [0.0; 3]);
+    }
+
+    #[test]
+    fn a_clothoid_ends_at_the_fresnel_integrals() {
+        // κ = πs: x = C(1), y = S(1) of Abramowitz and Stegun, table 7.7, ψ = π/2.
+        let clothoid = replay_drive(&[arc(1.0, [0.0, PI, 0.0, 0.0, 0.0, 0.0], 1.0)], &CLAIM);
+        assert!((clothoid.error[0] - 0.779_893_4).abs() < 1e-7 && (clothoid.error[1] - 0.438_259_1).abs() < 1e-7);
+        assert!((clothoid.error[2] - PI / 2.0).abs() < 1e-9);
+        assert!((clothoid.max_curvature - PI).abs() < 1e-12 && (clothoid.max_curvature_rate - PI).abs() < 1e-12);
+        assert!((clothoid.error_curvature - PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn peaks_between_samples_and_jumps_are_found() {
+        // 4 s (L − s)/L² has its largest value, 1, at L/2, with L no multiple of the step.
+        let length = 0.777;
+        let curvature = [0.0, 4.0 / length, -4.0 / (length * length), 0.0, 0.0, 0.0];
+        let hill = replay_drive(&[arc(length, curvature, 1.0)], &CLAIM);
+        assert!((hill.max_curvature - 1.0).abs() < 1e-12, "{hill:?}");
+        assert!((hill.max_curvature_rate - 4.0 / length).abs() < 1e-12);
+        let (left, right) = ([1.0, 0.0, 0.0, 0.0, 0.0, 0.0], [-0.5, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let jump = replay_drive(&[arc(1.0, left, 1.0), arc(1.0, right, 1.0)], &CLAIM);
+        assert_eq!(
+            (jump.max_jump, jump.start_error_curvature, jump.error_curvature, jump.reversals),
+            (1.5, 1.0, -0.5, 0)
+        );
+        // Where the vehicle stands its wheels may swing: at cusps and at turns in place, not at zero lengths.
+        let cusp = replay_drive(&[arc(1.0, left, 1.0), arc(1.0, right, -1.0)], &CLAIM);
+        assert_eq!((cusp.max_jump, cusp.reversals), (0.0, 1));
+        let turn = [arc(1.0, left, 1.0), DrivePiece::Turn { angle_rad: 1.0 }, arc(1.0, right, 1.0)];
+        assert_eq!(replay_drive(&turn, &CLAIM).max_jump, 0.0);
+        assert_eq!(replay_drive(&turn[..2], &CLAIM).error_curvature, 0.0);
+        assert_eq!(replay_drive(&[arc(0.0, left, 1.0), arc(1.0, right, 1.0)], &CLAIM).max_jump, 1.5);
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_never_a_success() {
+        let broken = replay_drive(&[arc(1.0, [f64::NAN, 0.0, 0.0, 0.0, 0.0, 0.0], 1.0)], &CLAIM);
+        assert!(broken.error[0].is_nan() && broken.max_curvature.is_nan() && broken.error_curvature.is_nan());
+        assert!(replay_drive(&[arc(f64::NAN, [0.0; 6], 1.0)], &CLAIM).error[0].is_nan());
+        assert_eq!(replay_drive(&[], &CLAIM).error, [0.0; 3]);
+    }
+}
