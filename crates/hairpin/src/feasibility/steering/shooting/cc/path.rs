@@ -6,7 +6,7 @@ use crate::trajectory::drive::{Gear, Segment};
 
 use super::super::query::{Curvatures, Query};
 use super::turn::{Circle, gear_of};
-use super::words::{self, Family, Plan, Pose};
+use super::words::{self, Family, Plan, Pose, Straight};
 
 /// What may be driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,20 +21,13 @@ pub enum Gears {
 #[derive(Debug, Clone, Copy)]
 pub struct Path {
     length_m: f64,
-    circle: Circle,
+    /// Curvature of its arcs, 1/m.
+    most: f64,
     lead_in: Option<Lead>,
-    core: Core,
+    core: Plan,
     lead_out: Option<Lead>,
     /// +1: as found; −1: found forward, to be driven in reverse, as its mirror image.
     gear: f64,
-}
-
-/// Between the leads.
-#[derive(Debug, Clone, Copy)]
-enum Core {
-    /// Straight on, or back: metres, negative in reverse.
-    Straight(f64),
-    Turns(Plan),
 }
 
 /// A clothoid to or from zero curvature before or after the words.
@@ -85,9 +78,9 @@ pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
                 if (to.pose.x - from.pose.x).hypot(to.pose.y - from.pose.y) >= below {
                     continue;
                 }
-                if let Some((core, length)) = between(&circle, family, from, to, below) {
-                    let (lead_in, lead_out) = (from.lead, to.lead);
-                    best = Some(Path { length_m: length + leads, circle, lead_in, core, lead_out, gear: mirror });
+                if let Some(core) = between(&circle, family, from, to, below) {
+                    let (length_m, most) = (core.length + leads, circle.curvature);
+                    best = Some(Path { length_m, most, lead_in: from.lead, core, lead_out: to.lead, gear: mirror });
                 }
             }
         }
@@ -95,7 +88,7 @@ pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
     best
 }
 
-fn between(circle: &Circle, family: Family, from: &Anchor, to: &Anchor, below: f64) -> Option<(Core, f64)> {
+fn between(circle: &Circle, family: Family, from: &Anchor, to: &Anchor, below: f64) -> Option<Plan> {
     if from.curvature == 0.0 && to.curvature == 0.0 {
         let (sin, cos) = from.pose.heading.sin_cos();
         let (dx, dy) = (to.pose.x - from.pose.x, to.pose.y - from.pose.y);
@@ -104,11 +97,12 @@ fn between(circle: &Circle, family: Family, from: &Anchor, to: &Anchor, below: f
             (to.pose.heading - from.pose.heading).sin().abs().max(1.0 - (to.pose.heading - from.pose.heading).cos());
         let drivable = ahead >= 0.0 || family == Family::ReedsShepp;
         if aside.abs() < STRAIGHT && turned < STRAIGHT && drivable {
-            return (ahead.abs() < below).then_some((Core::Straight(ahead), ahead.abs()));
+            let straight = Straight { before: 0, gear: 1f64.copysign(ahead), length: ahead.abs() };
+            let plan = Plan { length: straight.length, turns: [None; 4], straight: Some(straight) };
+            return (plan.length < below).then_some(plan);
         }
     }
-    let ends = ((from.pose, from.curvature), (to.pose, to.curvature));
-    words::shortest(circle, family, ends.0, ends.1, below).map(|plan| (Core::Turns(plan), plan.length))
+    words::shortest(circle, family, (from.pose, from.curvature), (to.pose, to.curvature), below)
 }
 
 /// The states that stand for a start (`along` = 1) or an end (`along` = −1): itself, where the circle can be reached from
@@ -159,16 +153,11 @@ impl Path {
         };
         let lead = |lead: &Lead| Segment::clothoid(lead.length, lead.from, lead.to, gear_of(lead.gear));
         self.lead_in.iter().for_each(|on| push(lead(on)));
-        match &self.core {
-            Core::Straight(metres) => push(Segment::straight(metres.abs(), gear_of(*metres))),
-            Core::Turns(plan) => {
-                for (i, turn) in plan.turns[..plan.count].iter().enumerate() {
-                    turn.segments(&self.circle, &mut push);
-                    if let Some(straight) = plan.straight.filter(|straight| straight.after == i) {
-                        push(Segment::straight(straight.length, gear_of(straight.gear)));
-                    }
-                }
+        for (i, turn) in self.core.turns.iter().enumerate() {
+            if let Some(straight) = self.core.straight.filter(|straight| straight.before == i) {
+                push(Segment::straight(straight.length, gear_of(straight.gear)));
             }
+            turn.iter().for_each(|turn| turn.segments(self.most, &mut push));
         }
         self.lead_out.iter().for_each(|off| push(lead(off)));
         if taken == 0 {

@@ -60,8 +60,8 @@ fn check(query: &Query, bounds: &Curvatures, gears: Gears, path: &Path) {
     for segment in &segments {
         let Motion::Arc { length_m, curvature } = segment.motion else { panic!("no turns in place here") };
         let (from, to) = (segment.curvature_at(0.0), segment.curvature_at(length_m));
-        assert!(from.abs().max(to.abs()) <= bounds.most * (1.0 + 1e-12), "{query:?} {segment:?}");
-        assert!(curvature[1].abs() <= bounds.most_rate * (1.0 + 1e-9), "{query:?} {segment:?}");
+        assert!(from.abs().max(to.abs()) <= bounds.most, "{query:?} {segment:?}");
+        assert!(curvature[1].abs() <= bounds.most_rate, "{query:?} {segment:?}");
         if let Some((at, gear)) = before {
             assert!(gear != segment.gear || (at - from).abs() < 1e-9, "jump to {segment:?} in {segments:?}");
         }

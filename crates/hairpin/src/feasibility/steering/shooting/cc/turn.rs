@@ -10,6 +10,9 @@ use super::super::query::Curvatures;
 /// Angles this close below a full turn are a turn of nothing: rounding, not a loop. rad
 const NOTHING: f64 = 1e-10;
 
+/// Bounds are kept with this factor to spare, so that rounding never exceeds them.
+const UNDER: f64 = 1.0 - 1e-12;
+
 /// Which way a turn goes, as signs: `sense` +1 left, −1 right; `gear` +1 forward, −1 in reverse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Way {
@@ -86,8 +89,8 @@ impl Circle {
     /// The circle of `share` of the largest curvature. Where the rate is so small that a clothoid pair would turn by
     /// more than half a turn, the curvature is less.
     pub(super) fn new(bounds: &Curvatures, share: f64) -> Self {
-        let rate = bounds.most_rate;
-        let curvature = (bounds.most * share).min((0.999 * PI * rate).sqrt());
+        let rate = bounds.most_rate * UNDER;
+        let curvature = (bounds.most * share * UNDER).min((0.999 * PI * rate).sqrt());
         let (x, y) = clothoid(0.0, curvature, rate);
         let half = curvature * curvature / (2.0 * rate);
         let (sin, cos) = half.sin_cos();
@@ -196,10 +199,10 @@ impl Circle {
 }
 
 impl Turn {
-    /// Appends its segments.
-    pub(super) fn segments(&self, circle: &Circle, push: &mut impl FnMut(Segment)) {
+    /// Hands over its segments, on a circle of the curvature `most` (1/m).
+    pub(super) fn segments(&self, most: f64, push: &mut impl FnMut(Segment)) {
         let gear = gear_of(self.way.gear);
-        let full = self.way.sense * circle.curvature;
+        let full = self.way.sense * most;
         match self.body {
             Body::Elementary { sharpness, length } => {
                 let peak = self.way.sense * sharpness * length;
@@ -208,7 +211,7 @@ impl Turn {
             }
             Body::Arc(angle) => {
                 push(Segment::clothoid(self.entry.length, self.entry.curvature, full, gear));
-                push(Segment::clothoid(angle / circle.curvature, full, full, gear));
+                push(Segment::clothoid(angle / most, full, full, gear));
                 push(Segment::clothoid(self.exit.length, full, self.exit.curvature, gear));
             }
         }

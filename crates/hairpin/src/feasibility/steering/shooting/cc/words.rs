@@ -34,10 +34,10 @@ impl Pose {
     }
 }
 
-/// A straight between the turns `after` and `after` + 1.
+/// A straight before the turn `before`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Straight {
-    pub(super) after: usize,
+    pub(super) before: usize,
     pub(super) gear: f64,
     pub(super) length: f64,
 }
@@ -46,8 +46,7 @@ pub(super) struct Straight {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plan {
     pub(super) length: f64,
-    pub(super) turns: [Turn; 4],
-    pub(super) count: usize,
+    pub(super) turns: [Option<Turn>; 4],
     pub(super) straight: Option<Straight>,
 }
 
@@ -143,7 +142,7 @@ impl<'c> Finder<'c> {
         let word = self.word(&[first, last], &[false]);
         let step = word.step(0);
         if let Some((heading, length)) = straight(between, step, gear) {
-            self.offer(&word, &[heading], Some(Straight { after: 0, gear, length }));
+            self.offer(&word, &[heading], Some(Straight { before: 1, gear, length }));
         }
     }
 
@@ -204,7 +203,7 @@ impl<'c> Finder<'c> {
             if let Some((heading, length)) = straight(between, (along, step.1), gear) {
                 let headings =
                     [heading - second.sense * gear * FRAC_PI_2, heading, heading + third.sense * gear * FRAC_PI_2];
-                self.offer(&word, &headings, Some(Straight { after: 1, gear, length }));
+                self.offer(&word, &headings, Some(Straight { before: 2, gear, length }));
             }
             return;
         }
@@ -214,7 +213,7 @@ impl<'c> Finder<'c> {
         let along = step.0 + second.sense * gear * before.1;
         if let Some((heading, length)) = straight(between, (along, step.1), gear) {
             let headings = [heading - second.sense * gear * FRAC_PI_2, heading];
-            self.offer(&word, &headings, Some(Straight { after: 1, gear, length }));
+            self.offer(&word, &headings, Some(Straight { before: 2, gear, length }));
         }
         let second = Way { sense: -last.sense, gear: first.gear };
         let word = self.word(&[first, second, last], &[false, swing]);
@@ -222,7 +221,7 @@ impl<'c> Finder<'c> {
         let along = step.0 - second.sense * gear * after.1;
         if let Some((heading, length)) = straight(between, (along, step.1), gear) {
             let headings = [heading, heading + second.sense * gear * FRAC_PI_2];
-            self.offer(&word, &headings, Some(Straight { after: 0, gear, length }));
+            self.offer(&word, &headings, Some(Straight { before: 1, gear, length }));
         }
     }
 
@@ -277,10 +276,8 @@ impl<'c> Finder<'c> {
             }
             *slot = Some(turn);
         }
-        let Some(first) = turns[0] else { return };
         self.shortest = length;
-        let turns = turns.map(|turn| turn.unwrap_or(first));
-        self.best = Some(Plan { length, turns, count: word.count, straight });
+        self.best = Some(Plan { length, turns, straight });
     }
 }
 
