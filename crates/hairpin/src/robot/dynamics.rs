@@ -13,6 +13,13 @@ pub struct Quantity {
     pub unit: &'static str,
 }
 
+impl Quantity {
+    /// `name` in `unit`.
+    pub const fn new(name: &'static str, unit: &'static str) -> Self {
+        Self { name, unit }
+    }
+}
+
 /// Component-wise limits of a control.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds<V> {

@@ -96,33 +96,25 @@ impl Plant {
     }
 }
 
-const fn quantity(name: &'static str, unit: &'static str) -> Quantity {
-    Quantity { name, unit }
-}
+/// Those of the rigid body, then the rotors.
+const QUANTITIES: [Quantity; 17] = {
+    let mut all = [Quantity::new("rotor1", "rad_s"); 17];
+    let mut i = 0;
+    while i < ROTORS {
+        all[i] = <Quadrotor as Dynamics>::STATE[i];
+        i += 1;
+    }
+    all[ROTORS + 1] = Quantity::new("rotor2", "rad_s");
+    all[ROTORS + 2] = Quantity::new("rotor3", "rad_s");
+    all[ROTORS + 3] = Quantity::new("rotor4", "rad_s");
+    all
+};
 
 impl Dynamics for Plant {
     type State = PlantState;
     type Control = Vector4<f64>;
 
-    const STATE: &'static [Quantity] = &[
-        quantity("x", "m"),
-        quantity("y", "m"),
-        quantity("z", "m"),
-        quantity("qw", ""),
-        quantity("qx", ""),
-        quantity("qy", ""),
-        quantity("qz", ""),
-        quantity("vx", "m_s"),
-        quantity("vy", "m_s"),
-        quantity("vz", "m_s"),
-        quantity("p", "rad_s"),
-        quantity("q", "rad_s"),
-        quantity("r", "rad_s"),
-        quantity("rotor1", "rad_s"),
-        quantity("rotor2", "rad_s"),
-        quantity("rotor3", "rad_s"),
-        quantity("rotor4", "rad_s"),
-    ];
+    const STATE: &'static [Quantity] = &QUANTITIES;
 
     fn derivative(&self, state: &PlantState, control: &Vector4<f64>) -> PlantState {
         let q = &state.as_slice()[ATTITUDE..ATTITUDE + 4];

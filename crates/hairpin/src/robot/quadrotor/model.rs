@@ -109,28 +109,24 @@ impl Quadrotor {
     }
 }
 
-const fn quantity(name: &'static str, unit: &'static str) -> Quantity {
-    Quantity { name, unit }
-}
-
 /// The rigid body with drag in still air; controls are the four rotor speeds, rad/s.
 impl Dynamics for Quadrotor {
     type State = QuadrotorState;
     type Control = Vector4<f64>;
     const STATE: &'static [Quantity] = &[
-        quantity("x", "m"),
-        quantity("y", "m"),
-        quantity("z", "m"),
-        quantity("qw", ""),
-        quantity("qx", ""),
-        quantity("qy", ""),
-        quantity("qz", ""),
-        quantity("vx", "m_s"),
-        quantity("vy", "m_s"),
-        quantity("vz", "m_s"),
-        quantity("p", "rad_s"),
-        quantity("q", "rad_s"),
-        quantity("r", "rad_s"),
+        Quantity::new("x", "m"),
+        Quantity::new("y", "m"),
+        Quantity::new("z", "m"),
+        Quantity::new("qw", ""),
+        Quantity::new("qx", ""),
+        Quantity::new("qy", ""),
+        Quantity::new("qz", ""),
+        Quantity::new("vx", "m_s"),
+        Quantity::new("vy", "m_s"),
+        Quantity::new("vz", "m_s"),
+        Quantity::new("p", "rad_s"),
+        Quantity::new("q", "rad_s"),
+        Quantity::new("r", "rad_s"),
     ];
 
     fn derivative(&self, state: &QuadrotorState, control: &Vector4<f64>) -> QuadrotorState {
