@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::scenario::{ControllerName, SegmentTimes};
 use super::{Case, Mission, Run, Stop, mission};
 use crate::campaign::Setup;
 use crate::simulation::{self, Conditions, ControllerKind, ControllerSettings, FlySettings, Gusts, Sortie};
@@ -54,19 +53,9 @@ fn fly(mission: &Mission, case: &Case) -> Result<Flight, simulation::SimulationE
     let execute = &scenario.execute;
     let sortie = Sortie { robot, world, waypoints: &mission.waypoints, profile: case.profile.as_ref() };
     let controller = ControllerSettings {
-        kind: match execute.controller_in_force().unwrap_or(ControllerName::StableWaypoint) {
-            ControllerName::UnstableWaypoint => ControllerKind::UnstableWaypoint,
-            ControllerName::StableWaypoint => ControllerKind::StableWaypoint,
-            ControllerName::FixedVelocity => ControllerKind::FixedVelocity,
-            ControllerName::MinimumSnap => ControllerKind::MinimumSnap,
-            ControllerName::Geometric => ControllerKind::Geometric,
-            ControllerName::Anafi => ControllerKind::Anafi,
-        },
+        kind: execute.controller_in_force().unwrap_or(ControllerKind::StableWaypoint),
         fixed_velocity: execute.fixed_velocity_m_s,
-        segment_times: match execute.segment_times {
-            SegmentTimes::SqrtLength => simulation::SegmentTimes::SqrtLength,
-            SegmentTimes::Length => simulation::SegmentTimes::Length,
-        },
+        segment_times: execute.segment_times,
     };
     let conditions = Conditions {
         wind: Vector3::from(scenario.world.wind_m_s.unwrap_or_default()),

@@ -3,6 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Point3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::feasibility::reach::LegFeatures;
@@ -139,7 +141,8 @@ impl Objective for Score {
 }
 
 /// How the scores of legs become the score of a trajectory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Aggregate {
     /// As in the paper.
     #[default]

@@ -2,13 +2,16 @@
 
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::World;
 use crate::math::random::stream;
 
 /// How points are spread.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Sampling {
     /// Independent and uniform.
     #[default]

@@ -3,7 +3,6 @@
 use nalgebra::Point3;
 
 use crate::campaign::Setup;
-use crate::campaign::scenario::Sampling;
 use crate::math::random::named_seed;
 use crate::world::{self, SamplingError};
 
@@ -13,13 +12,9 @@ use crate::world::{self, SamplingError};
 /// Too little free space.
 pub(super) fn sample(setup: &Setup, graph: u64) -> Result<Vec<Point3<f64>>, SamplingError> {
     let search = &setup.scenario.generate.search;
-    let sampling = match search.sampling {
-        Sampling::Uniform => world::Sampling::Uniform,
-        Sampling::Sobol => world::Sampling::Sobol,
-    };
     let seed = named_seed(setup.scenario.seed, "graph", graph);
     let clearance = setup.robot.clearance_radius;
-    let free = world::sample_free(&setup.world, search.waypoints as usize, clearance, sampling, seed)?;
+    let free = world::sample_free(&setup.world, search.waypoints as usize, clearance, search.sampling, seed)?;
     let mut points = Vec::with_capacity(free.len() + 2);
     points.push(Point3::from(setup.scenario.task.start_m));
     points.extend(free);

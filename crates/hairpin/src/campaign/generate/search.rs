@@ -5,12 +5,10 @@ use std::hash::Hash;
 use nalgebra::Point3;
 
 use crate::campaign::Scenario;
-use crate::campaign::scenario::{self, SearchMethod};
+use crate::campaign::scenario::SearchMethod;
 use crate::feasibility::reach::Reach;
 use crate::search::beam::Ended;
-use crate::search::{
-    Aggregate, BeamSettings, ExactSettings, Found, LegGraph, Score, Task, UniformSettings, beam, exact, uniform,
-};
+use crate::search::{BeamSettings, ExactSettings, Found, LegGraph, Score, Task, UniformSettings, beam, exact, uniform};
 
 /// One graph and what is asked of it.
 pub(super) struct Question<'a, N, R> {
@@ -60,7 +58,7 @@ fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
         width: search.width as usize,
         per_graph: search.per_graph as usize,
         revisits: search.revisits,
-        aggregate: aggregate(search.aggregate),
+        aggregate: search.aggregate,
         iterations: search.iterations as usize,
         frontier: search.frontier as usize,
         keep: BeamSettings::default().keep.map(|keep| keep.max(search.per_graph as usize)),
@@ -94,7 +92,7 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Questio
         length: question.scenario.task.length as usize,
         best: search.per_graph as usize,
         revisits: search.revisits,
-        aggregate: aggregate(search.aggregate),
+        aggregate: search.aggregate,
         ..ExactSettings::default()
     };
     let outcome = exact(&graph, &question.score, &settings);
@@ -123,7 +121,7 @@ fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<
         wanted: search.per_graph as usize,
         draws: search.iterations.max(search.per_graph),
         revisits: search.revisits,
-        aggregate: aggregate(search.aggregate),
+        aggregate: search.aggregate,
     };
     let outcome = uniform(&graph, &question.score, question.seed, &settings);
     let proven_empty = outcome.walks.is_zero();
@@ -147,11 +145,4 @@ fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<
 /// All legs of the graph that are on some way of the right length.
 fn leg_graph<'a, N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<'a, N, R>) -> LegGraph<'a, N> {
     LegGraph::explore(question.start, question.points, question.reach, question.scenario.task.length as usize)
-}
-
-fn aggregate(aggregate: scenario::Aggregate) -> Aggregate {
-    match aggregate {
-        scenario::Aggregate::Sum => Aggregate::Sum,
-        scenario::Aggregate::Max => Aggregate::Max,
-    }
 }

@@ -3,13 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use crate::simulation::{ControllerKind, SegmentTimes};
+
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExecuteSection {
     /// unstable-waypoint | stable-waypoint | fixed-velocity | minimum-snap | geometric | anafi.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub controller: Option<ControllerName>,
+    pub controller: Option<ControllerKind>,
     /// A program that speaks the executor protocol, as a shell would split it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
@@ -62,52 +64,10 @@ impl Default for ExecuteSection {
 
 impl ExecuteSection {
     /// Who flies: the controller as given, `stable-waypoint` where nothing is, `None` where a command does.
-    pub fn controller_in_force(&self) -> Option<ControllerName> {
+    pub fn controller_in_force(&self) -> Option<ControllerKind> {
         match (self.controller, &self.command) {
             (None, Some(_)) => None,
-            (controller, _) => Some(controller.unwrap_or(ControllerName::StableWaypoint)),
+            (controller, _) => Some(controller.unwrap_or(ControllerKind::StableWaypoint)),
         }
     }
-}
-
-/// The controllers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum ControllerName {
-    /// A cascade of PIDs, poorly tuned on purpose.
-    UnstableWaypoint,
-    /// A cascade of PIDs, well tuned.
-    StableWaypoint,
-    /// A fixed speed towards the next waypoint.
-    FixedVelocity,
-    /// A minimum-snap polynomial through the waypoints, followed by the cascade.
-    MinimumSnap,
-    /// SE(3) tracking of the planned trajectory.
-    Geometric,
-    /// A waypoint controller with the Anafi's limits: a stand-in for its closed one.
-    Anafi,
-}
-
-impl ControllerName {
-    /// The word in scenarios.
-    pub fn word(self) -> &'static str {
-        match self {
-            ControllerName::UnstableWaypoint => "unstable-waypoint",
-            ControllerName::StableWaypoint => "stable-waypoint",
-            ControllerName::FixedVelocity => "fixed-velocity",
-            ControllerName::MinimumSnap => "minimum-snap",
-            ControllerName::Geometric => "geometric",
-            ControllerName::Anafi => "anafi",
-        }
-    }
-}
-
-/// Leg times of the minimum-snap reference.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum SegmentTimes {
-    /// By the square root of the leg's length: the sane default.
-    SqrtLength,
-    /// By the leg's length: the paper's authors' choice.
-    Length,
 }

@@ -3,6 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use crate::search::Aggregate;
+pub use crate::world::Sampling;
+
 /// `[task]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -213,26 +216,6 @@ pub enum SearchMethod {
     Exact,
     /// Uniform over all feasible trajectories: the random baseline.
     Uniform,
-}
-
-/// How waypoints are sampled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sampling {
-    /// Independent and uniform.
-    Uniform,
-    /// A scrambled Sobol sequence.
-    Sobol,
-}
-
-/// How scores of legs become the score of a trajectory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Aggregate {
-    /// As in the paper.
-    Sum,
-    /// The worst leg: what the verdict asks for.
-    Max,
 }
 
 /// `generate.limits`: none is in force that is not given.

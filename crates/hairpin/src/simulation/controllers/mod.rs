@@ -10,6 +10,8 @@ mod stable_waypoint;
 mod unstable_waypoint;
 
 use nalgebra::{Matrix3, Point3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::robot::quadrotor::Quadrotor;
 use crate::simulation::SimulationError;
@@ -101,7 +103,8 @@ pub(crate) trait Controller {
 }
 
 /// The six controllers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum ControllerKind {
     /// A cascade of PIDs, poorly tuned on purpose.
     UnstableWaypoint,
@@ -117,8 +120,23 @@ pub enum ControllerKind {
     Anafi,
 }
 
+impl ControllerKind {
+    /// The word in scenarios.
+    pub fn word(self) -> &'static str {
+        match self {
+            ControllerKind::UnstableWaypoint => "unstable-waypoint",
+            ControllerKind::StableWaypoint => "stable-waypoint",
+            ControllerKind::FixedVelocity => "fixed-velocity",
+            ControllerKind::MinimumSnap => "minimum-snap",
+            ControllerKind::Geometric => "geometric",
+            ControllerKind::Anafi => "anafi",
+        }
+    }
+}
+
 /// Leg times of the minimum-snap reference.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum SegmentTimes {
     /// By the square root of the leg's length.
     #[default]
