@@ -79,6 +79,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn case_seeds_are_those_of_any_blake3() {
+        // By the Python package `blake3`: int.from_bytes(blake3(pack("<QQ", 10, case)).digest()[:8], "little").
+        assert_eq!([0, 1].map(|case| case_seed(10, case)), [10_123_337_457_212_612_031, 7_583_018_901_256_657_888]);
+    }
+
+    #[test]
     fn streams_differ_and_repeat() {
         assert_eq!(stream(7).next_u64(), stream(7).next_u64());
         assert_ne!(stream(7).next_u64(), stream(8).next_u64());
