@@ -1,5 +1,5 @@
-//! Searches on graphs of 250 waypoints: `hull` of FlightGoggles, start (10, 10, 10), end (20, 20, 20), no speed cap.
-//! Every item counted includes its graph: sampling, set-up, pruning.
+//! The kernels of the searches, for profiling, on the graphs of `hairpin bench`, which measures the promised figures through
+//! the whole pipeline: `hull` of FlightGoggles, 250 waypoints, start (10, 10, 10), end (20, 20, 20), no speed cap.
 
 use std::cell::Cell;
 
@@ -11,8 +11,8 @@ use hairpin::robot::quadrotor::QuadrotorDescription;
 use hairpin::search::graph::LegGraph;
 use hairpin::search::uniform::Sampler;
 use hairpin::search::{Aggregate, BeamOutcome, BeamSettings, ExactSettings, Score, Task, beam, exact};
-use nalgebra::Point3;
-use rand::RngExt;
+use hairpin::world::{Sampling, World, sample_free};
+use nalgebra::{Point3, Vector3};
 
 fn main() {
     divan::main();
@@ -28,10 +28,10 @@ fn flightgoggles() -> Hull {
 }
 
 fn points(graph: u64) -> Vec<Point3<f64>> {
-    let mut rng = stream(named_seed(1, "bench graph", graph));
-    let mut points = Vec::with_capacity(252);
-    points.push(Point3::new(10.0, 10.0, 10.0));
-    points.extend((0..250).map(|_| Point3::from([0; 3].map(|_| 30.0 * rng.random::<f64>()))));
+    let world = World::new(Vector3::repeat(30.0), 0.0, Vec::new()).expect("an empty cage");
+    let free = sample_free(&world, 250, 0.0, Sampling::Uniform, named_seed(1, "bench graph", graph));
+    let mut points = vec![Point3::new(10.0, 10.0, 10.0)];
+    points.extend(free.expect("all of it is free"));
     points.push(Point3::new(20.0, 20.0, 20.0));
     points
 }
