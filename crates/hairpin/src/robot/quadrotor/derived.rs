@@ -7,7 +7,7 @@ use super::Rotor;
 /// Largest rotor speed where none is given, rad/s. Only kf·w² enters the motion, so that the choice shifts no result.
 pub(super) const ROTOR_SPEED: f64 = 2000.0;
 
-/// Rotor lag where none is given, s: between FlightGoggles' 0.02 and the Crazyflie's 0.07.
+/// Rotor lag where none is given, s: between the 0.020 of the shipped FlightGoggles and the Crazyflie's 0.072.
 pub(super) const ROTOR_TIME_CONSTANT: f64 = 0.03;
 
 /// Share of the mass in each motor with its rotor; the rest is the body.
@@ -33,8 +33,8 @@ pub(super) fn arm(rotors: &[Rotor; 4]) -> f64 {
 }
 
 /// Principal moments of inertia, kg·m²: four motors of a tenth of the mass each as points at the rotors, the rest a
-/// uniform solid ball of half the arm's radius. Within a third of the published figures of FlightGoggles' body and
-/// the Crazyflie.
+/// uniform solid ball of half the arm's radius. Within a third of the figures that the shipped FlightGoggles and Crazyflie
+/// have from their sources.
 pub(super) fn inertia(mass: f64, rotors: &[Rotor; 4]) -> Vector3<f64> {
     let motor = MOTOR_SHARE * mass;
     let ball = 0.4 * (mass - 4.0 * motor) * (0.5 * arm(rotors)).powi(2);
@@ -42,8 +42,8 @@ pub(super) fn inertia(mass: f64, rotors: &[Rotor; 4]) -> Vector3<f64> {
     Vector3::new(sum(|r| r.y * r.y), sum(|r| r.x * r.x), sum(|r| r.x * r.x + r.y * r.y))
 }
 
-/// km = kf · 0.1 · rotor diameter, N·m/(rad/s)²: torque over thrust of small propellers in hover is about a tenth of
-/// the diameter (0.12 for the Hummingbird's, 0.13 for the Crazyflie's in its system identification).
+/// km = kf · 0.1 · rotor diameter, N·m/(rad/s)²: torque over thrust taken as a tenth of the diameter. A low guess: with it
+/// yaw is weak; the shipped FlightGoggles and Crazyflie have 9 and 6 times as much from their sources.
 pub(super) fn moment_coefficient(thrust_coefficient: f64, rotors: &[Rotor; 4]) -> f64 {
     thrust_coefficient * 0.2 * rotor_radius(rotors)
 }
