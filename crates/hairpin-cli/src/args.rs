@@ -97,6 +97,8 @@ pub(crate) struct Demo {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) threads: Threads,
+    #[command(flatten)]
+    pub(crate) kernels: Kernels,
 }
 
 #[derive(Debug, Args)]
@@ -123,6 +125,15 @@ pub(crate) struct Threads {
     /// Threads; all cores if not given. The results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     pub(crate) threads: Option<u16>,
+}
+
+/// The version of the kernels.
+#[derive(Debug, Args)]
+pub(crate) struct Kernels {
+    /// Run all kernels at one SIMD level that every machine has, and record `portable` as the campaign's level: it goes on
+    /// on any machine. The results are those of every other level, bit for bit; it is only slower
+    #[arg(long)]
+    pub(crate) portable: bool,
 }
 
 /// What every command that begins a campaign takes.
@@ -153,6 +164,8 @@ pub(crate) struct Campaign {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) threads: Threads,
+    #[command(flatten)]
+    pub(crate) kernels: Kernels,
 }
 
 #[derive(Debug, Args)]
@@ -192,6 +205,8 @@ pub(crate) struct Execute {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) threads: Threads,
+    #[command(flatten)]
+    pub(crate) kernels: Kernels,
 }
 
 #[derive(Debug, Args)]
@@ -229,6 +244,8 @@ pub(crate) struct Replay {
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) kernels: Kernels,
 }
 
 #[derive(Debug, Args)]

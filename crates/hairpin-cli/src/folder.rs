@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{Scenario, Setup};
+use hairpin::math::simd::Simd;
 use hairpin_formats::folder::{CampaignFolder, Existing};
-use hairpin_formats::scenario::{self, MadeBy, read_scenario, scenario_for};
+use hairpin_formats::scenario::{self, MadeBy, read_made_by, read_scenario, scenario_for};
 
-use crate::args::{Campaign, Threads};
+use crate::args::{Campaign, Kernels, Threads};
 use crate::problem::Problem;
 
 /// A campaign being worked on.
@@ -23,22 +24,27 @@ pub(crate) fn take_threads(threads: &Threads) {
     }
 }
 
+/// The version of the kernels that was asked for.
+pub(crate) fn simd(kernels: &Kernels) -> Simd {
+    if kernels.portable { Simd::Portable } else { Simd::Widest }
+}
+
 /// Resolves the scenario and makes or takes up its folder.
 pub(crate) fn begin(campaign: &Campaign, executor: Option<&str>) -> Result<Work, Problem> {
     take_threads(&campaign.threads);
     let mut sets = split(&campaign.sets)?;
     sets.extend(campaign.seed.map(|seed| ("seed".to_owned(), seed.to_string())));
     sets.extend(executor.map(as_command));
-    let setup = Setup::new(scenario_for(&campaign.scenario, &sets)?)?;
+    let setup = Setup::new(scenario_for(&campaign.scenario, &sets)?)?.with_simd(simd(&campaign.kernels));
     check_command(&setup.scenario)?;
     let path = campaign.out.clone().unwrap_or_else(|| default_folder(&campaign.scenario));
-    let work = Work { folder: make(&path, &setup.scenario, campaign.resume, campaign.force)?, setup };
+    let work = Work { folder: make(&path, &setup, campaign.resume, campaign.force)?, setup };
     tracing::info!("campaign folder {}", work.folder.path().display());
     Ok(work)
 }
 
-/// Makes `path` the folder of `scenario`, or takes it up again.
-pub(crate) fn make(path: &Path, scenario: &Scenario, resume: bool, force: bool) -> Result<CampaignFolder, Problem> {
+/// Makes `path` the folder of a campaign, or takes it up again.
+pub(crate) fn make(path: &Path, setup: &Setup, resume: bool, force: bool) -> Result<CampaignFolder, Problem> {
     if let Ok(old) = CampaignFolder::open(path) {
         if !resume && !force {
             return Err(Problem::input(format!(
@@ -48,21 +54,28 @@ pub(crate) fn make(path: &Path, scenario: &Scenario, resume: bool, force: bool) 
         }
         if resume {
             let before = read(&old, &[])?;
-            if let Some(key) = first_difference(&before, scenario) {
+            if let Some(key) = first_difference(&before, &setup.scenario) {
                 return Err(Problem::input(format!(
                     "--resume: `{key}` is not what it was when {} was begun: give the same arguments, or another --out",
                     path.display()
                 )));
             }
+            same_level(&old, setup.simd)?;
         }
     }
     let folder = CampaignFolder::create(path, if resume { Existing::Resume } else { Existing::Replace })?;
-    write_scenario(&folder, scenario)?;
+    write_scenario(&folder, &setup.scenario, setup.simd.level())?;
     Ok(folder)
 }
 
-/// Opens a campaign folder for the next part, its scenario changed by `sets` in the tables `allowed`.
-pub(crate) fn open(path: &Path, sets: &[(String, String)], allowed: &[&str]) -> Result<Work, Problem> {
+/// Opens a campaign folder for the next part, its scenario changed by `sets` in the tables `allowed`. Its SIMD level stays:
+/// a part that runs kernels (`flown`) goes on at it, or not at all.
+pub(crate) fn open(
+    path: &Path,
+    sets: &[(String, String)],
+    allowed: &[&str],
+    flown: Option<&Kernels>,
+) -> Result<Work, Problem> {
     for (key, _) in sets {
         let table = key.split(['.', '[']).next().unwrap_or_default().trim();
         if !allowed.contains(&table) {
@@ -73,10 +86,20 @@ pub(crate) fn open(path: &Path, sets: &[(String, String)], allowed: &[&str]) -> 
         }
     }
     let folder = CampaignFolder::open_to_write(path)?;
-    let setup = Setup::new(read(&folder, sets)?)?;
+    let level = level(&folder)?;
+    let portable = level.as_deref() == Some(Simd::Portable.level());
+    let setup = Setup::new(read(&folder, sets)?)?.with_simd(if portable { Simd::Portable } else { Simd::Widest });
     check_command(&setup.scenario)?;
+    if let Some(kernels) = flown {
+        // The users' own programs run none of our kernels.
+        match (kernels.portable, &setup.scenario.execute.command) {
+            (true, _) => same_level(&folder, Simd::Portable)?,
+            (false, None) => same_level(&folder, setup.simd)?,
+            (false, Some(_)) => {}
+        }
+    }
     if !sets.is_empty() {
-        write_scenario(&folder, &setup.scenario)?;
+        write_scenario(&folder, &setup.scenario, level.as_deref().unwrap_or(setup.simd.level()))?;
     }
     Ok(Work { folder, setup })
 }
@@ -98,13 +121,31 @@ fn read(folder: &CampaignFolder, sets: &[(String, String)]) -> Result<Scenario, 
     Ok(read_scenario(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
 }
 
+/// The SIMD level at which the campaign of a folder was begun, if that is written there.
+fn level(folder: &CampaignFolder) -> Result<Option<String>, Problem> {
+    Ok(read_made_by(&folder.read_scenario()?).map(|made_by| made_by.simd))
+}
+
+/// Refuses to go on in `folder` at another SIMD level: the bits would be the same, but what is written of their origin
+/// would not be true.
+fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
+    let (now, path) = (simd.level(), folder.path().display());
+    match level(folder)? {
+        Some(before) if before != now => Err(Problem::input(if before == Simd::Portable.level() {
+            format!("{path} was begun with --portable: go on with it, or take another --out")
+        } else {
+            format!(
+                "{path} was begun at the SIMD level {before}, and this is {now}: go on at {before}, or begin another \
+                 with --portable, which goes on anywhere"
+            )
+        })),
+        _ => Ok(()),
+    }
+}
+
 /// Writes the resolved scenario, with what the results depend on beside it.
-pub(crate) fn write_scenario(folder: &CampaignFolder, scenario: &Scenario) -> Result<(), Problem> {
-    let made_by = MadeBy {
-        version: env!("CARGO_PKG_VERSION").into(),
-        root_seed: scenario.seed,
-        simd: crate::simd::level().into(),
-    };
+fn write_scenario(folder: &CampaignFolder, scenario: &Scenario, level: &str) -> Result<(), Problem> {
+    let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed: scenario.seed, simd: level.into() };
     let text = scenario::to_toml(scenario, Some(&made_by)).map_err(Problem::input)?;
     Ok(folder.write_scenario(&text)?)
 }

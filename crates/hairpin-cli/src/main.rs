@@ -17,7 +17,6 @@ mod console;
 mod folder;
 mod interrupt;
 mod problem;
-mod simd;
 
 use std::process::ExitCode;
 

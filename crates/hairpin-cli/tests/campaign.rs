@@ -1,28 +1,17 @@
 //! Whole campaigns through the binary: verdicts, exit codes, what stands in the folder, and that nothing depends on
 //! threads or interruptions.
 
-use std::collections::BTreeMap;
+mod common;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use common::{assert_same, hairpin, run};
 use serde_json::Value;
 
 const SMALL: [&str; 6] = ["stress", "demo-quadrotor", "--set", "generate.search.cases=4", "--set", "execute.repeat=1"];
-
-fn hairpin(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
-    command.current_dir(folder).args(arguments);
-    command
-}
-
-/// Exit code, stdout, stderr.
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = hairpin(folder, arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
-}
 
 fn json(folder: &Path, arguments: &[&str]) -> Value {
     let arguments = [arguments, &["--json"]].concat();
@@ -30,32 +19,6 @@ fn json(folder: &Path, arguments: &[&str]) -> Value {
     let object: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{e}: {out}{error}"));
     assert_eq!(object["exit_code"].as_i64(), Some(code.into()), "{object}");
     object
-}
-
-/// Every file that must not depend on clock, threads or place, with its bytes.
-fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut all = BTreeMap::new();
-    let mut open = vec![folder.to_path_buf()];
-    while let Some(place) = open.pop() {
-        for entry in fs::read_dir(place).unwrap() {
-            let path = entry.unwrap().path();
-            let name = path.strip_prefix(folder).unwrap().to_string_lossy().into_owned();
-            if path.is_dir() {
-                open.push(path);
-            } else if !["report.html", "junit.xml", ".lock"].contains(&name.as_str()) && !name.ends_with(".log") {
-                all.insert(name, fs::read(path).unwrap());
-            }
-        }
-    }
-    all
-}
-
-fn assert_same(a: &Path, b: &Path) {
-    let (a, b) = (contents(a), contents(b));
-    assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>());
-    for (name, bytes) in &a {
-        assert!(b[name] == *bytes, "{name} differs");
-    }
 }
 
 #[test]

@@ -14,6 +14,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use hairpin::campaign::scenario::Origin;
+use hairpin::math::power::power;
+use hairpin::math::rotation::from_rotation_vector;
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3};
 use serde::Serialize;
 
@@ -68,8 +70,8 @@ fn swapped(pose: &Isometry3<f64>) -> Isometry3<f64> {
 /// Yaw of NED (from north, clockwise) of a yaw of ENU (from east, counter-clockwise), and the reverse: 90° − yaw, rad,
 /// in (−π, π].
 pub fn other_yaw(yaw: f64) -> f64 {
-    let (sin, cos) = (FRAC_PI_2 - yaw).sin_cos();
-    sin.atan2(cos)
+    let (sin, cos) = libm::sincos(FRAC_PI_2 - yaw);
+    libm::atan2(sin, cos)
 }
 
 /// The cage on Earth.
@@ -89,14 +91,14 @@ impl Cage {
     pub fn new(origin: &Origin) -> Self {
         let yaw = other_yaw(origin.x_axis_heading_deg.to_radians());
         let (lat, lon) = (origin.lat_deg.to_radians(), origin.lon_deg.to_radians());
-        let ((sin_lat, cos_lat), (sin_lon, cos_lon)) = (lat.sin_cos(), lon.sin_cos());
+        let ((sin_lat, cos_lat), (sin_lon, cos_lon)) = (libm::sincos(lat), libm::sincos(lon));
         let east = Vector3::new(-sin_lon, cos_lon, 0.0);
         let north = Vector3::new(-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat);
         let up = Vector3::new(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat);
         let place = Geodetic { lat_deg: origin.lat_deg, lon_deg: origin.lon_deg, alt_amsl_m: origin.alt_amsl_m };
         Self {
             origin: *origin,
-            enu_from_cage: UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw),
+            enu_from_cage: from_rotation_vector(&(Vector3::z() * yaw)),
             center: ecef(&place),
             ecef_from_enu: Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[east, north, up])),
         }
@@ -133,7 +135,7 @@ impl Cage {
 /// Earth-centred, Earth-fixed coordinates, m: x to (0°, 0°), z to the north pole.
 fn ecef(place: &Geodetic) -> Vector3<f64> {
     let ((sin_lat, cos_lat), (sin_lon, cos_lon)) =
-        (place.lat_deg.to_radians().sin_cos(), place.lon_deg.to_radians().sin_cos());
+        (libm::sincos(place.lat_deg.to_radians()), libm::sincos(place.lon_deg.to_radians()));
     let normal = SEMI_MAJOR / (1.0 - ECCENTRICITY_2 * sin_lat * sin_lat).sqrt();
     let across = (normal + place.alt_amsl_m) * cos_lat;
     let along = (normal * (1.0 - ECCENTRICITY_2) + place.alt_amsl_m) * sin_lat;
@@ -145,17 +147,17 @@ fn ecef(place: &Geodetic) -> Vector3<f64> {
 fn geodetic(point: &Vector3<f64>) -> Geodetic {
     let semi_minor = SEMI_MAJOR * (1.0 - FLATTENING);
     let second = ECCENTRICITY_2 / (1.0 - ECCENTRICITY_2);
-    let across = point.x.hypot(point.y);
+    let across = libm::hypot(point.x, point.y);
     let (mut sin, mut cos) = unit(point.z * SEMI_MAJOR, across * semi_minor);
     let mut lat = (0.0, 1.0);
     for _ in 0..4 {
-        lat = unit(point.z + second * semi_minor * sin.powi(3), across - ECCENTRICITY_2 * SEMI_MAJOR * cos.powi(3));
+        lat = unit(point.z + second * semi_minor * power(sin, 3), across - ECCENTRICITY_2 * SEMI_MAJOR * power(cos, 3));
         (sin, cos) = unit((1.0 - FLATTENING) * lat.0, lat.1);
     }
     let (sin_lat, cos_lat) = lat;
     Geodetic {
-        lat_deg: sin_lat.atan2(cos_lat).to_degrees(),
-        lon_deg: point.y.atan2(point.x).to_degrees(),
+        lat_deg: libm::atan2(sin_lat, cos_lat).to_degrees(),
+        lon_deg: libm::atan2(point.y, point.x).to_degrees(),
         alt_amsl_m: across * cos_lat + point.z * sin_lat
             - SEMI_MAJOR * (1.0 - ECCENTRICITY_2 * sin_lat * sin_lat).sqrt(),
     }
@@ -163,7 +165,7 @@ fn geodetic(point: &Vector3<f64>) -> Geodetic {
 
 /// Sine and cosine of the angle with this tangent.
 fn unit(sine: f64, cosine: f64) -> (f64, f64) {
-    let norm = sine.hypot(cosine);
+    let norm = libm::hypot(sine, cosine);
     (sine / norm, cosine / norm)
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin_formats::scenario::{MadeBy, read_scenario, to_toml};
+use hairpin_formats::scenario::{MadeBy, read_made_by, read_scenario, to_toml};
 use proptest::prelude::*;
 
 const FINE: &str = include_str!("fixtures/fine.toml");
@@ -76,6 +76,7 @@ proptest! {
         prop_assert_eq!(&scenario, &again);
         let table: toml::Table = text.parse().expect("any TOML parser reads it");
         prop_assert_eq!(table["made_by"]["simd"].as_str(), Some("avx2"));
+        prop_assert_eq!(read_made_by(&text), Some(made_by.clone()));
         prop_assert_eq!(to_toml(&again, Some(&made_by)), Ok(text));
     }
 

@@ -5,6 +5,7 @@ use hairpin::feasibility::reach::{
     Hull, HullSettings, Leg, Polytope, Reach, StepNode, StepReach, StepSettings, sampling,
 };
 use hairpin::math::random::{named_seed, stream};
+use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
 use nalgebra::Point3;
 use rand::RngExt;
@@ -31,13 +32,14 @@ fn graph() -> Vec<Point3<f64>> {
 fn end_points_of_625_runs(bencher: Bencher, name: &str) {
     let robot = shipped(name);
     let speeds = sampling::constant_speeds(&robot, 5);
-    bencher.bench(|| sampling::end_points(black_box(&robot), &speeds, 1.0, sampling::steps(&robot, 1.0)));
+    bencher
+        .bench(|| sampling::end_points(Simd::default(), black_box(&robot), &speeds, 1.0, sampling::steps(&robot, 1.0)));
 }
 
 #[divan::bench(args = ["flightgoggles", "anafi", "anafi-real", "crazyflie", "paper-flightgoggles"])]
 fn hull_of_625_points(bencher: Bencher, name: &str) {
     let hull = Hull::new(&shipped(name), &HullSettings::default()).expect("a hull");
-    bencher.bench(|| Polytope::hull(black_box(hull.samples())));
+    bencher.bench(|| Polytope::hull(Simd::default(), black_box(hull.samples())));
 }
 
 /// Every feasible (previous, current) pair of the graph, expanded once.

@@ -3,6 +3,7 @@
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Evidence, Scenario, Setup, Stop, Tally, generate, verdict, verify};
 use hairpin::feasibility::reach::sampling;
+use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
 use nalgebra::{Point3, Vector3};
 use serde_json::{Value, json};
@@ -139,7 +140,7 @@ fn every_reach_set_by_every_search_gives_what_it_claims() {
 fn check_hull(robot: &Quadrotor, case: &Case, what: &str) {
     assert_eq!(robot.drag_linear, 0.0);
     let speeds = sampling::constant_speeds(robot, 3);
-    let ends = sampling::end_points(robot, &speeds, 1.0, 2 * sampling::steps(robot, 1.0));
+    let ends = sampling::end_points(Simd::default(), robot, &speeds, 1.0, 2 * sampling::steps(robot, 1.0));
     let mut before = Vector3::zeros();
     for leg in case.waypoints.windows(2) {
         let difference = (leg[1] - leg[0]) - before;

@@ -62,6 +62,43 @@ const OUTSIDE: &[&str] = &[
     "dbg!",
 ];
 
+/// What may give other bits on another machine: what the standard library leaves to the machine's C library or to the
+/// compiler, and products that only some machines fuse with a sum. `libm` and `math::power` give the same everywhere.
+const MACHINE_DEPENDENT: &[&str] = &[
+    "sin", "cos", "sin_cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh",
+    "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "powi", "cbrt", "hypot", "mul_add",
+];
+
+/// Functions of nalgebra and of other libraries that call those.
+const MACHINE_DEPENDENT_ABOVE: &[&str] = &[
+    ".angle",
+    ".angle_to",
+    ".euler_angles",
+    ".scaled_axis",
+    ".axis_angle",
+    ".slerp",
+    ".try_slerp",
+    ".lerp_slerp",
+    ".try_lerp_slerp",
+    ".rotation_to",
+    ".powf",
+    ".svd",
+    ".symmetric_eigen",
+    "UnitQuaternion::new",
+    "Rotation3::new",
+    "UnitQuaternion::from_euler_angles",
+    "UnitQuaternion::from_axis_angle",
+    "UnitQuaternion::from_scaled_axis",
+    "UnitQuaternion::rotation_between",
+    "Rotation3::from_euler_angles",
+    "Rotation3::from_axis_angle",
+    "Rotation3::rotation_between",
+    "statrs",
+];
+
+/// Modules whose numbers are only looked at.
+const SHOWN: &[&str] = &["hairpin::campaign::report", "hairpin_formats::report", "hairpin_cli::commands::bench"];
+
 /// Variants of one thing, by the module that holds them: none imports another.
 const VARIANTS: &[(&str, &[&str])] = &[
     ("hairpin::robot", &["quadrotor", "differential_drive", "car", "rover", "arm"]),
@@ -122,6 +159,7 @@ fn breaches(source: &Source) -> Vec<String> {
                 .chain(upward(source, path))
                 .chain(never(source, path))
                 .chain(sideways(source, path))
+                .chain(machine_dependent(source, path))
                 .map(|why| format!("{} line {}: {} ({why})", source.module, path.line, path.path)),
         );
     }
@@ -167,6 +205,14 @@ fn outside(source: &Source, path: &Seen) -> Option<String> {
     let library = starts_with(&source.module, "hairpin") && !path.in_test;
     (library && OUTSIDE.iter().any(|forbidden| starts_with(&path.path, forbidden)))
         .then(|| "the numerics know no files, clock, process, threads, printing or global randomness".to_owned())
+}
+
+fn machine_dependent(source: &Source, path: &Seen) -> Option<String> {
+    let shown = SHOWN.iter().any(|module| starts_with(&source.module, module));
+    let name = path.path.strip_prefix('.').or(path.path.strip_prefix("f64::")).or(path.path.strip_prefix("f32::"));
+    let wrong = name.is_some_and(|name| MACHINE_DEPENDENT.contains(&name))
+        || MACHINE_DEPENDENT_ABOVE.iter().any(|above| starts_with(&path.path, above));
+    (wrong && !shown && !path.in_test).then(|| "its bits depend on the machine: take libm or math::power".to_owned())
 }
 
 fn sideways(source: &Source, path: &Seen) -> Option<String> {
@@ -230,6 +276,12 @@ fn forged_breaches_are_caught() {
         ("hairpin::campaign::generate", "use std::{fmt, time::Instant};"),
         ("hairpin::campaign::generate", "let text = std::fs::read_to_string(path);"),
         ("hairpin::campaign::generate", "#[cfg(test)] mod tests { fn f() {} } use std::env;"),
+        ("hairpin::math::rotation", "let (s, c) = (0.5 * roll).sin_cos();"),
+        ("hairpin::math::rotation", "let y = 2.0.powi(3);"),
+        ("hairpin::feasibility::reach::sampling", "all.map(f64::exp)"),
+        ("hairpin::feasibility::reach::witness", "let turn = incoming .angle(&outgoing);"),
+        ("hairpin::feasibility::steering::flatness", "let q = UnitQuaternion::from_euler_angles(roll, pitch, 0.0);"),
+        ("hairpin::judgement::statistics", "use statrs::function::beta::beta_reg;"),
         ("hairpin_formats::csv", "use crate::tum::write;"),
         ("hairpin_formats::parquet::track", "use hairpin::search::Beam;"),
         ("hairpin_formats::parquet::track", "use ::hairpin::{trajectory::Track, simulation};"),
@@ -251,6 +303,9 @@ fn what_is_allowed_passes() {
         ("hairpin::feasibility::reach::published", "use crate::feasibility::polytope::Polytope; use super::Reach;"),
         ("hairpin::campaign::generate", "#[cfg(test)] mod tests { use std::time::Instant; } use crate::search::beam;"),
         ("hairpin::campaign::generate::tests", "use std::time::Instant;"),
+        ("hairpin::math::rotation", "let s = libm::sin(x).sqrt(); let z = Self { sin, ..exp() }; // x.sin()"),
+        ("hairpin::math::rotation", "#[cfg(test)] mod tests { fn f(x: f64) -> f64 { x.sin() } }"),
+        ("hairpin::campaign::report::solid", "let x = angle.cos();"),
         ("hairpin_formats::folder", "use crate::{csv, tum}; use hairpin::campaign::Case; use std::fs;"),
     ] {
         let found = breaches(&Source { module: module.into(), text: text.into() });

@@ -7,6 +7,7 @@ use hairpin::feasibility::reach::{
     StepSettings, sampling,
 };
 use hairpin::math::random::{Stream, named_seed, stream};
+use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
@@ -34,7 +35,7 @@ fn half_and_a_tenth_of_the_step_move_no_end_by_5_mm() {
         for time in [0.5, 1.0] {
             let speeds = sampling::constant_speeds(&robot, 5);
             let steps = sampling::steps(&robot, time);
-            let ends = |steps| sampling::end_points(&robot, &speeds, time, steps);
+            let ends = |steps| sampling::end_points(Simd::default(), &robot, &speeds, time, steps);
             let (once, half, tenth) = (ends(steps), ends(2 * steps), ends(10 * steps));
             let (half, tenth) = (farthest_apart(&once, &half), farthest_apart(&once, &tenth));
             assert!(half < 0.005 && tenth < 0.005, "{name}, {time} s, {steps} steps: {half} m, {tenth} m");
@@ -166,6 +167,9 @@ fn what_can_be_reached_in_n_steps_passes_the_pruning_test() {
 fn settings_out_of_bounds_are_refused() {
     let robot = shipped("flightgoggles");
     for (resolution, step) in [(1, 1.0), (13, 1.0), (5, 0.0), (5, f64::NAN), (5, 11.0)] {
-        assert!(matches!(Hull::new(&robot, &HullSettings { resolution, step }), Err(NoHull::Setting { .. })));
+        assert!(matches!(
+            Hull::new(&robot, &HullSettings { resolution, step, ..HullSettings::default() }),
+            Err(NoHull::Setting { .. })
+        ));
     }
 }

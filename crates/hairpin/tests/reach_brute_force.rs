@@ -5,6 +5,7 @@ use hairpin::feasibility::reach::{
     StepSettings, sampling,
 };
 use hairpin::math::random::{Stream, named_seed, stream};
+use hairpin::math::simd::Simd;
 use hairpin::robot::Dynamics;
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorState, level_rest};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
@@ -23,7 +24,7 @@ fn random_points(rng: &mut Stream, count: usize, size: f64) -> Vec<Point3<f64>> 
 /// Every velocity its own hull, and cells so fine that their middle is as good as the state.
 fn settings(resolution: usize) -> BruteForceSettings {
     BruteForceSettings {
-        hull: HullSettings { resolution, step: 1.0 },
+        hull: HullSettings { resolution, ..HullSettings::default() },
         velocity_bin: 0.0,
         attitude_bin: 1e-6,
         rate_bin: 1e-5,
@@ -36,7 +37,7 @@ fn settings(resolution: usize) -> BruteForceSettings {
 fn the_constant_polytope_and_brute_force_agree() {
     let robot =
         Quadrotor { drag_linear: 0.1, drag_quadratic: 0.0, aerodynamic_moment: 0.0, ..shipped("flightgoggles") };
-    let hull = Hull::new(&robot, &HullSettings { resolution: 3, step: 1.0 }).expect("a hull");
+    let hull = Hull::new(&robot, &HullSettings { resolution: 3, ..HullSettings::default() }).expect("a hull");
     // Full drag with no quadratic term: every velocity gets its own simulated hull.
     let brute = BruteForce::new(&robot, BruteForceSettings { full_drag: true, ..settings(3) }).expect("settings");
     let mut rng = stream(named_seed(6, "brute force", 0));
@@ -98,7 +99,7 @@ fn legs_are_plain(brute: &BruteForce, model: &Quadrotor, points: &[Point3<f64>],
     let [w0, w1] = [node.previous, node.current].map(|i| points[i as usize]);
     let (attitude, rates) = brute.carried_state(&node.carried);
     let ends = plain(model, &entering(w1 - w0, attitude, rates));
-    let hull = Polytope::hull(&ends.iter().map(place).collect::<Vec<_>>()).expect("a hull");
+    let hull = Polytope::hull(Simd::default(), &ends.iter().map(place).collect::<Vec<_>>()).expect("a hull");
     let mut legs = Vec::new();
     brute.legs(&node, points, &mut legs);
     for i in (0..points.len() as u32).filter(|i| *i != node.current) {
@@ -182,8 +183,8 @@ fn settings_out_of_bounds_are_refused() {
     let slow = StepSettings { max_speed: 0.0, ..good.step };
     let other_step = StepSettings { step: 0.5, ..good.step };
     let bad = [
-        ("resolution", BruteForceSettings { hull: HullSettings { resolution: 1, step: 1.0 }, ..good }),
-        ("step_s", BruteForceSettings { hull: HullSettings { resolution: 5, step: f64::NAN }, ..good }),
+        ("resolution", BruteForceSettings { hull: HullSettings { resolution: 1, ..HullSettings::default() }, ..good }),
+        ("step_s", BruteForceSettings { hull: HullSettings { step: f64::NAN, ..HullSettings::default() }, ..good }),
         ("step_s", BruteForceSettings { step: other_step, ..good }),
         ("max_speed_m_s", BruteForceSettings { step: slow, ..good }),
         ("velocity_bin_m_s", BruteForceSettings { velocity_bin: -1.0, ..good }),

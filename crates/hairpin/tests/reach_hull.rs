@@ -2,6 +2,7 @@
 
 use hairpin::feasibility::reach::{Hull, HullSettings, NoPolytope, Polytope};
 use hairpin::math::random::{Stream, named_seed, stream};
+use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
 use nalgebra::{Rotation3, Vector3};
 use parry3d_f64::math::Vector;
@@ -38,7 +39,7 @@ fn oracle(points: &[Vector3<f64>]) -> Vec<[Vector3<f64>; 3]> {
 
 /// Volume, support and the way to the border in random directions are the oracle's; every point is contained.
 fn agree(points: &[Vector3<f64>], what: &str) {
-    let hull = Polytope::hull(points).unwrap_or_else(|error| panic!("{what}: {error}"));
+    let hull = Polytope::hull(Simd::default(), points).unwrap_or_else(|error| panic!("{what}: {error}"));
     assert!(points.iter().all(|point| hull.contains(point)), "{what}: a point is outside");
     let triangles = oracle(points);
     let centre = hull.vertices().iter().sum::<Vector3<f64>>() / hull.vertices().len() as f64;
@@ -73,7 +74,7 @@ fn hit(from: &Vector3<f64>, n: &Vector3<f64>, [a, b, c]: &[Vector3<f64>; 3]) -> 
 fn hulls_of_shipped_robots_are_the_oracle_s() {
     for name in SHIPPED {
         for resolution in [3, 4, 5, 7] {
-            let settings = HullSettings { resolution, step: 1.0 };
+            let settings = HullSettings { resolution, ..HullSettings::default() };
             let integrated = Hull::new(&shipped(name), &settings).expect(name);
             agree(integrated.samples(), &format!("{name}, {resolution}"));
             let published = Hull::published(&shipped(name), &settings).expect(name);
@@ -109,7 +110,7 @@ fn hulls_of_lattices_turned_and_shifted_are_cubes() {
             // Rounding makes these all but coplanar; every third point is there twice.
             points.extend(vec![turn * point + shift; 1 + usize::from(i % 3 == 0)]);
         }
-        let cube = Polytope::hull(&points).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        let cube = Polytope::hull(Simd::default(), &points).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         assert_eq!(cube.facets(), 6, "seed {seed}");
         assert!((cube.volume() - 8.0).abs() < 1e-6 && points.iter().all(|p| cube.contains(p)), "seed {seed}");
         let corners = [(1.0, 1.0, 1.0), (-1.0, 1.0, 1.0), (1.0, -1.0, 1.0), (1.0, 1.0, -1.0)];
@@ -132,7 +133,8 @@ fn hulls_hold_their_points_whatever_the_noise() {
                 .map(|i| Vector3::new((i % 7) as f64, (i / 7 % 7) as f64, (i / 49) as f64) / 3.0)
                 .map(|p| p + direction(&mut rng) * noise)
                 .collect();
-            let hull = Polytope::hull(&points).unwrap_or_else(|error| panic!("seed {seed}, {noise:e}: {error}"));
+            let hull = Polytope::hull(Simd::default(), &points)
+                .unwrap_or_else(|error| panic!("seed {seed}, {noise:e}: {error}"));
             assert!(points.iter().all(|p| hull.contains(p)), "seed {seed}, {noise:e}");
             assert!((hull.volume() - 8.0).abs() < 100.0 * noise + 1e-6, "seed {seed}, {noise:e}: {}", hull.volume());
             for _ in 0..100 {
@@ -148,7 +150,8 @@ fn hulls_hold_their_points_whatever_the_noise() {
 
 #[test]
 fn what_has_no_inside_is_refused() {
-    let flat = |points: &[Vector3<f64>]| matches!(Polytope::hull(points), Err(NoPolytope::Flat { .. }));
+    let flat =
+        |points: &[Vector3<f64>]| matches!(Polytope::hull(Simd::default(), points), Err(NoPolytope::Flat { .. }));
     let mut rng = stream(named_seed(1, "flat", 0));
     let cloud: Vec<_> = (0..100).map(|_| direction(&mut rng) * 3.0).collect();
     let (n, along) = (direction(&mut rng), direction(&mut rng));
@@ -156,11 +159,11 @@ fn what_has_no_inside_is_refused() {
     let thick: Vec<_> = cloud.iter().map(|p| p - n * (n.dot(p) * (1.0 - 1e-7))).collect();
     let line: Vec<_> = cloud.iter().map(|p| along * along.dot(p)).collect();
     assert!(flat(&plane) && flat(&thick) && flat(&line) && flat(&[Vector3::repeat(2.0); 30]));
-    assert!(matches!(Polytope::hull(&cloud[..3]), Err(NoPolytope::Points { points: 3 })));
+    assert!(matches!(Polytope::hull(Simd::default(), &cloud[..3]), Err(NoPolytope::Points { points: 3 })));
     for bad in [f64::NAN, f64::INFINITY] {
         let mut broken = cloud.clone();
         broken[7].y = bad;
-        assert!(matches!(Polytope::hull(&broken), Err(NoPolytope::Points { points: 100 })));
+        assert!(matches!(Polytope::hull(Simd::default(), &broken), Err(NoPolytope::Points { points: 100 })));
     }
 }
 
@@ -172,11 +175,12 @@ fn thin_clouds_keep_their_corners() {
         let mut rng = stream(named_seed(seed, "thin", 0));
         let cloud: Vec<_> = (0..200).map(|_| direction(&mut rng) * 3.0).collect();
         let n = direction(&mut rng);
-        let round = Polytope::hull(&cloud).expect("a ball");
+        let round = Polytope::hull(Simd::default(), &cloud).expect("a ball");
         for thickness in [1e-1, 1e-2, 1e-3, 1e-4] {
             let press = |p: &Vector3<f64>| p - n * (n.dot(p) * (1.0 - thickness));
             let thin: Vec<_> = cloud.iter().map(press).collect();
-            let hull = Polytope::hull(&thin).unwrap_or_else(|error| panic!("seed {seed}, {thickness}: {error}"));
+            let hull = Polytope::hull(Simd::default(), &thin)
+                .unwrap_or_else(|error| panic!("seed {seed}, {thickness}: {error}"));
             assert!(thin.iter().all(|p| hull.contains(p)), "seed {seed}, {thickness}");
             let volume = round.volume() * thickness;
             assert!((hull.volume() / volume - 1.0).abs() < 1e-6, "seed {seed}, {thickness}: {}", hull.volume());
@@ -190,7 +194,10 @@ fn thin_clouds_keep_their_corners() {
 fn published_volumes_lie_between_20_000_and_60_000_cubic_metres() {
     let robot = shipped("paper-flightgoggles");
     let volume = |resolution| {
-        Hull::published(&robot, &HullSettings { resolution, step: 1.0 }).expect("a hull").polytope().volume()
+        Hull::published(&robot, &HullSettings { resolution, ..HullSettings::default() })
+            .expect("a hull")
+            .polytope()
+            .volume()
     };
     let volumes: Vec<f64> = (3..=8).map(volume).collect();
     assert!(volumes.iter().all(|v| (20_000.0..60_000.0).contains(v)), "{volumes:?}");

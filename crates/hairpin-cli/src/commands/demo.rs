@@ -17,8 +17,8 @@ pub(crate) fn run(demo: &Demo) -> Result<u8, Problem> {
         return Err(new::unsupported(demo.kind));
     }
     folder::take_threads(&demo.threads);
-    let setup = Setup::new(scenario_for("demo-quadrotor", &[])?)?;
+    let setup = Setup::new(scenario_for("demo-quadrotor", &[])?)?.with_simd(folder::simd(&demo.kernels));
     let replaceable = demo.force || demo.out == Path::new("hairpin-demo");
-    let work = Work { folder: folder::make(&demo.out, &setup.scenario, false, replaceable)?, setup };
+    let work = Work { folder: folder::make(&demo.out, &setup, false, replaceable)?, setup };
     stress::campaign(&work, Deadline::after(None), demo.json)
 }

@@ -19,7 +19,7 @@ pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
     if execute.resume && !sets.is_empty() {
         unchanged(execute, &sets)?;
     }
-    let work = folder::open(&execute.folder, &sets, &["execute", "vary", "spec"])?;
+    let work = folder::open(&execute.folder, &sets, &["execute", "vary", "spec"], Some(&execute.kernels))?;
     if let Some(missions) = &missions {
         parts::adopt(&work, missions)?;
     } else if !work.folder.has_cases() {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use hairpin::campaign::{Case, Evidence};
+use hairpin::math::rotation::between;
 use hairpin::trajectory::Track;
 use hairpin_formats::executor::ATTITUDE_UNKNOWN;
 use hairpin_formats::frames::Cage;
@@ -195,8 +196,8 @@ fn at_stamps(planned: &Track, stamps: &[f64]) -> Option<Track> {
             _ => {
                 let share = (t - times[after - 1]) / (times[after] - times[after - 1]);
                 let (a, b) = (&poses[after - 1], &poses[after]);
-                // Opposite attitudes have no shortest way between them.
-                a.try_lerp_slerp(b, share, 1e-9).unwrap_or(*a)
+                let place = a.translation.vector.lerp(&b.translation.vector, share);
+                Isometry3::from_parts(place.into(), between(&a.rotation, &b.rotation, share))
             }
         }
     };

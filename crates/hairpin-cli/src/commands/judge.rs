@@ -8,7 +8,7 @@ use crate::problem::Problem;
 /// Runs the command.
 pub(crate) fn run(judge: &Judge) -> Result<u8, Problem> {
     folder::take_threads(&judge.threads);
-    let work = folder::open(&judge.folder, &folder::split(&judge.sets)?, &["spec"])?;
+    let work = folder::open(&judge.folder, &folder::split(&judge.sets)?, &["spec"], None)?;
     let cases = work.folder.read_cases()?;
     let tally = work.folder.read_tally()?;
     let judgement = parts::judge(&work, &cases, &tally)?;

@@ -5,16 +5,16 @@ use serde_json::json;
 
 use super::parts::{Repro, fly_one};
 use crate::args::Replay;
-use crate::console;
 use crate::problem::Problem;
+use crate::{console, folder};
 
-/// Our own simulator repeats a run to the bit on one machine; other SIMD levels and compilers round differently.
+/// Our own simulator repeats a run to the bit, at any SIMD level; executors of the users' need not.
 const SAME_M: f64 = 1e-6;
 
 /// Runs the command: 1 when it violates again, 0 when it does not, 4 when the executor failed.
 pub(crate) fn run(replay: &Replay) -> Result<u8, Problem> {
     let repro = Repro::read(&replay.file)?;
-    let setup = Setup::new(repro.scenario.clone())?;
+    let setup = Setup::new(repro.scenario.clone())?.with_simd(folder::simd(&replay.kernels));
     let case = repro.case()?;
     let flown = fly_one(&setup, &case, repro.run)?;
     let result = campaign::judge(&setup, &case, std::slice::from_ref(&flown))?;

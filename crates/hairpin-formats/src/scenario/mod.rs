@@ -14,7 +14,7 @@ use hairpin::campaign::scenario::KeyPath;
 use toml::Table;
 
 pub use report::{Complaint, Report};
-pub use write::{MadeBy, WriteError, to_toml};
+pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
 use crate::{library, schema};
 use resolve::Resolver;

@@ -1,17 +1,17 @@
 //! The resolved scenario of a campaign folder: a scenario file that runs again, with what made it.
 
 use hairpin::campaign::Scenario;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// `[made_by]`: what a campaign's results depend on beside the scenario. Readers of scenarios pass over it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MadeBy {
     /// Version of hairpin.
     pub version: String,
     /// Root seed.
     pub root_seed: u64,
-    /// SIMD level of the numerics.
+    /// SIMD level of the kernels: `portable`, `baseline`, `avx2`, `avx512` or `neon`.
     pub simd: String,
 }
 
@@ -26,6 +26,15 @@ struct Resolved<'s> {
     scenario: &'s Scenario,
     #[serde(skip_serializing_if = "Option::is_none")]
     made_by: Option<&'s MadeBy>,
+}
+
+/// What made the scenario in `text`; `None` where it does not say.
+pub fn read_made_by(text: &str) -> Option<MadeBy> {
+    #[derive(Deserialize)]
+    struct Written {
+        made_by: MadeBy,
+    }
+    toml::from_str::<Written>(text).ok().map(|written| written.made_by)
 }
 
 /// The scenario as TOML; reading it again gives the same scenario.

@@ -49,7 +49,7 @@ pub fn execute_run(setup: &Setup, case: &Case, run: usize) -> Run {
 }
 
 fn fly(mission: &Mission, case: &Case) -> Result<Flight, simulation::SimulationError> {
-    let Setup { scenario, robot, world } = &mission.setup;
+    let Setup { scenario, robot, world, simd } = &mission.setup;
     let execute = &scenario.execute;
     let sortie = Sortie { robot, world, waypoints: &mission.waypoints, profile: case.profile.as_ref() };
     let controller = ControllerSettings {
@@ -67,6 +67,7 @@ fn fly(mission: &Mission, case: &Case) -> Result<Flight, simulation::SimulationE
         accept: mission.accept,
         time_limit: mission.time_limit,
         walls: execute.walls,
+        simd: *simd,
         ..FlySettings::default()
     };
     simulation::fly(&sortie, &controller, &conditions, &settings, mission.seed)

@@ -125,7 +125,7 @@ fn judge_run(
     let setup = if run.drawn.is_empty() {
         setup
     } else {
-        drawn = Setup::of_draw(vary::apply(&setup.scenario, &run.drawn)?)?;
+        drawn = setup.of_draw(vary::apply(&setup.scenario, &run.drawn)?)?;
         &drawn
     };
     let spec = &setup.scenario.spec;

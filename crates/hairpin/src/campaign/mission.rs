@@ -48,7 +48,7 @@ pub struct Mission {
 /// A drawn value that is out of its key's bounds in combination with the others.
 pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistake> {
     let drawn = vary::draw(&setup.scenario, case.seed, run);
-    let varied = if drawn.is_empty() { setup.clone() } else { Setup::of_draw(vary::apply(&setup.scenario, &drawn)?)? };
+    let varied = if drawn.is_empty() { setup.clone() } else { setup.of_draw(vary::apply(&setup.scenario, &drawn)?)? };
     let execute = &varied.scenario.execute;
     let time_limit = execute.time_limit_s.unwrap_or(SECONDS_PER_WAYPOINT * case.waypoints.len() as f64);
     Ok(Mission {

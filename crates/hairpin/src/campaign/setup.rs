@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::scenario::{Mistake, ObstacleSection, RobotSource, Scenario, WorldSection};
+use crate::math::simd::Simd;
 use crate::robot::quadrotor::Quadrotor;
 use crate::world::{Obstacle, Shape, World, WorldError};
 
@@ -15,6 +16,8 @@ pub struct Setup {
     pub robot: Quadrotor,
     /// The space.
     pub world: World,
+    /// Version of the kernels that generate and fly.
+    pub simd: Simd,
 }
 
 impl Setup {
@@ -26,14 +29,23 @@ impl Setup {
         if let Some(mistake) = scenario.check().into_iter().next() {
             return Err(mistake);
         }
-        Self::of_draw(scenario)
+        Self::build(scenario, Simd::default())
     }
 
-    /// The setup of a scenario whose keys were checked before `[vary]` drew some of them.
-    pub(super) fn of_draw(scenario: Scenario) -> Result<Self, Mistake> {
+    /// The same at another version of the kernels.
+    pub fn with_simd(self, simd: Simd) -> Self {
+        Self { simd, ..self }
+    }
+
+    /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; the kernels stay these.
+    pub(super) fn of_draw(&self, scenario: Scenario) -> Result<Self, Mistake> {
+        Self::build(scenario, self.simd)
+    }
+
+    fn build(scenario: Scenario, simd: Simd) -> Result<Self, Mistake> {
         let robot = robot_of(&scenario.robot)?;
         let world = world_of(&scenario.world)?;
-        Ok(Self { scenario, robot, world })
+        Ok(Self { scenario, robot, world, simd })
     }
 }
 

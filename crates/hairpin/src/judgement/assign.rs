@@ -3,6 +3,7 @@
 
 use nalgebra::Point3;
 
+use crate::math::power::square;
 use crate::math::segment::point_distance;
 
 /// A straight part of a path, and what it belongs to.
@@ -73,7 +74,7 @@ fn prefix_costs<'a>(
     for (sample, weight) in samples {
         let mut least = f64::INFINITY;
         for (cost, piece) in costs.iter_mut().zip(pieces.clone()) {
-            let own = *cost + weight * point_distance(sample, &piece.from, &piece.to).powi(2);
+            let own = *cost + weight * square(point_distance(sample, &piece.from, &piece.to));
             least = least.min(own);
             *cost = least;
         }

@@ -246,7 +246,7 @@ fn percent(share: f64) -> String {
     if percent == 0.0 || percent >= 0.1 {
         return format!("{percent:.1}");
     }
-    let decimals = (1.0 - percent.log10().floor()).clamp(1.0, 12.0) as usize;
+    let decimals = (1.0 - libm::log10(percent).floor()).clamp(1.0, 12.0) as usize;
     format!("{percent:.decimals$}")
 }
 

@@ -67,7 +67,7 @@ fn fraction(x: f64) -> (f64, f64) {
         }
     }
     // C + iS = (1 + i)/2 · (1 − e^(iπx²/2) · (1 − i) x · h).
-    let (sin, cos) = (FRAC_PI_2 * x * x).sin_cos();
+    let (sin, cos) = libm::sincos(FRAC_PI_2 * x * x);
     let tail = h.times(Complex { re: x, im: -x }).times(Complex { re: cos, im: sin });
     let end = Complex { re: 0.5, im: 0.5 }.times(Complex { re: 1.0 - tail.re, im: -tail.im });
     (end.re, end.im)
@@ -102,7 +102,7 @@ pub fn clothoid(start: f64, end: f64, rate: f64) -> (f64, f64) {
     let (c0, s0) = fresnel(from / scale);
     let (c1, s1) = fresnel(to / scale);
     let (dx, dy) = (c1 - c0, s1 - s0);
-    let (sin, cos) = (from * from / (2.0 * rate)).sin_cos();
+    let (sin, cos) = libm::sincos(from * from / (2.0 * rate));
     let unit = scale / rate;
     (unit * (cos * dx + sin * dy), mirror * unit * (cos * dy - sin * dx))
 }

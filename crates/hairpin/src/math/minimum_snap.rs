@@ -6,6 +6,8 @@
 use nalgebra::{Matrix3, Point3, SMatrix};
 use thiserror::Error;
 
+use super::power::power;
+
 /// One segment: `c[axis][i]` in m/s^i, p_axis(τ) = Σ c_i τ^i, τ ∈ [0, T].
 pub type SegmentCoefficients = [[f64; 8]; 3];
 
@@ -137,7 +139,7 @@ fn solve(points: &[Point3<f64>], times: &[f64]) -> Vec<Derivatives> {
         .iter()
         .map(|&t| {
             let scale = [1.0, t, t * t, t * t * t];
-            unit_cost.map_with_location(|i, j, q| q * scale[i % 4] * scale[j % 4] / t.powi(7))
+            unit_cost.map_with_location(|i, j, q| q * scale[i % 4] * scale[j % 4] / power(t, 7))
         })
         .collect();
     let mut derivatives = vec![Derivatives::zeros(); n];

@@ -5,6 +5,8 @@ pub mod integrate;
 pub mod interval;
 pub mod minimum_snap;
 pub mod polynomial;
+pub mod power;
 pub mod random;
 pub mod rotation;
 pub mod segment;
+pub mod simd;

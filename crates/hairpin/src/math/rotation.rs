@@ -32,9 +32,9 @@ pub fn body_z(q: &[f64]) -> Vector3<f64> {
 
 /// (w, x, y, z) of roll φ, pitch θ, yaw ψ (rad): R = Rz(ψ) Ry(θ) Rx(φ).
 pub fn quaternion_from_euler(roll: f64, pitch: f64, yaw: f64) -> [f64; 4] {
-    let (sr, cr) = (0.5 * roll).sin_cos();
-    let (sp, cp) = (0.5 * pitch).sin_cos();
-    let (sy, cy) = (0.5 * yaw).sin_cos();
+    let (sr, cr) = libm::sincos(0.5 * roll);
+    let (sp, cp) = libm::sincos(0.5 * pitch);
+    let (sy, cy) = libm::sincos(0.5 * yaw);
     [cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy]
 }
 
@@ -47,14 +47,40 @@ pub fn euler_from_quaternion(q: &[f64]) -> [f64; 3] {
     let sin_pitch = (2.0 * (w * y - z * x)).clamp(-1.0, 1.0);
     if sin_pitch.abs() > 1.0 - 1e-12 {
         // R(q) with φ = 0: R₀₁ = −sin ψ, R₁₁ = cos ψ.
-        let yaw = (2.0 * (w * z - x * y)).atan2(1.0 - 2.0 * (x * x + z * z));
+        let yaw = libm::atan2(2.0 * (w * z - x * y), 1.0 - 2.0 * (x * x + z * z));
         return [0.0, std::f64::consts::FRAC_PI_2.copysign(sin_pitch), yaw];
     }
-    let roll = (2.0 * (w * x + y * z)).atan2(1.0 - 2.0 * (x * x + y * y));
-    let yaw = (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z));
+    let roll = libm::atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y));
+    let yaw = libm::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z));
     // sin θ loses half the digits near the pole; its complement from R₀₀, R₁₀ does not.
-    let cos_pitch = (1.0 - 2.0 * (y * y + z * z)).hypot(2.0 * (w * z + x * y));
-    [roll, sin_pitch.atan2(cos_pitch), yaw]
+    let cos_pitch = libm::hypot(1.0 - 2.0 * (y * y + z * z), 2.0 * (w * z + x * y));
+    [roll, libm::atan2(sin_pitch, cos_pitch), yaw]
+}
+
+/// The angle between two vectors, rad in [0, π]: atan2(|a × b|, a · b), exact also where they are nearly parallel. 0 if
+/// either has no length.
+pub fn angle_between(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+    libm::atan2(a.cross(b).norm(), a.dot(b))
+}
+
+/// The turn by |`turn`| rad about `turn`.
+pub fn from_rotation_vector(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
+    let angle = turn.norm();
+    let (sin, cos) = libm::sincos(0.5 * angle);
+    let axis = turn * if angle > 0.0 { sin / angle } else { 0.5 };
+    unit_quaternion(&[cos, axis.x, axis.y, axis.z])
+}
+
+/// The turn as a vector of at most π rad along its axis: the reverse of [`from_rotation_vector`].
+pub fn rotation_vector(q: &UnitQuaternion<f64>) -> Vector3<f64> {
+    let axis = if q.w < 0.0 { -q.imag() } else { q.imag() };
+    let sin = axis.norm();
+    if sin > 0.0 { axis * (2.0 * libm::atan2(sin, q.w.abs()) / sin) } else { Vector3::zeros() }
+}
+
+/// The attitude at `share` (0 … 1) of the shortest turn from `a` to `b`.
+pub fn between(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>, share: f64) -> UnitQuaternion<f64> {
+    a * from_rotation_vector(&(rotation_vector(&(a.inverse() * b)) * share))
 }
 
 #[cfg(test)]
@@ -93,6 +119,29 @@ mod tests {
         for (i, component) in [turned.w, turned.i, turned.j, turned.k].into_iter().enumerate() {
             assert!(((component - q[i]) / h - rate[i]).abs() < 1e-6);
         }
+    }
+
+    #[test]
+    fn turns_and_vectors_are_those_of_nalgebra() {
+        let mut rng = stream(named_seed(1, "rotation", 1));
+        let mut vector = || Vector3::from_fn(|_, _| rng.random_range(-1.7..1.7f64));
+        for i in 0..1000 {
+            let (a, b) = (vector(), vector());
+            assert!((angle_between(&a, &b) - a.angle(&b)).abs() < 1e-7, "{i}");
+            let (p, q) = (from_rotation_vector(&a), from_rotation_vector(&b));
+            assert!((p.into_inner() - UnitQuaternion::from_scaled_axis(a).into_inner()).norm() < 1e-14, "{i}");
+            assert!((rotation_vector(&p) - p.scaled_axis()).norm() < 1e-14, "{i}");
+            let share = i as f64 / 1000.0;
+            assert!(between(&p, &q, share).angle_to(&p.slerp(&q, share)) < 1e-7, "{i}");
+            assert!(between(&p, &q, 1.0).angle_to(&q) < 1e-7, "{i}");
+        }
+        let zero = Vector3::zeros();
+        assert_eq!(
+            (from_rotation_vector(&zero), rotation_vector(&UnitQuaternion::identity())),
+            (UnitQuaternion::identity(), zero)
+        );
+        assert_eq!([angle_between(&Vector3::x(), &Vector3::x()), angle_between(&zero, &Vector3::x())], [0.0; 2]);
+        assert_eq!(angle_between(&Vector3::x(), &-Vector3::x()), std::f64::consts::PI);
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::objective::{Aggregate, LegView, Objective};
 use super::task::Task;
 use crate::feasibility::reach::{Leg, LegFeatures, Reach, StepNode};
 use crate::math::random::stream;
+use crate::math::rotation::angle_between;
 
 /// Second differences with |d − centre| ≤ 1 in the octahedron's norm, step 1 s.
 #[derive(Debug, Clone, Copy)]
@@ -44,7 +45,7 @@ impl Reach<StepNode> for Octahedron {
             if i as u32 != from.current && self.holds(point - expected, 1.0) {
                 let leaving = point - now;
                 let v_in = arriving.norm();
-                let turn = if v_in > 0.0 { arriving.angle(&leaving) } else { 0.0 };
+                let turn = if v_in > 0.0 { angle_between(&arriving, &leaving) } else { 0.0 };
                 let length = leaving.norm();
                 let features = LegFeatures { v_in, v_out: length, turn, length, climb: leaving.z };
                 let to = StepNode { previous: from.current, current: i as u32 };

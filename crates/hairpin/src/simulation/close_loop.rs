@@ -14,6 +14,7 @@ use super::lanes::vector;
 use super::plant::Plant;
 use super::recorder::Recorder;
 use super::step::{Motion, Stepper};
+use crate::math::simd::Simd;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::{Ended, Flight, Profile};
 use crate::world::World;
@@ -51,11 +52,21 @@ pub struct FlySettings {
     pub linger: f64,
     /// Whether leaving the world is a crash.
     pub walls: bool,
+    /// Version of the ticks to run.
+    pub simd: Simd,
 }
 
 impl Default for FlySettings {
     fn default() -> Self {
-        Self { step: 0.001, log_period: 0.01, accept: 1.0, time_limit: 90.0, linger: 2.0, walls: false }
+        Self {
+            step: 0.001,
+            log_period: 0.01,
+            accept: 1.0,
+            time_limit: 90.0,
+            linger: 2.0,
+            walls: false,
+            simd: Simd::default(),
+        }
     }
 }
 
@@ -116,13 +127,13 @@ pub fn fly(
             course.note(t, &position, run.pilot.schedule());
             let ended = hazards.note(t, &position, run.up()).or(end_of_time(t, &course, settings));
             if let Some(ended) = ended {
-                run.log(&mut recorder, t, course.leg());
+                run.record(&mut recorder, t, course.leg());
                 break ended;
             }
         }
         if to_log == 0 {
             to_log = log_every;
-            run.log(&mut recorder, t, course.leg());
+            run.record(&mut recorder, t, course.leg());
         }
         if to_turn == 0 {
             to_turn = turn_every;
@@ -131,7 +142,7 @@ pub fn fly(
         let ticks = to_watch.min(to_log).min(to_turn);
         (to_watch, to_log, to_turn) = (to_watch - ticks, to_log - ticks, to_turn - ticks);
         tick += ticks;
-        fly_on(&mut run, ticks);
+        run.fly_at(settings.simd, ticks);
     };
     let left_world = hazards.left_world();
     Ok(Flight { track: recorder.into_track(), ended, left_world, reached: course.into_reached() })
@@ -225,6 +236,13 @@ impl ClosedLoop {
         self.inner.follow(self.pilot.control(dt, &Measured { position: self.position(), velocity, target, hold }));
     }
 
+    fn fly_at(&mut self, simd: Simd, ticks: u64) {
+        match simd {
+            Simd::Widest => fly_on(self, ticks),
+            Simd::Portable => self.fly_on(ticks),
+        }
+    }
+
     #[inline(always)]
     fn fly_on(&mut self, ticks: u64) {
         self.ticks += ticks;
@@ -276,7 +294,7 @@ impl ClosedLoop {
         if self.motion.is_finite() { self.motion.up.to_array()[2] } else { f64::NAN }
     }
 
-    fn log(&mut self, recorder: &mut Recorder, t: f64, leg: usize) {
+    fn record(&mut self, recorder: &mut Recorder, t: f64, leg: usize) {
         let saturated = if self.ticks > 0 { self.at_limit as f64 / (4 * self.ticks) as f64 } else { 0.0 };
         (self.at_limit, self.ticks) = (0, 0);
         recorder.push(t, &self.motion, leg, saturated);
@@ -305,8 +323,8 @@ mod tests {
                     for run in [&mut dispatched, &mut plain] {
                         run.turn(0.01, (waypoints[1].coords, false));
                     }
-                    fly_on(&mut dispatched, 10);
-                    plain.fly_on(10);
+                    dispatched.fly_at(Simd::Widest, 10);
+                    plain.fly_at(Simd::Portable, 10);
                     assert_eq!(dispatched.motion, plain.motion, "{} at turn {turn}", robot.name);
                 }
                 assert!((dispatched.position() - waypoints[1].coords).norm() < 2.0, "{} flew", robot.name);

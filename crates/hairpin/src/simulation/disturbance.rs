@@ -74,7 +74,7 @@ impl Disturbances {
         let gusts = conditions.gusts.filter(|gusts| gusts.std > 0.0).map(|gusts| {
             let mut stream = stream(named_seed(seed, "gusts", 0));
             let velocity = Vector3::from(standard_normals(&mut stream)) * gusts.std;
-            let keep = if gusts.correlation > 0.0 { (-h / gusts.correlation).exp() } else { 0.0 };
+            let keep = if gusts.correlation > 0.0 { libm::exp(-h / gusts.correlation) } else { 0.0 };
             GustProcess { stream, velocity, keep, renew: gusts.std * (1.0 - keep * keep).sqrt() }
         });
         let noise = (conditions.noise && (robot.force_noise > 0.0 || robot.moment_noise > 0.0)).then(|| Noise {

@@ -166,7 +166,7 @@ struct LowPass {
 
 impl LowPass {
     fn new(corner_hz: f64, period: f64) -> Self {
-        let k = (std::f64::consts::PI * corner_hz * period).tan();
+        let k = libm::tan(std::f64::consts::PI * corner_hz * period);
         let norm = 1.0 / (1.0 + std::f64::consts::SQRT_2 * k + k * k);
         Self {
             b: f64x4::splat(k * k * norm),

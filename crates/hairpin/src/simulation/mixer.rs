@@ -4,6 +4,7 @@ use nalgebra::{Matrix4, Vector4};
 use wide::f64x4;
 
 use super::lanes::{lanes4, transform};
+use crate::math::power::square;
 use crate::robot::quadrotor::Quadrotor;
 
 /// Inverts the rotor allocation within the rotor speed limits.
@@ -34,7 +35,7 @@ impl Mixer {
     pub(crate) fn new(robot: &Quadrotor) -> Option<Self> {
         let inverse: Matrix4<f64> = robot.unmixing()?;
         let usable = inverse.iter().all(|c| c.is_finite()) && inverse.column(0).iter().all(|c| *c > 0.0);
-        let (least, most) = (robot.rotor_speed.0.powi(2), robot.rotor_speed.1.powi(2));
+        let (least, most) = (square(robot.rotor_speed.0), square(robot.rotor_speed.1));
         let i = robot.inertia;
         let columns = [(1, i.x), (2, i.y), (3, i.z), (0, robot.mass)];
         let inverse = columns.map(|(k, scale)| lanes4(&(inverse.column(k) * scale)));

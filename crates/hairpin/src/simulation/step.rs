@@ -105,7 +105,7 @@ impl Stepper {
         // With e = w − u at the start, w = u + e·exp(−t/T) has the mean square u² + a·u·e + b·e².
         let ratio = plant.time_constant / h;
         let lagging = ratio > 0.0;
-        let decay = if lagging { (-1.0 / ratio).exp() } else { 0.0 };
+        let decay = if lagging { libm::exp(-1.0 / ratio) } else { 0.0 };
         let (a, b) =
             if lagging { (2.0 * ratio * (1.0 - decay), 0.5 * ratio * (1.0 - decay * decay)) } else { (0.0, 0.0) };
         let rows = &plant.allocation;

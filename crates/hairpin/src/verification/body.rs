@@ -121,5 +121,5 @@ pub(super) fn level(position: [f64; 3], velocity: [f64; 3]) -> State {
 pub(super) fn attitude_error(state: &State) -> f64 {
     let r = Matrix3::from_column_slice(&state[6..15]);
     let sine = 0.5 * Vector3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12).norm();
-    sine.atan2(0.5 * (r.trace() - 1.0))
+    libm::atan2(sine, 0.5 * (r.trace() - 1.0))
 }

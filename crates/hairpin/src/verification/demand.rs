@@ -8,6 +8,7 @@ use nalgebra::{Vector3, Vector4};
 use super::body::{Body, Mixer};
 use super::claim::Leg;
 use super::jet::{Jet, JetVector, cross, dot, times};
+use crate::math::power::square;
 
 /// The robot's state and rotor speeds that the polynomial demands at one moment.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +40,7 @@ pub(super) fn demand(body: &Body, mixer: &Mixer, leg: &Leg, tau: f64) -> Result<
 
     let thrust_squared = dot(&force, &force);
     let weight = body.mass * body.gravity.abs().max(1.0);
-    if thrust_squared.value() <= (SMALL * weight).powi(2) {
+    if thrust_squared.value() <= square(SMALL * weight) {
         return Err(Singular::FreeFall(thrust_squared.value().max(0.0).sqrt()));
     }
     let thrust = thrust_squared.sqrt();

@@ -108,7 +108,7 @@ pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
         before = (bend(length_m), Some(direction));
     }
     let yaw = state[2] - claim.end[2];
-    replay.error = [state[0] - claim.end[0], state[1] - claim.end[1], yaw.sin().atan2(yaw.cos())];
+    replay.error = [state[0] - claim.end[0], state[1] - claim.end[1], libm::atan2(libm::sin(yaw), libm::cos(yaw))];
     replay.error_curvature = before.0 - claim.end_curvature;
     replay
 }
@@ -139,7 +139,7 @@ fn integrate(
 ) -> [f64; 3] {
     let h = length / steps as f64;
     let rate = |s: f64, yaw: f64| {
-        let (sin, cos) = (yaw + crab).sin_cos();
+        let (sin, cos) = libm::sincos(yaw + crab);
         [direction * cos, direction * sin, direction * bend(s)]
     };
     let mut state = start;

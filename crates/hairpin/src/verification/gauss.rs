@@ -23,7 +23,7 @@ impl Gauss {
         let mut nodes = [0.0; STAGES];
         let mut weights = [0.0; STAGES];
         for (i, (node, weight)) in nodes.iter_mut().zip(&mut weights).enumerate() {
-            let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (STAGES as f64 + 0.5)).cos();
+            let mut x = -libm::cos(std::f64::consts::PI * (i as f64 + 0.75) / (STAGES as f64 + 0.5));
             for _ in 0..20 {
                 let (p, slope) = legendre(x);
                 x -= p / slope;

@@ -7,6 +7,7 @@ use super::body::Body;
 use super::claim::{Claim, Leg};
 use super::demand::drag;
 use super::jet::{Jet, JetVector};
+use crate::math::power::power;
 
 /// A derivative of the position at a leg's end, and the sum of the magnitudes of its terms, which bounds its rounding.
 type Derivative = [(f64, f64); 3];
@@ -63,7 +64,7 @@ fn derivative(leg: &Leg, tau: f64, order: usize) -> Derivative {
         let (mut sum, mut size) = (0.0, 0.0);
         for (i, c) in c.iter().enumerate().skip(order) {
             let falling: f64 = (i + 1 - order..=i).map(|k| k as f64).product();
-            let term = c * falling * tau.powi((i - order) as i32);
+            let term = c * falling * power(tau, i - order);
             sum += term;
             size += term.abs();
         }

@@ -8,6 +8,7 @@ use super::gauss::Gauss;
 use super::knots::mismatches;
 use super::replay::{Flyer, Replay, Trouble};
 use super::rotors::check_rotors;
+use crate::math::power::square;
 
 /// Checks a claim by integrating the rigid body, drag included, under the rotor speeds that its polynomials demand:
 /// every leg from the state claimed at its start to the state claimed at its end, and the whole flight in one go.
@@ -121,7 +122,7 @@ fn fly_legs(proof: &mut Proof, flyer: &Flyer, claim: &Claim, tolerances: &Tolera
 }
 
 fn check_end(proof: &mut Proof, replay: &Replay, target: &State, leg: usize, at: f64, tolerances: &Tolerances) {
-    let distance = |from: usize| (from..from + 3).map(|i| (replay.end[i] - target[i]).powi(2)).sum::<f64>().sqrt();
+    let distance = |from: usize| (from..from + 3).map(|i| square(replay.end[i] - target[i])).sum::<f64>().sqrt();
     let (position, velocity, rates) = (distance(0), distance(3), distance(15));
     let attitude = attitude_error(&replay.end);
     note(&mut proof.position, position, leg, at);
@@ -141,7 +142,7 @@ fn velocity_at(leg: &Leg, tau: f64) -> [f64; 3] {
 fn end_error(state: &State, claim: &Claim) -> EndError {
     let last = claim.waypoints[claim.waypoints.len() - 1];
     EndError {
-        position: (0..3).map(|i| (state[i] - last[i]).powi(2)).sum::<f64>().sqrt(),
+        position: (0..3).map(|i| square(state[i] - last[i])).sum::<f64>().sqrt(),
         velocity: state[3..6].iter().map(|v| v * v).sum::<f64>().sqrt(),
         attitude: attitude_error(state),
     }

@@ -4,6 +4,7 @@ use super::body::{Body, Mixer, State};
 use super::claim::Leg;
 use super::demand::{Singular, demand};
 use super::gauss::{Gauss, STAGES};
+use crate::math::power::square;
 
 /// Everything that flying needs.
 pub(super) struct Flyer<'a> {
@@ -55,7 +56,7 @@ impl Flyer<'_> {
             let mut path = (0.0, 0.0);
             let observe = |tau: f64, state: &State| {
                 let claimed = leg.taylor(tau);
-                let distance = (0..3).map(|axis| (state[axis] - claimed[axis][0]).powi(2)).sum::<f64>().sqrt();
+                let distance = (0..3).map(|axis| square(state[axis] - claimed[axis][0])).sum::<f64>().sqrt();
                 if distance > path.0 {
                     path = (distance, tau);
                 }
@@ -117,7 +118,7 @@ impl Flyer<'_> {
         for stages in &commands {
             let derivative = |stage: usize, x: &[f64; 22]| {
                 let mut out = [0.0; 22];
-                let squares: [f64; 4] = std::array::from_fn(|rotor| x[18 + rotor].powi(2));
+                let squares: [f64; 4] = std::array::from_fn(|rotor| square(x[18 + rotor]));
                 let mut body = [0.0; 18];
                 body.copy_from_slice(&x[..18]);
                 out[..18].copy_from_slice(&self.mixer.derivative(self.body, &body, &squares));

@@ -10,6 +10,7 @@ use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 use parry3d_f64::transformation::try_convex_hull;
 
 use super::bounds::Bounds;
+use crate::math::power::power;
 use crate::math::segment::segment_distance;
 
 /// A solid bounded by a closed, outward-oriented triangle surface.
@@ -56,7 +57,7 @@ impl Solid {
         let bounds = Bounds::around(points).ok_or_else(flat)?;
         let scale = (bounds.max - bounds.min).norm();
         let faces = faces(&vertices, &triangles, scale);
-        if faces.len() < 4 || volume(&vertices, &triangles) <= 1e-9 * scale.powi(3) {
+        if faces.len() < 4 || volume(&vertices, &triangles) <= 1e-9 * power(scale, 3) {
             return Err(flat());
         }
         let outside = |p: &Point3<f64>| faces.iter().any(|face| face.height(p) > 1e-7 * scale);
@@ -96,7 +97,7 @@ impl Solid {
         }
         let none = || ("no volume".to_owned(), "a closed surface around a volume".to_owned());
         let bounds = Bounds::around(&vertices.iter().map(from_parry).collect::<Vec<_>>()).ok_or_else(none)?;
-        if volume.abs() <= 1e-12 * (bounds.max - bounds.min).norm().powi(3) {
+        if volume.abs() <= 1e-12 * power((bounds.max - bounds.min).norm(), 3) {
             return Err(none());
         }
         let surface = TriMesh::with_flags(vertices, triangles, TriMeshFlags::ORIENTED)

@@ -1,8 +1,8 @@
-//! Which paths a Rust source text mentions: enough of the language's grammar for that, and no more.
+//! Which paths and methods a Rust source text mentions: enough of the language's grammar for that, and no more.
 
-/// A path as it was written, made absolute.
+/// A path as it was written, made absolute, or a method that is called.
 pub(crate) struct Seen {
-    /// `hairpin::world::World`, `std::fs`, `println!`.
+    /// `hairpin::world::World`, `std::fs`, `println!`, `.sin`.
     pub(crate) path: String,
     /// Line, from 1.
     pub(crate) line: usize,
@@ -46,6 +46,15 @@ pub(crate) fn read(module: &str, text: &str) -> Vec<Seen> {
             }
             Token::Word(_) => {
                 i = reader.path(&tokens, i, in_test);
+            }
+            Token::Other('.') if i > 0 && tokens[i - 1].0 != Token::Other('.') => {
+                if let Some((Token::Word(name), line)) = tokens.get(i + 1)
+                    && spells(tokens.get(i + 2..).unwrap_or_default(), &["("])
+                {
+                    reader.seen.push(Seen { path: format!(".{name}"), line: *line, in_test });
+                    i += 1;
+                }
+                i += 1;
             }
             Token::PathSeparator if matches!(tokens.get(i + 1), Some((Token::Word(_), _))) => {
                 i = reader.path(&tokens, i + 1, in_test);

@@ -9,13 +9,14 @@ mod simulation;
 mod witness;
 
 use hairpin::campaign::Setup;
+use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::Quadrotor;
 use hairpin_formats::scenario::scenario_for;
 use serde_json::json;
 
 use crate::args::Bench;
+use crate::console;
 use crate::problem::Problem;
-use crate::{console, simd};
 
 /// What is measured, and what is promised: at least (rates) or at most (times, errors) so much.
 struct Row {
@@ -76,10 +77,14 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
         table.push(vec![row.name.into(), shown, row.unit.into(), target, word.into()]);
     }
     if bench.json {
-        console::say(&json!({ "simd": simd::level(), "clock": clock::NAME, "benches": objects }).to_string());
+        console::say(&json!({ "simd": Simd::Widest.level(), "clock": clock::NAME, "benches": objects }).to_string());
     } else {
         console::say(&console::table(&table));
-        console::say(&format!("median of several runs, one core, {}, SIMD level {}", clock::NAME, simd::level()));
+        console::say(&format!(
+            "median of several runs, one core, {}, SIMD level {}",
+            clock::NAME,
+            Simd::Widest.level()
+        ));
     }
     Ok(0)
 }

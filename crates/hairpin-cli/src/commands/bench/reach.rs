@@ -1,6 +1,7 @@
 //! The reach set: end points of 625 runs of 1 s, their error, and their hull.
 
 use hairpin::feasibility::reach::{Hull, HullSettings, Polytope, sampling};
+use hairpin::math::simd::Simd;
 use hairpin_formats::library;
 
 use super::clock::median_time;
@@ -20,13 +21,13 @@ fn end_points(_: &Bench) -> Result<f64, Problem> {
     let robot = robot("flightgoggles")?;
     let speeds = sampling::constant_speeds(&robot, 5);
     let steps = sampling::steps(&robot, 1.0);
-    Ok(1e3 * median_time(9, || sampling::end_points(&robot, &speeds, 1.0, steps)))
+    Ok(1e3 * median_time(9, || sampling::end_points(Simd::default(), &robot, &speeds, 1.0, steps)))
 }
 
 fn hull(_: &Bench) -> Result<f64, Problem> {
     let hull = Hull::new(&robot("flightgoggles")?, &HullSettings::default()).map_err(Problem::input)?;
     // Many at once: asking the clock costs as much as one.
-    let many = || (0..100).filter(|_| Polytope::hull(hull.samples()).is_ok()).count();
+    let many = || (0..100).filter(|_| Polytope::hull(Simd::default(), hull.samples()).is_ok()).count();
     Ok(1e6 / 100.0 * median_time(9, many))
 }
 
@@ -37,8 +38,8 @@ fn error(_: &Bench) -> Result<f64, Problem> {
         let robot = robot(shipped.name)?;
         let speeds = sampling::constant_speeds(&robot, 5);
         let steps = sampling::steps(&robot, 1.0);
-        let coarse = sampling::end_points(&robot, &speeds, 1.0, steps);
-        let fine = sampling::end_points(&robot, &speeds, 1.0, 10 * steps);
+        let coarse = sampling::end_points(Simd::default(), &robot, &speeds, 1.0, steps);
+        let fine = sampling::end_points(Simd::default(), &robot, &speeds, 1.0, 10 * steps);
         worst = coarse.iter().zip(&fine).map(|(a, b)| (a - b).norm()).fold(worst, f64::max);
     }
     Ok(1e3 * worst)

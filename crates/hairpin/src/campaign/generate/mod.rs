@@ -105,7 +105,8 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
 fn drawn_case(setup: &Setup, case: u64) -> Outcome {
     let seed = case_seed(setup.scenario.seed, case);
     let draws = vary::draw_for_case(&setup.scenario, seed, case as usize);
-    let drawn = vary::apply(&setup.scenario, &draws).and_then(Setup::of_draw).map_err(|mistake| mistake.to_string());
+    let drawn = vary::apply(&setup.scenario, &draws).and_then(|scenario| setup.of_draw(scenario));
+    let drawn = drawn.map_err(|mistake| mistake.to_string());
     let solver = match drawn.as_ref().map_err(Clone::clone).and_then(Solver::new) {
         Ok(solver) => solver,
         Err(reason) => return Outcome { reason: Some(reason), ..Outcome::default() },

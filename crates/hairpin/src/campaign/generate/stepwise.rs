@@ -41,11 +41,12 @@ impl<'a> Stepwise<'a> {
         let generate = &setup.scenario.generate;
         let step = generate.timing_in_force().step_s.ok_or("`timing.step_s` is missing")?;
         let robot = &setup.robot;
-        let hull = HullSettings { resolution: generate.resolution as usize, step };
+        let hull = HullSettings { resolution: generate.resolution as usize, step, simd: setup.simd };
         let settings = StepSettings {
             step,
             average_velocity: generate.estimate.velocity == EstimatedVelocity::Average,
             max_speed: generate.limits.max_speed_m_s.unwrap_or(f64::INFINITY),
+            simd: setup.simd,
         };
         let keep_attitude = generate.estimate.attitude == EstimatedAttitude::Keep;
         let keep_rates = generate.estimate.rates == EstimatedRates::Keep;

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3, Vector4};
+use nalgebra::{Point3, UnitQuaternion, Vector3, Vector4};
 
 use super::features::features;
 use super::hull::{HullSettings, NoHull, check, simulate};
@@ -15,6 +15,7 @@ use super::polytope::Polytope;
 use super::sampling;
 use super::step::StepSettings;
 use super::{Leg, Reach};
+use crate::math::rotation::{from_rotation_vector, rotation_vector, unit_quaternion};
 use crate::robot::quadrotor::{Quadrotor, QuadrotorState, level_rest};
 
 /// A step-wise node with what the robot carries over its waypoint. The start is (0, 0, 0s).
@@ -106,7 +107,7 @@ impl BruteForce {
     /// Attitude (world from body) and rates (rad/s) in the middle of a cell.
     pub fn carried_state(&self, carried: &[i32; 6]) -> (UnitQuaternion<f64>, Vector3<f64>) {
         let middle = |first: usize, edge: f64| Vector3::from_fn(|i, _| f64::from(carried[first + i]) * edge);
-        let attitude = UnitQuaternion::from_scaled_axis(middle(0, self.settings.attitude_bin));
+        let attitude = from_rotation_vector(&middle(0, self.settings.attitude_bin));
         (attitude, middle(3, self.settings.rate_bin))
     }
 
@@ -138,7 +139,7 @@ impl BruteForce {
         let run = |speeds: &Vector4<f64>| simulate(&self.model, start, speeds, self.settings.hull.step);
         let ends: Vec<QuadrotorState> = self.speeds.iter().map(run).collect();
         let points: Vec<Vector3<f64>> = ends.iter().map(place).collect();
-        let bin = Arc::new(Bin { velocity, ends, polytope: Polytope::hull(&points).ok() });
+        let bin = Arc::new(Bin { velocity, ends, polytope: Polytope::hull(self.settings.hull.simd, &points).ok() });
         let mut bins = self.lock();
         if bins.len() >= self.settings.remembered {
             bins.clear();
@@ -155,7 +156,7 @@ impl BruteForce {
         }
         let nearest = bin.ends.iter().min_by(|a, b| (place(a) - d).norm().total_cmp(&(place(b) - d).norm()));
         let Some(end) = nearest else { return [0; 6] };
-        let attitude = UnitQuaternion::new_normalize(Quaternion::new(end[3], end[4], end[5], end[6])).scaled_axis();
+        let attitude = rotation_vector(&unit_quaternion(&end.as_slice()[3..7]));
         let cell = |value: f64, edge: f64, keep: bool| if keep { (value / edge).round() as i32 } else { 0 };
         std::array::from_fn(|i| match i {
             0..3 => cell(attitude[i], attitude_bin, keep_attitude),

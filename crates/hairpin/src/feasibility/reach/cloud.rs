@@ -2,8 +2,9 @@
 //!
 //! No product is fused with a sum and lanes are always eight: every SIMD level gives the same bits.
 
-use multiversion::multiversion;
 use nalgebra::Vector3;
+
+use crate::math::simd::{Simd, kernel};
 
 /// Points per block.
 const LANES: usize = 8;
@@ -33,11 +34,12 @@ pub(super) struct Cloud {
     /// The last block is filled up with copies of the last point.
     blocks: Vec<Block>,
     numbers: Vec<u32>,
+    simd: Simd,
 }
 
 impl Cloud {
-    /// The points of `all` with these numbers; at least one.
-    pub(super) fn new(all: &[Vector3<f64>], numbers: Vec<u32>) -> Self {
+    /// The points of `all` with these numbers, at least one, to be scanned at the level `simd`.
+    pub(super) fn new(simd: Simd, all: &[Vector3<f64>], numbers: Vec<u32>) -> Self {
         assert!(!numbers.is_empty(), "a cloud has at least one point");
         let mut blocks = Vec::with_capacity(numbers.len().div_ceil(LANES));
         for chunk in numbers.chunks(LANES) {
@@ -48,7 +50,7 @@ impl Cloud {
             }
             blocks.push(block);
         }
-        Self { blocks, numbers }
+        Self { blocks, numbers, simd }
     }
 
     /// Appends to `out`, for every plane, the point that lies farthest beyond it, or any if none lies beyond it by more
@@ -56,7 +58,7 @@ impl Cloud {
     pub(super) fn farthest(&self, planes: &[Plane], tolerance: f64, out: &mut Vec<Farthest>) {
         let first = out.len();
         out.resize(first + planes.len(), Farthest { distance: f64::NEG_INFINITY, point: 0 });
-        farthest(&self.blocks, planes, tolerance, &mut out[first..]);
+        farthest(self.simd, &self.blocks, planes, tolerance, &mut out[first..]);
         for found in &mut out[first..] {
             found.point = self.numbers[(found.point as usize).min(self.numbers.len() - 1)];
         }
@@ -65,7 +67,7 @@ impl Cloud {
     /// The numbers of the points that lie farther than `tolerance` beyond any of `planes`.
     pub(super) fn outside(&self, planes: &[Plane], tolerance: f64) -> Vec<u32> {
         let mut distances = vec![[0.0; LANES]; self.blocks.len()];
-        outermost(&self.blocks, planes, &mut distances);
+        outermost(self.simd, &self.blocks, planes, &mut distances);
         let outside = distances.iter().flatten().zip(&self.numbers).filter(|(distance, _)| **distance > tolerance);
         outside.map(|(_, number)| *number).collect()
     }
@@ -73,7 +75,7 @@ impl Cloud {
     /// For every plane the least and the greatest n · x over the points.
     pub(super) fn spans(&self, planes: &[Plane]) -> Vec<(f64, f64)> {
         let mut spans = vec![(0.0, 0.0); planes.len()];
-        spans_of(&self.blocks, planes, &mut spans);
+        spans_of(self.simd, &self.blocks, planes, &mut spans);
         spans
     }
 }
@@ -98,52 +100,55 @@ fn greater(a: [f64; LANES], b: [f64; LANES]) -> [f64; LANES] {
     greater
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw", "x86_64+avx2", "aarch64+neon"))]
-fn farthest(blocks: &[Block], planes: &[Plane], tolerance: f64, out: &mut [Farthest]) {
-    for (plane, found) in planes.iter().zip(out) {
-        let mut best = [f64::NEG_INFINITY; LANES];
-        for block in blocks {
-            best = greater(best, distances(plane, block));
-        }
-        found.distance = best.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        if found.distance > tolerance {
-            // Which one it was is seldom asked, and carried along it would halve the speed.
-            for (number, block) in blocks.iter().enumerate() {
-                let distances = distances(plane, block);
-                let any = distances.iter().fold(false, |any, distance| any | (*distance == found.distance));
-                if any {
-                    let lane = distances.iter().position(|distance| *distance == found.distance).unwrap_or(0);
-                    found.point = (number * LANES + lane) as u32;
-                    break;
+kernel! {
+    fn farthest(blocks: &[Block], planes: &[Plane], tolerance: f64, out: &mut [Farthest]) {
+        for (plane, found) in planes.iter().zip(out) {
+            let mut best = [f64::NEG_INFINITY; LANES];
+            for block in blocks {
+                best = greater(best, distances(plane, block));
+            }
+            found.distance = best.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            if found.distance > tolerance {
+                // Which one it was is seldom asked, and carried along it would halve the speed.
+                for (number, block) in blocks.iter().enumerate() {
+                    let distances = distances(plane, block);
+                    let any = distances.iter().fold(false, |any, distance| any | (*distance == found.distance));
+                    if any {
+                        let lane = distances.iter().position(|distance| *distance == found.distance).unwrap_or(0);
+                        found.point = (number * LANES + lane) as u32;
+                        break;
+                    }
                 }
             }
         }
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw", "x86_64+avx2", "aarch64+neon"))]
-fn outermost(blocks: &[Block], planes: &[Plane], out: &mut [[f64; LANES]]) {
-    for (block, outermost) in blocks.iter().zip(out) {
-        let mut best = [f64::NEG_INFINITY; LANES];
-        for plane in planes {
-            best = greater(best, distances(plane, block));
+kernel! {
+    fn outermost(blocks: &[Block], planes: &[Plane], out: &mut [[f64; LANES]]) {
+        for (block, outermost) in blocks.iter().zip(out) {
+            let mut best = [f64::NEG_INFINITY; LANES];
+            for plane in planes {
+                best = greater(best, distances(plane, block));
+            }
+            *outermost = best;
         }
-        *outermost = best;
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw", "x86_64+avx2", "aarch64+neon"))]
-fn spans_of(blocks: &[Block], planes: &[Plane], out: &mut [(f64, f64)]) {
-    for (&[nx, ny, nz, _], span) in planes.iter().zip(out) {
-        // The least is the greatest against the direction: one and the same kind of lane.
-        let (mut low, mut high) = ([f64::NEG_INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
-        for block in blocks {
-            high = greater(high, distances(&[nx, ny, nz, 0.0], block));
+kernel! {
+    fn spans_of(blocks: &[Block], planes: &[Plane], out: &mut [(f64, f64)]) {
+        for (&[nx, ny, nz, _], span) in planes.iter().zip(out) {
+            // The least is the greatest against the direction: one and the same kind of lane.
+            let (mut low, mut high) = ([f64::NEG_INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
+            for block in blocks {
+                high = greater(high, distances(&[nx, ny, nz, 0.0], block));
+            }
+            for block in blocks {
+                low = greater(low, distances(&[-nx, -ny, -nz, 0.0], block));
+            }
+            let most = |lanes: [f64; LANES]| lanes.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            *span = (-most(low), most(high));
         }
-        for block in blocks {
-            low = greater(low, distances(&[-nx, -ny, -nz, 0.0], block));
-        }
-        let most = |lanes: [f64; LANES]| lanes.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        *span = (-most(low), most(high));
     }
 }

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 
 use super::cloud::{Cloud, Plane};
 use super::growing::{Growing, Tangled, Triangle, plane};
+use crate::math::simd::Simd;
 
 /// First tolerance as a share of the extent.
 const FIRST_TOLERANCE: f64 = 1e-11;
@@ -22,15 +23,15 @@ pub(super) struct Found {
 
 /// The hull of `points`, whose bounding box has the diagonal `extent`; `None` if the points lie in one plane, or nearly
 /// so that no tolerance up to a millionth of the extent gives a hull.
-pub(super) fn convex_hull(points: &[Vector3<f64>], extent: f64) -> Option<Found> {
-    let cloud = Cloud::new(points, (0..points.len() as u32).collect());
+pub(super) fn convex_hull(simd: Simd, points: &[Vector3<f64>], extent: f64) -> Option<Found> {
+    let cloud = Cloud::new(simd, points, (0..points.len() as u32).collect());
     let extremes = extremes(&cloud);
     let simplex = simplex(points, &cloud, &extremes)?;
     // Coordinates carry rounding of their own size, however small the cloud.
     let rounding = 1e-14 * points.iter().map(|p| p.amax()).fold(0.0, f64::max);
     let mut tolerance = FIRST_TOLERANCE * extent + rounding;
     while tolerance < 1e-6 * extent {
-        if let Ok(found) = attempt(points, &cloud, &extremes, simplex, tolerance) {
+        if let Ok(found) = attempt(simd, points, &cloud, &extremes, simplex, tolerance) {
             return Some(found);
         }
         tolerance *= 10.0;
@@ -39,6 +40,7 @@ pub(super) fn convex_hull(points: &[Vector3<f64>], extent: f64) -> Option<Found>
 }
 
 fn attempt(
+    simd: Simd,
     points: &[Vector3<f64>],
     cloud: &Cloud,
     extremes: &[u32],
@@ -46,10 +48,10 @@ fn attempt(
     tolerance: f64,
 ) -> Result<Found, Tangled> {
     let mut hull = Growing::new(points, simplex, tolerance)?;
-    hull.grow(&Cloud::new(points, extremes.to_vec()))?;
+    hull.grow(&Cloud::new(simd, points, extremes.to_vec()))?;
     hull.sweep();
     // Ten tolerances inside of a hull of some, a point has a ball around it inside: no plane beyond all others meets it.
-    let shell = Cloud::new(points, cloud.outside(&hull.planes(), -10.0 * tolerance));
+    let shell = Cloud::new(simd, points, cloud.outside(&hull.planes(), -10.0 * tolerance));
     hull.grow(&shell)?;
     hull.sweep();
     Ok(Found { triangles: hull.into_triangles(), shell })

@@ -5,10 +5,10 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use multiversion::multiversion;
 use nalgebra::Vector3;
 
 use super::LegFeatures;
+use crate::math::simd::{Simd, kernel};
 
 /// Legs per block.
 pub(super) const LANES: usize = 8;
@@ -23,27 +23,33 @@ pub(super) fn features(before: &Vector3<f64>, leg: &Vector3<f64>, step: f64) -> 
 
 /// [`features`] of eight displacements, one row per coordinate.
 #[inline]
-pub(super) fn eight_features(before: &Vector3<f64>, legs: &[[f64; LANES]; 3], step: f64) -> [LegFeatures; LANES] {
+pub(super) fn eight_features(
+    simd: Simd,
+    before: &Vector3<f64>,
+    legs: &[[f64; LANES]; 3],
+    step: f64,
+) -> [LegFeatures; LANES] {
     let length_before = before.norm();
     let (mut lengths, mut turns) = ([0.0; LANES], [0.0; LANES]);
-    lengths_and_turns([before.x, before.y, before.z], length_before, legs, &mut lengths, &mut turns);
+    lengths_and_turns(simd, [before.x, before.y, before.z], length_before, legs, &mut lengths, &mut turns);
     std::array::from_fn(|lane| {
         let (length, turn) = (lengths[lane], turns[lane]);
         LegFeatures { v_in: length_before / step, v_out: length / step, turn, length, climb: legs[2][lane] }
     })
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw", "x86_64+avx2", "aarch64+neon"))]
-fn lengths_and_turns(
-    before: [f64; 3],
-    length_before: f64,
-    legs: &[[f64; LANES]; 3],
-    lengths: &mut [f64; LANES],
-    turns: &mut [f64; LANES],
-) {
-    for lane in 0..LANES {
-        let leg = [legs[0][lane], legs[1][lane], legs[2][lane]];
-        (lengths[lane], turns[lane]) = length_and_turn(before, length_before, leg);
+kernel! {
+    fn lengths_and_turns(
+        before: [f64; 3],
+        length_before: f64,
+        legs: &[[f64; LANES]; 3],
+        lengths: &mut [f64; LANES],
+        turns: &mut [f64; LANES],
+    ) {
+        for lane in 0..LANES {
+            let leg = [legs[0][lane], legs[1][lane], legs[2][lane]];
+            (lengths[lane], turns[lane]) = length_and_turn(before, length_before, leg);
+        }
     }
 }
 
@@ -113,7 +119,7 @@ mod tests {
             [0.0, 0.5, -0.5, 0.3, 0.0, -1.0, 1.0, 2.0],
         ];
         for start in [before, Vector3::zeros()] {
-            let eight = eight_features(&start, &legs, 0.7);
+            let eight = eight_features(Simd::Widest, &start, &legs, 0.7);
             for lane in 0..LANES {
                 let leg = Vector3::new(legs[0][lane], legs[1][lane], legs[2][lane]);
                 assert_eq!(eight[lane], features(&start, &leg, 0.7));

@@ -1,7 +1,8 @@
 //! A graph's waypoints, and the box test over all of them at once.
 
-use multiversion::multiversion;
 use nalgebra::{Point3, Vector3};
+
+use crate::math::simd::{Simd, kernel};
 
 /// Waypoints per word of the box test's answer.
 pub(super) const WORD: usize = 64;
@@ -50,27 +51,28 @@ impl Graph {
     /// Sets bit i of `bits` for every waypoint i, from word `first` on, in the box; also for some that are a rounding
     /// to single precision outside of it. Clears the others.
     #[inline]
-    pub(super) fn near_box(&self, min: &Vector3<f64>, max: &Vector3<f64>, first: usize, bits: &mut [u64]) {
+    pub(super) fn near_box(&self, simd: Simd, min: &Vector3<f64>, max: &Vector3<f64>, first: usize, bits: &mut [u64]) {
         let outward = |c: f64| ROUNDING * c.abs() + self.margin;
         let low = [0, 1, 2].map(|i| (min[i] - outward(min[i])) as f32);
         let high = [0, 1, 2].map(|i| (max[i] + outward(max[i])) as f32);
-        in_box(&self.words[first..first + bits.len()], low, high, bits);
+        in_box(simd, &self.words[first..first + bits.len()], low, high, bits);
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw", "x86_64+avx2", "aarch64+neon"))]
-fn in_box(words: &[[[f32; WORD]; 3]], min: [f32; 3], max: [f32; 3], bits: &mut [u64]) {
-    for ([x, y, z], bits) in words.iter().zip(bits) {
-        let mut found = 0;
-        for i in 0..WORD {
-            let inside = (x[i] >= min[0])
-                & (x[i] <= max[0])
-                & (y[i] >= min[1])
-                & (y[i] <= max[1])
-                & (z[i] >= min[2])
-                & (z[i] <= max[2]);
-            found |= u64::from(inside) << i;
+kernel! {
+    fn in_box(words: &[[[f32; WORD]; 3]], min: [f32; 3], max: [f32; 3], bits: &mut [u64]) {
+        for ([x, y, z], bits) in words.iter().zip(bits) {
+            let mut found = 0;
+            for i in 0..WORD {
+                let inside = (x[i] >= min[0])
+                    & (x[i] <= max[0])
+                    & (y[i] >= min[1])
+                    & (y[i] <= max[1])
+                    & (z[i] >= min[2])
+                    & (z[i] <= max[2]);
+                found |= u64::from(inside) << i;
+            }
+            *bits = found;
         }
-        *bits = found;
     }
 }

@@ -14,6 +14,7 @@ use super::sampling;
 use super::step::StepSet;
 use crate::math::integrate::rk4_step;
 use crate::math::random::{named_seed, stream};
+use crate::math::simd::Simd;
 use crate::robot::Dynamics;
 use crate::robot::quadrotor::published::single_step;
 use crate::robot::quadrotor::{EulerState, Quadrotor, QuadrotorState, level_rest};
@@ -25,11 +26,13 @@ pub struct HullSettings {
     pub resolution: usize,
     /// Duration of a run Δt, s.
     pub step: f64,
+    /// Version of the kernels that sample, build and ask the hull.
+    pub simd: Simd,
 }
 
 impl Default for HullSettings {
     fn default() -> Self {
-        Self { resolution: 5, step: 1.0 }
+        Self { resolution: 5, step: 1.0, simd: Simd::default() }
     }
 }
 
@@ -64,6 +67,7 @@ pub struct Hull {
     samples: Vec<Vector3<f64>>,
     carry: f64,
     step: f64,
+    simd: Simd,
 }
 
 impl Hull {
@@ -75,8 +79,8 @@ impl Hull {
         check(settings)?;
         let speeds = sampling::constant_speeds(robot, settings.resolution);
         let steps = sampling::steps(robot, settings.step);
-        let samples = sampling::end_points(robot, &speeds, settings.step, steps);
-        let hull = Self::of(samples, sampling::carry(robot, settings.step), settings.step)?;
+        let samples = sampling::end_points(settings.simd, robot, &speeds, settings.step, steps);
+        let hull = Self::of(samples, sampling::carry(robot, settings.step), settings)?;
         hull.self_check(robot, &speeds)?;
         Ok(hull)
     }
@@ -92,11 +96,12 @@ impl Hull {
             Vector3::new(end[0], end[1], end[2])
         };
         let samples = sampling::constant_speeds(robot, settings.resolution).into_iter().map(run).collect();
-        Self::of(samples, settings.step, settings.step)
+        Self::of(samples, settings.step, settings)
     }
 
-    fn of(samples: Vec<Vector3<f64>>, carry: f64, step: f64) -> Result<Self, NoHull> {
-        Ok(Self { polytope: Polytope::hull(&samples)?, samples, carry, step })
+    fn of(samples: Vec<Vector3<f64>>, carry: f64, settings: &HullSettings) -> Result<Self, NoHull> {
+        let HullSettings { step, simd, .. } = *settings;
+        Ok(Self { polytope: Polytope::hull(simd, &samples)?, samples, carry, step, simd })
     }
 
     /// Compares four runs from random velocities with the full model (quadratic drag and aerodynamic moment off) by
@@ -181,7 +186,7 @@ impl StepSet for Hull {
     }
     #[inline]
     fn select(&self, from: &Vector3<f64>, points: &[Vector3<f64>], bits: &mut [u64]) {
-        self.polytope.select(from, points, bits);
+        self.polytope.select(self.simd, from, points, bits);
     }
     fn carry(&self) -> f64 {
         self.carry

@@ -14,6 +14,8 @@ mod refusal;
 pub mod sampling;
 pub mod sphere;
 pub mod step;
+#[cfg(test)]
+mod tests;
 pub mod witness;
 
 use nalgebra::Point3;

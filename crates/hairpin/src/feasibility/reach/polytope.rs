@@ -1,6 +1,5 @@
 //! A convex polytope as half-spaces: made from points, and asked whether it holds others.
 
-use multiversion::multiversion;
 use nalgebra::Vector3;
 use thiserror::Error;
 
@@ -8,6 +7,7 @@ use super::cloud::{Plane, beyond};
 use super::convex_hull::{Found, convex_hull};
 use super::growing::Triangle;
 use super::refusal::refusal_order;
+use crate::math::simd::{Simd, kernel};
 
 /// Half-spaces per group of the membership test.
 const GROUP: usize = 8;
@@ -58,7 +58,7 @@ impl Polytope {
     ///
     /// # Errors
     /// [`NoPolytope`].
-    pub fn hull(points: &[Vector3<f64>]) -> Result<Self, NoPolytope> {
+    pub fn hull(simd: Simd, points: &[Vector3<f64>]) -> Result<Self, NoPolytope> {
         if points.len() < 4 || points.iter().any(|p| !p.iter().all(|c| c.is_finite())) {
             return Err(NoPolytope::Points { points: points.len() });
         }
@@ -67,7 +67,7 @@ impl Polytope {
         if (max - min).min() <= FLAT * extent {
             return Err(NoPolytope::Flat { thickness: (max - min).min(), extent });
         }
-        let Some(Found { triangles, shell }) = convex_hull(points, extent) else {
+        let Some(Found { triangles, shell }) = convex_hull(simd, points, extent) else {
             return Err(NoPolytope::Flat { thickness: FLAT * extent, extent });
         };
         let mut planes = facets(points, &triangles, COPLANAR * extent);
@@ -83,7 +83,7 @@ impl Polytope {
         let centre = vertices.iter().sum::<Vector3<f64>>() / vertices.len() as f64;
         // Each triangle is the base of a pyramid with its top in the centre.
         let volume = triangles.iter().map(|t| -beyond(&t.plane, &centre) * t.area / 6.0).sum();
-        Ok(Self { groups: grouped(&planes, &min, &max), facets: planes.len(), vertices, min, max, volume })
+        Ok(Self { groups: grouped(simd, &planes, &min, &max), facets: planes.len(), vertices, min, max, volume })
     }
 
     /// Whether n_i · x ≤ b_i for all facets.
@@ -93,8 +93,8 @@ impl Polytope {
     }
 
     /// Clears bit i of `bits` (64 a word) where `points[i]` − `from` lies outside.
-    pub(crate) fn select(&self, from: &Vector3<f64>, points: &[Vector3<f64>], bits: &mut [u64]) {
-        select(&self.groups, from, points, bits);
+    pub(crate) fn select(&self, simd: Simd, from: &Vector3<f64>, points: &[Vector3<f64>], bits: &mut [u64]) {
+        select(simd, &self.groups, from, points, bits);
     }
 
     /// max n · x over the polytope, m: its support in direction `n`.
@@ -143,15 +143,16 @@ fn holds(groups: &[Group], x: &Vector3<f64>) -> bool {
     })
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+bmi1", "x86_64+avx2+bmi1", "aarch64+neon"))]
-fn select(groups: &[Group], from: &Vector3<f64>, points: &[Vector3<f64>], bits: &mut [u64]) {
-    for (word, points) in bits.iter_mut().zip(points.chunks(64)) {
-        let mut asked = *word;
-        while asked != 0 {
-            let lane = asked.trailing_zeros();
-            asked &= asked - 1;
-            if !holds(groups, &(points[lane as usize] - from)) {
-                *word &= !(1 << lane);
+kernel! {
+    fn select(groups: &[Group], from: &Vector3<f64>, points: &[Vector3<f64>], bits: &mut [u64]) {
+        for (word, points) in bits.iter_mut().zip(points.chunks(64)) {
+            let mut asked = *word;
+            while asked != 0 {
+                let lane = asked.trailing_zeros();
+                asked &= asked - 1;
+                if !holds(groups, &(points[lane as usize] - from)) {
+                    *word &= !(1 << lane);
+                }
             }
         }
     }
@@ -206,9 +207,9 @@ fn facets(points: &[Vector3<f64>], triangles: &[Triangle], near: f64) -> Vec<Pla
 }
 
 /// The half-spaces in the order that refuses soonest.
-fn grouped(planes: &[Plane], min: &Vector3<f64>, max: &Vector3<f64>) -> Vec<Group> {
+fn grouped(simd: Simd, planes: &[Plane], min: &Vector3<f64>, max: &Vector3<f64>) -> Vec<Group> {
     let mut groups = vec![[[0.0; GROUP], [0.0; GROUP], [0.0; GROUP], [1.0; GROUP]]; planes.len().div_ceil(GROUP)];
-    for (place, next) in refusal_order(planes, min, max).into_iter().enumerate() {
+    for (place, next) in refusal_order(simd, planes, min, max).into_iter().enumerate() {
         for (row, value) in planes[next as usize].into_iter().enumerate() {
             groups[place / GROUP][row][place % GROUP] = value;
         }

@@ -1,9 +1,9 @@
 //! The order of half-spaces by which a point outside is refused soonest.
 
-use multiversion::multiversion;
 use nalgebra::Vector3;
 
 use super::cloud::Plane;
+use crate::math::simd::{Simd, kernel};
 
 /// Points in the bounding box by which half-spaces are judged, in words of 64.
 const WORDS: usize = 2;
@@ -14,10 +14,10 @@ type Probes = [[[f64; WORD]; 3]; WORDS];
 
 /// Numbers of `planes` such that each cuts off most of what those before it left of the box from `min` to `max`, counted
 /// on evenly spread points; those that cut off nothing more keep their order.
-pub(super) fn refusal_order(planes: &[Plane], min: &Vector3<f64>, max: &Vector3<f64>) -> Vec<u32> {
+pub(super) fn refusal_order(simd: Simd, planes: &[Plane], min: &Vector3<f64>, max: &Vector3<f64>) -> Vec<u32> {
     let mut cuts = vec![[0; WORDS]; planes.len()];
     let mut order = Vec::with_capacity(planes.len());
-    choose(planes, &probes(min, max), &mut cuts, &mut order);
+    choose(simd, planes, &probes(min, max), &mut cuts, &mut order);
     let mut chosen = vec![false; planes.len()];
     for number in &order {
         chosen[*number as usize] = true;
@@ -41,32 +41,33 @@ fn probes(min: &Vector3<f64>, max: &Vector3<f64>) -> Probes {
     probes
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+popcnt", "x86_64+avx2+popcnt", "aarch64+neon"))]
-fn choose(planes: &[Plane], probes: &Probes, cuts: &mut [[u64; WORDS]], order: &mut Vec<u32>) {
-    for (&[nx, ny, nz, b], cuts) in planes.iter().zip(&mut *cuts) {
-        for ([x, y, z], cut) in probes.iter().zip(cuts) {
-            let mut found = 0;
-            for i in 0..WORD {
-                found |= u64::from(nx * x[i] + ny * y[i] + nz * z[i] > b) << i;
-            }
-            *cut = found;
-        }
-    }
-    let mut uncut = [u64::MAX; WORDS];
-    loop {
-        let (mut most, mut next) = (0, 0);
-        for (number, cuts) in cuts.iter().enumerate() {
-            let gain: u32 = cuts.iter().zip(&uncut).map(|(cut, uncut)| (cut & uncut).count_ones()).sum();
-            if gain > most {
-                (most, next) = (gain, number);
+kernel! {
+    fn choose(planes: &[Plane], probes: &Probes, cuts: &mut [[u64; WORDS]], order: &mut Vec<u32>) {
+        for (&[nx, ny, nz, b], cuts) in planes.iter().zip(&mut *cuts) {
+            for ([x, y, z], cut) in probes.iter().zip(cuts) {
+                let mut found = 0;
+                for i in 0..WORD {
+                    found |= u64::from(nx * x[i] + ny * y[i] + nz * z[i] > b) << i;
+                }
+                *cut = found;
             }
         }
-        if most == 0 {
-            return;
-        }
-        order.push(next as u32);
-        for (uncut, cut) in uncut.iter_mut().zip(&cuts[next]) {
-            *uncut &= !cut;
+        let mut uncut = [u64::MAX; WORDS];
+        loop {
+            let (mut most, mut next) = (0, 0);
+            for (number, cuts) in cuts.iter().enumerate() {
+                let gain: u32 = cuts.iter().zip(&uncut).map(|(cut, uncut)| (cut & uncut).count_ones()).sum();
+                if gain > most {
+                    (most, next) = (gain, number);
+                }
+            }
+            if most == 0 {
+                return;
+            }
+            order.push(next as u32);
+            for (uncut, cut) in uncut.iter_mut().zip(&cuts[next]) {
+                *uncut &= !cut;
+            }
         }
     }
 }

@@ -8,9 +8,10 @@
 //!
 //! No product is fused with a sum and no lane depends on another: every SIMD level gives the same bits.
 
-use multiversion::multiversion;
 use nalgebra::{Vector3, Vector4};
 
+use crate::math::power::square;
+use crate::math::simd::{Simd, kernel};
 use crate::robot::quadrotor::Quadrotor;
 
 const LANES: usize = 16;
@@ -37,9 +38,9 @@ pub fn carry(robot: &Quadrotor, time: f64) -> f64 {
     let k = robot.drag_linear / robot.mass;
     // Below, the series' first three terms are exact to the last digit.
     if k * time < 1e-5 {
-        return time * (1.0 - k * time / 2.0 + (k * time).powi(2) / 6.0);
+        return time * (1.0 - k * time / 2.0 + square(k * time) / 6.0);
     }
-    -(-k * time).exp_m1() / k
+    -libm::expm1(-k * time) / k
 }
 
 /// Even number of steps for runs of `time` s at full accuracy.
@@ -57,7 +58,13 @@ pub fn steps(robot: &Quadrotor, time: f64) -> usize {
 
 /// End points R(u) relative to the start, m, of runs of `time` s from level rest under each of `speeds`, with linear
 /// drag, without quadratic drag and aerodynamic moment, in `steps` (even) steps.
-pub fn end_points(robot: &Quadrotor, speeds: &[Vector4<f64>], time: f64, steps: usize) -> Vec<Vector3<f64>> {
+pub fn end_points(
+    simd: Simd,
+    robot: &Quadrotor,
+    speeds: &[Vector4<f64>],
+    time: f64,
+    steps: usize,
+) -> Vec<Vector3<f64>> {
     let grid = Grid::new(robot, time, steps);
     let inertia = robot.inertia;
     // Rates are carried in half units (q' = q ⊗ W with W = ω/2), so the gyroscopic terms count twice.
@@ -77,7 +84,7 @@ pub fn end_points(robot: &Quadrotor, speeds: &[Vector4<f64>], time: f64, steps: 
                 block.acceleration[axis][lane] = 0.5 * u[axis + 1] / inertia[axis];
             }
         }
-        integrate(&mut block, &grid.steps, &grid.weights, gyration);
+        integrate(simd, &mut block, &grid.steps, &grid.weights, gyration);
         ends.extend(wrenches.iter().enumerate().map(|(lane, u)| {
             let pull = u[0] / robot.mass;
             let [x, y, tilt] = block.direction.map(|component| 2.0 * component[lane]);
@@ -182,26 +189,27 @@ fn cos_sinc(n: f64) -> (f64, f64) {
     (cos, sinc)
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw", "x86_64+avx2", "aarch64+neon"))]
-fn integrate(block: &mut Block, steps: &[f64], weights: &[f64], gyration: [f64; 3]) {
-    for (&h, &weight) in steps.iter().zip(weights) {
-        for lane in 0..LANES {
-            let [w, x, y, z] = [0, 1, 2, 3].map(|i| block.attitude[i][lane]);
-            let rates = [0, 1, 2].map(|i| block.half_rates[i][lane]);
-            let acceleration = [0, 1, 2].map(|i| block.acceleration[i][lane]);
-            block.direction[0][lane] += weight * (x * z + w * y);
-            block.direction[1][lane] += weight * (y * z - w * x);
-            block.direction[2][lane] += weight * (x * x + y * y);
-            let (end, [a, b, c]) = turn(rates, acceleration, gyration, h);
-            let (cos, sinc) = cos_sinc(a * a + b * b + c * c);
-            let (p, q, r) = (sinc * a, sinc * b, sinc * c);
-            block.attitude[0][lane] = cos * w - x * p - y * q - z * r;
-            block.attitude[1][lane] = cos * x + w * p + y * r - z * q;
-            block.attitude[2][lane] = cos * y + w * q + z * p - x * r;
-            block.attitude[3][lane] = cos * z + w * r + x * q - y * p;
-            block.half_rates[0][lane] = end[0];
-            block.half_rates[1][lane] = end[1];
-            block.half_rates[2][lane] = end[2];
+kernel! {
+    fn integrate(block: &mut Block, steps: &[f64], weights: &[f64], gyration: [f64; 3]) {
+        for (&h, &weight) in steps.iter().zip(weights) {
+            for lane in 0..LANES {
+                let [w, x, y, z] = [0, 1, 2, 3].map(|i| block.attitude[i][lane]);
+                let rates = [0, 1, 2].map(|i| block.half_rates[i][lane]);
+                let acceleration = [0, 1, 2].map(|i| block.acceleration[i][lane]);
+                block.direction[0][lane] += weight * (x * z + w * y);
+                block.direction[1][lane] += weight * (y * z - w * x);
+                block.direction[2][lane] += weight * (x * x + y * y);
+                let (end, [a, b, c]) = turn(rates, acceleration, gyration, h);
+                let (cos, sinc) = cos_sinc(a * a + b * b + c * c);
+                let (p, q, r) = (sinc * a, sinc * b, sinc * c);
+                block.attitude[0][lane] = cos * w - x * p - y * q - z * r;
+                block.attitude[1][lane] = cos * x + w * p + y * r - z * q;
+                block.attitude[2][lane] = cos * y + w * q + z * p - x * r;
+                block.attitude[3][lane] = cos * z + w * r + x * q - y * p;
+                block.half_rates[0][lane] = end[0];
+                block.half_rates[1][lane] = end[1];
+                block.half_rates[2][lane] = end[2];
+            }
         }
     }
 }

@@ -5,6 +5,7 @@ use nalgebra::{Point3, Vector3};
 use super::features::{LANES, eight_features, features};
 use super::graph::{Graph, WORD};
 use super::{Leg, LegFeatures, Reach, StepNode};
+use crate::math::simd::Simd;
 
 /// A set of displacements for one step of fixed duration: the end is `x0 + v0·carry + d` with `d` in the set.
 pub trait StepSet: Sync {
@@ -38,11 +39,13 @@ pub struct StepSettings {
     pub average_velocity: bool,
     /// No leg is faster than this, m/s (leg ÷ step); +∞: no cap.
     pub max_speed: f64,
+    /// Version of the kernels that look for waypoints and measure legs.
+    pub simd: Simd,
 }
 
 impl Default for StepSettings {
     fn default() -> Self {
-        Self { step: 1.0, average_velocity: true, max_speed: f64::INFINITY }
+        Self { step: 1.0, average_velocity: true, max_speed: f64::INFINITY, simd: Simd::default() }
     }
 }
 
@@ -108,7 +111,7 @@ impl<'a, S: StepSet> StepReach<'a, S> {
         for first in (0..self.graph.words()).step_by(CHUNK) {
             let mut chunk = [0; CHUNK];
             let bits = &mut chunk[..(self.graph.words() - first).min(CHUNK)];
-            self.graph.near_box(&min, &max, first, bits);
+            self.graph.near_box(self.settings.simd, &min, &max, first, bits);
             self.set.select(&from, &points[first * WORD..], bits);
             for (number, mut bits) in (first..).zip(bits.iter().copied()) {
                 while bits != 0 {
@@ -146,7 +149,7 @@ impl<S: StepSet> Reach<StepNode> for StepReach<'_, S> {
         let before = here - self.graph.point(from.previous);
         let mut waiting = Waiting { legs: [[0.0; LANES]; 3], waypoints: [0; LANES], count: 0 };
         let mut flush = |waiting: &mut Waiting| {
-            let features = eight_features(&before, &waiting.legs, self.settings.step);
+            let features = eight_features(self.settings.simd, &before, &waiting.legs, self.settings.step);
             out.extend((0..waiting.count).map(|lane| {
                 let waypoint = waiting.waypoints[lane];
                 let to = StepNode { previous: from.current, current: waypoint };

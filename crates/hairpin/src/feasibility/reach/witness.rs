@@ -13,6 +13,7 @@ use super::{Leg, LegFeatures, Reach};
 use crate::feasibility::limits::Infeasible;
 use crate::feasibility::steering::{LegEnd, LegJudge, LegTiming};
 use crate::math::random::{named_seed, stream};
+use crate::math::rotation::angle_between;
 use crate::trajectory::Profile;
 
 /// A node: a state of a waypoint and the waypoint before it, which the turn angle is seen from. Legs do not depend on
@@ -268,7 +269,7 @@ impl Reach<WitnessNode> for Roadmap<'_> {
                 features: LegFeatures {
                     v_in,
                     v_out: self.states[leg.state as usize].velocity.norm(),
-                    turn: if from.previous == from.waypoint { 0.0 } else { incoming.angle(&outgoing) },
+                    turn: if from.previous == from.waypoint { 0.0 } else { angle_between(&incoming, &outgoing) },
                     length: outgoing.norm(),
                     climb: outgoing.z,
                 },

@@ -9,6 +9,7 @@ use nalgebra::{Matrix4, UnitQuaternion, Vector3};
 use thiserror::Error;
 
 use crate::math::interval::Smooth;
+use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::ProfileLeg;
 
@@ -223,10 +224,10 @@ impl Flatness {
     pub fn body_state(&self, leg: &ProfileLeg, tau: f64) -> BodyState {
         let demand = self.demand(&flat_state(leg, tau));
         let [fx, fy, fz] = demand.force;
-        let pitch = fx.atan2(fz);
-        let roll = (-fy).atan2(fx.hypot(fz));
+        let pitch = libm::atan2(fx, fz);
+        let roll = libm::atan2(-fy, libm::hypot(fx, fz));
         BodyState {
-            attitude: UnitQuaternion::from_euler_angles(roll, pitch, 0.0),
+            attitude: unit_quaternion(&quaternion_from_euler(roll, pitch, 0.0)),
             rates: Vector3::from(demand.rates),
             rotors: demand.rotors.map(|w2| w2.max(0.0).sqrt()),
         }

@@ -6,6 +6,7 @@ use wide::f64x4;
 use super::flatness::{Demand, FlatState, Flatness, LEAST_VERTICAL_THRUST, flat_state};
 use crate::feasibility::limits::{Infeasible, Limit, Limits};
 use crate::math::interval::{Enclosure, Smooth};
+use crate::math::power::square;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::ProfileLeg;
 
@@ -53,10 +54,10 @@ impl BodyLimits {
             limits,
             least_vertical: LEAST_VERTICAL_THRUST * weight,
             weight,
-            cos_tilt: limits.max_tilt.clamp(0.0, std::f64::consts::FRAC_PI_2).cos(),
+            cos_tilt: libm::cos(limits.max_tilt.clamp(0.0, std::f64::consts::FRAC_PI_2)),
             rotor_speed: robot.rotor_speed,
-            rotor_low: robot.rotor_speed.0.powi(2),
-            rotor_high: robot.rotor_speed.1.powi(2),
+            rotor_low: square(robot.rotor_speed.0),
+            rotor_high: square(robot.rotor_speed.1),
             settings: ProofSettings { first: settings.first.clamp(4, 64), ..settings },
         }
     }
@@ -103,7 +104,7 @@ impl BodyLimits {
     }
 
     fn tilt_margin(&self, vertical: f64, thrust: f64) -> f64 {
-        self.limits.max_tilt - (vertical / thrust).clamp(-1.0, 1.0).acos()
+        self.limits.max_tilt - libm::acos((vertical / thrust).clamp(-1.0, 1.0))
     }
 
     /// The least margin at one instant, with its limit and part, in the limit's unit.

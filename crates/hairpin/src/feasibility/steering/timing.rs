@@ -41,12 +41,13 @@ impl LegTiming {
             LegTiming::Step(step) => vec![step],
             LegTiming::Ladder { shortest, ratio, .. } => {
                 let longest = self.range().1;
-                let gaps = ((longest / shortest).ln() / ratio.max(1.001).ln() - 1e-9).ceil().clamp(0.0, 10_000.0);
+                let gaps =
+                    (libm::log(longest / shortest) / libm::log(ratio.max(1.001)) - 1e-9).ceil().clamp(0.0, 10_000.0);
                 if !(gaps > 0.0 && gaps.is_finite()) {
                     return vec![shortest];
                 }
                 // The last rung is the limit itself, not what rounding makes of it.
-                let rung = |k: usize| shortest * (longest / shortest).powf(k as f64 / gaps);
+                let rung = |k: usize| shortest * libm::pow(longest / shortest, k as f64 / gaps);
                 (0..gaps as usize).map(rung).chain([longest]).collect()
             }
         }

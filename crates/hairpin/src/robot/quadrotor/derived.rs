@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::Rotor;
+use crate::math::power::square;
 
 /// Largest rotor speed where none is given, rad/s. Only kf·w² enters the motion, so that the choice shifts no result.
 pub(super) const ROTOR_SPEED: f64 = 2000.0;
@@ -21,7 +22,7 @@ pub(super) fn rotor_radius(rotors: &[Rotor; 4]) -> f64 {
     let mut smallest = f64::INFINITY;
     for (i, a) in rotors.iter().enumerate() {
         for b in &rotors[i + 1..] {
-            smallest = smallest.min((a.x - b.x).hypot(a.y - b.y));
+            smallest = smallest.min(libm::hypot(a.x - b.x, a.y - b.y));
         }
     }
     0.45 * smallest
@@ -29,7 +30,7 @@ pub(super) fn rotor_radius(rotors: &[Rotor; 4]) -> f64 {
 
 /// Distance of the farthest rotor from the centre of mass, m.
 pub(super) fn arm(rotors: &[Rotor; 4]) -> f64 {
-    rotors.iter().map(|rotor| rotor.x.hypot(rotor.y)).fold(0.0, f64::max)
+    rotors.iter().map(|rotor| libm::hypot(rotor.x, rotor.y)).fold(0.0, f64::max)
 }
 
 /// Principal moments of inertia, kg·m²: four motors of a tenth of the mass each as points at the rotors, the rest a
@@ -37,7 +38,7 @@ pub(super) fn arm(rotors: &[Rotor; 4]) -> f64 {
 /// have from their sources.
 pub(super) fn inertia(mass: f64, rotors: &[Rotor; 4]) -> Vector3<f64> {
     let motor = MOTOR_SHARE * mass;
-    let ball = 0.4 * (mass - 4.0 * motor) * (0.5 * arm(rotors)).powi(2);
+    let ball = 0.4 * (mass - 4.0 * motor) * square(0.5 * arm(rotors));
     let sum = |f: fn(&Rotor) -> f64| motor * rotors.iter().map(f).sum::<f64>() + ball;
     Vector3::new(sum(|r| r.y * r.y), sum(|r| r.x * r.x), sum(|r| r.x * r.x + r.y * r.y))
 }
@@ -55,7 +56,7 @@ pub(super) fn drag_from_top_speed(thrust: f64, weight: f64, top_speed: f64) -> f
 
 /// Quadratic drag without a top speed to tell, N·s²/m²: ½ρ times the area of the four rotor discs.
 pub(super) fn drag_from_discs(rotors: &[Rotor; 4]) -> f64 {
-    0.5 * AIR_DENSITY * 4.0 * std::f64::consts::PI * rotor_radius(rotors).powi(2)
+    0.5 * AIR_DENSITY * 4.0 * std::f64::consts::PI * square(rotor_radius(rotors))
 }
 
 /// The speed, m/s, at which drag c₁ v + c₂ v² equals what full thrust leaves in level flight; +∞ without drag.

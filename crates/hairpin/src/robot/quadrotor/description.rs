@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::{Quadrotor, Rotor, derived};
+use crate::math::power::square;
 
 /// One rotor of a robot file.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -144,7 +145,7 @@ impl QuadrotorDescription {
         let clearance_radius = derive(self.clearance_radius_m, "clearance_radius_m", 1e-4, 1e2, &|| {
             derived::arm(&rotors) + derived::rotor_radius(&rotors)
         })?;
-        let most = 4.0 * thrust_coefficient * rotor_speed.1.powi(2);
+        let most = 4.0 * thrust_coefficient * square(rotor_speed.1);
         let drag_linear = optional("drag_linear_n_s_m", self.drag_linear_n_s_m, 1e3)?;
         let given_drag = self.drag_quadratic_n_s2_m2.or(self.drag_linear_n_s_m.map(|_| 0.0));
         if let Some(speed) = self.max_speed_m_s {
@@ -233,7 +234,7 @@ impl QuadrotorDescription {
         let (kf, limits) = match (kf, limits, ratio) {
             (Some(kf), Some(limits), None) => (kf, limits),
             (Some(kf), Some(limits), Some(ratio)) => {
-                let actual = 4.0 * kf * limits[1].powi(2) / weight;
+                let actual = 4.0 * kf * square(limits[1]) / weight;
                 if (actual - ratio).abs() > 0.01 * ratio {
                     let bound =
                         format!("{actual:.3}, as thrust_coefficient_n_s2 and rotor_speed_rad_s say, or left out");
@@ -247,11 +248,11 @@ impl QuadrotorDescription {
             }
             (None, Some(limits), Some(ratio)) => {
                 estimated.push("thrust_coefficient_n_s2".into());
-                (ratio * weight / (4.0 * limits[1].powi(2)), limits)
+                (ratio * weight / (4.0 * square(limits[1])), limits)
             }
             (None, None, Some(ratio)) => {
                 estimated.extend(["thrust_coefficient_n_s2".into(), "rotor_speed_rad_s".into()]);
-                (ratio * weight / (4.0 * derived::ROTOR_SPEED.powi(2)), [0.0, derived::ROTOR_SPEED])
+                (ratio * weight / (4.0 * square(derived::ROTOR_SPEED)), [0.0, derived::ROTOR_SPEED])
             }
             (Some(_), None, None) => {
                 let bound = "given with thrust_coefficient_n_s2, or thrust_to_weight in its place";
@@ -262,7 +263,7 @@ impl QuadrotorDescription {
                 return Err(QuadrotorError::new("thrust_to_weight", "nothing", bound));
             }
         };
-        let most = 4.0 * kf * limits[1].powi(2);
+        let most = 4.0 * kf * square(limits[1]);
         if most <= weight {
             let key =
                 if self.thrust_coefficient_n_s2.is_some() { "thrust_coefficient_n_s2" } else { "thrust_to_weight" };

@@ -10,6 +10,8 @@ use nalgebra::Vector3;
 pub use description::{QuadrotorDescription, QuadrotorError, QuadrotorKind, RotorDescription};
 pub use model::{EulerState, QuadrotorState, from_euler_state, level_rest, to_euler_state};
 
+use crate::math::power::square;
+
 /// One rotor: thrust kf·w² along body z at (x, y), reaction moment spin·km·w² about body z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotor {
@@ -65,7 +67,7 @@ pub struct Quadrotor {
 impl Quadrotor {
     /// Largest total thrust, N.
     pub fn max_thrust(&self) -> f64 {
-        4.0 * self.thrust_coefficient * self.rotor_speed.1.powi(2)
+        4.0 * self.thrust_coefficient * square(self.rotor_speed.1)
     }
 
     /// The rotor speed at which the four rotors carry the weight, rad/s.

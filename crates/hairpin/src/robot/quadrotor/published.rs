@@ -43,13 +43,13 @@ pub fn angular_acceleration(robot: &Quadrotor, u: &Vector4<f64>, p: f64, q: f64,
 
 /// (φ̇, θ̇, ψ̇), rad/s, of body rates; infinite or meaningless at θ = ±90°.
 pub fn euler_rates(roll: f64, pitch: f64, rates: &Vector3<f64>) -> Vector3<f64> {
-    let (sin, cos) = roll.sin_cos();
+    let (sin, cos) = libm::sincos(roll);
     let yawing = rates.y * sin + rates.z * cos;
-    Vector3::new(rates.x + yawing * pitch.tan(), rates.y * cos - rates.z * sin, yawing / pitch.cos())
+    Vector3::new(rates.x + yawing * libm::tan(pitch), rates.y * cos - rates.z * sin, yawing / libm::cos(pitch))
 }
 
 /// The body's z axis in the world, as the paper's velocity equations have it.
 pub fn thrust_direction(roll: f64, pitch: f64, yaw: f64) -> Vector3<f64> {
-    let ((sr, cr), (sp, cp), (sy, cy)) = (roll.sin_cos(), pitch.sin_cos(), yaw.sin_cos());
+    let ((sr, cr), (sp, cp), (sy, cy)) = (libm::sincos(roll), libm::sincos(pitch), libm::sincos(yaw));
     Vector3::new(cr * sp * cy + sr * sy, cr * sp * sy - sr * cy, cr * cp)
 }

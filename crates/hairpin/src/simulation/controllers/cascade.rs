@@ -100,7 +100,7 @@ impl Envelope {
         // The authors' clip at 20 N for 1 kg, near enough twice the weight, also tames bodies with enormous thrust.
         let most = most.min(2.04 * robot.gravity);
         let least = (0.3 * robot.gravity).min(most);
-        Self { gravity: robot.gravity, tan_tilt: max_tilt.tan(), least, most }
+        Self { gravity: robot.gravity, tan_tilt: libm::tan(max_tilt), least, most }
     }
 
     /// Thrust per mass for an acceleration (m/s²), height before the plane, and whether it was given in full.

@@ -1,7 +1,6 @@
 //! Bounds of `[vary]`: every key exists, and the ends of its range make a scenario that can be run.
 
 use serde_json::Value;
-use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::campaign::scenario::distribution::zip;
 use crate::campaign::scenario::{Distribution, KeyPath, Mistake, Scenario};
@@ -132,8 +131,6 @@ fn share_kept(distribution: &Distribution, mean: f64, deviation: f64) -> f64 {
     if deviation <= 0.0 {
         return if low <= high { 1.0 } else { 0.0 };
     }
-    match Normal::new(mean, deviation) {
-        Ok(normal) => (normal.cdf(high) - normal.cdf(low)).max(0.0),
-        Err(_) => 0.0,
-    }
+    let below = |x: f64| 0.5 * libm::erfc((mean - x) / (std::f64::consts::SQRT_2 * deviation));
+    (below(high) - below(low)).max(0.0)
 }

@@ -74,7 +74,8 @@ fn walks_become_continuous_profiles_with_their_features() {
             assert_eq!(leg.features.v_in, map.velocity(&from).norm());
             assert_eq!(leg.features.v_out, map.velocity(&leg.to).norm());
             let turn = if nodes.len() == 1 { 0.0 } else { (a - points[from.previous as usize]).angle(&(b - a)) };
-            assert_eq!((leg.features.turn, leg.features.climb), (turn, b.z - a.z));
+            // The arc cosine loses half the digits near a straight line.
+            assert!((leg.features.turn - turn).abs() < 1e-6 && leg.features.climb == b.z - a.z);
             nodes.push(leg.to);
             times.push(leg.duration);
         }

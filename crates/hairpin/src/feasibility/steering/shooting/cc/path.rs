@@ -75,7 +75,7 @@ pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
             for to in ends.iter().flatten() {
                 let leads = from.length() + to.length();
                 let below = best.map_or(f64::INFINITY, |path| path.length_m) - leads;
-                if (to.pose.x - from.pose.x).hypot(to.pose.y - from.pose.y) >= below {
+                if libm::hypot(to.pose.x - from.pose.x, to.pose.y - from.pose.y) >= below {
                     continue;
                 }
                 if let Some(core) = between(&circle, family, from, to, below) {
@@ -90,11 +90,12 @@ pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
 
 fn between(circle: &Circle, family: Family, from: &Anchor, to: &Anchor, below: f64) -> Option<Plan> {
     if from.curvature == 0.0 && to.curvature == 0.0 {
-        let (sin, cos) = from.pose.heading.sin_cos();
+        let (sin, cos) = libm::sincos(from.pose.heading);
         let (dx, dy) = (to.pose.x - from.pose.x, to.pose.y - from.pose.y);
         let (ahead, aside) = (cos * dx + sin * dy, cos * dy - sin * dx);
-        let turned =
-            (to.pose.heading - from.pose.heading).sin().abs().max(1.0 - (to.pose.heading - from.pose.heading).cos());
+        let turned = libm::sin(to.pose.heading - from.pose.heading)
+            .abs()
+            .max(1.0 - libm::cos(to.pose.heading - from.pose.heading));
         let drivable = ahead >= 0.0 || family == Family::ReedsShepp;
         if aside.abs() < STRAIGHT && turned < STRAIGHT && drivable {
             let straight = Straight { before: 0, gear: 1f64.copysign(ahead), length: ahead.abs() };

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::math::fresnel::{clothoid, fresnel};
+use crate::math::power::square;
 use crate::trajectory::drive::{Gear, Segment};
 
 use super::super::query::Curvatures;
@@ -93,7 +94,7 @@ impl Circle {
         let curvature = (bounds.most * share * UNDER).min((0.999 * PI * rate).sqrt());
         let (x, y) = clothoid(0.0, curvature, rate);
         let half = curvature * curvature / (2.0 * rate);
-        let (sin, cos) = half.sin_cos();
+        let (sin, cos) = libm::sincos(half);
         let (ahead, aside) = (x - sin / curvature, y + cos / curvature);
         let lead = |along: f64| {
             WAYS.map(|Way { sense, gear }| Lead {
@@ -139,7 +140,7 @@ impl Circle {
         let length = (full - curvature).abs() / self.rate;
         // In reverse the path is the forward one's mirror image about the y axis.
         let turning = gear * 0.5 * (curvature + full) * length;
-        let (sin, cos) = turning.sin_cos();
+        let (sin, cos) = libm::sincos(turning);
         let center = (gear * x - sin / full, y + cos / full);
         Lead { curvature, center, turning, length }
     }
@@ -185,14 +186,14 @@ impl Circle {
     /// Sharpness and half length of the elementary path of this deflection whose ends lie where this circle's turn of the
     /// same deflection has them: chord 2 R sin(δ/2 + μ) = 2 √(π/q) (cos(δ/2) C(√(δ/π)) + sin(δ/2) S(√(δ/π))).
     fn elementary(&self, deflection: f64) -> Option<(f64, f64)> {
-        let (sin, cos) = (0.5 * deflection).sin_cos();
+        let (sin, cos) = libm::sincos(0.5 * deflection);
         let half_chord = self.aside * sin + self.ahead * cos;
         if deflection < NOTHING {
             return Some((0.0, half_chord));
         }
         let (c, s) = fresnel((deflection / PI).sqrt());
         let unit = cos * c + sin * s;
-        let sharpness = PI * (unit / half_chord).powi(2);
+        let sharpness = PI * square(unit / half_chord);
         let fits = sharpness <= self.rate && deflection * sharpness <= self.curvature * self.curvature;
         (fits && unit > 0.0 && half_chord > 0.0).then(|| (sharpness, (deflection / sharpness).sqrt()))
     }

@@ -29,7 +29,7 @@ pub(super) struct Pose {
 impl Pose {
     /// Places a point of the pose's frame in the world.
     pub(super) fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
-        let (sin, cos) = self.heading.sin_cos();
+        let (sin, cos) = libm::sincos(self.heading);
         (self.x + cos * x - sin * y, self.y + sin * x + cos * y)
     }
 }
@@ -177,15 +177,15 @@ impl<'c> Finder<'c> {
         }
         // The headings rise evenly, θ − u, θ, θ + u, and D1, D3 are mirror images about y, so that what they add up to
         // lies along the y axis of the cusp: D2y + 2 (D1y cos u − D1x sin u) = ± distance.
-        let reach = d1.0.hypot(d1.1);
-        let phase = d1.0.atan2(d1.1);
+        let reach = libm::hypot(d1.0, d1.1);
+        let phase = libm::atan2(d1.0, d1.1);
         for signed in [between.distance, -between.distance] {
             let cosine = (signed - d2.1) / (2.0 * reach);
             if cosine.abs() > 1.0 {
                 continue;
             }
             let heading = between.angle - if signed < 0.0 { -FRAC_PI_2 } else { FRAC_PI_2 };
-            for u in [cosine.acos() - phase, -cosine.acos() - phase] {
+            for u in [libm::acos(cosine) - phase, -libm::acos(cosine) - phase] {
                 self.offer(&word, &[heading - u, heading, heading + u], None);
             }
         }
@@ -298,7 +298,7 @@ struct Span {
 
 impl Span {
     fn new(x: f64, y: f64) -> Self {
-        Self { distance: x.hypot(y), angle: y.atan2(x) }
+        Self { distance: libm::hypot(x, y), angle: libm::atan2(y, x) }
     }
 }
 
@@ -311,7 +311,7 @@ fn straight(span: Span, step: (f64, f64), gear: f64) -> Option<(f64, f64)> {
     let along = gear * square.sqrt();
     let length = gear * (along - step.0);
     // A straight of nothing, but for rounding, is one.
-    (length > -1e-10).then(|| (span.angle - step.1.atan2(along), length.max(0.0)))
+    (length > -1e-10).then(|| (span.angle - libm::atan2(step.1, along), length.max(0.0)))
 }
 
 /// Headings (a, b) with Rot(a)·first + Rot(b)·second = span, both ways round.
@@ -333,7 +333,7 @@ fn triangle(span: Span, first: (f64, f64), second: (f64, f64)) -> Option<[[f64; 
 
 /// The angle with this cosine, which exceeds 1 by rounding only.
 fn angle(adjacent: f64, hypotenuse: f64) -> f64 {
-    (adjacent / hypotenuse).clamp(-1.0, 1.0).acos()
+    libm::acos((adjacent / hypotenuse).clamp(-1.0, 1.0))
 }
 
 fn norm((x, y): (f64, f64)) -> f64 {
@@ -342,5 +342,5 @@ fn norm((x, y): (f64, f64)) -> f64 {
 
 /// Steps over cusps lie along y: nothing to compute for them.
 fn direction((x, y): (f64, f64)) -> f64 {
-    if x == 0.0 { FRAC_PI_2.copysign(y) } else { y.atan2(x) }
+    if x == 0.0 { FRAC_PI_2.copysign(y) } else { libm::atan2(y, x) }
 }
