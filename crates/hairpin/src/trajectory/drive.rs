@@ -81,3 +81,93 @@ impl Segment {
         }
     }
 }
+
+/// Segments of a [`SegmentList`] at most.
+pub const MOST_SEGMENTS: usize = 40;
+
+/// A drive of few segments, kept in place: [`MOST_SEGMENTS`] at most, nothing on the heap.
+#[derive(Clone, Copy)]
+pub struct SegmentList {
+    segments: [Segment; MOST_SEGMENTS],
+    len: usize,
+}
+
+impl SegmentList {
+    /// Without segments.
+    pub const EMPTY: Self = Self {
+        segments: [Segment { motion: Motion::Turn { angle_rad: 0.0 }, gear: Gear::Forward }; MOST_SEGMENTS],
+        len: 0,
+    };
+
+    /// Adds a segment at the end.
+    ///
+    /// # Errors
+    /// The segment itself, if the list is full.
+    pub fn push(&mut self, segment: Segment) -> Result<(), Segment> {
+        let slot = self.segments.get_mut(self.len).ok_or(segment)?;
+        *slot = segment;
+        self.len += 1;
+        Ok(())
+    }
+}
+
+impl Extend<Segment> for SegmentList {
+    /// Adds as many as there is room for.
+    fn extend<I: IntoIterator<Item = Segment>>(&mut self, segments: I) {
+        for segment in segments {
+            if self.push(segment).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+impl Default for SegmentList {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
+impl std::ops::Deref for SegmentList {
+    type Target = [Segment];
+
+    fn deref(&self) -> &[Segment] {
+        &self.segments[..self.len]
+    }
+}
+
+impl std::ops::DerefMut for SegmentList {
+    fn deref_mut(&mut self) -> &mut [Segment] {
+        &mut self.segments[..self.len]
+    }
+}
+
+impl PartialEq for SegmentList {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
+impl std::fmt::Debug for SegmentList {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_list_gives_the_segment_back() {
+        let mut list = SegmentList::default();
+        let segment = |i: usize| Segment::straight(i as f64, Gear::Forward);
+        for i in 0..MOST_SEGMENTS {
+            assert_eq!(list.push(segment(i)), Ok(()));
+        }
+        assert_eq!(list.push(segment(99)), Err(segment(99)));
+        list.extend([segment(98)]);
+        assert_eq!((list.len(), list[7]), (MOST_SEGMENTS, segment(7)));
+        assert_ne!(list, SegmentList::EMPTY);
+    }
+}

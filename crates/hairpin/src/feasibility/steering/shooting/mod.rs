@@ -1,6 +1,7 @@
 //! Boundary-value trajectories of ground vehicles: find controls whose motion ends where it was asked to.
 
 pub mod cc;
+pub mod flat;
 pub mod query;
 
 pub use query::{Curvatures, Goal, Precision, Query, Refusal};

@@ -51,6 +51,13 @@ impl Default for Precision {
     }
 }
 
+impl Precision {
+    /// `share` of each error.
+    pub fn share(&self, share: f64) -> Self {
+        Self { position: share * self.position, yaw: share * self.yaw, curvature: share * self.curvature }
+    }
+}
+
 /// Why numbers make no question.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error("{field} = {value}: must be {bound}")]

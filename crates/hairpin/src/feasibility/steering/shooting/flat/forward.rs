@@ -1,0 +1,161 @@
+//! The search: ways around, shortest first; an arc along each, or a chain where no arc keeps the bounds.
+
+use super::arc::{self, Free};
+use super::chain::{self, Chain};
+use super::dubins::{Word, words};
+use super::ends::{Bends, Ends, tame};
+use super::miss::miss;
+use super::settings::{Answer, Control, Cost, Limit, Settings, Status};
+use super::task::{Freedoms, Task};
+use crate::feasibility::steering::shooting::query::{Curvatures, Query};
+use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
+
+/// A curve no longer than the next way around by this factor is short enough.
+const SHORT: f64 = 1.25;
+/// Steps of an arc after which a chain is the better bet.
+const ARC_STEPS: u32 = 8;
+/// The descents' tolerance as a share of the precision.
+const TOLERANCE: f64 = 1e-3;
+
+#[derive(Clone, Copy)]
+enum Curve {
+    Arc(Ends, Free),
+    Chain(Chain),
+}
+
+/// How good a curve is; less is better.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Grade {
+    /// Meets goal and bounds; its length, m.
+    Good(f64),
+    /// Meets the goal; by what factor it exceeds a bound.
+    Broken(f64),
+    /// How far it ends from the goal, m.
+    Missed(f64),
+}
+
+/// The best curve so far, with the steps of all.
+struct Search<'a> {
+    query: &'a Query,
+    settings: &'a Settings,
+    task: Task,
+    best: Option<(Grade, Curve)>,
+    iterations: u32,
+}
+
+/// Curvature as a polynomial or a chain, from the origin to the goal.
+pub(super) fn search(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {
+    let bounds = tame(bounds);
+    let freedoms = if settings.control == Control::Cubic { Freedoms::One } else { Freedoms::Three };
+    let tolerance = TOLERANCE * settings.precision.position;
+    let task = Task { bounds, freedoms, tolerance, simd: settings.simd };
+    let mut search = Search { query, settings, task, best: None, iterations: 0 };
+    if miss(settings.simd, &[], query).within(&settings.precision.share(TOLERANCE)) {
+        return Answer { status: Status::Ok, segments: SegmentList::EMPTY, iterations: 0 };
+    }
+    let goal = &query.goal;
+    for word in words(goal.x * bounds.most, goal.y * bounds.most, goal.yaw).iter().take(settings.starts as usize) {
+        let shortest = word.length() / bounds.most;
+        if !shortest.is_finite() || matches!(search.best, Some((Grade::Good(length), _)) if length < SHORT * shortest) {
+            break;
+        }
+        search.along(word);
+    }
+    search.answer()
+}
+
+impl Search<'_> {
+    /// Looks for a curve that turns like `word`.
+    fn along(&mut self, word: &Word) {
+        let ends = Ends::along(self.query, word);
+        let chains = self.settings.control == Control::Quintic;
+        let steps = if chains { self.settings.iterations.min(ARC_STEPS) } else { self.settings.iterations };
+        let start = Free::along(&ends, word, &self.task.bounds);
+        let fit = arc::descend(&self.task, &ends, start, steps);
+        self.iterations += fit.iterations;
+        let arc = Curve::Arc(ends, fit.free);
+        if fit.good {
+            return self.keep(Grade::Good(fit.free.length), arc);
+        }
+        if chains {
+            let start = Chain::along(&ends, word, &self.task.bounds);
+            let fit = chain::descend(&self.task, &ends, start, self.settings.iterations);
+            self.iterations += fit.iterations;
+            self.keep(grade(fit.miss, self.task.tolerance, fit.chain.length, || fit.bends), Curve::Chain(fit.chain));
+        }
+        if !matches!(self.best, Some((Grade::Good(_), _))) {
+            let bends = || arc::bends(&ends, &fit.free, &self.task.bounds);
+            self.keep(grade(fit.miss, self.task.tolerance, fit.free.length, bends), arc);
+        }
+    }
+
+    fn keep(&mut self, grade: Grade, curve: Curve) {
+        if self.best.is_none_or(|(best, _)| grade < best) {
+            self.best = Some((grade, curve));
+        }
+    }
+
+    fn answer(mut self) -> Answer {
+        if let Some((Grade::Good(_), Curve::Arc(ends, free))) = &mut self.best
+            && self.settings.cost != Cost::Any
+        {
+            let Settings { cost, iterations, .. } = *self.settings;
+            let (refined, taken) = arc::refine(&self.task, ends, *free, cost, iterations);
+            *free = refined;
+            self.iterations += taken;
+        }
+        let mut segments = SegmentList::EMPTY;
+        let mut bends = Bends { curvature: 0.0, rate: 0.0 };
+        if let Some((grade, curve)) = self.best {
+            segments = curve.segments();
+            if !matches!(grade, Grade::Good(_)) {
+                bends = curve.bends(&self.task.bounds);
+            }
+        }
+        // Judged by the numbers that are handed out, not by those that made them.
+        let missed = miss(self.task.simd, &segments, self.query);
+        let status = if !missed.within(&self.settings.precision) {
+            Status::NotConverged { residual: missed.position }
+        } else if bends.within() {
+            Status::Ok
+        } else if bends.curvature >= bends.rate {
+            Status::Infeasible { limit: Limit::Curvature, excess: (bends.curvature - 1.0) * self.task.bounds.most }
+        } else {
+            Status::Infeasible { limit: Limit::CurvatureRate, excess: (bends.rate - 1.0) * self.task.bounds.most_rate }
+        };
+        Answer { status, segments, iterations: self.iterations }
+    }
+}
+
+fn grade(miss: f64, tolerance: f64, length: f64, bends: impl FnOnce() -> Bends) -> Grade {
+    if miss.is_nan() || miss >= tolerance {
+        return Grade::Missed(if miss.is_nan() { f64::INFINITY } else { miss });
+    }
+    let bends = bends();
+    if bends.within() { Grade::Good(length) } else { Grade::Broken(bends.worst()) }
+}
+
+impl Curve {
+    fn bends(&self, bounds: &Curvatures) -> Bends {
+        match self {
+            Self::Arc(ends, free) => arc::bends(ends, free, bounds),
+            Self::Chain(chain) => chain.bends(bounds),
+        }
+    }
+
+    fn segments(&self) -> SegmentList {
+        let mut list = SegmentList::EMPTY;
+        match self {
+            Self::Arc(ends, free) => {
+                let motion = Motion::Arc { length_m: free.length, curvature: ends.curvature(free) };
+                list.extend([Segment { motion, gear: Gear::Forward }]);
+            }
+            Self::Chain(chain) => {
+                list.extend(
+                    chain.pieces().map(|(length, from, to)| Segment::clothoid(length, from, to, Gear::Forward)),
+                );
+            }
+        }
+        list
+    }
+}

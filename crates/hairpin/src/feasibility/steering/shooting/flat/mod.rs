@@ -1,0 +1,48 @@
+//! Forward drives on flat ground between two poses with curvatures, under bounds on κ and κ′.
+//!
+//! Where the end is and how it bends leaves few unknowns: an arc of fifth order has four, for two equations. Dubins'
+//! words say which ways around there are and how short a path can be at best; along each, shortest first, an arc is
+//! fitted and, where none keeps the bounds, a chain of clothoids. Nothing is allocated, nothing depends on a clock;
+//! work is counted in steps.
+
+mod arc;
+mod chain;
+mod controls;
+mod dubins;
+mod ends;
+mod extremes;
+mod forward;
+mod mirror;
+mod miss;
+mod settings;
+mod task;
+
+#[cfg(test)]
+mod tests;
+
+pub use controls::{crab, turn_drive_turn};
+pub use settings::{Answer, Control, Cost, Limit, Settings, Status};
+
+use super::query::{Curvatures, Query};
+
+/// Drives forward from the origin to the goal of `query` within `bounds`.
+///
+/// ```text
+/// x′ = cos θ   y′ = sin θ   θ′ = κ(s)   |κ| ≤ most   |κ′| ≤ most_rate
+/// ```
+/// from (0, 0, 0, κ₀) to (x, y, ψ modulo 2π, κ_f). Metres and radians. The answer holds one arc or the pieces of a
+/// chain, with continuous curvature; mirrored queries have mirrored answers, to the bit. It is `Ok` only if its own numbers meet
+/// the goal and keep both bounds (up to 10⁻⁹ of them).
+pub fn forward(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {
+    if mirror::leans_right(query) {
+        return mirror::answer(solve(&mirror::query(query), bounds, settings));
+    }
+    solve(query, bounds, settings)
+}
+
+fn solve(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {
+    match settings.control {
+        Control::Arc => controls::arc(query, bounds, settings),
+        Control::Cubic | Control::Quintic => forward::search(query, bounds, settings),
+    }
+}
