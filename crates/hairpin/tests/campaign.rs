@@ -1,66 +1,15 @@
 //! Whole campaigns through the library: what a case claims is checked again by equations written here.
 
+mod campaigns;
+
+use campaigns::{ENDLESS, asked, check_witness, distance_to_hull, from_mast, run, setup};
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Evidence, Scenario, Setup, Stop, Tally, generate, verdict, verify};
+use hairpin::campaign::{Case, Evidence, Setup, generate, verdict};
 use hairpin::feasibility::reach::sampling;
 use hairpin::math::simd::Simd;
-use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
+use hairpin::robot::quadrotor::Quadrotor;
 use nalgebra::{Point3, Vector3};
-use serde_json::{Value, json};
-
-fn robot(name: &str) -> Value {
-    let path = format!("{}/../../data/robots/quadrotor/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(&path).expect("shipped robots are in data/robots/quadrotor");
-    serde_json::to_value(toml::from_str::<QuadrotorDescription>(&text).expect(name)).expect(name)
-}
-
-/// A small campaign in a cage with a mast; `generate` is put over the section's own values.
-fn setup(name: &str, length: usize, generate: Value) -> Setup {
-    let scenario = json!({
-        "hairpin": 1, "robot": robot(name), "seed": 7,
-        "world": { "size_m": [20, 20, 20], "keep_in_margin_m": 1.0,
-            "obstacles": [{ "name": "mast", "box": { "center_m": [8, 7, 5], "size_m": [1, 1, 10] } }] },
-        "task": { "start_m": [3, 3, 3], "end_m": [12, 12, 12], "length": length },
-        "generate": generate,
-    });
-    Setup::new(serde_json::from_value::<Scenario>(scenario).expect("a scenario")).expect("a campaign")
-}
-
-fn asked(reach: &str, method: &str, cases: usize) -> Value {
-    let limits = json!({ "max_speed_m_s": 8.0, "max_tilt_deg": 45, "max_flight_time_s": 60 });
-    let search = json!({ "method": method, "waypoints": 60, "width": 5, "cases": cases });
-    json!({ "reach": reach, "resolution": 3, "velocities": 4, "search": search, "limits": limits })
-}
-
-const ENDLESS: Stop = Stop { cancelled: &|| false, progress: &|_, _| {} };
-
-fn run(setup: &Setup, known: &Known) -> (Vec<Case>, Tally) {
-    let mut cases = known.cases.clone();
-    let tally = generate(setup, known, &ENDLESS, &mut |new, _| cases.extend_from_slice(new));
-    (cases, tally)
-}
-
-/// Convex-hull membership by projection (Gilbert's algorithm): the distance of `d` from the hull of `points`.
-fn distance_to_hull(points: &[Vector3<f64>], d: &Vector3<f64>) -> f64 {
-    let mut nearest = points[0];
-    for _ in 0..200_000 {
-        let towards = d - nearest;
-        let support = points.iter().max_by(|a, b| a.dot(&towards).total_cmp(&b.dot(&towards))).expect("not empty");
-        let edge = support - nearest;
-        // No point of the hull lies farther towards `d` by more than this: the gap bounds what is left to gain.
-        if edge.dot(&towards) <= 1e-6 * towards.norm() || towards.norm() < 1e-3 {
-            break;
-        }
-        nearest += edge * (edge.dot(&towards) / edge.norm_squared()).clamp(0.0, 1.0);
-    }
-    (d - nearest).norm()
-}
-
-/// Distance of a point from the mast's surface, from its six planes.
-fn from_mast(p: &Point3<f64>) -> f64 {
-    let out = Vector3::new((p.x - 8.0).abs() - 0.5, (p.y - 7.0).abs() - 0.5, (p.z - 5.0).abs() - 5.0);
-    out.map(|c| c.max(0.0)).norm()
-}
+use serde_json::json;
 
 /// What holds for every case of every reach set.
 fn check_common(setup: &Setup, case: &Case, what: &str) {
@@ -84,24 +33,6 @@ fn check_straight(robot: &Quadrotor, case: &Case, what: &str) {
         for k in 0..=400 {
             let p = leg[0] + (leg[1] - leg[0]) * (f64::from(k) / 400.0);
             assert!(from_mast(&p) >= robot.clearance_radius - 1e-9, "{what}: {p}");
-        }
-    }
-}
-
-/// The witness proves itself to independent code; between its ends it keeps clear and below the cap.
-fn check_witness(setup: &Setup, case: &Case, what: &str) {
-    let proof = verify(&setup.robot, case).proof.expect("a witnessed case has a proof");
-    assert!(proof.findings.is_empty(), "{what}: {:?}", proof.findings);
-    for leg in &case.profile.as_ref().expect("a witness").legs {
-        for k in 0..=1000 {
-            let t = leg.duration * f64::from(k) / 1000.0;
-            let horner = |c: &[f64; 8]| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
-            let slope = |c: &[f64; 8]| (1..8).rev().fold(0.0, |sum, i| sum * t + i as f64 * c[i]);
-            let p = Point3::from(leg.coefficients.each_ref().map(horner));
-            let v = Vector3::from(leg.coefficients.each_ref().map(slope));
-            assert!(v.norm() <= 8.0 + 1e-9, "{what}: {} m/s", v.norm());
-            assert!(from_mast(&p) >= setup.robot.clearance_radius - 1e-9, "{what}: {p}");
-            assert!(p.iter().all(|c| (1.0 - 1e-9..=19.0 + 1e-9).contains(c)), "{what}: {p}");
         }
     }
 }
@@ -206,39 +137,4 @@ fn lengths_that_vary_are_drawn_per_case() {
     assert_eq!(cases.first().map(|case| case.waypoints.len()), Some(6), "case 0 is nominal");
     assert!(cases.iter().all(|case| (5..=9).contains(&case.waypoints.len())));
     assert!(cases.iter().any(|case| case.waypoints.len() != 6), "something varies");
-}
-
-#[test]
-fn certificates_bring_a_witness_with_every_yes() {
-    let mut generate = asked("hull", "beam", 4);
-    generate["certify"] = json!(true);
-    let setup = setup("flightgoggles", 6, generate);
-    let (cases, _) = run(&setup, &Known::default());
-    for case in &cases {
-        match case.certified {
-            Some("yes") => check_witness(&setup, case, "certified"),
-            Some("no" | "unknown") => assert!(case.profile.is_none() && case.evidence == Evidence::HullFeasible),
-            other => panic!("{other:?}"),
-        }
-    }
-    assert!(!cases.is_empty());
-}
-
-#[test]
-fn any_coefficient_off_by_a_percent_is_found() {
-    for name in ["flightgoggles", "anafi"] {
-        let setup = setup(name, 4, asked("witness", "beam", 1));
-        let case = run(&setup, &Known::default()).0.remove(0);
-        let legs = case.profile.as_ref().expect("a witness").legs.len();
-        for (leg, axis, power) in (0..legs).flat_map(|l| (0..3).flat_map(move |a| (0..8).map(move |p| (l, a, p)))) {
-            let mut wrong = case.clone();
-            let coefficient = &mut wrong.profile.as_mut().expect("a witness").legs[leg].coefficients[axis][power];
-            if *coefficient == 0.0 {
-                continue;
-            }
-            *coefficient *= 1.01;
-            let proof = verify(&setup.robot, &wrong).proof.expect("a proof");
-            assert!(!proof.findings.is_empty(), "{name}: leg {leg}, axis {axis}, power {power} passes");
-        }
-    }
 }

@@ -66,7 +66,7 @@ fn claim(setup: &Setup, cases: &[Case], said: &mut Vec<String>) {
     if !certified.is_empty() {
         let count = |answer: &str| certified.iter().filter(|found| **found == answer).count();
         said.push(format!(
-            "Certified afterwards: {} yes, {} no, {} unknown of {}.",
+            "Certified afterwards: {} yes, with leg times of the witness, {} no, {} unknown of {}.",
             count("yes"),
             count("no"),
             count("unknown"),

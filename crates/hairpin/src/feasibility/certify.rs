@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::limits::Infeasible;
+use super::limits::{Infeasible, Limit};
 use super::steering::{LegEnd, LegJudge, LegTiming};
 use crate::math::minimum_snap::minimum_snap;
 use crate::trajectory::Profile;
@@ -45,16 +45,24 @@ pub enum Impossible {
         /// The mean speed that it needs, m/s, above the limit.
         needed: f64,
     },
+    /// From rest, all straight lines together are too long for the time there is, however hard the robot accelerates.
+    Duration {
+        /// The least time that they take, s.
+        needed: f64,
+        /// The time there is, s.
+        allowed: f64,
+    },
 }
 
-/// Searches a witness for `waypoints` (m) flown in order, from rest to rest.
+/// Searches a witness for `waypoints` (m) flown in order, from rest to rest, in `longest_flight` (s; infinite: no limit)
+/// at most.
 ///
 /// Waypoint velocities are those of the minimum-snap curve for the current leg times (in [`LegTiming`]'s range). A leg that
 /// is refused gets more time, and when it has all it may get, less velocity at its ends; the whole is then tried again,
-/// so that leg times and velocities settle together.
-pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming) -> Certificate {
+/// so that leg times and velocities settle together. A witness that takes too long as a whole is none.
+pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming, longest_flight: f64) -> Certificate {
     let (shortest, longest) = timing.range();
-    if let Some(impossible) = impossible(judge, waypoints, longest) {
+    if let Some(impossible) = impossible(judge, waypoints, longest, longest_flight) {
         return Certificate::No(impossible);
     }
     let mut times: Vec<f64> =
@@ -67,7 +75,7 @@ pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming) 
             times.iter().enumerate().map(|(k, time)| judge.judge(&ends[k], &ends[k + 1], *time)).collect();
         failed = judged.iter().enumerate().find_map(|(leg, result)| result.as_ref().err().map(|why| (leg, *why)));
         if failed.is_none() {
-            return Certificate::Yes(Profile { legs: judged.into_iter().flatten().collect() });
+            return within(Profile { legs: judged.into_iter().flatten().collect() }, longest_flight);
         }
         let mut moved = false;
         for (leg, _) in judged.iter().enumerate().filter(|(_, result)| result.is_err()) {
@@ -79,6 +87,18 @@ pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming) 
     }
     // Without legs nothing fails, so there is always a last failure here.
     failed.map_or_else(|| Certificate::Yes(Profile::default()), |(leg, why)| Certificate::Unknown { leg, why })
+}
+
+/// A witness that ends in time.
+fn within(profile: Profile, longest_flight: f64) -> Certificate {
+    let margin = longest_flight - profile.duration();
+    match profile.legs.last() {
+        Some(last) if margin < 0.0 => Certificate::Unknown {
+            leg: profile.legs.len() - 1,
+            why: Infeasible::Violates { limit: Limit::Duration, part: 0, at: last.duration, margin },
+        },
+        _ => Certificate::Yes(profile),
+    }
 }
 
 /// Gives a leg more time, or its ends less velocity; whether anything changed.
@@ -112,28 +132,48 @@ fn first_guess(judge: &LegJudge, length: f64) -> f64 {
     (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
 }
 
-fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64) -> Option<Impossible> {
+fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64, longest_flight: f64) -> Option<Impossible> {
+    let max_speed = judge.limits().max_speed;
     let outside = waypoints
         .iter()
         .enumerate()
         .find_map(|(waypoint, p)| judge.space().allows(p, 0.0).err().map(|why| Impossible::Waypoint { waypoint, why }));
-    outside.or_else(|| {
-        waypoints.windows(2).enumerate().find_map(|(leg, w)| {
-            let needed = (w[1] - w[0]).norm() / longest;
-            (needed > judge.limits().max_speed).then_some(Impossible::Distance { leg, needed })
+    let lengths = || waypoints.windows(2).map(|w| (w[1] - w[0]).norm());
+    let too_far = || {
+        lengths().enumerate().find_map(|(leg, length)| {
+            let needed = length / longest;
+            (needed > max_speed).then_some(Impossible::Distance { leg, needed })
         })
-    })
+    };
+    let too_long = || {
+        let needed = least_time(lengths().sum(), judge.most_acceleration(), max_speed);
+        let allowed = longest_flight.min(longest * lengths().count() as f64);
+        (needed > allowed).then_some(Impossible::Duration { needed, allowed })
+    };
+    outside.or_else(too_far).or_else(too_long)
+}
+
+/// The least time, s, in which a path of `length` (m) is flown from rest where the speed grows by `acceleration` (m/s²) at
+/// most, up to `max_speed` (m/s): √(2L/a) below that speed, L/v + v/2a beyond.
+fn least_time(length: f64, acceleration: f64, max_speed: f64) -> f64 {
+    if 2.0 * length * acceleration <= max_speed * max_speed {
+        (2.0 * length / acceleration).sqrt()
+    } else {
+        length / max_speed + 0.5 * max_speed / acceleration
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::feasibility::limits::{Limit, Limits};
+    use crate::feasibility::limits::Limits;
     use crate::feasibility::steering::ProofSettings;
     use crate::feasibility::steering::tests::flightgoggles;
     use crate::math::random::stream;
     use crate::world::World;
     use rand::RngExt;
+
+    const ENDLESS: f64 = f64::INFINITY;
 
     fn judge() -> LegJudge {
         let world = World::new(Vector3::repeat(30.0), 1.0, Vec::new()).unwrap();
@@ -155,7 +195,7 @@ mod tests {
                     Point3::from(p)
                 })
                 .collect();
-            let Certificate::Yes(profile) = certify(&judge, &waypoints, &LegTiming::ladder(0.3, 20.0)) else {
+            let Certificate::Yes(profile) = certify(&judge, &waypoints, &LegTiming::ladder(0.3, 20.0), ENDLESS) else {
                 continue;
             };
             certified += 1;
@@ -175,7 +215,7 @@ mod tests {
     fn says_no_only_with_a_proof() {
         let judge = judge();
         let (a, b) = (Point3::new(5.0, 5.0, 5.0), Point3::new(15.0, 5.0, 5.0));
-        let outside = certify(&judge, &[a, Point3::new(0.5, 5.0, 5.0), b], &LegTiming::ladder(0.5, 9.0));
+        let outside = certify(&judge, &[a, Point3::new(0.5, 5.0, 5.0), b], &LegTiming::ladder(0.5, 9.0), ENDLESS);
         assert!(matches!(
             outside,
             Certificate::No(Impossible::Waypoint {
@@ -183,15 +223,59 @@ mod tests {
                 why: Infeasible::Violates { limit: Limit::World, .. }
             })
         ));
-        let far = certify(&judge, &[a, b], &LegTiming::Step(1.0));
+        let far = certify(&judge, &[a, b], &LegTiming::Step(1.0), ENDLESS);
         assert!(matches!(far, Certificate::No(Impossible::Distance { leg: 0, .. })));
         // 10 m in 1.5 s is below the speed limit on average, but no level leg does it at this tilt.
-        assert!(matches!(certify(&judge, &[a, b], &LegTiming::Step(1.5)), Certificate::Unknown { leg: 0, .. }));
-        assert!(matches!(certify(&judge, &[a, b], &LegTiming::Step(6.0)), Certificate::Yes(_)));
         assert!(matches!(
-            certify(&judge, &[a, Point3::new(f64::NAN, 5.0, 5.0)], &LegTiming::Step(1.0)),
+            certify(&judge, &[a, b], &LegTiming::Step(1.5), ENDLESS),
+            Certificate::Unknown { leg: 0, .. }
+        ));
+        assert!(matches!(certify(&judge, &[a, b], &LegTiming::Step(6.0), ENDLESS), Certificate::Yes(_)));
+        assert!(matches!(
+            certify(&judge, &[a, Point3::new(f64::NAN, 5.0, 5.0)], &LegTiming::Step(1.0), ENDLESS),
             Certificate::No(Impossible::Waypoint { waypoint: 1, .. })
         ));
-        assert_eq!(certify(&judge, &[a], &LegTiming::Step(1.0)), Certificate::Yes(Profile::default()));
+        assert_eq!(certify(&judge, &[a], &LegTiming::Step(1.0), ENDLESS), Certificate::Yes(Profile::default()));
+    }
+
+    #[test]
+    fn a_flight_that_ends_too_late_is_none() {
+        let judge = judge();
+        let waypoints = [5.0, 12.0, 19.0].map(|x| Point3::new(x, 5.0, 5.0));
+        let asked = |longest_flight| certify(&judge, &waypoints, &LegTiming::ladder(0.3, 9.0), longest_flight);
+        let Certificate::Yes(profile) = asked(ENDLESS) else { panic!("there is time enough") };
+        assert_eq!(asked(profile.duration()), Certificate::Yes(profile.clone()));
+        let late = asked(0.9 * profile.duration());
+        let Certificate::Unknown { leg: 1, why: Infeasible::Violates { limit: Limit::Duration, margin, .. } } = late
+        else {
+            panic!("{late:?}")
+        };
+        assert!((margin + 0.1 * profile.duration()).abs() < 1e-9, "{margin}");
+        // At 8 m/s, 14 m alone take 1.75 s.
+        let Certificate::No(Impossible::Duration { needed, allowed: 1.75 }) = asked(1.75) else {
+            panic!("{:?}", asked(1.75))
+        };
+        assert!(needed > 1.75 && needed < profile.duration(), "{needed}");
+    }
+
+    /// Against full thrust at the tilt limit, tried in small steps of time over many tilts.
+    #[test]
+    fn the_least_time_is_that_of_the_hardest_acceleration() {
+        let robot = flightgoggles();
+        let (thrust, gravity) = (robot.max_thrust() / robot.mass, robot.gravity);
+        let hardest = (0..=700)
+            .flat_map(|tilt| [0.0, 0.5, 1.0].map(|share| (f64::from(tilt) * 1e-3, share * thrust)))
+            .map(|(tilt, thrust)| (thrust * tilt.sin()).hypot(thrust * tilt.cos() - gravity))
+            .fold(0.0, f64::max);
+        assert!((judge().most_acceleration() - hardest).abs() < 1e-9, "{hardest}");
+        for (length, max_speed) in [(3.0, 8.0), (0.5, 8.0), (40.0, f64::INFINITY), (0.0, 8.0)] {
+            let (mut at, mut speed, mut time) = (0.0, 0.0_f64, 0.0);
+            while at < length {
+                speed = (speed + hardest * 1e-5).min(max_speed);
+                at += speed * 1e-5;
+                time += 1e-5;
+            }
+            assert!((least_time(length, hardest, max_speed) - time).abs() < 1e-4, "{length} m, {max_speed} m/s");
+        }
     }
 }

@@ -34,7 +34,7 @@ pub enum Limit {
     World,
     /// The clearance to an obstacle, m; `part` is the obstacle.
     Obstacle,
-    /// The leg's duration, s.
+    /// The duration of a leg or of a whole flight, s.
     Duration,
 }
 
@@ -49,7 +49,7 @@ impl Limit {
             Limit::RotorMax => ("largest rotor speed", "rad/s"),
             Limit::World => ("keep-in margin", "m"),
             Limit::Obstacle => ("obstacle clearance", "m"),
-            Limit::Duration => ("leg time", "s"),
+            Limit::Duration => ("duration", "s"),
         }
     }
 }

@@ -14,6 +14,7 @@ const SLOWEST: f64 = 10.0;
 pub(super) struct Certifier {
     judge: LegJudge,
     timing: LegTiming,
+    longest_flight: f64,
 }
 
 impl Certifier {
@@ -21,12 +22,13 @@ impl Certifier {
     /// As [`judge`].
     pub(super) fn new(setup: &Setup) -> Result<Self, String> {
         let step = setup.scenario.generate.timing_in_force().step_s.unwrap_or(1.0);
-        Ok(Self { judge: judge(setup)?, timing: LegTiming::ladder(QUICKEST * step, SLOWEST * step) })
+        let longest_flight = setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
+        Ok(Self { judge: judge(setup)?, timing: LegTiming::ladder(QUICKEST * step, SLOWEST * step), longest_flight })
     }
 
     /// Notes the answer in the plan; a `yes` brings its witness, with leg times of its own.
     pub(super) fn certify(&self, plan: &mut Plan) {
-        match certify(&self.judge, &plan.waypoints, &self.timing) {
+        match certify(&self.judge, &plan.waypoints, &self.timing, self.longest_flight) {
             Certificate::Yes(profile) => {
                 plan.certified = Some("yes");
                 plan.evidence = Evidence::Witnessed;

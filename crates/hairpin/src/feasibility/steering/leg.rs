@@ -36,6 +36,7 @@ pub struct LegJudge {
     limits: Limits,
     mass: f64,
     top_speed: f64,
+    most_acceleration: f64,
 }
 
 impl LegJudge {
@@ -56,6 +57,7 @@ impl LegJudge {
             limits,
             mass: robot.mass,
             top_speed: robot.max_speed.min(limits.max_speed),
+            most_acceleration: most_acceleration(robot, limits.max_tilt),
         })
     }
 
@@ -72,6 +74,11 @@ impl LegJudge {
     /// The speed that waypoint velocities are drawn up to, m/s: the task's limit or the robot's top speed.
     pub fn top_speed(&self) -> f64 {
         self.top_speed
+    }
+
+    /// No thrust within the limits changes the velocity by more than this, m/s²; drag only takes from the speed.
+    pub fn most_acceleration(&self) -> f64 {
+        self.most_acceleration
     }
 
     /// The space that legs keep to.
@@ -170,6 +177,15 @@ impl LegJudge {
         }
         Ok(())
     }
+}
+
+/// max |F e/m − g e₃| over thrusts F from none to all and directions e within the tilt limit, m/s². Its square,
+/// (F/m)² − 2 (F/m) g cos θ + g², is convex in F and grows with θ: the largest is at an end of both.
+fn most_acceleration(robot: &Quadrotor, max_tilt: f64) -> f64 {
+    let (thrust, gravity) = (robot.max_thrust() / robot.mass, robot.gravity);
+    let cos_tilt = max_tilt.clamp(0.0, std::f64::consts::FRAC_PI_2).cos();
+    let square = thrust * (thrust - 2.0 * gravity * cos_tilt) + gravity * gravity;
+    square.sqrt().max(gravity)
 }
 
 /// Position, velocity and acceleration of one axis at four times.
