@@ -1,25 +1,11 @@
-//! Whole campaigns through the binary: verdicts, exit codes, what stands in the folder, and that nothing depends on
-//! threads or interruptions.
+//! Whole campaigns through the binary: verdicts, exit codes, and what stands in the folder.
 
-mod common;
+mod commands;
 
 use std::fs;
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::time::Duration;
 
-use common::{assert_same, hairpin, run};
+use commands::{SMALL, assert_same, json, run};
 use serde_json::Value;
-
-const SMALL: [&str; 6] = ["stress", "demo-quadrotor", "--set", "generate.search.cases=4", "--set", "execute.repeat=1"];
-
-fn json(folder: &Path, arguments: &[&str]) -> Value {
-    let arguments = [arguments, &["--json"]].concat();
-    let (code, out, error) = run(folder, &arguments);
-    let object: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{e}: {out}{error}"));
-    assert_eq!(object["exit_code"].as_i64(), Some(code.into()), "{object}");
-    object
-}
 
 #[test]
 fn the_verdict_is_a_line_and_the_exit_code() {
@@ -167,96 +153,6 @@ fn waypoints_on_earth_need_the_cages_place() {
 }
 
 #[test]
-fn threads_change_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    for (threads, out) in [("1", "one"), ("2", "two")] {
-        run(folder.path(), &[&SMALL[..], &["--threads", threads, "--out", out, "--set", "execute.repeat=2"]].concat());
-    }
-    assert_same(&folder.path().join("one"), &folder.path().join("two"));
-}
-
-/// Starts a campaign that takes a while even on a fast machine.
-fn begin(folder: &Path, arguments: &[&str]) -> Child {
-    hairpin(folder, arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
-}
-
-#[test]
-fn a_kill_at_any_moment_costs_nothing_but_time() {
-    let folder = tempfile::tempdir().unwrap();
-    let long = [&SMALL[..], &["--set", "execute.repeat=20"]].concat();
-    run(folder.path(), &[&long[..], &["--out", "calm"]].concat());
-    let killed = [&long[..], &["--out", "killed", "--resume"]].concat();
-    for milliseconds in [20, 60, 110, 170, 260, 400] {
-        let mut child = begin(folder.path(), &killed);
-        std::thread::sleep(Duration::from_millis(milliseconds));
-        child.kill().unwrap();
-        child.wait().unwrap();
-    }
-    let (code, _, error) = run(folder.path(), &killed);
-    assert!([0, 1].contains(&code), "{error}");
-    assert_same(&folder.path().join("calm"), &folder.path().join("killed"));
-
-    let other = [&killed[..], &["--seed", "11"]].concat();
-    let (code, _, error) = run(folder.path(), &other);
-    assert!(code == 2 && error.contains("`seed`"), "{error}");
-}
-
-#[test]
-fn a_kill_between_the_files_of_a_checkpoint_costs_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let asked = ["generate", "demo-quadrotor", "--set", "generate.search.cases=6", "--set", "execute.repeat=1"];
-    run(folder.path(), &[&asked[..], &["--out", "calm"]].concat());
-    let calm = folder.path().join("calm");
-    run(folder.path(), &["generate", "demo-quadrotor", "--set", "generate.search.cases=3", "--out", "few"]);
-    let early = fs::read_to_string(folder.path().join("few/generation.json")).unwrap();
-    let early = early.replace("\"complete\": true", "\"complete\": false");
-    // The files that a checkpoint of all six had written when it was killed, over those of three.
-    for (out, written) in [("a", 0), ("b", 1), ("c", 2)] {
-        let killed = folder.path().join(out);
-        run(folder.path(), &[&asked[..], &["--out", out]].concat());
-        fs::write(killed.join("generation.json"), &early).unwrap();
-        let old = ["waypoints.parquet", "results.parquet"];
-        for name in &old[written..] {
-            fs::copy(folder.path().join("few").join(name), killed.join(name)).unwrap();
-        }
-        if written == 1 {
-            let object = json(folder.path(), &["execute", out]);
-            assert_eq!(object["counts"]["cases"], 3, "what is whole can be used: {object}");
-            for flight in fs::read_dir(killed.join("executions")).unwrap() {
-                fs::remove_file(flight.unwrap().path()).unwrap();
-            }
-            fs::remove_file(killed.join("runs.parquet")).unwrap();
-        }
-        let (code, _, error) = run(folder.path(), &[&asked[..], &["--out", out, "--resume"]].concat());
-        assert_eq!(code, 0, "{error}");
-        assert_same(&calm, &killed);
-    }
-    // Before the first tally nothing is known.
-    fs::remove_file(calm.join("generation.json")).unwrap();
-    assert_eq!(run(folder.path(), &[&asked[..], &["--out", "calm", "--resume"]].concat()).0, 0);
-    assert_same(&calm, &folder.path().join("a"));
-}
-
-#[cfg(unix)]
-#[test]
-fn ctrl_c_keeps_what_is_done() {
-    let folder = tempfile::tempdir().unwrap();
-    let long = [&SMALL[..], &["--set", "execute.repeat=400", "--out", "a", "--threads", "1"]].concat();
-    let child = begin(folder.path(), &long);
-    let flights = folder.path().join("a/executions");
-    let flown = || fs::read_dir(&flights).map_or(0, Iterator::count);
-    while flown() < 3 {
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    let pid = child.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
-    let kept = flown();
-    assert!((3..1600).contains(&kept), "{kept}");
-}
-
-#[test]
 fn a_time_limit_keeps_what_exists() {
     let folder = tempfile::tempdir().unwrap();
     let arguments =
@@ -264,62 +160,4 @@ fn a_time_limit_keeps_what_exists() {
     let object = json(folder.path(), &arguments);
     assert_eq!(object["exit_code"], 0);
     assert!(object["counts"]["cases"].as_u64().unwrap() > 0);
-}
-
-#[test]
-fn a_folder_that_cannot_be_written_is_wrong_input() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("file"), "").unwrap();
-    let (code, _, error) = run(folder.path(), &[&SMALL[..], &["--out", "file/inside"]].concat());
-    assert!(code == 2 && error.contains("file/inside"), "{error}");
-    fs::create_dir(folder.path().join("mine")).unwrap();
-    fs::write(folder.path().join("mine/thesis.txt"), "years").unwrap();
-    let (code, _, error) = run(folder.path(), &[&SMALL[..], &["--out", "mine", "--force"]].concat());
-    assert!(code == 2 && error.contains("not a campaign folder"), "{error}");
-    assert!(folder.path().join("mine/thesis.txt").is_file());
-}
-
-#[test]
-fn an_executor_of_the_users_flies_and_fails_alone() {
-    let folder = tempfile::tempdir().unwrap();
-    let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
-    let good = format!("python3 '{minimal}'");
-    let object = json(folder.path(), &[&SMALL[..], &["--executor", &good, "--out", "good"]].concat());
-    assert_eq!(object["exit_code"], 0, "{object}");
-    // It flies exactly on the legs.
-    assert!(object["worst"]["max_deviation_m"].as_f64().unwrap() < 1e-9, "{object}");
-
-    let broken = fs::read_to_string(minimal).unwrap().replace("def fly(mission, speed=2.0, step=0.02):", "def fly(mission, speed=2.0, step=0.02):\n    if mission['case'] == '0001':\n        raise SystemExit('rotor 3 is gone')");
-    assert!(broken.contains("rotor 3"));
-    fs::write(folder.path().join("broken.py"), broken).unwrap();
-    let object = json(folder.path(), &[&SMALL[..], &["--executor", "python3 broken.py", "--out", "bad"]].concat());
-    assert_eq!(
-        (&object["exit_code"], &object["counts"]["executor_failed"]),
-        (&Value::from(4), &Value::from(1)),
-        "{object}"
-    );
-    assert!(object["verdict"].as_str().unwrap().starts_with("EXECUTOR FAILED 1/4"), "{object}");
-    let log = fs::read_to_string(folder.path().join("bad/executor-0001-0.log")).unwrap();
-    assert!(log.contains("rotor 3 is gone"), "{log}");
-    // Done at once, without attitudes: judged by what was flown, which is nothing.
-    let idle = fs::read_to_string(minimal).unwrap().replace("def fly(mission, speed=2.0, step=0.02):", "def fly(mission, speed=2.0, step=0.02):\n    say(type='pose', t_s=0, p_m=[1, 1, 1])\n    return say(type='end', reason='done')");
-    fs::write(folder.path().join("idle.py"), idle).unwrap();
-    let (code, out, error) = run(folder.path(), &["execute", "bad", "--executor", "python3 idle.py"]);
-    assert!(code == 0 && error.contains("4 runs came without q_wxyz"), "{out}{error}");
-    let verdict = json(folder.path(), &["judge", "bad", "--set", "spec.deviation.max_m=100"]);
-    assert!(verdict["verdict"].as_str().unwrap().starts_with("FAIL 4/4"), "{verdict}");
-    assert_eq!(verdict["worst"]["ended"], "done", "{verdict}");
-    assert!(
-        verdict["worst"]["violations"][0].as_str().unwrap().starts_with("stopped at 1 of 8 waypoints"),
-        "{verdict}"
-    );
-    assert_eq!(run(folder.path(), &["report", "bad"]).0, 0);
-    assert!(fs::read_to_string(folder.path().join("bad/report.html")).unwrap().contains("sent no attitudes"));
-
-    let object = json(folder.path(), &["execute", "bad", "--executor", "no-such-program"]);
-    assert_eq!(
-        (&object["exit_code"], &object["counts"]["executor_failed"]),
-        (&Value::from(4), &Value::from(4)),
-        "{object}"
-    );
 }

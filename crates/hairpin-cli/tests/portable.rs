@@ -1,11 +1,11 @@
 //! `--portable` through the binary: the same bits as without, and folders that hold one SIMD level.
 
-mod common;
+mod commands;
 
 use std::fs;
 use std::path::Path;
 
-use common::{assert_same, contents, run};
+use commands::{assert_same, contents, run};
 
 /// The SIMD level that a folder says it was made at, and its scenario without that.
 fn level(folder: &Path) -> (String, String) {

@@ -1,6 +1,7 @@
-//! Every file we write appears whole or not at all: a temporary name in the same folder, then a rename.
+//! Every file we write appears whole or not at all: a temporary name in the same folder, then a rename. What is no file (a
+//! pipe, a device) is written to where it stands.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -28,23 +29,36 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 }
 
 /// Hands `fill` a temporary file beside `path` and renames it to `path` once its bytes are on disk. A process killed at
-/// any moment leaves the old file or the new one, and at worst a temporary that [`remove_leftovers`] takes away.
+/// any moment leaves the old file or the new one, and at worst a temporary that [`remove_leftovers`] takes away. A link
+/// stays a link to the file that is written. A pipe or a device gets the bytes themselves: a rename would put a file in its
+/// place.
 ///
 /// # Errors
 /// As [`write()`], and whatever `fill` returns.
 pub fn write_with(path: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> Result<(), WriteError> {
     let refuse = |cause| WriteError { path: path.into(), cause };
+    let kind = fs::metadata(path).map(|found| found.file_type());
+    if kind.is_ok_and(|kind| !kind.is_file() && !kind.is_dir()) {
+        let mut place = File::options().write(true).open(path).map_err(refuse)?;
+        return pour(&mut place, fill).map_err(refuse);
+    }
+    // Where nothing stands yet there is nothing to follow.
+    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.into());
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
     let mut temporary = temporary_in(folder).map_err(refuse)?;
-    let mut buffered = BufWriter::new(temporary.as_file_mut());
-    fill(&mut buffered).and_then(|()| buffered.flush()).map_err(refuse)?;
-    drop(buffered);
+    pour(temporary.as_file_mut(), fill).map_err(refuse)?;
     temporary.as_file().sync_all().map_err(refuse)?;
     temporary.persist(path).map_err(|error| refuse(error.error))?;
     Ok(())
+}
+
+fn pour(file: &mut File, fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> io::Result<()> {
+    let mut buffered = BufWriter::new(file);
+    fill(&mut buffered)?;
+    buffered.flush()
 }
 
 /// Makes `path` and its parents.

@@ -19,6 +19,12 @@ pub enum MeshError {
     /// The name says no format.
     #[error("must be named .stl or .obj")]
     Format,
+    /// Shorter than the header of a binary STL file, and no ASCII one.
+    #[error("is no STL file: {bytes} bytes are fewer than its header of 84")]
+    NoHeader {
+        /// Length of the file.
+        bytes: usize,
+    },
     /// An STL file ends before its triangles do.
     #[error("says {said} triangles, but holds {found}")]
     Truncated {
@@ -70,7 +76,7 @@ fn is_ascii_stl(bytes: &[u8]) -> bool {
 /// 80 bytes of header, the count, then 50 bytes per triangle: normal, three corners (f32, little-endian), attributes.
 fn read_binary_stl(bytes: &[u8]) -> Result<Mesh, MeshError> {
     let Some((head, body)) = bytes.split_at_checked(84) else {
-        return Err(MeshError::Truncated { said: 0, found: 0 });
+        return Err(MeshError::NoHeader { bytes: bytes.len() });
     };
     let said = u32::from_le_bytes([head[80], head[81], head[82], head[83]]);
     let found = body.len() / 50;
@@ -205,7 +211,7 @@ mod tests {
     fn broken_files_are_refused_with_the_place() {
         let cut = &binary(b"")[..150];
         assert_eq!(read_mesh(cut, "a.stl"), Err(MeshError::Truncated { said: 4, found: 1 }));
-        assert!(matches!(read_mesh(b"xx", "a.stl"), Err(MeshError::Truncated { .. })));
+        assert_eq!(read_mesh(b"xx", "a.stl"), Err(MeshError::NoHeader { bytes: 2 }));
         assert_eq!(read_mesh(b"", "a.ply"), Err(MeshError::Format));
         assert!(matches!(read_mesh(b"v 0 0\n", "a.obj"), Err(MeshError::Line { line: 1, .. })));
         assert!(matches!(read_mesh(b"v 0 0 0\nf 1 2 3\n", "a.obj"), Err(MeshError::Line { line: 2, .. })));

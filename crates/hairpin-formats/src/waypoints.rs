@@ -11,6 +11,10 @@ use crate::atomic::{self, WriteError};
 use crate::geodetic;
 
 const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
+/// Farther than any world's obstacles may lie: beyond is another unit or a slip.
+const FARTHEST_M: f64 = 20_000.0;
+/// As `task.length`.
+const MOST: usize = 10_000;
 
 /// Why a file is no list of waypoints.
 #[derive(Debug, Error)]
@@ -33,8 +37,11 @@ pub enum WaypointsError {
         /// The header found.
         header: String,
     },
-    /// A cell is not a finite number.
-    #[error("{}, line {line}, column `{column}`: `{value}`, must be a finite number in m", path.display())]
+    /// A cell is not a number, not finite, or too far away.
+    #[error(
+        "{}, line {line}, column `{column}`: `{value}`, must be a finite number in m, {FARTHEST_M} at most either way",
+        path.display()
+    )]
     Value {
         /// The file.
         path: PathBuf,
@@ -64,6 +71,14 @@ pub enum WaypointsError {
         path: PathBuf,
         /// Waypoints found.
         found: usize,
+    },
+    /// More than can be flown.
+    #[error("{}, line {line}: more than {MOST} waypoints", path.display())]
+    TooMany {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
     },
     /// Two successive waypoints are one point.
     #[error("{}, line {line}: the waypoint of line {} again", path.display(), line - 1)]
@@ -145,7 +160,7 @@ fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
         let mut point = Point3::origin();
         for (axis, place) in places.into_iter().enumerate() {
             let value = row[place];
-            let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
+            let number = value.parse::<f64>().ok().filter(|number| number.abs() <= FARTHEST_M);
             point[axis] = number.ok_or_else(|| WaypointsError::Value {
                 path: path.into(),
                 line,
@@ -155,6 +170,9 @@ fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
         }
         if waypoints.last() == Some(&point) {
             return Err(WaypointsError::Repeated { path: path.into(), line });
+        }
+        if waypoints.len() == MOST {
+            return Err(WaypointsError::TooMany { path: path.into(), line });
         }
         waypoints.push(point);
     }

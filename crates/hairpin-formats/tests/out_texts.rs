@@ -76,8 +76,14 @@ fn waypoints_come_back_and_mistakes_are_placed() {
     let points = vec![Point3::new(1.0, 2.0, 3.0), Point3::new(4.0, 5.0, 6.5)];
     assert_eq!(read("\u{feff}z_m, x_m,note,y_m\r\n3,1,a,2\r\n\r\n6.5,4,b,5\r\n").unwrap(), points);
     for (text, message) in [
-        ("x_m,y_m,z_m\n1,2,3\n4,5,six\n", "/0000.csv, line 3, column `z_m`: `six`, must be a finite number in m"),
-        ("x_m,y_m,z_m\n1,2,3\n4,nan,6\n", "/0000.csv, line 3, column `y_m`: `nan`, must be a finite number in m"),
+        (
+            "x_m,y_m,z_m\n1,2,3\n4,5,six\n",
+            "/0000.csv, line 3, column `z_m`: `six`, must be a finite number in m, 20000 at most either way",
+        ),
+        (
+            "x_m,y_m,z_m\n1,2,3\n4,nan,6\n",
+            "/0000.csv, line 3, column `y_m`: `nan`, must be a finite number in m, 20000 at most either way",
+        ),
         ("x_m,y_m,z_m\n1,2,3\n4,5\n", "/0000.csv, line 3: 2 values, the header has 3"),
         ("x,y,z\n1,2,3\n", "/0000.csv, line 1: no column `x_m` in the header `x,y,z`; needed: x_m,y_m,z_m"),
         ("", "/0000.csv, line 1: no column `x_m` in the header ``; needed: x_m,y_m,z_m"),

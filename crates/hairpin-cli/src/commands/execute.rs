@@ -25,12 +25,13 @@ pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
     } else if !work.folder.has_cases() {
         let path = execute.folder.display();
         return Err(Problem::input(format!("{path} has no cases yet: hairpin generate, or --missions DIR")));
-    } else if !execute.resume {
-        work.folder.forget_runs()?;
     }
     let cases = work.folder.read_cases()?;
-    // What was judged was judged on other runs, or on fewer.
+    // What was judged was judged on other runs, or on fewer. Where this cannot be written, the runs stay with it.
     work.folder.write_results(&cases, &[])?;
+    if !execute.resume {
+        work.folder.forget_runs()?;
+    }
     let Flown { runs, failed, attitude_unknown } = parts::execute(&work, &cases)?;
     let (sentence, code) = if failed == 0 {
         (format!("EXECUTED {runs} runs of {} cases", cases.len()), 0)

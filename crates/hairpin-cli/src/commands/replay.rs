@@ -14,8 +14,10 @@ const SAME_M: f64 = 1e-6;
 /// Runs the command: 1 when it violates again, 0 when it does not, 4 when the executor failed.
 pub(crate) fn run(replay: &Replay) -> Result<u8, Problem> {
     let repro = Repro::read(&replay.file)?;
-    let setup = Setup::new(repro.scenario.clone())?.with_simd(folder::simd(&replay.kernels));
-    let case = repro.case()?;
+    let refuse = |why: String| Problem::input(format!("{}: {why}", replay.file.display()));
+    let setup = Setup::new(repro.scenario.clone()).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
+    let setup = setup.with_simd(folder::simd(&replay.kernels));
+    let case = repro.case().map_err(refuse)?;
     let flown = fly_one(&setup, &case, repro.run)?;
     let result = campaign::judge(&setup, &case, std::slice::from_ref(&flown))?;
     let deviation = result.measures.as_ref().map(|measures| measures.max_deviation);

@@ -32,5 +32,6 @@ mod worker;
 pub use failure::{Failed, Failure};
 pub use message::{EndReason, FromExecutor, PoseMessage, TimedMessage, ToExecutor, mission_message};
 pub use pool::fly_all;
+pub use process::kill_all;
 pub use recording::{ATTITUDE_UNKNOWN, PoseError, Recording};
 pub use worker::{Command, CommandError, Limits, Worker};

@@ -1,18 +1,36 @@
 //! A child and all its children: started in a process group of their own, ended together.
 
+use std::io;
 use std::process::{Child, ExitStatus};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Between looks at whether a process is gone.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// Puts the child that `command` starts into a process group of its own: Ctrl-C on the terminal is for hairpin, which
-/// ends its executors in order, and a shell's or launcher's children can be ended with it.
-pub(super) fn isolate(command: &mut std::process::Command) {
+/// Numbers of the children that were started and not yet reaped: so long they cannot belong to anybody else.
+static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+
+/// Starts `command` in a process group of its own: Ctrl-C on the terminal is for hairpin, which ends its executors in order,
+/// and a shell's or launcher's children can be ended with it.
+pub(super) fn start(command: &mut std::process::Command) -> io::Result<Child> {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
-    #[cfg(not(unix))]
-    let _ = command;
+    let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+    let child = command.spawn()?;
+    running.push(child.id());
+    Ok(child)
+}
+
+/// Kills every running program with all its children and waits for none: for a process that is about to exit.
+pub fn kill_all() {
+    #[cfg(unix)]
+    for number in RUNNING.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+        use rustix::process::{Pid, Signal, kill_process_group};
+        let group = i32::try_from(*number).ok().and_then(Pid::from_raw);
+        // It fails only where the whole group is gone already.
+        let _ = group.map(|group| kill_process_group(group, Signal::KILL));
+    }
 }
 
 /// Waits at most `patience` for the child to exit by itself, asks the group to terminate, waits at most `grace`, kills
@@ -24,6 +42,7 @@ pub(super) fn end(child: &mut Child, patience: Duration, grace: Duration) -> Opt
     }
     // Before the child is reaped: until then its number cannot belong to anybody else.
     signal(child, Ending::Kill);
+    RUNNING.lock().unwrap_or_else(PoisonError::into_inner).retain(|number| *number != child.id());
     child.wait().ok()
 }
 

@@ -87,8 +87,7 @@ impl Worker {
     pub fn start(command: &Command, limits: Limits, cancelled: &dyn Fn() -> bool) -> Result<Self, Failed> {
         let mut starter = std::process::Command::new(&command.program);
         starter.args(&command.arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        process::isolate(&mut starter);
-        let mut child = starter.spawn().map_err(|cause| Failed {
+        let mut child = process::start(&mut starter).map_err(|cause| Failed {
             failure: Failure::Start { program: command.program.clone(), cause: cause.to_string() },
             stderr: String::new(),
         })?;

@@ -10,6 +10,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::problem::Problem;
 
+/// As `task.length`.
+const MOST_WAYPOINTS: usize = 10_000;
+/// Farther than any world's obstacles may lie.
+const FARTHEST_M: f64 = 20_000.0;
+/// Ten times the longest leg that a scenario can ask for.
+const LONGEST_LEG_S: f64 = 600.0;
+
 /// One run that violates the spec, and all that it takes to fly it again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -96,26 +103,49 @@ impl Repro {
         let refuse = |why: String| Problem::input(format!("{}: {why}", path.display()));
         let text = std::fs::read_to_string(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
         let repro: Self = serde_json::from_str(&text).map_err(|error| refuse(format!("is no repro file: {error}")))?;
-        if repro.hairpin_repro != 1 {
-            return Err(refuse(format!("hairpin_repro = {}: this hairpin reads 1", repro.hairpin_repro)));
-        }
-        if repro.waypoints_m.len() < 2 {
-            return Err(refuse("waypoints_m: must be at least 2".into()));
-        }
-        let legs = repro.waypoints_m.len() - 1;
-        if ![0, legs].contains(&repro.leg_times_s.len()) {
-            return Err(refuse(format!("leg_times_s has {} values: must be {legs}", repro.leg_times_s.len())));
-        }
-        if repro.profile.as_ref().is_some_and(|profile| profile.len() != legs) {
-            return Err(refuse(format!("profile: must have {legs} legs")));
-        }
+        repro.check().map_err(refuse)?;
         Ok(repro)
     }
 
-    /// The case to fly.
-    pub(crate) fn case(&self) -> Result<Case, Problem> {
-        let number =
-            self.case.parse().map_err(|_| Problem::input(format!("case = {:?}: must be a number", self.case)))?;
+    /// These files are there to be edited, so every number has a bound, and so have all that belong together.
+    fn check(&self) -> Result<(), String> {
+        if self.hairpin_repro != 1 {
+            return Err(format!("hairpin_repro = {}: this hairpin reads 1", self.hairpin_repro));
+        }
+        let waypoints = self.waypoints_m.len();
+        if !(2..=MOST_WAYPOINTS).contains(&waypoints) {
+            return Err(format!("waypoints_m has {waypoints} waypoints: must be 2 … {MOST_WAYPOINTS}"));
+        }
+        if let Some(i) = self.waypoints_m.iter().position(|p| !p.iter().all(|x| x.abs() <= FARTHEST_M)) {
+            return Err(format!("waypoints_m[{i}] = {:?}: must be m, {FARTHEST_M} at most", self.waypoints_m[i]));
+        }
+        let legs = waypoints - 1;
+        if ![0, legs].contains(&self.leg_times_s.len()) {
+            return Err(format!("leg_times_s has {} values: must be {legs}", self.leg_times_s.len()));
+        }
+        let is_time = |time: f64| time > 0.0 && time <= LONGEST_LEG_S;
+        if let Some(i) = self.leg_times_s.iter().position(|time| !is_time(*time)) {
+            let time = self.leg_times_s[i];
+            return Err(format!("leg_times_s[{i}] = {time}: must be > 0 and ≤ {LONGEST_LEG_S} s"));
+        }
+        let Some(profile) = &self.profile else { return Ok(()) };
+        if profile.len() != legs {
+            return Err(format!("profile: must have {legs} legs"));
+        }
+        match profile.iter().position(|leg| !is_time(leg.duration_s)) {
+            Some(i) => {
+                let time = profile[i].duration_s;
+                Err(format!("profile[{i}].duration_s = {time}: must be > 0 and ≤ {LONGEST_LEG_S} s"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The case to fly; what is wrong with its name or its evidence.
+    pub(crate) fn case(&self) -> Result<Case, String> {
+        let number = self.case.parse().map_err(|_| format!("case = {:?}: must be a number", self.case))?;
+        let evidence = Evidence::from_word(&self.evidence)
+            .ok_or_else(|| format!("evidence = {:?}: must be witnessed, hull-feasible or unchecked", self.evidence))?;
         let leg = |leg: &Leg| ProfileLeg { duration: leg.duration_s, coefficients: leg.coefficients };
         Ok(Case {
             number,
@@ -125,7 +155,7 @@ impl Repro {
             leg_times: self.leg_times_s.clone(),
             score: 0.0,
             bound: None,
-            evidence: Evidence::from_word(&self.evidence).unwrap_or(Evidence::Unchecked),
+            evidence,
             certified: None,
             profile: self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() }),
         })

@@ -1,11 +1,16 @@
-//! Runs the binary and compares campaign folders.
+//! The binary, run as a user does, and what it leaves. Not every test needs all of it.
+#![allow(dead_code)]
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The binary, started in `folder`.
+use serde_json::Value;
+
+pub(crate) const SMALL: [&str; 6] =
+    ["stress", "demo-quadrotor", "--set", "generate.search.cases=4", "--set", "execute.repeat=1"];
+
 pub(crate) fn hairpin(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
     command.current_dir(folder).args(arguments);
@@ -17,6 +22,14 @@ pub(crate) fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     let output = hairpin(folder, arguments).output().unwrap();
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
+}
+
+pub(crate) fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let arguments = [arguments, &["--json"]].concat();
+    let (code, out, error) = run(folder, &arguments);
+    let object: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{e}: {out}{error}"));
+    assert_eq!(object["exit_code"].as_i64(), Some(code.into()), "{object}");
+    object
 }
 
 /// Every file that must not depend on clock, threads or place, with its bytes.
@@ -37,11 +50,31 @@ pub(crate) fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     all
 }
 
-/// The same files with the same bytes.
 pub(crate) fn assert_same(a: &Path, b: &Path) {
     let (a, b) = (contents(a), contents(b));
     assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>());
     for (name, bytes) in &a {
         assert!(b[name] == *bytes, "{name} differs");
+    }
+}
+
+/// Runs, and expects a refusal: exit code 2 with every one of `words` in a message on stderr, and nothing on stdout.
+pub(crate) fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
+    let (code, out, error) = run(folder, arguments);
+    assert_eq!(code, 2, "{arguments:?}: {out}{error}");
+    assert!(out.is_empty(), "{arguments:?} wrote to stdout: {out}");
+    assert!(!error.contains("hairpin's own"), "{arguments:?}: {error}");
+    for word in words {
+        assert!(error.contains(word), "{arguments:?} should mention {word:?}: {error}");
+    }
+}
+
+/// A copy of a folder and all that is in it.
+pub(crate) fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let path = entry.unwrap().path();
+        let there = to.join(path.file_name().unwrap());
+        if path.is_dir() { copy(&path, &there) } else { drop(fs::copy(&path, &there).unwrap()) }
     }
 }
