@@ -86,5 +86,5 @@ fn a_waypoint_outside_the_world_is_warned_of_and_flown() {
     assert!(code == 0 && error.contains("up.csv: waypoint 1 lies outside the world"), "{code}: {error}");
     let verdict = json(folder.path(), &["judge", "a"]);
     assert_eq!(verdict["exit_code"], 1, "{verdict}");
-    assert!(verdict["worst"]["violations"].to_string().contains("left the world"), "{verdict}");
+    assert!(verdict["verdict"].to_string().contains("worst crash"), "{verdict}");
 }

@@ -30,7 +30,9 @@ fn files_that_are_none() {
         let robot = format!("robot=\"{file}\"");
         refused(folder.path(), &[&SMALL[..], &["--set", &robot]].concat(), &[&file]);
         let world = format!("world.base=\"{file}\"");
-        refused(folder.path(), &[&SMALL[..], &["--set", &world]].concat(), &[&file]);
+        // An empty world is one without a size.
+        let told = if file == "empty.toml" { "world.size_m" } else { &file };
+        refused(folder.path(), &[&SMALL[..], &["--set", &world]].concat(), &[told]);
     }
     for file in oddities(folder.path(), ".stl") {
         let obstacle = format!("world.obstacles=[{{name=\"x\", mesh={{file=\"{file}\"}}}}]");
