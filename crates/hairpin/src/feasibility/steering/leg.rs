@@ -183,7 +183,7 @@ impl LegJudge {
 /// (F/m)² − 2 (F/m) g cos θ + g², is convex in F and grows with θ: the largest is at an end of both.
 fn most_acceleration(robot: &Quadrotor, max_tilt: f64) -> f64 {
     let (thrust, gravity) = (robot.max_thrust() / robot.mass, robot.gravity);
-    let cos_tilt = max_tilt.clamp(0.0, std::f64::consts::FRAC_PI_2).cos();
+    let cos_tilt = libm::cos(max_tilt.clamp(0.0, std::f64::consts::FRAC_PI_2));
     let square = thrust * (thrust - 2.0 * gravity * cos_tilt) + gravity * gravity;
     square.sqrt().max(gravity)
 }
