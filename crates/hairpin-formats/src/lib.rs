@@ -14,6 +14,7 @@ pub mod parquet;
 pub mod report;
 pub mod scenario;
 pub mod schema;
+pub mod steering;
 pub mod template;
 pub mod tum;
 pub mod waypoints;

@@ -59,6 +59,8 @@ pub struct DriveReplay {
 pub const LEAST_STEPS: usize = 2000;
 /// Longest turn of the heading in a step, rad.
 const LONGEST_TURN: f64 = 0.01;
+/// Parts of a bent piece that is drawn.
+const TRACED: usize = 60;
 /// Steps of one piece at most: a piece that would need more turns by more than a thousand circles.
 const MOST_STEPS: f64 = 1e6;
 
@@ -111,6 +113,31 @@ pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
     replay.error = [state[0] - claim.end[0], state[1] - claim.end[1], libm::atan2(libm::sin(yaw), libm::cos(yaw))];
     replay.error_curvature = before.0 - claim.end_curvature;
     replay
+}
+
+/// Poses along a drive, x, y (m), yaw (rad) in the start's frame, for drawing: for each piece that moves its direction and
+/// its poses, both ends included.
+pub fn trace_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> Vec<(f64, Vec<[f64; 3]>)> {
+    let mut state = [0.0; 3];
+    let mut traced = Vec::new();
+    for piece in pieces {
+        match *piece {
+            DrivePiece::Turn { angle_rad } => state[2] += angle_rad,
+            DrivePiece::Arc { length_m, curvature, direction } => {
+                let straight = curvature == [0.0; 6];
+                let parts = if straight { 1 } else { TRACED };
+                let mut poses = vec![state];
+                for part in 0..parts {
+                    let from = length_m * part as f64 / parts as f64;
+                    let bend = |s: f64| curvature.iter().rev().fold(0.0, |sum, a| sum * (from + s) + a);
+                    state = integrate(state, claim.crab, direction, length_m / parts as f64, 20, &bend);
+                    poses.push(state);
+                }
+                traced.push((direction, poses));
+            }
+        }
+    }
+    traced
 }
 
 impl DrivePiece {
@@ -251,6 +278,19 @@ mod tests {
         assert_eq!(replay_drive(&turn, &CLAIM).max_jump, 0.0);
         assert_eq!(replay_drive(&turn[..2], &CLAIM).error_curvature, 0.0);
         assert_eq!(replay_drive(&[arc(0.0, left, 1.0), arc(1.0, right, 1.0)], &CLAIM).max_jump, 1.5);
+    }
+
+    #[test]
+    fn traces_end_where_replays_do() {
+        let bent = [0.3, -0.2, 0.05, 0.0, 0.0, 0.0];
+        let drive =
+            [arc(2.0, bent, 1.0), DrivePiece::Turn { angle_rad: 0.4 }, arc(1.0, [0.0; 6], -1.0), arc(1.5, bent, -1.0)];
+        let claim = DriveClaim { crab: 0.2, ..CLAIM };
+        let traced = trace_drive(&drive, &claim);
+        let end = traced[2].1.last().unwrap();
+        near(&replay_drive(&drive, &claim), *end);
+        assert_eq!(traced.iter().map(|(direction, _)| *direction).collect::<Vec<_>>(), [1.0, -1.0, -1.0]);
+        assert!((traced[1].1[0][2] - traced[0].1.last().unwrap()[2] - 0.4).abs() < 1e-15);
     }
 
     #[test]

@@ -24,6 +24,6 @@ mod tests;
 
 pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
-pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive};
+pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive, trace_drive};
 pub use finding::{EndError, Finding, Proof, Tolerances, Worst};
 pub use proof::{open_loop_with_lag, verify};

@@ -3,5 +3,6 @@
 pub mod cc;
 pub mod flat;
 pub mod query;
+pub mod solve;
 
 pub use query::{Curvatures, Goal, Precision, Query, Refusal};

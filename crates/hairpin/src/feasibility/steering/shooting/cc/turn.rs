@@ -151,6 +151,11 @@ impl Circle {
         Lead { turning: -on.turning, ..on }
     }
 
+    /// Length (m) of these ends without any arc between them, or of the shortest elementary path.
+    pub(super) fn leads(&self, entry: &Lead, exit: &Lead) -> f64 {
+        if entry.curvature == 0.0 && exit.curvature == 0.0 { 2.0 * self.least } else { entry.length + exit.length }
+    }
+
     /// Length (m) below which no turn between these ends changes the heading by `angle` (rad, modulo 2π): exact for arcs.
     pub(super) fn at_least(&self, way: Way, entry: &Lead, exit: &Lead, angle: f64) -> f64 {
         let towards = way.sense * way.gear;

@@ -114,8 +114,10 @@ impl<'c> Finder<'c> {
         let (from, to) = (self.ends.first[index(first)].1, self.ends.last[index(last)].1);
         let between = Span::new(to.0 - from.0, to.1 - from.1);
         let cusps = family == Family::ReedsShepp;
-        if first == last && between.distance < ON_ONE_CIRCLE {
-            let word = self.word(&[first], &[]);
+        if first == last
+            && between.distance < ON_ONE_CIRCLE
+            && let Some(word) = self.word(&[first], &[])
+        {
             self.offer(&word, &[], None);
         }
         self.turn_straight_turn(between, first, last, 1.0);
@@ -139,7 +141,7 @@ impl<'c> Finder<'c> {
 
     /// C S C, with a cusp wherever the gear changes.
     fn turn_straight_turn(&mut self, between: Span, first: Way, last: Way, gear: f64) {
-        let word = self.word(&[first, last], &[false]);
+        let Some(word) = self.word(&[first, last], &[false]) else { return };
         let step = word.step(0);
         if let Some((heading, length)) = straight(between, step, gear) {
             self.offer(&word, &[heading], Some(Straight { before: 1, gear, length }));
@@ -152,7 +154,7 @@ impl<'c> Finder<'c> {
         let swings = |a: Way, b: Way| if a.gear == b.gear { &[false][..] } else { &[true, false] };
         for &before in swings(first, middle) {
             for &after in swings(middle, last) {
-                let word = self.word(&[first, middle, last], &[before, after]);
+                let Some(word) = self.word(&[first, middle, last], &[before, after]) else { continue };
                 for [a, b] in triangle(between, word.step(0), word.step(1)).into_iter().flatten() {
                     self.offer(&word, &[a, b], None);
                 }
@@ -166,7 +168,7 @@ impl<'c> Finder<'c> {
         let third = Way { sense: first.sense, gear: if first.gear == last.gear { second.gear } else { last.gear } };
         let cusp = |a: Way, b: Way| swing && a.gear != b.gear;
         let joints = [cusp(first, second), cusp(second, third), cusp(third, last)];
-        let word = self.word(&[first, second, third, last], &joints);
+        let Some(word) = self.word(&[first, second, third, last], &joints) else { return };
         let (d1, d2, d3) = (word.step(0), word.step(1), word.step(2));
         if first.gear == last.gear {
             // The middle turns cancel: both cusps have the same heading.
@@ -196,7 +198,7 @@ impl<'c> Finder<'c> {
         if first.gear == last.gear {
             let second = Way { sense: -first.sense, gear: -first.gear };
             let third = Way { sense: -last.sense, gear: -last.gear };
-            let word = self.word(&[first, second, third, last], &[swing, false, swing]);
+            let Some(word) = self.word(&[first, second, third, last], &[swing, false, swing]) else { return };
             let (before, step, after) = (word.step(0), word.step(1), word.step(2));
             let gear = second.gear;
             let along = step.0 + second.sense * gear * before.1 - third.sense * gear * after.1;
@@ -208,15 +210,16 @@ impl<'c> Finder<'c> {
             return;
         }
         let second = Way { sense: -first.sense, gear: last.gear };
-        let word = self.word(&[first, second, last], &[swing, false]);
-        let (before, step, gear) = (word.step(0), word.step(1), second.gear);
-        let along = step.0 + second.sense * gear * before.1;
-        if let Some((heading, length)) = straight(between, (along, step.1), gear) {
-            let headings = [heading - second.sense * gear * FRAC_PI_2, heading];
-            self.offer(&word, &headings, Some(Straight { before: 2, gear, length }));
+        if let Some(word) = self.word(&[first, second, last], &[swing, false]) {
+            let (before, step, gear) = (word.step(0), word.step(1), second.gear);
+            let along = step.0 + second.sense * gear * before.1;
+            if let Some((heading, length)) = straight(between, (along, step.1), gear) {
+                let headings = [heading - second.sense * gear * FRAC_PI_2, heading];
+                self.offer(&word, &headings, Some(Straight { before: 2, gear, length }));
+            }
         }
         let second = Way { sense: -last.sense, gear: first.gear };
-        let word = self.word(&[first, second, last], &[false, swing]);
+        let Some(word) = self.word(&[first, second, last], &[false, swing]) else { return };
         let (step, after, gear) = (word.step(0), word.step(1), second.gear);
         let along = step.0 - second.sense * gear * after.1;
         if let Some((heading, length)) = straight(between, (along, step.1), gear) {
@@ -225,8 +228,9 @@ impl<'c> Finder<'c> {
         }
     }
 
-    /// Ways with their leads; `swings[i]`: full curvature between the turns i and i + 1.
-    fn word(&self, ways: &[Way], swings: &[bool]) -> Word<'c> {
+    /// Ways with their leads; `swings[i]`: full curvature between the turns i and i + 1. `None` if the leads alone are too
+    /// long, before any triangle is solved.
+    fn word(&self, ways: &[Way], swings: &[bool]) -> Option<Word<'c>> {
         let last = ways.len() - 1;
         let (first_way, last_way) = (ways[0], ways[last]);
         let mut word = Word {
@@ -244,7 +248,8 @@ impl<'c> Finder<'c> {
                 word.exits[i] = if swings[i] { self.circle.standing(way) } else { self.circle.exit(way) };
             }
         }
-        word
+        let least: f64 = (0..word.count).map(|i| self.circle.leads(word.entries[i], word.exits[i])).sum();
+        (least < self.shortest).then_some(word)
     }
 
     /// Takes the path with these headings between the turns if it is the shortest so far.

@@ -1,0 +1,9 @@
+//! Boundary-value queries of ground vehicles in, and the drives that answer them out: CSV, one query or segment a row.
+
+mod answer;
+mod plot;
+mod query;
+
+pub use answer::{Answer, Drive, Errors, Piece, Status, table};
+pub use plot::{Stretch, svg};
+pub use query::{Asked, BrokenFile, Frame, Queries, Row, Wrong, parse, read};

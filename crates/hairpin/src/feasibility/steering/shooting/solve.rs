@@ -1,0 +1,191 @@
+//! One question, one answer: the single arc where it does, and what does it where no arc can.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::math::fresnel::clothoid;
+use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
+
+use super::cc::{self, Gears};
+use super::flat;
+use super::query::{Curvatures, Goal, Query};
+
+/// What may be driven, and how hard to look for it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Choices {
+    /// The gear of drives without reversals, and of single arcs.
+    pub gear: Gear,
+    /// Whether the gear may change on the way.
+    pub reversals: bool,
+    /// Whether the vehicle may turn in place.
+    pub turns: bool,
+    /// Whether single arcs are tried at all.
+    pub arcs: bool,
+    /// For the single arc.
+    pub flat: flat::Settings,
+}
+
+impl Default for Choices {
+    /// Forward arcs, no reversals, no turns in place.
+    fn default() -> Self {
+        Self { gear: Gear::Forward, reversals: false, turns: false, arcs: true, flat: flat::Settings::default() }
+    }
+}
+
+/// How an answer was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Curvature polynomials in one gear, by iteration.
+    SingleArc,
+    /// Turn, drive, turn.
+    TurnDriveTurn,
+    /// Lines, arcs and clothoids, in closed form.
+    Clothoids,
+}
+
+/// How it ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// The drive solves the query within the bounds.
+    Solved,
+    /// Stopped: the best so far.
+    Stopped,
+    /// No drive was found.
+    NotConverged,
+}
+
+/// The answer to a query.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solution {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The drive.
+    pub segments: SegmentList,
+    /// How it was found.
+    pub method: Method,
+    /// Steps of all iterations.
+    pub iterations: u32,
+    /// What the single arc lacks where another drive had to do; `None` where none was tried.
+    pub arc: Option<flat::Status>,
+}
+
+/// A smooth arc is worth this much more length than the shortest path that is known, or any that is thinkable.
+const PATIENCE: f64 = 1.25;
+
+/// Solves `query` within `bounds`: a single arc if it keeps them without a long way round; else, as allowed, turn, drive,
+/// turn, or the shortest path of continuous curvature.
+///
+/// `stop` is asked between the stages; stopped before the first, the answer is the single arc's start value.
+pub fn solve(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: impl FnMut() -> bool) -> Solution {
+    let mut solution = Solution {
+        outcome: Outcome::Stopped,
+        segments: SegmentList::EMPTY,
+        method: Method::SingleArc,
+        iterations: 0,
+        arc: None,
+    };
+    if stop() {
+        let start = flat::Settings { iterations: 0, ..choices.flat };
+        solution.segments = single_arc(query, bounds, choices.gear, &start).segments;
+        return solution;
+    }
+    if choices.arcs {
+        let arc = single_arc(query, bounds, choices.gear, &choices.flat);
+        solution = Solution { segments: arc.segments, iterations: arc.iterations, arc: Some(arc.status), ..solution };
+    }
+    let arc = (solution.arc == Some(flat::Status::Ok)).then(|| length(&solution.segments));
+    let arc_within = |metres: f64| arc.is_some_and(|arc| arc <= PATIENCE * metres);
+    if arc_within(at_least(query, bounds)) {
+        return Solution { outcome: Outcome::Solved, ..solution };
+    }
+    if stop() {
+        let outcome = if arc.is_some() { Outcome::Solved } else { Outcome::Stopped };
+        return Solution { outcome, ..solution };
+    }
+    if choices.turns {
+        let segments = turn_drive_turn(query, bounds, choices.gear);
+        return Solution { outcome: Outcome::Solved, segments, method: Method::TurnDriveTurn, ..solution };
+    }
+    let gears = if choices.reversals { Gears::Both } else { Gears::Only(choices.gear) };
+    match cc::steer(query, bounds, gears) {
+        Some(path) if !arc_within(path.length_m()) => {
+            let mut segments = SegmentList::EMPTY;
+            path.segments(|segment| add(&mut segments, segment));
+            Solution { outcome: Outcome::Solved, segments, method: Method::Clothoids, ..solution }
+        }
+        _ if arc.is_some() => Solution { outcome: Outcome::Solved, ..solution },
+        _ => Solution { outcome: Outcome::NotConverged, ..solution },
+    }
+}
+
+/// Metres below which no path of these bounds solves the query, in any gears: the way itself, and the heading to be
+/// turned, where arriving backwards is no turn saved.
+fn at_least(query: &Query, bounds: &Curvatures) -> f64 {
+    libm::hypot(query.goal.x, query.goal.y).max(wrapped(query.goal.yaw).abs() / bounds.most)
+}
+
+fn length(segments: &[Segment]) -> f64 {
+    segments.iter().map(Segment::length_m).sum()
+}
+
+/// The single arc in `gear`; in reverse it is the mirror image, about the y axis, of one that is driven forward.
+fn single_arc(query: &Query, bounds: &Curvatures, gear: Gear, settings: &flat::Settings) -> flat::Answer {
+    if gear == Gear::Forward {
+        return flat::forward(query, bounds, settings);
+    }
+    let goal = Goal { x: -query.goal.x, yaw: -query.goal.yaw, ..query.goal };
+    let mut answer = flat::forward(&Query { goal, ..*query }, bounds, settings);
+    for segment in answer.segments.iter_mut() {
+        segment.gear = segment.gear.opposite();
+    }
+    answer
+}
+
+/// Clothoid to zero curvature, turn, straight, turn, clothoid from zero curvature; what there is no need of is left out.
+fn turn_drive_turn(query: &Query, bounds: &Curvatures, gear: Gear) -> SegmentList {
+    let sign = gear.sign();
+    let rate = bounds.most_rate * (1.0 - 1e-12);
+    let (k0, kf) = (query.start_curvature, query.goal.curvature);
+    // Displacement and change of heading over a clothoid between `k` and zero, driven away from the end it belongs to.
+    let away = |k: f64, sign: f64| {
+        let (x, y) = clothoid(k, 0.0, rate);
+        (sign * x, y, sign * 0.5 * k * k.abs() / rate)
+    };
+    let (x0, y0, yaw0) = away(k0, sign);
+    let (x1, y1, yaw1) = away(kf, -sign);
+    // From the end of the first clothoid to the beginning of the last; in reverse, as its mirror image.
+    let (sin, cos) = libm::sincos(query.goal.yaw);
+    let (dx, dy) = (query.goal.x + cos * x1 - sin * y1 - x0, query.goal.y + sin * x1 + cos * y1 - y0);
+    let (sin, cos) = libm::sincos(yaw0);
+    let yaw = sign * (query.goal.yaw + yaw1 - yaw0);
+    let between = Goal { x: sign * (cos * dx + sin * dy), y: cos * dy - sin * dx, yaw, curvature: 0.0 };
+    let mut segments = SegmentList::EMPTY;
+    let mut push = |segment: Segment| {
+        if segment.length_m() > 0.0 || matches!(segment.motion, Motion::Turn { .. }) {
+            add(&mut segments, segment);
+        }
+    };
+    push(Segment::clothoid(k0.abs() / rate, k0, 0.0, gear));
+    for segment in flat::turn_drive_turn(&between).iter() {
+        push(match segment.motion {
+            Motion::Arc { .. } => Segment { gear, ..*segment },
+            Motion::Turn { angle_rad } => Segment { motion: Motion::Turn { angle_rad: sign * angle_rad }, ..*segment },
+        });
+    }
+    push(Segment::clothoid(kf.abs() / rate, 0.0, kf, gear));
+    if segments.is_empty() {
+        add(&mut segments, Segment::straight(0.0, gear));
+    }
+    segments
+}
+
+/// Adds a segment; no drive made here comes near the list's capacity.
+fn add(segments: &mut SegmentList, segment: Segment) {
+    let added = segments.push(segment);
+    debug_assert!(added.is_ok(), "a list of segments overflows");
+}
+
+/// `angle` in (−π, π].
+fn wrapped(angle: f64) -> f64 {
+    let turned = angle.rem_euclid(TAU);
+    if turned > PI { turned - TAU } else { turned }
+}
