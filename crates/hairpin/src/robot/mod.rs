@@ -2,5 +2,6 @@
 
 pub mod dynamics;
 pub mod quadrotor;
+pub mod rover;
 
 pub use dynamics::{Bounds, Dynamics, Quantity, Vector};

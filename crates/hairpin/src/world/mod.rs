@@ -7,6 +7,7 @@ mod closed;
 pub mod obstacle;
 pub mod sample;
 pub mod solid;
+pub mod terrain;
 
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,88 @@
+//! Four wheels on a rigid body: three unknowns (z, φ, θ), four contacts, least squares by Gauss-Newton.
+
+use nalgebra::Vector3;
+
+use super::contact::contact;
+use super::solve::eliminate;
+use super::suspension::{Attitude, Gradient, Settled, Unsettled};
+use crate::world::terrain::Terrain;
+
+/// Places of the wheels' centres in the body frame, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FourWheel {
+    /// Front left, front right, rear left, rear right.
+    pub wheels: [Vector3<f64>; 4],
+    /// Radius of every wheel.
+    pub wheel_radius: f64,
+}
+
+/// Gauss-Newton steps; a warm start takes three.
+const MOST_STEPS: usize = 40;
+/// Steps shorter than this, m and rad, end the iteration: least squares converges linearly where gaps remain.
+const SHORT: f64 = 1e-8;
+/// Longest step, m and rad.
+const LONGEST_STEP: f64 = 0.35;
+
+impl FourWheel {
+    /// Height of the body's origin over level ground, m.
+    pub(super) fn ride_height(&self) -> f64 {
+        self.wheel_radius - self.wheels.iter().map(|w| w.z).sum::<f64>() / 4.0
+    }
+
+    /// The pose that minimises Σ F_i² over the four gaps, from `guess`.
+    pub(super) fn settle<T: Terrain>(
+        &self,
+        terrain: &T,
+        at: [f64; 3],
+        guess: &Settled,
+    ) -> Result<(Settled, Gradient), Unsettled> {
+        let mut pose = *guess;
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_STEPS {
+            let mut rows = self.normal_equations(terrain, at, &pose)?;
+            if !eliminate(&mut rows) {
+                return Err(Unsettled::Singular);
+            }
+            let step = [rows[0][3], rows[1][3], rows[2][3]];
+            let longest = step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
+            let mut scale = if longest > LONGEST_STEP { LONGEST_STEP / longest } else { 1.0 };
+            // Kinks of the map can make the steps swing: half of one is then nearer to the rest.
+            if longest > 0.7 * last {
+                scale *= 0.5;
+            }
+            last = longest;
+            pose = pose.moved(&[scale * step[0], scale * step[1], scale * step[2], 0.0, 0.0, 0.0]);
+            if longest < SHORT {
+                let by = |i: usize| [rows[i][4], rows[i][5], rows[i][6]];
+                return Ok((pose, Gradient { roll: by(1), pitch: by(2) }));
+            }
+        }
+        Err(Unsettled::NotConverged { gap: last })
+    }
+
+    /// JᵀJ (z, φ, θ) with the right-hand sides −Jᵀ(F, F_x, F_y, F_ψ).
+    fn normal_equations<T: Terrain>(
+        &self,
+        terrain: &T,
+        at: [f64; 3],
+        pose: &Settled,
+    ) -> Result<[[f64; 7]; 3], Unsettled> {
+        let attitude = Attitude::new(pose.roll, pose.pitch, at[2]);
+        let origin = Vector3::new(at[0], at[1], pose.z);
+        let mut rows = [[0.0; 7]; 3];
+        for wheel in &self.wheels {
+            let center = origin + attitude.world_from_body * wheel;
+            let contact = contact(terrain, &center, self.wheel_radius)?;
+            let normal = attitude.world_from_body.transpose() * contact.gradient;
+            let [by_roll, by_pitch, by_yaw] = attitude.by_angles(&wheel.cross(&normal));
+            let by = [1.0, by_roll, by_pitch];
+            let right = [-contact.gap, -contact.gradient.x, -contact.gradient.y, -by_yaw];
+            for (row, b) in rows.iter_mut().zip(&by) {
+                for (value, a) in row.iter_mut().zip(by.iter().chain(&right)) {
+                    *value += a * b;
+                }
+            }
+        }
+        Ok(rows)
+    }
+}

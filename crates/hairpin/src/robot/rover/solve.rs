@@ -1,0 +1,33 @@
+//! A small dense linear solve with several right-hand sides, on the stack.
+
+/// Solves A X = B in place for the augmented rows [A | B], `N` rows of `W` = N + number of right-hand sides; X is in
+/// the last columns afterwards. False if A is singular to working precision.
+pub(super) fn eliminate<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> bool {
+    for pivot in 0..N {
+        let mut best = pivot;
+        for row in pivot + 1..N {
+            if rows[row][pivot].abs() > rows[best][pivot].abs() {
+                best = row;
+            }
+        }
+        rows.swap(pivot, best);
+        let lead = rows[pivot];
+        if lead[pivot].is_nan() || lead[pivot].abs() <= 1e-12 {
+            return false;
+        }
+        let inverse = 1.0 / lead[pivot];
+        for (row, line) in rows.iter_mut().enumerate() {
+            if row == pivot {
+                continue;
+            }
+            let factor = line[pivot] * inverse;
+            for (value, from) in line.iter_mut().zip(&lead).skip(pivot) {
+                *value -= factor * from;
+            }
+        }
+        for value in rows[pivot].iter_mut().skip(pivot) {
+            *value *= inverse;
+        }
+    }
+    true
+}

@@ -1,0 +1,298 @@
+//! An elevation map: heights at cell centres, Catmull-Rom between them, so that slopes are continuous.
+//!
+//! Along one axis, with t in [0, 1] between the samples h₀ and h₁,
+//! h(t) = ½ [2h₀ + (h₁ − h₋₁) t + (2h₋₁ − 5h₀ + 4h₁ − h₂) t² + (3h₀ − 3h₁ + h₂ − h₋₁) t³];
+//! both axes in turn. Source: Catmull & Rom 1974, the cubic convolution of Keys 1981 with a = −½.
+
+use thiserror::Error;
+
+use super::{NoGround, Patch, Terrain, smooth};
+
+/// Where the cells of a map lie.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Cells along x.
+    pub columns: usize,
+    /// Cells along y.
+    pub rows: usize,
+    /// Centre of the cell with least x and y, m.
+    pub first_center: [f64; 2],
+    /// Edge lengths of a cell along x and y, m.
+    pub cell: [f64; 2],
+}
+
+/// What to do with cells without data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum HoleRule {
+    /// A map with holes is refused.
+    #[default]
+    Error,
+    /// Nothing may touch them.
+    KeepOut,
+    /// Heights are interpolated over them, and counted.
+    Fill,
+}
+
+/// Why cells make no map.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MapError {
+    /// A number of the grid is out of bounds.
+    #[error("{field} = {value}: must be {bound}")]
+    Grid {
+        /// The number's name.
+        field: &'static str,
+        /// Its value.
+        value: String,
+        /// What it must be.
+        bound: &'static str,
+    },
+    /// Another number of heights than cells.
+    #[error("{heights} heights for {rows} rows of {columns} cells")]
+    Count {
+        /// Heights given.
+        heights: usize,
+        /// Rows of the grid.
+        rows: usize,
+        /// Columns of the grid.
+        columns: usize,
+    },
+    /// Cells without data where none may be.
+    #[error(
+        "{count} cells without data, the first in row {row}, column {column} (rows from the north, both from 0): no_data = \"keep-out\" or \"fill\" accepts them"
+    )]
+    Holes {
+        /// How many.
+        count: usize,
+        /// Row of the first, from the north.
+        row: usize,
+        /// Its column.
+        column: usize,
+    },
+    /// No cell has data.
+    #[error("no cell of the map has data")]
+    Empty,
+}
+
+/// Heights on a grid; immutable once built.
+#[derive(Debug, Clone)]
+pub struct ElevationMap {
+    grid: Grid,
+    per_cell: [f64; 2],
+    /// Rows from the south, with one ring of extrapolated cells around them; holes are NaN.
+    heights: Vec<f32>,
+    stride: usize,
+    /// Cells whose height was filled in, rows from the south, without the ring; empty if there are none.
+    filled: Vec<bool>,
+    holes: usize,
+}
+
+impl ElevationMap {
+    /// A map of `heights` (m, rows from the north as rasters have them; NaN where there is no data).
+    ///
+    /// # Errors
+    /// Grids of fewer than two cells a side, cells that are not positive, another number of heights, infinite
+    /// heights, holes where `rule` refuses them.
+    pub fn new(grid: Grid, heights: &[f32], rule: HoleRule) -> Result<Self, MapError> {
+        check(&grid, heights.len())?;
+        let (columns, rows) = (grid.columns, grid.rows);
+        let mut cells = Vec::with_capacity(heights.len());
+        for row in heights.chunks_exact(columns).rev() {
+            cells.extend(row.iter().map(|h| if h.is_finite() { *h } else { f32::NAN }));
+        }
+        let holes = cells.iter().filter(|h| h.is_nan()).count();
+        if holes == cells.len() {
+            return Err(MapError::Empty);
+        }
+        let mut filled = Vec::new();
+        if holes > 0 {
+            match rule {
+                HoleRule::Error => {
+                    let first = heights.iter().position(|h| !h.is_finite()).unwrap_or(0);
+                    return Err(MapError::Holes { count: holes, row: first / columns, column: first % columns });
+                }
+                HoleRule::KeepOut => {}
+                HoleRule::Fill => {
+                    filled = cells.iter().map(|h| h.is_nan()).collect();
+                    smooth::fill(&mut cells, columns, rows);
+                }
+            }
+        }
+        let (padded, stride) = pad(&cells, columns, rows);
+        let per_cell = [1.0 / grid.cell[0], 1.0 / grid.cell[1]];
+        Ok(Self { grid, per_cell, heights: padded, stride, filled, holes })
+    }
+
+    /// Where the cells lie.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Cells that came without data.
+    pub fn holes(&self) -> usize {
+        self.holes
+    }
+
+    /// Least and largest x and y at which the ground is known, m: the outermost cell centres.
+    pub fn extent(&self) -> ([f64; 2], [f64; 2]) {
+        let Grid { columns, rows, first_center: low, cell } = self.grid;
+        (low, [low[0] + (columns - 1) as f64 * cell[0], low[1] + (rows - 1) as f64 * cell[1]])
+    }
+
+    /// Height of the cell in `row` from the south and `column`, m; NaN in a hole.
+    ///
+    /// # Panics
+    /// If there is no such cell.
+    pub fn cell_height(&self, row: usize, column: usize) -> f32 {
+        assert!(row < self.grid.rows && column < self.grid.columns, "cell ({row}, {column}) is not on the map");
+        self.heights[(row + 1) * self.stride + column + 1]
+    }
+
+    /// Whether the height at (`x`, `y`) rests on a cell that was filled in.
+    pub fn is_filled(&self, x: f64, y: f64) -> bool {
+        if self.filled.is_empty() {
+            return false;
+        }
+        let Some(at) = self.locate(x, y) else { return false };
+        let near = |i: usize, most: usize| i.saturating_sub(1)..=(i + 2).min(most - 1);
+        near(at.row, self.grid.rows)
+            .any(|row| near(at.column, self.grid.columns).any(|column| self.filled[row * self.grid.columns + column]))
+    }
+
+    fn locate(&self, x: f64, y: f64) -> Option<Located> {
+        let u = (x - self.grid.first_center[0]) * self.per_cell[0];
+        let v = (y - self.grid.first_center[1]) * self.per_cell[1];
+        let (last_u, last_v) = ((self.grid.columns - 1) as f64, (self.grid.rows - 1) as f64);
+        // Written so that NaN is outside.
+        if !(u >= 0.0 && u <= last_u && v >= 0.0 && v <= last_v) {
+            return None;
+        }
+        let column = (u as usize).min(self.grid.columns - 2);
+        let row = (v as usize).min(self.grid.rows - 2);
+        Some(Located { row, column, u: u - column as f64, v: v - row as f64 })
+    }
+}
+
+struct Located {
+    /// South-west cell of the four around the point.
+    row: usize,
+    column: usize,
+    /// How far from its centre towards the next, in cells.
+    u: f64,
+    v: f64,
+}
+
+/// Weights of four neighbouring samples for the value and its first two derivatives at `t` in [0, 1].
+#[inline(always)]
+fn weights(t: f64) -> [[f64; 4]; 3] {
+    let (t2, t3) = (t * t, t * t * t);
+    [
+        [
+            0.5 * (-t + 2.0 * t2 - t3),
+            0.5 * (2.0 - 5.0 * t2 + 3.0 * t3),
+            0.5 * (t + 4.0 * t2 - 3.0 * t3),
+            0.5 * (t3 - t2),
+        ],
+        [
+            0.5 * (-1.0 + 4.0 * t - 3.0 * t2),
+            0.5 * (-10.0 * t + 9.0 * t2),
+            0.5 * (1.0 + 8.0 * t - 9.0 * t2),
+            0.5 * (3.0 * t2 - 2.0 * t),
+        ],
+        [2.0 - 3.0 * t, -5.0 + 9.0 * t, 4.0 - 9.0 * t, 3.0 * t - 1.0],
+    ]
+}
+
+#[inline(always)]
+fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
+}
+
+impl Terrain for ElevationMap {
+    #[inline]
+    fn patch(&self, x: f64, y: f64) -> Result<Patch, NoGround> {
+        let Some(at) = self.locate(x, y) else { return Err(NoGround::OffMap { x, y }) };
+        let (along_x, along_y) = (weights(at.u), weights(at.v));
+        // Value, slope and bend along x of each of the four rows.
+        let mut rows = [[0.0; 4]; 3];
+        for j in 0..4 {
+            let from = (at.row + j) * self.stride + at.column;
+            let cells = &self.heights[from..from + 4];
+            let h = [f64::from(cells[0]), f64::from(cells[1]), f64::from(cells[2]), f64::from(cells[3])];
+            for (row, weight) in rows.iter_mut().zip(&along_x) {
+                row[j] = dot(weight, &h);
+            }
+        }
+        let height = dot(&along_y[0], &rows[0]);
+        if height.is_nan() {
+            return Err(NoGround::Hole { x, y });
+        }
+        let [px, py] = self.per_cell;
+        Ok(Patch {
+            height,
+            slope: [px * dot(&along_y[0], &rows[1]), py * dot(&along_y[1], &rows[0])],
+            bend: [
+                px * px * dot(&along_y[0], &rows[2]),
+                px * py * dot(&along_y[1], &rows[1]),
+                py * py * dot(&along_y[2], &rows[0]),
+            ],
+        })
+    }
+}
+
+fn check(grid: &Grid, heights: usize) -> Result<(), MapError> {
+    let wrong = |field, value: String, bound| Err(MapError::Grid { field, value, bound });
+    for (field, cells) in [("columns", grid.columns), ("rows", grid.rows)] {
+        if cells < 2 {
+            return wrong(field, cells.to_string(), "≥ 2");
+        }
+    }
+    for (field, edge) in [("cell width", grid.cell[0]), ("cell height", grid.cell[1])] {
+        if !(edge.is_finite() && edge > 0.0) {
+            return wrong(field, edge.to_string(), "finite and > 0 m");
+        }
+    }
+    for (field, at) in [("origin x", grid.first_center[0]), ("origin y", grid.first_center[1])] {
+        if !at.is_finite() {
+            return wrong(field, at.to_string(), "finite");
+        }
+    }
+    if grid.rows.checked_mul(grid.columns) != Some(heights) {
+        return Err(MapError::Count { heights, rows: grid.rows, columns: grid.columns });
+    }
+    Ok(())
+}
+
+/// `cells` with a ring around them, continued linearly: the slope at the border is that of the outermost cells.
+fn pad(cells: &[f32], columns: usize, rows: usize) -> (Vec<f32>, usize) {
+    let stride = columns + 2;
+    let mut padded = vec![0.0; stride * (rows + 2)];
+    for row in 0..rows {
+        let line = &cells[row * columns..(row + 1) * columns];
+        let from = (row + 1) * stride;
+        padded[from + 1..from + 1 + columns].copy_from_slice(line);
+        padded[from] = 2.0 * line[0] - line[1];
+        padded[from + 1 + columns] = 2.0 * line[columns - 1] - line[columns - 2];
+    }
+    for column in 0..stride {
+        let at = |row: usize| row * stride + column;
+        padded[at(0)] = 2.0 * padded[at(1)] - padded[at(2)];
+        padded[at(rows + 1)] = 2.0 * padded[at(rows)] - padded[at(rows - 1)];
+    }
+    // A ring next to a hole has no height of its own to go on; it repeats its neighbour unless that is one too.
+    for row in 0..rows + 2 {
+        for column in [0, stride - 1] {
+            let inner = if column == 0 { 1 } else { stride - 2 };
+            if padded[row * stride + column].is_nan() {
+                padded[row * stride + column] = padded[row * stride + inner];
+            }
+        }
+    }
+    for column in 0..stride {
+        for (row, inner) in [(0, 1), (rows + 1, rows)] {
+            if padded[row * stride + column].is_nan() {
+                padded[row * stride + column] = padded[inner * stride + column];
+            }
+        }
+    }
+    (padded, stride)
+}
