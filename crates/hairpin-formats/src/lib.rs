@@ -16,5 +16,6 @@ pub mod scenario;
 pub mod schema;
 pub mod steering;
 pub mod template;
+pub mod terrain;
 pub mod tum;
 pub mod waypoints;

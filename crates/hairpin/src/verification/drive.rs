@@ -141,7 +141,7 @@ pub fn trace_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> Vec<(f64, Vec<[
 }
 
 impl DrivePiece {
-    fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         match self {
             Self::Arc { length_m, .. } => *length_m,
             Self::Turn { .. } => 0.0,

@@ -4,8 +4,8 @@
 //! level and at rest in its rates at each. Here that is checked by other means than those that found it: rotor speeds
 //! from truncated Taylor series of the thrust vector (`demand`), the rigid body with a rotation matrix
 //! (`body`), implicit Gauss collocation of order 12 (`gauss`). Nothing is shared with feasibility, search,
-//! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have a replay of their
-//! own (`drive`).
+//! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have replays of their
+//! own, in the plane (`drive`) and on the ground (`ground`).
 
 mod body;
 mod claim;
@@ -13,11 +13,13 @@ mod demand;
 mod drive;
 mod finding;
 mod gauss;
+mod ground;
 mod jet;
 mod knots;
 mod proof;
 mod replay;
 mod rotors;
+mod stand;
 
 #[cfg(test)]
 mod tests;
@@ -26,4 +28,6 @@ pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
 pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive, trace_drive};
 pub use finding::{EndError, Finding, Proof, Tolerances, Worst};
+pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Stopped, replay_ground};
 pub use proof::{open_loop_with_lag, verify};
+pub use stand::Stand;

@@ -18,8 +18,8 @@ pub struct FourWheel {
 
 /// Gauss-Newton steps; a warm start takes three.
 const MOST_STEPS: usize = 40;
-/// Steps shorter than this, m and rad, end the iteration: least squares converges linearly where gaps remain.
-const SHORT: f64 = 1e-8;
+/// Least squares converges linearly where gaps remain: steps of this share of a coarse gap end the iteration.
+const SHORT: f64 = 0.01;
 /// Longest step, m and rad.
 const LONGEST_STEP: f64 = 0.35;
 
@@ -35,6 +35,7 @@ impl FourWheel {
         terrain: &T,
         at: [f64; 3],
         guess: &Settled,
+        coarse: f64,
     ) -> Result<(Settled, Gradient), Unsettled> {
         let mut pose = *guess;
         let mut last = f64::INFINITY;
@@ -52,9 +53,12 @@ impl FourWheel {
             }
             last = longest;
             pose = pose.moved(&[scale * step[0], scale * step[1], scale * step[2], 0.0, 0.0, 0.0]);
-            if longest < SHORT {
-                let by = |i: usize| [rows[i][4], rows[i][5], rows[i][6]];
-                return Ok((pose, Gradient { roll: by(1), pitch: by(2) }));
+            if longest <= SHORT * coarse {
+                let mut gradient = Gradient::default();
+                for (by_place, row) in gradient.by_place.iter_mut().zip(&rows) {
+                    by_place.copy_from_slice(&row[4..7]);
+                }
+                return Ok((pose, gradient));
             }
         }
         Err(Unsettled::NotConverged { gap: last })

@@ -15,6 +15,7 @@ mod suspension;
 mod tests;
 
 pub use description::{RoverDescription, RoverError, RoverKind};
+pub use four_wheel::FourWheel;
 pub use motion::{Rates, Slip, rates};
 pub use rocker_bogie::RockerBogie;
 pub use suspension::{Gradient, Settled, Suspension, Unsettled};

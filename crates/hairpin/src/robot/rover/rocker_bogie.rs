@@ -30,8 +30,6 @@ pub struct RockerBogie {
 
 /// Newton steps; a warm start takes two.
 const MOST_STEPS: usize = 30;
-/// A step from a largest gap below this leaves one far below a micrometre: no further look is needed.
-const LAST_LOOK: f64 = 1e-4;
 /// Longest step of an angle, rad, and of the height, m: where the linear model still says something.
 const LONGEST_STEP: f64 = 0.35;
 
@@ -80,6 +78,7 @@ impl RockerBogie {
         terrain: &T,
         at: [f64; 3],
         guess: &Settled,
+        coarse: f64,
     ) -> Result<(Settled, Gradient), Unsettled> {
         let mut pose = *guess;
         let mut largest = f64::INFINITY;
@@ -99,7 +98,7 @@ impl RockerBogie {
             let scale = if longest > LONGEST_STEP { LONGEST_STEP / longest } else { 1.0 };
             step = newton.map(|s| scale * s);
             pose = pose.moved(&step);
-            if gap < LAST_LOOK && scale == 1.0 {
+            if gap <= coarse && scale == 1.0 {
                 return Ok((pose, gradient));
             }
         }
@@ -153,21 +152,26 @@ struct System {
 }
 
 impl System {
-    /// The Newton step of (z, φ, θ, β, ρ_l, ρ_r), and dq/d(x, y, ψ) of (φ, θ).
+    /// The Newton step of (z, φ, θ, β, ρ_l, ρ_r), and dq/d(x, y, ψ).
     fn solve(mut self) -> Option<([f64; 6], Gradient)> {
         if !eliminate(&mut self.rows) {
             return None;
         }
-        let [z, roll, pitch, rocker] = [0, 1, 2, 3].map(|i| self.rows[i][4]);
-        let mut step = [z, roll, pitch, rocker, 0.0, 0.0];
+        // Column 0 is the step, 1 to 3 are the gradient by x, y and ψ.
+        let mut solution = [[0.0; 4]; 6];
+        for (unknown, row) in solution.iter_mut().zip(&self.rows) {
+            unknown.copy_from_slice(&row[4..8]);
+        }
         for (i, row) in self.bogies.iter().enumerate() {
-            let known: f64 = row[..4].iter().zip(&step[..4]).map(|(a, b)| a * b).sum();
             if row[8].is_nan() || row[8].abs() <= 1e-12 {
                 return None;
             }
-            step[4 + i] = (row[4] - known) / row[8];
+            for column in 0..4 {
+                let known: f64 = (0..4).map(|j| row[j] * solution[j][column]).sum();
+                solution[4 + i][column] = (row[4 + column] - known) / row[8];
+            }
         }
-        let by = |i: usize| [self.rows[i][5], self.rows[i][6], self.rows[i][7]];
-        Some((step, Gradient { roll: by(1), pitch: by(2) }))
+        let gradient = Gradient { by_place: solution.map(|row| [row[1], row[2], row[3]]) };
+        Some((solution.map(|row| row[0]), gradient))
     }
 }

@@ -31,13 +31,29 @@ pub struct Settled {
     pub joints: [f64; 3],
 }
 
-/// How roll and pitch change with (x, y, ψ) while the wheels stay on the ground.
+/// How a settled pose changes with (x, y, ψ) while the wheels stay on the ground, by the implicit function theorem:
+/// F(q; x, y, ψ) = 0 gives dq = −F_q⁻¹ F_(x, y, ψ) d(x, y, ψ).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gradient {
-    /// dφ/d(x, y, ψ), rad/m and rad/rad.
-    pub roll: [f64; 3],
+    /// Rows z, φ, θ, rocker, bogies; columns x, y (1/m), ψ (1/rad).
+    pub by_place: [[f64; 3]; 6],
+}
+
+impl Gradient {
+    /// Change of (z, φ, θ, rocker, bogies) to first order where the place moves by (x, y, ψ).
+    pub fn over(&self, moved: [f64; 3]) -> [f64; 6] {
+        self.by_place.map(|row| row[0] * moved[0] + row[1] * moved[1] + row[2] * moved[2])
+    }
+
+    /// dφ/d(x, y, ψ).
+    pub fn roll(&self) -> [f64; 3] {
+        self.by_place[1]
+    }
+
     /// dθ/d(x, y, ψ).
-    pub pitch: [f64; 3],
+    pub fn pitch(&self) -> [f64; 3] {
+        self.by_place[2]
+    }
 }
 
 /// Why a body finds no rest.
@@ -57,8 +73,13 @@ pub enum Unsettled {
     },
 }
 
+/// Gaps from which one more step of Newton ends at rounding errors, m.
+const EXACT: f64 = 1e-6;
+
 impl Suspension {
     /// The pose in which the wheels touch the ground at (x, y, ψ) = `at`, from `guess`, and its gradient.
+    ///
+    /// Newton's last step is taken from gaps of at most `coarse` (m): what it leaves is of the order of their square, by 1/m.
     ///
     /// # Errors
     /// [`Unsettled`]: no ground, or no rest found.
@@ -68,11 +89,12 @@ impl Suspension {
         terrain: &T,
         at: [f64; 3],
         guess: &Settled,
+        coarse: f64,
     ) -> Result<(Settled, Gradient), Unsettled> {
         match self {
             Self::Level => Ok((Settled::default(), Gradient::default())),
-            Self::FourWheel(body) => body.settle(terrain, at, guess),
-            Self::RockerBogie(body) => body.settle(terrain, at, guess),
+            Self::FourWheel(body) => body.settle(terrain, at, guess, coarse),
+            Self::RockerBogie(body) => body.settle(terrain, at, guess, coarse),
         }
     }
 
@@ -82,7 +104,7 @@ impl Suspension {
     /// [`Unsettled`]: no ground, or no rest found.
     pub fn settle_cold<T: Terrain>(&self, terrain: &T, at: [f64; 3]) -> Result<(Settled, Gradient), Unsettled> {
         if matches!(self, Self::Level) {
-            return self.settle(terrain, at, &Settled::default());
+            return Ok((Settled::default(), Gradient::default()));
         }
         let ground = terrain.patch(at[0], at[1])?;
         let (sin, cos) = libm::sincos(at[2]);
@@ -96,9 +118,9 @@ impl Suspension {
             joints: [0.0; 3],
         };
         // A single spot can lie in a pit or on a rock; level is the second try.
-        self.settle(terrain, at, &guess).or_else(|error| match error {
+        self.settle(terrain, at, &guess, EXACT).or_else(|error| match error {
             Unsettled::NoGround(_) => Err(error),
-            _ => self.settle(terrain, at, &Settled { z: guess.z, ..Settled::default() }),
+            _ => self.settle(terrain, at, &Settled { z: guess.z, ..Settled::default() }, EXACT),
         })
     }
 
@@ -117,7 +139,7 @@ impl Suspension {
 
 impl Settled {
     /// This pose moved by (z, φ, θ, rocker, bogies).
-    pub(super) fn moved(&self, step: &[f64; 6]) -> Self {
+    pub fn moved(&self, step: &[f64; 6]) -> Self {
         Self {
             z: self.z + step[0],
             roll: self.roll + step[1],

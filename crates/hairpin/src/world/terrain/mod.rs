@@ -1,6 +1,7 @@
 //! Ground as a height over the plane: what wheels stand on.
 
 mod flat;
+pub mod generate;
 mod map;
 mod smooth;
 

@@ -3,6 +3,7 @@
 pub mod cc;
 pub mod flat;
 pub mod query;
+pub mod rough;
 pub mod solve;
 
 pub use query::{Curvatures, Goal, Precision, Query, Refusal};

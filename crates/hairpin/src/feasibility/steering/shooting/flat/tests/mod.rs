@@ -55,7 +55,7 @@ pub(super) struct Replay {
 
 pub(super) fn replay(segments: &[Segment], query: &Query) -> Replay {
     let mut replay = Replay::default();
-    let ([mut x, mut y, mut heading], mut curvature) = ([0.0; 3], query.start_curvature);
+    let ([mut x, mut y, mut heading], mut curvature) = ([0.0_f64; 3], query.start_curvature);
     for segment in segments {
         let Motion::Arc { length_m, curvature: a } = segment.motion else { panic!("no turns in forward drives") };
         let [dx, dy, turn] = integrate(length_m, 0.0, |s| segment.curvature_at(s));

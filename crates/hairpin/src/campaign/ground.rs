@@ -1,0 +1,100 @@
+//! Boundary-value drives of rovers on elevation maps: solved, and replayed from what would be written.
+
+use crate::feasibility::steering::shooting::Query;
+use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Planar, Settings, Steps};
+use crate::robot::rover::{Rover, Suspension};
+use crate::trajectory::drive::{Motion, Segment, SegmentList};
+use crate::verification::{DrivePiece, GroundClaim, GroundReplay, GroundVehicle, Stand, Stopped, replay_ground};
+use crate::world::terrain::ElevationMap;
+
+/// A rover on a map, and how it travels.
+#[derive(Debug, Clone, Copy)]
+pub struct Site<'a> {
+    /// The vehicle.
+    pub rover: &'a Rover,
+    /// What it drives on.
+    pub map: &'a ElevationMap,
+    /// Speed, m/s, > 0.
+    pub speed: f64,
+    /// Direction of travel in the body, rad.
+    pub direction: f64,
+}
+
+impl Site<'_> {
+    fn course(&self, steps: Steps) -> Course<'_, ElevationMap> {
+        Course { rover: self.rover, terrain: self.map, speed: self.speed, direction: self.direction, steps }
+    }
+
+    /// Commands that drive from `start` to `goal`, shaped by the flat solver `steer`.
+    pub fn solve(
+        &self,
+        start: &Planar,
+        goal: &Planar,
+        settings: &Settings,
+        steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
+    ) -> Answer {
+        rough::solve(&self.course(Steps::default()), start, goal, settings, steer)
+    }
+
+    /// Where `segments` lead from `start`, predicted in steps of `steps`.
+    ///
+    /// # Errors
+    /// Where the ground ends or the body finds no rest.
+    pub fn predict(
+        &self,
+        start: &Planar,
+        segments: &[Segment],
+        steps: Steps,
+    ) -> Result<rough::Prediction, rough::Blocked> {
+        rough::predict(&self.course(steps), start, segments, |_| {})
+    }
+
+    /// `segments` as they would be written, replayed against `start` and `goal` by other equations and finer steps.
+    ///
+    /// # Errors
+    /// Where the ground ends or the body finds no rest.
+    pub fn replay(&self, start: &Planar, goal: &Planar, segments: &[Segment]) -> Result<GroundReplay, Stopped> {
+        let pieces: Vec<DrivePiece> = segments.iter().map(drive_piece).collect();
+        let claim = GroundClaim {
+            start: [start.x, start.y, start.yaw],
+            start_curvature: start.curvature,
+            crab: self.direction,
+            speed_m_s: self.speed,
+            end: [goal.x, goal.y, goal.yaw],
+            end_curvature: goal.curvature,
+        };
+        replay_ground(&pieces, &ground_vehicle(self.rover), self.map, &claim)
+    }
+}
+
+/// `rover` for the replay.
+fn ground_vehicle(rover: &Rover) -> GroundVehicle {
+    let stand = match &rover.suspension {
+        Suspension::Level => Stand::Level,
+        Suspension::FourWheel(body) => Stand::FourWheel { wheels: body.wheels, radius: body.wheel_radius },
+        Suspension::RockerBogie(body) => Stand::RockerBogie {
+            pivot: body.pivot,
+            rocker_wheel: body.rocker_wheel,
+            bogie_joint: body.bogie_joint,
+            bogie_wheels: body.bogie_wheels,
+            radius: body.wheel_radius,
+        },
+    };
+    GroundVehicle {
+        stand,
+        slip_at_20_deg: rover.slip.at_20_deg,
+        side_slip_at_20_deg: rover.slip.side_at_20_deg,
+        latency_s: rover.response.latency,
+        steering_time_constant_s: rover.response.steering_time_constant,
+        steering_rate_rad_s: rover.response.steering_rate,
+        steered_axle_m: rover.response.steered_axle,
+    }
+}
+
+/// `segment` as it is written.
+pub fn drive_piece(segment: &Segment) -> DrivePiece {
+    match segment.motion {
+        Motion::Arc { length_m, curvature } => DrivePiece::Arc { length_m, curvature, direction: segment.gear.sign() },
+        Motion::Turn { angle_rad } => DrivePiece::Turn { angle_rad },
+    }
+}

@@ -1,0 +1,15 @@
+//! The generator on real ground: motion predicted with suspension, slip and delay, and controls found whose motion ends at
+//! the goal.
+//!
+//! The flat solver stays the one that shapes paths and keeps their bounds. What the ground changes is put into its goal:
+//! find the flat goal g so that the controls that reach g in the plane reach the true goal on the ground.
+
+mod predict;
+mod solve;
+mod steering_lag;
+
+#[cfg(test)]
+mod tests;
+
+pub use predict::{Blocked, Cause, Course, Driven, Planar, Prediction, Steps, predict};
+pub use solve::{Answer, Settings, Status, solve};

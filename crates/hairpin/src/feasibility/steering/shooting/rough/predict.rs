@@ -1,0 +1,266 @@
+//! Motion prediction: where commands take a rover on the ground.
+//!
+//! dx/ds = f(x, y, ψ; κ(s)) with roll and pitch from the suspension at (x, y, ψ). One settled pose a step: the rates are taken
+//! at the step's middle, whose pose is extrapolated from the step before; second order, as the midpoint rule.
+
+use thiserror::Error;
+
+use super::steering_lag::SteeringLag;
+use crate::robot::rover::{Gradient, Rates, Rover, Settled, Unsettled, rates};
+use crate::trajectory::drive::{Motion, Segment};
+use crate::world::terrain::Terrain;
+
+/// A pose over the ground with its curvature.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Planar {
+    /// East, m.
+    pub x: f64,
+    /// North, m.
+    pub y: f64,
+    /// ψ, rad, counter-clockwise from east.
+    pub yaw: f64,
+    /// κ, 1/m.
+    pub curvature: f64,
+}
+
+/// What happened on the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prediction {
+    /// Where it ended; the curvature is the steering's, not the command's.
+    pub end: Planar,
+    /// Largest angle of the body's z axis from the vertical, rad, and after how many metres.
+    pub tilt: (f64, f64),
+    /// Largest |rocker or bogie angle|, rad, and after how many metres.
+    pub joint: (f64, f64),
+    /// Settled poses that were solved.
+    pub steps: u32,
+}
+
+/// Why a motion could not be followed to its end, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("after {after_m:.2} m: {cause}")]
+pub struct Blocked {
+    /// Metres of commanded travel before.
+    pub after_m: f64,
+    /// What stopped it.
+    pub cause: Cause,
+}
+
+/// What ends a prediction early.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Cause {
+    /// No ground, or no rest on it.
+    #[error(transparent)]
+    Unsettled(#[from] Unsettled),
+    /// The body stands on end: pitch of 80° or more.
+    #[error("the body stands on end")]
+    Overturned,
+}
+
+/// One moment of a motion, as an observer gets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Driven {
+    /// Metres of commanded travel so far.
+    pub s: f64,
+    /// Pose over the ground at the middle of a step.
+    pub at: Planar,
+    /// How the body stands.
+    pub settled: Settled,
+}
+
+/// How commands are integrated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steps {
+    /// Longest step of an arc, m.
+    pub length: f64,
+    /// Longest step of a turn in place, rad.
+    pub angle: f64,
+    /// Fewest steps of a segment.
+    pub least: u32,
+}
+
+impl Default for Steps {
+    /// 6 cm and 3°: the ground of elevation maps for wheels is not finer.
+    fn default() -> Self {
+        Self { length: 0.06, angle: 0.05, least: 8 }
+    }
+}
+
+/// What stays the same along a prediction.
+pub struct Course<'a, T> {
+    /// The vehicle.
+    pub rover: &'a Rover,
+    /// What it drives on.
+    pub terrain: &'a T,
+    /// Speed, m/s, > 0; time matters only to lag.
+    pub speed: f64,
+    /// Direction of travel in the body, rad: 0 straight on, otherwise crab.
+    pub direction: f64,
+    /// How finely.
+    pub steps: Steps,
+}
+
+/// Pitch from which yaw rates lose their meaning, rad.
+const ON_END: f64 = 1.396;
+
+/// Gaps from which Newton's last step is taken, m: what it leaves moves no end point by a tenth of a millimetre.
+const COARSE: f64 = 2e-3;
+
+/// Follows `segments` from `start`; `observe` sees every step's middle.
+///
+/// # Errors
+/// [`Blocked`]: the ground ends, or the suspension finds no rest.
+pub fn predict<T: Terrain>(
+    course: &Course<'_, T>,
+    start: &Planar,
+    segments: &[Segment],
+    mut observe: impl FnMut(&Driven),
+) -> Result<Prediction, Blocked> {
+    let rover = course.rover;
+    let (settled, gradient) = rover
+        .suspension
+        .settle_cold(course.terrain, [start.x, start.y, start.yaw])
+        .map_err(|cause| Blocked { after_m: 0.0, cause: cause.into() })?;
+    let mut walk = Walk {
+        at: *start,
+        travelled: 0.0,
+        settled,
+        gradient,
+        looked_at: *start,
+        lag: SteeringLag::new(&rover.response, start.curvature),
+        direction: libm::sincos(course.direction),
+        prediction: Prediction { end: *start, tilt: (tilt(&settled), 0.0), joint: (joint(&settled), 0.0), steps: 1 },
+    };
+    for segment in segments {
+        walk.drive(course, segment, &mut observe)?;
+    }
+    walk.prediction.end = walk.at;
+    Ok(walk.prediction)
+}
+
+/// A prediction under way.
+struct Walk {
+    at: Planar,
+    travelled: f64,
+    /// How the body stood at the last look, and how that changes with its place.
+    settled: Settled,
+    gradient: Gradient,
+    /// Where the last look was.
+    looked_at: Planar,
+    lag: SteeringLag,
+    direction: (f64, f64),
+    prediction: Prediction,
+}
+
+impl Walk {
+    fn drive<T: Terrain>(
+        &mut self,
+        course: &Course<'_, T>,
+        segment: &Segment,
+        observe: &mut impl FnMut(&Driven),
+    ) -> Result<(), Blocked> {
+        let sign = segment.gear.sign();
+        match segment.motion {
+            Motion::Turn { angle_rad } => {
+                let count = steps(angle_rad.abs() / course.steps.angle, course.steps.least);
+                let h = angle_rad / f64::from(count);
+                for _ in 0..count {
+                    let ratio = yaw_ratio(&self.settled);
+                    let middle = Planar { yaw: self.at.yaw + 0.5 * h * ratio, ..self.at };
+                    self.look(course, &middle)?;
+                    observe(&Driven { s: self.travelled, at: middle, settled: self.settled });
+                    self.at.yaw += h * yaw_ratio(&self.settled);
+                }
+                // The wheels stand straight again afterwards.
+                self.at.curvature = 0.0;
+                self.lag = SteeringLag::new(&course.rover.response, 0.0);
+            }
+            Motion::Arc { length_m, .. } => {
+                let count = steps(length_m / course.steps.length, course.steps.least);
+                let h = length_m / f64::from(count);
+                let (time, slip) = (h / course.speed, &course.rover.slip);
+                for step in 0..count {
+                    let s = f64::from(step) * h;
+                    // The curvature at the step's middle, half a step after the last one's end.
+                    let curvature = self.lag.follow(|share| segment.curvature_at(s + 0.5 * h * share), 0.5 * time);
+                    let here = rates(&self.carried(&self.at), self.direction, sign, curvature, slip);
+                    let mut middle = moved(&self.at, &here, 0.5 * h, self.at.yaw + 0.25 * h * here.yaw);
+                    middle.curvature = curvature;
+                    self.look(course, &middle)?;
+                    self.travelled += h;
+                    observe(&Driven { s: self.travelled - 0.5 * h, at: middle, settled: self.settled });
+                    let there = rates(&self.settled, self.direction, sign, curvature, slip);
+                    self.at = moved(&self.at, &there, h, self.at.yaw + 0.5 * h * there.yaw);
+                    self.at.curvature =
+                        self.lag.follow(|share| segment.curvature_at(s + 0.5 * h * (1.0 + share)), 0.5 * time);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// How the body would stand at `place`, to first order from the last look.
+    fn carried(&self, place: &Planar) -> Settled {
+        let from = &self.looked_at;
+        self.settled.moved(&self.gradient.over([place.x - from.x, place.y - from.y, place.yaw - from.yaw]))
+    }
+
+    /// Settles the body at `middle`, starting from the last look carried on.
+    fn look<T: Terrain>(&mut self, course: &Course<'_, T>, middle: &Planar) -> Result<(), Blocked> {
+        let place = [middle.x, middle.y, middle.yaw];
+        let blocked = |cause: Cause| Blocked { after_m: self.travelled, cause };
+        let suspension = &course.rover.suspension;
+        let (settled, gradient) = suspension
+            .settle(course.terrain, place, &self.carried(middle), COARSE)
+            .or_else(|_| suspension.settle_cold(course.terrain, place))
+            .map_err(|cause| blocked(cause.into()))?;
+        if settled.pitch.abs() >= ON_END {
+            return Err(blocked(Cause::Overturned));
+        }
+        (self.settled, self.gradient, self.looked_at) = (settled, gradient, *middle);
+        let prediction = &mut self.prediction;
+        prediction.steps += 1;
+        let worse = |worst: &mut (f64, f64), value: f64, at: f64| {
+            if value > worst.0 {
+                *worst = (value, at);
+            }
+        };
+        worse(&mut prediction.tilt, tilt(&settled), self.travelled);
+        worse(&mut prediction.joint, joint(&settled), self.travelled);
+        Ok(())
+    }
+}
+
+/// `from` driven on by `h` metres at constant rates; `heading` is the yaw at their middle.
+///
+/// The chord of a turned step is shorter than its arc by sin(Δ/2)/(Δ/2), Δ the turn.
+fn moved(from: &Planar, rates: &Rates, h: f64, heading: f64) -> Planar {
+    let (sin, cos) = libm::sincos(heading);
+    let turn = h * rates.yaw;
+    let chord = h * (1.0 - turn * turn / 24.0);
+    Planar {
+        x: from.x + chord * (cos * rates.ahead - sin * rates.left),
+        y: from.y + chord * (sin * rates.ahead + cos * rates.left),
+        yaw: from.yaw + turn,
+        curvature: from.curvature,
+    }
+}
+
+/// ψ̇ / ωz = cosφ / cosθ.
+fn yaw_ratio(settled: &Settled) -> f64 {
+    libm::cos(settled.roll) / libm::cos(settled.pitch)
+}
+
+/// Angle of the body's z axis from the vertical, rad.
+fn tilt(settled: &Settled) -> f64 {
+    libm::acos((libm::cos(settled.roll) * libm::cos(settled.pitch)).clamp(-1.0, 1.0))
+}
+
+fn joint(settled: &Settled) -> f64 {
+    settled.joints.iter().fold(0.0, |most, angle| most.max(angle.abs()))
+}
+
+/// Steps of a segment of `wanted` step lengths.
+fn steps(wanted: f64, least: u32) -> u32 {
+    (wanted.ceil() as u32).max(least)
+}

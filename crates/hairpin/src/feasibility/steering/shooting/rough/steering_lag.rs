@@ -1,0 +1,35 @@
+//! Steering that follows its command late: first order, with a bounded rate.
+
+use crate::robot::rover::Response;
+
+/// The actual curvature of a vehicle whose steering lags.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SteeringLag {
+    angle: f64,
+    response: Response,
+    follows_at_once: bool,
+}
+
+impl SteeringLag {
+    /// Steering that stands at `curvature` (1/m).
+    pub(super) fn new(response: &Response, curvature: f64) -> Self {
+        let follows_at_once = response.steering_time_constant == 0.0 && response.steering_rate.is_infinite();
+        let angle = if follows_at_once { 0.0 } else { libm::atan(curvature * response.steered_axle) };
+        Self { angle, response: *response, follows_at_once }
+    }
+
+    /// The curvature after `time` seconds in which the command runs through `commanded` (1/m, from share 0 to 1).
+    ///
+    /// δ̇ = (δ_c − δ)/T within ± the largest rate, δ = atan(κ · axle); exact for a constant command, second order otherwise.
+    pub(super) fn follow(&mut self, commanded: impl Fn(f64) -> f64, time: f64) -> f64 {
+        if self.follows_at_once {
+            return commanded(1.0);
+        }
+        let Response { steering_time_constant, steering_rate, steered_axle, .. } = self.response;
+        let wanted = libm::atan(commanded(0.5) * steered_axle) - self.angle;
+        let share = if steering_time_constant > 0.0 { -libm::expm1(-time / steering_time_constant) } else { 1.0 };
+        let most = steering_rate * time;
+        self.angle += (wanted * share).clamp(-most, most);
+        libm::tan(self.angle) / steered_axle
+    }
+}

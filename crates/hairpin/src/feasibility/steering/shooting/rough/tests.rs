@@ -1,0 +1,185 @@
+use super::*;
+use crate::feasibility::steering::shooting::flat;
+use crate::feasibility::steering::shooting::query::{Curvatures, Precision, Query};
+use crate::math::random::hashed_unit;
+use crate::robot::rover::{Response, Rover, RoverDescription, Slip};
+use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
+use crate::world::terrain::generate::{Recipe, generate};
+use crate::world::terrain::{ElevationMap, Flat, Function, Patch};
+
+fn shipped(name: &str) -> Rover {
+    let path = format!("{}/../../data/robots/rover/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a shipped rover");
+    toml::from_str::<RoverDescription>(&text).expect("its keys").build().expect("its numbers")
+}
+
+fn course<'a, T>(rover: &'a Rover, terrain: &'a T) -> Course<'a, T> {
+    Course { rover, terrain, speed: rover.default_speed, direction: 0.0, steps: Steps::default() }
+}
+
+fn fine<'a, T>(rover: &'a Rover, terrain: &'a T) -> Course<'a, T> {
+    Course { steps: Steps { length: 0.002, angle: 0.002, least: 50 }, ..course(rover, terrain) }
+}
+
+fn yard() -> ElevationMap {
+    generate(&Recipe {
+        size_m: 30.0,
+        relief_m: 0.5,
+        rock_cover: 0.0,
+        crater_area_m2: 40.0,
+        seed: 3,
+        ..Recipe::default()
+    })
+    .expect("a yard")
+}
+
+fn flat_solver(rover: &Rover) -> impl FnMut(&Query) -> Option<SegmentList> {
+    let bounds = Curvatures { most: rover.limits.curvature, most_rate: rover.limits.curvature_rate };
+    let fine = Precision { position: 1e-5, yaw: 1e-5, curvature: 1e-5 };
+    let settings = flat::Settings { precision: fine, ..flat::Settings::default() };
+    move |query| {
+        let query = Query::new(query.start_curvature, query.goal, &bounds).ok()?;
+        let answer = flat::forward(&query, &bounds, &settings);
+        (answer.status == flat::Status::Ok).then_some(answer.segments)
+    }
+}
+
+/// A smooth curve within ±0.8 1/m.
+fn random_arc(seed: u64, length_m: f64) -> Segment {
+    let unit = |i: u64| 2.0 * hashed_unit(seed, &[i]) - 1.0;
+    let (a, b) = (0.4 * unit(0), 0.4 * unit(1) / length_m);
+    Segment { motion: Motion::Arc { length_m, curvature: [a, b, 0.0, 0.0, 0.0, 0.0] }, gear: Gear::Forward }
+}
+
+fn difference(a: &Planar, b: &Planar) -> f64 {
+    let yaw = a.yaw - b.yaw;
+    (a.x - b.x).hypot(a.y - b.y).max(yaw.sin().atan2(yaw.cos()).abs())
+}
+
+#[test]
+fn up_a_plane_the_ground_covered_shrinks_by_the_cosine() {
+    let slope = Function(|x: f64, _y: f64| Patch { height: 0.5 * x, slope: [0.5, 0.0], bend: [0.0; 3] });
+    let rover = shipped("rocky8");
+    let level = rover.suspension.settle_cold(&Flat, [0.0; 3]).expect("rest").0.pitch;
+    let drive = [Segment::straight(4.0, Gear::Forward)];
+    let end = predict(&course(&rover, &slope), &Planar::default(), &drive, |_| {}).expect("a way").end;
+    // The body leans by its own pitch on level ground as well.
+    let expected = 4.0 * (0.5_f64.atan() - level).cos();
+    assert!((end.x - expected).abs() < 1e-9 && end.y.abs() < 1e-9, "{end:?}, not {expected}");
+}
+
+#[test]
+fn in_the_plane_a_clothoid_and_a_turn_end_as_in_closed_form() {
+    let rover = shipped("generic");
+    let pi = std::f64::consts::PI;
+    // κ = πs over 1 m: Fresnel's integrals.
+    let clothoid = [Segment::clothoid(1.0, 0.0, pi, Gear::Forward)];
+    let end = predict(&fine(&rover, &Flat), &Planar::default(), &clothoid, |_| {}).expect("a way").end;
+    assert!((end.x - 0.779_893_4).abs() < 1e-5 && (end.y - 0.438_259_1).abs() < 1e-5, "{end:?}");
+    let turn = [
+        Segment { motion: Motion::Turn { angle_rad: pi / 2.0 }, gear: Gear::Forward },
+        Segment::straight(2.0, Gear::Reverse),
+    ];
+    let end = predict(&course(&rover, &Flat), &Planar::default(), &turn, |_| {}).expect("a way").end;
+    assert!(end.x.abs() < 1e-12 && (end.y + 2.0).abs() < 1e-12 && (end.yaw - pi / 2.0).abs() < 1e-12, "{end:?}");
+}
+
+#[test]
+fn coarse_steps_agree_with_fine_ones_within_a_tenth_of_the_precision() {
+    let yard = yard();
+    for name in ["rocky8", "rocky7", "four-wheel"] {
+        let rover = shipped(name);
+        let mut worst = 0.0_f64;
+        for seed in 0..60 {
+            let unit = |i: u64| hashed_unit(seed, &[100 + i]);
+            let start = Planar { x: 8.0 + 14.0 * unit(0), y: 8.0 + 14.0 * unit(1), yaw: 6.0 * unit(2), curvature: 0.0 };
+            let drive = [random_arc(seed, 1.0 + 5.0 * unit(3))];
+            let coarse = predict(&course(&rover, &yard), &start, &drive, |_| {});
+            let fine = predict(&fine(&rover, &yard), &start, &drive, |_| {});
+            let (Ok(coarse), Ok(fine)) = (coarse, fine) else { continue };
+            worst = worst.max(difference(&coarse.end, &fine.end));
+        }
+        assert!(worst < 1e-3, "{name}: {worst}");
+    }
+}
+
+#[test]
+fn goals_that_were_driven_are_found_again_on_rough_ground() {
+    let (yard, rover) = (yard(), shipped("rocky8"));
+    let (mut asked, mut found, mut predictions) = (0, 0, 0);
+    for seed in 0..200 {
+        let unit = |i: u64| hashed_unit(seed, &[200 + i]);
+        let drive = [random_arc(seed, 1.0 + 5.0 * unit(3))];
+        let at = Planar { x: 8.0 + 14.0 * unit(0), y: 8.0 + 14.0 * unit(1), yaw: 6.0 * unit(2), curvature: 0.0 };
+        let start = Planar { curvature: drive[0].curvature_at(0.0), ..at };
+        let Ok(driven) = predict(&fine(&rover, &yard), &start, &drive, |_| {}) else { continue };
+        if driven.tilt.0 > 0.52 {
+            continue;
+        }
+        asked += 1;
+        let answer = solve(&course(&rover, &yard), &start, &driven.end, &Settings::default(), &mut flat_solver(&rover));
+        predictions += answer.iterations;
+        let replayed = predict(&fine(&rover, &yard), &start, &answer.segments, |_| {});
+        let met = replayed.is_ok_and(|r| difference(&r.end, &driven.end) < 0.01);
+        assert!(answer.status != Status::Ok || met, "seed {seed}: {answer:?}");
+        found += usize::from(answer.status == Status::Ok);
+    }
+    println!("{found} of {asked} found with {:.1} predictions each", f64::from(predictions) / asked as f64);
+    assert!(asked > 100 && found * 1000 >= asked * 990, "{found} of {asked}");
+}
+
+#[test]
+fn slip_delay_and_lag_are_met_as_well() {
+    let yard = yard();
+    let rover = Rover {
+        slip: Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 },
+        response: Response {
+            latency: 0.2,
+            steering_time_constant: 0.2,
+            steering_rate: 30.0_f64.to_radians(),
+            steered_axle: 0.47,
+        },
+        ..shipped("rocky8")
+    };
+    let (mut asked, mut found) = (0, 0);
+    for seed in 0..100 {
+        let unit = |i: u64| hashed_unit(seed, &[300 + i]);
+        let drive = [random_arc(seed, 2.0 + 4.0 * unit(3))];
+        let at = Planar { x: 9.0 + 12.0 * unit(0), y: 9.0 + 12.0 * unit(1), yaw: 6.0 * unit(2), curvature: 0.0 };
+        let start = Planar { curvature: drive[0].curvature_at(0.0), ..at };
+        let Ok(driven) = predict(&fine(&rover, &yard), &start, &drive, |_| {}) else { continue };
+        if driven.tilt.0 > 0.52 {
+            continue;
+        }
+        asked += 1;
+        let answer = solve(&course(&rover, &yard), &start, &driven.end, &Settings::default(), &mut flat_solver(&rover));
+        found += usize::from(answer.status == Status::Ok);
+    }
+    println!("{found} of {asked} found");
+    assert!(asked > 50 && found * 100 >= asked * 97, "{found} of {asked}");
+}
+
+#[test]
+fn on_level_ground_the_flat_answer_is_the_answer() {
+    let rover = shipped("generic");
+    let goal = Planar { x: 4.0, y: 1.0, yaw: 0.5, curvature: 0.0 };
+    let answer =
+        solve(&course(&rover, &Flat), &Planar::default(), &goal, &Settings::default(), &mut flat_solver(&rover));
+    assert_eq!((answer.status, answer.iterations), (Status::Ok, 1));
+    let flat = flat_solver(&rover)(&Query {
+        start_curvature: 0.0,
+        goal: crate::feasibility::steering::shooting::Goal { x: 4.0, y: 1.0, yaw: 0.5, curvature: 0.0 },
+    });
+    assert_eq!(Some(answer.segments), flat);
+}
+
+#[test]
+fn ground_that_ends_is_said() {
+    let (yard, rover) = (yard(), shipped("rocky8"));
+    let start = Planar { x: 28.0, y: 15.0, yaw: 0.0, curvature: 0.0 };
+    let goal = Planar { x: 34.0, ..start };
+    let answer = solve(&course(&rover, &yard), &start, &goal, &Settings::default(), &mut flat_solver(&rover));
+    assert!(matches!(answer.status, Status::Blocked(_)), "{answer:?}");
+    let nothing = Planar { x: f64::NAN, ..start };
+    assert!(predict(&course(&rover, &yard), &nothing, &[random_arc(0, 1.0)], |_| {}).is_err());
+}

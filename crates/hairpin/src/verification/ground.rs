@@ -1,0 +1,183 @@
+//! Replay of a drive on the ground: what was written, integrated again with suspension, slip and lag.
+
+use super::drive::{DrivePiece, LEAST_STEPS};
+use super::stand::{NoRest, Rest, Stand};
+use crate::world::terrain::{NoGround, Terrain};
+
+/// The vehicle, as plain numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GroundVehicle {
+    /// How it stands.
+    pub stand: Stand,
+    /// Share of the speed lost climbing 20°.
+    pub slip_at_20_deg: f64,
+    /// Drift downhill across a slope of 20°, as a share of the speed.
+    pub side_slip_at_20_deg: f64,
+    /// Delay of every command, s.
+    pub latency_s: f64,
+    /// First-order lag of the steering, s; 0: none.
+    pub steering_time_constant_s: f64,
+    /// Largest rate of the steering angle, rad/s.
+    pub steering_rate_rad_s: f64,
+    /// κ = tan δ / it, m.
+    pub steered_axle_m: f64,
+}
+
+/// What a drive on the ground was asked to do; world frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GroundClaim {
+    /// x, y (m), ψ (rad) of the start.
+    pub start: [f64; 3],
+    /// κ at the start, 1/m.
+    pub start_curvature: f64,
+    /// Direction of travel in the body, rad.
+    pub crab: f64,
+    /// Speed, m/s, > 0.
+    pub speed_m_s: f64,
+    /// x, y (m), ψ (rad) to end in.
+    pub end: [f64; 3],
+    /// κ to end with, 1/m.
+    pub end_curvature: f64,
+}
+
+/// What the drive does on the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GroundReplay {
+    /// Where it ends less where it should, in the world: x, y (m), yaw (rad, in (−π, π]).
+    pub error: [f64; 3],
+    /// Curvature of the steering at the end less what it should be, 1/m.
+    pub error_curvature: f64,
+    /// Largest angle of the body's z axis from the vertical, rad.
+    pub max_tilt: f64,
+    /// Steps of the integrator.
+    pub steps: usize,
+}
+
+/// Why a drive cannot be replayed to its end, and after how many metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stopped {
+    /// Metres driven before.
+    pub after_m: f64,
+    /// The place without ground; `None` where the body finds no rest.
+    pub no_ground: Option<NoGround>,
+}
+
+/// sin 20°.
+const SIN_20: f64 = 0.342_020_143_325_668_7;
+/// Longest step of a turn in place, rad.
+const TURN_STEP: f64 = 0.005;
+
+/// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on its
+/// wheels at each. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act.
+///
+/// # Errors
+/// [`Stopped`] where the ground ends or the body finds no rest.
+pub fn replay_ground<T: Terrain>(
+    pieces: &[DrivePiece],
+    vehicle: &GroundVehicle,
+    terrain: &T,
+    claim: &GroundClaim,
+) -> Result<GroundReplay, Stopped> {
+    let wait = vehicle.latency_s * claim.speed_m_s;
+    let mut commands = Vec::with_capacity(pieces.len() + 1);
+    if wait > 0.0 {
+        let mut curvature = [0.0; 6];
+        curvature[0] = claim.start_curvature;
+        commands.push(DrivePiece::Arc { length_m: wait, curvature, direction: 1.0 });
+    }
+    commands.extend_from_slice(pieces);
+    let total: f64 = pieces.iter().map(DrivePiece::length).sum();
+    let stopped = |after_m: f64, no_rest: NoRest| Stopped {
+        after_m,
+        no_ground: match no_rest {
+            NoRest::Ground(place) => Some(place),
+            NoRest::NotFound => None,
+        },
+    };
+    let mut state =
+        [claim.start[0], claim.start[1], claim.start[2], libm::atan(claim.start_curvature * vehicle.steered_axle_m)];
+    let mut rest = Rest::find(&vehicle.stand, terrain, claim.start).map_err(|no| stopped(0.0, no))?;
+    let (mut driven, mut max_tilt, mut steps, mut last_curvature) = (0.0, 0.0_f64, 0, claim.start_curvature);
+    for piece in &commands {
+        let (length, count) = match piece {
+            DrivePiece::Arc { length_m, .. } => {
+                // What would act after the end is not driven.
+                let length = length_m.min((total - driven).max(0.0));
+                (length, (LEAST_STEPS as f64 * length / total.max(f64::MIN_POSITIVE)).ceil().max(16.0) as usize)
+            }
+            DrivePiece::Turn { angle_rad } => (*angle_rad, (angle_rad.abs() / TURN_STEP).ceil().max(16.0) as usize),
+        };
+        let h = length / count as f64;
+        for i in 0..count {
+            let s = length * i as f64 / count as f64;
+            let mut rates = |state: &[f64; 4], s: f64| -> Result<[f64; 4], NoRest> {
+                rest.follow(&vehicle.stand, terrain, [state[0], state[1], state[2]])?;
+                max_tilt =
+                    max_tilt.max(libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0)));
+                Ok(vehicle.rates(piece, claim, &rest, state, s))
+            };
+            let middle = rates(&state, s).and_then(|k1| rates(&moved(&state, &k1, 0.5 * h), s + 0.5 * h));
+            let k2 = middle.map_err(|no| stopped(driven, no))?;
+            state = moved(&state, &k2, h);
+            steps += 1;
+        }
+        if let DrivePiece::Arc { curvature, .. } = piece {
+            driven += length;
+            last_curvature = curvature.iter().rev().fold(0.0, |sum, a| sum * length + a);
+        } else {
+            last_curvature = 0.0;
+        }
+    }
+    if vehicle.lags() {
+        last_curvature = libm::tan(state[3]) / vehicle.steered_axle_m;
+    }
+    let yaw = state[2] - claim.end[2];
+    Ok(GroundReplay {
+        error: [state[0] - claim.end[0], state[1] - claim.end[1], libm::atan2(libm::sin(yaw), libm::cos(yaw))],
+        error_curvature: last_curvature - claim.end_curvature,
+        max_tilt,
+        steps,
+    })
+}
+
+fn moved(state: &[f64; 4], rates: &[f64; 4], h: f64) -> [f64; 4] {
+    [state[0] + h * rates[0], state[1] + h * rates[1], state[2] + h * rates[2], state[3] + h * rates[3]]
+}
+
+impl GroundVehicle {
+    fn lags(&self) -> bool {
+        self.steering_time_constant_s > 0.0 || self.steering_rate_rad_s.is_finite()
+    }
+
+    /// d(x, y, ψ, δ) per metre commanded, or per radian of a turn in place.
+    fn rates(&self, piece: &DrivePiece, claim: &GroundClaim, rest: &Rest, state: &[f64; 4], s: f64) -> [f64; 4] {
+        let [(sf, cf), (st, ct), (sp, cp), (sd, cd)] =
+            [rest.roll(), rest.pitch(), state[2], claim.crab].map(libm::sincos);
+        let DrivePiece::Arc { curvature, direction, .. } = piece else {
+            return [0.0, 0.0, cf / ct, 0.0];
+        };
+        let commanded: f64 = curvature.iter().rev().fold(0.0, |sum, a| sum * s + a);
+        let (bend, turned) = if self.lags() {
+            let wanted = libm::atan(commanded * self.steered_axle_m) - state[3];
+            let rate = if self.steering_time_constant_s > 0.0 {
+                wanted / self.steering_time_constant_s
+            } else {
+                wanted * f64::MAX.sqrt()
+            };
+            let rate = rate.clamp(-self.steering_rate_rad_s, self.steering_rate_rad_s);
+            (libm::tan(state[3]) / self.steered_axle_m, rate / claim.speed_m_s)
+        } else {
+            (commanded, 0.0)
+        };
+        // Unit vectors of the way and across it in the body, and how steeply each rises.
+        let (along, across) = ([cd, sd], [-sd, cd]);
+        let rises = [-st, ct * sf];
+        let rise = |v: [f64; 2]| v[0] * rises[0] + v[1] * rises[1];
+        let progress = direction - self.slip_at_20_deg * rise(along) / SIN_20;
+        let drift = -self.side_slip_at_20_deg * rise(across) / SIN_20;
+        let v = [progress * along[0] + drift * across[0], progress * along[1] + drift * across[1]];
+        let ahead = ct * v[0] + st * sf * v[1];
+        let left = cf * v[1];
+        [cp * ahead - sp * left, sp * ahead + cp * left, cf / ct * bend * progress, turned]
+    }
+}

@@ -1,0 +1,221 @@
+//! How a vehicle stands on the ground, for the proof: a chain of rotations, contacts, and Newton's method with differences.
+//!
+//! Nothing is shared with the robot's own suspension: wheels are placed by matrices, derivatives are differences, the linear
+//! systems are solved by a general decomposition.
+
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+
+use crate::world::terrain::{NoGround, Terrain};
+
+/// What rests on the ground, m, in the body frame (x forward, y left, z up).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stand {
+    /// A point that stays level.
+    Level,
+    /// Wheels on a rigid body: front left, front right, rear left, rear right.
+    FourWheel {
+        /// Their centres.
+        wheels: [Vector3<f64>; 4],
+        /// Their radius.
+        radius: f64,
+    },
+    /// Rocker-bogie: the left side, the right one mirrored, rockers equal and opposite.
+    RockerBogie {
+        /// Pivot on the body.
+        pivot: Vector3<f64>,
+        /// The rocker's wheel from the pivot.
+        rocker_wheel: Vector3<f64>,
+        /// The bogie's joint from the pivot.
+        bogie_joint: Vector3<f64>,
+        /// The bogie's wheels from the joint.
+        bogie_wheels: [Vector3<f64>; 2],
+        /// Radius of the wheels.
+        radius: f64,
+    },
+}
+
+/// Heights and angles that are looked for: (z, φ, θ) and, with a rocker-bogie, (rocker, left bogie, right bogie).
+type Unknowns = SVector<f64, 6>;
+/// Gaps of the wheels, m; those there are not stay zero.
+type Gaps = SVector<f64, 6>;
+
+/// A pose at rest, kept from one place to the next.
+#[derive(Debug, Clone)]
+pub(super) struct Rest {
+    unknowns: Unknowns,
+    /// The inverse Jacobian it was found with; good for its neighbours.
+    inverse: Option<SMatrix<f64, 6, 6>>,
+}
+
+/// Steps shorter than this end the search, m and rad.
+const CLOSED: f64 = 1e-9;
+/// Steps with the neighbour's Jacobian, and Jacobians, before the search is given up.
+const BORROWED: usize = 8;
+const JACOBIANS: usize = 60;
+/// Halvings of a step that makes the gaps no smaller.
+const HALVINGS: usize = 10;
+/// Difference quotients, m and rad.
+const DIFFERENCE: f64 = 1e-6;
+/// Longest step, m and rad: slopes mean nothing a wheel's width away.
+const FARTHEST: f64 = 0.3;
+
+/// Why there is no rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum NoRest {
+    Ground(NoGround),
+    NotFound,
+}
+
+impl Rest {
+    pub(super) fn roll(&self) -> f64 {
+        self.unknowns[1]
+    }
+
+    pub(super) fn pitch(&self) -> f64 {
+        self.unknowns[2]
+    }
+
+    /// At rest on the ground below `place` (x, y, ψ), looked for from level at the ground's height.
+    pub(super) fn find<T: Terrain>(stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<Self, NoRest> {
+        let mut rest = Self { unknowns: Unknowns::zeros(), inverse: None };
+        if *stand != Stand::Level {
+            let ground = terrain.patch(place[0], place[1]).map_err(NoRest::Ground)?;
+            let slope = Vector3::new(ground.slope[0], ground.slope[1], 0.0);
+            let heading = turn(2, place[2]);
+            rest.unknowns[0] = ground.height + 0.2;
+            rest.unknowns[2] = -libm::atan(slope.dot(&(heading * Vector3::x())));
+            rest.unknowns[1] = libm::atan(slope.dot(&(heading * Vector3::y())));
+        }
+        rest.follow(stand, terrain, place)?;
+        Ok(rest)
+    }
+
+    /// Brings the body to rest at `place`, from the rest it had before.
+    pub(super) fn follow<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
+        if *stand == Stand::Level {
+            return Ok(());
+        }
+        let gaps_at = |unknowns: &Unknowns| gaps(stand, terrain, place, unknowns).map_err(NoRest::Ground);
+        if let Some(inverse) = &self.inverse {
+            let (mut unknowns, mut last) = (self.unknowns, f64::INFINITY);
+            for _ in 0..BORROWED {
+                let step = inverse * gaps_at(&unknowns)?;
+                let length = step.amax();
+                if length > 0.5 * last || length > FARTHEST {
+                    break;
+                }
+                unknowns -= step;
+                if length < CLOSED {
+                    self.unknowns = unknowns;
+                    return Ok(());
+                }
+                last = length;
+            }
+        }
+        let mut found = gaps_at(&self.unknowns)?;
+        for _ in 0..JACOBIANS {
+            let jacobian = jacobian(stand, terrain, place, &self.unknowns).map_err(NoRest::Ground)?;
+            let inverse = pseudo_inverse(stand, &jacobian).ok_or(NoRest::NotFound)?;
+            let mut step = inverse * found;
+            let length = step.amax();
+            step *= FARTHEST / length.max(FARTHEST);
+            self.inverse = Some(inverse);
+            if length < CLOSED {
+                self.unknowns -= step;
+                return Ok(());
+            }
+            for halving in 0.. {
+                let ahead = self.unknowns - step;
+                let there = gaps_at(&ahead)?;
+                // At a kink no step helps; the last and shortest is taken for the other side of it.
+                if there.norm() < found.norm() || halving == HALVINGS {
+                    (self.unknowns, found) = (ahead, there);
+                    break;
+                }
+                step *= 0.5;
+            }
+        }
+        Err(NoRest::NotFound)
+    }
+}
+
+/// Signed distances of the wheels' centres over the ground's offset surface h + r √(1 + |∇h|²).
+fn gaps<T: Terrain>(stand: &Stand, terrain: &T, place: [f64; 3], unknowns: &Unknowns) -> Result<Gaps, NoGround> {
+    let world_from_body = turn(2, place[2]) * turn(1, unknowns[2]) * turn(0, unknowns[1]);
+    let origin = Vector3::new(place[0], place[1], unknowns[0]);
+    let (wheels, count, radius) = wheels(stand, unknowns);
+    let mut gaps = Gaps::zeros();
+    for (gap, wheel) in gaps.iter_mut().zip(&wheels[..count]) {
+        let center = origin + world_from_body * wheel;
+        let ground = terrain.patch(center.x, center.y)?;
+        *gap = center.z
+            - ground.height
+            - radius * (1.0 + ground.slope[0] * ground.slope[0] + ground.slope[1] * ground.slope[1]).sqrt();
+    }
+    Ok(gaps)
+}
+
+/// A turn by `angle` about the axis x (0), y (1) or z (2).
+fn turn(axis: usize, angle: f64) -> Matrix3<f64> {
+    let (sin, cos) = libm::sincos(angle);
+    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut matrix = Matrix3::identity();
+    (matrix[(next, next)], matrix[(last, last)]) = (cos, cos);
+    (matrix[(next, last)], matrix[(last, next)]) = (-sin, sin);
+    matrix
+}
+
+/// Centres of the wheels in the body frame, how many there are, and their radius.
+fn wheels(stand: &Stand, unknowns: &Unknowns) -> ([Vector3<f64>; 6], usize, f64) {
+    let mut places = [Vector3::zeros(); 6];
+    match stand {
+        Stand::Level => (places, 0, 0.0),
+        Stand::FourWheel { wheels, radius } => {
+            places[..4].copy_from_slice(wheels);
+            (places, 4, *radius)
+        }
+        Stand::RockerBogie { pivot, rocker_wheel, bogie_joint, bogie_wheels, radius } => {
+            let sides = [(1.0, unknowns[3], unknowns[4]), (-1.0, -unknowns[3], unknowns[5])];
+            for (places, (side, rocker, bogie)) in places.chunks_exact_mut(3).zip(sides) {
+                let mirrored = |v: &Vector3<f64>| Vector3::new(v.x, side * v.y, v.z);
+                let at_rocker = turn(1, rocker);
+                let at_bogie = at_rocker * turn(1, bogie);
+                places[0] = mirrored(pivot) + at_rocker * mirrored(rocker_wheel);
+                let joint = mirrored(pivot) + at_rocker * mirrored(bogie_joint);
+                places[1] = joint + at_bogie * mirrored(&bogie_wheels[0]);
+                places[2] = joint + at_bogie * mirrored(&bogie_wheels[1]);
+            }
+            (places, 6, *radius)
+        }
+    }
+}
+
+fn jacobian<T: Terrain>(
+    stand: &Stand,
+    terrain: &T,
+    place: [f64; 3],
+    unknowns: &Unknowns,
+) -> Result<SMatrix<f64, 6, 6>, NoGround> {
+    let mut jacobian = SMatrix::<f64, 6, 6>::zeros();
+    let count = if matches!(stand, Stand::RockerBogie { .. }) { 6 } else { 3 };
+    for i in 0..count {
+        let (mut ahead, mut behind) = (*unknowns, *unknowns);
+        ahead[i] += DIFFERENCE;
+        behind[i] -= DIFFERENCE;
+        let difference = gaps(stand, terrain, place, &ahead)? - gaps(stand, terrain, place, &behind)?;
+        jacobian.set_column(i, &(difference / (2.0 * DIFFERENCE)));
+    }
+    Ok(jacobian)
+}
+
+/// (JᵀJ)⁻¹Jᵀ over the unknowns there are: the inverse, or what brings four gaps to their least squares.
+fn pseudo_inverse(stand: &Stand, jacobian: &SMatrix<f64, 6, 6>) -> Option<SMatrix<f64, 6, 6>> {
+    if matches!(stand, Stand::RockerBogie { .. }) {
+        return jacobian.try_inverse();
+    }
+    let thin = jacobian.fixed_view::<6, 3>(0, 0);
+    let inverse = (thin.transpose() * thin).try_inverse()? * thin.transpose();
+    let mut whole = SMatrix::<f64, 6, 6>::zeros();
+    whole.fixed_view_mut::<3, 6>(0, 0).copy_from(&inverse);
+    Some(whole)
+}
