@@ -74,6 +74,7 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
         Command::Export(export) => commands::export::run(&export),
         Command::Report(report) => commands::report::run(&report),
         Command::Simulate(simulate) => commands::simulate::run(&simulate),
+        Command::Steer(steer) => commands::steer::run(&steer),
         Command::Bench(bench) => commands::bench::run(&bench),
         Command::Schema(schema) => commands::schema::run(&schema),
         Command::Completions(completions) => commands::completions::run(&completions),

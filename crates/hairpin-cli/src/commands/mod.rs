@@ -13,5 +13,6 @@ pub(crate) mod replay;
 pub(crate) mod report;
 pub(crate) mod schema;
 pub(crate) mod simulate;
+pub(crate) mod steer;
 pub(crate) mod stress;
 pub(crate) mod verify;

@@ -2,6 +2,7 @@
 
 mod report;
 mod resolve;
+mod rover;
 mod set;
 mod shape;
 mod tree;
@@ -14,6 +15,7 @@ use hairpin::campaign::scenario::KeyPath;
 use toml::Table;
 
 pub use report::{Complaint, Report};
+pub use rover::rover_for;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
 use crate::{library, schema};

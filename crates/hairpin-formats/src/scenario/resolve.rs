@@ -23,9 +23,14 @@ impl Resolver<'_> {
     pub(super) fn robot(&mut self, root: &mut Node) {
         let Some(node) = root.entries().and_then(|entries| entries.get_mut("robot")) else { return };
         let Kind::Text(name) = &node.kind else { return };
-        let shipped: Vec<Shipped> = library::robots().collect();
-        let Some(table) = self.file("robot", name, &node.place, &shipped) else { return };
+        let Some(table) = self.robot_file(name, &node.place) else { return };
         *node = Node { key: node.key.take(), ..table };
+    }
+
+    /// The tree of the robot of this name or path; `place` is where mistakes in the name are told.
+    pub(super) fn robot_file(&mut self, name: &str, place: &Place) -> Option<Node> {
+        let shipped: Vec<Shipped> = library::robots().collect();
+        self.file("robot", name, place, &shipped)
     }
 
     /// Fills in the keys of the base world that the scenario's own world has not.

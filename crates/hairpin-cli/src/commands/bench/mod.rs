@@ -6,6 +6,7 @@ mod memory;
 mod reach;
 mod search;
 mod simulation;
+mod steer;
 mod witness;
 
 use hairpin::campaign::Setup;
@@ -53,7 +54,15 @@ impl Target {
 
 /// Runs the command: 0 when it has measured, whatever came out (a busy machine is no violation).
 pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
-    let rooms = [reach::rows(), search::rows(), exact::rows(), witness::rows(), simulation::rows(), memory::rows()];
+    let rooms = [
+        reach::rows(),
+        search::rows(),
+        exact::rows(),
+        witness::rows(),
+        simulation::rows(),
+        steer::rows(),
+        memory::rows(),
+    ];
     let all: Vec<Row> = rooms.into_iter().flatten().collect();
     let wanted = |row: &&Row| bench.name.as_ref().is_none_or(|name| row.name.starts_with(name.as_str()));
     let rows: Vec<&Row> = all.iter().filter(wanted).collect();

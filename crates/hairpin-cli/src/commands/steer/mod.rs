@@ -1,0 +1,23 @@
+//! `hairpin steer`: boundary-value drives, one from the command line or many from a file.
+
+mod batch;
+mod question;
+mod single;
+mod vehicle;
+
+use crate::args::Steer;
+use crate::folder;
+use crate::problem::Problem;
+use vehicle::Vehicle;
+pub(super) use vehicle::piece;
+
+/// Runs the command: 0 when everything was answered; one question alone is 3 when it is infeasible, 5 when it is open.
+pub(crate) fn run(steer: &Steer) -> Result<u8, Problem> {
+    folder::take_threads(&steer.threads);
+    let vehicle = Vehicle::new(steer)?;
+    match (&steer.queries, &steer.to) {
+        (Some(queries), _) => batch::run(steer, &vehicle, queries),
+        (None, Some(to)) => single::run(steer, &vehicle, to),
+        (None, None) => Err(Problem::input("give a goal, --to X,Y,YAW, or a file of them, --queries Q.csv")),
+    }
+}

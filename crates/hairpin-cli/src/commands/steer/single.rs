@@ -1,0 +1,173 @@
+//! One question: its drive in words, as JSON, as a picture.
+
+use hairpin::feasibility::steering::shooting::flat::{Limit, Status as ArcStatus};
+use hairpin::feasibility::steering::shooting::solve::{Method, Solution};
+use hairpin::verification::DriveReplay;
+use hairpin_formats::atomic;
+use hairpin_formats::steering::{Frame, Piece, Status, svg};
+use serde_json::{Value, json};
+
+use super::question::{asked, pieces, stretches};
+use super::vehicle::{Answered, Vehicle};
+use crate::args::Steer;
+use crate::console;
+use crate::problem::Problem;
+
+pub(super) fn run(steer: &Steer, vehicle: &Vehicle, to: &str) -> Result<u8, Problem> {
+    let asked = asked(steer, to)?;
+    let answered = vehicle.answer(&asked);
+    let code = match answered.status {
+        Status::Ok => 0,
+        Status::Infeasible => 3,
+        Status::NotConverged | Status::TimeLimit => 5,
+        Status::Invalid => {
+            let field = answered.limit.map_or("", |(limit, _)| limit);
+            return Err(Problem::input(format!("--to {to}: `{field}` is beyond what can be planned (1e6 m, 1e6 rad)")));
+        }
+    };
+    if let (Some(plot), Some((solution, _))) = (&steer.plot, &answered.drive) {
+        let picture = svg(&stretches(solution, &asked), &[[0.0; 3], asked.goal]).map_err(Problem::input)?;
+        atomic::write(plot, picture.as_bytes())?;
+    }
+    let shorter = vehicle.with_reversals(&asked, &answered);
+    if steer.json {
+        let mut object = object(vehicle, &answered, asked.frame, code);
+        if let Some(metres) = shorter {
+            object["with_reversals_m"] = metres.into();
+        }
+        console::say(&object.to_string());
+    } else {
+        words(vehicle, &answered, asked.frame).iter().for_each(|line| console::say(line));
+        if let Some(metres) = shorter {
+            console::say(&format!("--reversals would do it in {metres:.3} m"));
+        }
+    }
+    Ok(code)
+}
+
+fn method(method: Method) -> &'static str {
+    match method {
+        Method::SingleArc => "single arc",
+        Method::TurnDriveTurn => "turn, drive, turn",
+        Method::Clothoids => "lines, arcs and clothoids",
+    }
+}
+
+/// What a single arc would break, where something else had to do.
+fn arc_lacks(solution: &Solution) -> Option<(&'static str, f64)> {
+    match solution.arc {
+        Some(ArcStatus::Infeasible { limit, excess }) if solution.method != Method::SingleArc => {
+            let name = match limit {
+                Limit::Curvature => "curvature_1_m",
+                Limit::CurvatureRate => "curvature_rate_1_m2",
+                Limit::Yaw => "yaw_rad",
+                Limit::EndCurvature => "end_curvature_1_m",
+            };
+            Some((name, excess))
+        }
+        _ => None,
+    }
+}
+
+fn words(vehicle: &Vehicle, answered: &Answered, frame: Frame) -> Vec<String> {
+    let left = frame.left();
+    let mut lines = Vec::new();
+    let status = answered.status;
+    let limit = answered.limit.map_or(String::new(), |(limit, excess)| {
+        excess.map_or(format!(": {limit}"), |excess| format!(": {limit} exceeded by {excess:.6}"))
+    });
+    let name = &vehicle.rover.name;
+    let Some((solution, replay)) = &answered.drive else {
+        lines.push(format!("{status} ({name}){limit}"));
+        if let Some([k0, kf]) = answered.nearest {
+            lines.push(format!(
+                "nearest that is feasible: curvature {} at the start, {} at the goal",
+                left * k0,
+                left * kf
+            ));
+        }
+        return lines;
+    };
+    let mut table =
+        vec![["segment", "kind", "direction", "length_m", "turn_rad", "curvature"].map(str::to_owned).to_vec()];
+    for (number, piece) in pieces(solution).iter().enumerate() {
+        table.push(match piece {
+            Piece::Arc { length_m, curvature, direction } => {
+                let most = curvature.iter().rposition(|a| *a != 0.0).unwrap_or(0);
+                let bends: Vec<String> = curvature[..=most].iter().map(|a| format!("{:.6}", left * a)).collect();
+                vec![
+                    number.to_string(),
+                    "arc".into(),
+                    format!("{direction:+}"),
+                    format!("{length_m:.6}"),
+                    "–".into(),
+                    bends.join(" "),
+                ]
+            }
+            Piece::Turn { angle_rad } => {
+                let angle = format!("{:.6}", left * angle_rad);
+                vec![number.to_string(), "turn".into(), "–".into(), "–".into(), angle, "–".into()]
+            }
+        });
+    }
+    lines.push(console::table(&table));
+    let DriveReplay {
+        error: [x, y, yaw], error_curvature, max_curvature, max_curvature_rate, length, reversals, ..
+    } = replay;
+    lines.push(format!(
+        "{status} ({name}, {}){limit}: {length:.3} m, {reversals} reversals, |κ| ≤ {max_curvature:.4} 1/m, |κ'| ≤ {max_curvature_rate:.4} 1/m²; \
+         replayed: {:.1e} m, {:.1e} rad, {:.1e} 1/m off; {:.1} µs, {} iterations",
+        method(solution.method),
+        libm::hypot(*x, *y),
+        yaw.abs(),
+        error_curvature.abs(),
+        answered.solving.as_secs_f64() * 1e6,
+        solution.iterations
+    ));
+    if let Some((limit, excess)) = arc_lacks(solution) {
+        lines.push(format!("a single arc would exceed {limit} by {excess:.4}"));
+    }
+    lines
+}
+
+fn object(vehicle: &Vehicle, answered: &Answered, frame: Frame, code: u8) -> Value {
+    let left = frame.left();
+    let (limit, excess) = answered.limit.map_or((None, None), |(limit, excess)| (Some(limit), excess));
+    let mut object = json!({
+        "robot": vehicle.rover.name,
+        "status": answered.status,
+        "limit": limit,
+        "excess": excess,
+        "bounds": { "curvature_1_m": answered.bounds.most, "curvature_rate_1_m2": answered.bounds.most_rate },
+        "time_us": answered.solving.as_secs_f64() * 1e6,
+        "exit_code": code,
+    });
+    if let Some([k0, kf]) = answered.nearest {
+        object["nearest"] = json!({ "k0": left * k0, "kf": left * kf });
+    }
+    let Some((solution, replay)) = &answered.drive else { return object };
+    let segments: Vec<Value> = pieces(solution)
+        .iter()
+        .map(|piece| match piece {
+            Piece::Arc { length_m, curvature, direction } => {
+                json!({ "kind": "arc", "direction": direction, "length_m": length_m, "curvature": curvature.map(|a| left * a) })
+            }
+            Piece::Turn { angle_rad } => json!({ "kind": "turn", "turn_rad": left * angle_rad }),
+        })
+        .collect();
+    let [x, y, yaw] = replay.error;
+    object["method"] = method(solution.method).into();
+    object["iterations"] = solution.iterations.into();
+    object["length_m"] = replay.length.into();
+    object["reversals"] = replay.reversals.into();
+    object["segments"] = segments.into();
+    object["errors"] =
+        json!({ "x_m": x, "y_m": left * y, "yaw_rad": left * yaw, "curvature_1_m": left * replay.error_curvature });
+    object["max_curvature_1_m"] = replay.max_curvature.into();
+    object["max_curvature_rate_1_m2"] = replay.max_curvature_rate.into();
+    object["replay_steps"] = replay.steps.into();
+    if let Some((limit, excess)) = arc_lacks(solution) {
+        object["single_arc"] = json!({ "limit": limit, "excess": excess });
+    }
+    object
+}

@@ -1,0 +1,279 @@
+//! `hairpin steer`: every status and column of the batch contract, and answers that hold by equations of the test's own.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+
+/// Runs in `folder`; exit code, stdout, stderr.
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let mut command = Command::cargo_bin("hairpin").expect("the binary is built with its tests");
+    let output = command.current_dir(folder).args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
+}
+
+/// One row of R.csv by column.
+type Row = BTreeMap<String, String>;
+
+/// Runs a batch of `queries`; its rows. Cells of these tests hold no commas.
+fn batch(queries: &str, flags: &[&str]) -> Vec<Row> {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("q.csv"), queries).unwrap();
+    let (code, out, error) =
+        run(folder.path(), &[&["steer", "generic", "--queries", "q.csv", "--out", "r.csv"], flags].concat());
+    assert_eq!(code, 0, "{out}{error}");
+    let text = fs::read_to_string(folder.path().join("r.csv")).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(names.len(), 22);
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert_eq!(cells.len(), names.len(), "{line}");
+        names.iter().zip(cells).map(|(name, cell)| ((*name).to_owned(), cell.to_owned())).collect()
+    };
+    lines.map(row).collect()
+}
+
+fn number(row: &Row, column: &str) -> f64 {
+    row[column].parse().unwrap_or_else(|_| panic!("{column} = {:?}", row[column]))
+}
+
+/// The rows of each query, in order.
+fn by_query(rows: &[Row]) -> Vec<Vec<Row>> {
+    let mut all: Vec<Vec<Row>> = Vec::new();
+    for row in rows {
+        match all.last_mut() {
+            Some(last) if last[0]["id"] == row["id"] => last.push(row.clone()),
+            _ => all.push(vec![row.clone()]),
+        }
+    }
+    all
+}
+
+/// Where the rows of one query end, by the midpoint rule on 20 000 steps a segment: x, y, yaw, κ; largest |κ|, |κ′|.
+fn drive(rows: &[Row], crab: f64) -> ([f64; 4], [f64; 2]) {
+    let ([mut x, mut y, mut yaw, mut bend], mut most) = ([0.0f64; 4], [0.0f64; 2]);
+    let mut before: Option<(f64, f64)> = None;
+    for row in rows {
+        if row["kind"] == "turn" {
+            yaw += number(row, "turn_rad");
+            (bend, before) = (0.0, None);
+            continue;
+        }
+        let a: Vec<f64> = (0..6).map(|i| number(row, &format!("a{i}"))).collect();
+        let (length, direction) = (number(row, "length_m"), number(row, "direction"));
+        let at = |s: f64| a.iter().rev().fold(0.0, |sum, a| sum * s + a);
+        if let Some((curvature, gear)) = before {
+            assert!(gear != direction || (at(0.0) - curvature).abs() < 1e-6, "a jump of curvature: {rows:?}");
+        }
+        let steps = 20_000;
+        let h = length / f64::from(steps);
+        for i in 0..steps {
+            let s = (f64::from(i) + 0.5) * h;
+            let middle = yaw + direction * at(s) * 0.5 * h + crab;
+            (x, y) = (x + direction * h * middle.cos(), y + direction * h * middle.sin());
+            yaw += direction * at(s) * h;
+            let slope = (1..6).rev().fold(0.0, |sum, i| sum * s + i as f64 * a[i]);
+            most = [most[0].max(at(s).abs()), most[1].max(slope.abs())];
+        }
+        bend = at(length);
+        before = Some((bend, direction));
+    }
+    ([x, y, yaw, bend], most)
+}
+
+/// Panics unless the rows of one query end in `goal` (x, y, yaw, κ) within the bounds of `generic`.
+fn check(rows: &[Row], goal: [f64; 4], crab: f64) {
+    assert!(rows.iter().all(|row| row["status"] == "ok"), "{rows:?}");
+    let ([x, y, yaw, bend], [most, rate]) = drive(rows, crab);
+    assert!((x - goal[0]).hypot(y - goal[1]) < 0.0101, "{x} {y}, not {goal:?}: {rows:?}");
+    assert!((0.5 * (yaw - goal[2])).sin().abs() < 0.0051 && (bend - goal[3]).abs() < 0.0101, "{rows:?}");
+    assert!(most <= 1.0 + 1e-9 && rate <= 1.0 + 1e-9, "{most} {rate}: {rows:?}");
+    let told = (number(&rows[0], "err_x_m") - (x - goal[0])).hypot(number(&rows[0], "err_y_m") - (y - goal[1]));
+    assert!(told < 1e-4, "the replay tells {told} m else: {rows:?}");
+    assert!((number(&rows[0], "max_curvature_1_m") - most).abs() < 1e-3);
+}
+
+/// A stream of numbers in [−1, 1) from a seed (splitmix64).
+fn uniform(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+#[test]
+fn hard_queries_are_all_answered_within_the_bounds() {
+    let mut next = uniform(5);
+    let mut goals = Vec::new();
+    let mut text = String::from("id,x,y,yaw,k0,kf\r\n");
+    for id in 0..120 {
+        let goal = [4.0 * next(), 4.0 * next(), 3.2 * next(), if id % 3 == 0 { next() } else { 0.0 }];
+        text += &format!(
+            "{id},{},{},{},{},{}\r\n",
+            goal[0],
+            goal[1],
+            goal[2],
+            if id % 2 == 0 { 0.0 } else { next() },
+            goal[3]
+        );
+        goals.push(goal);
+    }
+    for flags in [&["--reversals"][..], &["--turns"], &[]] {
+        let queries = by_query(&batch(&text, flags));
+        assert_eq!(queries.len(), goals.len());
+        for (rows, goal) in queries.iter().zip(&goals) {
+            check(rows, *goal, 0.0);
+            let reversed = rows.iter().any(|row| row["direction"] == "-1");
+            let turned = rows.iter().any(|row| row["kind"] == "turn");
+            assert!(
+                (!reversed || flags.contains(&"--reversals")) && (!turned || flags.contains(&"--turns")),
+                "{rows:?}"
+            );
+            let numbers: Vec<usize> = rows.iter().map(|row| row["segment"].parse().unwrap()).collect();
+            assert_eq!(numbers, (0..rows.len()).collect::<Vec<_>>());
+        }
+    }
+}
+
+#[test]
+fn columns_mean_what_they_say() {
+    let head = "id,sx,sy,syaw,x,y,yaw,k0,kf,v0,vf,direction,frame,max_curvature,tolerance_m\n";
+    let rows = batch(
+        &format!(
+            "{head}plain,0,0,0,5,1,0.3,0,0,,,,,,\nplace,50,-20,2,5,1,0.3,0,0,0.5,1,,enu,,\nned,0,0,0,5,-1,-0.3,0,0,,,,ned,,\n\
+             crab,0,0,0,5,1,0.3,0,0,,,0.4,,,\nwide,0,0,0,5,2,0.3,0,0,,,,,0.4,\nabove,0,0,0,5,1,0.3,0.5,0,,,,,0.4,0.02\n"
+        ),
+        &["--reversals"],
+    );
+    let queries = by_query(&rows);
+    check(&queries[0], [5.0, 1.0, 0.3, 0.0], 0.0);
+    // Flat ground is the same everywhere, and left in one frame is right in the other.
+    for (other, sign) in [(&queries[1], 1.0), (&queries[2], -1.0)] {
+        for (a, b) in queries[0].iter().zip(other) {
+            for column in ["a0", "a1", "a2", "a3", "a4", "a5", "turn_rad"] {
+                assert_eq!(number(a, column), sign * number(b, column), "{column}");
+            }
+            assert_eq!(a["length_m"], b["length_m"]);
+        }
+    }
+    check(&queries[3], [5.0, 1.0, 0.3, 0.0], 0.4);
+    check(&queries[4], [5.0, 2.0, 0.3, 0.0], 0.0);
+    assert!(number(&queries[4][0], "max_curvature_1_m") <= 0.4 * (1.0 + 1e-9));
+    let [above] = &queries[5][..] else { panic!("{:?}", queries[5]) };
+    assert_eq!(
+        (above["status"].as_str(), above["limit"].as_str(), above["kind"].as_str()),
+        ("infeasible", "curvature_1_m", "")
+    );
+    assert!((number(above, "excess") - 0.1).abs() < 1e-12);
+}
+
+#[test]
+fn every_status_and_the_start_value() {
+    let text = "\u{feff}id,x,y,yaw,k0,kf\r\n\"good, really\",3,0,0,0,0\r\nbad,3,zero,0,0,0\r\nshort,3\r\nsharp,3,0,0,0,2\r\nfar,1e9,0,0,0,0\r\n";
+    let text = text.replace("good, really", "good");
+    let statuses = |flags: &[&str]| -> Vec<String> {
+        by_query(&batch(&text, flags)).iter().map(|rows| rows[0]["status"].clone()).collect()
+    };
+    assert_eq!(statuses(&[]), ["ok", "invalid", "invalid", "infeasible", "invalid"]);
+    assert_eq!(statuses(&["--time-limit-ms", "1000"]), ["ok", "invalid", "invalid", "infeasible", "invalid"]);
+    assert_eq!(statuses(&["--time-limit-ms", "0"]), ["time_limit", "invalid", "invalid", "infeasible", "invalid"]);
+    let start = batch("id,x,y,yaw,k0,kf\nq,4,2,0.5,0,0\n", &["--time-limit-ms", "0"]);
+    assert!(start[0]["kind"] == "arc" && number(&start[0], "length_m") > 0.0, "{start:?}");
+    let invalid = batch("id,x,y,yaw,k0,kf\nq,4,nan,0.5,0,0\n", &[]);
+    assert_eq!((invalid[0]["limit"].as_str(), invalid[0]["length_m"].as_str()), ("y", ""));
+}
+
+#[test]
+fn files_are_the_same_on_any_number_of_threads() {
+    let mut next = uniform(9);
+    let mut text = String::from("id,x,y,yaw,k0,kf\n");
+    for id in 0..200 {
+        text += &format!("q{id},{},{},{},0,0\n", 5.0 * next(), 5.0 * next(), 3.0 * next());
+    }
+    let without_time = |threads: &str| {
+        let mut rows = batch(&text, &["--reversals", "--threads", threads]);
+        rows.iter_mut().for_each(|row| drop(row.remove("time_us")));
+        rows
+    };
+    assert_eq!(without_time("1"), without_time("3"));
+}
+
+#[test]
+fn broken_files_and_flags_are_2() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    fs::write(path.join("short.csv"), "id,x,y,yaw,k0\na,1,2,0,0\n").unwrap();
+    fs::write(path.join("quote.csv"), "id,x,y,yaw,k0,kf\n\"a,1,2,0,0,0\n").unwrap();
+    fs::write(path.join("empty.csv"), "").unwrap();
+    fs::write(path.join("q.csv"), "id,x,y,yaw,k0,kf\na,1,2,0,0,0\n").unwrap();
+    fs::write(path.join("own.toml"), "kind = \"rover\"\nname = \"own\"\n[limits]\ncurvature_1_m = -1\n").unwrap();
+    for (arguments, told) in [
+        (vec!["steer", "generic"], "--to"),
+        (vec!["steer", "generic", "--queries", "none.csv"], "none.csv"),
+        (vec!["steer", "generic", "--queries", "short.csv"], "`kf`"),
+        (vec!["steer", "generic", "--queries", "quote.csv"], "quotes"),
+        (vec!["steer", "generic", "--queries", "empty.csv"], "`id`"),
+        (vec!["steer", "anafi", "--to", "1,0,0"], "no rover"),
+        (vec!["steer", "genric", "--to", "1,0,0"], "did you mean `generic`?"),
+        (vec!["steer", "own.toml", "--to", "1,0,0"], "own.toml"),
+        (vec!["steer", "generic", "--to", "1,0"], "X,Y,YAW"),
+        (vec!["steer", "generic", "--to", "1,0,x"], "X,Y,YAW"),
+        (vec!["steer", "generic", "--to", "1e9,0,0"], "`x`"),
+        (vec!["steer", "generic", "--to", "1,0,0", "--max-curvature", "0"], "> 0"),
+        (vec!["steer", "generic", "--to", "1,0,0", "--queries", "q.csv"], "cannot be used with"),
+        (vec!["steer", "generic", "--queries", "q.csv", "--time-limit-ms", "-1"], "milliseconds"),
+    ] {
+        let (code, out, error) = run(path, &arguments);
+        assert!(code == 2 && out.is_empty() && error.contains(told), "{arguments:?}: {code} {out} {error}");
+    }
+}
+
+#[test]
+fn one_question_in_words_as_json_and_as_a_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let (code, out, error) = run(path, &["steer", "generic", "--to", "4,1,0.5", "--plot", "drive.svg"]);
+    assert!(code == 0 && out.contains("ok (generic") && error.is_empty(), "{out}{error}");
+    assert!(fs::read_to_string(path.join("drive.svg")).unwrap().starts_with("<svg"));
+    let object = |arguments: &[&str]| -> (i32, serde_json::Value) {
+        let (code, out, error) = run(path, &[&["steer", "generic", "--json"], arguments].concat());
+        (code, serde_json::from_str(&out).unwrap_or_else(|_| panic!("{out}{error}")))
+    };
+    // From a pose to a pose of the same map; in the other frame it is the mirror image.
+    let (code, enu) = object(&["--from", "10,5,1.5707963267948966", "--to", "9,9,1.8"]);
+    assert!(code == 0 && enu["status"] == "ok" && enu["length_m"].as_f64().unwrap() < 4.5, "{enu}");
+    let (_, ned) = object(&["--frame", "ned", "--from", "5,10,0", "--to", "9,9,-0.22920367320510344"]);
+    assert!((enu["length_m"].as_f64().unwrap() - ned["length_m"].as_f64().unwrap()).abs() < 1e-6, "{enu}{ned}");
+    assert!(
+        (enu["segments"][0]["curvature"][1].as_f64().unwrap() + ned["segments"][0]["curvature"][1].as_f64().unwrap())
+            .abs()
+            < 1e-6
+    );
+    let (code, sharp) = object(&["--to", "3,0,0,1.5"]);
+    assert_eq!((code, sharp["limit"].as_str(), sharp["excess"].as_f64()), (3, Some("curvature_1_m"), Some(0.5)));
+    assert_eq!(sharp["nearest"]["kf"], 1.0);
+    let (code, start) = object(&["--to", "3,1,0", "--time-limit-ms", "0"]);
+    assert_eq!((code, start["status"].as_str()), (5, Some("time_limit")));
+    let (_, aside) = object(&["--to", "0,1,0", "--reversals"]);
+    let (_, around) = object(&["--to", "0,1,0"]);
+    assert!(aside["reversals"].as_u64().unwrap() > 0 && around["reversals"] == 0);
+    let metres =
+        |answer: &serde_json::Value, key: &str| answer[key].as_f64().unwrap_or_else(|| panic!("{key}: {answer}"));
+    assert!(metres(&aside, "length_m") < 0.5 * metres(&around, "length_m"));
+    // The long way round names the reversal that spares it.
+    assert!((metres(&around, "with_reversals_m") - metres(&aside, "length_m")).abs() < 1e-9);
+    assert!(enu.get("with_reversals_m").is_none() && aside.get("with_reversals_m").is_none());
+    let (code, own) = {
+        fs::write(path.join("own.toml"), "kind = \"rover\"\nname = \"own\"\n[limits]\ncurvature_1_m = 0.25\n").unwrap();
+        let (code, out, _) = run(path, &["steer", "own.toml", "--to", "8,3,0.5", "--json"]);
+        (code, serde_json::from_str::<serde_json::Value>(&out).unwrap())
+    };
+    assert!(code == 0 && own["robot"] == "own" && own["max_curvature_1_m"].as_f64().unwrap() <= 0.25 + 1e-9, "{own}");
+}
