@@ -19,6 +19,16 @@ pub fn robots() -> impl Iterator<Item = Shipped> {
     of_kind("robots")
 }
 
+/// The shipped quadrotors, sorted by path.
+pub fn quadrotors() -> impl Iterator<Item = Shipped> {
+    robots().filter(|robot| robot.path.starts_with("robots/quadrotor/"))
+}
+
+/// The shipped rovers, sorted by path.
+pub fn rovers() -> impl Iterator<Item = Shipped> {
+    robots().filter(|robot| robot.path.starts_with("robots/rover/"))
+}
+
 /// All shipped worlds, sorted by path.
 pub fn worlds() -> impl Iterator<Item = Shipped> {
     of_kind("worlds")

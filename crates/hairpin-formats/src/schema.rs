@@ -1,7 +1,8 @@
-//! The JSON Schema of scenario files, made from the types that read them.
+//! The JSON Schema of scenario and robot files, made from the types that read them.
 
 use hairpin::campaign::Scenario;
 use hairpin::robot::quadrotor::QuadrotorDescription;
+use hairpin::robot::rover::RoverDescription;
 use serde_json::{Value, json};
 
 /// The schema of a scenario file, for editors; `hairpin schema` prints it.
@@ -15,7 +16,12 @@ pub fn scenario_schema() -> Value {
     schema
 }
 
-/// The schema of a robot file.
+/// The schema of a rover's file.
+pub fn rover_schema() -> Value {
+    schemars::schema_for!(RoverDescription).to_value()
+}
+
+/// The schema of a quadrotor's file.
 pub fn robot_schema() -> Value {
     schemars::schema_for!(QuadrotorDescription).to_value()
 }

@@ -49,7 +49,12 @@ fn every_shipped_file_validates_against_its_schema() {
         let told: Vec<_> = scenarios.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
         assert!(told.is_empty(), "{}: {told:?}", shipped.path);
     }
-    for shipped in library::robots() {
+    let rovers = jsonschema::validator_for(&schema::rover_schema()).unwrap();
+    for shipped in library::rovers() {
+        let told: Vec<_> = rovers.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
+        assert!(told.is_empty(), "{}: {told:?}", shipped.path);
+    }
+    for shipped in library::quadrotors() {
         let told: Vec<_> = robots.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
         assert!(told.is_empty(), "{}: {told:?}", shipped.path);
     }
@@ -59,7 +64,12 @@ fn every_shipped_file_validates_against_its_schema() {
 
 #[test]
 fn every_shipped_robot_and_world_serves() {
-    for robot in library::robots() {
+    for robot in library::rovers() {
+        let report = scenario(robot.name, &[]).unwrap_err();
+        assert_eq!(report.complaints().len(), 1, "{report}");
+        assert!(report.complaints()[0].message.contains("is a rover"), "{report}");
+    }
+    for robot in library::quadrotors() {
         assert_eq!(robot_name(&fine(robot.name, &[])), robot.name);
     }
     for (world, start, end) in [

@@ -24,6 +24,13 @@ impl Resolver<'_> {
         let Some(node) = root.entries().and_then(|entries| entries.get_mut("robot")) else { return };
         let Kind::Text(name) = &node.kind else { return };
         let Some(table) = self.robot_file(name, &node.place) else { return };
+        if table.get("kind").is_some_and(|kind| matches!(&kind.kind, Kind::Text(word) if word == "rover")) {
+            let message =
+                format!("`robot` = \"{name}\" is a rover: scenarios are for quadrotors; `hairpin steer` takes rovers");
+            self.report.complain(&node.place, "robot", name, "must be a quadrotor", message);
+            node.kind = Kind::Refused;
+            return;
+        }
         *node = Node { key: node.key.take(), ..table };
     }
 

@@ -24,8 +24,7 @@ pub fn rover_for(name_or_path: &str) -> Result<Rover, Report> {
 
 fn read(name_or_path: &str, report: &mut Report) -> Option<Rover> {
     if !Path::new(name_or_path).is_file() && library::robots().all(|robot| robot.name != name_or_path) {
-        let rovers = library::robots().filter(|robot| robot.path.starts_with("robots/rover/"));
-        let known: Vec<&str> = rovers.map(|robot| robot.name).collect();
+        let known: Vec<&str> = library::rovers().map(|robot| robot.name).collect();
         let near = shape::nearest(name_or_path, known.iter().copied());
         let hint = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
         let message =
@@ -78,6 +77,9 @@ mod tests {
         assert_eq!((generic.limits.curvature, generic.limits.curvature_rate, generic.default_speed), (1.0, 1.0, 1.0));
         assert!(told("genric").contains("did you mean `generic`?"), "{}", told("genric"));
         assert!(told("anafi").contains("no rover"));
+        for name in ["rocky7", "rocky8", "open-source-rover", "four-wheel"] {
+            assert_eq!(rover_for(name).unwrap().name, name);
+        }
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("own.toml");
         let file = path.to_str().unwrap();
@@ -86,6 +88,14 @@ mod tests {
         assert_eq!(rover_for(file).unwrap().limits.curvature, 0.5);
         std::fs::write(&path, own.replace("curvature_1_m", "curvatur_1_m")).unwrap();
         assert!(told(file).contains("curvature_1_m") && told(file).contains("own.toml:4"), "{}", told(file));
+        for (suspension, said) in [
+            ("[suspension]\nkind = \"four-wheels\"", "did you mean `four-wheel`"),
+            ("[suspension]\nwheel_radius_m = 0.1", "`suspension.kind` is missing"),
+            ("[suspension]\nkind = \"four-wheel\"\npivot_m = [0, 0, 0]", "unknown key `suspension.pivot_m`"),
+        ] {
+            std::fs::write(&path, format!("{own}{suspension}\n")).unwrap();
+            assert!(told(file).contains(said), "{}", told(file));
+        }
         std::fs::write(&path, own.replace("0.5", "-0.5")).unwrap();
         assert!(told(file).contains("-0.5"), "{}", told(file));
     }

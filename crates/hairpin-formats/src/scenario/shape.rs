@@ -38,7 +38,10 @@ impl<'s> Shape<'s> {
             return self.complain(node, path, &format!("expected {}", expected.join(" or ")));
         };
         match &node.kind {
-            Kind::Table(_) => self.check_table(schema, node, path),
+            Kind::Table(_) => match tag(&alternatives) {
+                Some(tag) => self.check_tagged(tag, &alternatives, node, path),
+                None => self.check_table(schema, node, path),
+            },
             Kind::Array(items) => {
                 let count = items.len() as u64;
                 let least = schema["minItems"].as_u64().unwrap_or(0);
@@ -84,6 +87,26 @@ impl<'s> Shape<'s> {
         let message = format!("`{path}` = {word:?}: {hint}valid here: {list}");
         let bound = format!("must be one of {list}");
         self.report.complain(&node.place, path, &format!("{word:?}"), &bound, message);
+    }
+
+    /// A table that is one of several, told apart by the word under `tag`.
+    fn check_tagged(&mut self, tag: &str, alternatives: &[&'s Value], node: &Node, path: &str) {
+        let word_of = |schema: &'s Value| schema["properties"][tag]["const"].as_str();
+        let words: Vec<&str> = alternatives.iter().filter_map(|schema| word_of(schema)).collect();
+        let key = below(path, tag);
+        let Some(said) = node.get(tag) else {
+            let bound = format!("`{tag}` is missing here: one of {}", words.join(", "));
+            let place = node.key.as_ref().unwrap_or(&node.place);
+            return self.report.complain(place, &key, "", &bound, format!("`{key}` is missing"));
+        };
+        let chosen = match &said.kind {
+            Kind::Text(word) => alternatives.iter().find(|schema| word_of(schema) == Some(word)),
+            _ => None,
+        };
+        match chosen {
+            Some(schema) => self.check_table(schema, node, path),
+            None => self.check_word(&words, said, &key),
+        }
     }
 
     fn check_table(&mut self, schema: &'s Value, node: &Node, path: &str) {
@@ -190,6 +213,14 @@ impl<'s> Shape<'s> {
 }
 
 /// `"number"` of both `"number"` and `["number", "null"]`.
+/// The key whose constant tells several tables apart, as serde's tagged enums have it.
+fn tag<'s>(alternatives: &[&'s Value]) -> Option<&'s str> {
+    let first = alternatives.first()?["properties"].as_object()?;
+    let tells =
+        |key: &&String| alternatives.iter().all(|schema| schema["properties"][key.as_str()]["const"].is_string());
+    first.keys().find(tells).map(String::as_str)
+}
+
 fn type_of(schema: &Value) -> &str {
     let listed = schema["type"].as_array().and_then(|types| types.first());
     schema["type"].as_str().or(listed.and_then(Value::as_str)).unwrap_or_default()

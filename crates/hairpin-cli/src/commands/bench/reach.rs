@@ -31,10 +31,10 @@ fn hull(_: &Bench) -> Result<f64, Problem> {
     Ok(1e6 / 100.0 * median_time(9, many))
 }
 
-/// Largest distance of an end point from that of a tenth of the step, over all shipped robots.
+/// Largest distance of an end point from that of a tenth of the step, over all shipped quadrotors.
 fn error(_: &Bench) -> Result<f64, Problem> {
     let mut worst: f64 = 0.0;
-    for shipped in library::robots() {
+    for shipped in library::quadrotors() {
         let robot = robot(shipped.name)?;
         let speeds = sampling::constant_speeds(&robot, 5);
         let steps = sampling::steps(&robot, 1.0);

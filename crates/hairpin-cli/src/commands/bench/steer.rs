@@ -11,7 +11,7 @@ use rand::RngExt;
 use super::clock::median_time;
 use super::{Row, Target};
 use crate::args::Bench;
-use crate::commands::steer::piece;
+use crate::commands::steer::pieces;
 use crate::problem::Problem;
 
 const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
@@ -79,11 +79,10 @@ fn microseconds(queries: &[Query], reversals: bool) -> f64 {
 }
 
 fn replay(query: &Query, solution: &Solution) -> DriveReplay {
-    let pieces: Vec<DrivePiece> = solution.segments.iter().map(|segment: &Segment| piece(segment)).collect();
     let Goal { x, y, yaw, curvature } = query.goal;
     let claim =
         DriveClaim { start_curvature: query.start_curvature, crab: 0.0, end: [x, y, yaw], end_curvature: curvature };
-    replay_drive(&pieces, &claim)
+    replay_drive(&pieces(solution), &claim)
 }
 
 /// Share (%) whose replay ends within 1 cm, 0.01 rad and 0.01 1/m and keeps both bounds.

@@ -1,6 +1,7 @@
 //! `hairpin steer`: boundary-value drives, one from the command line or many from a file.
 
 mod batch;
+mod ground;
 mod question;
 mod single;
 mod vehicle;
@@ -9,7 +10,7 @@ use crate::args::Steer;
 use crate::folder;
 use crate::problem::Problem;
 use vehicle::Vehicle;
-pub(super) use vehicle::piece;
+pub(super) use vehicle::pieces;
 
 /// Runs the command: 0 when everything was answered; one question alone is 3 when it is infeasible, 5 when it is open.
 pub(crate) fn run(steer: &Steer) -> Result<u8, Problem> {

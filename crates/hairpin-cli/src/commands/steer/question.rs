@@ -2,11 +2,11 @@
 
 use hairpin::feasibility::steering::shooting::solve::Solution;
 use hairpin::trajectory::drive::{Gear, Motion};
-use hairpin::verification::{DrivePiece, trace_drive};
+use hairpin::verification::trace_drive;
 use hairpin_formats::frames::other_yaw;
 use hairpin_formats::steering::{Asked, Frame, Piece, Stretch};
 
-use super::vehicle::{claim, piece};
+use super::vehicle::{self, claim};
 use crate::args::{Steer, SteerFrame};
 use crate::problem::Problem;
 
@@ -67,7 +67,7 @@ pub(super) fn pieces(solution: &Solution) -> Vec<Piece> {
 
 /// A drive as it is drawn, in the frame of its start.
 pub(super) fn stretches(solution: &Solution, asked: &Asked) -> Vec<Stretch> {
-    let drive: Vec<DrivePiece> = solution.segments.iter().map(piece).collect();
+    let drive = vehicle::pieces(solution);
     let traced = trace_drive(&drive, &claim(asked)).into_iter();
     let drawn = traced.map(|(direction, poses)| Stretch {
         points: poses.iter().map(|[x, y, _]| [*x, *y]).collect(),

@@ -2,21 +2,25 @@
 
 use std::time::{Duration, Instant};
 
+use hairpin::campaign::ground::drive_piece;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Precision, Query, Refusal};
 use hairpin::feasibility::steering::shooting::solve::{Choices, Method, Outcome, Solution, solve};
 use hairpin::feasibility::steering::shooting::{cc, flat};
 use hairpin::robot::rover::Rover;
-use hairpin::trajectory::drive::{Motion, Segment};
 use hairpin::verification::{DriveClaim, DrivePiece, DriveReplay, replay_drive};
+use hairpin::world::terrain::ElevationMap;
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{Asked, Status};
 
+use super::ground::{self, Ground};
 use crate::args::Steer;
 use crate::problem::Problem;
 
 /// What every question of a run has in common.
 pub(super) struct Vehicle {
     pub(super) rover: Rover,
+    /// What it drives on; the plane without one.
+    map: Option<ElevationMap>,
     choices: Choices,
     time_limit: Option<Duration>,
 }
@@ -51,12 +55,10 @@ impl Vehicle {
                 rover.name
             )));
         }
-        if let Some(terrain) = &steer.terrain {
-            return Err(Problem::input(format!("--terrain {}: rough ground is not there yet", terrain.display())));
-        }
+        let map = ground::map(steer)?;
         let choices = Choices { reversals: steer.reversals, turns: steer.turns, ..Choices::default() };
         let time_limit = steer.time_limit_ms.map(|ms| Duration::from_secs_f64(ms * 1e-3));
-        Ok(Self { rover, choices, time_limit })
+        Ok(Self { rover, map, choices, time_limit })
     }
 
     /// Answers a question: solved under the clock, then replayed without it.
@@ -84,6 +86,10 @@ impl Vehicle {
         };
         let precision = Precision::default();
         let precision = Precision { position: asked.tolerance_m.unwrap_or(precision.position), ..precision };
+        if let Some(map) = &self.map {
+            let (rover, choices, time_limit) = (&self.rover, self.choices, self.time_limit);
+            return Ground { rover, map, choices, bounds, precision, time_limit }.answer(asked, &query);
+        }
         let flat = flat::Settings { precision, ..self.choices.flat };
         let mut choices = Choices { flat, ..self.choices };
         let begun = Instant::now();
@@ -113,7 +119,7 @@ impl Vehicle {
     /// Metres with reversals where they would spare a long way round and are not allowed.
     pub(super) fn with_reversals(&self, asked: &Asked, answered: &Answered) -> Option<f64> {
         let (solution, replay) = answered.drive.as_ref()?;
-        if self.choices.reversals || solution.outcome != Outcome::Solved {
+        if self.map.is_some() || self.choices.reversals || solution.outcome != Outcome::Solved {
             return None;
         }
         let query = query(asked, &answered.bounds).ok()?;
@@ -122,8 +128,7 @@ impl Vehicle {
     }
 
     fn replay(&self, asked: &Asked, solution: &Solution) -> DriveReplay {
-        let pieces: Vec<DrivePiece> = solution.segments.iter().map(piece).collect();
-        replay_drive(&pieces, &claim(asked))
+        replay_drive(&pieces(solution), &claim(asked))
     }
 }
 
@@ -139,16 +144,17 @@ pub(super) fn claim(asked: &Asked) -> DriveClaim {
     DriveClaim { start_curvature: asked.k0, crab: asked.direction, end: asked.goal, end_curvature: asked.kf }
 }
 
-/// A segment as plain numbers.
-pub(in crate::commands) fn piece(segment: &Segment) -> DrivePiece {
-    match segment.motion {
-        Motion::Arc { length_m, curvature } => DrivePiece::Arc { length_m, curvature, direction: segment.gear.sign() },
-        Motion::Turn { angle_rad } => DrivePiece::Turn { angle_rad },
-    }
+/// A drive as plain numbers.
+pub(in crate::commands) fn pieces(solution: &Solution) -> Vec<DrivePiece> {
+    solution.segments.iter().map(drive_piece).collect()
 }
 
 /// The first limit that a replayed drive breaks, and by how much.
-fn broken(replay: &DriveReplay, bounds: &Curvatures, precision: &Precision) -> Option<(&'static str, Option<f64>)> {
+pub(super) fn broken(
+    replay: &DriveReplay,
+    bounds: &Curvatures,
+    precision: &Precision,
+) -> Option<(&'static str, Option<f64>)> {
     let [x, y, yaw] = replay.error;
     let found = [
         ("curvature_1_m", replay.max_curvature, bounds.most * (1.0 + ROUNDING)),

@@ -1,0 +1,119 @@
+//! What can be typed after `hairpin steer`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::Threads;
+
+/// Longest time limit, ms: eleven days.
+const LONGEST_MS: f64 = 1e9;
+
+/// Every answer is replayed by an integration of its own; `ok` means that the replay ends in the goal within 1 cm,
+/// 0.01 rad and 0.01 1/m and keeps the vehicle's curvature and curvature rate.
+///
+/// Q.csv: id,x,y,yaw,k0,kf (from the start, m, rad, 1/m) or id,sx,sy,syaw,x,y,yaw,k0,kf; optional columns v0, vf,
+/// direction, frame, max_curvature, tolerance_m. R.csv has one row a segment: its curvature is a0 + a1 s + … + a5 s^5.
+#[derive(Debug, Args)]
+pub(crate) struct Steer {
+    /// Vehicle: a shipped rover's name, such as generic, or a robot file
+    pub(crate) rover: String,
+    /// Start in the map: X,Y,YAW[,CURVATURE]; the origin if not given
+    #[arg(long, value_name = "STATE", allow_hyphen_values = true, conflicts_with = "queries")]
+    pub(crate) from: Option<String>,
+    /// Goal in the map: X,Y,YAW[,CURVATURE]
+    #[arg(long, value_name = "STATE", allow_hyphen_values = true, conflicts_with = "queries")]
+    pub(crate) to: Option<String>,
+    /// Frame of --from and --to; files have a column for it
+    #[arg(long, value_enum, default_value_t = SteerFrame::Enu, conflicts_with = "queries")]
+    pub(crate) frame: SteerFrame,
+    /// Direction of travel in the body, rad, for crabbing
+    #[arg(long, value_name = "RAD", default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true, conflicts_with = "queries")]
+    pub(crate) direction: f64,
+    /// Largest |curvature|, 1/m, where it is to be less than the vehicle's
+    #[arg(long, value_name = "K", value_parser = positive, allow_hyphen_values = true, conflicts_with = "queries")]
+    pub(crate) max_curvature: Option<f64>,
+    /// Distance from the goal that counts as there, m; 0.01 if not given
+    #[arg(long, value_name = "M", value_parser = positive, allow_hyphen_values = true, conflicts_with = "queries")]
+    pub(crate) tolerance_m: Option<f64>,
+    /// File of queries
+    #[arg(long, value_name = "Q.csv")]
+    pub(crate) queries: Option<PathBuf>,
+    /// Where the answers to --queries go; stdout if not given
+    #[arg(long, value_name = "R.csv", requires = "queries")]
+    pub(crate) out: Option<PathBuf>,
+    /// Elevation map to drive on
+    #[arg(long, value_name = "DEM")]
+    pub(crate) terrain: Option<PathBuf>,
+    /// Edge of a cell, m, where the map's file does not say it (PNG, raw, NumPy)
+    #[arg(long, value_name = "M", value_parser = positive, requires = "terrain")]
+    pub(crate) terrain_cell_m: Option<f64>,
+    /// Heights of the least and largest 16-bit value, m, of PNG and raw maps
+    #[arg(long, value_name = "LOW,HIGH", value_parser = pair, allow_hyphen_values = true, requires = "terrain")]
+    pub(crate) terrain_height_m: Option<[f64; 2]>,
+    /// Centre of the south-west cell, m, of PNG, raw and NumPy maps
+    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true, requires = "terrain")]
+    pub(crate) terrain_origin_m: Option<[f64; 2]>,
+    /// What cells without data are
+    #[arg(long, value_enum, default_value_t = NoData::Error, requires = "terrain")]
+    pub(crate) no_data: NoData,
+    /// Time for each query; 0 gives the solver's start value
+    #[arg(long, value_name = "N", value_parser = milliseconds, allow_negative_numbers = true)]
+    pub(crate) time_limit_ms: Option<f64>,
+    /// Allow changes of direction
+    #[arg(long)]
+    pub(crate) reversals: bool,
+    /// Allow turns in place
+    #[arg(long)]
+    pub(crate) turns: bool,
+    /// Draw the drives, seen from above, each from its start
+    #[arg(long, value_name = "F.svg")]
+    pub(crate) plot: Option<PathBuf>,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+}
+
+/// Frames of poses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SteerFrame {
+    /// East, north, up; yaw from east, counter-clockwise; left positive
+    Enu,
+    /// North, east, down; yaw from north, clockwise; right positive
+    Ned,
+}
+
+/// Rules for cells of an elevation map that hold no data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NoData {
+    /// A reason to refuse the map
+    Error,
+    /// Nowhere to drive
+    KeepOut,
+    /// Filled in from around
+    Fill,
+}
+
+/// Two finite numbers with a comma between them.
+fn pair(text: &str) -> Result<[f64; 2], String> {
+    let refuse = || "must be two finite numbers, such as -1.5,2".to_owned();
+    let (first, second) = text.split_once(',').ok_or_else(refuse)?;
+    Ok([finite(first.trim()).map_err(|_| refuse())?, finite(second.trim()).map_err(|_| refuse())?])
+}
+
+fn milliseconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(ms) if (0.0..=LONGEST_MS).contains(&ms) => Ok(ms),
+        _ => Err("must be a number of milliseconds, 0 … 1e9".into()),
+    }
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(|| "must be a finite number".into())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "must be a finite number > 0".into())
+}

@@ -1,0 +1,190 @@
+//! Questions on an elevation map: the same answer, found and replayed with the body on its wheels.
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use hairpin::campaign::ground::Site;
+use hairpin::feasibility::steering::shooting::flat;
+use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision, Query};
+use hairpin::feasibility::steering::shooting::rough::{Blocked, Cause, Planar, Settings, Status as Found};
+use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, Solution, solve};
+use hairpin::robot::rover::{Rover, Unsettled};
+use hairpin::trajectory::drive::SegmentList;
+use hairpin::verification::{DriveReplay, GroundReplay, Stopped, replay_drive};
+use hairpin::world::terrain::{ElevationMap, HoleRule, NoGround};
+use hairpin_formats::steering::{Asked, Status};
+use hairpin_formats::terrain::{Georeference, read_terrain};
+
+use super::vehicle::{Answered, broken, claim, pieces};
+use crate::args::{NoData, Steer};
+use crate::console;
+use crate::problem::Problem;
+
+/// The flat answers that a search on the ground is made of are exact to this, m, rad, 1/m.
+const FLAT: f64 = 1e-5;
+
+/// The map of `--terrain`, if one is given.
+pub(super) fn map(steer: &Steer) -> Result<Option<ElevationMap>, Problem> {
+    let Some(path) = &steer.terrain else { return Ok(None) };
+    let refuse = |why: String| Problem::input(format!("--terrain {}: {why}", path.display()));
+    let bytes = fs::read(path).map_err(|error| refuse(error.to_string()))?;
+    let georeference = Georeference {
+        cell_m: steer.terrain_cell_m,
+        height_m: steer.terrain_height_m,
+        origin_m: steer.terrain_origin_m,
+        columns: None,
+        holes: match steer.no_data {
+            NoData::Error => HoleRule::Error,
+            NoData::KeepOut => HoleRule::KeepOut,
+            NoData::Fill => HoleRule::Fill,
+        },
+    };
+    let map =
+        read_terrain(&bytes, &path.to_string_lossy(), &georeference).map_err(|error| refuse(error.to_string()))?;
+    let wheel = map.grid().cell[0].max(map.grid().cell[1]);
+    if wheel > COARSE {
+        console::warn(&format!(
+            "Warning: --terrain {}: cells of {wheel} m are coarse for wheels: attitudes will be milder than on the ground",
+            path.display()
+        ));
+    }
+    Ok(Some(map))
+}
+
+/// Cells larger than this say little of what wheels meet, m.
+const COARSE: f64 = 0.5;
+
+/// What one question on the ground is asked with.
+pub(super) struct Ground<'a> {
+    pub(super) rover: &'a Rover,
+    pub(super) map: &'a ElevationMap,
+    pub(super) choices: Choices,
+    pub(super) bounds: Curvatures,
+    pub(super) precision: Precision,
+    pub(super) time_limit: Option<Duration>,
+}
+
+impl Ground<'_> {
+    /// Answers `asked`, whose flat form is `query`.
+    pub(super) fn answer(&self, asked: &Asked, query: &Query) -> Answered {
+        let speed = asked.v0.or(asked.vf).filter(|v| *v > 0.0).unwrap_or(self.rover.default_speed);
+        let site = Site { rover: self.rover, map: self.map, speed, direction: asked.direction };
+        let start = start(asked);
+        let goal = goal(asked, &start);
+        let begun = Instant::now();
+        let over = || self.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
+        let (mut found, mut solution) = self.search(&site, &start, &goal, query, self.choices, &over);
+        if matches!(found, Found::NotConverged { .. }) && self.choices.arcs && !over() {
+            // Closed forms change steadily with their goal where arcs do not.
+            let choices = Choices { arcs: false, ..self.choices };
+            let (again, second) = self.search(&site, &start, &goal, query, choices, &over);
+            if again == Found::Ok {
+                (found, solution) = (again, Solution { iterations: solution.iterations + second.iterations, ..second });
+            }
+        }
+        let solving = begun.elapsed();
+        let ran_out = over() && found != Found::Ok;
+        let flat = replay_drive(&pieces(&solution), &claim(asked));
+        let replay = site.replay(&start, &goal, &solution.segments);
+        let answered = |status, limit, drive: Option<(Solution, DriveReplay)>| Answered {
+            status,
+            drive: drive.filter(|_| !solution.segments.is_empty()),
+            solving,
+            limit,
+            bounds: self.bounds,
+            nearest: None,
+        };
+        let ground = match (&found, &replay) {
+            (Found::Blocked(blocked), _) if !ran_out => {
+                return answered(Status::Infeasible, Some((way(blocked), None)), None);
+            }
+            (_, Err(stopped)) if !ran_out => {
+                return answered(Status::Infeasible, Some((stands_in_the_way(stopped), None)), None);
+            }
+            (_, Err(_)) => return answered(Status::TimeLimit, None, None),
+            (_, Ok(ground)) => ground,
+        };
+        let replay = on_the_ground(&flat, ground, &start);
+        let drive = Some((solution, replay));
+        let over_tilt = ground.max_tilt - self.rover.limits.tilt;
+        match (found, broken(&replay, &self.bounds, &self.precision)) {
+            _ if ran_out => answered(Status::TimeLimit, None, drive),
+            (Found::Ok, None) if over_tilt > 0.0 => {
+                answered(Status::Infeasible, Some(("tilt_rad", Some(over_tilt))), drive)
+            }
+            (Found::Ok, None) => answered(Status::Ok, None, drive),
+            (_, limit) => answered(Status::NotConverged, limit, drive),
+        }
+    }
+
+    fn search(
+        &self,
+        site: &Site<'_>,
+        start: &Planar,
+        goal: &Planar,
+        query: &Query,
+        choices: Choices,
+        over: &dyn Fn() -> bool,
+    ) -> (Found, Solution) {
+        let precision = Precision { position: FLAT, yaw: FLAT, curvature: FLAT };
+        let choices = Choices { flat: flat::Settings { precision, ..choices.flat }, ..choices };
+        // Without any time there is still the flat start value.
+        let mut solution = solve(query, &self.bounds, &choices, over);
+        let mut method = solution.method;
+        let settings = Settings { precision: self.precision, ..Settings::default() };
+        let mut steer = |query: &Query| -> Option<SegmentList> {
+            let query = Query::new(query.start_curvature, query.goal, &self.bounds).ok().filter(|_| !over())?;
+            let flat = solve(&query, &self.bounds, &choices, over);
+            method = flat.method;
+            (flat.outcome == Outcome::Solved).then_some(flat.segments)
+        };
+        let answer = site.solve(start, goal, &settings, &mut steer);
+        if !answer.segments.is_empty() {
+            solution = Solution { segments: answer.segments, iterations: answer.iterations, method, ..solution };
+        }
+        (answer.status, solution)
+    }
+}
+
+/// Where the drive starts in the map: its origin if nothing is said.
+fn start(asked: &Asked) -> Planar {
+    let [x, y, yaw] = asked.start.unwrap_or([0.0; 3]);
+    Planar { x, y, yaw, curvature: asked.k0 }
+}
+
+fn goal(asked: &Asked, start: &Planar) -> Planar {
+    let (sin, cos) = libm::sincos(start.yaw);
+    let [x, y, yaw] = asked.goal;
+    Planar { x: start.x + cos * x - sin * y, y: start.y + sin * x + cos * y, yaw: start.yaw + yaw, curvature: asked.kf }
+}
+
+/// Curvatures as they were commanded, errors as the ground has them, in the frame of the start.
+fn on_the_ground(flat: &DriveReplay, ground: &GroundReplay, start: &Planar) -> DriveReplay {
+    let (sin, cos) = libm::sincos(start.yaw);
+    let [x, y, yaw] = ground.error;
+    DriveReplay {
+        error: [cos * x + sin * y, cos * y - sin * x, yaw],
+        error_curvature: ground.error_curvature,
+        steps: ground.steps,
+        ..*flat
+    }
+}
+
+fn way(blocked: &Blocked) -> &'static str {
+    match blocked.cause {
+        Cause::Unsettled(Unsettled::NoGround(place)) => no_ground(&place),
+        Cause::Unsettled(_) => "rest",
+        Cause::Overturned => "tilt_rad",
+    }
+}
+
+fn stands_in_the_way(stopped: &Stopped) -> &'static str {
+    stopped.no_ground.as_ref().map_or("rest", no_ground)
+}
+
+fn no_ground(place: &NoGround) -> &'static str {
+    match place {
+        NoGround::OffMap { .. } => "map_edge",
+        NoGround::Hole { .. } => "no_data",
+    }
+}

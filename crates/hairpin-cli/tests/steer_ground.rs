@@ -1,0 +1,133 @@
+//! `hairpin steer --terrain`: drives on elevation maps, and what stands in their way.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let mut command = Command::cargo_bin("hairpin").expect("the binary is built with its tests");
+    let output = command.current_dir(folder).args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
+}
+
+/// Rolling ground of 20 m by 20 m around the origin, cells of 0.1 m, as an ESRI grid; `height` may spoil it.
+fn hills(folder: &Path, height: impl Fn(f64, f64) -> f64) {
+    let mut grid = "ncols 200\nnrows 200\nxllcorner -10\nyllcorner -10\ncellsize 0.1\nNODATA_value -9999\n".to_owned();
+    for row in (0..200).rev() {
+        for column in 0..200 {
+            let at = |i: i32| -9.95 + 0.1 * f64::from(i);
+            grid.push_str(&format!("{:.5} ", height(at(column), at(row))));
+        }
+        grid.push('\n');
+    }
+    fs::write(folder.join("hills.asc"), grid).unwrap();
+}
+
+fn rolling(x: f64, y: f64) -> f64 {
+    0.25 * (0.9 * x).sin() * (0.7 * y + 0.3).cos()
+}
+
+fn steer(folder: &Path, rover: &str, more: &[&str]) -> (i32, Value) {
+    let (code, out, error) = run(folder, &[&["steer", rover, "--terrain", "hills.asc", "--json"], more].concat());
+    (code, serde_json::from_str(&out).unwrap_or_else(|wrong| panic!("{wrong}: {out}{error}")))
+}
+
+#[test]
+fn rovers_that_rest_on_their_wheels_meet_goals_on_rolling_ground() {
+    let folder = tempfile::tempdir().unwrap();
+    hills(folder.path(), rolling);
+    for rover in ["rocky8", "rocky7", "open-source-rover", "four-wheel"] {
+        for goal in ["4,1,0.5", "3,-2,-1", "5,0.5,0.2"] {
+            let (code, answer) = steer(folder.path(), rover, &["--from", "-3,-2,0.3", "--to", goal]);
+            assert_eq!((code, &answer["status"]), (0, &Value::from("ok")), "{rover} to {goal}: {answer}");
+            let error = |name: &str| answer["errors"][name].as_f64().unwrap().abs();
+            assert!(error("x_m").hypot(error("y_m")) < 0.01 && error("yaw_rad") < 0.01, "{answer}");
+            assert!(
+                answer["max_curvature_1_m"].as_f64().unwrap() <= 1.5 && answer["replay_steps"].as_u64() >= Some(2000)
+            );
+        }
+    }
+    // The ground is longer than the plane: the same goal takes other controls.
+    let (_, flat, _) = run(folder.path(), &["steer", "rocky8", "--from", "-3,-2,0.3", "--to", "4,1,0.5", "--json"]);
+    let flat: Value = serde_json::from_str(&flat).unwrap();
+    let (_, ground) = steer(folder.path(), "rocky8", &["--from", "-3,-2,0.3", "--to", "4,1,0.5"]);
+    assert!(ground["length_m"].as_f64() > flat["length_m"].as_f64(), "{ground} {flat}");
+}
+
+#[test]
+fn files_of_queries_are_answered_on_the_map_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    hills(folder.path(), rolling);
+    let queries = "id,sx,sy,syaw,x,y,yaw,k0,kf\na,-3,-2,0.3,3,1,0.5,0,0\nb,8,0,0,6,0,0,0,0\nc,0,0,1,-1,1,2,0.2,-0.1\nd,0,0,x,1,1,1,0,0\n";
+    fs::write(folder.path().join("q.csv"), queries).unwrap();
+    let table = |threads: &str| {
+        let arguments =
+            ["steer", "rocky8", "--terrain", "hills.asc", "--queries", "q.csv", "--reversals", "--threads", threads];
+        let (code, out, error) = run(folder.path(), &arguments);
+        assert_eq!(code, 0, "{error}");
+        let cells: Vec<Vec<String>> = out.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
+        let time = cells[0].iter().position(|name| name == "time_us").unwrap();
+        cells
+            .into_iter()
+            .map(|mut row| {
+                row.remove(time);
+                row
+            })
+            .collect::<Vec<_>>()
+    };
+    let (one, two) = (table("1"), table("2"));
+    assert_eq!(one, two);
+    let status = |id: &str| one.iter().find(|row| row[0] == id).map(|row| row[4].clone()).unwrap();
+    assert_eq!(["a", "b", "c", "d"].map(status), ["ok", "infeasible", "ok", "invalid"]);
+}
+
+#[test]
+fn what_stands_in_the_way_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    hills(folder.path(), |x, y| if (x - 1.0).hypot(y) < 0.3 { -9999.0 } else { rolling(x, y) });
+    let ahead = ["--from", "-2,0,0", "--to", "4,0,0"];
+    let (code, out, error) = run(folder.path(), &[&["steer", "rocky8", "--terrain", "hills.asc"][..], &ahead].concat());
+    assert!(code == 2 && out.is_empty() && error.contains("cells without data, the first in row"), "{error}");
+    let (code, answer) = steer(folder.path(), "rocky8", &[&ahead[..], &["--no-data", "keep-out"]].concat());
+    assert_eq!((code, &answer["limit"]), (3, &Value::from("no_data")), "{answer}");
+    let (code, answer) = steer(folder.path(), "rocky8", &[&ahead[..], &["--no-data", "fill"]].concat());
+    assert_eq!((code, &answer["status"]), (0, &Value::from("ok")), "{answer}");
+    let (code, answer) = steer(folder.path(), "rocky8", &["--from", "8,5,0", "--to", "14,5,0", "--no-data", "fill"]);
+    assert_eq!((code, &answer["limit"]), (3, &Value::from("map_edge")), "{answer}");
+    // A wall of 60°, over the tilt that is allowed.
+    hills(folder.path(), |x, _| 1.7 * x.clamp(0.0, 3.0));
+    let (code, answer) = steer(folder.path(), "rocky8", &["--from", "-3,0,0", "--to", "2,0,0"]);
+    assert_eq!((code, &answer["limit"]), (3, &Value::from("tilt_rad")), "{answer}");
+    assert!(answer["excess"].as_f64().unwrap() > 0.1, "{answer}");
+}
+
+#[test]
+fn maps_that_are_none_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |arguments: &[&str], said: &str| {
+        let all = [&["steer", "rocky8", "--to", "2,0,0"], arguments].concat();
+        let (code, out, error) = run(folder.path(), &all);
+        assert!(code == 2 && out.is_empty() && error.contains(said), "{arguments:?}: {code} {error}");
+    };
+    refused(&["--terrain", "nothing.tif"], "nothing.tif");
+    refused(&["--terrain", "."], "--terrain .");
+    fs::write(folder.path().join("a.tif"), b"garbage").unwrap();
+    refused(&["--terrain", "a.tif"], "no readable GeoTIFF");
+    fs::write(folder.path().join("a.raw"), [0; 32]).unwrap();
+    refused(&["--terrain", "a.raw"], "cell_m: the file does not say it");
+    refused(&["--terrain", "a.raw", "--terrain-cell-m", "0.1"], "height_m: the file does not say it");
+    refused(&["--terrain", "a.raw", "--terrain-height-m", "1,nan"], "two finite numbers");
+    refused(&["--no-data", "fill"], "--terrain");
+}
+
+#[test]
+fn no_time_gives_the_start_value_of_the_plane() {
+    let folder = tempfile::tempdir().unwrap();
+    hills(folder.path(), rolling);
+    let (code, answer) = steer(folder.path(), "rocky8", &["--to", "4,1,0.5", "--time-limit-ms", "0"]);
+    assert_eq!((code, &answer["status"]), (5, &Value::from("time_limit")), "{answer}");
+    assert!(answer["segments"].as_array().is_some_and(|segments| !segments.is_empty()), "{answer}");
+}
