@@ -18,10 +18,10 @@ const LONGEST_MS: f64 = 1e9;
 pub(crate) struct Steer {
     /// Vehicle: a shipped rover's name, such as generic, or a robot file
     pub(crate) rover: String,
-    /// Start in the map: X,Y,YAW[,CURVATURE]; the origin if not given
+    /// Start in the map: X,Y,YAW or X,Y,YAW,CURVATURE; the origin if not given
     #[arg(long, value_name = "STATE", allow_hyphen_values = true, conflicts_with = "queries")]
     pub(crate) from: Option<String>,
-    /// Goal in the map: X,Y,YAW[,CURVATURE]
+    /// Goal in the map: X,Y,YAW or X,Y,YAW,CURVATURE
     #[arg(long, value_name = "STATE", allow_hyphen_values = true, conflicts_with = "queries")]
     pub(crate) to: Option<String>,
     /// Frame of --from and --to; files have a column for it

@@ -38,7 +38,7 @@ pub(super) fn asked(steer: &Steer, to: &str) -> Result<Asked, Problem> {
     })
 }
 
-/// X,Y,YAW[,CURVATURE] in ENU, left positive.
+/// X,Y,YAW or X,Y,YAW,CURVATURE in ENU, left positive.
 fn state(flag: &str, text: &str, frame: Frame) -> Result<[f64; 4], Problem> {
     let refuse = || Problem::input(format!("{flag} {text}: must be X,Y,YAW or X,Y,YAW,CURVATURE in m, rad, 1/m"));
     let numbers: Option<Vec<f64>> =
