@@ -28,8 +28,12 @@ fn rocky8() -> Rover {
     toml::from_str::<RoverDescription>(&text).expect("its keys").build().expect("its numbers")
 }
 
+fn bounds(rover: &Rover) -> Curvatures {
+    Curvatures { most: rover.limits.curvature, most_rate: rover.limits.curvature_rate }
+}
+
 fn flat_solver(rover: &Rover) -> impl FnMut(&Query) -> Option<SegmentList> {
-    let bounds = Curvatures { most: rover.limits.curvature, most_rate: rover.limits.curvature_rate };
+    let bounds = bounds(rover);
     let precision = Precision { position: 1e-5, yaw: 1e-5, curvature: 1e-5 };
     let settings = flat::Settings { precision, ..flat::Settings::default() };
     move |query| {
@@ -90,13 +94,19 @@ fn tally(rover: &Rover, yard: &ElevationMap, count: usize) -> (usize, usize, Vec
         }
         asked += 1;
         let begun = Instant::now();
-        let answer = site.solve(&start, &end, &Settings::default(), &mut flat_solver(rover));
+        let answer = site.solve(&start, &end, &bounds(rover), &Settings::default(), &mut flat_solver(rover));
         times.push(begun.elapsed());
         if answer.status != Status::Ok {
             eprintln!("seed {seed}: {:?} after {} predictions", answer.status, answer.iterations);
             continue;
         }
-        let replay = site.replay(&start, &end, &answer.segments).expect("a way");
+        let replay = match site.replay(&start, &end, &answer.segments) {
+            Ok(replay) => replay,
+            Err(stopped) => {
+                eprintln!("seed {seed}: {stopped:?}");
+                continue;
+            }
+        };
         let met = replay.error[0].hypot(replay.error[1]) <= 0.01
             && replay.error[2].abs() <= 0.01
             && replay.error_curvature.abs() <= 0.01;
@@ -123,7 +133,7 @@ fn the_map_lies_where_its_tags_say() {
 fn goals_that_were_driven_are_met_within_a_centimetre() {
     let Some(yard) = yard() else { return };
     let (asked, solved, _) = tally(&rocky8(), &yard, 400);
-    assert!(1000 * solved >= 995 * asked, "{solved} of {asked}");
+    assert!(1000 * solved >= 999 * asked, "{solved} of {asked}");
 }
 
 #[test]
@@ -141,5 +151,5 @@ fn slip_delay_and_lag_are_met_as_well() {
         ..rocky8()
     };
     let (asked, solved, _) = tally(&rover, &yard, 200);
-    assert!(100 * solved >= 95 * asked, "{solved} of {asked}");
+    assert!(1000 * solved >= 995 * asked, "{solved} of {asked}");
 }

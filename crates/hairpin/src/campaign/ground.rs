@@ -1,7 +1,7 @@
 //! Boundary-value drives of rovers on elevation maps: solved, and replayed from what would be written.
 
-use crate::feasibility::steering::shooting::Query;
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Planar, Settings, Steps};
+use crate::feasibility::steering::shooting::{Curvatures, Query};
 use crate::robot::rover::{Rover, Suspension};
 use crate::trajectory::drive::{Motion, Segment, SegmentList};
 use crate::verification::{DrivePiece, GroundClaim, GroundReplay, GroundVehicle, Stand, Stopped, replay_ground};
@@ -25,15 +25,16 @@ impl Site<'_> {
         Course { rover: self.rover, terrain: self.map, speed: self.speed, direction: self.direction, steps }
     }
 
-    /// Commands that drive from `start` to `goal`, shaped by the flat solver `steer`.
+    /// Commands that drive from `start` to `goal`, shaped within `bounds` by the flat solver `steer`.
     pub fn solve(
         &self,
         start: &Planar,
         goal: &Planar,
+        bounds: &Curvatures,
         settings: &Settings,
         steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
     ) -> Answer {
-        rough::solve(&self.course(Steps::default()), start, goal, settings, steer)
+        rough::solve(&self.course(Steps::default()), start, goal, bounds, settings, steer)
     }
 
     /// Where `segments` lead from `start`, predicted in steps of `steps`.

@@ -138,7 +138,7 @@ impl Ground<'_> {
             method = flat.method;
             (flat.outcome == Outcome::Solved).then_some(flat.segments)
         };
-        let answer = site.solve(start, goal, &settings, &mut steer);
+        let answer = site.solve(start, goal, &self.bounds, &settings, &mut steer);
         if !answer.segments.is_empty() {
             solution = Solution { segments: answer.segments, iterations: answer.iterations, method, ..solution };
         }

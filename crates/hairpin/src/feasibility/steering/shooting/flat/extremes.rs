@@ -16,7 +16,7 @@ pub(super) fn within(p: &[f64; 6], bound: f64) -> bool {
 }
 
 /// max |p(t)| over 0 ≤ t ≤ 1, p = Σ aₖ tᵏ, or more by 10⁻¹⁰ of it at most; infinite if any aₖ is no number.
-pub(super) fn largest(p: &[f64; 6]) -> f64 {
+pub(in super::super) fn largest(p: &[f64; 6]) -> f64 {
     look(&bernstein(p), 0.0, f64::INFINITY)
 }
 

@@ -10,7 +10,7 @@ mod chain;
 mod controls;
 mod dubins;
 mod ends;
-mod extremes;
+pub(super) mod extremes;
 mod forward;
 mod mirror;
 mod miss;

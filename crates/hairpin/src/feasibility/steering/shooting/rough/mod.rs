@@ -4,7 +4,9 @@
 //! The flat solver stays the one that shapes paths and keeps their bounds. What the ground changes is put into its goal:
 //! find the flat goal g so that the controls that reach g in the plane reach the true goal on the ground.
 
+mod miss;
 mod predict;
+mod refine;
 mod solve;
 mod steering_lag;
 
