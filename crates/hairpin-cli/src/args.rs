@@ -1,12 +1,14 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
 mod steer;
+mod terrain;
 
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-pub(crate) use steer::{NoData, Steer, SteerFrame};
+pub(crate) use steer::{Steer, SteerFrame};
+pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
 
 /// Finds the trajectories a robot handles worst, and proves that they are ones it could have flown.
 ///
@@ -53,6 +55,8 @@ pub(crate) enum Command {
     Steer(Steer),
     /// Measure what hairpin promises of its speed, on one core
     Bench(Bench),
+    /// Tell what a file holds: show terrain FILE
+    Show(Show),
     /// Print the JSON Schema of scenario or robot files, for editors
     Schema(Schema),
     /// Print a shell's completions
@@ -72,6 +76,7 @@ impl Command {
             Self::Replay(a) => a.json,
             Self::Bench(a) => a.json,
             Self::Steer(a) => a.json,
+            Self::Show(Show { what: Shown::Terrain(a) }) => a.json,
             Self::New(a) => a.json,
             Self::Export(a) => a.json,
             Self::Report(a) => a.json,

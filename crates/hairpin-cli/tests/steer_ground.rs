@@ -113,7 +113,7 @@ fn maps_that_are_none_are_refused() {
         assert!(code == 2 && out.is_empty() && error.contains(said), "{arguments:?}: {code} {error}");
     };
     refused(&["--terrain", "nothing.tif"], "nothing.tif");
-    refused(&["--terrain", "."], "--terrain .");
+    refused(&["--terrain", "."], ".: ");
     fs::write(folder.path().join("a.tif"), b"garbage").unwrap();
     refused(&["--terrain", "a.tif"], "no readable GeoTIFF");
     fs::write(folder.path().join("a.raw"), [0; 32]).unwrap();
@@ -130,4 +130,25 @@ fn no_time_gives_the_start_value_of_the_plane() {
     let (code, answer) = steer(folder.path(), "rocky8", &["--to", "4,1,0.5", "--time-limit-ms", "0"]);
     assert_eq!((code, &answer["status"]), (5, &Value::from("time_limit")), "{answer}");
     assert!(answer["segments"].as_array().is_some_and(|segments| !segments.is_empty()), "{answer}");
+}
+
+#[test]
+fn show_terrain_tells_what_was_understood() {
+    let folder = tempfile::tempdir().unwrap();
+    hills(folder.path(), |x, y| if x < -9.9 && y > 9.9 { 7.0 } else { rolling(x, y).clamp(-0.2, 0.2) });
+    let (code, out, error) = run(folder.path(), &["show", "terrain", "hills.asc"]);
+    assert_eq!(code, 0, "{error}");
+    for said in [
+        "200 x 200 cells of 0.1 x 0.1 m",
+        "-9.950 .. 9.950 m",
+        "-0.200 .. 7.000 m, 0 cells",
+        "7.000 m at (-9.950, 9.950)",
+    ] {
+        assert!(out.contains(said), "{said}: {out}");
+    }
+    let (_, out, _) = run(folder.path(), &["show", "terrain", "hills.asc", "--json"]);
+    let object: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&object["columns"], &object["north_west"]["height_m"]), (&Value::from(200), &Value::from(7.0)));
+    let (code, out, error) = run(folder.path(), &["show", "terrain", "nothing.tif"]);
+    assert!(code == 2 && out.is_empty() && error.contains("nothing.tif"), "{error}");
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::Threads;
+use super::terrain::{MapFlags, NoData};
 
 /// Longest time limit, ms: eleven days.
 const LONGEST_MS: f64 = 1e9;
@@ -45,15 +46,8 @@ pub(crate) struct Steer {
     /// Elevation map to drive on
     #[arg(long, value_name = "DEM")]
     pub(crate) terrain: Option<PathBuf>,
-    /// Edge of a cell, m, where the map's file does not say it (PNG, raw, NumPy)
-    #[arg(long, value_name = "M", value_parser = positive, requires = "terrain")]
-    pub(crate) terrain_cell_m: Option<f64>,
-    /// Heights of the least and largest 16-bit value, m, of PNG and raw maps
-    #[arg(long, value_name = "LOW,HIGH", value_parser = pair, allow_hyphen_values = true, requires = "terrain")]
-    pub(crate) terrain_height_m: Option<[f64; 2]>,
-    /// Centre of the south-west cell, m, of PNG, raw and NumPy maps
-    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true, requires = "terrain")]
-    pub(crate) terrain_origin_m: Option<[f64; 2]>,
+    #[command(flatten)]
+    pub(crate) map: MapFlags,
     /// What cells without data are
     #[arg(long, value_enum, default_value_t = NoData::Error, requires = "terrain")]
     pub(crate) no_data: NoData,
@@ -85,24 +79,6 @@ pub(crate) enum SteerFrame {
     Ned,
 }
 
-/// Rules for cells of an elevation map that hold no data.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum NoData {
-    /// A reason to refuse the map
-    Error,
-    /// Nowhere to drive
-    KeepOut,
-    /// Filled in from around
-    Fill,
-}
-
-/// Two finite numbers with a comma between them.
-fn pair(text: &str) -> Result<[f64; 2], String> {
-    let refuse = || "must be two finite numbers, such as -1.5,2".to_owned();
-    let (first, second) = text.split_once(',').ok_or_else(refuse)?;
-    Ok([finite(first.trim()).map_err(|_| refuse())?, finite(second.trim()).map_err(|_| refuse())?])
-}
-
 fn milliseconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(ms) if (0.0..=LONGEST_MS).contains(&ms) => Ok(ms),
@@ -110,10 +86,10 @@ fn milliseconds(text: &str) -> Result<f64, String> {
     }
 }
 
-fn finite(text: &str) -> Result<f64, String> {
+pub(super) fn finite(text: &str) -> Result<f64, String> {
     text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(|| "must be a finite number".into())
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "must be a finite number > 0".into())
 }

@@ -1,6 +1,5 @@
 //! Questions on an elevation map: the same answer, found and replayed with the body on its wheels.
 
-use std::fs;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::ground::Site;
@@ -13,46 +12,34 @@ use hairpin::trajectory::drive::SegmentList;
 use hairpin::verification::{DriveReplay, GroundReplay, Stopped, replay_drive};
 use hairpin::world::terrain::{ElevationMap, HoleRule, NoGround};
 use hairpin_formats::steering::{Asked, Status};
-use hairpin_formats::terrain::{Georeference, read_terrain};
 
 use super::vehicle::{Answered, broken, claim, pieces};
 use crate::args::{NoData, Steer};
+use crate::commands::terrain;
 use crate::console;
 use crate::problem::Problem;
 
 /// The flat answers that a search on the ground is made of are exact to this, m, rad, 1/m.
 const FLAT: f64 = 1e-5;
 
-/// The map of `--terrain`, if one is given.
-pub(super) fn map(steer: &Steer) -> Result<Option<ElevationMap>, Problem> {
+/// The map of `--terrain`, if one is given, with a warning where its cells say little of what the wheels meet.
+pub(super) fn map(steer: &Steer, rover: &Rover) -> Result<Option<ElevationMap>, Problem> {
     let Some(path) = &steer.terrain else { return Ok(None) };
-    let refuse = |why: String| Problem::input(format!("--terrain {}: {why}", path.display()));
-    let bytes = fs::read(path).map_err(|error| refuse(error.to_string()))?;
-    let georeference = Georeference {
-        cell_m: steer.terrain_cell_m,
-        height_m: steer.terrain_height_m,
-        origin_m: steer.terrain_origin_m,
-        columns: None,
-        holes: match steer.no_data {
-            NoData::Error => HoleRule::Error,
-            NoData::KeepOut => HoleRule::KeepOut,
-            NoData::Fill => HoleRule::Fill,
-        },
+    let holes = match steer.no_data {
+        NoData::Error => HoleRule::Error,
+        NoData::KeepOut => HoleRule::KeepOut,
+        NoData::Fill => HoleRule::Fill,
     };
-    let map =
-        read_terrain(&bytes, &path.to_string_lossy(), &georeference).map_err(|error| refuse(error.to_string()))?;
-    let wheel = map.grid().cell[0].max(map.grid().cell[1]);
-    if wheel > COARSE {
+    let map = terrain::read(path, &steer.map, holes)?;
+    let cell = map.grid().cell[0].max(map.grid().cell[1]);
+    if rover.suspension.wheelbase().is_some_and(|base| cell > 0.5 * base) {
         console::warn(&format!(
-            "Warning: --terrain {}: cells of {wheel} m are coarse for wheels: attitudes will be milder than on the ground",
+            "Warning: {}: cells of {cell} m are coarser than half the wheel base: attitudes are optimistic",
             path.display()
         ));
     }
     Ok(Some(map))
 }
-
-/// Cells larger than this say little of what wheels meet, m.
-const COARSE: f64 = 0.5;
 
 /// What one question on the ground is asked with.
 pub(super) struct Ground<'a> {

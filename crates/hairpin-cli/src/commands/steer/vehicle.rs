@@ -55,7 +55,7 @@ impl Vehicle {
                 rover.name
             )));
         }
-        let map = ground::map(steer)?;
+        let map = ground::map(steer, &rover)?;
         let choices = Choices { reversals: steer.reversals, turns: steer.turns, ..Choices::default() };
         let time_limit = steer.time_limit_ms.map(|ms| Duration::from_secs_f64(ms * 1e-3));
         Ok(Self { rover, map, choices, time_limit })

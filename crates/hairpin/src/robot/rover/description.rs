@@ -190,15 +190,9 @@ impl RoverDescription {
 
     fn response(&self, suspension: &Suspension, estimated: &mut Vec<&'static str>) -> Result<Response, RoverError> {
         let given = &self.response;
-        let axle = match (given.steered_axle_m, suspension) {
-            (Some(axle), _) => axle,
-            (None, Suspension::Level) => Response::default().steered_axle,
-            (None, Suspension::FourWheel(body)) => 0.5 * (body.wheels[0].x - body.wheels[2].x),
-            (None, Suspension::RockerBogie(body)) => {
-                let x = body.wheels(&[0.0; 3]).map(|w| w.x);
-                0.5 * (x.iter().fold(f64::MIN, |a, b| a.max(*b)) - x.iter().fold(f64::MAX, |a, b| a.min(*b)))
-            }
-        };
+        // Turning about the middle of the wheels, as vehicles with all corners steered do.
+        let half = suspension.wheelbase().map_or(Response::default().steered_axle, |base| 0.5 * base);
+        let axle = given.steered_axle_m.unwrap_or(half);
         if given.steered_axle_m.is_none() {
             estimated.push("response.steered_axle_m");
         }

@@ -124,6 +124,16 @@ impl Suspension {
         })
     }
 
+    /// Distance between the foremost and the rearmost axle, m; `None` without wheels.
+    pub fn wheelbase(&self) -> Option<f64> {
+        let span = |x: &[f64]| x.iter().fold(f64::MIN, |a, b| a.max(*b)) - x.iter().fold(f64::MAX, |a, b| a.min(*b));
+        match self {
+            Self::Level => None,
+            Self::FourWheel(body) => Some(span(&body.wheels.map(|w| w.x))),
+            Self::RockerBogie(body) => Some(span(&body.wheels(&[0.0; 3]).map(|w| w.x))),
+        }
+    }
+
     /// Height of the body's origin over level ground, m.
     pub fn ride_height(&self) -> f64 {
         match self {

@@ -1,0 +1,63 @@
+//! What can be typed of elevation maps.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, ValueEnum};
+
+use super::steer::{finite, positive};
+
+/// What is shown.
+#[derive(Debug, Args)]
+pub(crate) struct Show {
+    #[command(subcommand)]
+    pub(crate) what: Shown,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Shown {
+    /// An elevation map: extent, cells, heights, holes, a corner's sample
+    Terrain(ShowTerrain),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ShowTerrain {
+    /// GeoTIFF, ESRI ASCII grid, 16-bit PNG or raw raster, NumPy array
+    pub(crate) terrain: PathBuf,
+    #[command(flatten)]
+    pub(crate) map: MapFlags,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What an elevation map's file does not say of itself.
+#[derive(Debug, Args)]
+pub(crate) struct MapFlags {
+    /// Edge of a cell, m, where the map's file does not say it (PNG, raw, NumPy)
+    #[arg(long, value_name = "M", value_parser = positive, requires = "terrain")]
+    pub(crate) terrain_cell_m: Option<f64>,
+    /// Heights of the least and largest 16-bit value, m, of PNG and raw maps
+    #[arg(long, value_name = "LOW,HIGH", value_parser = pair, allow_hyphen_values = true, requires = "terrain")]
+    pub(crate) terrain_height_m: Option<[f64; 2]>,
+    /// Centre of the south-west cell, m, of PNG, raw and NumPy maps
+    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true, requires = "terrain")]
+    pub(crate) terrain_origin_m: Option<[f64; 2]>,
+}
+
+/// Rules for cells of an elevation map that hold no data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NoData {
+    /// A reason to refuse the map
+    Error,
+    /// Nowhere to drive
+    KeepOut,
+    /// Filled in from around
+    Fill,
+}
+
+/// Two finite numbers with a comma between them.
+fn pair(text: &str) -> Result<[f64; 2], String> {
+    let refuse = || "must be two finite numbers, such as -1.5,2".to_owned();
+    let (first, second) = text.split_once(',').ok_or_else(refuse)?;
+    Ok([finite(first.trim()).map_err(|_| refuse())?, finite(second.trim()).map_err(|_| refuse())?])
+}
