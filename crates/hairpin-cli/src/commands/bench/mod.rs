@@ -2,6 +2,7 @@
 
 mod clock;
 mod exact;
+mod ground;
 mod memory;
 mod reach;
 mod search;
@@ -61,6 +62,7 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
         witness::rows(),
         simulation::rows(),
         steer::rows(),
+        ground::rows(),
         memory::rows(),
     ];
     let all: Vec<Row> = rooms.into_iter().flatten().collect();

@@ -94,7 +94,13 @@ pub fn solve(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: im
     }
     let arc = (solution.arc == Some(flat::Status::Ok)).then(|| length(&solution.segments));
     let arc_within = |metres: f64| arc.is_some_and(|arc| arc <= PATIENCE * metres);
-    if arc_within(at_least(query, bounds)) {
+    // Asked in the order of what they cost: most arcs are plainly short.
+    if arc_within(at_least(query, bounds))
+        || (!choices.reversals
+            && !choices.turns
+            && arc.is_some()
+            && arc_within(flat::least_length(&mirrored(query, choices.gear), bounds)))
+    {
         return Solution { outcome: Outcome::Solved, ..solution };
     }
     if stop() {
@@ -129,15 +135,21 @@ fn length(segments: &[Segment]) -> f64 {
 
 /// The single arc in `gear`; in reverse it is the mirror image, about the y axis, of one that is driven forward.
 fn single_arc(query: &Query, bounds: &Curvatures, gear: Gear, settings: &flat::Settings) -> flat::Answer {
-    if gear == Gear::Forward {
-        return flat::forward(query, bounds, settings);
-    }
-    let goal = Goal { x: -query.goal.x, yaw: -query.goal.yaw, ..query.goal };
-    let mut answer = flat::forward(&Query { goal, ..*query }, bounds, settings);
-    for segment in answer.segments.iter_mut() {
-        segment.gear = segment.gear.opposite();
+    let mut answer = flat::forward(&mirrored(query, gear), bounds, settings);
+    if gear == Gear::Reverse {
+        for segment in answer.segments.iter_mut() {
+            segment.gear = segment.gear.opposite();
+        }
     }
     answer
+}
+
+/// The question that a drive in `gear` answers if it is driven forward.
+fn mirrored(query: &Query, gear: Gear) -> Query {
+    match gear {
+        Gear::Forward => *query,
+        Gear::Reverse => Query { goal: Goal { x: -query.goal.x, yaw: -query.goal.yaw, ..query.goal }, ..*query },
+    }
 }
 
 /// Clothoid to zero curvature, turn, straight, turn, clothoid from zero curvature; what there is no need of is left out.

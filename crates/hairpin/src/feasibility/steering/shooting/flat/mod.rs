@@ -23,7 +23,14 @@ mod tests;
 pub use controls::{crab, turn_drive_turn};
 pub use settings::{Answer, Control, Cost, Limit, Settings, Status};
 
-use super::query::{Curvatures, Query};
+use super::query::{Curvatures, Goal, Query};
+
+/// Length of the shortest forward path to the goal of `query` whose curvature stays within ± `bounds.most` but may jump, m: no
+/// forward drive is shorter (Dubins 1957).
+pub fn least_length(query: &Query, bounds: &Curvatures) -> f64 {
+    let Goal { x, y, yaw, .. } = query.goal;
+    dubins::words(x * bounds.most, y * bounds.most, yaw)[0].length() / bounds.most
+}
 
 /// Drives forward from the origin to the goal of `query` within `bounds`.
 ///
