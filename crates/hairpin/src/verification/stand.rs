@@ -75,19 +75,27 @@ impl Rest {
         self.unknowns[2]
     }
 
-    /// At rest on the ground below `place` (x, y, ψ), looked for from level at the ground's height.
+    /// At rest on the ground below `place` (x, y, ψ), looked for from the slope there, from level, and from in between.
     pub(super) fn find<T: Terrain>(stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<Self, NoRest> {
-        let mut rest = Self { unknowns: Unknowns::zeros(), inverse: None };
-        if *stand != Stand::Level {
-            let ground = terrain.patch(place[0], place[1]).map_err(NoRest::Ground)?;
-            let slope = Vector3::new(ground.slope[0], ground.slope[1], 0.0);
-            let heading = turn(2, place[2]);
-            rest.unknowns[0] = ground.height + 0.2;
-            rest.unknowns[2] = -libm::atan(slope.dot(&(heading * Vector3::x())));
-            rest.unknowns[1] = libm::atan(slope.dot(&(heading * Vector3::y())));
+        if *stand == Stand::Level {
+            return Ok(Self { unknowns: Unknowns::zeros(), inverse: None });
         }
-        rest.follow(stand, terrain, place)?;
-        Ok(rest)
+        let ground = terrain.patch(place[0], place[1]).map_err(NoRest::Ground)?;
+        let slope = Vector3::new(ground.slope[0], ground.slope[1], 0.0);
+        let heading = turn(2, place[2]);
+        let pitch = -libm::atan(slope.dot(&(heading * Vector3::x())));
+        let roll = libm::atan(slope.dot(&(heading * Vector3::y())));
+        let mut refused = NoRest::NotFound;
+        for share in [1.0, 0.0, 0.5] {
+            let mut unknowns = Unknowns::zeros();
+            (unknowns[0], unknowns[1], unknowns[2]) = (ground.height + 0.2, share * roll, share * pitch);
+            let mut rest = Self { unknowns, inverse: None };
+            match rest.follow(stand, terrain, place) {
+                Ok(()) => return Ok(rest),
+                Err(why) => refused = why,
+            }
+        }
+        Err(refused)
     }
 
     /// Brings the body to rest at `place`, from the rest it had before.

@@ -99,7 +99,7 @@ impl Yard {
             let answer = flat::forward(&query, &bounds, &settings);
             (answer.status == flat::Status::Ok).then_some(answer.segments)
         };
-        self.site().solve(start, goal, &Settings::default(), &mut steer)
+        self.site().solve(start, goal, &bounds, &Settings::default(), &mut steer)
     }
 
     /// Mean time of a goal, µs.
