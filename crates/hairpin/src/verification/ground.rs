@@ -111,7 +111,11 @@ pub fn replay_ground<T: Terrain>(
         for i in 0..count {
             let s = length * i as f64 / count as f64;
             let mut rates = |state: &[f64; 4], s: f64| -> Result<[f64; 4], NoRest> {
-                rest.follow(&vehicle.stand, terrain, [state[0], state[1], state[2]])?;
+                let place = [state[0], state[1], state[2]];
+                // Where the body falls over an edge, the rest it comes to is not near the one before.
+                if rest.follow(&vehicle.stand, terrain, place).is_err() {
+                    rest = Rest::find(&vehicle.stand, terrain, place)?;
+                }
                 max_tilt =
                     max_tilt.max(libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0)));
                 Ok(vehicle.rates(piece, claim, &rest, state, s))

@@ -52,10 +52,12 @@ const CLOSED: f64 = 1e-9;
 /// Steps with the neighbour's Jacobian, and Jacobians, before the search is given up.
 const BORROWED: usize = 8;
 const JACOBIANS: usize = 60;
+/// Attempts in a row that may not, and then that may, open the gaps.
+const LEAPS: usize = 5;
 /// Halvings of a step that makes the gaps no smaller.
 const HALVINGS: usize = 10;
-/// Difference quotients, m and rad.
-const DIFFERENCE: f64 = 1e-6;
+/// Widths of the difference quotients, m and rad, in the order they are tried.
+const DIFFERENCES: [f64; 4] = [1e-6, 1e-4, 1e-3, 1e-2];
 /// Longest step, m and rad: slopes mean nothing a wheel's width away.
 const FARTHEST: f64 = 0.3;
 
@@ -86,9 +88,9 @@ impl Rest {
         let pitch = -libm::atan(slope.dot(&(heading * Vector3::x())));
         let roll = libm::atan(slope.dot(&(heading * Vector3::y())));
         let mut refused = NoRest::NotFound;
-        for share in [1.0, 0.0, 0.5] {
+        for (share, height) in [(1.0, 0.2), (0.0, 0.2), (0.5, 0.2), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5)] {
             let mut unknowns = Unknowns::zeros();
-            (unknowns[0], unknowns[1], unknowns[2]) = (ground.height + 0.2, share * roll, share * pitch);
+            (unknowns[0], unknowns[1], unknowns[2]) = (ground.height + height, share * roll, share * pitch);
             let mut rest = Self { unknowns, inverse: None };
             match rest.follow(stand, terrain, place) {
                 Ok(()) => return Ok(rest),
@@ -121,9 +123,14 @@ impl Rest {
             }
         }
         let mut found = gaps_at(&self.unknowns)?;
-        for _ in 0..JACOBIANS {
-            let jacobian = jacobian(stand, terrain, place, &self.unknowns).map_err(NoRest::Ground)?;
-            let inverse = pseudo_inverse(stand, &jacobian).ok_or(NoRest::NotFound)?;
+        for attempt in 0..JACOBIANS {
+            // Steps that must close the gaps can end in a corner of them; every other attempt may leap out of it.
+            let halvings = if (attempt / LEAPS).is_multiple_of(2) { HALVINGS } else { 0 };
+            // The ground's offset surface has kinks at the borders of cells. Differences over some way straddle them,
+            // and converge where those of one side swing from piece to piece.
+            let width = DIFFERENCES[attempt * DIFFERENCES.len() / JACOBIANS];
+            let jacobian = jacobian(stand, terrain, place, &self.unknowns, width).map_err(NoRest::Ground)?;
+            let Some(inverse) = pseudo_inverse(stand, &jacobian) else { continue };
             let mut step = inverse * found;
             let length = step.amax();
             step *= FARTHEST / length.max(FARTHEST);
@@ -135,8 +142,8 @@ impl Rest {
             for halving in 0.. {
                 let ahead = self.unknowns - step;
                 let there = gaps_at(&ahead)?;
-                // At a kink no step helps; the last and shortest is taken for the other side of it.
-                if there.norm() < found.norm() || halving == HALVINGS {
+                // Where no step helps, the last and shortest is taken for the other side of the kink.
+                if there.norm() < found.norm() || halving == halvings {
                     (self.unknowns, found) = (ahead, there);
                     break;
                 }
@@ -203,15 +210,16 @@ fn jacobian<T: Terrain>(
     terrain: &T,
     place: [f64; 3],
     unknowns: &Unknowns,
+    width: f64,
 ) -> Result<SMatrix<f64, 6, 6>, NoGround> {
     let mut jacobian = SMatrix::<f64, 6, 6>::zeros();
     let count = if matches!(stand, Stand::RockerBogie { .. }) { 6 } else { 3 };
     for i in 0..count {
         let (mut ahead, mut behind) = (*unknowns, *unknowns);
-        ahead[i] += DIFFERENCE;
-        behind[i] -= DIFFERENCE;
+        ahead[i] += width;
+        behind[i] -= width;
         let difference = gaps(stand, terrain, place, &ahead)? - gaps(stand, terrain, place, &behind)?;
-        jacobian.set_column(i, &(difference / (2.0 * DIFFERENCE)));
+        jacobian.set_column(i, &(difference / (2.0 * width)));
     }
     Ok(jacobian)
 }
