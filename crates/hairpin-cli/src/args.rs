@@ -1,5 +1,6 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
+mod numbers;
 mod steer;
 mod terrain;
 

@@ -5,10 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::Threads;
+use super::numbers::{finite, milliseconds, positive};
 use super::terrain::{MapFlags, NoData};
-
-/// Longest time limit, ms: eleven days.
-const LONGEST_MS: f64 = 1e9;
 
 /// Every answer is replayed by an integration of its own; `ok` means that the replay ends in the goal within 1 cm,
 /// 0.01 rad and 0.01 1/m and keeps the vehicle's curvature and curvature rate.
@@ -77,19 +75,4 @@ pub(crate) enum SteerFrame {
     Enu,
     /// North, east, down; yaw from north, clockwise; right positive
     Ned,
-}
-
-fn milliseconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(ms) if (0.0..=LONGEST_MS).contains(&ms) => Ok(ms),
-        _ => Err("must be a number of milliseconds, 0 … 1e9".into()),
-    }
-}
-
-pub(super) fn finite(text: &str) -> Result<f64, String> {
-    text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(|| "must be a finite number".into())
-}
-
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    finite(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "must be a finite number > 0".into())
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 
-use super::steer::{finite, positive};
+use super::numbers::{pair, positive};
 
 /// What is shown.
 #[derive(Debug, Args)]
@@ -53,11 +53,4 @@ pub(crate) enum NoData {
     KeepOut,
     /// Filled in from around
     Fill,
-}
-
-/// Two finite numbers with a comma between them.
-fn pair(text: &str) -> Result<[f64; 2], String> {
-    let refuse = || "must be two finite numbers, such as -1.5,2".to_owned();
-    let (first, second) = text.split_once(',').ok_or_else(refuse)?;
-    Ok([finite(first.trim()).map_err(|_| refuse())?, finite(second.trim()).map_err(|_| refuse())?])
 }

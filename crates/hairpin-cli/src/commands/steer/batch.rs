@@ -7,8 +7,9 @@ use hairpin_formats::steering::{self, Answer, Drive, Errors, Frame, Queries, Row
 use rayon::prelude::*;
 use serde_json::json;
 
+use super::answered::Answered;
 use super::question::{pieces, stretches};
-use super::vehicle::{Answered, Vehicle};
+use super::vehicle::Vehicle;
 use crate::args::Steer;
 use crate::problem::Problem;
 use crate::{console, interrupt};

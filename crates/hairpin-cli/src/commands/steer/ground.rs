@@ -13,7 +13,7 @@ use hairpin::verification::{DriveReplay, GroundReplay, Stopped, replay_drive};
 use hairpin::world::terrain::{ElevationMap, HoleRule, NoGround};
 use hairpin_formats::steering::{Asked, Status};
 
-use super::vehicle::{Answered, broken, claim, pieces};
+use super::answered::{Answered, broken, claim, pieces};
 use crate::args::{NoData, Steer};
 use crate::commands::terrain;
 use crate::console;

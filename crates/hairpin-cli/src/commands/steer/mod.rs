@@ -1,5 +1,6 @@
 //! `hairpin steer`: boundary-value drives, one from the command line or many from a file.
 
+mod answered;
 mod batch;
 mod ground;
 mod question;
@@ -9,8 +10,8 @@ mod vehicle;
 use crate::args::Steer;
 use crate::folder;
 use crate::problem::Problem;
+pub(super) use answered::pieces;
 use vehicle::Vehicle;
-pub(super) use vehicle::pieces;
 
 /// Runs the command: 0 when everything was answered; one question alone is 3 when it is infeasible, 5 when it is open.
 pub(crate) fn run(steer: &Steer) -> Result<u8, Problem> {

@@ -6,7 +6,7 @@ use hairpin::verification::trace_drive;
 use hairpin_formats::frames::other_yaw;
 use hairpin_formats::steering::{Asked, Frame, Piece, Stretch};
 
-use super::vehicle::{self, claim};
+use super::answered::{self, claim};
 use crate::args::{Steer, SteerFrame};
 use crate::problem::Problem;
 
@@ -67,7 +67,7 @@ pub(super) fn pieces(solution: &Solution) -> Vec<Piece> {
 
 /// A drive as it is drawn, in the frame of its start.
 pub(super) fn stretches(solution: &Solution, asked: &Asked) -> Vec<Stretch> {
-    let drive = vehicle::pieces(solution);
+    let drive = answered::pieces(solution);
     let traced = trace_drive(&drive, &claim(asked)).into_iter();
     let drawn = traced.map(|(direction, poses)| Stretch {
         points: poses.iter().map(|[x, y, _]| [*x, *y]).collect(),

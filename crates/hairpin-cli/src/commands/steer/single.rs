@@ -7,8 +7,9 @@ use hairpin_formats::atomic;
 use hairpin_formats::steering::{Frame, Piece, Status, svg};
 use serde_json::{Value, json};
 
+use super::answered::Answered;
 use super::question::{asked, pieces, stretches};
-use super::vehicle::{Answered, Vehicle};
+use super::vehicle::Vehicle;
 use crate::args::Steer;
 use crate::console;
 use crate::problem::Problem;

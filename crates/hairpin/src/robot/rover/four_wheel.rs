@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::contact::contact;
+use super::rest::{Attitude, Gradient, Settled, Unsettled};
 use super::solve::eliminate;
-use super::suspension::{Attitude, Gradient, Settled, Unsettled};
 use crate::world::terrain::Terrain;
 
 /// Places of the wheels' centres in the body frame, m.

@@ -7,6 +7,7 @@ mod contact;
 mod description;
 mod four_wheel;
 mod motion;
+mod rest;
 mod rocker_bogie;
 mod solve;
 mod suspension;
@@ -17,8 +18,9 @@ mod tests;
 pub use description::{RoverDescription, RoverError, RoverKind};
 pub use four_wheel::FourWheel;
 pub use motion::{Rates, Slip, rates};
+pub use rest::{Gradient, Settled, Unsettled};
 pub use rocker_bogie::RockerBogie;
-pub use suspension::{Gradient, Settled, Suspension, Unsettled};
+pub use suspension::Suspension;
 
 /// A rover's numbers, SI, all checked and finite. Built by [`RoverDescription::build`].
 #[derive(Debug, Clone, PartialEq)]

@@ -9,8 +9,8 @@
 use nalgebra::Vector3;
 
 use super::contact::contact;
+use super::rest::{Attitude, Gradient, Settled, Unsettled};
 use super::solve::eliminate;
-use super::suspension::{Attitude, Gradient, Settled, Unsettled};
 use crate::world::terrain::Terrain;
 
 /// Geometry of the left side, m; the right one is its mirror image.

@@ -1,0 +1,26 @@
+//! Numbers as they are typed, each refused with what it must be.
+
+/// Longest time limit, ms: eleven days.
+const LONGEST_MS: f64 = 1e9;
+
+pub(super) fn milliseconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(ms) if (0.0..=LONGEST_MS).contains(&ms) => Ok(ms),
+        _ => Err("must be a number of milliseconds, 0 … 1e9".into()),
+    }
+}
+
+pub(super) fn finite(text: &str) -> Result<f64, String> {
+    text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(|| "must be a finite number".into())
+}
+
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "must be a finite number > 0".into())
+}
+
+/// Two finite numbers with a comma between them.
+pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
+    let refuse = || "must be two finite numbers, such as -1.5,2".to_owned();
+    let (first, second) = text.split_once(',').ok_or_else(refuse)?;
+    Ok([finite(first.trim()).map_err(|_| refuse())?, finite(second.trim()).map_err(|_| refuse())?])
+}
