@@ -3,12 +3,11 @@
 //! One random stream per parameter and case, so that adding a parameter changes no other's draws. Run 0 and case 0
 //! are nominal. Keys under `task` and `generate` shape the plan and are drawn once per case; the others once per run.
 
-use rand::Rng;
 use serde_json::Value;
 
 use super::scenario::distribution::zip;
 use super::scenario::{Distribution, KeyPath, Mistake, Scenario};
-use crate::math::random::{Stream, named_seed, standard_normals, stream};
+use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 
 /// How often a truncated draw is repeated. [`Scenario::check`] refuses truncations that keep less than one draw in a
 /// hundred, so this many failures in a row have a probability of 10⁻⁴³.
@@ -71,11 +70,6 @@ fn sample(distribution: &Distribution, nominal: Option<&Value>, random: &mut Str
     }
     let choice = distribution.choice.as_ref()?;
     choice.get((unit(random) * choice.len() as f64) as usize).cloned()
-}
-
-/// Uniform in [0, 1).
-fn unit(random: &mut Stream) -> f64 {
-    (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
 fn patch(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario, Mistake> {

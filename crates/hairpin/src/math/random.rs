@@ -32,6 +32,11 @@ pub fn stream(seed: u64) -> Stream {
     Stream::new(u128::from_le_bytes(state))
 }
 
+/// A uniform number in [0, 1) from the 53 leading bits of the next word.
+pub fn unit(stream: &mut Stream) -> f64 {
+    (stream.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+}
+
 /// A uniform number in [0, 1) that is a pure function of `seed` and `words` (SplitMix64 finaliser over each word):
 /// a random score per leg without any state, the same whenever it is asked for.
 pub fn hashed_unit(seed: u64, words: &[u64]) -> f64 {

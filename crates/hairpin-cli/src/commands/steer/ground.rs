@@ -115,21 +115,23 @@ impl Ground<'_> {
     ) -> (Found, Solution) {
         let precision = Precision { position: FLAT, yaw: FLAT, curvature: FLAT };
         let choices = Choices { flat: flat::Settings { precision, ..choices.flat }, ..choices };
-        // Without any time there is still the flat start value.
-        let mut solution = solve(query, &self.bounds, &choices, over);
-        let mut method = solution.method;
+        let (mut first, mut method) = (None, None);
         let settings = Settings { precision: self.precision, ..Settings::default() };
         let mut steer = |query: &Query| -> Option<SegmentList> {
             let query = Query::new(query.start_curvature, query.goal, &self.bounds).ok().filter(|_| !over())?;
             let flat = solve(&query, &self.bounds, &choices, over);
-            method = flat.method;
+            first.get_or_insert(flat);
+            method = Some(flat.method);
             (flat.outcome == Outcome::Solved).then_some(flat.segments)
         };
         let answer = site.solve(start, goal, &self.bounds, &settings, &mut steer);
-        if !answer.segments.is_empty() {
-            solution = Solution { segments: answer.segments, iterations: answer.iterations, method, ..solution };
+        // Without any time there is still the flat start value.
+        let flat = first.unwrap_or_else(|| solve(query, &self.bounds, &choices, over));
+        if answer.segments.is_empty() {
+            return (answer.status, flat);
         }
-        (answer.status, solution)
+        let method = method.unwrap_or(flat.method);
+        (answer.status, Solution { segments: answer.segments, iterations: answer.iterations, method, ..flat })
     }
 }
 

@@ -7,10 +7,8 @@
 
 use std::f64::consts::TAU;
 
-use rand::Rng;
-
 use super::map::{ElevationMap, Grid, HoleRule, MapError};
-use crate::math::random::{Stream, hashed_unit, named_seed, stream};
+use crate::math::random::{hashed_unit, named_seed, stream, unit};
 
 /// What to make.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -204,10 +202,6 @@ fn crater(r: f64) -> f64 {
         let left = 2.0 - r;
         RIM * left * left * left
     }
-}
-
-fn unit(random: &mut Stream) -> f64 {
-    (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
 /// Perlin's gradient noise with the quintic fade (Perlin 2002), within ± 0.71.
