@@ -4,11 +4,11 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::ground::Site;
-use hairpin::feasibility::steering::shooting::rough::{Planar, Settings, Status, Steps};
+use hairpin::feasibility::steering::shooting::rough::{Settings, Status, Steps};
 use hairpin::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
 use hairpin::math::random::hashed_unit;
 use hairpin::robot::rover::{Response, Rover, RoverDescription, Slip};
-use hairpin::trajectory::drive::{Gear, Motion, Segment, SegmentList};
+use hairpin::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 use hairpin::world::terrain::{ElevationMap, Terrain};
 use hairpin_formats::terrain::{Georeference, read_terrain};
 

@@ -1,9 +1,9 @@
 //! Boundary-value drives of rovers on elevation maps: solved, and replayed from what would be written.
 
-use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Planar, Settings, Steps};
+use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Query};
 use crate::robot::rover::{Rover, Suspension};
-use crate::trajectory::drive::{Motion, Segment, SegmentList};
+use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList};
 use crate::verification::{DrivePiece, GroundClaim, GroundReplay, GroundVehicle, Stand, Stopped, replay_ground};
 use crate::world::terrain::ElevationMap;
 

@@ -73,12 +73,64 @@ impl Segment {
         }
     }
 
+    /// Time it takes at `speed` (m/s) and `turn_rate` (rad/s), s.
+    pub fn duration(&self, speed: f64, turn_rate: f64) -> f64 {
+        match self.motion {
+            Motion::Arc { length_m, .. } => length_m / speed,
+            Motion::Turn { angle_rad } => angle_rad.abs() / turn_rate,
+        }
+    }
+
     /// κ(s), 1/m; 0 for a turn in place.
     pub fn curvature_at(&self, s: f64) -> f64 {
         match self.motion {
             Motion::Arc { curvature, .. } => curvature.iter().rev().fold(0.0, |sum, a| sum * s + a),
             Motion::Turn { .. } => 0.0,
         }
+    }
+}
+
+/// A pose over the ground with its curvature.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Planar {
+    /// East, m.
+    pub x: f64,
+    /// North, m.
+    pub y: f64,
+    /// ψ, rad, counter-clockwise from east.
+    pub yaw: f64,
+    /// κ, 1/m.
+    pub curvature: f64,
+}
+
+/// One leg of a [`Drive`]: what is commanded from one waypoint to the next.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveLeg {
+    /// Pose and curvature at its first waypoint.
+    pub from: Planar,
+    /// Pose and curvature at its last waypoint.
+    pub to: Planar,
+    /// The commands.
+    pub segments: Vec<Segment>,
+}
+
+/// The path of a whole mission, leg after leg, driven at one speed: the witness of a ground vehicle's trajectory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drive {
+    /// The legs in the order they are driven; each begins where the one before ends.
+    pub legs: Vec<DriveLeg>,
+    /// Commanded speed along the path, m/s, > 0.
+    pub speed: f64,
+    /// Commanded rate of turns in place, rad/s, > 0.
+    pub turn_rate: f64,
+    /// Direction of travel in the body, rad: 0 along x, left positive.
+    pub direction: f64,
+}
+
+impl Drive {
+    /// Duration of leg `index` as it is commanded, s: metres over speed and radians over turn rate.
+    pub fn leg_time(&self, index: usize) -> f64 {
+        self.legs[index].segments.iter().map(|segment| segment.duration(self.speed, self.turn_rate)).sum()
     }
 }
 

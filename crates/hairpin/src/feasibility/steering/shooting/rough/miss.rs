@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector4;
 
-use super::predict::Planar;
 use crate::feasibility::steering::shooting::query::Precision;
+use crate::trajectory::drive::Planar;
 
 /// What is missing at the end of a motion.
 #[derive(Debug, Clone, Copy)]

@@ -7,21 +7,8 @@ use thiserror::Error;
 
 use super::steering_lag::SteeringLag;
 use crate::robot::rover::{Gradient, Rates, Rover, Settled, Unsettled, rates};
-use crate::trajectory::drive::{Motion, Segment};
+use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::world::terrain::Terrain;
-
-/// A pose over the ground with its curvature.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Planar {
-    /// East, m.
-    pub x: f64,
-    /// North, m.
-    pub y: f64,
-    /// ψ, rad, counter-clockwise from east.
-    pub yaw: f64,
-    /// κ, 1/m.
-    pub curvature: f64,
-}
 
 /// What happened on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]

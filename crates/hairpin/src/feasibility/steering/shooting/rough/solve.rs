@@ -11,10 +11,10 @@
 use nalgebra::{Matrix4, Vector4};
 
 use super::miss::{Miss, miss};
-use super::predict::{Blocked, Course, Planar, Prediction, predict};
+use super::predict::{Blocked, Course, Prediction, predict};
 use super::refine::{Task, refinable, refine};
 use crate::feasibility::steering::shooting::{Curvatures, Goal, Precision, Query};
-use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
+use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 use crate::world::terrain::Terrain;
 
 /// How long and how exactly to look.

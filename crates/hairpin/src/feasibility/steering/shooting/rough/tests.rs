@@ -3,7 +3,7 @@ use crate::feasibility::steering::shooting::flat;
 use crate::feasibility::steering::shooting::query::{Curvatures, Precision, Query};
 use crate::math::random::hashed_unit;
 use crate::robot::rover::{Response, Rover, RoverDescription, Slip};
-use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
+use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 use crate::world::terrain::generate::{Recipe, generate};
 use crate::world::terrain::{ElevationMap, Flat, Function, Patch};
 

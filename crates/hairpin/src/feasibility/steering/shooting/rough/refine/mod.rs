@@ -21,8 +21,9 @@ pub(super) use self::pieces::refinable;
 use self::pieces::{Change, UNKNOWNS, changed, divided, excess, for_each_limit};
 use self::sweep::{Sweep, Tangent};
 use super::miss::{Miss, miss, units};
-use super::predict::{Course, Planar, Prediction, predict};
+use super::predict::{Course, Prediction, predict};
 use crate::feasibility::steering::shooting::query::{Curvatures, Precision};
+use crate::trajectory::drive::Planar;
 use crate::trajectory::drive::SegmentList;
 use crate::world::terrain::Terrain;
 

@@ -3,8 +3,8 @@
 use nalgebra::SMatrix;
 
 use super::pieces::{Change, PIECES, UNKNOWNS, bend};
-use crate::feasibility::steering::shooting::rough::predict::{Driven, Planar};
-use crate::trajectory::drive::Segment;
+use crate::feasibility::steering::shooting::rough::predict::Driven;
+use crate::trajectory::drive::{Planar, Segment};
 
 /// How the end, (x, y, ψ, κ), moves with a change.
 pub(super) type Tangent = SMatrix<f64, 4, UNKNOWNS>;
