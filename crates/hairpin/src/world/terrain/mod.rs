@@ -2,6 +2,7 @@
 
 mod flat;
 pub mod generate;
+pub mod keep_out;
 mod map;
 mod smooth;
 
@@ -9,6 +10,7 @@ mod smooth;
 mod tests;
 
 pub use flat::{Flat, Function};
+pub use keep_out::{KeepOut, KeepOutShape, KeepOuts};
 pub use map::{ElevationMap, Grid, HoleRule, MapError};
 
 use thiserror::Error;
