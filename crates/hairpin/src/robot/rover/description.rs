@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::body::{BellyDescription, Body};
 use super::four_wheel::FourWheel;
 use super::{Limits, Response, RockerBogie, Rover, Slip, Suspension};
 
@@ -48,6 +49,12 @@ pub struct RoverDescription {
     /// How the body rests on its wheels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub suspension: Option<SuspensionDescription>,
+    /// Centre of mass of the vehicle in the body frame; over the middle of the wheels if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub centre_of_mass_m: Option<[f64; 3]>,
+    /// The underside; between the wheels if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub belly: Option<BellyDescription>,
     /// What it may do.
     pub limits: LimitsDescription,
     /// How commands become motion.
@@ -151,12 +158,14 @@ impl RoverDescription {
         let suspension = self.suspension()?;
         let limits = self.limits(&mut estimated)?;
         let response = self.response(&suspension, &mut estimated)?;
+        let body = Body::build(&suspension, self.centre_of_mass_m.as_ref(), self.belly.as_ref(), &mut estimated)?;
         let default_speed = within("speed_m_s", self.speed_m_s.unwrap_or(SPEED), 1e-4, limits.speed.min(100.0))?;
         Ok(Rover {
             name: self.name.clone(),
             caveat: self.caveat.clone(),
             source: self.source.clone(),
             suspension,
+            body,
             limits,
             response,
             slip: Slip {
@@ -282,14 +291,14 @@ fn radius(value: f64) -> Result<f64, RoverError> {
     within("suspension.wheel_radius_m", value, 1e-4, 100.0)
 }
 
-fn place(key: &str, at: &[f64; 3]) -> Result<Vector3<f64>, RoverError> {
+pub(super) fn place(key: &str, at: &[f64; 3]) -> Result<Vector3<f64>, RoverError> {
     for value in at {
         within(key, *value, -100.0, 100.0)?;
     }
     Ok(Vector3::from(*at))
 }
 
-fn within(key: &str, value: f64, low: f64, high: f64) -> Result<f64, RoverError> {
+pub(super) fn within(key: &str, value: f64, low: f64, high: f64) -> Result<f64, RoverError> {
     if (low..=high).contains(&value) {
         Ok(value)
     } else {
@@ -297,6 +306,6 @@ fn within(key: &str, value: f64, low: f64, high: f64) -> Result<f64, RoverError>
     }
 }
 
-fn wrong(field: &str, value: impl ToString, bound: impl Into<String>) -> RoverError {
+pub(super) fn wrong(field: &str, value: impl ToString, bound: impl Into<String>) -> RoverError {
     RoverError { field: field.into(), value: value.to_string(), bound: bound.into() }
 }

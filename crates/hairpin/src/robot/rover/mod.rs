@@ -3,6 +3,7 @@
 //! Body frame: x forward, y left, z up (REP-103). Roll φ > 0 lifts the left side, pitch θ > 0 lowers the nose, yaw ψ
 //! turns left; R = Rz(ψ) Ry(θ) Rx(φ).
 
+mod body;
 mod contact;
 mod description;
 mod four_wheel;
@@ -10,11 +11,13 @@ mod motion;
 mod rest;
 mod rocker_bogie;
 mod solve;
+mod stability;
 mod suspension;
 
 #[cfg(test)]
 mod tests;
 
+pub use body::{Belly, BellyDescription, Body};
 pub use description::{RoverDescription, RoverError, RoverKind};
 pub use four_wheel::FourWheel;
 pub use motion::{Rates, Slip, rates};
@@ -33,6 +36,8 @@ pub struct Rover {
     pub source: String,
     /// How the body rests on its wheels.
     pub suspension: Suspension,
+    /// What the wheels carry.
+    pub body: Body,
     /// What it may do.
     pub limits: Limits,
     /// How commands become motion.

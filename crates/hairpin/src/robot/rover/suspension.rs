@@ -1,5 +1,7 @@
 //! The kinds of suspension, and where a search for rest begins.
 
+use nalgebra::Vector3;
+
 use super::RockerBogie;
 use super::four_wheel::FourWheel;
 use super::rest::{Gradient, Settled, Unsettled};
@@ -67,14 +69,24 @@ impl Suspension {
         })
     }
 
+    /// Centres of the wheels in the body frame for given joints, how many there are, and their radius, m.
+    pub fn wheels(&self, joints: &[f64; 3]) -> ([Vector3<f64>; 6], usize, f64) {
+        let mut places = [Vector3::zeros(); 6];
+        match self {
+            Self::Level => (places, 0, 0.0),
+            Self::FourWheel(body) => {
+                places[..4].copy_from_slice(&body.wheels);
+                (places, 4, body.wheel_radius)
+            }
+            Self::RockerBogie(body) => (body.wheels(joints), 6, body.wheel_radius),
+        }
+    }
+
     /// Distance between the foremost and the rearmost axle, m; `None` without wheels.
     pub fn wheelbase(&self) -> Option<f64> {
-        let span = |x: &[f64]| x.iter().fold(f64::MIN, |a, b| a.max(*b)) - x.iter().fold(f64::MAX, |a, b| a.min(*b));
-        match self {
-            Self::Level => None,
-            Self::FourWheel(body) => Some(span(&body.wheels.map(|w| w.x))),
-            Self::RockerBogie(body) => Some(span(&body.wheels(&[0.0; 3]).map(|w| w.x))),
-        }
+        let (wheels, count, _) = self.wheels(&[0.0; 3]);
+        let x = || wheels[..count].iter().map(|w| w.x);
+        (count > 0).then(|| x().fold(f64::MIN, f64::max) - x().fold(f64::MAX, f64::min))
     }
 
     /// Height of the body's origin over level ground, m.
