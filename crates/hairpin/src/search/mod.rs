@@ -8,6 +8,7 @@ pub mod exact;
 mod frontier;
 pub mod graph;
 pub mod objective;
+pub mod open_end;
 #[cfg(test)]
 mod small;
 pub mod task;
@@ -17,5 +18,6 @@ pub use beam::{BeamOutcome, BeamSettings, beam};
 pub use exact::{ExactOutcome, ExactSettings, exact};
 pub use graph::{Count, LegGraph};
 pub use objective::{Aggregate, LegView, Objective, Score, ScoreMistake};
+pub use open_end::{OpenEnd, OpenNode, OpenScore};
 pub use task::{Found, Task};
 pub use uniform::{UniformOutcome, UniformSettings, uniform};

@@ -73,6 +73,8 @@ pub enum Score {
         /// Whether the two parts are multiplied.
         product: bool,
     },
+    /// What the reach set itself found the leg to demand: [`LegFeatures::ground`].
+    Ground,
 }
 
 /// Why there is no such score.
@@ -135,6 +137,7 @@ impl Objective for Score {
                 let (fast, sharp) = (v_out / v_max, 1.0 - (alpha - turn).abs() / turn);
                 if product { fast * sharp } else { fast + sharp }
             }
+            Score::Ground => leg.features.ground,
         };
         (score, ())
     }
@@ -177,7 +180,7 @@ mod tests {
     use super::*;
 
     fn leg(v_out: f64, turn_deg: f64) -> LegFeatures {
-        LegFeatures { v_in: 0.0, v_out, turn: turn_deg.to_radians(), length: v_out, climb: 0.0 }
+        LegFeatures { v_in: 0.0, v_out, turn: turn_deg.to_radians(), length: v_out, climb: 0.0, ground: 0.0 }
     }
 
     fn score(name: &str, features: LegFeatures) -> f64 {

@@ -47,7 +47,7 @@ impl Reach<StepNode> for Octahedron {
                 let v_in = arriving.norm();
                 let turn = if v_in > 0.0 { angle_between(&arriving, &leaving) } else { 0.0 };
                 let length = leaving.norm();
-                let features = LegFeatures { v_in, v_out: length, turn, length, climb: leaving.z };
+                let features = LegFeatures { v_in, v_out: length, turn, length, climb: leaving.z, ground: 0.0 };
                 let to = StepNode { previous: from.current, current: i as u32 };
                 out.push(Leg { to, waypoint: i as u32, duration: 1.0, features });
             }
@@ -67,11 +67,22 @@ pub(super) fn points(seed: u64, count: usize, size: f64) -> Vec<Point3<f64>> {
 /// The start's node.
 pub(super) const START: StepNode = StepNode { previous: 0, current: 0 };
 
-/// Every trajectory of `length` waypoints with its score, best first, ties by waypoint index: plain recursion.
+/// Every trajectory of `length` waypoints to the end with its score, best first, ties by waypoint index.
 pub(super) fn enumerate<O: Objective<Memory = ()>, R: Reach<StepNode>>(
     task: &Task<'_, StepNode, R>,
     objective: &O,
-    (length, revisits, aggregate): (usize, bool, Aggregate),
+    kind: (usize, bool, Aggregate),
+) -> Vec<(Vec<u32>, f64)> {
+    let mut all = enumerate_open(task, objective, kind);
+    all.retain(|(waypoints, _)| waypoints.last() == Some(&task.end()));
+    all
+}
+
+/// The same to any waypoint: plain recursion.
+pub(super) fn enumerate_open<O: Objective<Memory = ()>, R: Reach<StepNode>>(
+    task: &Task<'_, StepNode, R>,
+    objective: &O,
+    kind: (usize, bool, Aggregate),
 ) -> Vec<(Vec<u32>, f64)> {
     fn walk<O: Objective<Memory = ()>, R: Reach<StepNode>>(
         task: &Task<'_, StepNode, R>,
@@ -81,9 +92,7 @@ pub(super) fn enumerate<O: Objective<Memory = ()>, R: Reach<StepNode>>(
         all: &mut Vec<(Vec<u32>, f64)>,
     ) {
         if path.len() == length {
-            if node.current == task.end() {
-                all.push((path.clone(), score));
-            }
+            all.push((path.clone(), score));
             return;
         }
         let mut legs = Vec::new();
@@ -101,8 +110,8 @@ pub(super) fn enumerate<O: Objective<Memory = ()>, R: Reach<StepNode>>(
         }
     }
     let mut all = Vec::new();
-    let first = (task.start, &mut vec![0], aggregate.neutral());
-    walk(task, objective, (length, revisits, aggregate), first, &mut all);
+    let first = (task.start, &mut vec![0], kind.2.neutral());
+    walk(task, objective, kind, first, &mut all);
     all.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
     all
 }

@@ -18,7 +18,7 @@ pub(super) const LANES: usize = 8;
 pub(super) fn features(before: &Vector3<f64>, leg: &Vector3<f64>, step: f64) -> LegFeatures {
     let length_before = before.norm();
     let (length, turn) = length_and_turn([before.x, before.y, before.z], length_before, [leg.x, leg.y, leg.z]);
-    LegFeatures { v_in: length_before / step, v_out: length / step, turn, length, climb: leg.z }
+    LegFeatures { v_in: length_before / step, v_out: length / step, turn, length, climb: leg.z, ground: 0.0 }
 }
 
 /// [`features`] of eight displacements, one row per coordinate.
@@ -34,7 +34,14 @@ pub(super) fn eight_features(
     lengths_and_turns(simd, [before.x, before.y, before.z], length_before, legs, &mut lengths, &mut turns);
     std::array::from_fn(|lane| {
         let (length, turn) = (lengths[lane], turns[lane]);
-        LegFeatures { v_in: length_before / step, v_out: length / step, turn, length, climb: legs[2][lane] }
+        LegFeatures {
+            v_in: length_before / step,
+            v_out: length / step,
+            turn,
+            length,
+            climb: legs[2][lane],
+            ground: 0.0,
+        }
     })
 }
 

@@ -3,6 +3,7 @@
 pub mod brute_force;
 mod cloud;
 mod convex_hull;
+pub mod drive;
 mod features;
 pub mod filtered;
 mod graph;
@@ -21,6 +22,7 @@ pub mod witness;
 use nalgebra::Point3;
 
 pub use brute_force::{BruteForce, BruteForceSettings, CarriedNode};
+pub use drive::{DriveNode, DriveRoadmap, DriveSettings, DriveSite};
 pub use filtered::{Filtered, PairMask};
 pub use hull::{Hull, HullSettings, NoHull};
 pub use none::Everywhere;
@@ -30,7 +32,7 @@ pub use step::{StepReach, StepSet, StepSettings};
 pub use witness::{Roadmap, RoadmapLeg, RoadmapSettings, WitnessNode};
 
 /// What a score sees of a leg, from its first waypoint. For step-wise sets speeds are leg ÷ step, for `witness`
-/// those at the leg's ends. On the first leg `v_in` = 0 and `turn` = 0.
+/// those at the leg's ends. On a flyer's first leg `v_in` = 0 and `turn` = 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LegFeatures {
     /// Entry speed, m/s.
@@ -43,6 +45,8 @@ pub struct LegFeatures {
     pub length: f64,
     /// Height gained, m.
     pub climb: f64,
+    /// What the reach set knows of the leg's stress on the ground; 0 for flyers.
+    pub ground: f64,
 }
 
 /// A leg from a node to the node `to`, which stands at candidate number `waypoint`.

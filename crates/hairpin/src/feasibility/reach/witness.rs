@@ -272,6 +272,7 @@ impl Reach<WitnessNode> for Roadmap<'_> {
                     turn: if from.previous == from.waypoint { 0.0 } else { angle_between(&incoming, &outgoing) },
                     length: outgoing.norm(),
                     climb: outgoing.z,
+                    ground: 0.0,
                 },
             });
         }

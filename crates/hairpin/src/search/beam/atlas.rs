@@ -18,7 +18,7 @@ pub(super) struct KnownLeg {
     pub(super) features: LegFeatures,
 }
 
-/// Legs remembered between two expansions at most (56 bytes each); past it they are forgotten and asked for again.
+/// Legs remembered between two expansions at most (64 bytes each); past it they are forgotten and asked for again.
 const MOST_LEGS: usize = 1 << 18;
 
 /// Not evaluated.

@@ -1,0 +1,155 @@
+//! Solves one leg: cheap necessary tests, the ways of driving in turn, the limits, the stress.
+
+use super::settings::{DriveSettings, DriveSite};
+use super::stress::Demands;
+use super::tally::LegRefusal;
+use super::watch::{curvature_change, refusal, watch};
+use crate::feasibility::steering::shooting::rough::{self, Status, Steps};
+use crate::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
+use crate::feasibility::steering::shooting::{Goal, Query, flat};
+use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
+
+/// A leg that is one.
+#[derive(Debug, Clone)]
+pub(super) struct Solved {
+    /// Commands.
+    pub(super) segments: Box<[Segment]>,
+    /// Time they take, s.
+    pub(super) duration: f64,
+    /// The score of the settings.
+    pub(super) stress: f64,
+}
+
+/// The ends of a leg.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ends<'a> {
+    pub(super) from: &'a Planar,
+    pub(super) to: &'a Planar,
+    /// Distance between them, m.
+    pub(super) distance: f64,
+    /// The value of the term `random`.
+    pub(super) random: f64,
+}
+
+/// The drive that joins `ends`, or why there is none; counts what it tries to solve.
+pub(super) fn judge(
+    site: &DriveSite,
+    settings: &DriveSettings,
+    ends: &Ends,
+    solves: &mut u64,
+) -> Result<Solved, LegRefusal> {
+    let mut farthest = LegRefusal::Detour;
+    for choices in ways(settings) {
+        if !may_be_short(settings, ends, &choices) {
+            continue;
+        }
+        *solves += 1;
+        match driven(site, settings, ends, &choices) {
+            Ok(solved) => return Ok(solved),
+            Err(reason) => farthest = farthest.max(reason),
+        }
+    }
+    Err(farthest)
+}
+
+/// The ways of driving, in the order in which they are tried.
+fn ways(settings: &DriveSettings) -> impl Iterator<Item = Choices> {
+    let may = settings.manoeuvres;
+    let plain = Choices { gear: Gear::Forward, reversals: false, turns: false, arcs: true, flat: settings.flat };
+    [
+        (may.forward, plain),
+        (may.reverse, Choices { gear: Gear::Reverse, ..plain }),
+        (may.forward && may.reverse, Choices { reversals: true, arcs: false, ..plain }),
+        (may.turn_in_place, Choices { gear: settings.gear(), turns: true, arcs: false, ..plain }),
+    ]
+    .into_iter()
+    .filter_map(|(allowed, choices)| allowed.then_some(choices))
+}
+
+/// Necessary for a drive in one gear to be no longer than the longest detour: Dubins' path is not.
+fn may_be_short(settings: &DriveSettings, ends: &Ends, choices: &Choices) -> bool {
+    if choices.reversals || choices.turns {
+        return true;
+    }
+    let (from, to) = (ends.from, ends.to);
+    let (sin, cos) = libm::sincos(from.yaw + settings.direction);
+    let (dx, dy) = (to.x - from.x, to.y - from.y);
+    let sign = choices.gear.sign();
+    // In reverse, the mirror image about the y axis.
+    let goal = Goal {
+        x: sign * (cos * dx + sin * dy),
+        y: cos * dy - sin * dx,
+        yaw: sign * (to.yaw - from.yaw),
+        curvature: to.curvature,
+    };
+    let query = Query { start_curvature: from.curvature, goal };
+    flat::least_length(&query, &settings.bounds) <= settings.detour * ends.distance
+}
+
+fn driven(site: &DriveSite, settings: &DriveSettings, ends: &Ends, choices: &Choices) -> Result<Solved, LegRefusal> {
+    let segments = solved(site, settings, ends, choices)?;
+    let met = watch(site, settings, ends.from, &as_moved(site, settings, ends.from, &segments))?;
+    let duration = segments.iter().map(|segment| segment.duration(settings.speed, settings.turn_rate)).sum();
+    let full = settings.full_tilt();
+    let stress = settings.score.of(&Demands {
+        slope: met.slope / full,
+        roll: met.roll / full,
+        curvature_change: curvature_change(ends.from.curvature, &segments) / (2.0 * settings.bounds.most),
+        slip: met.slip,
+        speed: ends.distance / (duration * settings.speed),
+        reversals: reversals(&segments),
+        random: ends.random,
+    });
+    Ok(Solved { segments: segments.as_ref().into(), duration, stress })
+}
+
+/// Commands whose predicted motion ends where it should, no longer than the longest detour.
+fn solved(
+    site: &DriveSite,
+    settings: &DriveSettings,
+    ends: &Ends,
+    choices: &Choices,
+) -> Result<SegmentList, LegRefusal> {
+    let longest = settings.detour * ends.distance;
+    let mut too_long = false;
+    let mut steer = |query: &Query| -> Option<SegmentList> {
+        let query = Query::new(query.start_curvature, query.goal, &settings.bounds).ok()?;
+        let flat = solve(&query, &settings.bounds, choices, || false);
+        let found = (flat.outcome == Outcome::Solved).then_some(flat.segments)?;
+        too_long = metres(&found) > longest;
+        (!too_long).then_some(found)
+    };
+    let course = settings.course(site, Steps::default());
+    let answer = rough::solve(&course, ends.from, ends.to, &settings.bounds, &settings.solver, &mut steer);
+    match answer.status {
+        Status::Ok if metres(&answer.segments) > longest => Err(LegRefusal::Detour),
+        Status::Ok => Ok(answer.segments),
+        Status::Blocked(blocked) => Err(refusal(&blocked)),
+        Status::Unreachable if too_long => Err(LegRefusal::Detour),
+        Status::Unreachable | Status::NotConverged { .. } => Err(LegRefusal::Unsolved),
+    }
+}
+
+/// What the vehicle does under `segments`: it goes on as it was until the first one acts, and the last stretch, which only
+/// waits for the commands before it, is not driven.
+fn as_moved(site: &DriveSite, settings: &DriveSettings, from: &Planar, segments: &SegmentList) -> Vec<Segment> {
+    let wait = site.rover.response.latency * settings.speed;
+    let mut motion = segments.to_vec();
+    if wait > 0.0 {
+        motion.pop();
+        motion.insert(0, Segment::clothoid(wait, from.curvature, from.curvature, Gear::Forward));
+    }
+    motion
+}
+
+fn metres(segments: &[Segment]) -> f64 {
+    segments.iter().map(Segment::length_m).sum()
+}
+
+/// Changes of gear on the way.
+fn reversals(segments: &[Segment]) -> f64 {
+    let mut gears = segments.iter().filter(|s| matches!(s.motion, Motion::Arc { .. }) && s.length_m() > 0.0);
+    let Some(first) = gears.next() else { return 0.0 };
+    let (_, changes) = gears.fold((first.gear, 0.0), |(gear, n), s| (s.gear, if s.gear == gear { n } else { n + 1.0 }));
+    changes
+}

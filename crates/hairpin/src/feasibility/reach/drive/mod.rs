@@ -1,0 +1,15 @@
+//! `witness` for ground vehicles: a roadmap of headed waypoints, whose legs are solved boundary-value drives.
+
+mod judge;
+mod roadmap;
+mod sample;
+mod settings;
+mod stress;
+mod tally;
+mod watch;
+
+pub use roadmap::{DriveNode, DriveRoadmap};
+pub use sample::{GroundSampling, TooFewPlaces, sample_ground};
+pub use settings::{DriveLimits, DriveSettings, DriveSite, Manoeuvres};
+pub use stress::{GroundScore, UnknownTerms};
+pub use tally::{DriveTally, LegRefusal};

@@ -1,0 +1,113 @@
+//! What a ground vehicle may do on its legs, and how hard legs are looked for.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::stress::GroundScore;
+use crate::feasibility::steering::shooting::rough::{Course, Steps};
+use crate::feasibility::steering::shooting::{Curvatures, flat, rough};
+use crate::robot::rover::Rover;
+use crate::trajectory::drive::Gear;
+use crate::world::terrain::ElevationMap;
+
+/// A vehicle on a map, and where it must not go.
+#[derive(Clone, Copy)]
+pub struct DriveSite<'a> {
+    /// The vehicle. Without a suspension it drives in the plane, over whatever the map says.
+    pub rover: &'a Rover,
+    /// What it drives on.
+    pub map: &'a ElevationMap,
+    /// Whether the vehicle's origin must not be at (x, y), m: keep-outs, grown by the vehicle's radius.
+    pub blocked: &'a (dyn Fn(f64, f64) -> bool + Sync),
+}
+
+/// Which ways of driving a leg may use; they are tried in this order and the first that keeps all limits is the leg.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Manoeuvres {
+    /// Forward.
+    pub forward: bool,
+    /// Whole legs in reverse; with `forward`, changes of gear on the way as well.
+    pub reverse: bool,
+    /// Turns on the spot before and after a straight line.
+    pub turn_in_place: bool,
+}
+
+/// What a drive keeps to all along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DriveLimits {
+    /// Largest angle between the body's z axis and the vertical, rad; infinite: none.
+    pub tilt: f64,
+    /// Largest |rocker or bogie angle|, rad; infinite: none.
+    pub joint: f64,
+}
+
+/// How a roadmap of drives is drawn and solved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveSettings {
+    /// Least and greatest distance between the waypoints of a leg, as the crow flies, m.
+    pub leg_m: [f64; 2],
+    /// Headings per waypoint, M; 0 is taken as 1.
+    pub headings: usize,
+    /// Longest drive of a leg by the distance between its waypoints; what must be longer is refused unsolved.
+    pub detour: f64,
+    /// Commanded speed, m/s, > 0.
+    pub speed: f64,
+    /// Commanded rate of turns in place, rad/s, > 0.
+    pub turn_rate: f64,
+    /// Direction of travel in the body, rad: 0 along x, left positive.
+    pub direction: f64,
+    /// Which ways of driving there are.
+    pub manoeuvres: Manoeuvres,
+    /// What paths may bend.
+    pub bounds: Curvatures,
+    /// What the body keeps to.
+    pub limits: DriveLimits,
+    /// How exactly goals are met on the ground.
+    pub solver: rough::Settings,
+    /// The flat solver's choices. Its precision should be far finer than the one on the ground.
+    pub flat: flat::Settings,
+    /// What makes a leg stressful.
+    pub score: GroundScore,
+    /// Seed of the headings.
+    pub seed: u64,
+}
+
+/// Precision of the flat solver where drives are shaped for the ground, m, rad, 1/m.
+const FLAT: f64 = 1e-5;
+
+impl DriveSettings {
+    /// Those of `rover`: its speed, its bounds and limits, forward drives between 2 m and 6 m, scored by slope and slip.
+    pub fn of(rover: &Rover) -> Self {
+        let limits = &rover.limits;
+        let mut flat = flat::Settings::default();
+        flat.precision = flat.precision.share(FLAT / flat.precision.position);
+        Self {
+            leg_m: [2.0, 6.0],
+            headings: 4,
+            detour: 1.5,
+            speed: rover.default_speed,
+            turn_rate: rover.default_speed * limits.curvature,
+            direction: 0.0,
+            manoeuvres: Manoeuvres { forward: true, reverse: false, turn_in_place: false },
+            bounds: Curvatures { most: limits.curvature, most_rate: limits.curvature_rate },
+            limits: DriveLimits { tilt: limits.tilt, joint: limits.joint },
+            solver: rough::Settings::default(),
+            flat,
+            score: GroundScore::default(),
+            seed: 0,
+        }
+    }
+
+    /// The tilt that scores 1, rad: the limit, or on end where there is none.
+    pub(super) fn full_tilt(&self) -> f64 {
+        self.limits.tilt.min(FRAC_PI_2)
+    }
+
+    /// The gear that drives prefer.
+    pub(super) fn gear(&self) -> Gear {
+        if self.manoeuvres.forward || !self.manoeuvres.reverse { Gear::Forward } else { Gear::Reverse }
+    }
+
+    pub(super) fn course<'a>(&self, site: &DriveSite<'a>, steps: Steps) -> Course<'a, ElevationMap> {
+        Course { rover: site.rover, terrain: site.map, speed: self.speed, direction: self.direction, steps }
+    }
+}

@@ -1,0 +1,172 @@
+//! Follows a drive once more, closely: does it keep its limits, and what does it demand?
+
+use super::settings::{DriveSettings, DriveSite};
+use super::tally::LegRefusal;
+use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Steps, predict};
+use crate::robot::rover::{Slip, Suspension, Unsettled};
+use crate::trajectory::drive::{Motion, Planar, Segment};
+use crate::world::terrain::{ElevationMap, NoGround, Terrain};
+
+/// Limits are asked for at least this often.
+const STEPS: Steps = Steps { length: 0.03, angle: 0.03, least: 8 };
+/// Room left below the limits of tilt and joints for what lies between two looks, rad.
+const ROOM: f64 = 2e-3;
+/// A bound of curvature counts as kept up to this share: the solver's own rounding.
+const KEPT: f64 = 1.0 + 1e-6;
+/// sin 20°.
+const SIN_20: f64 = 0.342_020_143_325_668_7;
+/// Samples of a segment's curvature.
+const SAMPLES: u32 = 32;
+
+/// What was met on the way.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Met {
+    /// Largest |climb angle| along the direction of travel, rad.
+    pub(super) slope: f64,
+    /// Largest |φ|, rad.
+    pub(super) roll: f64,
+    /// Mean share of slip.
+    pub(super) slip: f64,
+}
+
+/// Follows `motion` from `start` and looks at every limit on the way.
+pub(super) fn watch(
+    site: &DriveSite,
+    settings: &DriveSettings,
+    start: &Planar,
+    motion: &[Segment],
+) -> Result<Met, LegRefusal> {
+    let course = settings.course(site, STEPS);
+    let mut watcher = Watcher {
+        site,
+        settings,
+        level: matches!(site.rover.suspension, Suspension::Level),
+        direction: libm::sincos(settings.direction),
+        slip: slip_in_force(&site.rover.slip),
+        met: Met::default(),
+        way: 0.0,
+        refused: None,
+    };
+    predict(&course, start, motion, |driven| watcher.look(driven)).map_err(|blocked| refusal(&blocked))?;
+    let Watcher { mut met, way, refused, .. } = watcher;
+    met.slip = if way > 0.0 { met.slip / way } else { 0.0 };
+    refused.map_or(Ok(met), Err)
+}
+
+/// Whether the body stands within the limits at a place.
+pub(super) fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) -> Result<(), LegRefusal> {
+    if (site.blocked)(at.x, at.y) {
+        return Err(LegRefusal::KeepOut);
+    }
+    if matches!(site.rover.suspension, Suspension::Level) {
+        return on_map(site.map, at);
+    }
+    let rest = site.rover.suspension.settle_cold(site.map, [at.x, at.y, at.yaw]);
+    let (settled, _) = rest.map_err(|unsettled| refusal(&Blocked { after_m: 0.0, cause: unsettled.into() }))?;
+    within(settings, libm::cos(settled.roll) * libm::cos(settled.pitch), &settled.joints)
+}
+
+/// Why the ground let nothing pass.
+pub(super) fn refusal(blocked: &Blocked) -> LegRefusal {
+    match blocked.cause {
+        Cause::Unsettled(Unsettled::NoGround(place)) => no_ground(&place),
+        Cause::Unsettled(_) => LegRefusal::NoRest,
+        Cause::Overturned => LegRefusal::Tilt,
+    }
+}
+
+/// ∫ |κ′| ds of a drive that begins at curvature `start`, jumps where it stops included, 1/m.
+pub(super) fn curvature_change(start: f64, segments: &[Segment]) -> f64 {
+    let (mut at, mut sum) = (start, 0.0);
+    let mut to = |curvature: f64| {
+        sum += (curvature - at).abs();
+        at = curvature;
+    };
+    for segment in segments {
+        match segment.motion {
+            Motion::Turn { .. } => to(0.0),
+            Motion::Arc { length_m, .. } => {
+                let step = length_m / f64::from(SAMPLES);
+                (0..=SAMPLES).for_each(|i| to(segment.curvature_at(step * f64::from(i))));
+            }
+        }
+    }
+    sum
+}
+
+struct Watcher<'a> {
+    site: &'a DriveSite<'a>,
+    settings: &'a DriveSettings,
+    level: bool,
+    /// Sine and cosine of the direction of travel.
+    direction: (f64, f64),
+    slip: Slip,
+    /// Its slip is summed over the way until the end.
+    met: Met,
+    /// Metres behind the last look's step.
+    way: f64,
+    refused: Option<LegRefusal>,
+}
+
+impl Watcher<'_> {
+    fn look(&mut self, driven: &Driven) {
+        // A step of h metres is seen at its middle; turns in place have none.
+        let metres = 2.0 * (driven.s - self.way);
+        self.way += metres;
+        if self.refused.is_some() {
+            return;
+        }
+        let (at, settled) = (&driven.at, &driven.settled);
+        let ((sin_roll, cos_roll), (sin_pitch, cos_pitch)) = (libm::sincos(settled.roll), libm::sincos(settled.pitch));
+        self.refused = self.kept(at, cos_roll * cos_pitch, &settled.joints).err();
+        self.met.roll = self.met.roll.max(settled.roll.abs());
+        if metres > 0.0 {
+            let (rise_x, rise_y) = (-sin_pitch, cos_pitch * sin_roll);
+            let climb = self.direction.1 * rise_x + self.direction.0 * rise_y;
+            let side = self.direction.1 * rise_y - self.direction.0 * rise_x;
+            let slip = libm::hypot(self.slip.at_20_deg * climb, self.slip.side_at_20_deg * side) / SIN_20;
+            self.met.slope = self.met.slope.max(libm::asin(climb.abs().min(1.0)));
+            self.met.slip += metres * slip;
+        }
+    }
+
+    fn kept(&self, at: &Planar, upright: f64, joints: &[f64; 3]) -> Result<(), LegRefusal> {
+        if at.curvature.abs() > self.settings.bounds.most * KEPT {
+            return Err(LegRefusal::Curvature);
+        }
+        if (self.site.blocked)(at.x, at.y) {
+            return Err(LegRefusal::KeepOut);
+        }
+        if self.level { on_map(self.site.map, at) } else { within(self.settings, upright, joints) }
+    }
+}
+
+/// A rover that does not slip is taken to slip in full: slopes differ all the same.
+fn slip_in_force(slip: &Slip) -> Slip {
+    let none = slip.at_20_deg == 0.0 && slip.side_at_20_deg == 0.0;
+    if none { Slip { at_20_deg: 1.0, side_at_20_deg: 1.0 } } else { *slip }
+}
+
+/// Holds cos(tilt) and joint angles against the limits.
+fn within(settings: &DriveSettings, upright: f64, joints: &[f64; 3]) -> Result<(), LegRefusal> {
+    let limits = &settings.limits;
+    if libm::acos(upright.clamp(-1.0, 1.0)) > limits.tilt - ROOM {
+        return Err(LegRefusal::Tilt);
+    }
+    if joints.iter().any(|angle| angle.abs() > limits.joint - ROOM) {
+        return Err(LegRefusal::Joint);
+    }
+    Ok(())
+}
+
+/// What has no wheels must have ground all the same.
+fn on_map(map: &ElevationMap, at: &Planar) -> Result<(), LegRefusal> {
+    map.patch(at.x, at.y).map(|_| ()).map_err(|place| no_ground(&place))
+}
+
+fn no_ground(place: &NoGround) -> LegRefusal {
+    match place {
+        NoGround::OffMap { .. } => LegRefusal::MapEdge,
+        NoGround::Hole { .. } => LegRefusal::NoData,
+    }
+}

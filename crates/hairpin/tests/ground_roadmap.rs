@@ -1,0 +1,262 @@
+//! Feasible drives over waypoints: every leg that a search returns meets its waypoint by another integrator, and keeps its limits.
+
+use std::time::Instant;
+
+use hairpin::campaign::ground::Site;
+use hairpin::feasibility::reach::drive::{
+    DriveSettings, DriveSite, GroundSampling, GroundScore, LegRefusal, Manoeuvres, sample_ground,
+};
+use hairpin::feasibility::reach::{DriveNode, DriveRoadmap, Reach};
+use hairpin::robot::rover::{Rover, RoverDescription};
+use hairpin::search::{
+    Aggregate, BeamSettings, ExactSettings, Found, LegGraph, OpenEnd, OpenNode, Score, UniformSettings, beam, exact,
+    uniform,
+};
+use hairpin::trajectory::drive::{Drive, Gear, Motion, Planar, Segment};
+use hairpin::world::Sampling;
+use hairpin::world::terrain::ElevationMap;
+use hairpin::world::terrain::generate::{Recipe, generate};
+use nalgebra::Point3;
+
+fn shipped(name: &str) -> Rover {
+    let path = format!("{}/../../data/robots/rover/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a shipped rover");
+    toml::from_str::<RoverDescription>(&text).expect("its keys").build().expect("its numbers")
+}
+
+/// Craters and hills of 30 m.
+fn cratered() -> ElevationMap {
+    let recipe =
+        Recipe { size_m: 30.0, relief_m: 0.5, rock_cover: 0.0, crater_area_m2: 40.0, seed: 3, ..Recipe::default() };
+    generate(&recipe).expect("a yard")
+}
+
+fn level() -> ElevationMap {
+    let recipe =
+        Recipe { size_m: 30.0, relief_m: 0.0, rock_cover: 0.0, least_crater_m: f64::INFINITY, ..Recipe::default() };
+    generate(&recipe).expect("a plain")
+}
+
+const START: Planar = Planar { x: 15.0, y: 15.0, yaw: 0.3, curvature: 0.2 };
+
+fn free(_: f64, _: f64) -> bool {
+    false
+}
+
+/// The start and `count` places around it.
+fn graph(site: &DriveSite, settings: &DriveSettings, count: usize, seed: u64) -> Vec<Point3<f64>> {
+    let asked = GroundSampling {
+        count,
+        margin: 1.0,
+        around: Some(([START.x, START.y], 10.0)),
+        sampling: Sampling::Uniform,
+        seed,
+    };
+    let mut points = vec![Point3::new(START.x, START.y, 0.0)];
+    points.extend(sample_ground(site, settings, &asked).expect("places"));
+    points
+}
+
+fn careful(rover: &Rover) -> DriveSettings {
+    let mut settings = DriveSettings::of(rover);
+    settings.leg_m = [2.0, 6.0];
+    settings.limits.tilt = settings.limits.tilt.min(25.0_f64.to_radians());
+    settings
+}
+
+fn by_beam(
+    map: &DriveRoadmap,
+    points: &[Point3<f64>],
+    length: usize,
+    aggregate: Aggregate,
+) -> Option<Found<DriveNode>> {
+    let open = OpenEnd::new(map, points);
+    let settings = BeamSettings { length: length + 1, aggregate, lookahead: 0, ..BeamSettings::default() };
+    let score = open.score(&Score::Ground, aggregate);
+    let outcome = beam(&open.task(map.start()), &score, OpenEnd::<&DriveRoadmap>::may_arrive, &settings);
+    outcome.found.into_iter().next().map(|found| open.closed(found))
+}
+
+/// Replays every leg with another integrator and holds it against what was claimed.
+fn hold(site: &DriveSite, settings: &DriveSettings, drive: &Drive, told: &str) {
+    let ground = Site { rover: site.rover, map: site.map, speed: drive.speed, direction: drive.direction };
+    for (number, leg) in drive.legs.iter().enumerate() {
+        let replay = ground.replay(&leg.from, &leg.to, &leg.segments).expect("a way");
+        let [x, y, yaw] = replay.error;
+        let met = x.hypot(y) <= 0.01 && yaw.abs() <= 0.01 && replay.error_curvature.abs() <= 0.01;
+        assert!(met, "{told}, leg {number}: {replay:?}");
+        assert!(replay.max_tilt <= settings.limits.tilt, "{told}, leg {number}: {replay:?}");
+        for segment in &leg.segments {
+            let step = segment.length_m() / 200.0;
+            let most = (0..=200).map(|i| segment.curvature_at(step * f64::from(i)).abs()).fold(0.0, f64::max);
+            assert!(most <= settings.bounds.most * (1.0 + 1e-6), "{told}, leg {number}: {most}");
+        }
+        if let Some(next) = drive.legs.get(number + 1) {
+            assert_eq!(leg.to, next.from, "{told}");
+        }
+    }
+}
+
+#[test]
+fn eight_waypoints_over_craters_are_found_and_replayed() {
+    let (yard, rover) = (cratered(), shipped("rocky8"));
+    let site = DriveSite { rover: &rover, map: &yard, blocked: &free };
+    let mut found = 0;
+    for seed in 0..4 {
+        let settings = DriveSettings { seed, ..careful(&rover) };
+        let begun = Instant::now();
+        let points = graph(&site, &settings, 60, seed);
+        let map = DriveRoadmap::new(site, &points, &START, None, &settings);
+        let best = by_beam(&map, &points, 8, Aggregate::Sum);
+        println!(
+            "graph {seed}: {} solves, {:.2} s; {}",
+            map.tally().solves,
+            begun.elapsed().as_secs_f64(),
+            map.tally()
+        );
+        let Some(best) = best else { continue };
+        found += 1;
+        assert_eq!((best.waypoints.len(), best.leg_times.len()), (8, 7));
+        let drive = map.drive(&best.nodes).expect("legs that were found");
+        assert_eq!(drive.legs[0].from, START);
+        for (k, leg) in drive.legs.iter().enumerate() {
+            let [a, b] = [best.waypoints[k], best.waypoints[k + 1]].map(|w| points[w as usize]);
+            assert!((leg.from.x, leg.from.y, leg.to.x, leg.to.y) == (a.x, a.y, b.x, b.y));
+            assert!((2.0..=6.0).contains(&(b - a).xy().norm()), "seed {seed}");
+            assert!((drive.leg_time(k) - best.leg_times[k]).abs() < 1e-9);
+        }
+        hold(&site, &settings, &drive, &format!("seed {seed}"));
+    }
+    assert!(found >= 3, "{found} of 4 graphs");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_drive_and_another_another() {
+    let (yard, rover) = (cratered(), shipped("rocky8"));
+    let site = DriveSite { rover: &rover, map: &yard, blocked: &free };
+    let drive = |seed: u64| {
+        let settings = DriveSettings { seed, ..careful(&rover) };
+        let points = graph(&site, &settings, 40, seed);
+        let map = DriveRoadmap::new(site, &points, &START, None, &settings);
+        by_beam(&map, &points, 5, Aggregate::Max).and_then(|found| map.drive(&found.nodes)).expect("a drive")
+    };
+    assert_eq!(drive(1), drive(1));
+    assert_ne!(drive(1), drive(2));
+}
+
+#[test]
+fn no_beam_is_better_than_the_exact_search_and_draws_are_feasible() {
+    let (yard, rover) = (cratered(), shipped("rocky8"));
+    let site = DriveSite { rover: &rover, map: &yard, blocked: &free };
+    let score = GroundScore::named("roll+curvature-change+random").expect("terms");
+    for seed in 0..2 {
+        let settings = DriveSettings { seed, headings: 2, score: score.clone(), ..careful(&rover) };
+        let points = graph(&site, &settings, 30, seed);
+        let map = DriveRoadmap::new(site, &points, &START, None, &settings);
+        let open = OpenEnd::new(&map, &points);
+        let legs = LegGraph::explore(OpenNode::At(map.start()), open.candidates(), &open, 6);
+        for aggregate in [Aggregate::Sum, Aggregate::Max] {
+            let score = open.score(&Score::Ground, aggregate);
+            let beam = by_beam(&map, &points, 5, aggregate).expect("a drive");
+            let best = exact(&legs, &score, &ExactSettings { length: 6, aggregate, ..ExactSettings::default() });
+            assert!(best.proven == 1 && best.found[0].score >= beam.score - 1e-12, "seed {seed}: {best:?}");
+            let drawn = UniformSettings { length: 6, wanted: 5, aggregate, ..UniformSettings::default() };
+            for found in uniform(&legs, &score, seed, &drawn).found {
+                let found = open.closed(found);
+                assert!(found.score <= best.found[0].score + 1e-12);
+                hold(&site, &settings, &map.drive(&found.nodes).expect("legs"), &format!("seed {seed}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn behind_a_wall_of_keep_outs_there_is_nothing_and_it_is_said_why() {
+    let (yard, rover) = (cratered(), shipped("rocky8"));
+    let wall = |x: f64, y: f64| (1.0..1.8).contains(&(x - START.x).hypot(y - START.y));
+    let site = DriveSite { rover: &rover, map: &yard, blocked: &wall };
+    let settings = careful(&rover);
+    let points = graph(&site, &settings, 40, 0);
+    let map = DriveRoadmap::new(site, &points, &START, None, &settings);
+    assert_eq!(by_beam(&map, &points, 3, Aggregate::Sum), None);
+    let tally = map.tally();
+    assert!(tally.asked > 10 && tally.feasible == 0, "{tally}");
+    assert!(tally.refused(LegRefusal::KeepOut) > 0, "{tally}");
+    let told: u64 = LegRefusal::ALL.iter().map(|reason| tally.refused(*reason)).sum();
+    assert_eq!(told, tally.asked);
+    assert!(tally.to_string().contains("enter a keep-out"), "{tally}");
+}
+
+#[test]
+fn on_level_ground_a_body_without_wheels_drives_to_an_end_of_its_own() {
+    let (plain, rover) = (level(), shipped("generic"));
+    let site = DriveSite { rover: &rover, map: &plain, blocked: &free };
+    let settings = DriveSettings { score: GroundScore::named("speed").expect("a term"), ..careful(&rover) };
+    let mut points = graph(&site, &settings, 40, 5);
+    points.push(Point3::new(19.0, 18.0, 0.0));
+    let end = Planar { x: 19.0, y: 18.0, yaw: 1.0, curvature: -0.1 };
+    let map = DriveRoadmap::new(site, &points, &START, Some(&end), &settings);
+    let task = hairpin::search::Task { start: map.start(), candidates: &points, reach: &map };
+    let asked = BeamSettings { length: 4, lookahead: 0, ..BeamSettings::default() };
+    let outcome = beam(&task, &Score::Ground, |node, steps| map.may_arrive(node, steps), &asked);
+    let found = outcome.found.first().expect("a drive");
+    let drive = map.drive(&found.nodes).expect("legs");
+    assert_eq!(drive.legs[2].to, end);
+    hold(&site, &settings, &drive, "level");
+    assert!(found.score > 1.5 && found.score <= 3.0, "{}", found.score);
+}
+
+/// Every leg from the start over `points`.
+fn from_start(map: &DriveRoadmap, points: &[Point3<f64>]) -> Vec<(f64, Drive)> {
+    let mut legs = Vec::new();
+    map.legs(&map.start(), points, &mut legs);
+    assert!(legs.windows(2).all(|w| w[0].waypoint <= w[1].waypoint));
+    legs.iter().map(|leg| (leg.features.ground, map.drive(&[map.start(), leg.to]).expect("a leg"))).collect()
+}
+
+#[test]
+fn each_manoeuvre_is_used_where_it_is_allowed_and_only_there() {
+    let (plain, rover) = (level(), shipped("generic"));
+    let site = DriveSite { rover: &rover, map: &plain, blocked: &free };
+    let with = |forward, reverse, turn_in_place| {
+        let settings = DriveSettings {
+            manoeuvres: Manoeuvres { forward, reverse, turn_in_place },
+            score: GroundScore::named("reversals").expect("a term"),
+            ..careful(&rover)
+        };
+        let points = graph(&site, &settings, 60, 9);
+        let map = DriveRoadmap::new(site, &points, &START, None, &settings);
+        let legs = from_start(&map, &points);
+        legs.iter().for_each(|(_, drive)| hold(&site, &settings, drive, "manoeuvres"));
+        legs
+    };
+    let any = |legs: &[(f64, Drive)], is: fn(&Segment) -> bool| {
+        legs.iter().filter(|(_, drive)| drive.legs[0].segments.iter().any(is)).count()
+    };
+    let reversed = |segment: &Segment| segment.gear == Gear::Reverse;
+    let turned = |segment: &Segment| matches!(segment.motion, Motion::Turn { .. });
+    let (ahead, back, both, all) =
+        (with(true, false, false), with(false, true, false), with(true, true, false), with(true, true, true));
+    assert!(!ahead.is_empty() && any(&ahead, reversed) + any(&ahead, turned) == 0);
+    assert!(!back.is_empty() && any(&back, reversed) == back.len() && any(&back, turned) == 0);
+    assert!(both.len() > ahead.len().max(back.len()), "{} {} {}", ahead.len(), back.len(), both.len());
+    assert!(both.iter().any(|(reversals, _)| *reversals > 0.0), "legs with a change of gear");
+    assert!(all.len() >= both.len() && any(&all, turned) > 0);
+    assert!(any(&both, turned) == 0 && with(false, false, false).is_empty());
+}
+
+#[test]
+fn slip_and_delay_that_the_rover_is_known_to_have_are_met() {
+    let yard = cratered();
+    let mut rover = shipped("rocky8");
+    rover.slip.at_20_deg = 0.3;
+    rover.slip.side_at_20_deg = 0.15;
+    rover.response.latency = 0.3;
+    let site = DriveSite { rover: &rover, map: &yard, blocked: &free };
+    let settings = careful(&rover);
+    let points = graph(&site, &settings, 60, 2);
+    let map = DriveRoadmap::new(site, &points, &START, None, &settings);
+    let legs = from_start(&map, &points);
+    assert!(legs.len() > 5, "{}", map.tally());
+    legs.iter().for_each(|(_, drive)| hold(&site, &settings, drive, "slip"));
+}
