@@ -7,6 +7,7 @@ use hairpin::feasibility::reach::drive::{
     DriveSettings, DriveSite, GroundSampling, GroundScore, LegRefusal, Manoeuvres, sample_ground,
 };
 use hairpin::feasibility::reach::{DriveNode, DriveRoadmap, Reach};
+use hairpin::feasibility::steering::shooting::rough::Steps;
 use hairpin::robot::rover::{Rover, RoverDescription};
 use hairpin::search::{
     Aggregate, BeamSettings, ExactSettings, Found, LegGraph, OpenEnd, OpenNode, Score, UniformSettings, beam, exact,
@@ -14,8 +15,8 @@ use hairpin::search::{
 };
 use hairpin::trajectory::drive::{Drive, Gear, Motion, Planar, Segment};
 use hairpin::world::Sampling;
-use hairpin::world::terrain::ElevationMap;
 use hairpin::world::terrain::generate::{Recipe, generate};
+use hairpin::world::terrain::{ElevationMap, KeepOut, KeepOutShape, KeepOuts};
 use nalgebra::Point3;
 
 fn shipped(name: &str) -> Rover {
@@ -38,10 +39,6 @@ fn level() -> ElevationMap {
 }
 
 const START: Planar = Planar { x: 15.0, y: 15.0, yaw: 0.3, curvature: 0.2 };
-
-fn free(_: f64, _: f64) -> bool {
-    false
-}
 
 /// The start and `count` places around it.
 fn graph(site: &DriveSite, settings: &DriveSettings, count: usize, seed: u64) -> Vec<Point3<f64>> {
@@ -100,7 +97,8 @@ fn hold(site: &DriveSite, settings: &DriveSettings, drive: &Drive, told: &str) {
 #[test]
 fn eight_waypoints_over_craters_are_found_and_replayed() {
     let (yard, rover) = (cratered(), shipped("rocky8"));
-    let site = DriveSite { rover: &rover, map: &yard, blocked: &free };
+    let free = KeepOuts::default();
+    let site = DriveSite::new(&rover, &yard, &free);
     let mut found = 0;
     for seed in 0..4 {
         let settings = DriveSettings { seed, ..careful(&rover) };
@@ -133,7 +131,8 @@ fn eight_waypoints_over_craters_are_found_and_replayed() {
 #[test]
 fn the_same_seed_gives_the_same_drive_and_another_another() {
     let (yard, rover) = (cratered(), shipped("rocky8"));
-    let site = DriveSite { rover: &rover, map: &yard, blocked: &free };
+    let free = KeepOuts::default();
+    let site = DriveSite::new(&rover, &yard, &free);
     let drive = |seed: u64| {
         let settings = DriveSettings { seed, ..careful(&rover) };
         let points = graph(&site, &settings, 40, seed);
@@ -147,7 +146,8 @@ fn the_same_seed_gives_the_same_drive_and_another_another() {
 #[test]
 fn no_beam_is_better_than_the_exact_search_and_draws_are_feasible() {
     let (yard, rover) = (cratered(), shipped("rocky8"));
-    let site = DriveSite { rover: &rover, map: &yard, blocked: &free };
+    let free = KeepOuts::default();
+    let site = DriveSite::new(&rover, &yard, &free);
     let score = GroundScore::named("roll+curvature-change+random").expect("terms");
     for seed in 0..2 {
         let settings = DriveSettings { seed, headings: 2, score: score.clone(), ..careful(&rover) };
@@ -173,8 +173,15 @@ fn no_beam_is_better_than_the_exact_search_and_draws_are_feasible() {
 #[test]
 fn behind_a_wall_of_keep_outs_there_is_nothing_and_it_is_said_why() {
     let (yard, rover) = (cratered(), shipped("rocky8"));
-    let wall = |x: f64, y: f64| (1.0..1.8).contains(&(x - START.x).hypot(y - START.y));
-    let site = DriveSite { rover: &rover, map: &yard, blocked: &wall };
+    // Stones around the start, closer together than the rover is wide; it stands clear of all of them.
+    let stone = |i: u32| {
+        let (sin, cos) = (f64::from(i) * 0.314).sin_cos();
+        let center_m = [START.x + 1.5 * cos, START.y + 1.5 * sin];
+        KeepOut { name: format!("stone {i}"), shape: KeepOutShape::Circle { center_m, radius_m: 0.1 } }
+    };
+    let wall = KeepOuts::new((0..20).map(stone).collect()).expect("a wall");
+    let site = DriveSite::new(&rover, &yard, &wall);
+    assert!(wall.distance(START.x, START.y) > site.radius);
     let settings = careful(&rover);
     let points = graph(&site, &settings, 40, 0);
     let map = DriveRoadmap::new(site, &points, &START, None, &settings);
@@ -190,7 +197,8 @@ fn behind_a_wall_of_keep_outs_there_is_nothing_and_it_is_said_why() {
 #[test]
 fn on_level_ground_a_body_without_wheels_drives_to_an_end_of_its_own() {
     let (plain, rover) = (level(), shipped("generic"));
-    let site = DriveSite { rover: &rover, map: &plain, blocked: &free };
+    let free = KeepOuts::default();
+    let site = DriveSite::new(&rover, &plain, &free);
     let settings = DriveSettings { score: GroundScore::named("speed").expect("a term"), ..careful(&rover) };
     let mut points = graph(&site, &settings, 40, 5);
     points.push(Point3::new(19.0, 18.0, 0.0));
@@ -217,7 +225,8 @@ fn from_start(map: &DriveRoadmap, points: &[Point3<f64>]) -> Vec<(f64, Drive)> {
 #[test]
 fn each_manoeuvre_is_used_where_it_is_allowed_and_only_there() {
     let (plain, rover) = (level(), shipped("generic"));
-    let site = DriveSite { rover: &rover, map: &plain, blocked: &free };
+    let free = KeepOuts::default();
+    let site = DriveSite::new(&rover, &plain, &free);
     let with = |forward, reverse, turn_in_place| {
         let settings = DriveSettings {
             manoeuvres: Manoeuvres { forward, reverse, turn_in_place },
@@ -252,11 +261,59 @@ fn slip_and_delay_that_the_rover_is_known_to_have_are_met() {
     rover.slip.at_20_deg = 0.3;
     rover.slip.side_at_20_deg = 0.15;
     rover.response.latency = 0.3;
-    let site = DriveSite { rover: &rover, map: &yard, blocked: &free };
+    let free = KeepOuts::default();
+    let site = DriveSite::new(&rover, &yard, &free);
     let settings = careful(&rover);
     let points = graph(&site, &settings, 60, 2);
     let map = DriveRoadmap::new(site, &points, &START, None, &settings);
     let legs = from_start(&map, &points);
     assert!(legs.len() > 5, "{}", map.tally());
     legs.iter().for_each(|(_, drive)| hold(&site, &settings, drive, "slip"));
+}
+
+#[test]
+fn the_underside_keeps_its_distance_and_the_vehicle_the_keep_outs() {
+    let (yard, rover) = (cratered(), shipped("rocky8"));
+    let circle = |i: u32| {
+        let (sin, cos) = (f64::from(i) * 0.7).sin_cos();
+        let center_m = [START.x + 5.0 * cos, START.y + 5.0 * sin];
+        KeepOut { name: format!("rock {i}"), shape: KeepOutShape::Circle { center_m, radius_m: 0.3 } }
+    };
+    let rocks = KeepOuts::new((0..9).map(circle).collect()).expect("places");
+    let site = DriveSite::new(&rover, &yard, &rocks);
+    let mut settings = DriveSettings { seed: 1, headings: 12, ..careful(&rover) };
+    let points = graph(&site, &settings, 60, 1);
+    let legs_with = |settings: &DriveSettings| {
+        let map = DriveRoadmap::new(site, &points, &START, None, settings);
+        let drives = from_start(&map, &points);
+        (drives, map.tally())
+    };
+    let (loose, tally) = legs_with(&settings);
+    assert!(tally.refused(LegRefusal::Belly) == 0 && tally.refused(LegRefusal::KeepOut) > 0, "{tally}");
+    let clearance_at = |place: [f64; 3]| {
+        let pose = rover.suspension.settle_cold(&yard, place).expect("rest").0;
+        rover.belly_clearance(&yard, place, &pose).expect("ground")
+    };
+    let least = 0.03;
+    settings.limits.clearance = least;
+    let (strict, tally) = legs_with(&settings);
+    assert!(tally.refused(LegRefusal::Belly) > 0 && !strict.is_empty() && strict.len() < loose.len(), "{tally}");
+    let course = Site { rover: &rover, map: &yard, speed: settings.speed, direction: 0.0 };
+    for (_, drive) in &strict {
+        let leg = &drive.legs[0];
+        let mut at = leg.from;
+        for segment in &leg.segments {
+            // Cut into pieces of a centimetre, whose ends are looked at.
+            let pieces = (segment.length_m() / 0.01).ceil();
+            for k in 0..pieces as usize {
+                let step = segment.length_m() / pieces;
+                let s = k as f64 * step;
+                let piece =
+                    Segment::clothoid(step, segment.curvature_at(s), segment.curvature_at(s + step), segment.gear);
+                at = course.predict(&at, &[piece], Steps { least: 1, ..Steps::default() }).expect("a way").end;
+                let clearance = clearance_at([at.x, at.y, at.yaw]);
+                assert!(clearance > least - 0.01 && rocks.distance(at.x, at.y) > site.radius - 1e-3, "{clearance}");
+            }
+        }
+    }
 }

@@ -123,6 +123,8 @@ fn solved(
     let answer = rough::solve(&course, ends.from, ends.to, &settings.bounds, &settings.solver, &mut steer);
     match answer.status {
         Status::Ok if metres(&answer.segments) > longest => Err(LegRefusal::Detour),
+        // What is plain already need not be looked at more closely.
+        Status::Ok if answer.prediction.is_some_and(|p| p.tilt.0 > settings.limits.tilt) => Err(LegRefusal::Tilt),
         Status::Ok => Ok(answer.segments),
         Status::Blocked(blocked) => Err(refusal(&blocked)),
         Status::Unreachable if too_long => Err(LegRefusal::Detour),

@@ -46,7 +46,7 @@ pub struct TooFewPlaces {
     pub blocked: usize,
     /// At the map's edge, at cells without data, or without rest.
     pub without_ground: usize,
-    /// Beyond the limits of tilt or joints.
+    /// Beyond the limits of tilt, joints or clearance.
     pub steep: usize,
 }
 
@@ -94,7 +94,7 @@ pub fn sample_ground(
         match stands_somehow(site, settings, x, y) {
             Ok(z) => places.push(Point3::new(x, y, z)),
             Err(LegRefusal::KeepOut) => told.blocked += 1,
-            Err(LegRefusal::Tilt | LegRefusal::Joint) => told.steep += 1,
+            Err(LegRefusal::Tilt | LegRefusal::Joint | LegRefusal::Belly) => told.steep += 1,
             Err(_) => told.without_ground += 1,
         }
     }

@@ -2,22 +2,38 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use nalgebra::Vector3;
+
 use super::stress::GroundScore;
 use crate::feasibility::steering::shooting::rough::{Course, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, flat, rough};
 use crate::robot::rover::Rover;
 use crate::trajectory::drive::Gear;
-use crate::world::terrain::ElevationMap;
+use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// A vehicle on a map, and where it must not go.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub struct DriveSite<'a> {
     /// The vehicle. Without a suspension it drives in the plane, over whatever the map says.
     pub rover: &'a Rover,
     /// What it drives on.
     pub map: &'a ElevationMap,
-    /// Whether the vehicle's origin must not be at (x, y), m: keep-outs, grown by the vehicle's radius.
-    pub blocked: &'a (dyn Fn(f64, f64) -> bool + Sync),
+    /// Where it must not go.
+    pub keep_outs: &'a KeepOuts,
+    /// Distance that its origin keeps from them, m.
+    pub radius: f64,
+}
+
+impl<'a> DriveSite<'a> {
+    /// `rover` keeps all of itself out of `keep_outs`: the radius reaches from its origin to the farthest rim of a wheel and corner
+    /// of the underside.
+    pub fn new(rover: &'a Rover, map: &'a ElevationMap, keep_outs: &'a KeepOuts) -> Self {
+        let (wheels, count, wheel_radius) = rover.suspension.wheels(&[0.0; 3]);
+        let belly = &rover.body.belly;
+        let corner = libm::hypot(belly.front.abs().max(belly.rear.abs()), belly.half_width);
+        let rim = |radius: f64, w: &Vector3<f64>| radius.max(libm::hypot(w.x, w.y) + wheel_radius);
+        Self { rover, map, keep_outs, radius: wheels[..count].iter().fold(corner, rim) }
+    }
 }
 
 /// Which ways of driving a leg may use; they are tried in this order and the first that keeps all limits is the leg.
@@ -38,6 +54,8 @@ pub struct DriveLimits {
     pub tilt: f64,
     /// Largest |rocker or bogie angle|, rad; infinite: none.
     pub joint: f64,
+    /// Least height of the body's underside over the ground, m; −∞: none.
+    pub clearance: f64,
 }
 
 /// How a roadmap of drives is drawn and solved.
@@ -89,7 +107,7 @@ impl DriveSettings {
             direction: 0.0,
             manoeuvres: Manoeuvres { forward: true, reverse: false, turn_in_place: false },
             bounds: Curvatures { most: limits.curvature, most_rate: limits.curvature_rate },
-            limits: DriveLimits { tilt: limits.tilt, joint: limits.joint },
+            limits: DriveLimits { tilt: limits.tilt, joint: limits.joint, clearance: f64::NEG_INFINITY },
             solver: rough::Settings::default(),
             flat,
             score: GroundScore::default(),

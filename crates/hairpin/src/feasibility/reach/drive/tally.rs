@@ -21,13 +21,15 @@ pub enum LegRefusal {
     Tilt,
     /// A rocker or bogie turns more than allowed.
     Joint,
+    /// The body's underside comes nearer to the ground than allowed.
+    Belly,
     /// The drive enters a keep-out.
     KeepOut,
 }
 
 impl LegRefusal {
     /// All, in order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Detour,
         Self::Unsolved,
         Self::MapEdge,
@@ -36,6 +38,7 @@ impl LegRefusal {
         Self::Curvature,
         Self::Tilt,
         Self::Joint,
+        Self::Belly,
         Self::KeepOut,
     ];
 
@@ -50,6 +53,7 @@ impl LegRefusal {
             Self::Curvature => "bend more than allowed",
             Self::Tilt => "tilt more than allowed",
             Self::Joint => "turn a joint more than allowed",
+            Self::Belly => "come too near to the ground with their underside",
             Self::KeepOut => "enter a keep-out",
         }
     }

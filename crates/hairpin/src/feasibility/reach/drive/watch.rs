@@ -3,7 +3,7 @@
 use super::settings::{DriveSettings, DriveSite};
 use super::tally::LegRefusal;
 use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Steps, predict};
-use crate::robot::rover::{Slip, Suspension, Unsettled};
+use crate::robot::rover::{Settled, Slip, Suspension, Unsettled};
 use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
 
@@ -13,6 +13,8 @@ const STEPS: Steps = Steps { length: 0.03, angle: 0.03, least: 8 };
 const ROOM: f64 = 2e-3;
 /// A bound of curvature counts as kept up to this share: the solver's own rounding.
 const KEPT: f64 = 1.0 + 1e-6;
+/// The underside is looked at after so many metres or radians; it is itself looked at every 10 cm.
+const BELLY_STEP: f64 = 0.09;
 /// sin 20°.
 const SIN_20: f64 = 0.342_020_143_325_668_7;
 /// Samples of a segment's curvature.
@@ -45,6 +47,7 @@ pub(super) fn watch(
         slip: slip_in_force(&site.rover.slip),
         met: Met::default(),
         way: 0.0,
+        unlooked: f64::INFINITY,
         refused: None,
     };
     predict(&course, start, motion, |driven| watcher.look(driven)).map_err(|blocked| refusal(&blocked))?;
@@ -55,7 +58,7 @@ pub(super) fn watch(
 
 /// Whether the body stands within the limits at a place.
 pub(super) fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) -> Result<(), LegRefusal> {
-    if (site.blocked)(at.x, at.y) {
+    if site.keep_outs.distance(at.x, at.y) < site.radius {
         return Err(LegRefusal::KeepOut);
     }
     if matches!(site.rover.suspension, Suspension::Level) {
@@ -63,7 +66,8 @@ pub(super) fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) ->
     }
     let rest = site.rover.suspension.settle_cold(site.map, [at.x, at.y, at.yaw]);
     let (settled, _) = rest.map_err(|unsettled| refusal(&Blocked { after_m: 0.0, cause: unsettled.into() }))?;
-    within(settings, libm::cos(settled.roll) * libm::cos(settled.pitch), &settled.joints)
+    within(settings, libm::cos(settled.roll) * libm::cos(settled.pitch), &settled.joints)?;
+    clear(site, settings, at, &settled)
 }
 
 /// Why the ground let nothing pass.
@@ -105,6 +109,8 @@ struct Watcher<'a> {
     met: Met,
     /// Metres behind the last look's step.
     way: f64,
+    /// Metres and radians since the underside was looked at.
+    unlooked: f64,
     refused: Option<LegRefusal>,
 }
 
@@ -118,7 +124,7 @@ impl Watcher<'_> {
         }
         let (at, settled) = (&driven.at, &driven.settled);
         let ((sin_roll, cos_roll), (sin_pitch, cos_pitch)) = (libm::sincos(settled.roll), libm::sincos(settled.pitch));
-        self.refused = self.kept(at, cos_roll * cos_pitch, &settled.joints).err();
+        self.refused = self.kept(at, metres, cos_roll * cos_pitch, settled).err();
         self.met.roll = self.met.roll.max(settled.roll.abs());
         if metres > 0.0 {
             let (rise_x, rise_y) = (-sin_pitch, cos_pitch * sin_roll);
@@ -130,14 +136,25 @@ impl Watcher<'_> {
         }
     }
 
-    fn kept(&self, at: &Planar, upright: f64, joints: &[f64; 3]) -> Result<(), LegRefusal> {
-        if at.curvature.abs() > self.settings.bounds.most * KEPT {
+    fn kept(&mut self, at: &Planar, metres: f64, upright: f64, settled: &Settled) -> Result<(), LegRefusal> {
+        let (site, settings) = (self.site, self.settings);
+        if at.curvature.abs() > settings.bounds.most * KEPT {
             return Err(LegRefusal::Curvature);
         }
-        if (self.site.blocked)(at.x, at.y) {
+        // On the way to the next look the vehicle comes no nearer than by a step.
+        if site.keep_outs.distance(at.x, at.y) < site.radius + metres {
             return Err(LegRefusal::KeepOut);
         }
-        if self.level { on_map(self.site.map, at) } else { within(self.settings, upright, joints) }
+        if self.level {
+            return on_map(site.map, at);
+        }
+        within(settings, upright, &settled.joints)?;
+        self.unlooked += if metres > 0.0 { metres } else { STEPS.angle };
+        if self.unlooked >= BELLY_STEP {
+            self.unlooked = 0.0;
+            clear(site, settings, at, settled)?;
+        }
+        Ok(())
     }
 }
 
@@ -157,6 +174,18 @@ fn within(settings: &DriveSettings, upright: f64, joints: &[f64; 3]) -> Result<(
         return Err(LegRefusal::Joint);
     }
     Ok(())
+}
+
+/// Holds the underside's height over the ground against its limit.
+fn clear(site: &DriveSite, settings: &DriveSettings, at: &Planar, settled: &Settled) -> Result<(), LegRefusal> {
+    if settings.limits.clearance == f64::NEG_INFINITY {
+        return Ok(());
+    }
+    let clearance = site.rover.belly_clearance(site.map, [at.x, at.y, at.yaw], settled);
+    match clearance.map_err(|place| no_ground(&place))? {
+        clearance if clearance < settings.limits.clearance => Err(LegRefusal::Belly),
+        _ => Ok(()),
+    }
 }
 
 /// What has no wheels must have ground all the same.
