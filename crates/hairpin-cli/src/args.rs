@@ -319,8 +319,11 @@ pub(crate) struct Simulate {
 
 #[derive(Debug, Args)]
 pub(crate) struct Bench {
-    /// Only those whose name begins so, such as beam
+    /// Only those whose name begins so, such as beam; rover-worst is the table of the worst queries of the rover generator
     pub(crate) name: Option<String>,
+    /// Flat queries of each family of rover-worst; a hundredth of it on the ground
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    pub(crate) queries: u64,
     /// Length of the campaign whose memory is measured
     #[arg(long, value_name = "M", default_value_t = 0.2)]
     pub(crate) minutes: f64,

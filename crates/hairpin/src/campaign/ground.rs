@@ -1,7 +1,7 @@
 //! Boundary-value drives of rovers on elevation maps: solved, and replayed from what would be written.
 
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Settings, Steps};
-use crate::feasibility::steering::shooting::{Curvatures, Query};
+use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
 use crate::robot::rover::{Rover, Suspension};
 use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList};
 use crate::verification::{DrivePiece, GroundClaim, GroundReplay, GroundVehicle, Stand, Stopped, replay_ground};
@@ -20,7 +20,28 @@ pub struct Site<'a> {
     pub direction: f64,
 }
 
+/// The flat answers that a search on the ground is made of are exact to this, m, rad, 1/m.
+const FLAT: f64 = 1e-5;
+
 impl Site<'_> {
+    /// The curvatures that the vehicle keeps.
+    pub fn bounds(&self) -> Curvatures {
+        Curvatures { most: self.rover.limits.curvature, most_rate: self.rover.limits.curvature_rate }
+    }
+
+    /// Commands that drive forward from `start` to `goal` within the vehicle's own bounds.
+    pub fn drive(&self, start: &Planar, goal: &Planar, settings: &Settings) -> Answer {
+        let bounds = self.bounds();
+        let precision = Precision { position: FLAT, yaw: FLAT, curvature: FLAT };
+        let flat = flat::Settings { precision, ..flat::Settings::default() };
+        let mut steer = |query: &Query| -> Option<SegmentList> {
+            let query = Query::new(query.start_curvature, query.goal, &bounds).ok()?;
+            let answer = flat::forward(&query, &bounds, &flat);
+            (answer.status == flat::Status::Ok).then_some(answer.segments)
+        };
+        self.solve(start, goal, &bounds, settings, &mut steer)
+    }
+
     fn course(&self, steps: Steps) -> Course<'_, ElevationMap> {
         Course { rover: self.rover, terrain: self.map, speed: self.speed, direction: self.direction, steps }
     }

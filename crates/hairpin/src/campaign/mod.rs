@@ -4,6 +4,7 @@ pub mod assumptions;
 pub mod case;
 pub mod execute;
 pub mod generate;
+pub mod goals;
 pub mod ground;
 pub mod influence;
 pub mod judge;

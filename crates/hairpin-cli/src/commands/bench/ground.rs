@@ -1,105 +1,72 @@
 //! Boundary-value drives of `rocky8` on generated ground: solving alone, success by replay.
 
-use std::f64::consts::PI;
 use std::hint::black_box;
 use std::time::Instant;
 
+use hairpin::campaign::goals::ground_goals;
 use hairpin::campaign::ground::Site;
-use hairpin::feasibility::steering::shooting::flat;
-use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision, Query};
-use hairpin::feasibility::steering::shooting::rough::{Answer, Settings, Status, Steps};
+use hairpin::feasibility::steering::shooting::rough::{Answer, Settings, Status};
 use hairpin::math::random::stream;
 use hairpin::robot::rover::Rover;
-use hairpin::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
+use hairpin::trajectory::drive::Planar;
 use hairpin::world::terrain::ElevationMap;
 use hairpin::world::terrain::generate::{Recipe, generate};
 use hairpin_formats::scenario::rover_for;
-use rand::RngExt;
 
 use super::clock::median_time;
+use super::memory::resident;
 use super::{Row, Target};
 use crate::args::Bench;
 use crate::problem::Problem;
 
 const GOALS: usize = 1000;
-/// Drives of more tilt are not asked for, rad.
-const STEEP: f64 = PI / 6.0;
-/// Goals keep this far from the map's edge, m.
-const MARGIN: f64 = 2.0;
-/// Steps of the drives whose ends are the goals.
-const FINE: Steps = Steps { length: 0.005, angle: 0.005, least: 100 };
 
 pub(super) fn rows() -> Vec<Row> {
     let row = |name, unit, target, measure| Row { name, unit, target, measure };
     let most = |bound| Some(Target::AtMost(bound));
     vec![
-        row("steer-ground", "µs", most(350.0), |_: &Bench| Ok(Yard::new()?.mean())),
-        row("steer-ground-p99", "µs", most(2000.0), |_| Ok(Yard::new()?.slowest(0.99))),
-        row("steer-ground-success", "%", Some(Target::AtLeast(99.9)), |_| Ok(Yard::new()?.success())),
+        row("steer-ground", "µs", most(350.0), |_: &Bench| Ok(Yard::new(GOALS)?.mean())),
+        row("steer-ground-p99", "µs", most(2000.0), |_| Ok(Yard::new(GOALS)?.slowest(0.99))),
+        row("steer-ground-success", "%", Some(Target::AtLeast(99.9)), |_| Ok(Yard::new(GOALS)?.success())),
+        row("steer-ground-start", "ms", most(5.0), start),
+        row("steer-ground-memory", "MB", most(2.0), memory),
     ]
 }
 
+/// Cratered ground of 40 m.
+pub(in crate::commands) const CRATERS: Recipe = Recipe {
+    size_m: 40.0,
+    cell_m: 0.1,
+    relief_m: 1.0,
+    hurst: 0.7,
+    least_crater_m: 2.0,
+    crater_area_m2: 40.0,
+    rock_cover: 0.0,
+    seed: 1,
+};
+
 /// Goals on rough ground that were driven to before.
-struct Yard {
+pub(super) struct Yard {
     rover: Rover,
     map: ElevationMap,
-    goals: Vec<(Planar, Planar)>,
+    pub(super) goals: Vec<(Planar, Planar)>,
 }
 
 impl Yard {
-    /// Cratered ground of 40 m, and the ends of random curvatures on it, 1 to 6 m away.
-    fn new() -> Result<Self, Problem> {
-        let rover = rover_for("rocky8")?;
-        let recipe =
-            Recipe { size_m: 40.0, relief_m: 1.0, crater_area_m2: 40.0, rock_cover: 0.0, seed: 1, ..Recipe::default() };
-        let map = generate(&recipe).map_err(Problem::input)?;
-        let mut yard = Self { rover, map, goals: Vec::with_capacity(GOALS) };
-        let mut random = stream(3);
-        while yard.goals.len() < GOALS {
-            let length_m: f64 = random.random_range(1.0..6.0);
-            let mut curvature = [0.0; 6];
-            for (power, a) in curvature.iter_mut().enumerate().take(4) {
-                *a = random.random_range(-1.0..1.0) / length_m.powi(power as i32);
-            }
-            let drive = Segment { motion: Motion::Arc { length_m, curvature }, gear: Gear::Forward };
-            let (low, high) = yard.map.extent();
-            let mut inside = |i: usize| random.random_range(low[i] + MARGIN..high[i] - MARGIN);
-            let start = Planar { x: inside(0), y: inside(1), yaw: 0.0, curvature: curvature[0] };
-            let start = Planar { yaw: random.random_range(-PI..PI), ..start };
-            if let Some(end) = yard.driven(&start, &drive) {
-                yard.goals.push((start, end));
-            }
-        }
-        Ok(yard)
+    /// [`CRATERS`], and the ends of random curves on it, 1 to 6 m away.
+    pub(super) fn new(goals: usize) -> Result<Self, Problem> {
+        let (rover, map) = (rover_for("rocky8")?, generate(&CRATERS).map_err(Problem::input)?);
+        let yard = Self { rover, map, goals: Vec::new() };
+        let goals = ground_goals(&yard.site(), goals, &mut stream(3));
+        Ok(Self { goals, ..yard })
     }
 
     fn site(&self) -> Site<'_> {
         Site { rover: &self.rover, map: &self.map, speed: self.rover.default_speed, direction: 0.0 }
     }
 
-    /// Where `drive` ends, if it keeps the bounds, the map's margin and the tilt.
-    fn driven(&self, start: &Planar, drive: &Segment) -> Option<Planar> {
-        let limits = &self.rover.limits;
-        let h = drive.length_m() / 500.0;
-        let at = |i: i32| drive.curvature_at(h * f64::from(i));
-        let kept = (0..=500).all(|i| at(i).abs() <= limits.curvature)
-            && (0..500).all(|i| (at(i + 1) - at(i)).abs() <= h * limits.curvature_rate);
-        let (low, high) = self.map.extent();
-        let driven = self.site().predict(start, &[*drive], FINE).ok().filter(|_| kept)?;
-        let clear = |i: usize, at: f64| (low[i] + MARGIN..=high[i] - MARGIN).contains(&at);
-        (driven.tilt.0 <= STEEP && clear(0, driven.end.x) && clear(1, driven.end.y)).then_some(driven.end)
-    }
-
-    fn solve(&self, (start, goal): &(Planar, Planar)) -> Answer {
-        let bounds = Curvatures { most: self.rover.limits.curvature, most_rate: self.rover.limits.curvature_rate };
-        let precision = Precision { position: 1e-5, yaw: 1e-5, curvature: 1e-5 };
-        let settings = flat::Settings { precision, ..flat::Settings::default() };
-        let mut steer = |query: &Query| -> Option<SegmentList> {
-            let query = Query::new(query.start_curvature, query.goal, &bounds).ok()?;
-            let answer = flat::forward(&query, &bounds, &settings);
-            (answer.status == flat::Status::Ok).then_some(answer.segments)
-        };
-        self.site().solve(start, goal, &bounds, &Settings::default(), &mut steer)
+    pub(super) fn solve(&self, (start, goal): &(Planar, Planar)) -> Answer {
+        self.site().drive(start, goal, &Settings::default())
     }
 
     /// Mean time of a goal, µs.
@@ -136,4 +103,23 @@ impl Yard {
         };
         self.goals.iter().filter(good).count() as f64 / self.goals.len() as f64 * 100.0
     }
+}
+
+/// From a robot's file to its first drive, ms.
+fn start(_: &Bench) -> Result<f64, Problem> {
+    let yard = Yard::new(1)?;
+    let Some((start, goal)) = yard.goals.first() else { return Err(Problem::input("the bench's ground has no goal")) };
+    let first = || {
+        let rover = rover_for("rocky8")?;
+        Ok::<_, Problem>(Site { rover: &rover, ..yard.site() }.drive(start, goal, &Settings::default()).iterations)
+    };
+    Ok(1e3 * median_time(9, first))
+}
+
+/// By what the process grows from nothing to a vehicle on its map that has answered [`GOALS`] goals, MB.
+fn memory(_: &Bench) -> Result<f64, Problem> {
+    let before = resident("RssAnon:");
+    let yard = Yard::new(GOALS)?;
+    black_box(yard.goals.iter().map(|goal| yard.solve(goal).iterations).sum::<u32>());
+    Ok(resident("RssAnon:") - before)
 }

@@ -46,7 +46,7 @@ fn growth(bench: &Bench) -> Result<f64, Problem> {
 }
 
 /// A figure of the process's memory, MB; NaN where the system does not tell.
-fn resident(which: &str) -> f64 {
+pub(in crate::commands) fn resident(which: &str) -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix(which));
     line.and_then(|line| line.trim().trim_end_matches(" kB").trim().parse::<f64>().ok()).map_or(f64::NAN, |kb| kb / 1e3)

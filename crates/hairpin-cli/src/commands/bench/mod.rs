@@ -2,13 +2,14 @@
 
 mod clock;
 mod exact;
-mod ground;
-mod memory;
+pub(super) mod ground;
+pub(super) mod memory;
 mod reach;
 mod search;
 mod simulation;
 mod steer;
 mod witness;
+mod worst;
 
 use hairpin::campaign::Setup;
 use hairpin::math::simd::Simd;
@@ -55,6 +56,10 @@ impl Target {
 
 /// Runs the command: 0 when it has measured, whatever came out (a busy machine is no violation).
 pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
+    if bench.name.as_deref() == Some(worst::NAME) {
+        warn_of_debug_build();
+        return worst::run(bench.queries, bench.json);
+    }
     let rooms = [
         reach::rows(),
         search::rows(),
@@ -69,12 +74,10 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
     let wanted = |row: &&Row| bench.name.as_ref().is_none_or(|name| row.name.starts_with(name.as_str()));
     let rows: Vec<&Row> = all.iter().filter(wanted).collect();
     if rows.is_empty() {
-        let names: Vec<&str> = all.iter().map(|row| row.name).collect();
+        let names: Vec<&str> = all.iter().map(|row| row.name).chain([worst::NAME]).collect();
         return Err(Problem::input(format!("no bench begins with that name; there are {}", names.join(", "))));
     }
-    if cfg!(debug_assertions) {
-        console::warn("Warning: this is no release build; its speeds mean nothing");
-    }
+    warn_of_debug_build();
     let mut table = vec![["bench", "measured", "unit", "target", "met"].map(str::to_owned).to_vec()];
     let mut objects = Vec::new();
     for row in rows {
@@ -98,6 +101,12 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
         ));
     }
     Ok(0)
+}
+
+fn warn_of_debug_build() {
+    if cfg!(debug_assertions) {
+        console::warn("Warning: this is no release build; its speeds mean nothing");
+    }
 }
 
 fn robot(name: &str) -> Result<Quadrotor, Problem> {

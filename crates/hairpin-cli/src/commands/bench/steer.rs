@@ -1,12 +1,18 @@
 //! Flat boundary-value drives of `generic`: solving alone, success by replay, length over that of closed forms.
 
+use std::f64::consts::PI;
+use std::hint::black_box;
+use std::time::Instant;
+
+use hairpin::campaign::goals::{anywhere, flat_goal};
 use hairpin::feasibility::steering::shooting::cc::{self, Gears};
+use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
 use hairpin::feasibility::steering::shooting::solve::{Choices, Solution, solve};
-use hairpin::math::random::stream;
+use hairpin::math::random::{Stream, stream, unit};
 use hairpin::trajectory::drive::Segment;
-use hairpin::verification::{DriveClaim, DrivePiece, DriveReplay, replay_drive};
-use rand::RngExt;
+use hairpin::verification::{DriveClaim, DriveReplay, replay_drive};
+use rayon::prelude::*;
 
 use super::clock::median_time;
 use super::{Row, Target};
@@ -16,6 +22,8 @@ use crate::problem::Problem;
 
 const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
 const QUERIES: usize = 10_000;
+/// Of the other families.
+const FEW: usize = 1000;
 /// Share by which rounding may exceed a bound.
 const ROUNDING: f64 = 1e-9;
 
@@ -31,6 +39,14 @@ pub(super) fn rows() -> Vec<Row> {
         row("steer-hard-length-median", "× CC", most(1.3), |_| Ok(lengths(&hard()).0)),
         row("steer-hard-length-worst", "× CC", most(2.0), |_| Ok(lengths(&hard()).1)),
         row("steer-cc-reeds-shepp", "µs", None, reference),
+        row("steer-bent", "µs", most(60.0), |_| Ok(microseconds(&bent(), true))),
+        row("steer-bent-success", "%", all, |_| Ok(success(&bent(), true))),
+        row("steer-crab", "µs", most(60.0), |_| {
+            Ok(microseconds(&crabs().iter().map(turned).collect::<Vec<_>>(), true))
+        }),
+        row("steer-crab-success", "%", all, |_| Ok(crab_success())),
+        row("steer-batch-1-thread", "1/s", None, |_| batch(1)),
+        row("steer-batch-2-threads", "× 1 thread", Some(Target::AtLeast(1.8)), |_| Ok(batch(2)? / batch(1)?)),
     ]
 }
 
@@ -38,36 +54,32 @@ fn choices(reversals: bool) -> Choices {
     Choices { reversals, ..Choices::default() }
 }
 
+/// `count` queries of one stream.
+fn drawn(seed: u64, count: usize, draw: impl Fn(&mut Stream) -> Query) -> Vec<Query> {
+    let mut random = stream(seed);
+    (0..count).map(|_| draw(&mut random)).collect()
+}
+
 /// Ends of random curvatures of fifth order within the bounds, over 1 … 12 m.
 fn feasible() -> Vec<Query> {
-    let mut random = stream(1);
-    let mut queries = Vec::with_capacity(QUERIES);
-    while queries.len() < QUERIES {
-        let length: f64 = random.random_range(1.0..12.0);
-        let mut curvature = [0.0; 6];
-        for (power, a) in curvature.iter_mut().enumerate() {
-            *a = random.random_range(-1.0..1.0) / length.powi(power as i32);
-        }
-        let claim = DriveClaim { start_curvature: curvature[0], crab: 0.0, end: [0.0; 3], end_curvature: 0.0 };
-        let replay = replay_drive(&[DrivePiece::Arc { length_m: length, curvature, direction: 1.0 }], &claim);
-        if replay.max_curvature <= BOUNDS.most && replay.max_curvature_rate <= BOUNDS.most_rate {
-            let [x, y, yaw] = replay.error;
-            let goal = Goal { x, y, yaw, curvature: replay.error_curvature };
-            queries.push(Query { start_curvature: curvature[0], goal });
-        }
-    }
-    queries
+    drawn(1, QUERIES, |random| flat_goal(random, &BOUNDS))
 }
 
 /// Anywhere around within 6 m, with any heading, wheels straight at both ends.
 fn hard() -> Vec<Query> {
-    let mut random = stream(2);
-    let mut query = || {
-        let mut within = |most: f64| random.random_range(-most..most);
-        let goal = Goal { x: within(6.0), y: within(6.0), yaw: within(std::f64::consts::PI), curvature: 0.0 };
-        Query { start_curvature: 0.0, goal }
-    };
-    (0..QUERIES).map(|_| query()).collect()
+    drawn(2, QUERIES, |random| anywhere(random, &BOUNDS, 0.0))
+}
+
+/// The same with any curvature at both ends.
+fn bent() -> Vec<Query> {
+    drawn(3, FEW, |random| anywhere(random, &BOUNDS, 1.0))
+}
+
+/// The same for vehicles that travel up to 90° to either side of their heading.
+fn crabs() -> Vec<(Query, f64)> {
+    let mut random = stream(4);
+    let mut direction = || PI * (unit(&mut random) - 0.5);
+    bent().into_iter().map(|query| (query, direction())).collect()
 }
 
 fn microseconds(queries: &[Query], reversals: bool) -> f64 {
@@ -78,25 +90,57 @@ fn microseconds(queries: &[Query], reversals: bool) -> f64 {
     all / queries.len() as f64 * 1e6
 }
 
-fn replay(query: &Query, solution: &Solution) -> DriveReplay {
+/// The replay of a drive that was asked for `query` with the body at `direction` to the way.
+fn replay(query: &Query, direction: f64, solution: &Solution) -> DriveReplay {
     let Goal { x, y, yaw, curvature } = query.goal;
-    let claim =
-        DriveClaim { start_curvature: query.start_curvature, crab: 0.0, end: [x, y, yaw], end_curvature: curvature };
+    let claim = DriveClaim {
+        start_curvature: query.start_curvature,
+        crab: direction,
+        end: [x, y, yaw],
+        end_curvature: curvature,
+    };
     replay_drive(&pieces(solution), &claim)
 }
 
-/// Share (%) whose replay ends within 1 cm, 0.01 rad and 0.01 1/m and keeps both bounds.
+/// Whether a replay ends within 1 cm, 0.01 rad and 0.01 1/m and keeps both bounds.
+fn good(found: &DriveReplay) -> bool {
+    let [x, y, yaw] = found.error;
+    libm::hypot(x, y) <= 0.01
+        && yaw.abs() <= 0.01
+        && found.error_curvature.abs() <= 0.01
+        && found.max_curvature <= BOUNDS.most * (1.0 + ROUNDING)
+        && found.max_curvature_rate <= BOUNDS.most_rate * (1.0 + ROUNDING)
+}
+
+/// Share (%) whose replay is good.
 fn success(queries: &[Query], reversals: bool) -> f64 {
-    let good = |query: &&Query| {
-        let found = replay(query, &solve(query, &BOUNDS, &choices(reversals), || false));
-        let [x, y, yaw] = found.error;
-        libm::hypot(x, y) <= 0.01
-            && yaw.abs() <= 0.01
-            && found.error_curvature.abs() <= 0.01
-            && found.max_curvature <= BOUNDS.most * (1.0 + ROUNDING)
-            && found.max_curvature_rate <= BOUNDS.most_rate * (1.0 + ROUNDING)
+    let met = |query: &&Query| good(&replay(query, 0.0, &solve(query, &BOUNDS, &choices(reversals), || false)));
+    queries.iter().filter(met).count() as f64 / queries.len() as f64 * 100.0
+}
+
+/// A crab's query in the frame of its way.
+fn turned((query, direction): &(Query, f64)) -> Query {
+    flat::crab(query, *direction)
+}
+
+fn crab_success() -> f64 {
+    let crabs = crabs();
+    let met =
+        |case: &&(Query, f64)| good(&replay(&case.0, case.1, &solve(&turned(case), &BOUNDS, &choices(true), || false)));
+    crabs.iter().filter(met).count() as f64 / crabs.len() as f64 * 100.0
+}
+
+/// Hard queries per second of wall-clock time on this many threads: the best of five runs.
+fn batch(threads: usize) -> Result<f64, Problem> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Problem::input)?;
+    let (queries, choices) = (hard(), choices(true));
+    let run = || {
+        let begun = Instant::now();
+        let all = || queries.par_iter().map(|query| solve(query, &BOUNDS, &choices, || false).iterations).sum::<u32>();
+        black_box(pool.install(all));
+        queries.len() as f64 / begun.elapsed().as_secs_f64()
     };
-    queries.iter().filter(good).count() as f64 / queries.len() as f64 * 100.0
+    Ok((0..5).map(|_| run()).fold(0.0, f64::max))
 }
 
 /// Median and largest length over that of the closed form with cusps.
