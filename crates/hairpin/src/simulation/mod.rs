@@ -1,12 +1,14 @@
 //! Floor 5, the act: plants with what the claim leaves out, controllers, and the loop closed over them.
 //!
-//! [`fly`] is the one verb: it flies a robot along a course and says what happened. The act shares the robot's numbers with
+//! One verb a kind of robot: [`fly`] flies a robot along a course, [`ground::drive`] drives a vehicle along its plan, and each says
+//! what happened. The act shares the robot's numbers with
 //! the claim and nothing else.
 
 mod close_loop;
 mod controllers;
 mod course;
 mod disturbance;
+pub mod ground;
 mod hazard;
 mod inner_loop;
 mod lanes;

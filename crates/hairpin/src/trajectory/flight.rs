@@ -17,12 +17,18 @@ pub enum Ended {
     Wall,
     /// Turned over and could not recover.
     Tumble,
+    /// Tipped over its wheels.
+    TipOver,
+    /// Came no further, or its wheels found no rest.
+    Stuck,
+    /// Had no ground below it any more: the map's edge, or cells without data.
+    OffMap,
     /// An executor of the user's reported a crash without saying which.
     Crash,
 }
 
 impl Ended {
-    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `crash`.
+    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `tip-over`, `stuck`, `off-map`, `crash`.
     pub fn word(self) -> &'static str {
         match self {
             Ended::Done => "done",
@@ -31,14 +37,19 @@ impl Ended {
             Ended::Obstacle => "obstacle",
             Ended::Wall => "wall",
             Ended::Tumble => "tumble",
+            Ended::TipOver => "tip-over",
+            Ended::Stuck => "stuck",
+            Ended::OffMap => "off-map",
             Ended::Crash => "crash",
         }
     }
 
     /// The reason whose word in files is `word`.
     pub fn from_word(word: &str) -> Option<Self> {
-        use Ended::{Crash, Done, Ground, Obstacle, Time, Tumble, Wall};
-        [Done, Time, Ground, Obstacle, Wall, Tumble, Crash].into_iter().find(|ended| ended.word() == word)
+        use Ended::{Crash, Done, Ground, Obstacle, OffMap, Stuck, Time, TipOver, Tumble, Wall};
+        [Done, Time, Ground, Obstacle, Wall, Tumble, TipOver, Stuck, OffMap, Crash]
+            .into_iter()
+            .find(|ended| ended.word() == word)
     }
 
     /// Whether the run ended in a crash of any kind.
@@ -48,7 +59,8 @@ impl Ended {
 }
 
 /// One executed run. The track has the channels `leg` (number of the leg being flown, from 0), `vx_m_s`, `vy_m_s`,
-/// `vz_m_s`, and, from our own simulator, `rotor1_rad_s`… and `saturated` (share of the rotors at a limit).
+/// `vz_m_s`, and, from our own simulators, `rotor1_rad_s`… and `saturated` (share of the rotors at a limit) or those of
+/// `simulation::ground::drive`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flight {
     /// Poses in time, world frame.

@@ -1,0 +1,214 @@
+//! Predictive tracking: the boundary-value problem is solved again and again, from where the vehicle will be when the answer
+//! acts to the planned path ahead.
+//!
+//! The commands under way say where the vehicle will be after the latency. What it drifted lately beyond the planned slip is
+//! expected to go on: the goal handed to the solver lies against the drift, and the vehicle goes crabwise along the path.
+//! Source: predictive trajectory tracking as the rover trajectory generator's papers have it (Howard & Kelly 2007); the drift's
+//! estimate is a first-order filter.
+
+use std::collections::VecDeque;
+
+use super::Resolve;
+use super::pure_pursuit::PurePursuit;
+use crate::robot::rover::{Rover, Settled, rates};
+use crate::simulation::ground::guide::{Along, Measured, wrap};
+use crate::simulation::ground::plan::station_at;
+use crate::simulation::ground::plant::Command;
+use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
+
+/// How far ahead on the path the goal lies, in smallest turning radii, and per speed, s.
+const RADII: f64 = 1.5;
+const TIME: f64 = 2.0;
+/// Way from one solution to the next, as a share of that.
+const CYCLE: f64 = 0.1;
+/// Way on which the drift is averaged, as a share of it.
+const MEMORY: f64 = 0.5;
+/// Answers longer than the way to the goal by this factor go round in circles.
+const LONGEST: f64 = 1.5;
+
+/// An answer that is being driven.
+struct Answer {
+    segments: SegmentList,
+    /// Metres of it that were commanded.
+    driven: f64,
+}
+
+/// State of a run.
+pub(in crate::simulation::ground) struct Predictive<'a> {
+    nominal: Rover,
+    direction: (f64, f64),
+    latency: f64,
+    solve: &'a Resolve<'a>,
+    pursuit: PurePursuit,
+    /// Commands that have not acted to their end, and when they were given, s.
+    under_way: VecDeque<(f64, Command)>,
+    answer: Option<Answer>,
+    /// Number of the section that the answer belongs to.
+    section: Option<usize>,
+    /// Way until the next solution, m.
+    until_next: f64,
+    /// Drift beyond the planned slip per metre of the wheels' way: along the way and to its left.
+    drift: [f64; 2],
+    before: Option<Measured>,
+}
+
+impl<'a> Predictive<'a> {
+    pub(super) fn new(nominal: &Rover, direction: f64, latency: f64, solve: &'a Resolve<'a>) -> Self {
+        Self {
+            nominal: nominal.clone(),
+            direction: libm::sincos(direction),
+            latency,
+            solve,
+            pursuit: PurePursuit::new(nominal),
+            under_way: VecDeque::new(),
+            answer: None,
+            section: None,
+            until_next: 0.0,
+            drift: [0.0; 2],
+            before: None,
+        }
+    }
+
+    /// Takes note of the command given at `measured.t`, and of how the vehicle drifts.
+    pub(super) fn note(&mut self, measured: &Measured, command: &Command) {
+        self.under_way.push_back((measured.t, *command));
+        let oldest = measured.t - self.latency;
+        while self.under_way.get(1).is_some_and(|(given, _)| *given <= oldest) {
+            self.under_way.pop_front();
+        }
+        if let Some(before) = self.before.replace(*measured) {
+            self.learn(&before, measured);
+        }
+    }
+
+    /// What the way from `before` to `now` was beyond what the wheels and the planned slip explain.
+    fn learn(&mut self, before: &Measured, now: &Measured) {
+        let way = before.speed * (now.t - before.t);
+        if way == 0.0 || before.speed * now.speed <= 0.0 {
+            return;
+        }
+        let expected = self.rolled(before, &before.at, way, before.at.curvature, &[0.0; 2]);
+        let heading = before.at.yaw + if way < 0.0 { std::f64::consts::PI } else { 0.0 };
+        let (sin, cos) = libm::sincos(heading + libm::atan2(self.direction.0, self.direction.1));
+        let (dx, dy) = (now.at.x - expected.x, now.at.y - expected.y);
+        let share = -libm::expm1(-way.abs() / (MEMORY * self.horizon(now.speed.abs())));
+        for (drift, off) in self.drift.iter_mut().zip([cos * dx + sin * dy, cos * dy - sin * dx]) {
+            *drift += share * (off / way.abs() - *drift);
+        }
+    }
+
+    fn horizon(&self, speed: f64) -> f64 {
+        RADII / self.nominal.limits.curvature + TIME * speed
+    }
+
+    /// `from` after `way` m (signed) of the wheels along `curvature`, leaning as measured, with `drift` per metre.
+    fn rolled(&self, lean: &Measured, from: &Planar, way: f64, curvature: f64, drift: &[f64; 2]) -> Planar {
+        let pose = Settled { roll: lean.lean[0], pitch: lean.lean[1], ..Settled::default() };
+        let sign = if way < 0.0 { -1.0 } else { 1.0 };
+        let rate = rates(&pose, self.direction, sign, curvature, &self.nominal.slip);
+        let along = [self.direction.1 * sign, self.direction.0 * sign];
+        let ahead = rate.ahead + drift[0] * along[0] - drift[1] * along[1];
+        let left = rate.left + drift[0] * along[1] + drift[1] * along[0];
+        let way = way.abs();
+        let (sin, cos) = libm::sincos(from.yaw + 0.5 * way * rate.yaw);
+        Planar {
+            x: from.x + way * (cos * ahead - sin * left),
+            y: from.y + way * (sin * ahead + cos * left),
+            yaw: from.yaw + way * rate.yaw,
+            curvature,
+        }
+    }
+
+    /// Where the vehicle will be when what is commanded now acts.
+    fn predicted(&self, measured: &Measured) -> (Planar, f64) {
+        let response = &self.nominal.response;
+        let (mut at, mut way) = (measured.at, 0.0);
+        let acts = |index: usize| self.under_way.get(index).map_or(measured.t, |(given, _)| *given) + self.latency;
+        for (index, (_, command)) in self.under_way.iter().enumerate() {
+            let (from, to) = (acts(index).max(measured.t), acts(index + 1).min(measured.t + self.latency));
+            let time = to - from;
+            if time <= 0.0 {
+                continue;
+            }
+            let steering = |bend: f64| libm::atan(bend * response.steered_axle);
+            let most = self.nominal.limits.curvature;
+            let lag = response.steering_time_constant;
+            let share = if lag > 0.0 { -libm::expm1(-time / lag) } else { 1.0 };
+            let fastest = response.steering_rate * time;
+            let now = steering(at.curvature);
+            let then = now + (share * (steering(command.curvature.clamp(-most, most)) - now)).clamp(-fastest, fastest);
+            let after = libm::tan(then) / response.steered_axle;
+            let step = command.speed * time;
+            let bend = if lag > 0.0 || fastest.is_finite() { 0.5 * (at.curvature + after) } else { after };
+            at = self.rolled(measured, &at, step, bend, &self.drift);
+            at.curvature = after;
+            way += step.abs();
+        }
+        (at, way)
+    }
+
+    /// The curvature to command for the next `dt` s.
+    pub(super) fn steer(&mut self, measured: &Measured, along: &Along, dt: f64) -> f64 {
+        if self.section.replace(along.section) != Some(along.section) {
+            (self.answer, self.until_next) = (None, 0.0);
+        }
+        if self.until_next <= 0.0 {
+            self.until_next = CYCLE * self.horizon(along.speed);
+            self.resolve(measured, along);
+        }
+        let step = along.speed * dt;
+        self.until_next -= step;
+        let most = self.nominal.limits.curvature;
+        if let Some(answer) = &mut self.answer {
+            let s = answer.driven + 0.5 * step;
+            answer.driven += step;
+            if let Some(curvature) = curvature_at(&answer.segments, s) {
+                return curvature.clamp(-most, most);
+            }
+            self.answer = None;
+        }
+        self.pursuit.steer(measured, along)
+    }
+
+    /// Looks for a new answer; without one the last stays.
+    fn resolve(&mut self, measured: &Measured, along: &Along) {
+        let (from, way) = self.predicted(measured);
+        let end = along.stations[along.stations.len() - 1].s;
+        let (start, horizon) = (along.s + way, self.horizon(along.speed));
+        let goal_at = (start + horizon).min(end);
+        let distance = goal_at - start;
+        if distance <= 0.0 {
+            return;
+        }
+        let mut goal = station_at(along.stations, goal_at, along.heading);
+        // Against the drift that is to be expected on the way there.
+        let middle = station_at(along.stations, 0.5 * (start + goal_at), along.heading);
+        let (sin, cos) = libm::sincos(middle.yaw + along.heading);
+        let off = self.drift.map(|drift| drift * distance);
+        goal.x -= cos * off[0] - sin * off[1];
+        goal.y -= sin * off[0] + cos * off[1];
+        if goal_at < end {
+            goal.yaw -= libm::atan(self.drift[1]);
+        }
+        goal.yaw = from.yaw + wrap(goal.yaw - from.yaw);
+        let gear = if along.sign < 0.0 { Gear::Reverse } else { Gear::Forward };
+        let Some(segments) = (self.solve)(&from, &goal, gear) else { return };
+        let way = |s: &Segment| matches!(s.motion, Motion::Arc { .. }) && s.gear == gear;
+        let length: f64 = segments.iter().map(|segment| segment.length_m()).sum();
+        if segments.iter().all(way) && length <= LONGEST * distance {
+            self.answer = Some(Answer { segments, driven: 0.0 });
+        }
+    }
+}
+
+/// Curvature `s` metres along the segments, 1/m; `None` beyond them.
+fn curvature_at(segments: &SegmentList, mut s: f64) -> Option<f64> {
+    for segment in segments.iter() {
+        let length = segment.length_m();
+        if s <= length {
+            return Some(segment.curvature_at(s));
+        }
+        s -= length;
+    }
+    None
+}

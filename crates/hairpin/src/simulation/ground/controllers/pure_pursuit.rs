@@ -1,0 +1,35 @@
+//! Pure pursuit: the circle through the vehicle, along its way, that meets the path a lookahead further on.
+//!
+//! κ = 2 y / D², with y the distance of the point to the left of the way and D its distance. Source: Coulter 1992.
+
+use crate::math::power::square;
+use crate::robot::rover::Rover;
+use crate::simulation::ground::guide::{Along, Measured};
+use crate::simulation::ground::plan::station_at;
+
+/// Lookahead at rest, in smallest turning radii: shorter ones ask for circles that the vehicle cannot drive.
+const RADII: f64 = 0.5;
+/// Lookahead per speed, s: room for the delays of steering.
+const TIME: f64 = 1.0;
+
+/// Numbers of a run.
+#[derive(Debug, Clone)]
+pub(in crate::simulation::ground) struct PurePursuit {
+    most: f64,
+}
+
+impl PurePursuit {
+    pub(super) fn new(nominal: &Rover) -> Self {
+        Self { most: nominal.limits.curvature }
+    }
+
+    /// Curvature to the point ahead, 1/m. In reverse the way leads backwards, and the wheels bend it the other way.
+    pub(super) fn steer(&self, measured: &Measured, along: &Along) -> f64 {
+        let target = station_at(along.stations, along.s + RADII / self.most + TIME * along.speed, along.heading);
+        let (sin, cos) = libm::sincos(measured.at.yaw + along.heading);
+        let (dx, dy) = (target.x - measured.at.x, target.y - measured.at.y);
+        let left = cos * dy - sin * dx;
+        let curvature = along.sign * 2.0 * left / (square(dx) + square(dy)).max(f64::MIN_POSITIVE);
+        curvature.clamp(-self.most, self.most)
+    }
+}

@@ -1,0 +1,47 @@
+//! Stanley: the leading axle is steered along the path's tangent, and towards it the more the farther away it is.
+//!
+//! δ = (χ_path − χ) − atan(e / d), κ = tan(δ) / L, with e the distance of the leading axle to the left of its path, χ the
+//! directions of travel, and d the way on which e is to decay; the path of the leading axle is that of the plan's own one,
+//! whose tangent is χ_plan + atan(κ_plan L). In reverse the axle leads at the other end. Source: Thrun et al. 2006 (d = v / k).
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::robot::rover::Rover;
+use crate::simulation::ground::guide::{Along, Measured, wrap};
+use crate::simulation::ground::plan::station_at;
+
+/// Way of decay at rest, in smallest turning radii: the vehicle must be able to drive the curve that the law asks for.
+const RADII: f64 = 0.6;
+/// Way of decay per speed, s: room for the delays of steering.
+const TIME: f64 = 1.0;
+
+/// Numbers of a run.
+#[derive(Debug, Clone)]
+pub(in crate::simulation::ground) struct Stanley {
+    most: f64,
+    axle: f64,
+}
+
+impl Stanley {
+    pub(super) fn new(nominal: &Rover) -> Self {
+        Self { most: nominal.limits.curvature, axle: nominal.response.steered_axle }
+    }
+
+    pub(super) fn steer(&self, measured: &Measured, along: &Along) -> f64 {
+        let plan = station_at(along.stations, along.s, along.heading);
+        let leading = |yaw: f64, x: f64, y: f64| {
+            let (sin, cos) = libm::sincos(yaw + along.heading);
+            [x + self.axle * cos, y + self.axle * sin]
+        };
+        let (wanted, actual) =
+            (leading(plan.yaw, plan.x, plan.y), leading(measured.at.yaw, measured.at.x, measured.at.y));
+        let bend = libm::atan(along.sign * plan.curvature * self.axle);
+        let (sin, cos) = libm::sincos(plan.yaw + along.heading + bend);
+        let off = cos * (actual[1] - wanted[1]) - sin * (actual[0] - wanted[0]);
+        let decay = RADII / self.most + TIME * along.speed;
+        let steering = wrap(plan.yaw - measured.at.yaw) + bend - libm::atan(off / decay);
+        // Beyond a right angle the tangent would turn round.
+        let steering = steering.clamp(-0.99 * FRAC_PI_2, 0.99 * FRAC_PI_2);
+        (along.sign * libm::tan(steering) / self.axle).clamp(-self.most, self.most)
+    }
+}

@@ -1,0 +1,197 @@
+//! Where a run stands in its plan: progress along a section, stops between sections, turns in place. The same for every
+//! controller; what differs is how each steers.
+
+use std::f64::consts::{PI, TAU};
+
+use super::plan::{Plan, Section, Station};
+use super::plant::Command;
+use crate::math::power::square;
+use crate::robot::rover::Rover;
+use crate::trajectory::drive::Planar;
+
+/// What a controller is told at its turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Measured {
+    /// s.
+    pub(super) t: f64,
+    /// Where, and the curvature that the wheels are steered to.
+    pub(super) at: Planar,
+    /// Of the wheels, m/s.
+    pub(super) speed: f64,
+    /// φ and θ, rad.
+    pub(super) lean: [f64; 2],
+}
+
+/// The part of a section that is being driven.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Along<'a> {
+    /// Number of the section.
+    pub(super) section: usize,
+    /// Its stations.
+    pub(super) stations: &'a [Station],
+    /// +1 forward, −1 in reverse.
+    pub(super) sign: f64,
+    /// Heading of travel in the body, rad.
+    pub(super) heading: f64,
+    /// Commanded metres to the station nearest to the vehicle.
+    pub(super) s: f64,
+    /// Speed to go at, m/s, > 0.
+    pub(super) speed: f64,
+}
+
+/// What is to be done now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Task<'a> {
+    /// Follow the section.
+    Follow(Along<'a>),
+    /// Hold still, the wheels steered for what comes, or turn in place.
+    Hold(Command),
+}
+
+/// Farthest that the nearest station is looked for ahead of the last one, m.
+const WINDOW: f64 = 0.5;
+/// A section is over this close to its end, m.
+const ARRIVED: f64 = 0.002;
+/// A turn is over this close to its end, rad.
+const TURNED: f64 = 0.005;
+/// Rate of a turn per angle left, 1/s: stable for latencies up to 1 s.
+const TURN_GAIN: f64 = 1.0;
+/// The wheels are ready this close to what comes, as a share of the largest curvature.
+const READY: f64 = 0.02;
+/// Speeds below this are none, m/s.
+const STILL: f64 = 1e-6;
+
+/// Progress along a plan.
+#[derive(Debug, Clone)]
+pub(super) struct Guide<'a> {
+    plan: &'a Plan,
+    section: usize,
+    /// Station of the section that the vehicle is nearest to.
+    nearest: usize,
+    /// Since when the vehicle waits for its wheels, s; `None`: it drives.
+    waiting: Option<f64>,
+    /// Longest wait, s.
+    patience: f64,
+    /// Angle turned in the section, rad, and the yaw measured last.
+    turned: Option<(f64, f64)>,
+    speed: f64,
+    turn_rate: f64,
+    acceleration: f64,
+    curvature: f64,
+    direction: f64,
+}
+
+impl<'a> Guide<'a> {
+    /// At the beginning of `plan`, driven at `speed` (m/s) and `turn_rate` (rad/s) along `direction` (rad) of the body.
+    pub(super) fn new(plan: &'a Plan, nominal: &Rover, [speed, turn_rate, direction]: [f64; 3]) -> Self {
+        let response = &nominal.response;
+        let swing = 2.0 * libm::atan(nominal.limits.curvature * response.steered_axle) / response.steering_rate;
+        Self {
+            plan,
+            section: 0,
+            nearest: 0,
+            waiting: Some(0.0),
+            patience: 3.0 + 6.0 * response.steering_time_constant + swing,
+            turned: None,
+            speed: speed.min(nominal.limits.speed),
+            turn_rate,
+            acceleration: nominal.limits.acceleration,
+            curvature: nominal.limits.curvature,
+            direction,
+        }
+    }
+
+    /// Whether the plan is over.
+    pub(super) fn over(&self) -> bool {
+        self.section >= self.plan.sections.len()
+    }
+
+    /// The leg being driven; after the last, the last.
+    pub(super) fn leg(&self) -> usize {
+        match self.plan.sections.get(self.section) {
+            Some(Section::Way { stations, .. }) => stations[self.nearest].leg,
+            Some(section @ Section::Turn { .. }) => section.first_leg(),
+            None => match self.plan.sections.last() {
+                Some(Section::Way { stations, .. }) => stations[stations.len() - 1].leg,
+                Some(section) => section.first_leg(),
+                None => 0,
+            },
+        }
+    }
+
+    /// Takes note of where the vehicle is, and says what to do for the next `dt` s.
+    pub(super) fn task(&mut self, measured: &Measured, dt: f64) -> Task<'a> {
+        let plan = self.plan;
+        loop {
+            match plan.sections.get(self.section) {
+                None => return Task::Hold(Command { curvature: measured.at.curvature, ..Command::default() }),
+                Some(Section::Way { sign, stations }) => {
+                    if let Some(since) = self.waiting {
+                        let wanted = stations[0].at.curvature;
+                        let ready = (wanted - measured.at.curvature).abs() <= READY * self.curvature
+                            && measured.speed.abs() < STILL;
+                        if !ready && measured.t - since < self.patience {
+                            return Task::Hold(Command { curvature: wanted, ..Command::default() });
+                        }
+                        self.waiting = None;
+                    }
+                    let heading = self.direction + if *sign < 0.0 { PI } else { 0.0 };
+                    let s = self.progress(stations, &measured.at, heading);
+                    let left = stations[stations.len() - 1].s - s;
+                    if left > ARRIVED {
+                        let braking = (2.0 * self.acceleration * left).sqrt();
+                        let speed = self.speed.min(left / dt).min(braking);
+                        return Task::Follow(Along { section: self.section, stations, sign: *sign, heading, s, speed });
+                    }
+                }
+                Some(Section::Turn { from, angle, .. }) => {
+                    let yaw = measured.at.yaw;
+                    let (turned, before) = self.turned.unwrap_or_else(|| (wrap(yaw - from), yaw));
+                    let turned = turned + wrap(yaw - before);
+                    self.turned = Some((turned, yaw));
+                    let left = angle - turned;
+                    if left.abs() > TURNED {
+                        let braking = (2.0 * self.acceleration * left.abs()).sqrt();
+                        let rate = self.turn_rate.min(TURN_GAIN * left.abs()).min(braking);
+                        return Task::Hold(Command {
+                            turn_rate: rate.copysign(left),
+                            curvature: measured.at.curvature,
+                            ..Command::default()
+                        });
+                    }
+                }
+            }
+            self.section += 1;
+            (self.nearest, self.waiting, self.turned) = (0, Some(measured.t), None);
+        }
+    }
+
+    /// The metres to the place on the section that is nearest to the vehicle, never behind the last station found and never
+    /// far ahead of it: a section may cross itself.
+    fn progress(&mut self, stations: &[Station], at: &Planar, heading: f64) -> f64 {
+        let distance = |i: usize| square(stations[i].at.x - at.x) + square(stations[i].at.y - at.y);
+        let from = self.nearest;
+        let mut best = distance(from);
+        for i in from + 1..stations.len() {
+            if stations[i].s > stations[from].s + WINDOW {
+                break;
+            }
+            let here = distance(i);
+            if here < best {
+                (self.nearest, best) = (i, here);
+            }
+        }
+        let station = &stations[self.nearest];
+        let (sin, cos) = libm::sincos(station.at.yaw + heading);
+        let beyond = cos * (at.x - station.at.x) + sin * (at.y - station.at.y);
+        // Between stations; only at the end also beyond, which says that it is over.
+        let last = self.nearest + 1 == stations.len();
+        station.s + if last { beyond } else { beyond.clamp(-WINDOW, stations[self.nearest + 1].s - station.s) }
+    }
+}
+
+/// An angle in (−π, π].
+pub(super) fn wrap(angle: f64) -> f64 {
+    let turns = libm::rint(angle / TAU);
+    angle - turns * TAU
+}

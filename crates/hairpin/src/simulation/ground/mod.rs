@@ -1,0 +1,17 @@
+//! Ground vehicles as they drive: the plant that a planner does not know, controllers, and the loop closed over them.
+//!
+//! [`drive`] is the one verb. The true vehicle may slip, lag and delay otherwise than the one that was planned with.
+
+mod close_loop;
+mod controllers;
+mod guide;
+mod plan;
+mod plant;
+mod recorder;
+
+#[cfg(test)]
+mod tests;
+
+pub use close_loop::{DriveSettings, GroundConditions, GroundSortie, drive};
+pub use controllers::{GroundController, GroundControllerKind, Resolve};
+pub use plan::planned_track;

@@ -1,0 +1,232 @@
+//! The planned drive as controllers and the judge see it: where its commands lead the vehicle that was planned with.
+
+use nalgebra::Isometry3;
+
+use super::plant::{Command, Lost, Plant};
+use crate::robot::rover::{Response, Rover};
+use crate::simulation::SimulationError;
+use crate::trajectory::drive::{Drive, Motion, Planar, Segment};
+use crate::trajectory::{Channel, Track};
+use crate::world::terrain::ElevationMap;
+
+/// Distance of neighbouring stations, m, at most.
+const SPACING: f64 = 0.02;
+/// Steps from one station to the next, for commands that change on the way.
+const STEPS: usize = 4;
+/// Angle between neighbouring poses of a turn in place, rad, at most.
+const TURN_SPACING: f64 = 0.05;
+
+/// A place on the plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Station {
+    /// Where, and the steered curvature.
+    pub(super) at: Planar,
+    /// Commanded metres since the section's first station.
+    pub(super) s: f64,
+    /// The leg it belongs to.
+    pub(super) leg: usize,
+}
+
+/// A part of the plan between two stops.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Section {
+    /// Driven in one gear; two stations or more.
+    Way {
+        /// +1 forward, −1 in reverse.
+        sign: f64,
+        /// With rising `s`.
+        stations: Vec<Station>,
+    },
+    /// Turned in place.
+    Turn {
+        /// ψ before it, rad.
+        from: f64,
+        /// Change of ψ, rad.
+        angle: f64,
+        /// The leg it belongs to.
+        leg: usize,
+    },
+}
+
+/// The whole plan.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Plan {
+    /// In the order they are driven.
+    pub(super) sections: Vec<Section>,
+    /// Duration as commanded, s.
+    pub(super) duration: f64,
+    times: Vec<f64>,
+    poses: Vec<Isometry3<f64>>,
+    legs: Vec<f64>,
+}
+
+/// Where the commands of `drive` lead the vehicle `nominal`, leg after leg from each leg's own start: poses over time with the
+/// channel `leg`. It is the path that a run is to be compared with ([`crate::trajectory::Track`] of
+/// `judgement::Reference::Path`). Latency and the time that acceleration takes are left out.
+///
+/// # Errors
+/// A drive without legs or with numbers that are none; a place where the vehicle cannot stand.
+pub fn planned_track(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> Result<Track, SimulationError> {
+    let plan = Plan::new(nominal, terrain, drive)?;
+    let legs = Channel { name: "leg".into(), values: plan.legs };
+    Ok(Track::new(plan.times, plan.poses, vec![legs]).expect("our own samples are finite and in order"))
+}
+
+impl Plan {
+    pub(super) fn new(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> Result<Self, SimulationError> {
+        check(drive)?;
+        let mut at_once = nominal.clone();
+        at_once.limits.acceleration = f64::INFINITY;
+        at_once.limits.speed = f64::INFINITY;
+        at_once.limits.curvature = f64::INFINITY;
+        at_once.limits.turns_in_place = true;
+        at_once.response = Response { latency: 0.0, ..nominal.response };
+        let mut plan = Self { sections: vec![], duration: 0.0, times: vec![], poses: vec![], legs: vec![] };
+        for leg in 0..drive.legs.len() {
+            plan.add_leg(&at_once, terrain, drive, leg).map_err(|lost| {
+                let bound = match lost {
+                    Lost::NoGround => "over ground all along",
+                    Lost::NoRest => "over ground on which the wheels find rest",
+                };
+                SimulationError::new("drive.legs", format!("leg {leg}"), bound)
+            })?;
+        }
+        if plan.times.len() < 2 {
+            return Err(SimulationError::new("drive.legs", "no motion".into(), "of some length"));
+        }
+        Ok(plan)
+    }
+
+    fn add_leg(&mut self, vehicle: &Rover, terrain: &ElevationMap, drive: &Drive, leg: usize) -> Result<(), Lost> {
+        let mut plant = Plant::new(vehicle, terrain, drive.direction, &drive.legs[leg].from)?;
+        if self.times.is_empty() {
+            self.note(&plant, leg);
+        }
+        for segment in &drive.legs[leg].segments {
+            match segment.motion {
+                Motion::Arc { length_m, .. } if length_m > 0.0 => self.add_way(&mut plant, drive, segment, leg)?,
+                Motion::Turn { angle_rad } if angle_rad != 0.0 => {
+                    self.sections.push(Section::Turn { from: plant.yaw, angle: angle_rad, leg });
+                    let parts = (angle_rad.abs() / TURN_SPACING).ceil();
+                    let time = angle_rad.abs() / drive.turn_rate / parts;
+                    let command = Command {
+                        turn_rate: drive.turn_rate.copysign(angle_rad),
+                        curvature: plant.curvature(),
+                        ..Command::default()
+                    };
+                    plant.speed = 0.0;
+                    for _ in 0..parts as usize {
+                        plant.advance(&command, time)?;
+                        self.duration += time;
+                        self.note(&plant, leg);
+                    }
+                    plant.turn_rate = 0.0;
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn add_way(&mut self, plant: &mut Plant, drive: &Drive, segment: &Segment, leg: usize) -> Result<(), Lost> {
+        let (length, gear) = (segment.length_m(), segment.gear.sign());
+        let first = segment.curvature_at(0.0);
+        let goes_on = matches!(self.sections.last(), Some(Section::Way { sign, .. }) if *sign == gear);
+        let station = |plant: &Plant, s: f64| Station {
+            at: Planar { x: plant.x, y: plant.y, yaw: plant.yaw, curvature: plant.curvature() },
+            s,
+            leg,
+        };
+        if !goes_on {
+            // Where the vehicle stands its wheels may swing.
+            plant.steer_at_once(first);
+            self.sections.push(Section::Way { sign: gear, stations: vec![station(plant, 0.0)] });
+        }
+        let parts = (length / SPACING).ceil();
+        let step = length / parts / STEPS as f64;
+        for part in 0..parts as usize {
+            for i in 0..STEPS {
+                let curvature = segment.curvature_at(step * ((part * STEPS + i) as f64 + 0.5));
+                let command = Command { speed: gear * drive.speed, curvature, turn_rate: 0.0 };
+                plant.advance(&command, step / drive.speed)?;
+            }
+            if !plant.lags() {
+                plant.steer_at_once(segment.curvature_at(step * ((part + 1) * STEPS) as f64));
+            }
+            self.duration += step * STEPS as f64 / drive.speed;
+            self.note(plant, leg);
+            if let Some(Section::Way { stations, .. }) = self.sections.last_mut() {
+                let s = stations.last().map_or(0.0, |last| last.s) + step * STEPS as f64;
+                stations.push(station(plant, s));
+            }
+        }
+        plant.speed = 0.0;
+        Ok(())
+    }
+
+    fn note(&mut self, plant: &Plant, leg: usize) {
+        self.times.push(self.duration);
+        self.poses.push(plant.world_from_body());
+        self.legs.push(leg as f64);
+    }
+}
+
+fn check(drive: &Drive) -> Result<(), SimulationError> {
+    if drive.legs.is_empty() {
+        return Err(SimulationError::new("drive.legs", "0".into(), "at least one"));
+    }
+    for (field, value) in [("drive.speed", drive.speed), ("drive.turn_rate", drive.turn_rate)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(SimulationError::new(field, value.to_string(), "finite and > 0"));
+        }
+    }
+    if !drive.direction.is_finite() {
+        return Err(SimulationError::new("drive.direction", drive.direction.to_string(), "finite"));
+    }
+    for (index, leg) in drive.legs.iter().enumerate() {
+        let known = |p: &Planar| [p.x, p.y, p.yaw, p.curvature].iter().all(|v| v.is_finite());
+        let possible = |segment: &Segment| match segment.motion {
+            Motion::Arc { length_m, curvature } => {
+                (0.0..=1e5).contains(&length_m) && curvature.iter().all(|a| a.is_finite())
+            }
+            Motion::Turn { angle_rad } => angle_rad.abs() <= 1e3,
+        };
+        if !(known(&leg.from) && known(&leg.to) && leg.segments.iter().all(possible)) {
+            return Err(SimulationError::new("drive.legs", format!("leg {index}"), "finite, of length 0 to 100 km"));
+        }
+    }
+    Ok(())
+}
+
+impl Section {
+    /// The leg at the section's beginning.
+    pub(super) fn first_leg(&self) -> usize {
+        match self {
+            Section::Way { stations, .. } => stations[0].leg,
+            Section::Turn { leg, .. } => *leg,
+        }
+    }
+}
+
+/// The place `s` commanded metres along `stations`, between two by linear interpolation, beyond the last straight on; `heading`
+/// (rad) is that of travel in the body.
+pub(super) fn station_at(stations: &[Station], s: f64, heading: f64) -> Planar {
+    let next = stations.partition_point(|station| station.s < s);
+    if next == 0 {
+        return stations[0].at;
+    }
+    let a = &stations[next - 1];
+    let Some(b) = stations.get(next) else {
+        let (sin, cos) = libm::sincos(a.at.yaw + heading);
+        let beyond = s - a.s;
+        return Planar { x: a.at.x + beyond * cos, y: a.at.y + beyond * sin, ..a.at };
+    };
+    let share = (s - a.s) / (b.s - a.s);
+    let between = |p: f64, q: f64| p + share * (q - p);
+    Planar {
+        x: between(a.at.x, b.at.x),
+        y: between(a.at.y, b.at.y),
+        yaw: between(a.at.yaw, b.at.yaw),
+        curvature: between(a.at.curvature, b.at.curvature),
+    }
+}

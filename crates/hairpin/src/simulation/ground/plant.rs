@@ -1,0 +1,264 @@
+//! The vehicle as it drives: a body that settles on its wheels at every step, slips, and steers and speeds up with lags.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+
+use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
+use crate::robot::rover::{Gradient, Rates, Rover, Settled, Slip, Suspension, rates};
+use crate::trajectory::drive::Planar;
+use crate::world::terrain::{ElevationMap, NoGround, Terrain};
+
+/// What a controller asks for until its next turn.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Command {
+    /// Along the direction of travel, m/s, negative in reverse.
+    pub(super) speed: f64,
+    /// Of the path, 1/m.
+    pub(super) curvature: f64,
+    /// In place, rad/s; acts only while the vehicle stands.
+    pub(super) turn_rate: f64,
+}
+
+/// Why a vehicle cannot go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Lost {
+    /// No ground below it: the map's edge, or cells without data.
+    NoGround,
+    /// Its wheels find no rest.
+    NoRest,
+}
+
+impl From<NoGround> for Lost {
+    fn from(_: NoGround) -> Self {
+        Lost::NoGround
+    }
+}
+
+/// Longest step, m of travel and rad of a turn in place.
+const STEP: f64 = 0.004;
+const TURN_STEP: f64 = 0.02;
+/// Newton's last step of the suspension is taken from gaps of at most this, m: it leaves its square.
+const GAP: f64 = 1e-4;
+/// Speeds below this are none, m/s and rad/s.
+const STILL: f64 = 1e-9;
+
+/// State of a driving vehicle:
+/// ẋ, ẏ, ψ̇ by [`rates`] of the wheels' speed v and κ = tan(δ)/L;
+/// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; v and the rate ω of turns in place follow their commands with the
+/// bounded acceleration; z, φ, θ and the joints by the suspension on the ground.
+#[derive(Debug, Clone)]
+pub(super) struct Plant<'a> {
+    vehicle: &'a Rover,
+    terrain: &'a ElevationMap,
+    /// Sine and cosine of the direction of travel in the body.
+    direction: (f64, f64),
+    /// East, m.
+    pub(super) x: f64,
+    /// North, m.
+    pub(super) y: f64,
+    /// ψ, rad, not wrapped.
+    pub(super) yaw: f64,
+    /// Of the wheels, m/s.
+    pub(super) speed: f64,
+    /// Of a turn in place, rad/s.
+    pub(super) turn_rate: f64,
+    /// δ, rad.
+    steering: f64,
+    /// How the body stands.
+    pub(super) pose: Settled,
+    gradient: Gradient,
+}
+
+impl<'a> Plant<'a> {
+    /// At rest on the ground at `start`, its wheels steered for the curvature there, travelling along `direction` (rad) of
+    /// its body.
+    pub(super) fn new(
+        vehicle: &'a Rover,
+        terrain: &'a ElevationMap,
+        direction: f64,
+        start: &Planar,
+    ) -> Result<Self, Lost> {
+        let mut plant = Self {
+            vehicle,
+            terrain,
+            direction: libm::sincos(direction),
+            x: start.x,
+            y: start.y,
+            yaw: start.yaw,
+            speed: 0.0,
+            turn_rate: 0.0,
+            steering: libm::atan(start.curvature * vehicle.response.steered_axle),
+            pose: Settled::default(),
+            gradient: Gradient::default(),
+        };
+        (plant.pose, plant.gradient) = plant.rest_from_nothing()?;
+        Ok(plant)
+    }
+
+    fn place(&self) -> [f64; 3] {
+        [self.x, self.y, self.yaw]
+    }
+
+    fn rest_from_nothing(&self) -> Result<(Settled, Gradient), Lost> {
+        use crate::robot::rover::Unsettled::{self, NoGround};
+        if self.vehicle.suspension == Suspension::Level {
+            // A point needs no wheels to stand, but it does need ground.
+            self.terrain.patch(self.x, self.y)?;
+        }
+        self.vehicle.suspension.settle_cold(self.terrain, self.place()).map_err(|why: Unsettled| match why {
+            NoGround(_) => Lost::NoGround,
+            _ => Lost::NoRest,
+        })
+    }
+
+    /// κ of the wheels as they are steered, 1/m.
+    pub(super) fn curvature(&self) -> f64 {
+        libm::tan(self.steering) / self.vehicle.response.steered_axle
+    }
+
+    /// Whether the wheels take time to steer.
+    pub(super) fn lags(&self) -> bool {
+        let response = &self.vehicle.response;
+        response.steering_time_constant > 0.0 || response.steering_rate.is_finite()
+    }
+
+    /// Swings the wheels, as a standing vehicle can, 1/m.
+    pub(super) fn steer_at_once(&mut self, curvature: f64) {
+        self.steering = libm::atan(curvature * self.vehicle.response.steered_axle);
+    }
+
+    /// Goes on for `time` s under `command`.
+    pub(super) fn advance(&mut self, command: &Command, time: f64) -> Result<(), Lost> {
+        let mut left = time;
+        while left > 1e-12 {
+            let fastest = self.speed.abs().max(self.bounded_speed(command).abs());
+            let turning = self.turn_rate.abs().max(command.turn_rate.abs());
+            let h = left.min(STEP / fastest.max(STILL)).min(TURN_STEP / turning.max(STILL));
+            self.step(command, h)?;
+            left -= h;
+        }
+        Ok(())
+    }
+
+    fn bounded_speed(&self, command: &Command) -> f64 {
+        command.speed.clamp(-self.vehicle.limits.speed, self.vehicle.limits.speed)
+    }
+
+    /// One step by the midpoint rule; the pose at its middle is extrapolated by the suspension's gradient, the one at its
+    /// end settled.
+    fn step(&mut self, command: &Command, h: f64) -> Result<(), Lost> {
+        let bend_before = self.curvature();
+        self.steer(command.curvature, h);
+        let bend = if self.lags() { 0.5 * (bend_before + self.curvature()) } else { self.curvature() };
+        let (way, turn) = self.accelerate(command, h);
+        if way == 0.0 && turn == 0.0 {
+            return Ok(());
+        }
+        let from = self.place();
+        let first = self.motion(&self.pose, from[2], way, bend, turn);
+        let half = self.pose.moved(&self.gradient.over(first.map(|d| 0.5 * d)));
+        let moved = self.motion(&half, from[2] + 0.5 * first[2], way, bend, turn);
+        (self.x, self.y, self.yaw) = (from[0] + moved[0], from[1] + moved[1], from[2] + moved[2]);
+        let guess = self.pose.moved(&self.gradient.over(moved));
+        (self.pose, self.gradient) = match self.vehicle.suspension {
+            Suspension::Level => self.rest_from_nothing()?,
+            _ => self
+                .vehicle
+                .suspension
+                .settle(self.terrain, self.place(), &guess, GAP)
+                .or_else(|_| self.rest_from_nothing())?,
+        };
+        Ok(())
+    }
+
+    /// Change of (x, y, ψ) on `way` m (signed) and `turn` rad in place, standing as `pose` with `yaw`.
+    fn motion(&self, pose: &Settled, yaw: f64, way: f64, bend: f64, turn: f64) -> [f64; 3] {
+        let (sin, cos) = libm::sincos(yaw);
+        let Rates { ahead, left, yaw } =
+            rates(pose, self.direction, if way < 0.0 { -1.0 } else { 1.0 }, bend, &self.vehicle.slip);
+        let way = way.abs();
+        [
+            way * (cos * ahead - sin * left),
+            way * (sin * ahead + cos * left),
+            way * yaw + turn * libm::cos(pose.roll) / libm::cos(pose.pitch),
+        ]
+    }
+
+    /// Turns the wheels for `h` s towards `curvature`.
+    fn steer(&mut self, curvature: f64, h: f64) {
+        let response = &self.vehicle.response;
+        let most = self.vehicle.limits.curvature;
+        let wanted = libm::atan(curvature.clamp(-most, most) * response.steered_axle);
+        let lag = response.steering_time_constant;
+        let share = if lag > 0.0 { -libm::expm1(-h / lag) } else { 1.0 };
+        let fastest = response.steering_rate * h;
+        self.steering += (share * (wanted - self.steering)).clamp(-fastest, fastest);
+    }
+
+    /// Brings the speeds towards their commands; the way and the angle gone meanwhile.
+    fn accelerate(&mut self, command: &Command, h: f64) -> (f64, f64) {
+        let most = self.vehicle.limits.acceleration * h;
+        let wanted = if command.turn_rate == 0.0 { self.bounded_speed(command) } else { 0.0 };
+        let before = self.speed;
+        self.speed += (wanted - before).clamp(-most, most);
+        let standing = before.abs() < STILL && self.speed.abs() < STILL && self.vehicle.limits.turns_in_place;
+        let wanted = if standing { command.turn_rate } else { 0.0 };
+        // What the steered wheels may do on their circle about the middle.
+        let most = most / self.vehicle.response.steered_axle;
+        let turning = self.turn_rate;
+        self.turn_rate += (wanted - turning).clamp(-most, most);
+        let (bounded, mean) = (self.vehicle.limits.acceleration.is_finite(), |a: f64, b: f64| 0.5 * (a + b));
+        if bounded {
+            (h * mean(before, self.speed), h * mean(turning, self.turn_rate))
+        } else {
+            (h * self.speed, h * self.turn_rate)
+        }
+    }
+
+    /// Share of the wheels' way that is lost along it; negative where more is gained.
+    pub(super) fn slip(&self) -> f64 {
+        let lost = Slip { side_at_20_deg: 0.0, ..self.vehicle.slip };
+        let sign = if self.speed < 0.0 { -1.0 } else { 1.0 };
+        let way = |slip: &Slip| {
+            let r = rates(&self.pose, self.direction, sign, 0.0, slip);
+            libm::hypot(r.ahead, r.left)
+        };
+        if self.speed.abs() < STILL { 0.0 } else { 1.0 - way(&lost) / way(&Slip::default()) }
+    }
+
+    /// Velocity of the body's origin, m/s, world frame.
+    pub(super) fn velocity(&self) -> Vector3<f64> {
+        let moved = self.motion(&self.pose, self.yaw, self.speed, self.curvature(), self.turn_rate);
+        let climb = match self.terrain.patch(self.x, self.y) {
+            Ok(ground) if self.vehicle.suspension == Suspension::Level => {
+                ground.slope[0] * moved[0] + ground.slope[1] * moved[1]
+            }
+            _ => self.gradient.over(moved)[0],
+        };
+        Vector3::new(moved[0], moved[1], climb)
+    }
+
+    /// `world_from_body`. A point without wheels lies on the ground.
+    pub(super) fn world_from_body(&self) -> Isometry3<f64> {
+        let z = match self.vehicle.suspension {
+            Suspension::Level => self.terrain.patch(self.x, self.y).map_or(0.0, |ground| ground.height),
+            _ => self.pose.z,
+        };
+        let attitude = unit_quaternion(&quaternion_from_euler(self.pose.roll, self.pose.pitch, self.yaw));
+        Isometry3::from_parts(Translation3::new(self.x, self.y, z), attitude)
+    }
+
+    /// Angle by which the body must lean further to tip over, rad; see [`Rover::tip_over_margin`].
+    pub(super) fn tip_over_margin(&self) -> Result<f64, Lost> {
+        if self.vehicle.suspension == Suspension::Level {
+            return Ok(FRAC_PI_2);
+        }
+        Ok(self.vehicle.tip_over_margin(self.terrain, self.place(), &self.pose)?)
+    }
+
+    /// Height of the underside over the ground, m; see [`Rover::belly_clearance`].
+    pub(super) fn belly_clearance(&self) -> Result<f64, Lost> {
+        Ok(self.vehicle.belly_clearance(self.terrain, self.place(), &self.pose)?)
+    }
+}

@@ -1,0 +1,58 @@
+//! The log of a drive: poses and channels in columns.
+
+use nalgebra::Isometry3;
+
+use super::plant::{Lost, Plant};
+use crate::robot::rover::{Rover, Suspension};
+use crate::trajectory::{Channel, Track};
+
+/// Columns being filled.
+#[derive(Debug, Clone)]
+pub(super) struct Recorder {
+    times: Vec<f64>,
+    poses: Vec<Isometry3<f64>>,
+    channels: Vec<Channel>,
+}
+
+const MOTION: [&str; 7] =
+    ["leg", "vx_m_s", "vy_m_s", "vz_m_s", "speed_m_s", "curvature_1_m", "commanded_curvature_1_m"];
+const STANDING: [&str; 2] = ["tip_over_margin_deg", "belly_clearance_m"];
+const JOINTS: [&str; 3] = ["joint_rocker_rad", "joint_left_bogie_rad", "joint_right_bogie_rad"];
+
+impl Recorder {
+    /// With the channels that `vehicle` has: what a point without wheels cannot tell is left out.
+    pub(super) fn new(vehicle: &Rover) -> Self {
+        let standing: &[&str] = if vehicle.suspension == Suspension::Level { &[] } else { &STANDING };
+        let joints: &[&str] = if matches!(vehicle.suspension, Suspension::RockerBogie(_)) { &JOINTS } else { &[] };
+        let names = MOTION.iter().chain(&["slip"]).chain(standing).chain(joints);
+        let channels = names.map(|name| Channel { name: (*name).into(), values: vec![] }).collect();
+        Self { times: vec![], poses: vec![], channels }
+    }
+
+    /// Appends a sample; one that is not later than the last is left out. `margin` is the least since the sample before, rad.
+    pub(super) fn push(&mut self, t: f64, plant: &Plant, leg: usize, commanded: f64, margin: f64) -> Result<(), Lost> {
+        if self.times.last().is_some_and(|last| t <= *last) {
+            return Ok(());
+        }
+        let v = plant.velocity();
+        let mut values = vec![leg as f64, v.x, v.y, v.z, plant.speed, plant.curvature(), commanded, plant.slip()];
+        if self.channels.len() > values.len() {
+            let margin = if margin.is_finite() { margin } else { plant.tip_over_margin()? };
+            values.extend([margin.to_degrees(), plant.belly_clearance()?]);
+        }
+        if self.channels.len() > values.len() {
+            values.extend(plant.pose.joints);
+        }
+        self.times.push(t);
+        self.poses.push(plant.world_from_body());
+        for (channel, value) in self.channels.iter_mut().zip(values) {
+            channel.values.push(value);
+        }
+        Ok(())
+    }
+
+    /// The track.
+    pub(super) fn into_track(self) -> Track {
+        Track::new(self.times, self.poses, self.channels).expect("our own samples are finite and in order")
+    }
+}

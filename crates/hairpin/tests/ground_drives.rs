@@ -1,0 +1,209 @@
+//! Closed-loop drives on the ground: controllers follow plans they can follow, and the plant slips as the closed form says.
+
+use hairpin::feasibility::steering::shooting::flat;
+use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
+use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
+use hairpin::judgement::{Measures, Reference, Settings, measure};
+use hairpin::robot::rover::{Response, Rover, RoverDescription};
+use hairpin::simulation::ground::{
+    DriveSettings, GroundConditions, GroundController, GroundSortie, drive, planned_track,
+};
+use hairpin::trajectory::drive::{Drive, DriveLeg, Gear, Motion, Planar, Segment, SegmentList};
+use hairpin::trajectory::{Ended, Flight};
+use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, KeepOuts};
+use nalgebra::Point3;
+
+fn shipped(name: &str) -> Rover {
+    let path = format!("{}/../../data/robots/rover/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a shipped rover");
+    toml::from_str::<RoverDescription>(&text).expect("its keys").build().expect("its numbers")
+}
+
+/// h = a x + b y on ±20 m.
+fn plane(a: f64, b: f64) -> ElevationMap {
+    let grid = Grid { columns: 81, rows: 81, first_center: [-20.0, -20.0], cell: [0.5, 0.5] };
+    let heights: Vec<f32> = (0..81 * 81)
+        .map(|i| {
+            let (row, column) = (80 - i / 81, i % 81);
+            (a * (-20.0 + 0.5 * column as f64) + b * (-20.0 + 0.5 * row as f64)) as f32
+        })
+        .collect();
+    ElevationMap::new(grid, &heights, HoleRule::Error).expect("a map")
+}
+
+/// One leg a list of segments, from the origin; the legs' ends are where flat geometry leads.
+fn plan(legs: &[Vec<Segment>], speed: f64) -> Drive {
+    let mut at = Planar { curvature: legs[0][0].curvature_at(0.0), ..Planar::default() };
+    let legs = legs
+        .iter()
+        .map(|segments| {
+            let from = at;
+            for segment in segments {
+                at = after(&at, segment);
+            }
+            DriveLeg { from, to: at, segments: segments.clone() }
+        })
+        .collect();
+    Drive { legs, speed, turn_rate: 0.3, direction: 0.0 }
+}
+
+fn after(from: &Planar, segment: &Segment) -> Planar {
+    let mut at = *from;
+    match segment.motion {
+        Motion::Turn { angle_rad } => at.yaw += angle_rad,
+        Motion::Arc { length_m, .. } => {
+            let n = 2000;
+            let h = segment.gear.sign() * length_m / f64::from(n);
+            for i in 0..n {
+                let s = length_m * (f64::from(i) + 0.5) / f64::from(n);
+                let yaw = at.yaw + 0.5 * h * segment.curvature_at(s);
+                (at.x, at.y) = (at.x + h * yaw.cos(), at.y + h * yaw.sin());
+                at.yaw += h * segment.curvature_at(s);
+            }
+            at.curvature = segment.curvature_at(length_m);
+        }
+    }
+    at
+}
+
+/// An answer of the flat solver within |κ| ≤ 1, |κ'| ≤ 1.
+fn flat_answer(from: &Planar, to: &Planar, gear: Gear) -> Option<SegmentList> {
+    let bounds = Curvatures { most: 1.0, most_rate: 1.0 };
+    let (sin, cos) = from.yaw.sin_cos();
+    let (dx, dy) = (to.x - from.x, to.y - from.y);
+    let goal = Goal {
+        x: cos * dx + sin * dy,
+        y: cos * dy - sin * dx,
+        yaw: to.yaw - from.yaw,
+        curvature: to.curvature.clamp(-1.0, 1.0),
+    };
+    let query = Query::new(from.curvature.clamp(-1.0, 1.0), goal, &bounds).ok()?;
+    let choices = Choices { gear, flat: flat::Settings::default(), ..Choices::default() };
+    let solution = solve(&query, &bounds, &choices, || false);
+    (solution.outcome == Outcome::Solved).then_some(solution.segments)
+}
+
+const CONTROLLERS: [(&str, GroundController<'static>); 3] = [
+    ("pure-pursuit", GroundController::PurePursuit),
+    ("stanley", GroundController::Stanley),
+    ("predictive", GroundController::Predictive(&flat_answer)),
+];
+
+struct Site {
+    vehicle: Rover,
+    nominal: Rover,
+    map: ElevationMap,
+    conditions: GroundConditions,
+}
+
+impl Site {
+    fn new(rover: &str, map: ElevationMap) -> Self {
+        let rover = shipped(rover);
+        Self { vehicle: rover.clone(), nominal: rover, map, conditions: GroundConditions::default() }
+    }
+
+    fn run(&self, plan: &Drive, controller: &GroundController, seed: u64) -> (Flight, Measures) {
+        let none = KeepOuts::new(vec![]).expect("none");
+        let sortie = GroundSortie {
+            vehicle: &self.vehicle,
+            nominal: &self.nominal,
+            terrain: &self.map,
+            keep_outs: &none,
+            clearance_radius: 0.0,
+            drive: plan,
+        };
+        let flight = drive(&sortie, controller, &self.conditions, &DriveSettings::default(), seed).expect("a drive");
+        let path = planned_track(&self.nominal, &self.map, plan).expect("a plan");
+        let last = path.channel("leg").expect("legs").to_vec();
+        // Waypoints: where each leg of the plan begins, and where the last ends.
+        let mut waypoints: Vec<Point3<f64>> = vec![];
+        for (i, leg) in last.iter().enumerate() {
+            if *leg as usize == waypoints.len() {
+                waypoints.push(path.position(i.saturating_sub(1)));
+            }
+        }
+        waypoints.push(path.position(path.len() - 1));
+        let settings = Settings { reference: Reference::Path(&path), ..Settings::default() };
+        let measures = measure(&flight.track, &waypoints, &settings).expect("measures");
+        (flight, measures)
+    }
+}
+
+/// Every motion there is: curves, a cusp into reverse, a turn in place.
+fn mixed(speed: f64) -> Drive {
+    use Gear::{Forward, Reverse};
+    plan(
+        &[
+            vec![
+                Segment::clothoid(1.0, 0.0, 0.6, Forward),
+                Segment::clothoid(1.0, 0.6, 0.6, Forward),
+                Segment::clothoid(1.0, 0.6, 0.0, Forward),
+            ],
+            vec![
+                Segment::clothoid(1.0, 0.0, -0.7, Forward),
+                Segment::clothoid(1.5, -0.7, 0.0, Forward),
+                Segment::clothoid(1.0, 0.0, 0.5, Reverse),
+                Segment::clothoid(1.0, 0.5, 0.0, Reverse),
+            ],
+            vec![
+                Segment { motion: Motion::Turn { angle_rad: -2.0 }, gear: Forward },
+                Segment::clothoid(1.5, 0.0, 0.5, Forward),
+                Segment::clothoid(1.5, 0.5, 0.0, Forward),
+            ],
+        ],
+        speed,
+    )
+}
+
+#[test]
+fn each_controller_follows_a_plan_of_every_motion() {
+    for name in ["rocky8", "four-wheel", "generic"] {
+        let site = Site::new(name, plane(0.0, 0.0));
+        for ((word, controller), bound) in CONTROLLERS.iter().zip([0.03, 0.005, 0.01]) {
+            let (flight, measures) = site.run(&mixed(0.1), controller, 1);
+            // Pure pursuit cuts corners by the curvature's change over its lookahead; the others must not.
+            assert!(measures.max_deviation < bound, "{name} {word}: {} m", measures.max_deviation);
+            assert_eq!(flight.ended, Ended::Done, "{name} {word}");
+            assert!(flight.reached.iter().all(Option::is_some) && flight.track.len() < 4000);
+        }
+    }
+}
+
+/// How fast a vehicle 1 m to the left of a line comes to it: overshoot, m, and the way after which it stays within 5 cm, m.
+fn lateral_step(site: &Site, controller: &GroundController) -> (f64, f64) {
+    let line = plan(&[vec![Segment::straight(12.0, Gear::Forward)]], 0.1);
+    let (flight, _) = site.run(&line, controller, 1);
+    assert_eq!(flight.ended, Ended::Done);
+    let places: Vec<_> = (0..flight.track.len()).map(|i| flight.track.position(i)).collect();
+    let overshoot = places.iter().map(|p| -p.y).fold(0.0, f64::max);
+    let settled = places.iter().rev().find(|p| p.y.abs() > 0.05).map_or(0.0, |p| p.x);
+    (overshoot, settled)
+}
+
+/// The gains are fixed here, and are not touched for the sake of an experiment.
+#[test]
+fn a_lateral_step_of_one_metre_settles_without_much_overshoot() {
+    for name in ["rocky8", "generic"] {
+        for latency in [0.0, 0.5] {
+            let mut site = Site::new(name, plane(0.0, 0.0));
+            site.conditions = GroundConditions { latency, start_offset: [0.0, 1.0, 0.0], ..site.conditions };
+            site.vehicle.response = Response { steering_time_constant: 0.2, ..site.vehicle.response };
+            for (word, controller) in &CONTROLLERS {
+                let (overshoot, settled) = lateral_step(&site, controller);
+                println!("{name} {word} latency {latency}: overshoot {overshoot:.3} m, settled after {settled:.2} m");
+                assert!(overshoot < 0.1 && settled < 5.0, "{name} {word}: {overshoot} {settled}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_same_arguments_give_the_same_bytes_and_noise_has_its_seed() {
+    let mut site = Site::new("rocky8", plane(0.1, 0.05));
+    site.conditions = GroundConditions { latency: 0.2, noise: true, ..site.conditions };
+    for (word, controller) in &CONTROLLERS {
+        let run = |seed| site.run(&mixed(0.1), controller, seed).0;
+        assert_eq!(run(3), run(3), "{word}");
+        assert_ne!(run(3).track, run(4).track, "{word}");
+    }
+}
