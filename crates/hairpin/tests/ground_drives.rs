@@ -190,7 +190,6 @@ fn a_lateral_step_of_one_metre_settles_without_much_overshoot() {
             site.vehicle.response = Response { steering_time_constant: 0.2, ..site.vehicle.response };
             for (word, controller) in &CONTROLLERS {
                 let (overshoot, settled) = lateral_step(&site, controller);
-                println!("{name} {word} latency {latency}: overshoot {overshoot:.3} m, settled after {settled:.2} m");
                 assert!(overshoot < 0.1 && settled < 5.0, "{name} {word}: {overshoot} {settled}");
             }
         }
