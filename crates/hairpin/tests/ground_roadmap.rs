@@ -317,3 +317,22 @@ fn the_underside_keeps_its_distance_and_the_vehicle_the_keep_outs() {
         }
     }
 }
+
+#[test]
+fn turns_and_reversals_are_solved_on_rough_ground_as_well() {
+    let (yard, rover) = (cratered(), shipped("rocky8"));
+    let free = KeepOuts::default();
+    let site = DriveSite::new(&rover, &yard, &free);
+    let manoeuvres = Manoeuvres { forward: true, reverse: true, turn_in_place: true };
+    let settings = DriveSettings { manoeuvres, ..careful(&rover) };
+    let points = graph(&site, &settings, 40, 4);
+    let map = DriveRoadmap::new(site, &points, &START, None, &settings);
+    let legs = from_start(&map, &points);
+    legs.iter().for_each(|(_, drive)| hold(&site, &settings, drive, "rough manoeuvres"));
+    let tally = map.tally();
+    println!("{} solves; {tally}", tally.solves);
+    let turned = |drive: &Drive| drive.legs[0].segments.iter().any(|s| matches!(s.motion, Motion::Turn { .. }));
+    assert!(legs.iter().any(|(_, drive)| turned(drive)));
+    // Only what lies steep, not what is hard to solve, is left out.
+    assert!(tally.feasible * 2 > tally.asked && tally.refused(LegRefusal::Unsolved) * 20 < tally.asked, "{tally}");
+}

@@ -1,5 +1,6 @@
 //! Reach sets: which waypoints follow a node of the search, and what is known of the legs to them.
 
+pub mod body_hull;
 pub mod brute_force;
 mod cloud;
 mod convex_hull;
@@ -21,6 +22,7 @@ pub mod witness;
 
 use nalgebra::Point3;
 
+pub use body_hull::{BodyGrid, BodyHull, BodyNode, NoBodyHull};
 pub use brute_force::{BruteForce, BruteForceSettings, CarriedNode};
 pub use drive::{DriveNode, DriveRoadmap, DriveSettings, DriveSite};
 pub use filtered::{Filtered, PairMask};
