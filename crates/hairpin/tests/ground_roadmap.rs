@@ -6,12 +6,13 @@ use hairpin::campaign::ground::Site;
 use hairpin::feasibility::reach::drive::{
     DriveSettings, DriveSite, GroundSampling, GroundScore, LegRefusal, Manoeuvres, sample_ground,
 };
-use hairpin::feasibility::reach::{DriveNode, DriveRoadmap, Reach};
+use hairpin::feasibility::reach::{DriveNode, DriveRoadmap, PlanarVehicle, Reach};
 use hairpin::feasibility::steering::shooting::rough::Steps;
+use hairpin::math::random::hashed_unit;
 use hairpin::robot::rover::{Rover, RoverDescription};
 use hairpin::search::{
-    Aggregate, BeamSettings, ExactSettings, Found, LegGraph, OpenEnd, OpenNode, Score, UniformSettings, beam, exact,
-    uniform,
+    Aggregate, BeamSettings, ExactSettings, Found, LegGraph, OpenEnd, OpenNode, Score, Task, UniformSettings, beam,
+    exact, uniform,
 };
 use hairpin::trajectory::drive::{Drive, Gear, Motion, Planar, Segment};
 use hairpin::world::Sampling;
@@ -204,7 +205,7 @@ fn on_level_ground_a_body_without_wheels_drives_to_an_end_of_its_own() {
     points.push(Point3::new(19.0, 18.0, 0.0));
     let end = Planar { x: 19.0, y: 18.0, yaw: 1.0, curvature: -0.1 };
     let map = DriveRoadmap::new(site, &points, &START, Some(&end), &settings);
-    let task = hairpin::search::Task { start: map.start(), candidates: &points, reach: &map };
+    let task = Task { start: map.start(), candidates: &points, reach: &map };
     let asked = BeamSettings { length: 4, lookahead: 0, ..BeamSettings::default() };
     let outcome = beam(&task, &Score::Ground, |node, steps| map.may_arrive(node, steps), &asked);
     let found = outcome.found.first().expect("a drive");
@@ -335,4 +336,35 @@ fn turns_and_reversals_are_solved_on_rough_ground_as_well() {
     assert!(legs.iter().any(|(_, drive)| turned(drive)));
     // Only what lies steep, not what is hard to solve, is left out.
     assert!(tally.feasible * 2 > tally.asked && tally.refused(LegRefusal::Unsolved) * 20 < tally.asked, "{tally}");
+}
+
+#[test]
+fn hulls_of_a_car_are_searched_as_those_of_flyers() {
+    let car = PlanarVehicle::of(&shipped("generic"), 1.5, false);
+    let hull = car.hull(2.0).expect("hulls");
+    let (mut found, mut proven) = (0, 0);
+    for seed in 0..6 {
+        let at = |i: u64, k: u64| 10.0 * hashed_unit(seed, &[i, k]);
+        let drawn = (0..150).map(|i| Point3::new(at(i, 0), at(i, 1) - 5.0, 0.0));
+        let points: Vec<_> = [Point3::origin()].into_iter().chain(drawn).chain([Point3::new(8.0, 2.0, 0.0)]).collect();
+        let start = hull.start(0.0, [0.0, 0.0]);
+        let task = Task { start, candidates: &points, reach: &hull };
+        let score = Score::named("high-velocity-90", seed, hull.farthest() / 2.0).expect("a score");
+        let settings = BeamSettings { length: 8, ..BeamSettings::default() };
+        let outcome = beam(&task, &score, |node, steps| hull.may_arrive(&points, node, steps), &settings);
+        let Some(best) = outcome.found.first() else { continue };
+        found += 1;
+        for (k, pair) in best.nodes.windows(2).enumerate() {
+            let mut legs = Vec::new();
+            hull.legs(&pair[0], &points, &mut legs);
+            assert!(legs.iter().any(|leg| leg.to == pair[1] && leg.duration == best.leg_times[k]), "seed {seed}");
+        }
+        let graph = LegGraph::explore(start, &points, &hull, 8);
+        let exact = exact(&graph, &score, &ExactSettings { length: 8, ..ExactSettings::default() });
+        let bound = exact.bound.expect("there is one");
+        assert!(bound >= best.score - 1e-9, "seed {seed}: {bound} {}", best.score);
+        proven += exact.proven;
+    }
+    println!("{found} of 6 graphs, {proven} optima proven");
+    assert!(found >= 4, "{found}");
 }

@@ -12,9 +12,7 @@ use thiserror::Error;
 
 use super::features::features;
 use super::{Leg, Reach};
-use crate::math::integrate::rk4_step;
 use crate::math::power::square;
-use crate::robot::Dynamics;
 
 /// A step-wise node with what the vehicle carries over its waypoint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -190,22 +188,6 @@ impl Reach<BodyNode> for BodyHull {
             out.push(Leg { to, waypoint, duration: self.grid.step, features: features(&before, &way, self.grid.step) });
         }
     }
-}
-
-/// The state of `robot` after `time` s of the constant `control` from `start`, in `steps` Runge-Kutta steps.
-pub fn constant_run<R: Dynamics>(
-    robot: &R,
-    start: R::State,
-    control: &R::Control,
-    time: f64,
-    steps: usize,
-) -> R::State {
-    let h = time / steps.max(1) as f64;
-    (0..steps.max(1)).fold(start, |state, _| {
-        let mut state = rk4_step(|x| robot.derivative(x, control), &state, h);
-        robot.normalize(&mut state);
-        state
-    })
 }
 
 fn check(grid: &BodyGrid) -> Result<(), NoBodyHull> {

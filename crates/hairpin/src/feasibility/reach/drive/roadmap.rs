@@ -67,7 +67,7 @@ impl<'a> DriveRoadmap<'a> {
         end: Option<&Planar>,
         settings: &DriveSettings,
     ) -> Self {
-        let (mut states, mut first) = (Vec::with_capacity(points.len() * settings.headings), Vec::new());
+        let (mut states, mut first) = (Vec::new(), Vec::with_capacity(points.len() + 1));
         for (w, point) in points.iter().enumerate() {
             first.push(states.len() as u32);
             match end.filter(|_| w + 1 == points.len()) {

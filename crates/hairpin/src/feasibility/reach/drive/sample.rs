@@ -73,7 +73,7 @@ pub fn sample_ground(
     let mut random = stream(asked.seed);
     let scramble = (asked.seed ^ (asked.seed >> 32)) as u32;
     let mut told = TooFewPlaces { wanted: asked.count, found: 0, draws: 0, blocked: 0, without_ground: 0, steep: 0 };
-    let mut places = Vec::with_capacity(asked.count);
+    let mut places = Vec::new();
     for index in 0..most {
         if places.len() == asked.count {
             break;
