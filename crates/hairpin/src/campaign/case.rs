@@ -1,9 +1,10 @@
 //! What a campaign is made of: cases (planned), runs (executed), results (judged).
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use crate::judgement::Measures;
 pub use crate::judgement::Violation;
+use crate::trajectory::drive::Drive;
 use crate::trajectory::{Flight, Profile};
 
 /// What stands behind a case: the evidence words of files, JSON and reports.
@@ -57,8 +58,10 @@ pub struct Case {
     pub evidence: Evidence,
     /// Answer of a certification asked for afterwards: `yes`, `no` or `unknown`.
     pub certified: Option<&'static str>,
-    /// The control witness.
+    /// The control witness of a flight.
     pub profile: Option<Profile>,
+    /// The control witness of a drive.
+    pub drive: Option<Drive>,
 }
 
 impl Case {
@@ -86,6 +89,17 @@ impl Case {
 /// `optimal` for no gap that is more than rounding, else `{gap} 3.1 %`.
 pub(super) fn gap_word(share: f64, gap: &str) -> String {
     if share <= 1e-9 { "optimal".into() } else { format!("{gap} {} %", super::report::percent_digits(share)) }
+}
+
+/// One sample of the planned motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Timed {
+    /// Stamp, s.
+    pub t: f64,
+    /// Position, m.
+    pub position: Point3<f64>,
+    /// Velocity, m/s.
+    pub velocity: Vector3<f64>,
 }
 
 /// One execution of a case: run 0 is the nominal one.
@@ -173,6 +187,7 @@ mod tests {
             evidence: Evidence::HullFeasible,
             certified: None,
             profile: None,
+            drive: None,
         };
         assert_eq!(case(2.0, None).claim(), "hull-feasible");
         assert_eq!(case(2.0, Some(2.0)).claim(), "hull-feasible, optimal");

@@ -1,11 +1,10 @@
-//! Flies missions in our own simulator.
+//! Executes missions in our own simulator.
 
-use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::{Case, Mission, Run, Stop, mission};
-use crate::campaign::Setup;
-use crate::simulation::{self, Conditions, ControllerKind, ControllerSettings, FlySettings, Gusts, Sortie};
+use super::setup::Kind;
+use super::{Case, Mission, Run, Setup, Stop, drive, flight, mission};
+use crate::simulation::SimulationError;
 use crate::trajectory::Flight;
 
 /// Runs of `cases` that `wanted(case, run)` asks for, in our own simulator, on all threads of the current pool.
@@ -19,7 +18,7 @@ pub fn execute(
     stop: &Stop,
     sink: &(dyn Fn(Run) + Sync),
 ) {
-    let repeat = setup.scenario.execute.repeat as usize;
+    let repeat = setup.scenario.executor().repeat as usize;
     let total = cases.len() * repeat;
     let todo: Vec<(&Case, usize)> = cases
         .iter()
@@ -41,34 +40,28 @@ pub fn execute(
 pub fn execute_run(setup: &Setup, case: &Case, run: usize) -> Run {
     match mission(setup, case, run) {
         Ok(mission) => {
-            let outcome = fly(&mission, case).map_err(|error| error.to_string());
+            let outcome = carry_out(setup, &mission, case).map_err(|error| error.to_string());
             Run { case: case.number, run, drawn: mission.drawn, outcome }
         }
         Err(mistake) => Run { case: case.number, run, drawn: Vec::new(), outcome: Err(mistake.to_string()) },
     }
 }
 
-fn fly(mission: &Mission, case: &Case) -> Result<Flight, simulation::SimulationError> {
-    let Setup { scenario, robot, world, simd } = &mission.setup;
-    let execute = &scenario.execute;
-    let sortie = Sortie { robot, world, waypoints: &mission.waypoints, profile: case.profile.as_ref() };
-    let controller = ControllerSettings {
-        kind: execute.controller_in_force().unwrap_or(ControllerKind::StableWaypoint),
-        fixed_velocity: execute.fixed_velocity_m_s,
-        segment_times: execute.segment_times,
-    };
-    let conditions = Conditions {
-        wind: Vector3::from(scenario.world.wind_m_s.unwrap_or_default()),
-        gusts: scenario.world.gusts.map(|gusts| Gusts { std: gusts.std_m_s, correlation: gusts.correlation_s }),
-        noise: execute.noise,
-    };
-    let settings = FlySettings {
-        step: execute.step_s,
+/// `setup` is the nominal one, which the plan was made with; the mission has its own.
+fn carry_out(setup: &Setup, mission: &Mission, case: &Case) -> Result<Flight, SimulationError> {
+    match (setup.kind(), mission.setup.kind()) {
+        (Kind::Drive(nominal), Kind::Drive(setup)) => drive::drive(&nominal, &setup, mission, case),
+        (_, Kind::Flight(setup)) => flight::fly(&setup, &flight_order(mission, case)),
+        (Kind::Flight(_), Kind::Drive(_)) => unreachable!("draws change no robot's kind"),
+    }
+}
+
+fn flight_order<'a>(mission: &'a Mission, case: &'a Case) -> flight::Order<'a> {
+    flight::Order {
+        waypoints: &mission.waypoints,
+        profile: case.profile.as_ref(),
         accept: mission.accept,
         time_limit: mission.time_limit,
-        walls: execute.walls,
-        simd: *simd,
-        ..FlySettings::default()
-    };
-    simulation::fly(&sortie, &controller, &conditions, &settings, mission.seed)
+        seed: mission.seed,
+    }
 }

@@ -37,7 +37,7 @@ pub struct Influence {
 pub fn influences(scenario: &Scenario, runs: &[RunDeviation]) -> Vec<Influence> {
     let nominal = vary::as_value(scenario);
     let mut found = Vec::new();
-    for key in scenario.vary.keys().filter(|key| !vary::shapes_the_plan(key) && !key.starts_with("spec.")) {
+    for key in scenario.vary().keys().filter(|key| !vary::shapes_the_plan(key) && !key.starts_with("spec.")) {
         let fallback = KeyPath::parse(key).and_then(|path| path.get(&nominal).cloned());
         let values = |run: &RunDeviation| -> Vec<(String, f64)> {
             let drawn = run.drawn.iter().find(|(name, _)| name == key).map(|(_, value)| value);

@@ -5,10 +5,9 @@ use nalgebra::Point3;
 use super::case::gap_word;
 use super::influence::RunDeviation;
 use super::scenario::DeviationFrom;
-use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, plan, vary};
-use crate::judgement::{
-    self, Claim, Judged, JudgementError, Limits, Measures, Reference, Settings, Verdict, Violation, Worst,
-};
+use super::terms::Terms;
+use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, planned, vary};
+use crate::judgement::{self, Claim, Clearance, Judged, JudgementError, Measures, Reference, Settings, Verdict, Violation, Worst};
 use crate::trajectory::Flight;
 
 /// Confidence of intervals where the spec names none.
@@ -122,38 +121,32 @@ fn judge_run(
     flight: &Flight,
 ) -> Result<Result<JudgedRun, JudgementError>, Mistake> {
     let drawn;
-    let setup = if run.drawn.is_empty() {
+    let own = if run.drawn.is_empty() {
         setup
     } else {
         drawn = setup.of_draw(vary::apply(&setup.scenario, &run.drawn)?)?;
         &drawn
     };
-    let spec = &setup.scenario.spec;
-    let radius = setup.robot.clearance_radius;
-    let clearance = |p: &Point3<f64>| setup.world.obstacle_distance(p) - radius;
-    let path = match spec.deviation {
-        Some(deviation) if deviation.from == DeviationFrom::Path => plan::track(&setup.robot, case).ok(),
-        _ => None,
+    let terms = Terms::of(&own.scenario);
+    let path = match terms.from {
+        DeviationFrom::Path => planned(setup, case).ok(),
+        DeviationFrom::Leg | DeviationFrom::NearestLeg => None,
     };
+    let obstructed = own.flight().filter(|setup| !setup.world.obstacles().is_empty());
+    let clearance = obstructed.map(|setup| {
+        move |p: &Point3<f64>| setup.world.obstacle_distance(p) - setup.robot.clearance_radius
+    });
     let settings = Settings {
-        reference: match (spec.deviation.map(|deviation| deviation.from), &path) {
-            (Some(DeviationFrom::Path), Some(path)) => Reference::Path(path),
-            (Some(DeviationFrom::NearestLeg), _) => Reference::NearestLeg,
+        reference: match (terms.from, &path) {
+            (DeviationFrom::Path, Some(path)) => Reference::Path(path),
+            (DeviationFrom::NearestLeg, _) => Reference::NearestLeg,
             _ => Reference::Leg,
         },
-        corner: spec.deviation.map_or(0.0, |deviation| deviation.corner_m),
-        clearance: (!setup.world.obstacles().is_empty()).then_some(&clearance),
-    };
-    let limits = Limits {
-        deviation: spec.deviation.map(|limit| limit.max_m),
-        overshoot: spec.overshoot.map(|limit| limit.max_m),
-        clearance: spec.clearance.map(|limit| limit.min_m),
-        acceleration: spec.acceleration.map(|limit| limit.max_m_s2),
-        total_time: spec.total_time.map(|limit| limit.max_s),
-        ..Limits::default()
+        corner: terms.corner,
+        clearance: clearance.as_ref().map(|clearance| clearance as &Clearance<'_>),
     };
     Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|measures| JudgedRun {
-        violations: judgement::violations(&measures, flight, &limits),
+        violations: judgement::violations(&measures, flight, &terms.limits),
         ended: flight.ended.word().into(),
         left_world: flight.left_world,
         crashed: flight.ended.is_crash(),
@@ -163,7 +156,7 @@ fn judge_run(
 
 /// The verdict on a campaign: on its results, or that nothing was feasible.
 pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Tally) -> Verdict {
-    let asked = tally.asked(setup.scenario.generate.search.cases);
+    let asked = tally.asked(setup.scenario.search().cases);
     if cases.is_empty() {
         return if tally.stopped { nothing_found(setup, tally, asked) } else { nothing_feasible(setup, tally) };
     }
@@ -184,7 +177,7 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
     judgement::verdict(&Judged {
         how: &how,
-        runs: setup.scenario.execute.repeat as usize,
+        runs: setup.scenario.executor().repeat as usize,
         cases: results.len(),
         asked,
         failed: count(Status::Fail),
@@ -192,8 +185,8 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         inconclusive: count(Status::Inconclusive),
         trouble: &trouble,
         worst: worst.as_ref().map(|(case, value, saturation)| Worst { case, value, saturation: *saturation }),
-        share_limit: setup.scenario.spec.violation_share,
-        confidence: setup.scenario.spec.confidence.unwrap_or(CONFIDENCE),
+        share_limit: setup.scenario.violation_share(),
+        confidence: setup.scenario.confidence().unwrap_or(CONFIDENCE),
         claims: &claims,
         proof: proof.as_deref(),
     })
@@ -201,12 +194,11 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
 
 /// `simulated, anafi stand-in, minimum-snap`, or the executor's command.
 pub fn how_obtained(setup: &Setup) -> Vec<String> {
-    let robot = &setup.robot;
-    let execute = &setup.scenario.execute;
-    let stand_in = if robot.caveat.is_empty() { robot.name.clone() } else { format!("{} stand-in", robot.name) };
-    let who = match (&execute.command, execute.controller_in_force()) {
+    let name = setup.robot_name();
+    let stand_in = if setup.caveat().is_empty() { name.to_owned() } else { format!("{name} stand-in") };
+    let who = match (setup.scenario.executor().command, setup.scenario.controller()) {
         (Some(command), None) => format!("executor `{command}`"),
-        (_, Some(controller)) => controller.word().into(),
+        (_, Some(controller)) => controller.into(),
         (None, None) => "no controller".into(),
     };
     vec!["simulated".into(), stand_in, who]
@@ -227,10 +219,10 @@ fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation,
     }
     let (result, measures) = worst?;
     let nearest = || {
-        setup.scenario.spec.deviation.map(|limit| Violation {
+        setup.scenario.deviation_limit().map(|limit| Violation {
             what: "deviation".into(),
             value: measures.max_deviation,
-            limit: limit.max_m,
+            limit,
             unit: "m".into(),
             at: measures.t_worst,
             leg: measures.leg_worst,
@@ -244,21 +236,22 @@ fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation,
 /// The verdict of exit 5 on a search that a time limit ended too soon: that nothing is feasible was not found out.
 fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     let searched = format!("{} graphs searched", tally.graphs);
-    let how = [searched.as_str(), setup.scenario.generate.reach.word()];
+    let how = [searched.as_str(), setup.scenario.reach()];
     judgement::inconclusive(&format!("0/{asked}"), &how, "stopped before the first trajectory was found")
 }
 
 /// The verdict of exit 3, with what it rests on.
 fn nothing_feasible(setup: &Setup, tally: &Tally) -> Verdict {
-    let generate = &setup.scenario.generate;
     let rests_on = match tally.proven_empty {
         proven if proven > 0 && proven == tally.graphs => "proof".into(),
         _ => format!("{} graphs searched", tally.graphs),
     };
-    let chain = format!("no chain of {} waypoints from start to end", setup.scenario.task.length);
+    let open = setup.scenario.drive().is_some_and(|scenario| scenario.task.end_m.is_none());
+    let ends = if open { "from the start" } else { "from start to end" };
+    let chain = format!("no chain of {} waypoints {ends}", setup.scenario.length());
     let what = match &tally.nothing {
         Some(reason) => format!("{chain}: {reason}"),
         None => chain,
     };
-    judgement::nothing_feasible(&[&rests_on, generate.reach.word()], &what, None)
+    judgement::nothing_feasible(&[&rests_on, setup.scenario.reach()], &what, None)
 }

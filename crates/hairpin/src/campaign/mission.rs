@@ -1,23 +1,18 @@
-//! What is flown: one run of a case, with the values of `[vary]` that were drawn for it.
+//! What is flown or driven: one run of a case, with the values of `[vary]` that were drawn for it.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
-use super::{Case, Mistake, Setup, plan, vary};
+use super::planned::timed;
+use super::setup::Kind;
+use super::{Case, Mistake, Setup, Timed, vary};
 use crate::math::random::named_seed;
 
-/// Planned time per waypoint after which a run is given up, s: what the paper's authors charged.
+/// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
 const SECONDS_PER_WAYPOINT: f64 = 9.0;
-
-/// One sample of the planned motion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Timed {
-    /// Stamp, s.
-    pub t: f64,
-    /// Position, m.
-    pub position: Point3<f64>,
-    /// Velocity, m/s.
-    pub velocity: Vector3<f64>,
-}
+/// A drive is given up after this multiple of its planned duration …
+const SLOWNESS: f64 = 2.0;
+/// … and this time, s.
+const SPARE_SECONDS: f64 = 60.0;
 
 /// One run of a case, as it is flown: by our simulator or by an executor of the user's.
 #[derive(Debug, Clone)]
@@ -49,17 +44,27 @@ pub struct Mission {
 pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistake> {
     let drawn = vary::draw(&setup.scenario, case.seed, run);
     let varied = if drawn.is_empty() { setup.clone() } else { setup.of_draw(vary::apply(&setup.scenario, &drawn)?)? };
-    let execute = &varied.scenario.execute;
-    let time_limit = execute.time_limit_s.unwrap_or(SECONDS_PER_WAYPOINT * case.waypoints.len() as f64);
+    // The plan is the nominal robot's, whatever was drawn for the one that carries it out.
+    let timed = timed(setup, case);
+    let time_limit = match varied.kind() {
+        Kind::Flight(setup) => {
+            setup.scenario.execute.time_limit_s.unwrap_or(SECONDS_PER_WAYPOINT * case.waypoints.len() as f64)
+        }
+        Kind::Drive(setup) => {
+            let planned = timed.last().map_or(0.0, |last| last.t);
+            setup.scenario.execute.time_limit_s.unwrap_or(SLOWNESS * planned + SPARE_SECONDS)
+        }
+    };
+    let accept = varied.scenario.executor().accept;
     Ok(Mission {
         case: case.id(),
         run,
         seed: named_seed(case.seed, "run", run as u64),
         drawn,
         waypoints: case.waypoints.clone(),
-        accept: execute.accept_m,
+        accept,
         time_limit,
-        timed: plan::timed(case),
+        timed,
         setup: varied,
     })
 }

@@ -2,29 +2,33 @@
 
 pub mod assumptions;
 pub mod case;
+pub mod drive;
 pub mod execute;
+pub mod flight;
 pub mod generate;
 pub mod goals;
-pub mod ground;
+mod graph;
 pub mod influence;
 pub mod judge;
 pub mod mission;
-pub mod plan;
+pub mod planned;
 pub mod report;
 pub mod scenario;
 pub mod setup;
 pub mod stop;
+mod terms;
 pub mod vary;
 pub mod verify;
 
 pub use assumptions::assumptions;
-pub use case::{Case, CaseResult, Evidence, Run, Status};
+pub use case::{Case, CaseResult, Evidence, Run, Status, Timed};
 pub use execute::{execute, execute_run};
 pub use generate::{Known, Tally, generate};
 pub use influence::{Influence, RunDeviation, influences};
 pub use judge::{how_obtained, judge, judge_runs, verdict};
-pub use mission::{Mission, Timed, mission};
+pub use mission::{Mission, mission};
+pub use planned::planned;
 pub use scenario::{Mistake, Scenario};
-pub use setup::Setup;
+pub use setup::{Kind, Setup};
 pub use stop::Stop;
 pub use verify::{Verified, verify};

@@ -1,23 +1,40 @@
 //! From a scenario's numbers to the things they describe. Robots are chosen by the one `match` here.
 
-use nalgebra::Vector3;
+use std::sync::Arc;
 
-use super::scenario::{Mistake, ObstacleSection, RobotSource, Scenario, WorldSection};
+use super::drive::{self, DriveSetup};
+use super::flight::{self, FlightSetup};
+use super::scenario::{Mistake, Scenario};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::Quadrotor;
-use crate::world::{Obstacle, Shape, World, WorldError};
+use crate::robot::rover::Rover;
+use crate::world::World;
+use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// A resolved scenario and what it describes.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// Every key, the robot's table inline.
     pub scenario: Scenario,
-    /// The robot of the claim.
-    pub robot: Quadrotor,
-    /// The space.
-    pub world: World,
-    /// Version of the kernels that generate and fly.
+    /// Version of the kernels that generate and execute.
     pub simd: Simd,
+    machine: Machine,
+}
+
+/// A robot in its world.
+#[derive(Debug, Clone)]
+enum Machine {
+    Flyer { robot: Box<Quadrotor>, world: World },
+    Driver { rover: Box<Rover>, planner: Box<Rover>, map: Arc<ElevationMap>, keep_out: Arc<KeepOuts> },
+}
+
+/// A setup, by what its robot does.
+#[derive(Debug, Clone, Copy)]
+pub enum Kind<'a> {
+    /// It flies.
+    Flight(FlightSetup<'a>),
+    /// It drives.
+    Drive(DriveSetup<'a>),
 }
 
 impl Setup {
@@ -43,63 +60,73 @@ impl Setup {
     }
 
     fn build(scenario: Scenario, simd: Simd) -> Result<Self, Mistake> {
-        let robot = robot_of(&scenario.robot)?;
-        let world = world_of(&scenario.world)?;
-        Ok(Self { scenario, robot, world, simd })
+        let machine = match &scenario {
+            Scenario::Flight(scenario) => Machine::Flyer {
+                robot: Box::new(flight::robot_of(&scenario.robot)?),
+                world: flight::world_of(&scenario.world)?,
+            },
+            Scenario::Drive(scenario) => {
+                let rover = Box::new(drive::rover_of(&scenario.robot)?);
+                let map = drive::map_of(&scenario.world.terrain, scenario.seed)?;
+                let planner = Box::new(drive::planner_of(&rover));
+                let keep_out = Arc::new(drive::keep_outs_of(&scenario.world.keep_out)?);
+                Machine::Driver { rover, planner, map, keep_out }
+            }
+        };
+        Ok(Self { scenario, simd, machine })
     }
-}
 
-/// The robot of a resolved source.
-///
-/// # Errors
-/// The robot's key that is out of bounds; a name that was not resolved before.
-pub fn robot_of(source: &RobotSource) -> Result<Quadrotor, Mistake> {
-    match source {
-        RobotSource::Inline(description) => description.build().map_err(|error| Mistake {
-            key: format!("robot.{}", error.field),
-            value: error.value,
-            bound: error.bound,
-        }),
-        RobotSource::Name(name) => Err(Mistake {
-            key: "robot".into(),
-            value: format!("\"{name}\""),
-            bound: "resolved to its numbers first".into(),
-        }),
+    /// The setup by what its robot does.
+    pub fn kind(&self) -> Kind<'_> {
+        let simd = self.simd;
+        match (&self.scenario, &self.machine) {
+            (Scenario::Flight(scenario), Machine::Flyer { robot, world }) => {
+                Kind::Flight(FlightSetup { scenario, robot, world, simd })
+            }
+            (Scenario::Drive(scenario), Machine::Driver { rover, planner, map, keep_out }) => {
+                Kind::Drive(DriveSetup { scenario, rover, planner, map, keep_out, simd })
+            }
+            _ => unreachable!("a setup's machine is built from its scenario"),
+        }
     }
-}
 
-/// The world of a resolved section.
-///
-/// # Errors
-/// The world's key that is out of bounds.
-pub fn world_of(section: &WorldSection) -> Result<World, Mistake> {
-    let mut obstacles = Vec::with_capacity(section.obstacles.len());
-    for (index, obstacle) in section.obstacles.iter().enumerate() {
-        let shape = shape_of(obstacle).map_err(|error| mistake(&format!("obstacles[{index}]."), error))?;
-        let name = if obstacle.name.is_empty() { format!("obstacle {index}") } else { obstacle.name.clone() };
-        obstacles.push(Obstacle { name, shape });
+    /// The setup of flights.
+    pub fn flight(&self) -> Option<FlightSetup<'_>> {
+        match self.kind() {
+            Kind::Flight(setup) => Some(setup),
+            Kind::Drive(_) => None,
+        }
     }
-    let Some(size) = section.size_m else {
-        return Err(Mistake { key: "world.size_m".into(), value: "missing".into(), bound: "given".into() });
-    };
-    World::new(Vector3::from(size), section.keep_in_margin_m.unwrap_or(0.0), obstacles).map_err(|e| mistake("", e))
-}
 
-fn mistake(prefix: &str, error: WorldError) -> Mistake {
-    Mistake { key: format!("world.{prefix}{}", error.field), value: error.value, bound: error.bound }
-}
+    /// The setup of drives.
+    pub fn drive(&self) -> Option<DriveSetup<'_>> {
+        match self.kind() {
+            Kind::Flight(_) => None,
+            Kind::Drive(setup) => Some(setup),
+        }
+    }
 
-fn shape_of(obstacle: &ObstacleSection) -> Result<Shape, WorldError> {
-    match obstacle {
-        ObstacleSection { cuboid: Some(b), .. } => Shape::cuboid(b.center_m, b.size_m),
-        ObstacleSection { sphere: Some(s), .. } => Shape::sphere(s.center_m, s.radius_m),
-        ObstacleSection { capsule: Some(c), .. } => Shape::capsule(c.a_m, c.b_m, c.radius_m),
-        ObstacleSection { hull: Some(h), .. } => Shape::hull(&h.points_m),
-        ObstacleSection { mesh: Some(m), .. } => Shape::mesh(&m.vertices_m, &m.triangles),
-        _ => Err(WorldError {
-            field: "shape".into(),
-            value: "missing".into(),
-            bound: "one of box, sphere, capsule, hull, mesh".into(),
-        }),
+    /// The robot's name.
+    pub fn robot_name(&self) -> &str {
+        match &self.machine {
+            Machine::Flyer { robot, .. } => &robot.name,
+            Machine::Driver { rover, .. } => &rover.name,
+        }
+    }
+
+    /// What must be said wherever the robot is named; empty if nothing.
+    pub fn caveat(&self) -> &str {
+        match &self.machine {
+            Machine::Flyer { robot, .. } => &robot.caveat,
+            Machine::Driver { rover, .. } => &rover.caveat,
+        }
+    }
+
+    /// Names of the robot's numbers that were derived, not given.
+    pub fn estimated(&self) -> Vec<&str> {
+        match &self.machine {
+            Machine::Flyer { robot, .. } => robot.estimated.iter().map(String::as_str).collect(),
+            Machine::Driver { rover, .. } => rover.estimated.clone(),
+        }
     }
 }

@@ -29,7 +29,14 @@ pub fn draw_for_case(scenario: &Scenario, case_seed: u64, case: usize) -> Vec<(S
 /// A key that the scenario has not, or a value of another type than the key's.
 pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario, Mistake> {
     let mut drawn = if draws.is_empty() { scenario.clone() } else { patch(scenario, draws)? };
-    drawn.vary.clear();
+    drawn.vary_mut().clear();
+    if let (Scenario::Drive(old), Scenario::Drive(new)) = (scenario, &mut drawn)
+        && new.world.terrain == old.world.terrain
+        && new.seed == old.seed
+    {
+        // The ground itself is no key; where its keys did not change it is the same.
+        new.world.terrain.map = old.world.terrain.map.clone();
+    }
     Ok(drawn)
 }
 
@@ -39,7 +46,7 @@ pub fn shapes_the_plan(key: &str) -> bool {
 }
 
 fn draw_keys(scenario: &Scenario, seed: u64, index: u64, wanted: impl Fn(&str) -> bool) -> Vec<(String, Value)> {
-    let keys: Vec<_> = scenario.vary.iter().filter(|(key, _)| wanted(key)).collect();
+    let keys: Vec<_> = scenario.vary().iter().filter(|(key, _)| wanted(key)).collect();
     if keys.is_empty() {
         return Vec::new();
     }

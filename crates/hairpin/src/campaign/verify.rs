@@ -1,8 +1,8 @@
-//! Hands the written witnesses to the verification room, as plain numbers.
+//! Hands the written witnesses to the verification room.
 
-use super::Case;
-use crate::robot::quadrotor::Quadrotor;
-use crate::verification::{self, Body, Claim, EndError, Leg, Proof, RotorPlace, Tolerances};
+use super::setup::Kind;
+use super::{Case, Setup, drive, flight};
+use crate::verification::{EndError, Proof};
 
 /// What verification says of one case.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,39 +11,15 @@ pub struct Verified {
     pub case: usize,
     /// The proof; `None` for a case that claims no witness.
     pub proof: Option<Proof>,
-    /// End error of the whole flight, open loop, with rotor lag: what the claim leaves out.
+    /// End error of a whole flight, open loop, with rotor lag: what the claim leaves out.
     pub with_lag: Option<EndError>,
 }
 
-/// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances.
-pub fn verify(robot: &Quadrotor, case: &Case) -> Verified {
-    let body = body_of(robot);
-    let Some(profile) = &case.profile else {
-        return Verified { case: case.number, proof: None, with_lag: None };
+/// Integrates the witness of `case` by independent code, to the default tolerances of flights and the scenario's of drives.
+pub fn verify(setup: &Setup, case: &Case) -> Verified {
+    let (proof, with_lag) = match setup.kind() {
+        Kind::Flight(setup) => flight::verify(setup.robot, case).map_or((None, None), |(proof, lag)| (Some(proof), lag)),
+        Kind::Drive(setup) => (drive::verify(&setup, case), None),
     };
-    let waypoints: Vec<[f64; 3]> = case.waypoints.iter().map(|p| [p.x, p.y, p.z]).collect();
-    let legs: Vec<Leg> =
-        profile.legs.iter().map(|leg| Leg { duration: leg.duration, coefficients: leg.coefficients }).collect();
-    let claim = Claim { waypoints: &waypoints, legs: &legs };
-    Verified {
-        case: case.number,
-        proof: Some(verification::verify(&body, &claim, &Tolerances::default())),
-        with_lag: verification::open_loop_with_lag(&body, &claim),
-    }
-}
-
-fn body_of(robot: &Quadrotor) -> Body {
-    Body {
-        mass: robot.mass,
-        inertia: robot.inertia.into(),
-        rotors: robot.rotors.map(|rotor| RotorPlace { x: rotor.x, y: rotor.y, spin: rotor.spin }),
-        thrust_coefficient: robot.thrust_coefficient,
-        moment_coefficient: robot.moment_coefficient,
-        rotor_speed: robot.rotor_speed,
-        rotor_time_constant: robot.rotor_time_constant,
-        drag_linear: robot.drag_linear,
-        drag_quadratic: robot.drag_quadratic,
-        aerodynamic_moment: robot.aerodynamic_moment,
-        gravity: robot.gravity,
-    }
+    Verified { case: case.number, proof, with_lag }
 }

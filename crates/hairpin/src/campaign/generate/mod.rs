@@ -4,24 +4,17 @@
 //! of their numbers, so that what is found depends on the seed alone. Where `[vary]` shapes the plan (keys under `task`
 //! and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
 
-mod certificates;
-mod graph;
-mod outcome;
-mod search;
-mod solve;
-mod stepwise;
 mod tally;
-mod witness;
 
 use std::collections::HashSet;
 
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::{Case, Scenario, Setup, Stop, vary};
+use super::graph::{Outcome, Plan};
+use super::setup::Kind;
+use super::{Case, Scenario, Setup, Stop, drive, flight, vary};
 use crate::math::random::case_seed;
-use outcome::{Outcome, Plan};
-use solve::Solver;
 pub use tally::Tally;
 
 /// Graphs sampled per case asked for, where the scenario sets no limit.
@@ -46,7 +39,7 @@ pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
 
 /// Whether units of work are cases of plans of their own, not graphs.
 fn varies(scenario: &Scenario) -> bool {
-    scenario.vary.keys().any(|key| vary::shapes_the_plan(key))
+    scenario.vary().keys().any(|key| vary::shapes_the_plan(key))
 }
 
 /// Generates cases until `generate.search.cases` are found, the graphs are used up, or `stop` says so.
@@ -54,7 +47,8 @@ fn varies(scenario: &Scenario) -> bool {
 /// `sink` gets the new cases of each unit of work with the tally that includes it; what it was given is enough to go
 /// on from there ([`Known`]) as if nothing had happened. Cases of a repeated waypoint list are counted once.
 pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(&[Case], &Tally)) -> Tally {
-    let wanted = setup.scenario.generate.search.cases;
+    let search = setup.scenario.search();
+    let wanted = search.cases;
     let mut collector = Collector::new(setup, known);
     let solver = match Solver::new(setup) {
         Ok(solver) => solver,
@@ -65,7 +59,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
         }
     };
     let varied = varies(&setup.scenario);
-    let units = match setup.scenario.generate.search.graphs {
+    let units = match search.graphs {
         _ if varied => wanted,
         Some(graphs) => graphs,
         None => wanted.saturating_mul(GRAPHS_PER_CASE),
@@ -103,7 +97,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
 
 /// Case number `case` of a scenario whose plan varies: its own scenario, its own graphs.
 fn drawn_case(setup: &Setup, case: u64) -> Outcome {
-    let seed = case_seed(setup.scenario.seed, case);
+    let seed = case_seed(setup.scenario.seed(), case);
     let draws = vary::draw_for_case(&setup.scenario, seed, case as usize);
     let drawn = vary::apply(&setup.scenario, &draws).and_then(|scenario| setup.of_draw(scenario));
     let drawn = drawn.map_err(|mistake| mistake.to_string());
@@ -121,6 +115,31 @@ fn drawn_case(setup: &Setup, case: u64) -> Outcome {
         }
     }
     total
+}
+
+/// The part of a search that is the same for every graph.
+enum Solver<'a> {
+    Flight(flight::Solver<'a>),
+    Drive(drive::Solver<'a>),
+}
+
+impl<'a> Solver<'a> {
+    /// # Errors
+    /// Why nothing can be searched, in a sentence's part.
+    fn new(setup: &'a Setup) -> Result<Self, String> {
+        Ok(match setup.kind() {
+            Kind::Flight(setup) => Self::Flight(flight::Solver::new(setup)?),
+            Kind::Drive(setup) => Self::Drive(drive::Solver::new(setup)?),
+        })
+    }
+
+    /// Searches graph number `graph`.
+    fn solve(&self, graph: u64) -> Outcome {
+        match self {
+            Self::Flight(solver) => solver.solve(graph),
+            Self::Drive(solver) => solver.solve(graph),
+        }
+    }
 }
 
 /// Takes outcomes over in order: numbers cases, drops repetitions, keeps the tally.
@@ -169,7 +188,7 @@ impl<'a> Collector<'a> {
     fn case(&self, graph: u64, plan: Plan, number: usize) -> Case {
         Case {
             number,
-            seed: case_seed(self.setup.scenario.seed, number as u64),
+            seed: case_seed(self.setup.scenario.seed(), number as u64),
             graph,
             waypoints: plan.waypoints,
             leg_times: plan.leg_times,
@@ -178,6 +197,7 @@ impl<'a> Collector<'a> {
             evidence: plan.evidence,
             certified: plan.certified,
             profile: plan.profile,
+            drive: plan.drive,
         }
     }
 

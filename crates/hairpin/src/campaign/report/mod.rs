@@ -1,10 +1,13 @@
 //! What a report shows, as plain data and plain words; how it looks is the format's business.
 
 mod data;
+mod drawing;
+mod facts;
 mod solid;
 mod text;
 
-pub use data::{Drawing, Metric, Pieces, ReportData, Rotor, Shown, assemble, shown, worst_first};
+pub use data::{Metric, Pieces, ReportData, Shown, assemble, shown, worst_first};
+pub use drawing::{Drawing, Relief, Rotor};
 pub use solid::{Surface, surface};
 pub(in crate::campaign) use text::percent_digits;
 pub use text::{COLUMNS, attitude, cells, leg, number, percent, violation};

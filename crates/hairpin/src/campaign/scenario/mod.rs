@@ -1,5 +1,7 @@
 //! The scenario: every key of a scenario file, with its default. These types are the contract: the parser,
 //! the JSON Schema and the commented files of `hairpin new` all come from them. Units are in the names.
+//!
+//! What the robot is decides which keys there are: [`FlightScenario`] for what flies, [`DriveScenario`] for what drives.
 
 use std::collections::BTreeMap;
 
@@ -7,22 +9,19 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::robot::quadrotor::QuadrotorDescription;
-
-mod check;
 pub(crate) mod distribution;
-mod execute;
-mod generate;
+mod drive;
+mod findings;
+mod flight;
 mod path;
-mod spec;
-mod world;
+mod search;
+mod vary;
 
 pub use distribution::Distribution;
-pub use execute::*;
-pub use generate::*;
+pub use drive::*;
+pub use flight::*;
 pub use path::KeyPath;
-pub use spec::*;
-pub use world::*;
+pub use search::*;
 
 /// A value that a key must not have.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -36,61 +35,236 @@ pub struct Mistake {
     pub bound: String,
 }
 
-/// A scenario file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Scenario {
-    /// Format of the file: 1.
-    pub hairpin: u32,
-    /// A shipped robot's name, a robot file, or the robot's own table.
-    pub robot: RobotSource,
+/// A scenario file; the robot's `kind` tells which.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Scenario {
+    /// Of what flies.
+    Flight(Box<FlightScenario>),
+    /// Of what drives.
+    Drive(Box<DriveScenario>),
+}
+
+impl<'de> Deserialize<'de> for Scenario {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use serde::de::Error;
+        let value = serde_json::Value::deserialize(deserializer)?;
+        let kind = value.get("robot").and_then(|robot| robot.get("kind")).and_then(|kind| kind.as_str());
+        if kind.is_some_and(|kind| GroundDescription::KINDS.contains(&kind)) {
+            serde_json::from_value(value).map(Self::Drive).map_err(D::Error::custom)
+        } else {
+            serde_json::from_value(value).map(Self::Flight).map_err(D::Error::custom)
+        }
+    }
+}
+
+/// Who executes a campaign's trajectories, and how often: what flights and drives have in common.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Executor<'a> {
+    /// A program that speaks the executor protocol; `None`: our own simulator.
+    pub command: Option<&'a str>,
+    /// Runs per case.
+    pub repeat: u64,
+    /// Wall-clock limit per mission of `command`, s.
+    pub timeout: f64,
+    /// Workers of `command`.
+    pub workers: Option<u64>,
+    /// A waypoint counts as reached inside this radius, m.
+    pub accept: f64,
+}
+
+impl Scenario {
+    /// Every key whose value is out of bounds, in the order of the file. Empty: the scenario can be run.
+    ///
+    /// The scenario must be resolved: robot inline, meshes and elevation maps read, world base merged.
+    pub fn check(&self) -> Vec<Mistake> {
+        let mut mistakes = self.check_nominal();
+        if mistakes.is_empty() {
+            mistakes = vary::check(self);
+        }
+        mistakes
+    }
+
+    /// [`Scenario::check`] without `[vary]`, whose own check asks this of what it draws.
+    fn check_nominal(&self) -> Vec<Mistake> {
+        match self {
+            Self::Flight(scenario) => scenario.check(),
+            Self::Drive(scenario) => scenario.check(),
+        }
+    }
+
+    /// The scenario of a flight.
+    pub fn flight(&self) -> Option<&FlightScenario> {
+        match self {
+            Self::Flight(scenario) => Some(scenario),
+            Self::Drive(_) => None,
+        }
+    }
+
+    /// The scenario of a drive.
+    pub fn drive(&self) -> Option<&DriveScenario> {
+        match self {
+            Self::Flight(_) => None,
+            Self::Drive(scenario) => Some(scenario),
+        }
+    }
+
     /// Root seed of the campaign.
-    #[serde(default)]
-    pub seed: u64,
-    /// The space.
-    pub world: WorldSection,
-    /// What is to be flown.
-    pub task: TaskSection,
-    /// How trajectories are searched for.
-    #[serde(default)]
-    pub generate: GenerateSection,
-    /// How they are executed.
-    #[serde(default)]
-    pub execute: ExecuteSection,
-    /// Any scenario key may have a distribution.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub vary: BTreeMap<String, Distribution>,
-    /// What is within spec.
-    #[serde(default)]
-    pub spec: SpecSection,
+    pub fn seed(&self) -> u64 {
+        match self {
+            Self::Flight(scenario) => scenario.seed,
+            Self::Drive(scenario) => scenario.seed,
+        }
+    }
+
+    /// Waypoints of a trajectory, both ends included.
+    pub fn length(&self) -> u64 {
+        match self {
+            Self::Flight(scenario) => scenario.task.length,
+            Self::Drive(scenario) => scenario.task.length,
+        }
+    }
+
+    /// How graphs are searched.
+    pub fn search(&self) -> SearchSection {
+        match self {
+            Self::Flight(scenario) => scenario.generate.search.clone(),
+            Self::Drive(scenario) => scenario.generate.search.section(),
+        }
+    }
+
+    /// The score's name.
+    pub fn score(&self) -> &str {
+        match self {
+            Self::Flight(scenario) => &scenario.generate.score,
+            Self::Drive(scenario) => &scenario.generate.search.score,
+        }
+    }
+
+    /// The reach set's word.
+    pub fn reach(&self) -> &'static str {
+        match self {
+            Self::Flight(scenario) => scenario.generate.reach.word(),
+            Self::Drive(scenario) => scenario.generate.reach.word(),
+        }
+    }
+
+    /// Who executes, and how often.
+    pub fn executor(&self) -> Executor<'_> {
+        match self {
+            Self::Flight(scenario) => {
+                let ExecuteSection { command, repeat, timeout_s, workers, accept_m, .. } = &scenario.execute;
+                let command = command.as_deref();
+                Executor { command, repeat: *repeat, timeout: *timeout_s, workers: *workers, accept: *accept_m }
+            }
+            Self::Drive(scenario) => {
+                let DriveExecute { command, repeat, timeout_s, workers, accept_m, .. } = &scenario.execute;
+                let command = command.as_deref();
+                Executor { command, repeat: *repeat, timeout: *timeout_s, workers: *workers, accept: *accept_m }
+            }
+        }
+    }
+
+    /// The word of the controller of ours that executes; `None` where a command does.
+    pub fn controller(&self) -> Option<&'static str> {
+        match self {
+            Self::Flight(scenario) => scenario.execute.controller_in_force().map(|controller| controller.word()),
+            Self::Drive(scenario) => scenario.execute.controller_in_force().map(|controller| controller.word()),
+        }
+    }
+
+    /// Where on Earth the world stands.
+    pub fn origin(&self) -> Option<Origin> {
+        match self {
+            Self::Flight(scenario) => scenario.world.origin,
+            Self::Drive(scenario) => scenario.world.origin,
+        }
+    }
+
+    /// Distributions, by key.
+    pub fn vary(&self) -> &BTreeMap<String, Distribution> {
+        match self {
+            Self::Flight(scenario) => &scenario.vary,
+            Self::Drive(scenario) => &scenario.vary,
+        }
+    }
+
+    /// The same for changes.
+    pub(in crate::campaign) fn vary_mut(&mut self) -> &mut BTreeMap<String, Distribution> {
+        match self {
+            Self::Flight(scenario) => &mut scenario.vary,
+            Self::Drive(scenario) => &mut scenario.vary,
+        }
+    }
+
+    /// Share of cases that may violate the limits.
+    pub fn violation_share(&self) -> Option<f64> {
+        match self {
+            Self::Flight(scenario) => scenario.spec.violation_share,
+            Self::Drive(scenario) => scenario.spec.limits.violation_share,
+        }
+    }
+
+    /// Confidence of the share's interval, where one is given.
+    pub fn confidence(&self) -> Option<f64> {
+        match self {
+            Self::Flight(scenario) => scenario.spec.confidence,
+            Self::Drive(scenario) => scenario.spec.limits.confidence,
+        }
+    }
+
+    /// Limit of the deviation, m.
+    pub fn deviation_limit(&self) -> Option<f64> {
+        match self {
+            Self::Flight(scenario) => scenario.spec.deviation.map(|limit| limit.max_m),
+            Self::Drive(scenario) => scenario.spec.limits.path_deviation_m,
+        }
+    }
 }
 
 /// Where the robot's numbers come from. Resolved scenarios hold the table.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
-pub enum RobotSource {
+pub enum RobotSource<D> {
     /// A shipped name or a path.
     Name(String),
     /// The numbers themselves.
-    Inline(Box<QuadrotorDescription>),
+    Inline(Box<D>),
 }
 
-impl<'de> Deserialize<'de> for RobotSource {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor;
-        impl<'de> serde::de::Visitor<'de> for Visitor {
-            type Value = RobotSource;
+impl<'de, D: Deserialize<'de>> Deserialize<'de> for RobotSource<D> {
+    fn deserialize<S: serde::Deserializer<'de>>(deserializer: S) -> Result<Self, S::Error> {
+        struct Visitor<D>(std::marker::PhantomData<D>);
+        impl<'de, D: Deserialize<'de>> serde::de::Visitor<'de> for Visitor<D> {
+            type Value = RobotSource<D>;
             fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
                 f.write_str("a robot's name, a robot file, or a table with its numbers")
             }
-            fn visit_str<E>(self, name: &str) -> Result<RobotSource, E> {
+            fn visit_str<E>(self, name: &str) -> Result<RobotSource<D>, E> {
                 Ok(RobotSource::Name(name.into()))
             }
-            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<RobotSource, A::Error> {
-                QuadrotorDescription::deserialize(serde::de::value::MapAccessDeserializer::new(map))
+            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<RobotSource<D>, A::Error> {
+                D::deserialize(serde::de::value::MapAccessDeserializer::new(map))
                     .map(|description| RobotSource::Inline(Box::new(description)))
             }
         }
-        deserializer.deserialize_any(Visitor)
+        deserializer.deserialize_any(Visitor(std::marker::PhantomData))
+    }
+}
+
+impl<D> RobotSource<D> {
+    /// The numbers.
+    ///
+    /// # Errors
+    /// A name that was not resolved before.
+    pub(in crate::campaign) fn resolved(&self) -> Result<&D, Mistake> {
+        match self {
+            Self::Inline(description) => Ok(description),
+            Self::Name(name) => Err(Mistake {
+                key: "robot".into(),
+                value: format!("\"{name}\""),
+                bound: "resolved to its numbers first".into(),
+            }),
+        }
     }
 }

@@ -82,6 +82,12 @@ impl Suspension {
         }
     }
 
+    /// Radius of the circle about the body's origin that passes through the outermost wheel's centre, m; 0 without wheels.
+    pub fn outer_radius(&self) -> f64 {
+        let (wheels, count, _) = self.wheels(&[0.0; 3]);
+        wheels[..count].iter().map(|wheel| libm::hypot(wheel.x, wheel.y)).fold(0.0, f64::max)
+    }
+
     /// Distance between the foremost and the rearmost axle, m; `None` without wheels.
     pub fn wheelbase(&self) -> Option<f64> {
         let (wheels, count, _) = self.wheels(&[0.0; 3]);

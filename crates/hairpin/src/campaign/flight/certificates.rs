@@ -1,7 +1,9 @@
 //! Witnesses searched afterwards for what another reach set found.
 
-use super::outcome::{Plan, judge};
-use crate::campaign::{Evidence, Setup};
+use super::FlightSetup;
+use super::legs::judge;
+use crate::campaign::Evidence;
+use crate::campaign::graph::Plan;
 use crate::feasibility::certify::{Certificate, certify};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 
@@ -20,7 +22,7 @@ pub(super) struct Certifier {
 impl Certifier {
     /// # Errors
     /// As [`judge`].
-    pub(super) fn new(setup: &Setup) -> Result<Self, String> {
+    pub(super) fn new(setup: &FlightSetup) -> Result<Self, String> {
         let step = setup.scenario.generate.timing_in_force().step_s.unwrap_or(1.0);
         let longest_flight = setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
         Ok(Self { judge: judge(setup)?, timing: LegTiming::ladder(QUICKEST * step, SLOWEST * step), longest_flight })

@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use crate::campaign::Setup;
+use super::FlightSetup;
 use crate::math::random::named_seed;
 use crate::world::{self, SamplingError};
 
@@ -10,7 +10,7 @@ use crate::world::{self, SamplingError};
 ///
 /// # Errors
 /// Too little free space.
-pub(super) fn sample(setup: &Setup, graph: u64) -> Result<Vec<Point3<f64>>, SamplingError> {
+pub(super) fn sample(setup: &FlightSetup, graph: u64) -> Result<Vec<Point3<f64>>, SamplingError> {
     let search = &setup.scenario.generate.search;
     let seed = named_seed(setup.scenario.seed, "graph", graph);
     let clearance = setup.robot.clearance_radius;

@@ -1,6 +1,6 @@
 //! Bounds of `[execute]`.
 
-use super::Findings;
+use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::ExecuteSection;
 
 pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {

@@ -1,6 +1,6 @@
 //! Bounds of `[spec]`.
 
-use super::Findings;
+use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::SpecSection;
 
 pub(super) fn check(spec: &SpecSection, found: &mut Findings) {

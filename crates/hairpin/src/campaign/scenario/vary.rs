@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use crate::campaign::scenario::distribution::zip;
-use crate::campaign::scenario::{Distribution, KeyPath, Mistake, Scenario};
+use super::distribution::zip;
+use super::{Distribution, KeyPath, Mistake, Scenario};
 use crate::campaign::vary::{apply, as_value};
 
 /// Keys that say what the campaign is, not what happens in a case.
@@ -24,6 +24,9 @@ const FIXED: &[(&str, &str)] = &[
     ("spec", "its limits may, such as \"spec.deviation.max_m\""),
     ("spec.violation_share", "it judges all cases together"),
     ("spec.confidence", "it judges all cases together"),
+    ("spec.limits.violation_share", "it judges all cases together"),
+    ("spec.limits.confidence", "it judges all cases together"),
+    ("world.terrain.file", "one map is read for all cases"),
 ];
 /// Each is tried before anything flies.
 const MOST_CHOICES: usize = 1000;
@@ -33,7 +36,7 @@ const LEAST_SHARE: f64 = 0.01;
 /// All mistakes of `[vary]` in a scenario whose nominal values have none.
 pub(super) fn check(scenario: &Scenario) -> Vec<Mistake> {
     let nominal = as_value(scenario);
-    let entries = scenario.vary.iter();
+    let entries = scenario.vary().iter();
     entries.filter_map(|(key, distribution)| check_entry(scenario, &nominal, key, distribution).err()).collect()
 }
 

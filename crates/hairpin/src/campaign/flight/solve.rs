@@ -1,16 +1,15 @@
 //! One graph, from its number to its plans: the reach set asked for, the search asked for, and never another.
 
 use super::certificates::Certifier;
-use super::graph;
-use super::outcome::Outcome;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
-use crate::campaign::Setup;
+use super::{FlightSetup, graph};
+use crate::campaign::graph::Outcome;
 use crate::campaign::scenario::ReachName;
 
 /// The part of a search that is the same for every graph.
-pub(super) struct Solver<'a> {
-    setup: &'a Setup,
+pub(in crate::campaign) struct Solver<'a> {
+    setup: FlightSetup<'a>,
     set: Set<'a>,
     certifier: Option<Certifier>,
 }
@@ -25,7 +24,7 @@ impl<'a> Solver<'a> {
     ///
     /// # Errors
     /// Why there is none, in a sentence's part; also where the planned duration alone is beyond its limit.
-    pub(super) fn new(setup: &'a Setup) -> Result<Self, String> {
+    pub(in crate::campaign) fn new(setup: FlightSetup<'a>) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let set = match generate.reach {
             ReachName::Witness => Set::Witness(Box::new(Witness::new(setup)?)),
@@ -40,13 +39,13 @@ impl<'a> Solver<'a> {
             return Err(format!("{legs} legs of at least {shortest} s take longer than max_flight_time_s = {limit}"));
         }
         let wanted = generate.certify && generate.reach != ReachName::Witness;
-        let certifier = if wanted { Some(Certifier::new(setup)?) } else { None };
+        let certifier = if wanted { Some(Certifier::new(&setup)?) } else { None };
         Ok(Self { setup, set, certifier })
     }
 
     /// Searches graph number `graph`.
-    pub(super) fn solve(&self, graph: u64) -> Outcome {
-        let points = match graph::sample(self.setup, graph) {
+    pub(in crate::campaign) fn solve(&self, graph: u64) -> Outcome {
+        let points = match graph::sample(&self.setup, graph) {
             Ok(points) => points,
             Err(error) => return Outcome { graphs: 1, reason: Some(error.to_string()), ..Outcome::default() },
         };

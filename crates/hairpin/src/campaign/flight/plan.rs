@@ -2,15 +2,13 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
-use super::{Case, Timed};
+use crate::campaign::{Case, Timed};
 use crate::feasibility::steering::Flatness;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::{Channel, Track, TrackError};
 
 /// Rate of planned tracks, Hz.
 const RATE: f64 = 100.0;
-/// Rate of the timed reference that executors get, Hz.
-const REFERENCE_RATE: f64 = 50.0;
 
 /// Stamps from 0 to `duration` at `rate`, the end included.
 fn stamps(duration: f64, rate: f64) -> Vec<f64> {
@@ -45,12 +43,9 @@ fn sample(case: &Case, t: f64) -> (usize, Timed) {
     (leg, Timed { t, position: a + velocity * tau, velocity })
 }
 
-/// The timed reference of a mission; empty for a case without leg times.
-pub fn timed(case: &Case) -> Vec<Timed> {
-    if case.leg_times.is_empty() {
-        return Vec::new();
-    }
-    stamps(case.leg_times.iter().sum(), REFERENCE_RATE).into_iter().map(|t| sample(case, t).1).collect()
+/// The timed reference of a mission at `rate` (Hz).
+pub(in crate::campaign) fn timed(case: &Case, rate: f64) -> Vec<Timed> {
+    stamps(case.leg_times.iter().sum(), rate).into_iter().map(|t| sample(case, t).1).collect()
 }
 
 /// The planned motion at 100 Hz with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. Attitudes are those that a
@@ -59,7 +54,7 @@ pub fn timed(case: &Case) -> Vec<Timed> {
 ///
 /// # Errors
 /// A case whose numbers are no track, as a folder that was edited may hold.
-pub fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
+pub(in crate::campaign) fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
     let untimed = case.leg_times.is_empty();
     let case = &if untimed { paced(case) } else { case.clone() };
     let times = stamps(case.leg_times.iter().sum(), RATE);

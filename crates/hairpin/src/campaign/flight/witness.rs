@@ -2,17 +2,18 @@
 
 use nalgebra::Point3;
 
-use super::outcome::{Outcome, Plan, judge, score};
-use super::search::{Question, search};
+use super::FlightSetup;
+use super::legs::{judge, score};
+use crate::campaign::Evidence;
+use crate::campaign::graph::{Outcome, Plan, Question, search};
 use crate::campaign::scenario::Timing;
-use crate::campaign::{Evidence, Setup};
 use crate::feasibility::reach::{Roadmap, RoadmapSettings};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::math::random::named_seed;
 
 /// What judges legs, and how long they may take.
 pub(super) struct Witness<'a> {
-    setup: &'a Setup,
+    setup: FlightSetup<'a>,
     judge: LegJudge,
     timing: LegTiming,
 }
@@ -20,13 +21,13 @@ pub(super) struct Witness<'a> {
 impl<'a> Witness<'a> {
     /// # Errors
     /// As [`judge`].
-    pub(super) fn new(setup: &'a Setup) -> Result<Self, String> {
+    pub(super) fn new(setup: FlightSetup<'a>) -> Result<Self, String> {
         let timing = match setup.scenario.generate.timing_in_force() {
             Timing { step_s: Some(step), .. } => LegTiming::Step(step),
             Timing { leg_time_s: Some([shortest, longest]), .. } => LegTiming::ladder(shortest, longest),
             Timing { .. } => return Err("`timing` names neither leg_time_s nor step_s".into()),
         };
-        Ok(Self { setup, judge: judge(setup)?, timing })
+        Ok(Self { setup, judge: judge(&setup)?, timing })
     }
 
     /// The shortest leg time tried, s.
@@ -36,7 +37,7 @@ impl<'a> Witness<'a> {
 
     /// Searches graph number `graph` over `points`.
     pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
-        let scenario = &self.setup.scenario;
+        let scenario = self.setup.scenario;
         let settings = RoadmapSettings {
             velocities: scenario.generate.velocities as usize,
             timing: self.timing,
@@ -44,11 +45,12 @@ impl<'a> Witness<'a> {
         };
         let roadmap = Roadmap::new(&self.judge, points, &settings);
         let question = Question {
-            scenario,
+            search: &scenario.generate.search,
+            length: scenario.task.length as usize,
             points,
             reach: &roadmap,
             start: roadmap.start(),
-            score: score(self.setup, graph, self.judge.top_speed()),
+            score: score(&self.setup, graph, self.judge.top_speed()),
             seed: named_seed(scenario.seed, "uniform", graph),
             // The roadmap's own test is exact one step from the end, and legs are dear.
             lookahead: 0,

@@ -6,10 +6,11 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
-use super::outcome::{Outcome, Plan, score};
-use super::search::{Question, search};
+use super::FlightSetup;
+use super::legs::score;
+use crate::campaign::Evidence;
+use crate::campaign::graph::{Outcome, Plan, Question, search};
 use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
-use crate::campaign::{Evidence, Setup};
 use crate::feasibility::reach::{
     BruteForce, BruteForceSettings, CarriedNode, Everywhere, Filtered, Hull, HullSettings, Leg, PairMask, Reach,
     Sphere, StepNode, StepReach, StepSet, StepSettings,
@@ -29,7 +30,7 @@ enum Set {
 
 /// A step-wise reach set and what it assumes.
 pub(super) struct Stepwise<'a> {
-    setup: &'a Setup,
+    setup: FlightSetup<'a>,
     set: Set,
     settings: StepSettings,
 }
@@ -37,10 +38,10 @@ pub(super) struct Stepwise<'a> {
 impl<'a> Stepwise<'a> {
     /// # Errors
     /// Why there is no such set, in a sentence's part.
-    pub(super) fn new(setup: &'a Setup) -> Result<Self, String> {
+    pub(super) fn new(setup: FlightSetup<'a>) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let step = generate.timing_in_force().step_s.ok_or("`timing.step_s` is missing")?;
-        let robot = &setup.robot;
+        let robot = setup.robot;
         let hull = HullSettings { resolution: generate.resolution as usize, step, simd: setup.simd };
         let settings = StepSettings {
             step,
@@ -157,11 +158,12 @@ impl<'a> Stepwise<'a> {
         may_arrive: impl Fn(&N, usize) -> bool,
     ) -> Outcome {
         let question = Question {
-            scenario: &self.setup.scenario,
+            search: &self.setup.scenario.generate.search,
+            length: self.setup.scenario.task.length as usize,
             points,
             reach,
             start,
-            score: score(self.setup, graph, self.top_speed()),
+            score: score(&self.setup, graph, self.top_speed()),
             seed: named_seed(self.setup.scenario.seed, "uniform", graph),
             lookahead: LOOKAHEAD,
         };

@@ -1,6 +1,6 @@
 //! Boundary-value drives of rovers on elevation maps: solved, and replayed from what would be written.
 
-use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Settings, Steps};
+use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
 use crate::robot::rover::{Rover, Suspension};
 use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList};
@@ -71,6 +71,20 @@ impl Site<'_> {
         rough::predict(&self.course(steps), start, segments, |_| {})
     }
 
+    /// [`Self::predict`], every step's middle shown to `observe`.
+    ///
+    /// # Errors
+    /// As [`Self::predict`].
+    pub fn trace(
+        &self,
+        start: &Planar,
+        segments: &[Segment],
+        steps: Steps,
+        observe: impl FnMut(&Driven),
+    ) -> Result<rough::Prediction, rough::Blocked> {
+        rough::predict(&self.course(steps), start, segments, observe)
+    }
+
     /// `segments` as they would be written, replayed against `start` and `goal` by other equations and finer steps.
     ///
     /// # Errors
@@ -90,7 +104,7 @@ impl Site<'_> {
 }
 
 /// `rover` for the replay.
-fn ground_vehicle(rover: &Rover) -> GroundVehicle {
+pub(super) fn ground_vehicle(rover: &Rover) -> GroundVehicle {
     let stand = match &rover.suspension {
         Suspension::Level => Stand::Level,
         Suspension::FourWheel(body) => Stand::FourWheel { wheels: body.wheels, radius: body.wheel_radius },

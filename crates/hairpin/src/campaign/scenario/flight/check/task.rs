@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::Findings;
+use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::TaskSection;
 use crate::robot::quadrotor::Quadrotor;
 use crate::world::World;

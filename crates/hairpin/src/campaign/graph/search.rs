@@ -4,57 +4,58 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
-use crate::campaign::Scenario;
-use crate::campaign::scenario::SearchMethod;
+use crate::campaign::scenario::{SearchMethod, SearchSection};
 use crate::feasibility::reach::Reach;
 use crate::search::beam::Ended;
-use crate::search::{BeamSettings, ExactSettings, Found, LegGraph, Score, Task, UniformSettings, beam, exact, uniform};
+use crate::search::{BeamSettings, ExactSettings, Found, LegGraph, Objective, Task, UniformSettings, beam, exact, uniform};
 
 /// One graph and what is asked of it.
-pub(super) struct Question<'a, N, R> {
-    pub(super) scenario: &'a Scenario,
-    pub(super) points: &'a [Point3<f64>],
-    pub(super) reach: &'a R,
-    pub(super) start: N,
-    pub(super) score: Score,
+pub(in crate::campaign) struct Question<'a, N, R, O> {
+    pub(in crate::campaign) search: &'a SearchSection,
+    /// Waypoints of a trajectory, both ends included.
+    pub(in crate::campaign) length: usize,
+    pub(in crate::campaign) points: &'a [Point3<f64>],
+    pub(in crate::campaign) reach: &'a R,
+    pub(in crate::campaign) start: N,
+    pub(in crate::campaign) score: O,
     /// Seed of what the search itself draws.
-    pub(super) seed: u64,
+    pub(in crate::campaign) seed: u64,
     /// Steps from the end within which the beam asks the reach set itself whether the end can be reached.
-    pub(super) lookahead: usize,
+    pub(in crate::campaign) lookahead: usize,
 }
 
 /// What the search gave.
-pub(super) struct Answer<N> {
-    pub(super) found: Vec<Found<N>>,
+pub(in crate::campaign) struct Answer<N> {
+    pub(in crate::campaign) found: Vec<Found<N>>,
     /// Proven upper bound of the score.
-    pub(super) bound: Option<f64>,
-    pub(super) proven_empty: bool,
-    pub(super) expansions: u64,
-    pub(super) dropped: u64,
-    pub(super) duplicates: u64,
+    pub(in crate::campaign) bound: Option<f64>,
+    pub(in crate::campaign) proven_empty: bool,
+    pub(in crate::campaign) expansions: u64,
+    pub(in crate::campaign) dropped: u64,
+    pub(in crate::campaign) duplicates: u64,
     /// Why nothing was found.
-    pub(super) reason: Option<String>,
+    pub(in crate::campaign) reason: Option<String>,
 }
 
 /// Searches one graph. `may_arrive(node, steps)` is necessary for the end to be reached from `node` in `steps` legs.
-pub(super) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
-    question: &Question<N, R>,
+pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+    question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
 ) -> Answer<N> {
-    match question.scenario.generate.search.method {
+    match question.search.method {
         SearchMethod::Beam => by_beam(question, may_arrive),
         SearchMethod::Exact => by_dynamic_program(question),
         SearchMethod::Uniform => by_uniform_draws(question),
     }
 }
 
-fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
-    question: &Question<N, R>,
+fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+    question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
 ) -> Answer<N> {
-    let search = &question.scenario.generate.search;
+    let search = question.search;
     let settings = BeamSettings {
-        length: question.scenario.task.length as usize,
+        length: question.length,
         width: search.width as usize,
         per_graph: search.per_graph as usize,
         revisits: search.revisits,
@@ -85,11 +86,11 @@ fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
     }
 }
 
-fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<N, R>) -> Answer<N> {
-    let search = &question.scenario.generate.search;
+fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(question: &Question<N, R, O>) -> Answer<N> {
+    let search = question.search;
     let graph = leg_graph(question);
     let settings = ExactSettings {
-        length: question.scenario.task.length as usize,
+        length: question.length,
         best: search.per_graph as usize,
         revisits: search.revisits,
         aggregate: search.aggregate,
@@ -113,11 +114,11 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Questio
     }
 }
 
-fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<N, R>) -> Answer<N> {
-    let search = &question.scenario.generate.search;
+fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(question: &Question<N, R, O>) -> Answer<N> {
+    let search = question.search;
     let graph = leg_graph(question);
     let settings = UniformSettings {
-        length: question.scenario.task.length as usize,
+        length: question.length,
         wanted: search.per_graph as usize,
         draws: search.iterations.max(search.per_graph),
         revisits: search.revisits,
@@ -143,6 +144,6 @@ fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<
 }
 
 /// All legs of the graph that are on some way of the right length.
-fn leg_graph<'a, N: Copy + Eq + Ord + Hash, R: Reach<N>>(question: &Question<'a, N, R>) -> LegGraph<'a, N> {
-    LegGraph::explore(question.start, question.points, question.reach, question.scenario.task.length as usize)
+fn leg_graph<'a, N: Copy + Eq + Ord + Hash, R: Reach<N>, O>(question: &Question<'a, N, R, O>) -> LegGraph<'a, N> {
+    LegGraph::explore(question.start, question.points, question.reach, question.length)
 }

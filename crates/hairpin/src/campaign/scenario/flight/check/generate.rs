@@ -1,6 +1,6 @@
 //! Bounds of `[generate]`.
 
-use super::Findings;
+use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{GenerateSection, LimitsSection, ReachName, SearchMethod, SearchSection, Timing};
 use crate::search::Score;
 
@@ -62,15 +62,7 @@ fn check_search(search: &SearchSection, generate: &GenerateSection, found: &mut 
             &bound,
         );
     }
-    found.count("generate.search.width", search.width, 1, 100_000);
-    found.count("generate.search.cases", search.cases, 1, 1_000_000);
-    found.count("generate.search.per_graph", search.per_graph, 1, 1_000_000);
-    found.count("generate.search.iterations", search.iterations, 1, 1_000_000_000);
-    // A partial trajectory on the frontier is some hundred bytes: ten million are a few GB.
-    found.count("generate.search.frontier", search.frontier, 1, 10_000_000);
-    if let Some(graphs) = search.graphs {
-        found.count("generate.search.graphs", graphs, 1, 1_000_000_000);
-    }
+    search.check(found);
 }
 
 fn check_score(score: &str, found: &mut Findings) {

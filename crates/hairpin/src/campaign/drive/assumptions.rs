@@ -1,0 +1,77 @@
+//! What a drive's claim, execution and limits rest on, said from the run's own settings.
+
+use super::DriveSetup;
+use crate::campaign::scenario::{DriveController, GroundReach};
+
+/// What stands behind the legs.
+pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
+    let generate = &setup.scenario.generate;
+    said.push(match generate.reach {
+        GroundReach::None => "Reach `none`: every waypoint counts as reachable; nothing is claimed.".into(),
+        GroundReach::Sphere => "Reach `sphere`: a disc of radius top speed times step; nothing is claimed.".into(),
+        GroundReach::Hull => "Reach `hull`: `hull-feasible` is a geometric filter, neither sound nor complete: a convex hull \
+                              of the end points of constant-input runs is not a set of reachable points."
+            .into(),
+        GroundReach::Witness => format!(
+            "Reach `witness`: each leg's commands lead to the next waypoint's pose within {} m, {} rad, {} 1/m on the map as \
+             it is given, for the model: wheels that stay on the ground, quasi-static, slip as the robot's file has it.",
+            generate.solver.position_m, generate.solver.yaw_rad, generate.solver.curvature_1_m
+        ),
+    });
+    let bounds = setup.bounds();
+    said.push(format!(
+        "Plans keep |κ| ≤ {} 1/m, |κ′| ≤ {} 1/m², a tilt of at most {:.1}°, and go at {} m/s.",
+        bounds.most,
+        bounds.most_rate,
+        setup.tilt().to_degrees(),
+        setup.speed()
+    ));
+    if setup.rover.response.latency > 0.0 {
+        said.push(format!("The latency of {} s is not planned for: legs follow each other.", setup.rover.response.latency));
+    }
+    let grid = setup.map.grid();
+    let coarse = grid.cell[0].max(grid.cell[1]);
+    if setup.rover.suspension.wheelbase().is_some_and(|base| coarse > 0.5 * base) {
+        said.push(format!(
+            "The map's cells of {coarse:.2} m are coarser than half the wheelbase: attitudes are optimistic."
+        ));
+    }
+    if setup.map.holes() > 0 {
+        said.push(format!("{} cells of the map came without data.", setup.map.holes()));
+    }
+}
+
+/// Who drove them.
+pub(in crate::campaign) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
+    let execute = &setup.scenario.execute;
+    match (&execute.command, execute.controller_in_force()) {
+        (Some(command), None) => {
+            said.push(format!("Executed by `{command}`; legs are those that it reported."));
+        }
+        (_, controller) => {
+            let controller = controller.unwrap_or(DriveController::Predictive);
+            let latency = execute.latency_s.unwrap_or(setup.rover.response.latency);
+            said.push(format!(
+                "Simulated: suspension at rest at every step, slip by slope, latency {latency} s, steering lag and rate; \
+                 controller `{}` with hairpin's own gains knows the nominal vehicle and the map, and its pose exactly.",
+                controller.word()
+            ));
+        }
+    }
+}
+
+/// What deviation is.
+pub(in crate::campaign) fn verdict(setup: &DriveSetup, said: &mut Vec<String>) {
+    let limits = &setup.scenario.spec.limits;
+    said.push(match limits.path_deviation_m {
+        Some(_) => "Deviation is the distance from the planned path, along it. Tracks are not aligned.".into(),
+        None => "No deviation limit is given: deviations from the planned path are told, not judged.".into(),
+    });
+    if limits.tip_over_margin_deg.is_some() {
+        said.push(
+            "The tip-over margin is the angle by which the standing body could lean further before its weight leaves the \
+             wheels' outline: quasi-static, without the forces of driving."
+                .into(),
+        );
+    }
+}

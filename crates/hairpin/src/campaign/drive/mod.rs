@@ -1,0 +1,18 @@
+//! What drives: rovers on elevation maps, cars and differential drives.
+
+mod assumptions;
+mod drive;
+mod plan;
+mod setup;
+mod site;
+mod solve;
+mod verify;
+
+pub(super) use assumptions::{act, claim, verdict};
+pub(super) use drive::drive;
+pub(super) use plan::{timed, track};
+pub use setup::DriveSetup;
+pub(super) use setup::{keep_outs_of, map_of, planner_of, rover_of};
+pub use site::{Site, drive_piece};
+pub(super) use solve::Solver;
+pub(super) use verify::verify;

@@ -1,0 +1,157 @@
+//! From a drive scenario's numbers to the vehicle and the ground they describe.
+
+use std::sync::Arc;
+
+use crate::campaign::scenario::{
+    DriveScenario, GeneratorName, GroundDescription, KeepOutSection, Mistake, NoData, RobotSource, TerrainSection,
+};
+use crate::feasibility::steering::shooting::Curvatures;
+use crate::math::simd::Simd;
+use crate::robot::rover::{Response, Rover};
+use crate::world::terrain::generate::{Recipe, generate};
+use crate::world::terrain::{ElevationMap, HoleRule, KeepOut, KeepOutShape, KeepOuts, MapError};
+
+use super::Site;
+
+/// A resolved scenario of drives and what it describes.
+#[derive(Debug, Clone, Copy)]
+pub struct DriveSetup<'a> {
+    /// Every key, the robot's table inline.
+    pub scenario: &'a DriveScenario,
+    /// The vehicle.
+    pub rover: &'a Rover,
+    /// The vehicle as plans have it: without latency, which a leg's end cannot hand to the next one.
+    pub planner: &'a Rover,
+    /// The ground.
+    pub map: &'a Arc<ElevationMap>,
+    /// Where nothing may drive.
+    pub keep_out: &'a KeepOuts,
+    /// Version of the kernels.
+    pub simd: Simd,
+}
+
+impl<'a> DriveSetup<'a> {
+    /// Commanded speed, m/s.
+    pub fn speed(&self) -> f64 {
+        self.scenario.generate.limits.speed_m_s.unwrap_or(self.rover.default_speed).min(self.rover.limits.speed)
+    }
+
+    /// Commanded rate of turns in place, rad/s: the outermost wheel goes at [`Self::speed`].
+    pub fn turn_rate(&self) -> f64 {
+        self.speed() / self.rover.suspension.outer_radius().max(0.1)
+    }
+
+    /// Bounds of the commands' curvature: the scenario's or the robot's, whichever is smaller.
+    pub fn bounds(&self) -> Curvatures {
+        let (given, own) = (&self.scenario.generate.limits, &self.rover.limits);
+        Curvatures {
+            most: given.curvature_1_m.unwrap_or(f64::INFINITY).min(own.curvature),
+            most_rate: given.curvature_rate_1_m2.unwrap_or(f64::INFINITY).min(own.curvature_rate),
+        }
+    }
+
+    /// Largest tilt of a plan, rad.
+    pub fn tilt(&self) -> f64 {
+        self.scenario.generate.limits.tilt_deg.map_or(f64::INFINITY, f64::to_radians).min(self.rover.limits.tilt)
+    }
+
+    /// The vehicle on its ground at the commanded speed, straight on.
+    pub fn site(&self) -> Site<'a> {
+        Site { rover: self.planner, map: self.map, speed: self.speed(), direction: 0.0 }
+    }
+}
+
+/// The vehicle of a resolved source.
+///
+/// # Errors
+/// The robot's key that is out of bounds; a name that was not resolved before.
+pub fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistake> {
+    let GroundDescription::Rover(description) = source.resolved()?;
+    description.build().map_err(|error| Mistake {
+        key: format!("robot.{}", error.field),
+        value: error.value,
+        bound: error.bound,
+    })
+}
+
+/// `rover` as plans have it.
+pub fn planner_of(rover: &Rover) -> Rover {
+    Rover { response: Response { latency: 0.0, ..rover.response }, ..rover.clone() }
+}
+
+/// The ground of a section whose file was read; `seed` is the scenario's.
+///
+/// # Errors
+/// The key that is out of bounds; a file that was not read before.
+pub fn map_of(terrain: &TerrainSection, seed: u64) -> Result<Arc<ElevationMap>, Mistake> {
+    if let Some(map) = &terrain.map {
+        return Ok(map.clone());
+    }
+    let Some(generator) = terrain.generator else {
+        return Err(Mistake {
+            key: "world.terrain".into(),
+            value: terrain.file.clone().map_or_else(|| "{}".into(), |file| format!("\"{file}\"")),
+            bound: "a file that was read first, or a generator".into(),
+        });
+    };
+    let seed = terrain.seed.unwrap_or(seed);
+    let mut recipe = Recipe { seed, ..Recipe::default() };
+    recipe.size_m = terrain.size_m.unwrap_or(recipe.size_m);
+    recipe.cell_m = terrain.cell_m.unwrap_or(recipe.cell_m);
+    recipe.relief_m = terrain.relief_m.unwrap_or(recipe.relief_m);
+    recipe.rock_cover = terrain.rock_cover.unwrap_or(recipe.rock_cover);
+    match generator {
+        GeneratorName::Craters => {}
+        GeneratorName::Fractal => recipe.least_crater_m = f64::INFINITY,
+        GeneratorName::Flat => {
+            (recipe.least_crater_m, recipe.relief_m, recipe.rock_cover) = (f64::INFINITY, 0.0, 0.0);
+        }
+    }
+    generate(&recipe).map(Arc::new).map_err(|error| match error {
+        MapError::Grid { field, value, bound } => {
+            Mistake { key: format!("world.terrain.{field}"), value, bound: bound.into() }
+        }
+        other => Mistake { key: "world.terrain".into(), value: other.to_string(), bound: "a map".into() },
+    })
+}
+
+impl From<NoData> for HoleRule {
+    fn from(rule: NoData) -> Self {
+        match rule {
+            NoData::Error => Self::Error,
+            NoData::KeepOut => Self::KeepOut,
+            NoData::Fill => Self::Fill,
+        }
+    }
+}
+
+/// The places of a resolved section.
+///
+/// # Errors
+/// The key that is out of bounds.
+pub fn keep_outs_of(sections: &[KeepOutSection]) -> Result<KeepOuts, Mistake> {
+    let mut list = Vec::with_capacity(sections.len());
+    for (index, section) in sections.iter().enumerate() {
+        let shape = match (&section.circle, &section.polygon) {
+            (Some(circle), None) => {
+                KeepOutShape::Circle { center_m: circle.center_m, radius_m: circle.radius_m }
+            }
+            (None, Some(polygon)) => KeepOutShape::Polygon { points_m: polygon.points_m.clone() },
+            (circle, _) => {
+                let value = if circle.is_some() { "circle and polygon" } else { "no shape" };
+                return Err(Mistake {
+                    key: format!("world.keep_out[{index}]"),
+                    value: value.into(),
+                    bound: "exactly one of circle, polygon".into(),
+                });
+            }
+        };
+        let name = if section.name.is_empty() { format!("keep-out {index}") } else { section.name.clone() };
+        list.push(KeepOut { name, shape });
+    }
+    KeepOuts::new(list).map_err(|error| Mistake {
+        key: format!("world.{}", error.field),
+        value: error.value,
+        bound: error.bound,
+    })
+}

@@ -1,0 +1,166 @@
+//! One graph of ground waypoints, from its number to its plans.
+
+use std::f64::consts::PI;
+
+use nalgebra::Point3;
+
+use super::DriveSetup;
+use crate::campaign::Evidence;
+use crate::campaign::graph::{Outcome, Plan, Question, search};
+use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
+use crate::feasibility::reach::drive::{
+    DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres, sample_ground,
+};
+use crate::feasibility::steering::shooting::{Precision, rough};
+use crate::math::random::named_seed;
+use crate::search::{Found, OpenEnd, Score};
+use crate::trajectory::drive::Planar;
+use crate::world::terrain::Terrain;
+
+/// Waypoints at a leg's distance that each waypoint has, about: the disc that waypoints are spread over follows from it.
+const NEIGHBOURS: f64 = 12.0;
+
+/// The part of a search that is the same for every graph.
+pub(in crate::campaign) struct Solver<'a> {
+    setup: DriveSetup<'a>,
+    settings: DriveSettings,
+    search: SearchSection,
+}
+
+impl<'a> Solver<'a> {
+    /// # Errors
+    /// Why nothing can be searched, in a sentence's part.
+    pub(in crate::campaign) fn new(setup: DriveSetup<'a>) -> Result<Self, String> {
+        let settings = settings(&setup)?;
+        Ok(Self { setup, settings, search: setup.scenario.generate.search.section() })
+    }
+
+    /// Searches graph number `graph`.
+    pub(in crate::campaign) fn solve(&self, graph: u64) -> Outcome {
+        let points = match self.sample(graph) {
+            Ok(points) => points,
+            Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
+        };
+        match self.setup.scenario.generate.reach {
+            GroundReach::Witness => self.by_roadmap(graph, &points),
+            other => Outcome {
+                graphs: 1,
+                reason: Some(format!("reach `{}` is not in this version", other.word())),
+                ..Outcome::default()
+            },
+        }
+    }
+
+    /// Start, free waypoints and, if there is one, the end.
+    fn sample(&self, graph: u64) -> Result<Vec<Point3<f64>>, String> {
+        let task = &self.setup.scenario.task;
+        let [low, high] = task.leg_m;
+        let start = [task.start.x_m, task.start.y_m];
+        let area = self.search.waypoints as f64 * PI * (high * high - low * low) / NEIGHBOURS;
+        let (center, apart) = match task.end_m {
+            Some(end) => {
+                let middle = [0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])];
+                (middle, 0.5 * libm::hypot(end[0] - start[0], end[1] - start[1]))
+            }
+            None => (start, 0.0),
+        };
+        let asked = GroundSampling {
+            count: self.search.waypoints as usize,
+            margin: self.setup.planner.suspension.outer_radius(),
+            around: Some((center, libm::sqrt(area / PI).max(apart + high))),
+            sampling: self.search.sampling,
+            seed: named_seed(self.setup.scenario.seed, "graph", graph),
+        };
+        let free = sample_ground(&self.site(), &self.settings, &asked).map_err(|error| error.to_string())?;
+        let on_ground = |[x, y]: [f64; 2]| {
+            Point3::new(x, y, self.setup.map.patch(x, y).map_or(0.0, |patch| patch.height))
+        };
+        Ok(std::iter::once(on_ground(start)).chain(free).chain(task.end_m.map(on_ground)).collect())
+    }
+
+    fn by_roadmap(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
+        let task = &self.setup.scenario.task;
+        let start = Planar {
+            x: task.start.x_m,
+            y: task.start.y_m,
+            yaw: task.start.yaw_deg.to_radians(),
+            curvature: task.start.curvature_1_m,
+        };
+        let seed = |name: &str| named_seed(self.setup.scenario.seed, name, graph);
+        let settings = DriveSettings { seed: seed("roadmap"), ..self.settings.clone() };
+        let roadmap = DriveRoadmap::new(self.site(), points, &start, None, &settings);
+        let length = task.length as usize;
+        let plan = |found: Found<_>| {
+            let drive = roadmap.drive(&found.nodes)?;
+            Some(Plan { drive: Some(drive), ..Plan::new(&found, points, Evidence::Witnessed) })
+        };
+        let mut outcome = if task.end_m.is_some() {
+            let question = Question {
+                search: &self.search,
+                length,
+                points,
+                reach: &roadmap,
+                start: roadmap.start(),
+                score: Score::Ground,
+                seed: seed("uniform"),
+                lookahead: 0,
+            };
+            Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)), plan)
+        } else {
+            let open = OpenEnd::new(&roadmap, points);
+            let question = Question {
+                search: &self.search,
+                length: length + 1,
+                points: open.candidates(),
+                reach: &open,
+                start: open.task(roadmap.start()).start,
+                score: open.score(&Score::Ground, self.search.aggregate),
+                seed: seed("uniform"),
+                lookahead: 0,
+            };
+            let answer = search(&question, OpenEnd::<&DriveRoadmap>::may_arrive);
+            Outcome::of(graph, answer, |found| plan(open.closed(found)))
+        };
+        if outcome.plans.is_empty() {
+            outcome.reason = Some(roadmap.tally().to_string());
+        }
+        outcome
+    }
+
+    fn site(&self) -> DriveSite<'_> {
+        DriveSite::new(self.setup.planner, self.setup.map, self.setup.keep_out)
+    }
+}
+
+/// What legs may do, and how hard they are looked for.
+fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
+    let (task, generate) = (&setup.scenario.task, &setup.scenario.generate);
+    let may = |manoeuvre| generate.manoeuvres.contains(&manoeuvre);
+    let solver = &generate.solver;
+    let mut settings = DriveSettings {
+        leg_m: task.leg_m,
+        headings: generate.headings as usize,
+        speed: setup.speed(),
+        turn_rate: setup.turn_rate(),
+        manoeuvres: Manoeuvres {
+            forward: may(Manoeuvre::Forward),
+            reverse: may(Manoeuvre::Reverse),
+            turn_in_place: may(Manoeuvre::TurnInPlace) && setup.rover.limits.turns_in_place,
+        },
+        bounds: setup.bounds(),
+        limits: DriveLimits {
+            tilt: setup.tilt(),
+            joint: setup.rover.limits.joint,
+            belly: generate.limits.belly_clearance_m.unwrap_or(f64::NEG_INFINITY),
+        },
+        solver: rough::Settings {
+            iterations: solver.iterations as u32,
+            precision: Precision { position: solver.position_m, yaw: solver.yaw_rad, curvature: solver.curvature_1_m },
+        },
+        score: GroundScore::named(&generate.search.score).map_err(|error| error.to_string())?,
+        ..DriveSettings::of(setup.planner)
+    };
+    settings.flat.starts = solver.starts as u32;
+    settings.flat.simd = setup.simd;
+    Ok(settings)
+}

@@ -1,0 +1,35 @@
+//! Hands the written drives to the verification room, as plain numbers.
+
+use super::DriveSetup;
+use super::site::{drive_piece, ground_vehicle};
+use crate::campaign::Case;
+use crate::trajectory::drive::Planar;
+use crate::verification::{DriveLegClaim, DriveTolerances, DrivesClaim, Proof, verify_drives};
+
+/// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that claims no
+/// witness.
+pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
+    let drive = case.drive.as_ref()?;
+    let end = |at: &Planar| [at.x, at.y, at.yaw, at.curvature];
+    let legs: Vec<DriveLegClaim> = (drive.legs.iter().enumerate())
+        .map(|(number, leg)| DriveLegClaim {
+            from: end(&leg.from),
+            to: end(&leg.to),
+            pieces: leg.segments.iter().map(drive_piece).collect(),
+            duration: drive.leg_time(number),
+        })
+        .collect();
+    let waypoints: Vec<[f64; 2]> = case.waypoints.iter().map(|p| [p.x, p.y]).collect();
+    let claim =
+        DrivesClaim { waypoints: &waypoints, legs: &legs, speed: drive.speed, direction: drive.direction };
+    let (solver, bounds) = (&setup.scenario.generate.solver, setup.bounds());
+    let tolerances = DriveTolerances {
+        position: solver.position_m,
+        yaw: solver.yaw_rad,
+        curvature: solver.curvature_1_m,
+        most_curvature: bounds.most,
+        most_curvature_rate: bounds.most_rate,
+        most_tilt: setup.tilt(),
+    };
+    Some(verify_drives(&ground_vehicle(setup.planner), setup.map.as_ref(), &claim, &tolerances))
+}

@@ -1,0 +1,94 @@
+//! What a flight's claim, execution and limits rest on, said from the run's own settings.
+
+use super::FlightSetup;
+use crate::campaign::Case;
+use crate::campaign::scenario::{DeviationFrom, EstimatedAttitude, EstimatedVelocity, ReachName, Timing};
+
+/// What stands behind the legs.
+pub(in crate::campaign) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>) {
+    let generate = &setup.scenario.generate;
+    said.push(match generate.reach {
+        ReachName::None => "Reach `none`: every waypoint counts as reachable; nothing is claimed.".into(),
+        ReachName::Sphere => format!(
+            "Reach `sphere`: a ball of radius top speed ({} m/s) times step; a necessary condition at best, nothing is \
+             claimed.",
+            setup.robot.max_speed
+        ),
+        ReachName::Hull => "Reach `hull`: `hull-feasible` is a geometric filter, neither sound nor complete: a convex \
+                            hull of sampled end points is not a set of reachable points; drag and rotor lag are off in it."
+            .into(),
+        ReachName::Published => "Reach `published`: one Euler step, as the paper's program has it, for comparison only; \
+                                 its angles alias."
+            .into(),
+        ReachName::Witness => "Reach `witness`: each leg starts and ends level and has rotor speeds within limits all \
+                               along, with drag, for the model; rotor lag and wind are outside the claim; no flips are \
+                               found."
+            .into(),
+    });
+    if !matches!(generate.reach, ReachName::Witness) {
+        let velocity = match generate.estimate.velocity {
+            EstimatedVelocity::Average => "leg over step",
+            EstimatedVelocity::Zero => "zero",
+        };
+        let attitude = match generate.estimate.attitude {
+            EstimatedAttitude::Level => "level",
+            EstimatedAttitude::Keep => "kept from the nearest sample",
+        };
+        said.push(format!("State assumed at a waypoint: velocity {velocity}, attitude {attitude}."));
+        if generate.limits.max_tilt_deg.is_some() {
+            said.push(format!("`max_tilt_deg` is not checked by reach `{}`.", generate.reach.word()));
+        }
+    }
+    if let Some(Timing { step_s: Some(step), .. }) = generate.timing {
+        said.push(format!("Every leg is planned to take {step} s."));
+    }
+    let certified: Vec<_> = cases.iter().filter_map(|case| case.certified).collect();
+    if !certified.is_empty() {
+        let count = |answer: &str| certified.iter().filter(|found| **found == answer).count();
+        said.push(format!(
+            "Certified afterwards: {} yes, with leg times of the witness, {} no, {} unknown of {}.",
+            count("yes"),
+            count("no"),
+            count("unknown"),
+            certified.len()
+        ));
+    }
+}
+
+/// Who flew them.
+pub(in crate::campaign) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
+    let execute = &setup.scenario.execute;
+    if let (Some(command), None) = (&execute.command, execute.controller_in_force()) {
+        said.push(format!("Executed by `{command}`; legs are those that it reported."));
+    } else if let Some(controller) = execute.controller_in_force() {
+        said.push(format!(
+            "Simulated: rigid body with rotor lag and drag at {} s, controller `{}` with hairpin's own gains, fixed by \
+             step responses; noise {}.",
+            execute.step_s,
+            controller.word(),
+            if execute.noise { "on" } else { "off" }
+        ));
+    }
+}
+
+/// What deviation is.
+pub(in crate::campaign) fn verdict(setup: &FlightSetup, said: &mut Vec<String>) {
+    match setup.scenario.spec.deviation {
+        Some(deviation) => {
+            let from = match deviation.from {
+                DeviationFrom::Leg => "the straight leg being flown",
+                DeviationFrom::NearestLeg => "the nearer of the previous and the current leg",
+                DeviationFrom::Path => "the programmed path",
+            };
+            let corner = if deviation.corner_m > 0.0 {
+                format!("; within {} m of the leg's own waypoints overshoot is judged instead", deviation.corner_m)
+            } else {
+                String::new()
+            };
+            said.push(format!("Deviation is the distance from {from}{corner}. Tracks are not aligned."));
+        }
+        None => {
+            said.push("No deviation limit is given: deviations are told, not judged. Tracks are not aligned.".into())
+        }
+    }
+}

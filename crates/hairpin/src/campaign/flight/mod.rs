@@ -1,0 +1,21 @@
+//! What flies: quadrotors in a cage.
+
+mod assumptions;
+mod certificates;
+mod legs;
+mod fly;
+mod graph;
+mod plan;
+mod setup;
+mod solve;
+mod stepwise;
+mod verify;
+mod witness;
+
+pub(super) use assumptions::{act, claim, verdict};
+pub(super) use fly::{Order, fly};
+pub(super) use plan::{timed, track};
+pub use setup::FlightSetup;
+pub(super) use setup::{robot_of, world_of};
+pub(super) use solve::Solver;
+pub(super) use verify::verify;

@@ -1,0 +1,69 @@
+//! From a flight scenario's numbers to the robot and the space they describe.
+
+use nalgebra::Vector3;
+
+use crate::campaign::scenario::{FlightScenario, Mistake, ObstacleSection, RobotSource, WorldSection};
+use crate::math::simd::Simd;
+use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription};
+use crate::world::{Obstacle, Shape, World, WorldError};
+
+/// A resolved scenario of flights and what it describes.
+#[derive(Debug, Clone, Copy)]
+pub struct FlightSetup<'a> {
+    /// Every key, the robot's table inline.
+    pub scenario: &'a FlightScenario,
+    /// The robot of the claim.
+    pub robot: &'a Quadrotor,
+    /// The space.
+    pub world: &'a World,
+    /// Version of the kernels that generate and fly.
+    pub simd: Simd,
+}
+
+/// The robot of a resolved source.
+///
+/// # Errors
+/// The robot's key that is out of bounds; a name that was not resolved before.
+pub fn robot_of(source: &RobotSource<QuadrotorDescription>) -> Result<Quadrotor, Mistake> {
+    source.resolved()?.build().map_err(|error| Mistake {
+        key: format!("robot.{}", error.field),
+        value: error.value,
+        bound: error.bound,
+    })
+}
+
+/// The world of a resolved section.
+///
+/// # Errors
+/// The world's key that is out of bounds.
+pub fn world_of(section: &WorldSection) -> Result<World, Mistake> {
+    let mut obstacles = Vec::with_capacity(section.obstacles.len());
+    for (index, obstacle) in section.obstacles.iter().enumerate() {
+        let shape = shape_of(obstacle).map_err(|error| mistake(&format!("obstacles[{index}]."), error))?;
+        let name = if obstacle.name.is_empty() { format!("obstacle {index}") } else { obstacle.name.clone() };
+        obstacles.push(Obstacle { name, shape });
+    }
+    let Some(size) = section.size_m else {
+        return Err(Mistake { key: "world.size_m".into(), value: "missing".into(), bound: "given".into() });
+    };
+    World::new(Vector3::from(size), section.keep_in_margin_m.unwrap_or(0.0), obstacles).map_err(|e| mistake("", e))
+}
+
+fn mistake(prefix: &str, error: WorldError) -> Mistake {
+    Mistake { key: format!("world.{prefix}{}", error.field), value: error.value, bound: error.bound }
+}
+
+fn shape_of(obstacle: &ObstacleSection) -> Result<Shape, WorldError> {
+    match obstacle {
+        ObstacleSection { cuboid: Some(b), .. } => Shape::cuboid(b.center_m, b.size_m),
+        ObstacleSection { sphere: Some(s), .. } => Shape::sphere(s.center_m, s.radius_m),
+        ObstacleSection { capsule: Some(c), .. } => Shape::capsule(c.a_m, c.b_m, c.radius_m),
+        ObstacleSection { hull: Some(h), .. } => Shape::hull(&h.points_m),
+        ObstacleSection { mesh: Some(m), .. } => Shape::mesh(&m.vertices_m, &m.triangles),
+        _ => Err(WorldError {
+            field: "shape".into(),
+            value: "missing".into(),
+            bound: "one of box, sphere, capsule, hull, mesh".into(),
+        }),
+    }
+}

@@ -1,0 +1,85 @@
+//! What one graph gives, and what every way of searching it is asked with.
+
+use nalgebra::Point3;
+
+use super::search::Answer;
+use crate::campaign::Evidence;
+use crate::search::Found;
+use crate::trajectory::Profile;
+use crate::trajectory::drive::Drive;
+
+/// A trajectory that a graph gave.
+#[derive(Debug, Clone)]
+pub(in crate::campaign) struct Plan {
+    pub(in crate::campaign) waypoints: Vec<Point3<f64>>,
+    pub(in crate::campaign) leg_times: Vec<f64>,
+    pub(in crate::campaign) score: f64,
+    pub(in crate::campaign) bound: Option<f64>,
+    pub(in crate::campaign) evidence: Evidence,
+    pub(in crate::campaign) certified: Option<&'static str>,
+    pub(in crate::campaign) profile: Option<Profile>,
+    pub(in crate::campaign) drive: Option<Drive>,
+}
+
+impl Plan {
+    /// What was found among `points`, on `evidence`.
+    pub(in crate::campaign) fn new<N>(found: &Found<N>, points: &[Point3<f64>], evidence: Evidence) -> Self {
+        Self {
+            waypoints: found.waypoints.iter().map(|&index| points[index as usize]).collect(),
+            leg_times: found.leg_times.clone(),
+            score: found.score,
+            bound: None,
+            evidence,
+            certified: None,
+            profile: None,
+            drive: None,
+        }
+    }
+}
+
+/// What one unit of work gave.
+#[derive(Debug, Clone, Default)]
+pub(in crate::campaign) struct Outcome {
+    /// Number of the graph, plan.
+    pub(in crate::campaign) plans: Vec<(u64, Plan)>,
+    pub(in crate::campaign) graphs: u64,
+    pub(in crate::campaign) proven_empty: u64,
+    pub(in crate::campaign) expansions: u64,
+    pub(in crate::campaign) dropped: u64,
+    pub(in crate::campaign) duplicates: u64,
+    /// Why there is no plan.
+    pub(in crate::campaign) reason: Option<String>,
+}
+
+impl Outcome {
+    /// The outcome of graph number `graph`; `plan` gives `None` for what breaks a limit of whole trajectories.
+    pub(in crate::campaign) fn of<N>(graph: u64, answer: Answer<N>, plan: impl Fn(Found<N>) -> Option<Plan>) -> Self {
+        let found = answer.found.len();
+        let plans: Vec<(u64, Plan)> = answer
+            .found
+            .into_iter()
+            .filter_map(plan)
+            .map(|plan| (graph, Plan { bound: answer.bound, ..plan }))
+            .collect();
+        let too_long = (plans.is_empty() && found > 0).then(|| "`max_flight_time_s` is exceeded".to_string());
+        Self {
+            plans,
+            graphs: 1,
+            proven_empty: answer.proven_empty.into(),
+            expansions: answer.expansions,
+            dropped: answer.dropped,
+            duplicates: answer.duplicates,
+            reason: answer.reason.or(too_long),
+        }
+    }
+
+    pub(in crate::campaign) fn add(&mut self, other: Outcome) {
+        self.plans.extend(other.plans);
+        self.graphs += other.graphs;
+        self.proven_empty += other.proven_empty;
+        self.expansions += other.expansions;
+        self.dropped += other.dropped;
+        self.duplicates += other.duplicates;
+        self.reason = other.reason;
+    }
+}

@@ -1,0 +1,163 @@
+//! The bounds of every key of a drive.
+
+use super::{DriveExecute, DriveGenerate, DriveScenario, DriveSpec, GroundReach, Manoeuvre};
+use crate::campaign::drive::{keep_outs_of, map_of, rover_of};
+use crate::campaign::scenario::findings::Findings;
+use crate::campaign::scenario::{Mistake, SearchMethod};
+use crate::robot::rover::Rover;
+use crate::feasibility::reach::drive::GroundScore;
+use crate::world::terrain::Terrain;
+
+/// Longer trajectories take days to drive.
+const LONGEST: u64 = 1_000;
+/// Nodes of the roadmap, waypoints × headings: legs are pairs of them, each a boundary-value problem.
+const MOST_NODES: u64 = 5_000;
+
+impl DriveScenario {
+    /// Every nominal value that is out of bounds, in the order of the file.
+    pub(in crate::campaign::scenario) fn check(&self) -> Vec<Mistake> {
+        let mut found = Findings::default();
+        found.head(self.hairpin, self.seed);
+        let rover = rover_of(&self.robot).map_err(|mistake| found.add(mistake)).ok();
+        self.check_ground(&mut found);
+        self.check_task(rover.as_ref(), &mut found);
+        check_generate(&self.generate, rover.as_ref(), &mut found);
+        check_execute(&self.execute, &mut found);
+        check_spec(&self.spec, &mut found);
+        found.0
+    }
+
+    fn check_ground(&self, found: &mut Findings) {
+        let terrain = &self.world.terrain;
+        let one = terrain.file.is_some() != terrain.generator.is_some();
+        found.require(one, "world.terrain", "a table", "exactly one of file and generator");
+        for (key, given) in [
+            ("size_m", terrain.size_m.is_some()),
+            ("seed", terrain.seed.is_some()),
+            ("relief_m", terrain.relief_m.is_some()),
+            ("rock_cover", terrain.rock_cover.is_some()),
+        ] {
+            let fine = !given || terrain.generator.is_some();
+            found.require(fine, &format!("world.terrain.{key}"), "given", "left out: it is for generated ground");
+        }
+        if let Err(mistake) = keep_outs_of(&self.world.keep_out) {
+            found.add(mistake);
+        }
+    }
+
+    fn check_task(&self, rover: Option<&Rover>, found: &mut Findings) {
+        let task = &self.task;
+        found.count("task.length", task.length, 2, LONGEST);
+        let [low, high] = task.leg_m;
+        found.above("task.leg_m[0]", low, 0.0, 1000.0, " m");
+        found.above("task.leg_m[1]", high, 0.0, 1000.0, " m");
+        found.require(low < high, "task.leg_m", format!("[{low}, {high}]"), "rising: [shortest, longest]");
+        found.from("task.start.yaw_deg", task.start.yaw_deg, -3600.0, 3600.0, "°");
+        if let Some(rover) = rover {
+            let most = rover.limits.curvature;
+            found.from("task.start.curvature_1_m", task.start.curvature_1_m, -most, most, " 1/m, the robot's");
+        }
+        if !found.0.is_empty() {
+            return;
+        }
+        match map_of(&self.world.terrain, self.seed) {
+            Err(mistake) => found.add(mistake),
+            Ok(map) => {
+                let places = [("task.start", Some([task.start.x_m, task.start.y_m])), ("task.end_m", task.end_m)];
+                for (key, place) in places {
+                    let Some([x, y]) = place else { continue };
+                    if let Err(error) = map.patch(x, y) {
+                        let (low, high) = map.extent();
+                        let bound = format!(
+                            "on the map, x {} … {} m, y {} … {} m, and not on a cell without data: {error}",
+                            low[0], high[0], low[1], high[1]
+                        );
+                        found.require(false, key, format!("({x}, {y})"), &bound);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut Findings) {
+    let search = &generate.search;
+    found.count("generate.headings", generate.headings, 1, 64);
+    let most = if search.method == SearchMethod::Beam { MOST_NODES } else { MOST_NODES / 4 };
+    found.count("generate.search.waypoints", search.waypoints, 1, most);
+    let nodes = search.waypoints.saturating_mul(generate.headings);
+    if generate.reach == GroundReach::Witness && search.waypoints <= most {
+        let bound = format!("at most {most}: waypoints × headings ({}) of the roadmap", generate.headings);
+        let value = format!("{} ({nodes} nodes)", search.waypoints);
+        found.require(nodes <= most, "generate.search.waypoints", value, &bound);
+    }
+    search.section().check(found);
+    if let Err(error) = GroundScore::named(&search.score) {
+        found.require(false, "generate.search.score", format!("\"{}\"", search.score), &error.to_string());
+    }
+    found.above("generate.step_s", generate.step_s, 0.0, 1000.0, " s");
+    let gears = generate.manoeuvres.iter().any(|m| matches!(m, Manoeuvre::Forward | Manoeuvre::Reverse));
+    found.require(gears, "generate.manoeuvres", "no gear", "forward or reverse at least");
+    let limits = &generate.limits;
+    for (key, value, most, unit) in [
+        ("curvature_1_m", limits.curvature_1_m, 1e3, " 1/m"),
+        ("curvature_rate_1_m2", limits.curvature_rate_1_m2, 1e6, " 1/m²"),
+        ("speed_m_s", limits.speed_m_s, rover.map_or(100.0, |rover| rover.limits.speed.min(100.0)), " m/s"),
+        ("tilt_deg", limits.tilt_deg, 89.0, "°"),
+    ] {
+        if let Some(value) = value {
+            found.above(&format!("generate.limits.{key}"), value, 0.0, most, unit);
+        }
+    }
+    if let Some(clearance) = limits.belly_clearance_m {
+        found.from("generate.limits.belly_clearance_m", clearance, 0.0, 10.0, " m");
+    }
+    let solver = &generate.solver;
+    found.above("generate.solver.position_m", solver.position_m, 1e-6, 1.0, " m");
+    found.above("generate.solver.yaw_rad", solver.yaw_rad, 1e-6, 1.0, " rad");
+    found.above("generate.solver.curvature_1_m", solver.curvature_1_m, 1e-6, 1.0, " 1/m");
+    found.count("generate.solver.iterations", solver.iterations, 1, 100_000);
+    found.count("generate.solver.starts", solver.starts, 1, 1_000);
+}
+
+fn check_execute(execute: &DriveExecute, found: &mut Findings) {
+    let both = execute.controller.is_some() && execute.command.is_some();
+    let given = format!("\"{}\"", execute.command.as_deref().unwrap_or_default());
+    found.require(!both, "execute.command", given, "left out where `controller` is given: one of the two");
+    if let Some(command) = &execute.command {
+        let fine = !command.trim().is_empty();
+        found.require(fine, "execute.command", format!("\"{command}\""), "a program and its arguments");
+    }
+    found.count("execute.repeat", execute.repeat, 1, 100_000);
+    found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");
+    if let Some(limit) = execute.time_limit_s {
+        found.above("execute.time_limit_s", limit, 0.0, 1e6, " s");
+    }
+    if let Some(latency) = execute.latency_s {
+        found.from("execute.latency_s", latency, 0.0, 60.0, " s");
+    }
+    found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
+    if let Some(workers) = execute.workers {
+        found.count("execute.workers", workers, 1, 1024);
+    }
+}
+
+fn check_spec(spec: &DriveSpec, found: &mut Findings) {
+    let limits = &spec.limits;
+    if let Some(most) = limits.path_deviation_m {
+        found.above("spec.limits.path_deviation_m", most, 0.0, 1e6, " m");
+    }
+    if let Some(least) = limits.tip_over_margin_deg {
+        found.from("spec.limits.tip_over_margin_deg", least, 0.0, 90.0, "°");
+    }
+    if let Some(most) = limits.total_time_s {
+        found.above("spec.limits.total_time_s", most, 0.0, 1e9, " s");
+    }
+    if let Some(share) = limits.violation_share {
+        found.require((0.0..1.0).contains(&share), "spec.limits.violation_share", share, "≥ 0 and < 1");
+    }
+    if let Some(confidence) = limits.confidence {
+        let fine = (0.5..1.0).contains(&confidence);
+        found.require(fine, "spec.limits.confidence", confidence, "≥ 0.5 and < 1, such as 0.95");
+    }
+}

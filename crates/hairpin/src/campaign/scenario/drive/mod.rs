@@ -1,0 +1,64 @@
+//! Scenarios of drives: rovers on elevation maps, cars and differential drives; keys, defaults, bounds.
+
+mod check;
+mod execute;
+mod generate;
+mod spec;
+mod task;
+mod world;
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Distribution, RobotSource};
+use crate::robot::rover::RoverDescription;
+
+pub use execute::*;
+pub use generate::*;
+pub use spec::*;
+pub use task::*;
+pub use world::*;
+
+/// A scenario of drives.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DriveScenario {
+    /// Format of the file: 1.
+    pub hairpin: u32,
+    /// A shipped robot's name, a robot file, or the robot's own table.
+    pub robot: RobotSource<GroundDescription>,
+    /// Root seed of the campaign.
+    #[serde(default)]
+    pub seed: u64,
+    /// The ground.
+    pub world: GroundSection,
+    /// What is to be driven.
+    pub task: DriveTask,
+    /// How trajectories are searched for.
+    #[serde(default)]
+    pub generate: DriveGenerate,
+    /// How they are executed.
+    #[serde(default)]
+    pub execute: DriveExecute,
+    /// Any scenario key may have a distribution.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub vary: BTreeMap<String, Distribution>,
+    /// What is within spec.
+    #[serde(default)]
+    pub spec: DriveSpec,
+}
+
+/// A ground vehicle as a file has it, told apart by `kind`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum GroundDescription {
+    /// `kind = "rover"`.
+    Rover(RoverDescription),
+}
+
+impl GroundDescription {
+    /// Words of `kind`.
+    pub const KINDS: &'static [&'static str] = &["rover"];
+}

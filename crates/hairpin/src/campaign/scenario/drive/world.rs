@@ -1,0 +1,145 @@
+//! `[world]`: the ground, and where nothing may drive.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::campaign::scenario::Origin;
+use crate::world::terrain::ElevationMap;
+
+/// `[world]`: m, z up, x east, y north, as the elevation map has them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GroundSection {
+    /// The ground.
+    pub terrain: TerrainSection,
+    /// Frame of the poses in this file: enu | ned (z down, yaw clockwise from north). Resolved scenarios are in enu.
+    #[serde(default)]
+    pub frame: Frame,
+    /// Where nothing may drive.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub keep_out: Vec<KeepOutSection>,
+    /// Where on Earth the map's origin lies: used by geodetic exports.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Origin>,
+}
+
+/// Frames of poses in scenario files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Frame {
+    /// x east, y north, yaw counter-clockwise from east.
+    #[default]
+    Enu,
+    /// x north, y east, yaw clockwise from north.
+    Ned,
+}
+
+/// `terrain = { file = … }` or `terrain = { generator = … }`.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TerrainSection {
+    /// GeoTIFF, ESRI ASCII grid, 16-bit PNG or raw raster, NumPy array; relative to the scenario file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Cells without data: error | keep-out | fill.
+    #[serde(default)]
+    pub no_data: NoData,
+    /// Edge of a cell: of generated ground, and where the file does not say it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cell_m: Option<f64>,
+    /// Heights of the least and the largest value of a 16-bit file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_m: Option<[f64; 2]>,
+    /// Centre of the south-west cell, where the file does not say it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin_m: Option<[f64; 2]>,
+    /// hairpin's own ground: craters | fractal | flat.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub generator: Option<GeneratorName>,
+    /// Edge of the generated square; 60 m if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size_m: Option<f64>,
+    /// Seed of the generated ground; the scenario's if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+    /// Standard deviation of the generated ground's height, about.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relief_m: Option<f64>,
+    /// Share of the generated ground that is covered by rocks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rock_cover: Option<f64>,
+    /// The file's map, once it was read.
+    #[serde(skip)]
+    pub map: Option<Arc<ElevationMap>>,
+}
+
+impl PartialEq for TerrainSection {
+    /// Compares the keys: two reads of one file are one ground.
+    fn eq(&self, other: &Self) -> bool {
+        self.file == other.file
+            && self.no_data == other.no_data
+            && (self.cell_m, self.height_m, self.origin_m) == (other.cell_m, other.height_m, other.origin_m)
+            && (self.generator, self.size_m, self.seed) == (other.generator, other.size_m, other.seed)
+            && (self.relief_m, self.rock_cover) == (other.relief_m, other.rock_cover)
+    }
+}
+
+/// Rules for cells that hold no data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum NoData {
+    /// A reason to refuse the map.
+    #[default]
+    Error,
+    /// Nowhere to drive.
+    KeepOut,
+    /// Filled in from around.
+    Fill,
+}
+
+/// Kinds of generated ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum GeneratorName {
+    /// Fractal ground with craters and rocks.
+    Craters,
+    /// Fractal ground with rocks.
+    Fractal,
+    /// A plane at height 0.
+    Flat,
+}
+
+/// One keep-out: exactly one of the shapes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct KeepOutSection {
+    /// Name in reports.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// A disc.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub circle: Option<CircleSection>,
+    /// A polygon.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub polygon: Option<PolygonSection>,
+}
+
+/// `circle = { center_m, radius_m }`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CircleSection {
+    /// Centre.
+    pub center_m: [f64; 2],
+    /// Radius.
+    pub radius_m: f64,
+}
+
+/// `polygon = { points_m }`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PolygonSection {
+    /// Corners, in turn.
+    pub points_m: Vec<[f64; 2]>,
+}

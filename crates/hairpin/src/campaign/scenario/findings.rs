@@ -1,0 +1,55 @@
+//! What checks of scenarios find, and the few questions that most keys are asked.
+
+use super::Mistake;
+
+/// The mistakes found so far, with the few questions that most keys are asked.
+#[derive(Default)]
+pub(super) struct Findings(pub(super) Vec<Mistake>);
+
+impl Findings {
+    /// The first keys of every scenario.
+    pub(super) fn head(&mut self, format: u32, seed: u64) {
+        self.require(format == 1, "hairpin", format, "1, the only scenario format there is");
+        // TOML's whole numbers end here: a campaign's scenario file must hold its seed.
+        self.count("seed", seed, 0, i64::MAX as u64);
+    }
+
+    pub(super) fn add(&mut self, mistake: Mistake) {
+        self.0.push(mistake);
+    }
+
+    pub(super) fn require(&mut self, fine: bool, key: &str, value: impl ToString, bound: &str) {
+        if !fine {
+            self.add(Mistake { key: key.into(), value: value.to_string(), bound: bound.into() });
+        }
+    }
+
+    pub(super) fn count(&mut self, key: &str, value: u64, least: u64, most: u64) {
+        self.require((least..=most).contains(&value), key, value, &format!("{least} … {}", grouped(most)));
+    }
+
+    /// `least` itself is allowed.
+    pub(super) fn from(&mut self, key: &str, value: f64, least: f64, most: f64, unit: &str) {
+        let bound = format!("≥ {least} and ≤ {most}{unit}");
+        self.require(value >= least && value <= most, key, value, &bound);
+    }
+
+    /// `least` itself is not allowed.
+    pub(super) fn above(&mut self, key: &str, value: f64, least: f64, most: f64, unit: &str) {
+        let bound = format!("> {least} and ≤ {most}{unit}");
+        self.require(value > least && value <= most, key, value, &bound);
+    }
+}
+
+/// `1000000` as `1 000 000`, which can be read.
+fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}

@@ -1,0 +1,226 @@
+//! The proof of a drive over several waypoints: every leg replayed from its own start.
+
+use super::drive::{DriveClaim, DrivePiece, replay_drive};
+use super::finding::{Finding, Proof, Worst, note};
+use super::ground::{GroundClaim, GroundVehicle, replay_ground};
+use crate::world::terrain::Terrain;
+
+/// One leg of a drive as it was written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveLegClaim {
+    /// x, y (m), ψ (rad), κ (1/m) at its first waypoint.
+    pub from: [f64; 4],
+    /// The same at its last.
+    pub to: [f64; 4],
+    /// The commands.
+    pub pieces: Vec<DrivePiece>,
+    /// Planned duration, s.
+    pub duration: f64,
+}
+
+/// What the whole drive claims.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrivesClaim<'a> {
+    /// Waypoints, x and y, m.
+    pub waypoints: &'a [[f64; 2]],
+    /// One leg between each two.
+    pub legs: &'a [DriveLegClaim],
+    /// Commanded speed, m/s.
+    pub speed: f64,
+    /// Direction of travel in the body, rad.
+    pub direction: f64,
+}
+
+/// What a leg may leave open, and what it must keep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DriveTolerances {
+    /// Distance from the leg's last waypoint, m.
+    pub position: f64,
+    /// Heading there, rad.
+    pub yaw: f64,
+    /// Curvature there, 1/m.
+    pub curvature: f64,
+    /// Largest |κ| of the commands, 1/m.
+    pub most_curvature: f64,
+    /// Largest |κ′| of the commands, 1/m².
+    pub most_curvature_rate: f64,
+    /// Largest angle of the body's z axis from the vertical, rad.
+    pub most_tilt: f64,
+}
+
+/// Bounds are kept up to this share of them: what a replay on a grid may see of rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// Integrates the written commands of every leg on the ground: each must end in the next waypoint's pose, keep its bounds,
+/// and begin where the one before ends. Whatever is wrong is a finding; nothing panics on what a file may hold.
+pub fn verify_drives<T: Terrain>(
+    vehicle: &GroundVehicle,
+    terrain: &T,
+    claim: &DrivesClaim,
+    tolerances: &DriveTolerances,
+) -> Proof {
+    let mut proof = Proof::default();
+    let finding = |field: String, value: f64, bound: f64, unit: &'static str, leg: usize, at: f64| Finding {
+        field,
+        value,
+        bound,
+        unit,
+        leg,
+        at,
+    };
+    if claim.legs.is_empty() || claim.legs.len() + 1 != claim.waypoints.len() {
+        let (found, wanted) = (claim.legs.len() as f64, claim.waypoints.len() as f64 - 1.0);
+        proof.findings.push(finding("legs".into(), found, wanted, "", 0, 0.0));
+        return proof;
+    }
+    let mut at = 0.0;
+    for (number, leg) in claim.legs.iter().enumerate() {
+        check_joint(&mut proof, claim, number, at);
+        at += leg.duration;
+        let mut exceed = |what: &str, value: f64, bound: f64, unit: &'static str| {
+            if value.is_nan() || value > bound {
+                let field = format!("legs[{number}].{what}");
+                proof.findings.push(finding(field, value, bound, unit, number, at));
+            }
+        };
+        // In the plane: the commands themselves, whatever they lead to.
+        let plane = DriveClaim {
+            start_curvature: leg.from[3],
+            crab: claim.direction,
+            end: [0.0; 3],
+            end_curvature: leg.to[3],
+        };
+        let commands = replay_drive(&leg.pieces, &plane);
+        let kept = |bound: f64| bound * (1.0 + ROUNDING);
+        exceed("curvature", commands.max_curvature, kept(tolerances.most_curvature), "1/m");
+        exceed("curvature_rate", commands.max_curvature_rate, kept(tolerances.most_curvature_rate), "1/m²");
+        exceed("curvature_jump", commands.max_jump, tolerances.curvature, "1/m");
+        exceed("start.curvature", commands.start_error_curvature.abs(), tolerances.curvature, "1/m");
+        let ground = GroundClaim {
+            start: [leg.from[0], leg.from[1], leg.from[2]],
+            start_curvature: leg.from[3],
+            crab: claim.direction,
+            speed_m_s: claim.speed,
+            end: [leg.to[0], leg.to[1], leg.to[2]],
+            end_curvature: leg.to[3],
+        };
+        match replay_ground(&leg.pieces, vehicle, terrain, &ground) {
+            Err(stopped) => exceed("stopped_after", stopped.after_m, f64::NEG_INFINITY, "m"),
+            Ok(replay) => {
+                let position = libm::hypot(replay.error[0], replay.error[1]);
+                exceed("end.position", position, tolerances.position, "m");
+                exceed("end.yaw", replay.error[2].abs(), tolerances.yaw, "rad");
+                exceed("end.curvature", replay.error_curvature.abs(), tolerances.curvature, "1/m");
+                exceed("tilt", replay.max_tilt, kept(tolerances.most_tilt), "rad");
+                note(&mut proof.position, position, number, at);
+                note(&mut proof.attitude, replay.error[2].abs(), number, at);
+                proof.steps += replay.steps;
+            }
+        }
+    }
+    proof
+}
+
+/// A leg begins at its waypoint, and as the one before ends.
+fn check_joint(proof: &mut Proof, claim: &DrivesClaim, number: usize, at: f64) {
+    let leg = &claim.legs[number];
+    let [x, y] = claim.waypoints[number];
+    let mut off = libm::hypot(leg.from[0] - x, leg.from[1] - y);
+    let [x, y] = claim.waypoints[number + 1];
+    off = off.max(libm::hypot(leg.to[0] - x, leg.to[1] - y));
+    if number > 0 {
+        let before = &claim.legs[number - 1].to;
+        off = (0..4).fold(off, |off, i| off.max((leg.from[i] - before[i]).abs()));
+    }
+    let worst = &mut proof.knots[0];
+    if off > worst.value {
+        *worst = Worst { value: off, leg: number, at };
+    }
+    // Waypoints are written with all their digits.
+    let bound = 1e-9;
+    if off.is_nan() || off > bound {
+        let field = format!("legs[{number}].joint");
+        proof.findings.push(Finding { field, value: off, bound, unit: "m", leg: number, at });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verification::Stand;
+    use crate::world::terrain::Flat;
+
+    const VEHICLE: GroundVehicle = GroundVehicle {
+        stand: Stand::Level,
+        slip_at_20_deg: 0.0,
+        side_slip_at_20_deg: 0.0,
+        latency_s: 0.0,
+        steering_time_constant_s: 0.0,
+        steering_rate_rad_s: f64::INFINITY,
+        steered_axle_m: 1.0,
+    };
+    const TOLERANCES: DriveTolerances = DriveTolerances {
+        position: 0.01,
+        yaw: 0.01,
+        curvature: 0.01,
+        most_curvature: 1.0,
+        most_curvature_rate: 1.0,
+        most_tilt: 0.5,
+    };
+
+    /// A quarter of a circle of radius 2 with clothoids of no length, then straight on: curvature jumps at the joint only.
+    fn legs() -> Vec<DriveLegClaim> {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let arc = |curvature: f64, length_m: f64| DrivePiece::Arc {
+            length_m,
+            curvature: [curvature, 0.0, 0.0, 0.0, 0.0, 0.0],
+            direction: 1.0,
+        };
+        vec![
+            DriveLegClaim {
+                from: [0.0, 0.0, 0.0, 0.5],
+                to: [2.0, 2.0, quarter, 0.5],
+                pieces: vec![arc(0.5, 2.0 * quarter)],
+                duration: 3.0,
+            },
+            DriveLegClaim {
+                from: [2.0, 2.0, quarter, 0.5],
+                to: [0.0, 4.0, 2.0 * quarter, 0.5],
+                pieces: vec![arc(0.5, 2.0 * quarter)],
+                duration: 3.0,
+            },
+        ]
+    }
+
+    fn prove(legs: &[DriveLegClaim]) -> Proof {
+        let waypoints = [[0.0, 0.0], [2.0, 2.0], [0.0, 4.0]];
+        let claim = DrivesClaim { waypoints: &waypoints, legs, speed: 1.0, direction: 0.0 };
+        verify_drives(&VEHICLE, &Flat, &claim, &TOLERANCES)
+    }
+
+    #[test]
+    fn a_half_circle_is_proven_and_what_is_off_is_found() {
+        let sound = prove(&legs());
+        assert!(sound.ok() && sound.position.value < 1e-6, "{sound:?}");
+        let fields = |change: fn(&mut Vec<DriveLegClaim>)| {
+            let mut wrong = legs();
+            change(&mut wrong);
+            prove(&wrong).findings.into_iter().map(|finding| finding.field).collect::<Vec<_>>().join(" ")
+        };
+        let longer = fields(|legs| {
+            if let DrivePiece::Arc { length_m, .. } = &mut legs[1].pieces[0] {
+                *length_m *= 1.01;
+            }
+        });
+        assert!(longer.contains("legs[1].end.position") && longer.contains("legs[1].end.yaw"), "{longer}");
+        let sharper = fields(|legs| {
+            if let DrivePiece::Arc { curvature, .. } = &mut legs[0].pieces[0] {
+                curvature[0] = 1.5;
+            }
+        });
+        assert!(sharper.contains("legs[0].curvature ") && sharper.contains("start.curvature"), "{sharper}");
+        assert!(fields(|legs| legs[1].from[2] += 1e-6).contains("legs[1].joint"));
+        assert!(fields(|legs| legs[0].to[0] = f64::NAN).contains("legs[0]"));
+        assert_eq!(fields(|legs| legs.truncate(1)), "legs");
+    }
+}
