@@ -335,8 +335,10 @@ pub(crate) struct Bench {
 /// What a schema can be of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Document {
-    /// Scenarios
+    /// Scenarios of flights
     Scenario,
+    /// Scenarios of drives
+    RoverScenario,
     /// Quadrotors
     Robot,
     /// Rovers

@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::scenario::{DriveScenario, GroundSection};
 use hairpin::campaign::{Scenario, Setup};
 use hairpin::math::simd::Simd;
+use hairpin_formats::atomic;
 use hairpin_formats::folder::{CampaignFolder, Existing};
 use hairpin_formats::scenario::{self, MadeBy, read_made_by, read_scenario, scenario_for};
 
@@ -92,7 +94,7 @@ pub(crate) fn open(
     check_command(&setup.scenario)?;
     if let Some(kernels) = flown {
         // The users' own programs run none of our kernels.
-        match (kernels.portable, &setup.scenario.execute.command) {
+        match (kernels.portable, setup.scenario.executor().command) {
             (true, _) => same_level(&folder, Simd::Portable)?,
             (false, None) => same_level(&folder, setup.simd)?,
             (false, Some(_)) => {}
@@ -145,8 +147,14 @@ fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
 
 /// Writes the resolved scenario, with what the results depend on beside it.
 fn write_scenario(folder: &CampaignFolder, scenario: &Scenario, level: &str) -> Result<(), Problem> {
-    let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed: scenario.seed, simd: level.into() };
+    let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed: scenario.seed(), simd: level.into() };
     let text = scenario::to_toml(scenario, Some(&made_by)).map_err(Problem::input)?;
+    if let Some(DriveScenario { world: GroundSection { terrain, .. }, .. }) = scenario.drive()
+        && let (Some(file), Some(bytes)) = (&terrain.file, &terrain.bytes)
+    {
+        // First the map, then what says that there is one.
+        atomic::write(&folder.file(file), bytes)?;
+    }
     Ok(folder.write_scenario(&text)?)
 }
 
@@ -165,7 +173,7 @@ pub(crate) fn as_command(command: &str) -> (String, String) {
 }
 
 fn check_command(scenario: &Scenario) -> Result<(), Problem> {
-    let Some(command) = &scenario.execute.command else { return Ok(()) };
+    let Some(command) = scenario.executor().command else { return Ok(()) };
     let parsed = command.parse::<hairpin_formats::executor::Command>();
     parsed.map(drop).map_err(|error| Problem::input(format!("`execute.command` = {command:?} {error}")))
 }

@@ -1,8 +1,9 @@
 //! What stands before a judgement: in which frame, from which origin, what is counted. Nothing here is left to guess.
 
 use hairpin::campaign::scenario::Origin;
-use hairpin::campaign::{CaseResult, Setup};
+use hairpin::campaign::{CaseResult, Kind, Scenario, Setup};
 use hairpin::judgement::LegSource;
+use hairpin::world::terrain::Terrain;
 use nalgebra::Point3;
 use serde::Serialize;
 
@@ -15,7 +16,7 @@ pub struct Header {
     pub origin: Option<Origin>,
     /// Where on Earth the first waypoint is.
     pub start: Option<Geodetic>,
-    /// What positions and z are relative to: always `cage origin`, never a vehicle's local origin or home.
+    /// What positions and z are relative to: `cage origin` or `map origin`, never a vehicle's local origin or home.
     pub relative_to: &'static str,
     /// Waypoints of a trajectory.
     pub length: u64,
@@ -44,13 +45,13 @@ impl Header {
             results.iter().filter(|r| r.measures.as_ref().is_some_and(|m| m.leg_source == source)).count()
         };
         Self {
-            origin: scenario.world.origin,
-            start: scenario
-                .world
-                .origin
-                .map(|origin| Cage::new(&origin).geodetic(&Point3::from(scenario.task.start_m))),
-            relative_to: "cage origin",
-            length: scenario.task.length,
+            origin: scenario.origin(),
+            start: scenario.origin().map(|origin| Cage::new(&origin).geodetic(&start(setup))),
+            relative_to: match scenario {
+                Scenario::Flight(_) => "cage origin",
+                Scenario::Drive(_) => "map origin",
+            },
+            length: scenario.length(),
             length_counts: "waypoints",
             aligned: false,
             leg_source: LegSources { executor: from(LegSource::Executor), assigned: from(LegSource::Assigned) },
@@ -61,14 +62,16 @@ impl Header {
     pub fn lines(&self) -> Vec<[String; 2]> {
         let line = |label: &str, value: String| [label.to_owned(), value];
         let mut lines = Vec::new();
+        let ground = self.relative_to == "map origin";
+        let world = if ground { "map" } else { "cage" };
         match (&self.origin, &self.start) {
             (Some(origin), Some(start)) => {
                 lines.push(line(
                     "frame",
-                    format!("cage: x heads {}° by compass, y to its left, z up, m", origin.x_axis_heading_deg),
+                    format!("{world}: x heads {}° by compass, y to its left, z up, m", origin.x_axis_heading_deg),
                 ));
                 lines.push(line(
-                    "cage origin",
+                    self.relative_to,
                     format!("{:.7}°, {:.7}° WGS 84, {} m AMSL", origin.lat_deg, origin.lon_deg, origin.alt_amsl_m),
                 ));
                 lines.push(line(
@@ -78,22 +81,23 @@ impl Header {
                 lines.push(line(
                     "altitude",
                     format!(
-                        "z is relative to the cage origin; AMSL is {} m more; ellipsoid and geoid are not told apart",
-                        origin.alt_amsl_m
+                        "z is relative to the {}; AMSL is {} m more; ellipsoid and geoid are not told apart",
+                        self.relative_to, origin.alt_amsl_m
                     ),
                 ));
             }
             _ => {
-                lines.push(line(
-                    "frame",
-                    "cage: x and y along its edges, z up, m; not placed on Earth (no world.origin)".into(),
-                ));
-                lines.push(line("altitude", "z is relative to the cage origin; AMSL is not known".into()));
+                let axes = if ground { "x east, y north" } else { "x and y along its edges" };
+                lines.push(line("frame", format!("{world}: {axes}, z up, m; not placed on Earth (no world.origin)")));
+                lines.push(line("altitude", format!("z is relative to the {}; AMSL is not known", self.relative_to)));
             }
         }
         lines.push(line(
             "origins",
-            "the cage origin is neither a vehicle's local origin nor its home: differences are the executor's".into(),
+            format!(
+                "the {} is neither a vehicle's local origin nor its home: differences are the executor's",
+                self.relative_to
+            ),
         ));
         lines.push(line("length", format!("{} counts waypoints, both ends included", self.length)));
         lines.push(line("alignment", "not aligned".into()));
@@ -107,5 +111,17 @@ impl Header {
             },
         ));
         lines
+    }
+}
+
+/// The first waypoint, world frame, m.
+fn start(setup: &Setup) -> Point3<f64> {
+    match setup.kind() {
+        Kind::Flight(setup) => Point3::from(setup.scenario.task.start_m),
+        Kind::Drive(setup) => {
+            let start = &setup.scenario.task.start;
+            let height = setup.map.patch(start.x_m, start.y_m).map_or(0.0, |patch| patch.height);
+            Point3::new(start.x_m, start.y_m, height)
+        }
     }
 }

@@ -1,13 +1,21 @@
 //! The JSON Schema of scenario and robot files, made from the types that read them.
 
-use hairpin::campaign::Scenario;
+use hairpin::campaign::scenario::{DriveScenario, FlightScenario};
 use hairpin::robot::quadrotor::QuadrotorDescription;
 use hairpin::robot::rover::RoverDescription;
 use serde_json::{Value, json};
 
-/// The schema of a scenario file, for editors; `hairpin schema` prints it.
+/// The schema of a scenario file of flights, for editors; `hairpin schema` prints it.
 pub fn scenario_schema() -> Value {
-    let mut schema = schemars::schema_for!(Scenario).to_value();
+    with_made_by(schemars::schema_for!(FlightScenario).to_value())
+}
+
+/// The schema of a scenario file of drives.
+pub fn drive_scenario_schema() -> Value {
+    with_made_by(schemars::schema_for!(DriveScenario).to_value())
+}
+
+fn with_made_by(mut schema: Value) -> Value {
     let made_by =
         json!({ "type": "object", "description": "Written by hairpin into a campaign's scenario; not read." });
     if let Some(properties) = schema.get_mut("properties").and_then(Value::as_object_mut) {

@@ -27,8 +27,8 @@ fn lines(report: &Report) -> String {
 #[test]
 fn the_fixture_is_fine() {
     let scenario = read(FINE, &[]).unwrap_or_else(|report| panic!("{report}"));
-    assert_eq!(scenario.task.length, 10);
-    assert_eq!(scenario.generate.search.cases, 200);
+    assert_eq!(scenario.length(), 10);
+    assert_eq!(scenario.search().cases, 200);
 }
 
 #[test]
@@ -129,13 +129,16 @@ fn machines_get_fields() {
 
 #[test]
 fn overrides() {
-    let set = |key: &str, value: &str| read(FINE, &[(key, value)]).unwrap_or_else(|report| panic!("{report}"));
+    let set = |key: &str, value: &str| {
+        let read = read(FINE, &[(key, value)]).unwrap_or_else(|report| panic!("{report}"));
+        read.flight().expect("a flight").clone()
+    };
     assert_eq!(set("generate.search.width", "7").generate.search.width, 7);
     assert_eq!(set("world.obstacles[0].box.size_m", "[1, 1, 1]").world.obstacles[0].cuboid.unwrap().size_m, [1.0; 3]);
     assert_eq!(set("world.obstacles.0.box.size_m[2]", "4").world.obstacles[0].cuboid.unwrap().size_m, [2.0, 2.0, 4.0]);
     assert_eq!(
         set("robot.mass_kg", "1.2").robot,
-        read(&FINE.replace("mass_kg = 1.0", "mass_kg = 1.2"), &[]).unwrap().robot
+        read(&FINE.replace("mass_kg = 1.0", "mass_kg = 1.2"), &[]).unwrap().flight().unwrap().robot
     );
     assert_eq!(set("spec.overshoot", "{ max_m = 2 }").spec.overshoot.unwrap().max_m, 2.0);
     assert!(set("vary", "{}").vary.is_empty());

@@ -69,7 +69,7 @@ proptest! {
     fn written_and_read_again_is_the_same(sets in overrides()) {
         let scenario = read_scenario(FINE, "fine.toml", Path::new(""), &sets)
             .map_err(|report| TestCaseError::fail(report.to_string()))?;
-        let made_by = MadeBy { version: "1.2.3".into(), root_seed: scenario.seed, simd: "avx2".into() };
+        let made_by = MadeBy { version: "1.2.3".into(), root_seed: scenario.seed(), simd: "avx2".into() };
         let text = to_toml(&scenario, Some(&made_by)).map_err(|error| TestCaseError::fail(error.to_string()))?;
         let again = read_scenario(&text, "scenario.toml", Path::new(""), &[])
             .map_err(|report| TestCaseError::fail(report.to_string()))?;

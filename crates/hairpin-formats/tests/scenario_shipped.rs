@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::scenario::RobotSource;
+use hairpin::campaign::scenario::{FlightScenario, RobotSource};
 use hairpin::campaign::{Scenario, Setup};
 use hairpin_formats::scenario::{Report, read_scenario, scenario_for, to_toml};
 use hairpin_formats::{library, schema, template};
@@ -16,8 +16,12 @@ fn fine(name: &str, sets: &[(&str, &str)]) -> Scenario {
     scenario(name, sets).unwrap_or_else(|report| panic!("{name}:\n{report}"))
 }
 
+fn flight(scenario: &Scenario) -> &FlightScenario {
+    scenario.flight().expect("a scenario of flights")
+}
+
 fn robot_name(scenario: &Scenario) -> &str {
-    match &scenario.robot {
+    match &flight(scenario).robot {
         RobotSource::Inline(robot) => &robot.name,
         RobotSource::Name(name) => panic!("`{name}` is not resolved"),
     }
@@ -82,6 +86,7 @@ fn every_shipped_robot_and_world_serves() {
              [task]\nstart_m = {start}\nend_m = {end}\nlength = 4\n"
         );
         let read = read_scenario(&text, "w.toml", Path::new(""), &[]).unwrap_or_else(|report| panic!("{report}"));
+        let read = flight(&read).clone();
         assert_eq!((read.world.base, read.world.keep_in_margin_m), (None, Some(0.75)), "its own key wins");
         assert!(read.world.size_m.is_some());
     }
@@ -91,6 +96,7 @@ fn every_shipped_robot_and_world_serves() {
 fn the_template_is_the_designs_example() {
     let read = fine("quadrotor", &[]);
     assert_eq!(robot_name(&read), "anafi");
+    let read = flight(&read);
     assert_eq!((read.seed, read.task.length, read.execute.repeat), (10, 10, 5));
     let search = &read.generate.search;
     assert_eq!((search.waypoints, search.width, search.cases, search.revisits), (250, 5, 200, false));
@@ -150,7 +156,7 @@ fn meshes_are_read_and_end_up_in_the_scenario() {
         read_scenario(text, "quadrotor.toml", folder.path(), &[set])
     };
     let scenario = read("rock.obj").unwrap_or_else(|report| panic!("{report}"));
-    let mesh = scenario.world.obstacles[0].mesh.as_ref().unwrap();
+    let mesh = flight(&scenario).world.obstacles[0].mesh.as_ref().unwrap();
     assert_eq!((mesh.vertices_m.len(), mesh.triangles.len(), &mesh.file), (4, 4, &None));
     let again = read_scenario(&to_toml(&scenario, None).unwrap(), "s.toml", Path::new(""), &[]);
     assert_eq!(again, Ok(scenario));

@@ -14,7 +14,7 @@ use serde_json::json;
 /// What holds for every case of every reach set.
 fn check_common(setup: &Setup, case: &Case, what: &str) {
     let w = &case.waypoints;
-    assert_eq!(w.len() as u64, setup.scenario.task.length, "{what}");
+    assert_eq!(w.len() as u64, setup.scenario.length(), "{what}");
     assert_eq!((w[0], w[w.len() - 1]), (Point3::new(3.0, 3.0, 3.0), Point3::new(12.0, 12.0, 12.0)), "{what}");
     assert_eq!(case.leg_times.len(), w.len() - 1, "{what}");
     assert!(case.leg_times.iter().sum::<f64>() <= 60.0, "{what}");
@@ -57,10 +57,10 @@ fn every_reach_set_by_every_search_gives_what_it_claims() {
                 if reach == "witness" {
                     check_witness(&setup, case, &what);
                 } else {
-                    check_straight(&setup.robot, case, &what);
+                    check_straight(setup.flight().expect("a flight").robot, case, &what);
                 }
                 if reach == "hull" {
-                    check_hull(&setup.robot, case, &what);
+                    check_hull(setup.flight().expect("a flight").robot, case, &what);
                 }
             }
         }
@@ -129,10 +129,10 @@ fn nothing_feasible_is_told_with_its_proof() {
 
 #[test]
 fn lengths_that_vary_are_drawn_per_case() {
-    let mut scenario = setup("flightgoggles", 6, asked("hull", "beam", 6)).scenario;
-    let lengths = serde_json::from_value(json!({ "uniform": [5, 9] })).expect("a distribution");
-    scenario.vary.insert("task.length".into(), lengths);
-    let setup = Setup::new(scenario).expect("a campaign");
+    let scenario = setup("flightgoggles", 6, asked("hull", "beam", 6)).scenario;
+    let mut scenario = serde_json::to_value(scenario).expect("plain data");
+    scenario["vary"]["task.length"] = json!({ "uniform": [5, 9] });
+    let setup = Setup::new(serde_json::from_value(scenario).expect("a scenario")).expect("a campaign");
     let (cases, _) = run(&setup, &Known::default());
     assert_eq!(cases.first().map(|case| case.waypoints.len()), Some(6), "case 0 is nominal");
     assert!(cases.iter().all(|case| (5..=9).contains(&case.waypoints.len())));

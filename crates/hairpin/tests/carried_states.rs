@@ -22,7 +22,7 @@ struct End {
 
 /// Total thrust over mass and the moments over inertia of every combination of `resolution` speeds per rotor.
 fn inputs(setup: &Setup, resolution: u32) -> Vec<(f64, Vector3<f64>)> {
-    let robot = &setup.robot;
+    let robot = setup.flight().expect("a flight").robot;
     let (low, high) = robot.rotor_speed;
     let speed = |level: u32| low + (high - low) * f64::from(level) / f64::from(resolution - 1);
     let one = |number: u32| {
@@ -42,13 +42,14 @@ fn inputs(setup: &Setup, resolution: u32) -> Vec<(f64, Vector3<f64>)> {
 fn fly(setup: &Setup, (pull, turn): (f64, Vector3<f64>), start: &End) -> End {
     const STEPS: i32 = 1000;
     let h = 1.0 / f64::from(STEPS);
-    let inertia = setup.robot.inertia;
+    let robot = setup.flight().expect("a flight").robot;
+    let inertia = robot.inertia;
     let turning = |w: &Vector3<f64>| turn - w.cross(&inertia.component_mul(w)).component_div(&inertia);
     let (mut end, mut velocity) = (*start, Vector3::zeros());
     for _ in 0..STEPS {
         let middle = end.rates + turning(&end.rates) * (0.5 * h);
         let halfway = end.attitude * UnitQuaternion::from_scaled_axis(middle * (0.5 * h));
-        let acceleration = halfway * Vector3::z() * pull - Vector3::z() * setup.robot.gravity;
+        let acceleration = halfway * Vector3::z() * pull - Vector3::z() * robot.gravity;
         end.place += (velocity + acceleration * (0.5 * h)) * h;
         velocity += acceleration * h;
         end.attitude *= UnitQuaternion::from_scaled_axis(middle * h);
@@ -62,7 +63,7 @@ fn fly(setup: &Setup, (pull, turn): (f64, Vector3<f64>), start: &End) -> End {
 fn leap(setup: &Setup, (pull, turn): (f64, Vector3<f64>)) -> Vector3<f64> {
     let [roll, pitch, yaw] = [turn.x, turn.y, turn.z];
     let up = UnitQuaternion::from_euler_angles(roll, pitch, yaw) * Vector3::z();
-    up * pull - Vector3::z() * setup.robot.gravity
+    up * pull - Vector3::z() * setup.flight().expect("a flight").robot.gravity
 }
 
 const LEVEL: [i32; 6] = [0; 6];

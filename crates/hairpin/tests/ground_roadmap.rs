@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use hairpin::campaign::ground::Site;
+use hairpin::campaign::drive::Site;
 use hairpin::feasibility::reach::drive::{
     DriveSettings, DriveSite, GroundSampling, GroundScore, LegRefusal, Manoeuvres, sample_ground,
 };

@@ -13,7 +13,7 @@ fn any_coefficient_off_by_a_percent_is_found() {
         let (cases, tally) = run(&setup, &Known::default());
         let case = cases.first().unwrap_or_else(|| panic!("{name}: {tally:?}"));
         assert_eq!(case.evidence, Evidence::Witnessed, "{name}");
-        let proof = verify(&setup.robot, case).proof.expect("a proof");
+        let proof = verify(&setup, case).proof.expect("a proof");
         assert!(proof.findings.is_empty(), "{name}, untouched: {:?}", proof.findings);
 
         let legs = case.profile.as_ref().expect("a witness").legs.len();
@@ -25,7 +25,7 @@ fn any_coefficient_off_by_a_percent_is_found() {
                 continue;
             }
             *coefficient *= 1.01;
-            let proof = verify(&setup.robot, &wrong).proof.expect("a proof");
+            let proof = verify(&setup, &wrong).proof.expect("a proof");
             assert!(!proof.findings.is_empty(), "{name}: leg {leg}, axis {axis}, power {power} passes");
             tampered[axis] += 1;
         }

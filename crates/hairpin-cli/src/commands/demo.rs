@@ -13,11 +13,13 @@ use crate::problem::Problem;
 
 /// Runs the command.
 pub(crate) fn run(demo: &Demo) -> Result<u8, Problem> {
-    if demo.kind != Kind::Quadrotor {
-        return Err(new::unsupported(demo.kind));
-    }
+    let scenario = match demo.kind {
+        Kind::Quadrotor => "demo-quadrotor",
+        Kind::Rover => "demo-rover",
+        Kind::Arm => return Err(new::unsupported(demo.kind)),
+    };
     folder::take_threads(&demo.threads);
-    let setup = Setup::new(scenario_for("demo-quadrotor", &[])?)?.with_simd(folder::simd(&demo.kernels));
+    let setup = Setup::new(scenario_for(scenario, &[])?)?.with_simd(folder::simd(&demo.kernels));
     let replaceable = demo.force || demo.out == Path::new("hairpin-demo");
     let work = Work { folder: folder::make(&demo.out, &setup, false, replaceable)?, setup };
     stress::campaign(&work, Deadline::after(None), demo.json)

@@ -78,5 +78,6 @@ pub(crate) fn bare_case(number: usize, seed: u64, waypoints: Vec<Point3<f64>>) -
         evidence: Evidence::Unchecked,
         certified: None,
         profile: None,
+        drive: None,
     }
 }

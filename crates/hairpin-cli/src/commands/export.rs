@@ -97,7 +97,7 @@ fn write_waypoints(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
 
 /// `missions/CASE.geodetic.csv`.
 fn write_geodetic(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
-    let Some(origin) = &work.setup.scenario.world.origin else {
+    let Some(origin) = &work.setup.scenario.origin() else {
         return Err(Problem::input(
             "--to geodetic: the scenario has no `world.origin`, such as \
              origin = { lat_deg = 47.3977, lon_deg = 8.5456, alt_amsl_m = 488.0, x_axis_heading_deg = 73.5 }",

@@ -16,7 +16,7 @@ pub(crate) fn run(generate: &Generate) -> Result<u8, Problem> {
     let work = folder::begin(arguments, None)?;
     let deadline = Deadline::after(arguments.time_limit);
     let (cases, tally) = parts::generate(&work, deadline)?;
-    let asked = work.setup.scenario.generate.search.cases;
+    let asked = work.setup.scenario.search().cases;
     let outcome = if cases.is_empty() && !tally.stopped {
         campaign::verdict(&work.setup, &cases, &[], &tally)
     } else {

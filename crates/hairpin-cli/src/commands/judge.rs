@@ -12,7 +12,7 @@ pub(crate) fn run(judge: &Judge) -> Result<u8, Problem> {
     let cases = work.folder.read_cases()?;
     let tally = work.folder.read_tally()?;
     let judgement = parts::judge(&work, &cases, &tally)?;
-    let asked = tally.asked(work.setup.scenario.generate.search.cases);
+    let asked = tally.asked(work.setup.scenario.search().cases);
     let answer = Answer { work: &work, asked, cases: &cases, judgement: &judgement };
     Ok(answer.say(judge.json))
 }

@@ -38,5 +38,5 @@ pub(crate) fn word(kind: Kind) -> &'static str {
 
 /// This version has no robots of that kind.
 pub(crate) fn unsupported(kind: Kind) -> Problem {
-    Problem::input(format!("{} is not in this version of hairpin: quadrotor is", word(kind)))
+    Problem::input(format!("{} is not in this version of hairpin: quadrotor and rover are", word(kind)))
 }

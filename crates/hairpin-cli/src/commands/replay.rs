@@ -1,6 +1,9 @@
 //! `hairpin replay`: a recorded violation, flown again.
 
+use std::path::Path;
+
 use hairpin::campaign::{self, Setup, Status};
+use hairpin_formats::scenario;
 use serde_json::json;
 
 use super::parts::{Repro, fly_one};
@@ -15,7 +18,9 @@ const SAME_M: f64 = 1e-6;
 pub(crate) fn run(replay: &Replay) -> Result<u8, Problem> {
     let repro = Repro::read(&replay.file)?;
     let refuse = |why: String| Problem::input(format!("{}: {why}", replay.file.display()));
-    let setup = Setup::new(repro.scenario.clone()).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
+    let mut scenario = repro.scenario.clone();
+    scenario::attach_terrain(&mut scenario, replay.file.parent().unwrap_or(Path::new("")))?;
+    let setup = Setup::new(scenario).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
     let setup = setup.with_simd(folder::simd(&replay.kernels));
     let case = repro.case().map_err(refuse)?;
     let flown = fly_one(&setup, &case, repro.run)?;

@@ -1,6 +1,6 @@
 //! `hairpin schema`: JSON Schema from the types that read the files.
 
-use hairpin_formats::schema::{robot_schema, rover_schema, scenario_schema};
+use hairpin_formats::schema::{drive_scenario_schema, robot_schema, rover_schema, scenario_schema};
 
 use crate::args::{Document, Schema};
 use crate::console;
@@ -10,6 +10,7 @@ use crate::problem::Problem;
 pub(crate) fn run(schema: &Schema) -> Result<u8, Problem> {
     let schema = match schema.document {
         Document::Scenario => scenario_schema(),
+        Document::RoverScenario => drive_scenario_schema(),
         Document::Robot => robot_schema(),
         Document::Rover => rover_schema(),
     };

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::Setup;
+use hairpin::campaign::flight::FlightSetup;
 use hairpin::robot::Dynamics;
 use hairpin::robot::quadrotor::Quadrotor;
 use hairpin::simulation::{Motion, Plant, PlantState, Stepper};
@@ -31,8 +32,11 @@ struct Row {
 /// Runs the command.
 pub(crate) fn run(simulate: &Simulate) -> Result<u8, Problem> {
     let setup = Setup::new(scenario_for(&simulate.robot, &folder::split(&simulate.sets)?)?)?;
-    let rows = read(&simulate.rotor_speeds, &setup.robot)?;
-    let track = fly(&setup.robot, &rows)?;
+    let Some(FlightSetup { robot, .. }) = setup.flight() else {
+        return Err(Problem::input(format!("`{}` has no rotors: simulate flies quadrotors", setup.robot_name())));
+    };
+    let rows = read(&simulate.rotor_speeds, robot)?;
+    let track = fly(robot, &rows)?;
     match &simulate.out {
         Some(path) => csv::write(path, &track)?,
         None => console::say_text(&csv::text(&track)),
@@ -133,8 +137,9 @@ mod tests {
         let sets = [("robot.drag_quadratic_n_s2_m2".to_owned(), "0".to_owned())];
         let setup = Setup::new(scenario_for("flightgoggles", &sets).unwrap()).unwrap();
         let rows = parse(&format!("{HEADER}0,0,0,0,0\n2,0,0,0,0\n"), (0.0, 2200.0)).unwrap();
-        let track = fly(&setup.robot, &rows).unwrap();
-        assert!((track.position(1).z + 0.5 * setup.robot.gravity * 4.0).abs() < 1e-9);
-        assert!((track.channel("vz_m_s").unwrap()[1] + setup.robot.gravity * 2.0).abs() < 1e-9);
+        let robot = setup.flight().unwrap().robot;
+        let track = fly(robot, &rows).unwrap();
+        assert!((track.position(1).z + 0.5 * robot.gravity * 4.0).abs() < 1e-9);
+        assert!((track.channel("vz_m_s").unwrap()[1] + robot.gravity * 2.0).abs() < 1e-9);
     }
 }

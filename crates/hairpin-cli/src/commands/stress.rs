@@ -18,7 +18,7 @@ pub(crate) fn campaign(work: &Work, deadline: Deadline, json: bool) -> Result<u8
     parts::execute(work, &cases)?;
     let judgement = parts::judge(work, &cases, &tally)?;
     parts::report(work, &cases, &tally, &judgement.verdict)?;
-    let asked = tally.asked(work.setup.scenario.generate.search.cases);
+    let asked = tally.asked(work.setup.scenario.search().cases);
     let answer = Answer { work, asked, cases: &cases, judgement: &judgement };
     Ok(answer.say(json))
 }

@@ -67,14 +67,14 @@ pub(crate) fn run(verify: &Verify) -> Result<u8, Problem> {
 
 fn check(work: &Work, case: &Case) -> Answer {
     let finding = |what: String| Answer::Checked { case: case.number, position_m: f64::MAX, findings: vec![what] };
-    let profile = match work.folder.read_profile(case.number) {
-        Ok(profile) => profile,
-        Err(error) => return finding(error.to_string()),
-    };
-    if profile.is_none() && case.evidence != Evidence::Witnessed {
+    let mut case = case.clone();
+    if let Err(error) = work.folder.read_witness(&mut case) {
+        return finding(error.to_string());
+    }
+    if case.profile.is_none() && case.drive.is_none() && case.evidence != Evidence::Witnessed {
         return Answer::NothingClaimed;
     }
-    let verified = campaign::verify(&work.setup.robot, &Case { profile, ..case.clone() });
+    let verified = campaign::verify(&work.setup, &case);
     match verified.proof {
         None => finding("its profile is missing".into()),
         Some(proof) => Answer::Checked {

@@ -1,7 +1,7 @@
 //! The messages of the protocol as types; their field names are the protocol's.
 
-use hairpin::campaign::Mission;
-use hairpin::campaign::scenario::WorldSection;
+use hairpin::campaign::scenario::{GroundDescription, GroundSection, RobotSource, WorldSection};
+use hairpin::campaign::{Kind, Mission};
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
 use serde::{Deserialize, Serialize};
 
@@ -26,12 +26,28 @@ pub struct MissionMessage {
     case: String,
     run: usize,
     seed: u64,
-    robot: QuadrotorDescription,
-    world: WorldSection,
+    robot: Robot,
+    world: World,
     waypoints_m: Vec<[f64; 3]>,
     accept_m: f64,
     time_limit_s: f64,
     timed: Vec<TimedMessage>,
+}
+
+/// The robot's numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+enum Robot {
+    Flyer(Box<QuadrotorDescription>),
+    Driver(RobotSource<GroundDescription>),
+}
+
+/// The robot's world.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+enum World {
+    Cage(WorldSection),
+    Ground(GroundSection),
 }
 
 /// One sample of the planned motion.
@@ -45,19 +61,28 @@ pub struct TimedMessage {
     pub v_m_s: [f64; 3],
 }
 
-/// What a mission looks like to an executor. The robot has all its numbers, derived ones too.
+/// What a mission looks like to an executor. A robot that flies has all its numbers, derived ones too; one that drives has its
+/// file's, and its map is the campaign folder's.
 pub fn mission_message(mission: &Mission) -> ToExecutor {
     let timed = mission.timed.iter().map(|sample| TimedMessage {
         t_s: sample.t,
         p_m: sample.position.coords.into(),
         v_m_s: sample.velocity.into(),
     });
+    let (robot, world) = match mission.setup.kind() {
+        Kind::Flight(setup) => {
+            (Robot::Flyer(Box::new(description(setup.robot))), World::Cage(setup.scenario.world.clone()))
+        }
+        Kind::Drive(setup) => {
+            (Robot::Driver(setup.scenario.robot.clone()), World::Ground(setup.scenario.world.clone()))
+        }
+    };
     ToExecutor::Mission(Box::new(MissionMessage {
         case: mission.case.clone(),
         run: mission.run,
         seed: mission.seed,
-        robot: description(&mission.setup.robot),
-        world: mission.setup.scenario.world.clone(),
+        robot,
+        world,
         waypoints_m: mission.waypoints.iter().map(|p| p.coords.into()).collect(),
         accept_m: mission.accept,
         time_limit_s: mission.time_limit,

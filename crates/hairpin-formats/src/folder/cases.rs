@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use hairpin::campaign::Case;
-use hairpin::trajectory::{Profile, Track};
+use hairpin::trajectory::Track;
 
 use super::{CampaignFolder, FolderError, RESULTS, WAYPOINTS};
 use crate::parquet::results::Row;
-use crate::parquet::{cases, profile, track};
+use crate::parquet::{cases, drive, profile, track};
 
 impl CampaignFolder {
     /// Writes generated cases; `results.parquet` has them with status `generated`.
@@ -27,6 +27,9 @@ impl CampaignFolder {
             if let Some(witness) = &case.profile {
                 profile::write(&self.profile_path(case.number), witness)?;
             }
+            if let Some(witness) = &case.drive {
+                drive::write(&self.profile_path(case.number), witness)?;
+            }
         }
         cases::write(&self.file(WAYPOINTS), all)?;
         self.write_results(all, &[])
@@ -44,12 +47,12 @@ impl CampaignFolder {
     pub fn read_cases(&self) -> Result<Vec<Case>, FolderError> {
         let mut all = self.read_cases_without_profiles()?;
         for case in &mut all {
-            case.profile = self.read_profile(case.number)?;
+            self.read_witness(case)?;
         }
         Ok(all)
     }
 
-    /// Reads all cases and leaves `profile` empty: for `verify`, where a broken profile is a finding about its case.
+    /// Reads all cases and leaves their witnesses out: for `verify`, where a broken one is a finding about its case.
     ///
     /// # Errors
     /// As [`Self::read_cases`].
@@ -77,13 +80,20 @@ impl CampaignFolder {
         }
     }
 
-    /// Reads the control witness of a case; `None` where it has none.
+    /// Reads the control witness of `case`, of a flight or of a drive, into it; leaves it without one where there is none.
     ///
     /// # Errors
     /// The file is broken.
-    pub fn read_profile(&self, case: usize) -> Result<Option<Profile>, FolderError> {
-        let path = self.profile_path(case);
-        Ok(if path.exists() { Some(profile::read(&path)?) } else { None })
+    pub fn read_witness(&self, case: &mut Case) -> Result<(), FolderError> {
+        let path = self.profile_path(case.number);
+        if path.exists() {
+            if drive::is_drive(&path)? {
+                case.drive = Some(drive::read(&path)?);
+            } else {
+                case.profile = Some(profile::read(&path)?);
+            }
+        }
+        Ok(())
     }
 
     /// Writes the planned motion of a case, sampled.

@@ -3,6 +3,7 @@
 
 pub mod cases;
 pub mod drawn;
+pub mod drive;
 pub mod profile;
 pub mod results;
 pub mod runs;

@@ -5,22 +5,24 @@ mod resolve;
 mod rover;
 mod set;
 mod shape;
+mod terrain;
 mod tree;
 mod write;
 
 use std::path::Path;
 
 use hairpin::campaign::Scenario;
-use hairpin::campaign::scenario::KeyPath;
+use hairpin::campaign::scenario::{GroundDescription, KeyPath};
 use toml::Table;
 
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
+pub use terrain::attach_terrain;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
 use crate::{library, schema};
 use resolve::Resolver;
-use tree::Node;
+use tree::{Kind, Node};
 
 /// Reads, resolves and checks a scenario.
 ///
@@ -41,7 +43,7 @@ pub fn read_scenario(text: &str, file: &str, base: &Path, sets: &[(String, Strin
 }
 
 /// The scenario that `name_or_path` means: a shipped scenario's name, a scenario file, or a robot's name or file, which
-/// is put into the shipped scenario `quadrotor`.
+/// is put into the shipped scenario of its kind.
 ///
 /// # Errors
 /// As [`read_scenario`]; nothing of that name.
@@ -50,17 +52,19 @@ pub fn scenario_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Sce
         return read_scenario(shipped.text, shipped.path, Path::new(""), sets);
     }
     let path = Path::new(name_or_path);
-    if path.is_file() {
-        let text = std::fs::read_to_string(path).map_err(|error| unreadable(name_or_path, &error.to_string()))?;
-        let is_robot = text.parse::<Table>().is_ok_and(|t| t.contains_key("kind") && !t.contains_key("hairpin"));
-        if !is_robot {
-            return read_scenario(&text, name_or_path, path.parent().unwrap_or(Path::new("")), sets);
-        }
-    } else if library::robots().all(|robot| robot.name != name_or_path) {
-        return Err(unknown(name_or_path));
-    }
-    let Some(around) = library::scenarios().find(|shipped| shipped.name == "quadrotor") else {
-        unreachable!("the scenario `quadrotor` is shipped")
+    let text = if path.is_file() {
+        std::fs::read_to_string(path).map_err(|error| unreadable(name_or_path, &error.to_string()))?
+    } else {
+        let shipped = library::robots().find(|robot| robot.name == name_or_path);
+        shipped.ok_or_else(|| unknown(name_or_path))?.text.to_owned()
+    };
+    let table = text.parse::<Table>().unwrap_or_default();
+    let Some(kind) = table.get("kind").and_then(|kind| kind.as_str()).filter(|_| !table.contains_key("hairpin")) else {
+        return read_scenario(&text, name_or_path, path.parent().unwrap_or(Path::new("")), sets);
+    };
+    let around = if GroundDescription::KINDS.contains(&kind) { kind } else { "quadrotor" };
+    let Some(around) = library::scenarios().find(|shipped| shipped.name == around) else {
+        unreachable!("a scenario of every kind is shipped")
     };
     let robot = ("robot".to_owned(), toml::Value::String(name_or_path.to_owned()).to_string());
     let sets: Vec<_> = std::iter::once(robot).chain(sets.iter().cloned()).collect();
@@ -93,7 +97,8 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
     apply_sets(&mut root, sets, &mut resolver);
     resolver.robot(&mut root);
     resolver.world(&mut root);
-    let schema = schema::scenario_schema();
+    let drives = kind_of(&root).is_some_and(|kind| GroundDescription::KINDS.contains(&kind));
+    let schema = if drives { schema::drive_scenario_schema() } else { schema::scenario_schema() };
     shape::check(&schema, &root, "", report);
     if !report.is_empty() {
         return None;
@@ -105,10 +110,18 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
             return None;
         }
     };
-    Resolver { base, report }.meshes(&mut scenario, &root);
-    scenario.generate.timing = Some(scenario.generate.timing_in_force());
-    if scenario.execute.logs.is_none() && scenario.execute.controller.is_none() {
-        scenario.execute.controller = scenario.execute.controller_in_force();
+    match &mut scenario {
+        Scenario::Flight(flight) => {
+            Resolver { base, report }.meshes(flight, &root);
+            flight.generate.timing = Some(flight.generate.timing_in_force());
+            if flight.execute.logs.is_none() && flight.execute.controller.is_none() {
+                flight.execute.controller = flight.execute.controller_in_force();
+            }
+        }
+        Scenario::Drive(drive) => {
+            terrain::resolve(drive, base, &root, report);
+            drive.execute.controller = drive.execute.controller_in_force();
+        }
     }
     if !report.is_empty() {
         return None;
@@ -119,6 +132,14 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
         report.complain(&place, &mistake.key, &mistake.value, &format!("must be {}", mistake.bound), message);
     }
     Some(scenario)
+}
+
+/// The robot's kind, where its table says it.
+fn kind_of(root: &Node) -> Option<&str> {
+    match &root.get("robot")?.get("kind")?.kind {
+        Kind::Text(kind) => Some(kind),
+        _ => None,
+    }
 }
 
 /// Where the value of `key` stands; if it is not in the file, the table that it is missing in.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::Scenario;
+use hairpin::campaign::scenario::FlightScenario;
 
 use super::report::{Place, Report};
 use super::shape::nearest;
@@ -24,13 +24,6 @@ impl Resolver<'_> {
         let Some(node) = root.entries().and_then(|entries| entries.get_mut("robot")) else { return };
         let Kind::Text(name) = &node.kind else { return };
         let Some(table) = self.robot_file(name, &node.place) else { return };
-        if table.get("kind").is_some_and(|kind| matches!(&kind.kind, Kind::Text(word) if word == "rover")) {
-            let message =
-                format!("`robot` = \"{name}\" is a rover: scenarios are for quadrotors; `hairpin steer` takes rovers");
-            self.report.complain(&node.place, "robot", name, "must be a quadrotor", message);
-            node.kind = Kind::Refused;
-            return;
-        }
         *node = Node { key: node.key.take(), ..table };
     }
 
@@ -56,7 +49,7 @@ impl Resolver<'_> {
     }
 
     /// Reads the mesh files.
-    pub(super) fn meshes(&mut self, scenario: &mut Scenario, root: &Node) {
+    pub(super) fn meshes(&mut self, scenario: &mut FlightScenario, root: &Node) {
         for (index, obstacle) in scenario.world.obstacles.iter_mut().enumerate() {
             let Some(mesh) = &mut obstacle.mesh else { continue };
             let Some(file) = mesh.file.take() else { continue };
@@ -111,7 +104,7 @@ impl Resolver<'_> {
     }
 }
 
-fn read_file(path: &Path) -> Result<Vec<u8>, String> {
+pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     let size = std::fs::metadata(path).map_err(|error| error.to_string())?.len();
     if size > LARGEST_FILE {
         return Err(format!("{size} bytes are more than 100 MB"));

@@ -68,6 +68,7 @@ fn case(number: usize, evidence: Evidence) -> Case {
         evidence,
         certified: (number == 1).then_some("unknown"),
         profile,
+        drive: None,
     }
 }
 

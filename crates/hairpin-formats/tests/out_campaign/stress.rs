@@ -1,5 +1,6 @@
 //! A campaign that looks like one: flights that overshoot their waypoints in a cage with a mast, judged for real.
 
+use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::{Case, CaseResult, Evidence, Run, Scenario, Setup, Status, Tally};
 use hairpin::judgement::{Claim, Judged, Limits, Settings, Verdict, Worst, measure, violations};
 use hairpin::math::random::case_seed;
@@ -86,6 +87,7 @@ fn case(number: usize) -> Case {
         evidence: Evidence::Witnessed,
         certified: None,
         profile: None,
+        drive: None,
     }
 }
 
@@ -130,7 +132,8 @@ fn fly(setup: &Setup, case: &Case) -> (Result<Flight, String>, CaseResult) {
     }
     let flight = flight(case);
     let corner = Settings { corner: 1.0, ..Settings::default() };
-    let clearance = |p: &Point3<f64>| setup.world.obstacle_distance(p) - setup.robot.clearance_radius;
+    let FlightSetup { world, robot, .. } = setup.flight().unwrap();
+    let clearance = |p: &Point3<f64>| world.obstacle_distance(p) - robot.clearance_radius;
     let settings = Settings { clearance: Some(&clearance), ..corner };
     let measures = measure(&flight.track, &case.waypoints, &settings).unwrap();
     let limits = Limits { deviation: Some(0.5), ..Limits::default() };

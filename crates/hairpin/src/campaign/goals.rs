@@ -11,7 +11,7 @@ use crate::math::quadrature::Gauss;
 use crate::math::random::{Stream, unit};
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment};
 
-use super::ground::Site;
+use super::drive::Site;
 
 /// Share of the bounds that drawn curves keep, for what lies between the samples they are held to.
 const KEPT: f64 = 0.998;
@@ -152,7 +152,7 @@ mod tests {
                 end: [x, y, yaw],
                 end_curvature: curvature,
             };
-            let replay = replay_drive(&[crate::campaign::ground::drive_piece(&arc)], &claim);
+            let replay = replay_drive(&[crate::campaign::drive::drive_piece(&arc)], &claim);
             assert!(replay.error.iter().all(|error| error.abs() < 1e-8), "{arc:?} {replay:?}");
             assert!(replay.error_curvature == 0.0 && replay.start_error_curvature == 0.0);
             assert!(replay.max_curvature <= bounds.most && replay.max_curvature_rate <= bounds.most_rate, "{replay:?}");

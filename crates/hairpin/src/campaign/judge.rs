@@ -7,7 +7,9 @@ use super::influence::RunDeviation;
 use super::scenario::DeviationFrom;
 use super::terms::Terms;
 use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, planned, vary};
-use crate::judgement::{self, Claim, Clearance, Judged, JudgementError, Measures, Reference, Settings, Verdict, Violation, Worst};
+use crate::judgement::{
+    self, Claim, Clearance, Judged, JudgementError, Measures, Reference, Settings, Verdict, Violation, Worst,
+};
 use crate::trajectory::Flight;
 
 /// Confidence of intervals where the spec names none.
@@ -133,9 +135,8 @@ fn judge_run(
         DeviationFrom::Leg | DeviationFrom::NearestLeg => None,
     };
     let obstructed = own.flight().filter(|setup| !setup.world.obstacles().is_empty());
-    let clearance = obstructed.map(|setup| {
-        move |p: &Point3<f64>| setup.world.obstacle_distance(p) - setup.robot.clearance_radius
-    });
+    let clearance =
+        obstructed.map(|setup| move |p: &Point3<f64>| setup.world.obstacle_distance(p) - setup.robot.clearance_radius);
     let settings = Settings {
         reference: match (terms.from, &path) {
             (DeviationFrom::Path, Some(path)) => Reference::Path(path),

@@ -36,6 +36,7 @@ pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario,
     {
         // The ground itself is no key; where its keys did not change it is the same.
         new.world.terrain.map = old.world.terrain.map.clone();
+        new.world.terrain.bytes = old.world.terrain.bytes.clone();
     }
     Ok(drawn)
 }
@@ -131,7 +132,11 @@ mod tests {
     fn nominal_first_then_every_key_where_it_belongs() {
         let scenario = scenario();
         assert!(draw(&scenario, 7, 0).is_empty() && draw_for_case(&scenario, 7, 0).is_empty());
-        assert_eq!(apply(&scenario, &[]).unwrap(), Scenario { vary: Default::default(), ..scenario.clone() });
+        assert_eq!(apply(&scenario, &[]).unwrap(), {
+            let mut constant = scenario.clone();
+            constant.vary_mut().clear();
+            constant
+        });
         let keys: Vec<_> = draw(&scenario, 7, 1).into_iter().map(|(key, _)| key).collect();
         let per_run = ["execute.controller", "robot.mass_kg", "world.obstacles[0].box.center_m", "world.wind_m_s"];
         assert_eq!(keys, per_run);
@@ -144,8 +149,9 @@ mod tests {
         let (mut lengths, mut masses, mut winds) = (Vec::new(), Vec::new(), Vec::new());
         for seed in 0..2000 {
             let planned = apply(&scenario, &draw_for_case(&scenario, seed, 1)).unwrap();
-            lengths.push(planned.task.length);
+            lengths.push(planned.length());
             let drawn = apply(&scenario, &draw(&scenario, seed, 1)).unwrap();
+            let drawn = drawn.flight().unwrap();
             let super::super::scenario::RobotSource::Inline(robot) = &drawn.robot else { panic!("robot lost") };
             masses.push(robot.mass_kg);
             winds.push(drawn.world.wind_m_s.unwrap());
@@ -167,7 +173,7 @@ mod tests {
     fn another_parameter_changes_no_draw() {
         let all = scenario();
         let mut few = scenario();
-        few.vary.retain(|key, _| key == "robot.mass_kg");
+        few.vary_mut().retain(|key, _| key == "robot.mass_kg");
         let mass = |s: &Scenario| draw(s, 3, 2).into_iter().find(|(key, _)| key == "robot.mass_kg").unwrap();
         assert_eq!(mass(&all), mass(&few));
         assert_ne!(mass(&all), draw(&few, 3, 1)[0]);

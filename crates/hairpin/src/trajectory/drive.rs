@@ -1,7 +1,10 @@
 //! The path of a ground vehicle as it is commanded: arcs whose curvature is a polynomial of arc length, and turns in place.
 
+use serde::{Deserialize, Serialize};
+
 /// What one [`Segment`] of a drive does.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Motion {
     /// Drives `length_m` metres; ψ̇ = direction · v · κ(s), κ(s) = Σ aᵢ sⁱ, s from 0 in each segment.
     Arc {
@@ -18,7 +21,7 @@ pub enum Motion {
 }
 
 /// One piece of a drive without a change of gear.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Segment {
     /// What it does.
     pub motion: Motion,
@@ -27,7 +30,8 @@ pub struct Segment {
 }
 
 /// Which way the vehicle moves along its path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Gear {
     /// Along the body's x axis.
     Forward,
@@ -91,7 +95,7 @@ impl Segment {
 }
 
 /// A pose over the ground with its curvature.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Planar {
     /// East, m.
     pub x: f64,
@@ -104,7 +108,7 @@ pub struct Planar {
 }
 
 /// One leg of a [`Drive`]: what is commanded from one waypoint to the next.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DriveLeg {
     /// Pose and curvature at its first waypoint.
     pub from: Planar,
@@ -115,7 +119,7 @@ pub struct DriveLeg {
 }
 
 /// The path of a whole mission, leg after leg, driven at one speed: the witness of a ground vehicle's trajectory.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drive {
     /// The legs in the order they are driven; each begins where the one before ends.
     pub legs: Vec<DriveLeg>,

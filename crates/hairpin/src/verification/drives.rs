@@ -84,12 +84,8 @@ pub fn verify_drives<T: Terrain>(
             }
         };
         // In the plane: the commands themselves, whatever they lead to.
-        let plane = DriveClaim {
-            start_curvature: leg.from[3],
-            crab: claim.direction,
-            end: [0.0; 3],
-            end_curvature: leg.to[3],
-        };
+        let plane =
+            DriveClaim { start_curvature: leg.from[3], crab: claim.direction, end: [0.0; 3], end_curvature: leg.to[3] };
         let commands = replay_drive(&leg.pieces, &plane);
         let kept = |bound: f64| bound * (1.0 + ROUNDING);
         exceed("curvature", commands.max_curvature, kept(tolerances.most_curvature), "1/m");

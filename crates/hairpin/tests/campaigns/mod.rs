@@ -70,8 +70,9 @@ pub(crate) fn from_mast(p: &Point3<f64>) -> f64 {
 
 /// The witness proves itself to independent code; between its ends it keeps clear and below the cap.
 pub(crate) fn check_witness(setup: &Setup, case: &Case, what: &str) {
-    let proof = verify(&setup.robot, case).proof.expect("a witnessed case has a proof");
+    let proof = verify(setup, case).proof.expect("a witnessed case has a proof");
     assert!(proof.findings.is_empty(), "{what}: {:?}", proof.findings);
+    let radius = setup.flight().expect("a flight").robot.clearance_radius;
     for leg in &case.profile.as_ref().expect("a witness").legs {
         for k in 0..=1000 {
             let t = leg.duration * f64::from(k) / 1000.0;
@@ -80,7 +81,7 @@ pub(crate) fn check_witness(setup: &Setup, case: &Case, what: &str) {
             let p = Point3::from(leg.coefficients.each_ref().map(horner));
             let v = Vector3::from(leg.coefficients.each_ref().map(slope));
             assert!(v.norm() <= 8.0 + 1e-9, "{what}: {} m/s", v.norm());
-            assert!(from_mast(&p) >= setup.robot.clearance_radius - 1e-9, "{what}: {p}");
+            assert!(from_mast(&p) >= radius - 1e-9, "{what}: {p}");
             assert!(p.iter().all(|c| (1.0 - 1e-9..=19.0 + 1e-9).contains(c)), "{what}: {p}");
         }
     }

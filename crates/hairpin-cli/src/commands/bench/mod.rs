@@ -12,6 +12,7 @@ mod witness;
 mod worst;
 
 use hairpin::campaign::Setup;
+use hairpin::campaign::flight::FlightSetup;
 use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::Quadrotor;
 use hairpin_formats::scenario::scenario_for;
@@ -110,5 +111,9 @@ fn warn_of_debug_build() {
 }
 
 fn robot(name: &str) -> Result<Quadrotor, Problem> {
-    Ok(Setup::new(scenario_for(name, &[])?)?.robot)
+    Ok(flyer(&Setup::new(scenario_for(name, &[])?)?)?.robot.clone())
+}
+
+fn flyer(setup: &Setup) -> Result<FlightSetup<'_>, Problem> {
+    setup.flight().ok_or_else(|| Problem::input(format!("`{}` does not fly", setup.robot_name())))
 }

@@ -27,7 +27,7 @@ pub(crate) struct Flown {
 
 /// Flies all runs of `cases` that are not in the folder yet.
 pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
-    let repeat = work.setup.scenario.execute.repeat as usize;
+    let repeat = work.setup.scenario.executor().repeat as usize;
     let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));
     let missing: Vec<(&Case, usize)> =
         all().filter(|(case, run)| !work.folder.has_valid_run(case.number, *run)).collect();
@@ -100,7 +100,7 @@ fn fly_with(
     landed: &(dyn Fn(Run) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
 ) {
-    let workers = work.setup.scenario.execute.workers.map_or_else(rayon::current_num_threads, |n| n as usize);
+    let workers = work.setup.scenario.executor().workers.map_or_else(rayon::current_num_threads, |n| n as usize);
     let make = |index: usize| {
         let (case, run) = missing[index];
         mission(&work.setup, case, run).map_err(|mistake| mistake.to_string())
@@ -141,11 +141,11 @@ fn keep_log(folder: &CampaignFolder, case: &Case, run: usize, failure: &Failure,
 
 /// The user's program, where one flies.
 fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
-    let execute = &setup.scenario.execute;
-    let Some(text) = &execute.command else { return Ok(None) };
+    let execute = setup.scenario.executor();
+    let Some(text) = execute.command else { return Ok(None) };
     let command = text.parse().map_err(|error| Problem::input(format!("`execute.command` = {text:?} {error}")))?;
-    let mission = Duration::try_from_secs_f64(execute.timeout_s)
-        .map_err(|_| Problem::input(format!("`execute.timeout_s` = {}: must be a time", execute.timeout_s)))?;
+    let mission = Duration::try_from_secs_f64(execute.timeout)
+        .map_err(|_| Problem::input(format!("`execute.timeout_s` = {}: must be a time", execute.timeout)))?;
     Ok(Some((command, Limits { mission, ..Limits::default() })))
 }
 

@@ -3,7 +3,8 @@
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Stop, Tally, plan};
+use hairpin::campaign::{Case, Kind, Stop, Tally, planned};
+use hairpin::world::terrain::Terrain;
 
 use crate::folder::Work;
 use crate::interrupt::{self, Deadline};
@@ -75,7 +76,7 @@ fn known(work: &Work) -> Result<Known, Problem> {
 /// says no more than those before it: a kill in between leaves cases too many, never too few.
 fn save(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {
     for case in &cases[from..] {
-        let planned = plan::track(&work.setup.robot, case);
+        let planned = planned(&work.setup, case);
         let planned = planned.map_err(|error| Problem::input(format!("case {}: {error}", case.id())))?;
         work.folder.write_planned(case.number, &planned)?;
     }
@@ -88,6 +89,10 @@ fn save(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), P
 pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>)]) -> Result<(), Problem> {
     let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
     let mut cases = Vec::with_capacity(missions.len());
+    let outside = |p: &nalgebra::Point3<f64>| match work.setup.kind() {
+        Kind::Flight(setup) => setup.world.wall_distance(p) < 0.0,
+        Kind::Drive(setup) => setup.map.patch(p.x, p.y).is_err(),
+    };
     for (number, (name, waypoints)) in missions.iter().enumerate() {
         if waypoints.len() < 2 {
             return Err(Problem::input(format!(
@@ -95,10 +100,10 @@ pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>
                 waypoints.len()
             )));
         }
-        if let Some(outside) = waypoints.iter().position(|p| work.setup.world.wall_distance(p) < 0.0) {
+        if let Some(outside) = waypoints.iter().position(outside) {
             console::warn(&format!("Warning: {name}.csv: waypoint {outside} lies outside the world"));
         }
-        let seed = hairpin::math::random::case_seed(work.setup.scenario.seed, number as u64);
+        let seed = hairpin::math::random::case_seed(work.setup.scenario.seed(), number as u64);
         let same = known.iter().find(|case| case.waypoints == *waypoints);
         cases.push(match same {
             Some(case) => Case { number, seed, ..case.clone() },

@@ -60,13 +60,13 @@ fn suite(work: &Work, tally: &Tally, verdict: &Verdict, results: &[CaseResult]) 
     let by_a_case = results.iter().any(|result| result.status == Status::Inconclusive);
     let property = |name: &str, value: String| (name.to_owned(), value);
     Suite {
-        name: work.setup.robot.name.clone(),
-        asked: tally.asked(scenario.generate.search.cases),
+        name: work.setup.robot_name().to_owned(),
+        asked: tally.asked(scenario.search().cases),
         missing: tally.nothing.clone().unwrap_or_else(|| "not found within the budget".into()),
         inconclusive: (verdict.exit_code == 5 && !by_a_case).then(|| verdict.sentence.clone()),
         properties: vec![
             property("verdict", verdict.sentence.clone()),
-            property("seed", scenario.seed.to_string()),
+            property("seed", scenario.seed().to_string()),
             property("version", env!("CARGO_PKG_VERSION").into()),
         ],
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup};
+use hairpin::trajectory::drive::Drive;
 use hairpin::trajectory::{Profile, ProfileLeg};
 use hairpin_formats::atomic;
 use nalgebra::Point3;
@@ -16,6 +17,8 @@ const MOST_WAYPOINTS: usize = 10_000;
 const FARTHEST_M: f64 = 20_000.0;
 /// Ten times the longest leg that a scenario can ask for.
 const LONGEST_LEG_S: f64 = 600.0;
+/// A kilometre at a centimetre a second.
+const LONGEST_DRIVE_S: f64 = 1e5;
 
 /// One run that violates the spec, and all that it takes to fly it again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -40,6 +43,9 @@ pub(crate) struct Repro {
     /// The control witness, one per leg: `duration_s`, and per axis c0 … c7 in m/s^i.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) profile: Option<Vec<Leg>>,
+    /// The control witness of a drive, SI.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) drive: Option<Drive>,
     /// The resolved scenario.
     pub(crate) scenario: Scenario,
 }
@@ -87,6 +93,7 @@ impl Repro {
             leg_times_s: case.leg_times.clone(),
             evidence: case.evidence.word().into(),
             profile: case.profile.as_ref().map(|profile| profile.legs.iter().map(leg).collect()),
+            drive: case.drive.clone(),
             scenario: setup.scenario.clone(),
         }
     }
@@ -123,10 +130,21 @@ impl Repro {
         if ![0, legs].contains(&self.leg_times_s.len()) {
             return Err(format!("leg_times_s has {} values: must be {legs}", self.leg_times_s.len()));
         }
-        let is_time = |time: f64| time > 0.0 && time <= LONGEST_LEG_S;
+        let longest = if self.drive.is_some() { LONGEST_DRIVE_S } else { LONGEST_LEG_S };
+        let is_time = |time: f64| time > 0.0 && time <= longest;
         if let Some(i) = self.leg_times_s.iter().position(|time| !is_time(*time)) {
             let time = self.leg_times_s[i];
-            return Err(format!("leg_times_s[{i}] = {time}: must be > 0 and ≤ {LONGEST_LEG_S} s"));
+            return Err(format!("leg_times_s[{i}] = {time}: must be > 0 and ≤ {longest} s"));
+        }
+        if let Some(drive) = &self.drive {
+            if drive.legs.len() != legs {
+                return Err(format!("drive: must have {legs} legs"));
+            }
+            for (key, value) in [("speed", drive.speed), ("turn_rate", drive.turn_rate)] {
+                if !(value > 0.0 && value <= 100.0) {
+                    return Err(format!("drive.{key} = {value}: must be > 0 and ≤ 100"));
+                }
+            }
         }
         let Some(profile) = &self.profile else { return Ok(()) };
         if profile.len() != legs {
@@ -157,6 +175,7 @@ impl Repro {
             bound: None,
             evidence,
             certified: None,
+            drive: self.drive.clone(),
             profile: self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() }),
         })
     }

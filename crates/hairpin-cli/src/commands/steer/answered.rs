@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use hairpin::campaign::ground::drive_piece;
+use hairpin::campaign::drive::drive_piece;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision};
 use hairpin::feasibility::steering::shooting::solve::Solution;
 use hairpin::verification::{DriveClaim, DrivePiece, DriveReplay};

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use hairpin::campaign::ground::Site;
+use hairpin::campaign::drive::Site;
 use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision, Query};
 use hairpin::feasibility::steering::shooting::rough::{Blocked, Cause, Settings, Status as Found};

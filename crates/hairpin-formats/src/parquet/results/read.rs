@@ -57,6 +57,7 @@ fn read_cases(table: &Table) -> Result<Vec<Case>, TableError> {
                     .ok_or_else(|| word("evidence", &evidence[row], "unchecked, hull-feasible or witnessed"))?,
                 certified: certified[row].as_ref().map(known).transpose()?,
                 profile: None,
+                drive: None,
             })
         })
         .collect()

@@ -27,7 +27,10 @@ pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
         setup.speed()
     ));
     if setup.rover.response.latency > 0.0 {
-        said.push(format!("The latency of {} s is not planned for: legs follow each other.", setup.rover.response.latency));
+        said.push(format!(
+            "The latency of {} s is not planned for: legs follow each other.",
+            setup.rover.response.latency
+        ));
     }
     let grid = setup.map.grid();
     let coarse = grid.cell[0].max(grid.cell[1]);

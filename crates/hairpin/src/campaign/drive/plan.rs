@@ -47,8 +47,7 @@ pub(in crate::campaign) fn track(setup: &DriveSetup, case: &Case) -> Result<Trac
         poses.push(Isometry3::from_parts(Translation3::from(places[i]), attitude));
         let (before, after) = (i.saturating_sub(1), (i + 1).min(samples.len() - 1));
         let elapsed = samples[after].t - samples[before].t;
-        let velocity =
-            if elapsed > 0.0 { (places[after] - places[before]) / elapsed } else { Vector3::zeros() };
+        let velocity = if elapsed > 0.0 { (places[after] - places[before]) / elapsed } else { Vector3::zeros() };
         let row = [sample.leg as f64, velocity.x, velocity.y, velocity.z, sample.at.curvature];
         for (column, value) in columns.iter_mut().zip(row) {
             column.push(value);

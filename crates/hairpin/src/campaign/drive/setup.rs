@@ -65,7 +65,7 @@ impl<'a> DriveSetup<'a> {
 ///
 /// # Errors
 /// The robot's key that is out of bounds; a name that was not resolved before.
-pub fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistake> {
+pub(in crate::campaign) fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistake> {
     let GroundDescription::Rover(description) = source.resolved()?;
     description.build().map_err(|error| Mistake {
         key: format!("robot.{}", error.field),
@@ -75,7 +75,7 @@ pub fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistak
 }
 
 /// `rover` as plans have it.
-pub fn planner_of(rover: &Rover) -> Rover {
+pub(in crate::campaign) fn planner_of(rover: &Rover) -> Rover {
     Rover { response: Response { latency: 0.0, ..rover.response }, ..rover.clone() }
 }
 
@@ -83,7 +83,7 @@ pub fn planner_of(rover: &Rover) -> Rover {
 ///
 /// # Errors
 /// The key that is out of bounds; a file that was not read before.
-pub fn map_of(terrain: &TerrainSection, seed: u64) -> Result<Arc<ElevationMap>, Mistake> {
+pub(in crate::campaign) fn map_of(terrain: &TerrainSection, seed: u64) -> Result<Arc<ElevationMap>, Mistake> {
     if let Some(map) = &terrain.map {
         return Ok(map.clone());
     }
@@ -129,13 +129,11 @@ impl From<NoData> for HoleRule {
 ///
 /// # Errors
 /// The key that is out of bounds.
-pub fn keep_outs_of(sections: &[KeepOutSection]) -> Result<KeepOuts, Mistake> {
+pub(in crate::campaign) fn keep_outs_of(sections: &[KeepOutSection]) -> Result<KeepOuts, Mistake> {
     let mut list = Vec::with_capacity(sections.len());
     for (index, section) in sections.iter().enumerate() {
         let shape = match (&section.circle, &section.polygon) {
-            (Some(circle), None) => {
-                KeepOutShape::Circle { center_m: circle.center_m, radius_m: circle.radius_m }
-            }
+            (Some(circle), None) => KeepOutShape::Circle { center_m: circle.center_m, radius_m: circle.radius_m },
             (None, Some(polygon)) => KeepOutShape::Polygon { points_m: polygon.points_m.clone() },
             (circle, _) => {
                 let value = if circle.is_some() { "circle and polygon" } else { "no shape" };

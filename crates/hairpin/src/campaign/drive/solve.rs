@@ -72,9 +72,8 @@ impl<'a> Solver<'a> {
             seed: named_seed(self.setup.scenario.seed, "graph", graph),
         };
         let free = sample_ground(&self.site(), &self.settings, &asked).map_err(|error| error.to_string())?;
-        let on_ground = |[x, y]: [f64; 2]| {
-            Point3::new(x, y, self.setup.map.patch(x, y).map_or(0.0, |patch| patch.height))
-        };
+        let on_ground =
+            |[x, y]: [f64; 2]| Point3::new(x, y, self.setup.map.patch(x, y).map_or(0.0, |patch| patch.height));
         Ok(std::iter::once(on_ground(start)).chain(free).chain(task.end_m.map(on_ground)).collect())
     }
 
@@ -151,7 +150,7 @@ fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
         limits: DriveLimits {
             tilt: setup.tilt(),
             joint: setup.rover.limits.joint,
-            belly: generate.limits.belly_clearance_m.unwrap_or(f64::NEG_INFINITY),
+            clearance: generate.limits.belly_clearance_m.unwrap_or(f64::NEG_INFINITY),
         },
         solver: rough::Settings {
             iterations: solver.iterations as u32,

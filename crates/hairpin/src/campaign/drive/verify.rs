@@ -20,8 +20,7 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
         })
         .collect();
     let waypoints: Vec<[f64; 2]> = case.waypoints.iter().map(|p| [p.x, p.y]).collect();
-    let claim =
-        DrivesClaim { waypoints: &waypoints, legs: &legs, speed: drive.speed, direction: drive.direction };
+    let claim = DrivesClaim { waypoints: &waypoints, legs: &legs, speed: drive.speed, direction: drive.direction };
     let (solver, bounds) = (&setup.scenario.generate.solver, setup.bounds());
     let tolerances = DriveTolerances {
         position: solver.position_m,

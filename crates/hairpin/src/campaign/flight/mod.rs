@@ -2,9 +2,9 @@
 
 mod assumptions;
 mod certificates;
-mod legs;
 mod fly;
 mod graph;
+mod legs;
 mod plan;
 mod setup;
 mod solve;

@@ -24,7 +24,7 @@ pub struct FlightSetup<'a> {
 ///
 /// # Errors
 /// The robot's key that is out of bounds; a name that was not resolved before.
-pub fn robot_of(source: &RobotSource<QuadrotorDescription>) -> Result<Quadrotor, Mistake> {
+pub(in crate::campaign) fn robot_of(source: &RobotSource<QuadrotorDescription>) -> Result<Quadrotor, Mistake> {
     source.resolved()?.build().map_err(|error| Mistake {
         key: format!("robot.{}", error.field),
         value: error.value,
@@ -36,7 +36,7 @@ pub fn robot_of(source: &RobotSource<QuadrotorDescription>) -> Result<Quadrotor,
 ///
 /// # Errors
 /// The world's key that is out of bounds.
-pub fn world_of(section: &WorldSection) -> Result<World, Mistake> {
+pub(in crate::campaign) fn world_of(section: &WorldSection) -> Result<World, Mistake> {
     let mut obstacles = Vec::with_capacity(section.obstacles.len());
     for (index, obstacle) in section.obstacles.iter().enumerate() {
         let shape = shape_of(obstacle).map_err(|error| mistake(&format!("obstacles[{index}]."), error))?;

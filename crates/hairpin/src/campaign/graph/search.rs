@@ -7,7 +7,9 @@ use nalgebra::Point3;
 use crate::campaign::scenario::{SearchMethod, SearchSection};
 use crate::feasibility::reach::Reach;
 use crate::search::beam::Ended;
-use crate::search::{BeamSettings, ExactSettings, Found, LegGraph, Objective, Task, UniformSettings, beam, exact, uniform};
+use crate::search::{
+    BeamSettings, ExactSettings, Found, LegGraph, Objective, Task, UniformSettings, beam, exact, uniform,
+};
 
 /// One graph and what is asked of it.
 pub(in crate::campaign) struct Question<'a, N, R, O> {
@@ -86,7 +88,9 @@ fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     }
 }
 
-fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(question: &Question<N, R, O>) -> Answer<N> {
+fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+    question: &Question<N, R, O>,
+) -> Answer<N> {
     let search = question.search;
     let graph = leg_graph(question);
     let settings = ExactSettings {
@@ -114,7 +118,9 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memor
     }
 }
 
-fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(question: &Question<N, R, O>) -> Answer<N> {
+fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+    question: &Question<N, R, O>,
+) -> Answer<N> {
     let search = question.search;
     let graph = leg_graph(question);
     let settings = UniformSettings {

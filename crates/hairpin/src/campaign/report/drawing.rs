@@ -101,8 +101,7 @@ fn ground(setup: &DriveSetup, places: impl Iterator<Item = Point3<f64>>) -> Draw
         .collect();
     let (wheels, count, _) = setup.rover.suspension.wheels(&[0.0; 3]);
     let known = heights.iter().flatten().filter(|h| h.is_finite());
-    let (bottom, top) =
-        known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(*h), high.max(*h)));
+    let (bottom, top) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(*h), high.max(*h)));
     let (bottom, top) = if bottom <= top { (bottom, top) } else { (0.0, 0.0) };
     Drawing {
         low: Point3::new(low[0], low[1], bottom),
@@ -133,8 +132,7 @@ fn keep_outs(setup: &DriveSetup, at: &impl Fn(f64, f64) -> f64, bottom: f64) -> 
         .map(|place| {
             let corners = shape(&place.shape);
             let height = corners.iter().map(|[x, y]| at(*x, *y)).filter(|h| h.is_finite()).fold(bottom, f64::max);
-            let vertices: Vec<Point3<f64>> =
-                corners.iter().map(|[x, y]| Point3::new(*x, *y, height + 0.05)).collect();
+            let vertices: Vec<Point3<f64>> = corners.iter().map(|[x, y]| Point3::new(*x, *y, height + 0.05)).collect();
             // A fan: exact for convex shapes; the outline is drawn from the corners.
             let triangles = (1..vertices.len().saturating_sub(1) as u32).map(|i| [0, i, i + 1]).collect();
             Surface { name: place.name.clone(), vertices, triangles }

@@ -160,7 +160,8 @@ impl Scenario {
             Self::Drive(scenario) => {
                 let DriveExecute { command, repeat, timeout_s, workers, accept_m, .. } = &scenario.execute;
                 let command = command.as_deref();
-                Executor { command, repeat: *repeat, timeout: *timeout_s, workers: *workers, accept: *accept_m }
+                let repeat = repeat.unwrap_or(if scenario.vary.is_empty() { 1 } else { 2 });
+                Executor { command, repeat, timeout: *timeout_s, workers: *workers, accept: *accept_m }
             }
         }
     }

@@ -26,7 +26,9 @@ const FIXED: &[(&str, &str)] = &[
     ("spec.confidence", "it judges all cases together"),
     ("spec.limits.violation_share", "it judges all cases together"),
     ("spec.limits.confidence", "it judges all cases together"),
+    ("world.frame", "it is the frame of the whole file"),
     ("world.terrain.file", "one map is read for all cases"),
+    ("world.terrain.checksum", "one map is read for all cases"),
 ];
 /// Each is tried before anything flies.
 const MOST_CHOICES: usize = 1000;

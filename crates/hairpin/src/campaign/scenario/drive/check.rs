@@ -4,8 +4,8 @@ use super::{DriveExecute, DriveGenerate, DriveScenario, DriveSpec, GroundReach, 
 use crate::campaign::drive::{keep_outs_of, map_of, rover_of};
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{Mistake, SearchMethod};
-use crate::robot::rover::Rover;
 use crate::feasibility::reach::drive::GroundScore;
+use crate::robot::rover::Rover;
 use crate::world::terrain::Terrain;
 
 /// Longer trajectories take days to drive.
@@ -128,7 +128,9 @@ fn check_execute(execute: &DriveExecute, found: &mut Findings) {
         let fine = !command.trim().is_empty();
         found.require(fine, "execute.command", format!("\"{command}\""), "a program and its arguments");
     }
-    found.count("execute.repeat", execute.repeat, 1, 100_000);
+    if let Some(repeat) = execute.repeat {
+        found.count("execute.repeat", repeat, 1, 100_000);
+    }
     found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");
     if let Some(limit) = execute.time_limit_s {
         found.above("execute.time_limit_s", limit, 0.0, 1e6, " s");

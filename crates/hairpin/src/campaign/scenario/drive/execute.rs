@@ -13,8 +13,9 @@ pub struct DriveExecute {
     /// A program that speaks the executor protocol, as a shell would split it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others.
-    pub repeat: u64,
+    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others. One if not given, two where something varies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repeat: Option<u64>,
     /// A waypoint counts as reached inside this radius.
     pub accept_m: f64,
     /// Time limit of a run; twice the planned time and a minute if not given.
@@ -35,7 +36,7 @@ impl Default for DriveExecute {
         Self {
             controller: None,
             command: None,
-            repeat: 1,
+            repeat: None,
             accept_m: 0.5,
             time_limit_s: None,
             latency_s: None,

@@ -70,9 +70,15 @@ pub struct TerrainSection {
     /// Share of the generated ground that is covered by rocks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rock_cover: Option<f64>,
-    /// The file's map, once it was read.
+    /// SHA-256 of the file's bytes, as resolved scenarios have it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub checksum: Option<String>,
+    /// The map, once the file was read or the ground generated.
     #[serde(skip)]
     pub map: Option<Arc<ElevationMap>>,
+    /// The file as it was read: a campaign keeps its own copy.
+    #[serde(skip)]
+    pub bytes: Option<Arc<[u8]>>,
 }
 
 impl PartialEq for TerrainSection {
@@ -83,6 +89,7 @@ impl PartialEq for TerrainSection {
             && (self.cell_m, self.height_m, self.origin_m) == (other.cell_m, other.height_m, other.origin_m)
             && (self.generator, self.size_m, self.seed) == (other.generator, other.size_m, other.seed)
             && (self.relief_m, self.rock_cover) == (other.relief_m, other.rock_cover)
+            && self.checksum == other.checksum
     }
 }
 

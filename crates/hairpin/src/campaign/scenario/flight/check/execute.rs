@@ -1,7 +1,7 @@
 //! Bounds of `[execute]`.
 
-use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::ExecuteSection;
+use crate::campaign::scenario::findings::Findings;
 
 pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
     check_who(execute, found);

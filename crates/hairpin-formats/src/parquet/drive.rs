@@ -1,0 +1,154 @@
+//! `profiles/CASE.parquet` of a drive: its commands, one row per segment:
+//! `leg,segment,kind,direction,length_m,turn_rad,a0…a5,from_x_m,from_y_m,from_yaw_rad,from_curvature_1_m,to_x_m,…`.
+//!
+//! The leg's ends stand in each of its rows; speed, turn rate and direction of travel in every row.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use arrow::array::{Float64Array, Int64Array, StringArray};
+use hairpin::trajectory::drive::{Drive, DriveLeg, Gear, Motion, Planar, Segment};
+
+use super::table::{Columns, Table, TableError};
+use crate::atomic::WriteError;
+
+const ARC: &str = "arc";
+const TURN: &str = "turn";
+
+/// Writes `drive`: curvature of a segment is Σ aᵢ sⁱ (1/m), s from 0 in each; ψ̇ = direction · v · κ.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(path: &Path, drive: &Drive) -> Result<(), WriteError> {
+    let rows: Vec<(usize, usize, &DriveLeg, &Segment)> = (drive.legs.iter().enumerate())
+        .flat_map(|(number, leg)| leg.segments.iter().enumerate().map(move |(i, segment)| (number, i, leg, segment)))
+        .collect();
+    let mut columns = Columns::default();
+    let mut counts = |name: &str, of: fn(&(usize, usize, &DriveLeg, &Segment)) -> i64| {
+        columns.push(name, Arc::new(rows.iter().map(of).collect::<Int64Array>()));
+    };
+    counts("leg", |row| row.0 as i64);
+    counts("segment", |row| row.1 as i64);
+    counts("direction", |row| row.3.gear.sign() as i64);
+    let kind = |segment: &Segment| match segment.motion {
+        Motion::Arc { .. } => ARC,
+        Motion::Turn { .. } => TURN,
+    };
+    columns.push("kind", Arc::new(rows.iter().map(|row| Some(kind(row.3))).collect::<StringArray>()));
+    let mut numbers = |name: String, of: &dyn Fn(&DriveLeg, &Segment) -> f64| {
+        columns.push(name, Arc::new(rows.iter().map(|row| of(row.2, row.3)).collect::<Float64Array>()));
+    };
+    numbers("length_m".into(), &|_, segment| segment.length_m());
+    numbers("turn_rad".into(), &|_, segment| match segment.motion {
+        Motion::Arc { .. } => 0.0,
+        Motion::Turn { angle_rad } => angle_rad,
+    });
+    for i in 0..6 {
+        numbers(format!("a{i}"), &|_, segment| match segment.motion {
+            Motion::Arc { curvature, .. } => curvature[i],
+            Motion::Turn { .. } => 0.0,
+        });
+    }
+    for (end, of) in [("from", (|leg| &leg.from) as fn(&DriveLeg) -> &Planar), ("to", |leg| &leg.to)] {
+        numbers(format!("{end}_x_m"), &|leg, _| of(leg).x);
+        numbers(format!("{end}_y_m"), &|leg, _| of(leg).y);
+        numbers(format!("{end}_yaw_rad"), &|leg, _| of(leg).yaw);
+        numbers(format!("{end}_curvature_1_m"), &|leg, _| of(leg).curvature);
+    }
+    numbers("speed_m_s".into(), &|_, _| drive.speed);
+    numbers("turn_rate_rad_s".into(), &|_, _| drive.turn_rate);
+    numbers("travel_direction_rad".into(), &|_, _| drive.direction);
+    columns.write(path, "drive")
+}
+
+/// Whether a witness is a drive's: it has segments.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn is_drive(path: &Path) -> Result<bool, TableError> {
+    Ok(Table::read(path)?.names().iter().any(|name| name == "segment"))
+}
+
+/// Reads a drive, its rows in any order.
+///
+/// # Errors
+/// Missing columns, values out of bounds, a leg or segment that is missing or twice there.
+pub fn read(path: &Path) -> Result<Drive, TableError> {
+    let table = Table::read(path)?;
+    let (legs, segments) = (table.counts("leg")?, table.counts("segment")?);
+    let (kinds, directions) = (table.texts("kind")?, table.numbers("direction")?);
+    let (lengths, turns) = (table.numbers("length_m")?, table.numbers("turn_rad")?);
+    let polynomial = (0..6).map(|i| table.numbers(&format!("a{i}"))).collect::<Result<Vec<_>, _>>()?;
+    let end = |end: &str| -> Result<Vec<Planar>, TableError> {
+        let [x, y, yaw, curvature] = ["x_m", "y_m", "yaw_rad", "curvature_1_m"].map(|name| format!("{end}_{name}"));
+        let (x, y) = (table.numbers(&x)?, table.numbers(&y)?);
+        let (yaw, curvature) = (table.numbers(&yaw)?, table.numbers(&curvature)?);
+        Ok((0..table.rows()).map(|i| Planar { x: x[i], y: y[i], yaw: yaw[i], curvature: curvature[i] }).collect())
+    };
+    let (from, to) = (end("from")?, end("to")?);
+    let (speeds, turn_rates) = (table.numbers("speed_m_s")?, table.numbers("turn_rate_rad_s")?);
+    let travel = table.numbers("travel_direction_rad")?;
+    if table.rows() == 0 {
+        return Err(table.refuse("leg", 0, "missing", "one row for each segment"));
+    }
+    let mut order: Vec<usize> = (0..table.rows()).collect();
+    order.sort_by_key(|&row| (legs[row], segments[row]));
+    let mut drive = Drive { legs: Vec::new(), speed: speeds[0], turn_rate: turn_rates[0], direction: travel[0] };
+    for (name, values) in [("speed_m_s", &speeds), ("turn_rate_rad_s", &turn_rates)] {
+        if let Some(row) = values.iter().position(|value| *value <= 0.0 || *value != values[0]) {
+            return Err(table.refuse(name, row, values[row], "> 0, and the same in every row"));
+        }
+    }
+    for row in order {
+        if segments[row] == 0 {
+            drive.legs.push(DriveLeg { from: from[row], to: to[row], segments: Vec::new() });
+        }
+        let number = drive.legs.len();
+        let Some(leg) =
+            drive.legs.last_mut().filter(|leg| legs[row] + 1 == number && segments[row] == leg.segments.len())
+        else {
+            let found = format!("{} (segment {})", legs[row], segments[row]);
+            return Err(table.refuse("leg", row, found, "legs from 0 on, each with segments from 0 on, each once"));
+        };
+        let gear = match directions[row] {
+            1.0 => Gear::Forward,
+            -1.0 => Gear::Reverse,
+            other => return Err(table.refuse("direction", row, other, "1 or -1")),
+        };
+        if lengths[row] < 0.0 {
+            return Err(table.refuse("length_m", row, lengths[row], "≥ 0"));
+        }
+        let motion = match kinds[row].as_str() {
+            ARC => Motion::Arc { length_m: lengths[row], curvature: std::array::from_fn(|i| polynomial[i][row]) },
+            TURN => Motion::Turn { angle_rad: turns[row] },
+            other => return Err(table.refuse("kind", row, format!("`{other}`"), "arc or turn")),
+        };
+        leg.segments.push(Segment { motion, gear });
+    }
+    Ok(drive)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drive_comes_back_as_it_was() {
+        let at = |x: f64| Planar { x, y: -x, yaw: 0.3 * x, curvature: 0.1 };
+        let arc = Motion::Arc { length_m: 2.5, curvature: [0.1, -0.2, 0.3, 0.0, 1e-3, -1e-4] };
+        let segments = vec![
+            Segment { motion: arc, gear: Gear::Reverse },
+            Segment { motion: Motion::Turn { angle_rad: -0.7 }, gear: Gear::Forward },
+        ];
+        let leg = |x: f64, segments: &[Segment]| DriveLeg { from: at(x), to: at(x + 1.0), segments: segments.to_vec() };
+        let legs = vec![leg(0.0, &segments), leg(1.0, &segments[..1])];
+        let drive = Drive { legs, speed: 0.06, turn_rate: 0.1, direction: 0.2 };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("0000.parquet");
+        write(&path, &drive).unwrap();
+        assert_eq!(read(&path).unwrap(), drive);
+        let broken = Drive { speed: 0.0, ..drive };
+        write(&path, &broken).unwrap();
+        assert!(read(&path).unwrap_err().to_string().contains("speed_m_s"));
+    }
+}
