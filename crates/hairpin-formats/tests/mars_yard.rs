@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use hairpin::campaign::goals::ground_goals;
 use hairpin::campaign::drive::Site;
+use hairpin::campaign::goals::ground_goals;
 use hairpin::feasibility::steering::shooting::rough::{Settings, Status};
 use hairpin::math::random::stream;
 use hairpin::robot::rover::{Response, Rover, RoverDescription, Slip};

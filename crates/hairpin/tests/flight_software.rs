@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use allocation_counter::measure;
-use hairpin::campaign::goals::{anywhere, flat_goal, ground_goals};
 use hairpin::campaign::drive::Site;
+use hairpin::campaign::goals::{anywhere, flat_goal, ground_goals};
 use hairpin::feasibility::steering::shooting::cc::{self, Gears};
 use hairpin::feasibility::steering::shooting::flat::{self, Control, Cost};
 use hairpin::feasibility::steering::shooting::rough::{Settings, Status, Steps};

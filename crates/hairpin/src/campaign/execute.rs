@@ -50,7 +50,7 @@ pub fn execute_run(setup: &Setup, case: &Case, run: usize) -> Run {
 /// `setup` is the nominal one, which the plan was made with; the mission has its own.
 fn carry_out(setup: &Setup, mission: &Mission, case: &Case) -> Result<Flight, SimulationError> {
     match (setup.kind(), mission.setup.kind()) {
-        (Kind::Drive(nominal), Kind::Drive(setup)) => drive::drive(&nominal, &setup, mission, case),
+        (Kind::Drive(nominal), Kind::Drive(setup)) => drive::drive(&nominal, &setup, case, &drive_order(mission)),
         (_, Kind::Flight(setup)) => flight::fly(&setup, &flight_order(mission, case)),
         (Kind::Flight(_), Kind::Drive(_)) => unreachable!("draws change no robot's kind"),
     }
@@ -64,4 +64,8 @@ fn flight_order<'a>(mission: &'a Mission, case: &'a Case) -> flight::Order<'a> {
         time_limit: mission.time_limit,
         seed: mission.seed,
     }
+}
+
+fn drive_order(mission: &Mission) -> drive::Order {
+    drive::Order { accept: mission.accept, time_limit: mission.time_limit, seed: mission.seed }
 }

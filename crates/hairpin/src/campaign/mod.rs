@@ -27,7 +27,7 @@ pub use generate::{Known, Tally, generate};
 pub use influence::{Influence, RunDeviation, influences};
 pub use judge::{how_obtained, judge, judge_runs, verdict};
 pub use mission::{Mission, mission};
-pub use planned::planned;
+pub use planned::{PlanError, planned};
 pub use scenario::{Mistake, Scenario};
 pub use setup::{Kind, Setup};
 pub use stop::Stop;

@@ -3,8 +3,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use hairpin::campaign::goals::ground_goals;
 use hairpin::campaign::drive::Site;
+use hairpin::campaign::goals::ground_goals;
 use hairpin::feasibility::steering::shooting::rough::{Answer, Settings, Status};
 use hairpin::math::random::stream;
 use hairpin::robot::rover::Rover;

@@ -1,7 +1,7 @@
 //! What a drive's claim, execution and limits rest on, said from the run's own settings.
 
 use super::DriveSetup;
-use crate::campaign::scenario::{DriveController, GroundReach};
+use crate::campaign::scenario::{GroundControllerKind, GroundReach};
 
 /// What stands behind the legs.
 pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
@@ -52,7 +52,7 @@ pub(in crate::campaign) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
             said.push(format!("Executed by `{command}`; legs are those that it reported."));
         }
         (_, controller) => {
-            let controller = controller.unwrap_or(DriveController::Predictive);
+            let controller = controller.unwrap_or(GroundControllerKind::Predictive);
             let latency = execute.latency_s.unwrap_or(setup.rover.response.latency);
             said.push(format!(
                 "Simulated: suspension at rest at every step, slip by slope, latency {latency} s, steering lag and rate; \

@@ -9,7 +9,7 @@ mod solve;
 mod verify;
 
 pub(super) use assumptions::{act, claim, verdict};
-pub(super) use drive::drive;
+pub(super) use drive::{Order, drive};
 pub(super) use plan::{timed, track};
 pub use setup::DriveSetup;
 pub(super) use setup::{keep_outs_of, map_of, planner_of, rover_of};

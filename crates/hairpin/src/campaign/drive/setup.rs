@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::campaign::scenario::{
     DriveScenario, GeneratorName, GroundDescription, KeepOutSection, Mistake, NoData, RobotSource, TerrainSection,
 };
-use crate::feasibility::steering::shooting::Curvatures;
+use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite};
+use crate::feasibility::steering::shooting::{Curvatures, Precision, flat, rough};
 use crate::math::simd::Simd;
 use crate::robot::rover::{Response, Rover};
 use crate::world::terrain::generate::{Recipe, generate};
@@ -53,6 +54,26 @@ impl<'a> DriveSetup<'a> {
     /// Largest tilt of a plan, rad.
     pub fn tilt(&self) -> f64 {
         self.scenario.generate.limits.tilt_deg.map_or(f64::INFINITY, f64::to_radians).min(self.rover.limits.tilt)
+    }
+
+    /// Radius of the circle about its origin that holds the vehicle, m.
+    pub fn radius(&self) -> f64 {
+        DriveSite::new(self.planner, self.map, self.keep_out).radius
+    }
+
+    /// How exactly legs are solved on the ground.
+    pub(super) fn leg_solver(&self) -> rough::Settings {
+        let solver = &self.scenario.generate.solver;
+        rough::Settings {
+            iterations: solver.iterations as u32,
+            precision: Precision { position: solver.position_m, yaw: solver.yaw_rad, curvature: solver.curvature_1_m },
+        }
+    }
+
+    /// The flat solver that shapes them.
+    pub(super) fn flat_solver(&self) -> flat::Settings {
+        let starts = self.scenario.generate.solver.starts as u32;
+        flat::Settings { starts, simd: self.simd, ..ReachSettings::of(self.planner).flat }
     }
 
     /// The vehicle on its ground at the commanded speed, straight on.

@@ -11,7 +11,6 @@ use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
 use crate::feasibility::reach::drive::{
     DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres, sample_ground,
 };
-use crate::feasibility::steering::shooting::{Precision, rough};
 use crate::math::random::named_seed;
 use crate::search::{Found, OpenEnd, Score};
 use crate::trajectory::drive::Planar;
@@ -135,8 +134,7 @@ impl<'a> Solver<'a> {
 fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
     let (task, generate) = (&setup.scenario.task, &setup.scenario.generate);
     let may = |manoeuvre| generate.manoeuvres.contains(&manoeuvre);
-    let solver = &generate.solver;
-    let mut settings = DriveSettings {
+    let settings = DriveSettings {
         leg_m: task.leg_m,
         headings: generate.headings as usize,
         speed: setup.speed(),
@@ -152,14 +150,10 @@ fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
             joint: setup.rover.limits.joint,
             clearance: generate.limits.belly_clearance_m.unwrap_or(f64::NEG_INFINITY),
         },
-        solver: rough::Settings {
-            iterations: solver.iterations as u32,
-            precision: Precision { position: solver.position_m, yaw: solver.yaw_rad, curvature: solver.curvature_1_m },
-        },
+        solver: setup.leg_solver(),
+        flat: setup.flat_solver(),
         score: GroundScore::named(&generate.search.score).map_err(|error| error.to_string())?,
         ..DriveSettings::of(setup.planner)
     };
-    settings.flat.starts = solver.starts as u32;
-    settings.flat.simd = setup.simd;
     Ok(settings)
 }

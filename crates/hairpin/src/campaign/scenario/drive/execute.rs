@@ -3,13 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use crate::simulation::ground::GroundControllerKind;
+
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DriveExecute {
     /// pure-pursuit | stanley | predictive.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub controller: Option<DriveController>,
+    pub controller: Option<GroundControllerKind>,
     /// A program that speaks the executor protocol, as a shell would split it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
@@ -24,6 +26,8 @@ pub struct DriveExecute {
     /// A command acts this much later; the robot's own latency if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub latency_s: Option<f64>,
+    /// Whether controllers see a noisy pose: 1 cm along each axis and 0.3° of yaw.
+    pub noise: bool,
     /// Wall-clock limit per mission of `command`.
     pub timeout_s: f64,
     /// Workers of `command`; as many as threads if not given.
@@ -40,41 +44,19 @@ impl Default for DriveExecute {
             accept_m: 0.5,
             time_limit_s: None,
             latency_s: None,
+            noise: false,
             timeout_s: 60.0,
             workers: None,
         }
     }
 }
 
-/// Controllers of ours that follow a planned path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum DriveController {
-    /// Steers at a point of the path ahead.
-    PurePursuit,
-    /// Steers by the front axle's distance from the path and the heading's error.
-    Stanley,
-    /// Solves anew to the path ahead at each cycle.
-    Predictive,
-}
-
-impl DriveController {
-    /// The word in scenarios.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::PurePursuit => "pure-pursuit",
-            Self::Stanley => "stanley",
-            Self::Predictive => "predictive",
-        }
-    }
-}
-
 impl DriveExecute {
     /// Who drives: the controller as given, `predictive` where nothing is, `None` where a command does.
-    pub fn controller_in_force(&self) -> Option<DriveController> {
+    pub fn controller_in_force(&self) -> Option<GroundControllerKind> {
         match (self.controller, &self.command) {
             (None, Some(_)) => None,
-            (controller, _) => Some(controller.unwrap_or(DriveController::Predictive)),
+            (controller, _) => Some(controller.unwrap_or(GroundControllerKind::Predictive)),
         }
     }
 }
