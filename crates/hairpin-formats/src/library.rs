@@ -29,6 +29,25 @@ pub fn rovers() -> impl Iterator<Item = Shipped> {
     robots().filter(|robot| robot.path.starts_with("robots/rover/"))
 }
 
+/// The shipped cars, sorted by path.
+pub fn cars() -> impl Iterator<Item = Shipped> {
+    on_the_ground("car")
+}
+
+/// The shipped differential drives, sorted by path.
+pub fn differential_drives() -> impl Iterator<Item = Shipped> {
+    on_the_ground("differential-drive")
+}
+
+/// Those of one folder, told apart by what their files say.
+fn on_the_ground(kind: &'static str) -> impl Iterator<Item = Shipped> {
+    let is = move |robot: &Shipped| {
+        let table = robot.text.parse::<toml::Table>().ok();
+        table.is_some_and(|table| table.get("kind").and_then(toml::Value::as_str) == Some(kind))
+    };
+    robots().filter(|robot| robot.path.starts_with("robots/ground/")).filter(is)
+}
+
 /// All shipped worlds, sorted by path.
 pub fn worlds() -> impl Iterator<Item = Shipped> {
     of_kind("worlds")

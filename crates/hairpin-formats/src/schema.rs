@@ -1,6 +1,7 @@
 //! The JSON Schema of scenario and robot files, made from the types that read them.
 
 use hairpin::campaign::scenario::{DriveScenario, FlightScenario};
+use hairpin::robot::ground::{CarDescription, DifferentialDriveDescription};
 use hairpin::robot::quadrotor::QuadrotorDescription;
 use hairpin::robot::rover::RoverDescription;
 use serde_json::{Value, json};
@@ -27,6 +28,16 @@ fn with_made_by(mut schema: Value) -> Value {
 /// The schema of a rover's file.
 pub fn rover_schema() -> Value {
     schemars::schema_for!(RoverDescription).to_value()
+}
+
+/// The schema of a car's file.
+pub fn car_schema() -> Value {
+    schemars::schema_for!(CarDescription).to_value()
+}
+
+/// The schema of a differential drive's file.
+pub fn differential_drive_schema() -> Value {
+    schemars::schema_for!(DifferentialDriveDescription).to_value()
 }
 
 /// The schema of a quadrotor's file.

@@ -58,6 +58,15 @@ fn every_shipped_file_validates_against_its_schema() {
         let told: Vec<_> = rovers.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
         assert!(told.is_empty(), "{}: {told:?}", shipped.path);
     }
+    let cars = jsonschema::validator_for(&schema::car_schema()).unwrap();
+    let drives = jsonschema::validator_for(&schema::differential_drive_schema()).unwrap();
+    let ground = library::cars().map(|car| (&cars, car)).chain(library::differential_drives().map(|d| (&drives, d)));
+    let ground: Vec<_> = ground.collect();
+    assert_eq!(ground.iter().map(|(_, shipped)| shipped.name).collect::<Vec<_>>(), ["car", "differential-drive"]);
+    for (validator, shipped) in ground {
+        let told: Vec<_> = validator.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
+        assert!(told.is_empty(), "{}: {told:?}", shipped.path);
+    }
     for shipped in library::quadrotors() {
         let told: Vec<_> = robots.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
         assert!(told.is_empty(), "{}: {told:?}", shipped.path);

@@ -1,16 +1,18 @@
 //! Closed-loop drives on the ground: controllers follow plans they can follow, and the plant slips as the closed form says.
 
+use hairpin::campaign;
 use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
 use hairpin::judgement::{Measures, Reference, Settings, measure};
-use hairpin::robot::rover::{Response, Rover, RoverDescription};
+use hairpin::robot::rover::{Response, Rover, RoverDescription, Slip};
 use hairpin::simulation::ground::{
     DriveSettings, GroundConditions, GroundController, GroundSortie, drive, planned_track,
 };
 use hairpin::trajectory::drive::{Drive, DriveLeg, Gear, Motion, Planar, Segment, SegmentList};
 use hairpin::trajectory::{Ended, Flight};
-use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, KeepOuts};
+use hairpin::world::terrain::generate::{Recipe, generate};
+use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, KeepOut, KeepOutShape, KeepOuts};
 use nalgebra::Point3;
 
 fn shipped(name: &str) -> Rover {
@@ -205,4 +207,115 @@ fn the_same_arguments_give_the_same_bytes_and_noise_has_its_seed() {
         assert_eq!(run(3), run(3), "{word}");
         assert_ne!(run(3).track, run(4).track, "{word}");
     }
+}
+
+/// Open loop, the plant and the proof are two integrators of one motion.
+#[test]
+fn a_plan_on_rough_ground_ends_where_the_replay_ends() {
+    let recipe = Recipe { size_m: 20.0, relief_m: 0.15, rock_cover: 0.0, seed: 5, ..Recipe::default() };
+    let map = generate(&recipe).expect("a map");
+    for name in ["rocky8", "four-wheel"] {
+        let mut rover = shipped(name);
+        rover.slip = Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 };
+        for lag in [0.0, 0.4] {
+            rover.response = Response { steering_time_constant: lag, ..rover.response };
+            let mut plan = plan(
+                &[vec![
+                    Segment::clothoid(1.5, 0.2, 0.7, Gear::Forward),
+                    Segment::clothoid(1.5, 0.7, -0.4, Gear::Forward),
+                    Segment::clothoid(1.0, -0.4, 0.0, Gear::Forward),
+                ]],
+                0.1,
+            );
+            let start = Planar { x: 8.0, y: 9.0, yaw: 0.6, curvature: 0.2 };
+            plan.legs[0].from = start;
+            let path = planned_track(&rover, &map, &plan).expect("a plan");
+            let end = path.poses()[path.len() - 1];
+            let (_, _, yaw) = end.rotation.euler_angles();
+            let goal = Planar { x: end.translation.x, y: end.translation.y, yaw, curvature: 0.0 };
+            let site = campaign::drive::Site { rover: &rover, map: &map, speed: plan.speed, direction: 0.0 };
+            let replay = site.replay(&start, &goal, &plan.legs[0].segments).expect("a replay");
+            let off = replay.error.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+            assert!(off < 1e-3, "{name} with lag {lag}: {:?}", replay.error);
+        }
+    }
+}
+
+#[test]
+fn a_side_slope_of_fifty_degrees_tips_it_over() {
+    let line = plan(&[vec![Segment::straight(3.0, Gear::Forward)]], 0.1);
+    for (degrees, ended) in [(30.0_f64, Ended::Done), (50.0, Ended::TipOver)] {
+        let mut site = Site::new("four-wheel", plane(0.0, degrees.to_radians().tan()));
+        // Half the track 0.25 m, the centre of mass 0.25 m over the contacts: 45°.
+        site.vehicle.body.centre_of_mass.z = 0.25 - 0.17;
+        let (flight, measures) = site.run(&line, &GroundController::Stanley, 1);
+        assert_eq!(flight.ended, ended);
+        let margin = measures.min_tip_over_margin.expect("told");
+        assert!((margin - (45.0 - degrees)).abs() < 1e-3, "{margin}");
+    }
+}
+
+#[test]
+fn runs_end_where_they_must() {
+    let far = plan(&[vec![Segment::straight(3.0, Gear::Forward)]], 0.1);
+    let ended = |site: &Site, plan: &Drive, keep_outs: Vec<KeepOut>, settings: DriveSettings| {
+        let keep_outs = KeepOuts::new(keep_outs).expect("places");
+        let sortie = GroundSortie {
+            vehicle: &site.vehicle,
+            nominal: &site.nominal,
+            terrain: &site.map,
+            keep_outs: &keep_outs,
+            clearance_radius: 0.5,
+            drive: plan,
+        };
+        drive(&sortie, &GroundController::PurePursuit, &site.conditions, &settings, 1).expect("a run")
+    };
+    let site = Site::new("rocky8", plane(0.0, 0.0));
+    let lander = KeepOut { name: "lander".into(), shape: KeepOutShape::Circle { center_m: [2.0, 0.4], radius_m: 0.3 } };
+    let hit = ended(&site, &far, vec![lander], DriveSettings::default());
+    assert_eq!((hit.ended, hit.reached[1]), (Ended::Obstacle, None));
+    let place = hit.track.position(hit.track.len() - 1);
+    assert!((((place.x - 2.0).powi(2) + 0.16).sqrt() - 0.8).abs() < 0.011, "{place}");
+    let limit = DriveSettings { time_limit: Some(5.0), ..DriveSettings::default() };
+    assert_eq!(ended(&site, &far, vec![], limit).ended, Ended::Time);
+    // Wheels that spin on a climb which the plan thought firm.
+    let mut steep = Site::new("rocky8", plane(0.4, 0.0));
+    steep.vehicle.slip.at_20_deg = 0.92;
+    let stuck = ended(&steep, &far, vec![], DriveSettings { patience: 20.0, ..DriveSettings::default() });
+    assert_eq!(stuck.ended, Ended::Stuck);
+    // Beside a plan that keeps to the map.
+    let mut edge = Site::new("rocky8", plane(0.0, 0.0));
+    edge.conditions.start_offset = [0.0, 0.0, 2.5];
+    let mut close = plan(&[vec![Segment::straight(3.0, Gear::Forward)]], 0.1);
+    (close.legs[0].from.x, close.legs[0].to.x) = (-19.0, -16.0);
+    assert_eq!(ended(&edge, &close, vec![], DriveSettings::default()).ended, Ended::OffMap);
+}
+
+#[test]
+fn mistakes_are_told_by_field() {
+    let site = Site::new("rocky8", plane(0.0, 0.0));
+    let none = KeepOuts::new(vec![]).expect("none");
+    let field = |plan: &Drive, conditions: &GroundConditions, settings: &DriveSettings| {
+        let sortie = GroundSortie {
+            vehicle: &site.vehicle,
+            nominal: &site.nominal,
+            terrain: &site.map,
+            keep_outs: &none,
+            clearance_radius: 0.0,
+            drive: plan,
+        };
+        drive(&sortie, &GroundController::Stanley, conditions, settings, 1).map(|_| ()).expect_err("a mistake").field
+    };
+    let good = plan(&[vec![Segment::straight(3.0, Gear::Forward)]], 0.1);
+    let (conditions, settings) = (GroundConditions::default(), DriveSettings::default());
+    let beyond = plan(&[vec![Segment::straight(30.0, Gear::Forward)]], 0.1);
+    assert_eq!(field(&beyond, &conditions, &settings), "drive.legs");
+    assert_eq!(field(&Drive { speed: 0.0, ..good.clone() }, &conditions, &settings), "drive.speed");
+    assert_eq!(field(&Drive { legs: vec![], ..good.clone() }, &conditions, &settings), "drive.legs");
+    assert_eq!(field(&good, &GroundConditions { latency: -1.0, ..conditions }, &settings), "latency");
+    assert_eq!(
+        field(&good, &GroundConditions { start_offset: [f64::NAN; 3], ..conditions }, &settings),
+        "start_offset"
+    );
+    assert_eq!(field(&good, &conditions, &DriveSettings { accept: 0.0, ..settings }), "accept");
 }

@@ -118,6 +118,7 @@ fn measures(deviation: f64) -> Measures {
         time: 4.0,
         overshoot: 0.1 * k as f64,
         min_clearance: None,
+        min_tip_over_margin: Some(7.25 + k as f64),
         saturation_share: Some(0.25),
     };
     Measures {
@@ -133,6 +134,8 @@ fn measures(deviation: f64) -> Measures {
         t_overshoot: 9.0,
         min_clearance: Some(1.25),
         t_clearance: 2.0,
+        min_tip_over_margin: Some(7.25),
+        t_tip_over_margin: 3.0,
         saturation_share: Some(0.31),
         legs: (0..3).map(leg).collect(),
         ..Measures::default()

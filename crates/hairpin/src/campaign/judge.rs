@@ -209,7 +209,7 @@ pub fn how_obtained(setup: &Setup) -> Vec<String> {
 fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation, Option<f64>)> {
     let mut worst: Option<(&CaseResult, &Measures)> = None;
     let rank = |result: &CaseResult, measures: &Measures| {
-        let crashed = result.violations.first().is_some_and(|violation| violation.what == "crash");
+        let crashed = result.violations.first().is_some_and(Violation::is_crash);
         (!result.violations.is_empty(), crashed, TotalOrder(measures.max_deviation))
     };
     for result in results {

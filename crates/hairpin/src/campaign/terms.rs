@@ -44,7 +44,12 @@ impl Terms {
         Self {
             from: DeviationFrom::Path,
             corner: 0.0,
-            limits: Limits { deviation: spec.path_deviation_m, total_time: spec.total_time_s, ..Limits::default() },
+            limits: Limits {
+                deviation: spec.path_deviation_m,
+                tip_over_margin: spec.tip_over_margin_deg,
+                total_time: spec.total_time_s,
+                ..Limits::default()
+            },
         }
     }
 }

@@ -21,6 +21,7 @@ use crate::trajectory::Track;
 /// - acceleration ‖v_i+1 − v_i−1‖/(t_i+1 − t_i−1) with the channels `vx_m_s`, `vy_m_s`, `vz_m_s` (one-sided at the
 ///   ends), or the second divided difference of positions where they are missing; speed rate: |‖v_i+1‖ − ‖v_i−1‖| over
 ///   the same time;
+/// - tip-over margin: least value of the channel `tip_over_margin_deg`;
 /// - saturation: mean over time of the channel `saturated`.
 ///
 /// The leg comes from the channel `leg`; the number of waypoints less one, "all reached", counts as the last leg.
@@ -46,6 +47,9 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
     measure_overshoot(&mut measures, track.times(), &positions, waypoints, &legs);
     measure_acceleration(&mut measures, track, &positions, &legs);
     measure_clearance(&mut measures, track.times(), &positions, &legs, settings);
+    if let Some(margins) = track.channel("tip_over_margin_deg") {
+        measure_tip_over(&mut measures, track.times(), margins, &legs);
+    }
     if let Some(saturated) = track.channel("saturated") {
         let mean = |leg: Option<usize>| {
             let own = (0..legs.len()).filter(|&i| leg.is_none_or(|leg| legs[i] == leg));
@@ -211,6 +215,16 @@ fn measure_clearance(
         *least = Some(least.map_or(clearance, |least| least.min(clearance)));
         if measures.min_clearance.is_none_or(|least| clearance < least) {
             (measures.min_clearance, measures.t_clearance) = (Some(clearance), times[i]);
+        }
+    }
+}
+
+fn measure_tip_over(measures: &mut Measures, times: &[f64], margins: &[f64], legs: &[usize]) {
+    for (i, (&margin, &leg)) in margins.iter().zip(legs).enumerate() {
+        let least = &mut measures.legs[leg].min_tip_over_margin;
+        *least = Some(least.map_or(margin, |least| least.min(margin)));
+        if measures.min_tip_over_margin.is_none_or(|least| margin < least) {
+            (measures.min_tip_over_margin, measures.t_tip_over_margin) = (Some(margin), times[i]);
         }
     }
 }

@@ -1,4 +1,5 @@
-//! What is measured on one executed track against its reference; larger is worse, but for the clearance.
+//! What is measured on one executed track against its reference; larger is worse, but for the
+//! clearance and the tip-over margin.
 
 /// Where the leg being flown is known from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,6 +36,8 @@ pub struct LegMeasures {
     pub overshoot: f64,
     /// Smallest distance to an obstacle, m; `None` without obstacles.
     pub min_clearance: Option<f64>,
+    /// Smallest angle by which the body would have had to lean further to tip over, degrees; `None` where it was not told.
+    pub min_tip_over_margin: Option<f64>,
     /// Share of rotor-time at a rotor limit, 0 … 1; `None` where the executor did not tell.
     pub saturation_share: Option<f64>,
 }
@@ -66,6 +69,10 @@ pub struct Measures {
     pub min_clearance: Option<f64>,
     /// When it was reached, s.
     pub t_clearance: f64,
+    /// Smallest angle by which the body would have had to lean further to tip over, degrees; `None` where it was not told.
+    pub min_tip_over_margin: Option<f64>,
+    /// When it was reached, s.
+    pub t_tip_over_margin: f64,
     /// Share of rotor-time spent at a rotor limit, 0 … 1; `None` where the executor did not tell.
     pub saturation_share: Option<f64>,
     /// Where the leg being flown is known from.

@@ -1,6 +1,7 @@
 //! Limits, and which of them a run violates.
 
-use super::Measures;
+use super::verdict::apart;
+use super::{LegMeasures, Measures};
 use crate::trajectory::{Ended, Flight};
 
 /// What is within spec. A limit that is `None` is not judged; a crash and leaving the world always are.
@@ -12,6 +13,8 @@ pub struct Limits {
     pub overshoot: Option<f64>,
     /// Smallest clearance, m.
     pub clearance: Option<f64>,
+    /// Smallest angle by which the body must still lean to tip over, degrees.
+    pub tip_over_margin: Option<f64>,
     /// Largest acceleration, m/s².
     pub acceleration: Option<f64>,
     /// Longest duration of a run, s.
@@ -27,6 +30,7 @@ impl Default for Limits {
             deviation: None,
             overshoot: None,
             clearance: None,
+            tip_over_margin: None,
             acceleration: None,
             total_time: None,
             unfinished: true,
@@ -37,15 +41,15 @@ impl Default for Limits {
 /// One violated limit of a run, in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
-    /// What was measured: `deviation`, `overshoot`, `clearance`, `acceleration`, `total-time`, `crash`, `left-world`,
-    /// `unfinished`.
+    /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`; or an
+    /// event: `crash`, of a ground vehicle `tip-over`, `stuck` or `off-map`, `left-world`, `unfinished`.
     pub what: String,
-    /// The measured value in `unit`; of a crash and of leaving the world the time, s; of an unfinished run the number
-    /// of waypoints reached.
+    /// The measured value in `unit`; of a crash of any kind and of leaving the world the time, s; of an unfinished run
+    /// the number of waypoints reached.
     pub value: f64,
-    /// The limit in `unit`; of a crash and of leaving the world 0; of an unfinished run the number of waypoints.
+    /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished run the number of waypoints.
     pub limit: f64,
-    /// Unit, as printed: `m`, `m/s²`, `s`, empty.
+    /// Unit, as printed: `m`, `m/s²`, `s`, `°`, empty.
     pub unit: String,
     /// When, s.
     pub at: f64,
@@ -56,13 +60,39 @@ pub struct Violation {
 impl Violation {
     /// Whether the limit is a lower one.
     pub fn is_lower_limit(&self) -> bool {
-        matches!(self.what.as_str(), "clearance" | "unfinished")
+        matches!(self.what.as_str(), "clearance" | "tip-over-margin" | "unfinished")
+    }
+
+    /// Whether the run came to a bad end, of whatever kind.
+    pub fn is_crash(&self) -> bool {
+        matches!(self.what.as_str(), "crash" | "tip-over" | "stuck" | "off-map")
+    }
+
+    /// What happened, in words, where no measured limit is violated.
+    pub fn event(&self) -> Option<String> {
+        Some(match self.what.as_str() {
+            "crash" => "crash".into(),
+            "tip-over" => "tipped over".into(),
+            "stuck" => "got stuck".into(),
+            "off-map" => "left the map".into(),
+            "left-world" => "left the world".into(),
+            "unfinished" => format!("stopped at {} of {} waypoints", self.value, self.limit),
+            _ => return None,
+        })
+    }
+
+    /// Value and limit as they are printed, with their unit and as many decimals as it takes to tell them apart.
+    pub fn printed(&self) -> (String, String) {
+        let angle = self.unit == "°";
+        let (value, limit) = apart(self.value, self.limit, if angle { 1 } else { 2 });
+        let with_unit = |number: String| if angle { number + "°" } else { format!("{number} {}", self.unit) };
+        (with_unit(value), with_unit(limit))
     }
 
     /// Rank (events before measured limits) and excess over the limit relative to it.
     fn gravity(&self) -> (u8, f64) {
         let rank = match self.what.as_str() {
-            "crash" => 3,
+            _ if self.is_crash() => 3,
             "left-world" => 2,
             "unfinished" => 1,
             _ => 0,
@@ -76,7 +106,7 @@ impl Violation {
 /// excess over the limit relative to the limit; equals in the order of [`Limits`].
 pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violation> {
     let mut found = events(measures, flight, limits);
-    let largest = |value: fn(&super::LegMeasures) -> f64| {
+    let largest = |value: fn(&LegMeasures) -> f64| {
         let mut best = 0;
         for (leg, measure) in measures.legs.iter().enumerate() {
             if value(measure) > value(&measures.legs[best]) {
@@ -97,13 +127,18 @@ pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<
     exceed("acceleration", measures.max_acceleration, limits.acceleration, "m/s²", measures.t_acceleration, leg);
     let (end, last) = (flight.track.times().last().copied().unwrap_or(0.0), last_leg(measures, flight));
     exceed("total-time", measures.total_time, limits.total_time, "s", end, last);
-    if let (Some(limit), Some(value)) = (limits.clearance, measures.min_clearance)
-        && value < limit
-    {
-        let leg = largest(|leg| leg.min_clearance.map_or(f64::NEG_INFINITY, |clearance| -clearance));
-        let (what, unit, at) = ("clearance".into(), "m".into(), measures.t_clearance);
-        found.push(Violation { what, value, limit, unit, at, leg });
-    }
+    let mut fall_short = |what: &str, value: Option<f64>, limit: Option<f64>, unit: &str, at: f64, leg: usize| {
+        if let (Some(value), Some(limit)) = (value, limit)
+            && value < limit
+        {
+            found.push(Violation { what: what.into(), value, limit, unit: unit.into(), at, leg });
+        }
+    };
+    let leg = largest(|leg| leg.min_clearance.map_or(f64::NEG_INFINITY, |clearance| -clearance));
+    fall_short("clearance", measures.min_clearance, limits.clearance, "m", measures.t_clearance, leg);
+    let leg = largest(|leg| leg.min_tip_over_margin.map_or(f64::NEG_INFINITY, |margin| -margin));
+    let (least, at) = (measures.min_tip_over_margin, measures.t_tip_over_margin);
+    fall_short("tip-over-margin", least, limits.tip_over_margin, "°", at, leg);
     // Stable, so that equals keep their order.
     found.sort_by(|a, b| {
         let (a, b) = (a.gravity(), b.gravity());
@@ -125,7 +160,11 @@ fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violatio
     let last = last_leg(measures, flight);
     let mut found = Vec::new();
     if flight.ended.is_crash() {
-        found.push(event("crash", end, 0.0, "s", end, last));
+        let what = match flight.ended {
+            Ended::TipOver | Ended::Stuck | Ended::OffMap => flight.ended.word(),
+            _ => "crash",
+        };
+        found.push(event(what, end, 0.0, "s", end, last));
     }
     if let Some(at) = flight.left_world {
         found.push(event("left-world", at, 0.0, "s", at, leg_at(measures, flight, at)));

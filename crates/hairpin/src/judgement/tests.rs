@@ -109,6 +109,90 @@ fn a_programmed_path_is_followed_in_order() {
     assert!((found.mean_deviation - 0.2).abs() < 2e-3, "{}", found.mean_deviation);
 }
 
+/// A drive that crosses itself, reverses out of a cusp along nearly the same ground, and turns in place, as poses 2 cm apart.
+fn drive_path() -> Vec<[f64; 3]> {
+    let mut places = vec![];
+    let mut at = [0.0, 0.0, 0.0_f64];
+    let mut go = |metres: f64, curvature: f64, sign: f64| {
+        for _ in 0..(metres / 0.02).round() as usize {
+            at[2] += 0.02 * sign * curvature;
+            at = [at[0] + 0.02 * sign * at[2].cos(), at[1] + 0.02 * sign * at[2].sin(), at[2]];
+            places.push(at);
+        }
+    };
+    go(3.0, 0.0, 1.0);
+    go(0.75 * std::f64::consts::TAU, 1.0, 1.0); // three quarters of a circle, and over its own first line
+    go(2.0, 0.0, 1.0);
+    go(2.0, 0.05, -1.0); // back over it
+    // A turn in place: poses that do not move.
+    let still = places[places.len() - 1];
+    places.extend([still; 40]);
+    for k in 1..100 {
+        places.push([still[0] - 0.02 * f64::from(k), still[1], 0.0]);
+    }
+    places
+}
+
+#[test]
+fn drives_are_judged_in_the_order_of_their_path() {
+    let path = drive_path();
+    let n = path.len();
+    let places = |off: &dyn Fn(usize) -> f64| -> Vec<[f64; 3]> {
+        (0..n).map(|i| [path[i][0], path[i][1], 0.05 + off(i)]).collect()
+    };
+    let planned = track(seconds(n), &places(&|_| -0.05), &[]);
+    let waypoints = [path[0], path[n - 1]].map(|p| Point3::new(p[0], p[1], 0.0));
+    let judged = |positions: &[[f64; 3]]| {
+        let settings = Settings { reference: Reference::Path(&planned), ..Settings::default() };
+        measure(&track(seconds(positions.len()), positions, &[]), &waypoints, &settings).unwrap()
+    };
+    // 5 cm off all along, 30 cm at one sample of each part: in the crossing, at the cusp, in the turn, at the end.
+    let cusp = (3.0_f64 / 0.02) as usize + 235 + 100;
+    for worst in [150 + 235 + 50, cusp, n - 99 - 20, n - 1] {
+        let found = judged(&places(&|i| if i == worst { 0.25 } else { 0.0 }));
+        assert!((found.max_deviation - 0.3).abs() < 1e-3, "{worst}: {}", found.max_deviation);
+        assert_eq!(found.t_worst, worst as f64);
+        assert!((found.mean_deviation - 0.05).abs() < 2e-3, "{}", found.mean_deviation);
+    }
+    // Cutting over at the crossing leaves out the loop and is never far from the path.
+    let loopless: Vec<[f64; 3]> = (0..n).filter(|i| !(100..385).contains(i)).map(|i| places(&|_| 0.0)[i]).collect();
+    assert!(judged(&loopless).max_deviation < 0.06);
+    // Staying at the cusp is none either: that the rest was not driven is for `unfinished` to say.
+    let mut stays = places(&|_| 0.0);
+    let there = stays[cusp];
+    stays[cusp..].fill(there);
+    assert!((judged(&stays).max_deviation - 0.05).abs() < 1e-3);
+    // Going backwards along the path is.
+    let mut reversed = places(&|_| 0.0);
+    reversed[..150].reverse();
+    assert!(judged(&reversed).max_deviation > 1.0);
+}
+
+#[test]
+fn the_tip_over_margin_is_the_least_and_a_lower_limit() {
+    let positions = [[0.0; 3], [5.0, 0.0, 0.0], [10.0, 5.0, 0.0]];
+    let channels = [("leg", vec![0.0, 0.0, 1.0]), ("tip_over_margin_deg", vec![30.0, 7.2, 9.0])];
+    let flown = track(seconds(3), &positions, &channels);
+    let m = measure(&flown, &square(), &Settings::default()).unwrap();
+    assert_eq!((m.min_tip_over_margin, m.t_tip_over_margin), (Some(7.2), 1.0));
+    assert_eq!(m.legs.iter().map(|l| l.min_tip_over_margin).collect::<Vec<_>>(), [Some(7.2), Some(9.0)]);
+    assert_eq!((m.saturation_share, m.min_clearance), (None, None));
+    let flight = |ended| Flight { track: flown.clone(), ended, left_world: None, reached: vec![Some(0.0); 3] };
+    let limits = |margin| Limits { tip_over_margin: Some(margin), ..Limits::default() };
+    let found = violations(&m, &flight(Ended::Done), &limits(10.0));
+    let violation =
+        Violation { what: "tip-over-margin".into(), value: 7.2, limit: 10.0, unit: "°".into(), at: 1.0, leg: 0 };
+    assert_eq!(found, [violation]);
+    assert!(violations(&m, &flight(Ended::Done), &limits(7.0)).is_empty());
+    for (ended, word) in [(Ended::TipOver, "tip-over"), (Ended::Stuck, "stuck"), (Ended::OffMap, "off-map")] {
+        let found = violations(&m, &flight(ended), &limits(10.0));
+        assert_eq!(found.iter().map(|v| v.what.as_str()).collect::<Vec<_>>(), [word, "tip-over-margin"]);
+        assert!(found[0].is_crash() && found[0].event().is_some() && found[1].event().is_none());
+    }
+    let unknown = track(seconds(3), &positions, &[]);
+    assert_eq!(measure(&unknown, &square(), &Settings::default()).unwrap().min_tip_over_margin, None);
+}
+
 #[test]
 fn accelerations_by_velocity_and_by_position() {
     // A circle: ‖a‖ = ω² r, and the speed does not change.

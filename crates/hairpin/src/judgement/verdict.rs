@@ -200,22 +200,21 @@ fn share_sentence(judged: &Judged, counted: usize, limit: Option<f64>) -> Option
 
 fn worst_and_where(worst: &Worst) -> String {
     let violation = worst.value;
-    let finding = match violation.what.as_str() {
-        "crash" => "crash".into(),
-        "left-world" => "left the world".into(),
-        "unfinished" => format!("stopped at {} of {} waypoints", violation.value, violation.limit),
-        what => {
-            let (value, limit) = apart(violation.value, violation.limit);
-            let relation = match (violation.is_lower_limit(), violation.value.total_cmp(&violation.limit)) {
-                (false, std::cmp::Ordering::Greater) => ">",
-                (false, _) => "≤",
-                (true, std::cmp::Ordering::Less) => "<",
-                (true, _) => "≥",
-            };
-            let name = if what == "deviation" { String::new() } else { format!("{what} ") };
-            format!("{name}{value} {unit} {relation} {limit} {unit}", unit = violation.unit)
-        }
-    };
+    let finding = violation.event().unwrap_or_else(|| {
+        let (value, limit) = violation.printed();
+        let relation = match (violation.is_lower_limit(), violation.value.total_cmp(&violation.limit)) {
+            (false, std::cmp::Ordering::Greater) => ">",
+            (false, _) => "≤",
+            (true, std::cmp::Ordering::Less) => "<",
+            (true, _) => "≥",
+        };
+        let name = match violation.what.as_str() {
+            "deviation" => "",
+            "tip-over-margin" => "tip-over margin ",
+            what => &format!("{what} "),
+        };
+        format!("{name}{value} {relation} {limit}")
+    });
     let mut sentence = format!(
         "worst {finding}, case {}, t = {:.2} s, leg {}→{}",
         worst.case,
@@ -229,9 +228,9 @@ fn worst_and_where(worst: &Worst) -> String {
     sentence
 }
 
-/// Two numbers with as many decimals as it takes to see that they differ: at least two.
-pub fn apart(value: f64, limit: f64) -> (String, String) {
-    for decimals in 2..12 {
+/// Two numbers with as many decimals as it takes to see that they differ: at least `least`.
+pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {
+    for decimals in least..12 {
         let pair = (format!("{value:.decimals$}"), format!("{limit:.decimals$}"));
         if pair.0 != pair.1 || value == limit {
             return pair;
@@ -292,6 +291,35 @@ mod tests {
              (3/N, 95 %); all 200 witnessed"
         );
         assert_eq!(verdict.exit_code, 0);
+    }
+
+    #[test]
+    fn drives_read_as_well() {
+        let how: &[&str] = &["simulated", "rocky8 stand-in", "predictive"];
+        let of = |value: &Violation| {
+            let worst = Some(Worst { case: "0003", value, saturation: None });
+            let verdict = verdict(&Judged { how, cases: 20, failed: 1, worst, ..Judged::default() });
+            verdict.sentence.split("each): ").nth(1).unwrap().split("; share").next().unwrap().to_owned()
+        };
+        let at = |what: &str, value, limit, unit: &str| Violation {
+            what: what.into(),
+            value,
+            limit,
+            unit: unit.into(),
+            at: 41.2,
+            leg: 2,
+        };
+        let place = "case 0003, t = 41.20 s, leg 2→3";
+        for (value, words) in [
+            (at("deviation", 0.31, 0.25, "m"), "worst 0.31 m > 0.25 m"),
+            (at("tip-over-margin", 7.2, 10.0, "°"), "worst tip-over margin 7.2° < 10.0°"),
+            (at("tip-over-margin", 9.996, 10.0, "°"), "worst tip-over margin 9.996° < 10.000°"),
+            (at("tip-over", 41.2, 0.0, "s"), "worst tipped over"),
+            (at("stuck", 41.2, 0.0, "s"), "worst got stuck"),
+            (at("off-map", 41.2, 0.0, "s"), "worst left the map"),
+        ] {
+            assert_eq!(of(&value), format!("{words}, {place}"));
+        }
     }
 
     #[test]
@@ -374,8 +402,8 @@ mod tests {
 
     #[test]
     fn digits_show_the_difference() {
-        assert_eq!(apart(0.500_04, 0.5), ("0.50004".into(), "0.50000".into()));
-        assert_eq!(apart(0.65, 0.5), ("0.65".into(), "0.50".into()));
+        assert_eq!(apart(0.500_04, 0.5, 2), ("0.50004".into(), "0.50000".into()));
+        assert_eq!(apart(0.65, 0.5, 2), ("0.65".into(), "0.50".into()));
         assert_eq!((percent(0.015), percent(0.0), percent(0.000_031)), ("1.5".into(), "0.0".into(), "0.0031".into()));
     }
 }

@@ -1,6 +1,7 @@
 //! Floor 3: what moves. Equations and numbers of robots; nothing of trajectories, search or controllers.
 
 pub mod dynamics;
+pub mod ground;
 pub mod quadrotor;
 pub mod rover;
 

@@ -105,6 +105,8 @@ fn read_measures(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let values = names.iter().map(|name| table.optional_numbers(name)).collect::<Result<Vec<_>, _>>()?;
     let leg_worst = table.optional_counts("leg_worst")?;
     let clearance = table.optional_numbers("min_clearance_m")?;
+    let margin = table.optional_numbers("min_tip_over_margin_deg")?;
+    let t_margin = table.optional_numbers("t_tip_over_margin_s")?;
     let saturation = table.optional_numbers("saturation_share")?;
     let leg_source = words(table, "leg_source", [LegSource::Executor, LegSource::Assigned], leg_source_word)?;
     let sources = [AccelerationSource::Velocity, AccelerationSource::Position];
@@ -136,6 +138,8 @@ fn read_measures(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 t_overshoot,
                 min_clearance: clearance[row],
                 t_clearance,
+                min_tip_over_margin: margin[row],
+                t_tip_over_margin: t_margin[row].unwrap_or_default(),
                 saturation_share: saturation[row],
                 leg_source: leg_source[row].unwrap_or_default(),
                 acceleration_source: acceleration_source[row].unwrap_or_default(),
@@ -173,12 +177,14 @@ fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
     let time = complete("leg_time_s")?;
     let overshoot = complete("leg_overshoot_m")?;
     let clearance = optional("leg_min_clearance_m")?;
+    let margin = optional("leg_min_tip_over_margin_deg")?;
     let saturation = optional("leg_saturation_share")?;
     same_lengths(table, "leg_mean_deviation_m", &mean, &maximum)?;
     same_lengths(table, "leg_max_acceleration_m_s2", &acceleration, &maximum)?;
     same_lengths(table, "leg_time_s", &time, &maximum)?;
     same_lengths(table, "leg_overshoot_m", &overshoot, &maximum)?;
     same_lengths(table, "leg_min_clearance_m", &clearance, &maximum)?;
+    same_lengths(table, "leg_min_tip_over_margin_deg", &margin, &maximum)?;
     same_lengths(table, "leg_saturation_share", &saturation, &maximum)?;
     let leg = |row: usize, i: usize| LegMeasures {
         max_deviation: maximum[row][i],
@@ -187,6 +193,7 @@ fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
         time: time[row][i],
         overshoot: overshoot[row][i],
         min_clearance: clearance[row][i],
+        min_tip_over_margin: margin[row][i],
         saturation_share: saturation[row][i],
     };
     Ok((0..table.rows()).map(|row| (0..maximum[row].len()).map(|i| leg(row, i)).collect()).collect())

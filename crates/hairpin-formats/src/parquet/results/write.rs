@@ -68,6 +68,9 @@ fn push_rest(columns: &mut Columns, rows: &Rows) {
     columns.push("t_acceleration_s", measured(rows, &|m| Some(m.t_acceleration)));
     columns.push("t_overshoot_s", measured(rows, &|m| Some(m.t_overshoot)));
     columns.push("t_clearance_s", measured(rows, &|m| Some(m.t_clearance)));
+    columns.push("min_tip_over_margin_deg", measured(rows, &|m| m.min_tip_over_margin));
+    let when = |m: &Measures| m.min_tip_over_margin.map(|_| m.t_tip_over_margin);
+    columns.push("t_tip_over_margin_s", measured(rows, &when));
     let measures = |result: Option<&CaseResult>| result.and_then(|r| r.measures.clone());
     let words = |word: fn(&Measures) -> &'static str| {
         texts(rows.iter().map(|(_, result)| measures(*result).map(|m| word(&m).into())))
@@ -91,6 +94,7 @@ fn push_legs(columns: &mut Columns, rows: &Rows) {
     columns.push("leg_time_s", per_leg(|leg| Some(leg.time)));
     columns.push("leg_overshoot_m", per_leg(|leg| Some(leg.overshoot)));
     columns.push("leg_min_clearance_m", per_leg(|leg| leg.min_clearance));
+    columns.push("leg_min_tip_over_margin_deg", per_leg(|leg| leg.min_tip_over_margin));
     columns.push("leg_saturation_share", per_leg(|leg| leg.saturation_share));
 }
 

@@ -10,7 +10,9 @@ use super::text::attitude;
 use crate::campaign::scenario::DeviationFrom;
 use crate::campaign::terms::Terms;
 use crate::campaign::{Case, CaseResult, Influence, Run, Setup, Status, Tally, vary};
-use crate::judgement::{JudgementError, Measures, Reference, Settings, Statistics, Verdict, deviation_of_samples};
+use crate::judgement::{
+    JudgementError, Measures, Reference, Settings, Statistics, Verdict, Violation, deviation_of_samples,
+};
 use crate::trajectory::Track;
 
 /// One measure over all judged cases.
@@ -123,7 +125,7 @@ pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
         Status::Pass => 2,
         Status::ExecutorFailed => 3,
     };
-    let crashed = |result: &CaseResult| result.violations.first().is_some_and(|violation| violation.what == "crash");
+    let crashed = |result: &CaseResult| result.violations.first().is_some_and(Violation::is_crash);
     let deviation = |result: &CaseResult| result.measures.as_ref().map_or(0.0, |m| m.max_deviation);
     let mut ordered: Vec<&CaseResult> = results.iter().collect();
     ordered.sort_by(|a, b| {

@@ -133,6 +133,7 @@ pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {
         metric("acceleration", "m/s²", limits.acceleration, |m| Some(m.max_acceleration)),
         metric("total time", "s", limits.total_time, |m| Some(m.total_time)),
         metric("clearance", "m", limits.clearance, |m| m.min_clearance),
+        metric("tip-over margin", "°", limits.tip_over_margin, |m| m.min_tip_over_margin),
         metric("saturation", "%", None, |m| m.saturation_share.map(|share| 100.0 * share)),
     ];
     all.into_iter().filter(|metric| !metric.values.is_empty()).collect()

@@ -4,7 +4,6 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::campaign::CaseResult;
 use crate::judgement::Violation;
-use crate::judgement::verdict::apart;
 
 /// `value` with two decimals below 100, one below 1000, none above; `–` for nothing.
 pub fn number(value: Option<f64>) -> String {
@@ -59,17 +58,11 @@ pub fn leg(leg: usize) -> String {
 
 /// `deviation 0.65 m > 0.50 m at t=12.34 s`; events (`crash`, `left-world`, `unfinished`) say what happened instead.
 pub fn violation(violation: &Violation) -> String {
-    let (value, limit) = apart(violation.value, violation.limit);
-    let finding = match violation.what.as_str() {
-        "crash" => "crash".into(),
-        "left-world" => "left the world".into(),
-        "unfinished" => format!("stopped at {} of {} waypoints", violation.value, violation.limit),
-        what => {
-            let sign = if violation.is_lower_limit() { '<' } else { '>' };
-            let (what, unit) = (what.replace('-', " "), &violation.unit);
-            format!("{what} {value} {unit} {sign} {limit} {unit}")
-        }
-    };
+    let finding = violation.event().unwrap_or_else(|| {
+        let sign = if violation.is_lower_limit() { '<' } else { '>' };
+        let (what, (value, limit)) = (violation.what.replace('-', " "), violation.printed());
+        format!("{what} {value} {sign} {limit}")
+    });
     format!("{finding} at t={:.2} s", violation.at)
 }
 

@@ -7,6 +7,7 @@ mod controllers;
 mod guide;
 mod plan;
 mod plant;
+mod pursuit;
 mod recorder;
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Path-following controllers: each turns where the vehicle is along its plan into a curvature.
 
 mod predictive;
-mod pure_pursuit;
 mod stanley;
 
 use schemars::JsonSchema;
@@ -9,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::guide::{Along, Measured};
 use super::plant::Command;
+use super::pursuit::PurePursuit;
 use crate::robot::rover::Rover;
 use crate::trajectory::drive::{Gear, Planar, SegmentList};
 
@@ -52,7 +52,7 @@ pub enum GroundController<'a> {
 
 /// A controller in a run.
 pub(super) enum Driver<'a> {
-    PurePursuit(pure_pursuit::PurePursuit),
+    PurePursuit(PurePursuit),
     Stanley(stanley::Stanley),
     Predictive(Box<predictive::Predictive<'a>>),
 }
@@ -62,7 +62,7 @@ impl<'a> Driver<'a> {
     /// looked at.
     pub(super) fn new(controller: &GroundController<'a>, nominal: &Rover, direction: f64, latency: f64) -> Self {
         match controller {
-            GroundController::PurePursuit => Driver::PurePursuit(pure_pursuit::PurePursuit::new(nominal)),
+            GroundController::PurePursuit => Driver::PurePursuit(PurePursuit::new(nominal)),
             GroundController::Stanley => Driver::Stanley(stanley::Stanley::new(nominal)),
             GroundController::Predictive(solve) => {
                 Driver::Predictive(Box::new(predictive::Predictive::new(nominal, direction, latency, *solve)))

@@ -9,11 +9,11 @@
 use std::collections::VecDeque;
 
 use super::Resolve;
-use super::pure_pursuit::PurePursuit;
 use crate::robot::rover::{Rover, Settled, rates};
 use crate::simulation::ground::guide::{Along, Measured, wrap};
 use crate::simulation::ground::plan::station_at;
 use crate::simulation::ground::plant::Command;
+use crate::simulation::ground::pursuit::PurePursuit;
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 
 /// How far ahead on the path the goal lies, in smallest turning radii, and per speed, s.

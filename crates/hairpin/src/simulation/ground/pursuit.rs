@@ -1,11 +1,12 @@
-//! Pure pursuit: the circle through the vehicle, along its way, that meets the path a lookahead further on.
+//! Pure pursuit: the circle through the vehicle, along its way, that meets the path a lookahead further on. A controller of its
+//! own, and what others fall back on.
 //!
 //! κ = 2 y / D², with y the distance of the point to the left of the way and D its distance. Source: Coulter 1992.
 
+use super::guide::{Along, Measured};
+use super::plan::station_at;
 use crate::math::power::square;
 use crate::robot::rover::Rover;
-use crate::simulation::ground::guide::{Along, Measured};
-use crate::simulation::ground::plan::station_at;
 
 /// Lookahead at rest, in smallest turning radii: shorter ones ask for circles that the vehicle cannot drive.
 const RADII: f64 = 0.5;
@@ -14,7 +15,7 @@ const TIME: f64 = 1.0;
 
 /// Numbers of a run.
 #[derive(Debug, Clone)]
-pub(in crate::simulation::ground) struct PurePursuit {
+pub(super) struct PurePursuit {
     most: f64,
 }
 

@@ -1,0 +1,169 @@
+//! A car as the kinematic bicycle: the front axle is steered, the rear one follows.
+
+use nalgebra::{Isometry3, SVector, Vector2};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{GroundError, Named, grid, named, planar_pose, run, within};
+use crate::robot::rover::{Limits, Response, Rover};
+use crate::robot::{Bounds, Dynamics, Quantity};
+
+/// The `kind` of a car's file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CarKind {
+    /// One steered axle.
+    Car,
+}
+
+/// A car's file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CarDescription {
+    /// Always `car`.
+    pub kind: CarKind,
+    /// Name in reports.
+    pub name: String,
+    /// Where the numbers come from.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub source: String,
+    /// What must be said wherever the robot is named.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub caveat: String,
+    /// Distance of the axles.
+    pub wheelbase_m: f64,
+    /// Speed where none is given; a quarter of the largest if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_m_s: Option<f64>,
+    /// What it may do.
+    pub limits: CarLimits,
+}
+
+/// Bounds of a car's motion, the same to both sides and in both gears.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CarLimits {
+    /// Largest steering angle.
+    pub steering_deg: f64,
+    /// Largest rate of the steering angle.
+    pub steering_rate_deg_s: f64,
+    /// Largest speed.
+    pub speed_m_s: f64,
+    /// Largest acceleration and deceleration.
+    pub acceleration_m_s2: f64,
+}
+
+/// A car's numbers, SI, all checked. Built by [`CarDescription::build`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Car {
+    /// Name, as in `data/robots`.
+    pub name: String,
+    /// What must be said wherever the robot is named; empty if nothing.
+    pub caveat: String,
+    /// Where the numbers come from.
+    pub source: String,
+    /// Distance L of the axles, m.
+    pub wheelbase: f64,
+    /// Largest |δ|, rad.
+    pub steering: f64,
+    /// Largest |δ̇|, rad/s.
+    pub steering_rate: f64,
+    /// Largest |v|, m/s.
+    pub speed: f64,
+    /// Largest |v̇|, m/s².
+    pub acceleration: f64,
+    /// Speed where none is given, m/s.
+    pub default_speed: f64,
+    /// Names of the numbers that were derived here, not given.
+    pub estimated: Vec<&'static str>,
+}
+
+impl CarDescription {
+    /// Checks every number and builds the car.
+    ///
+    /// # Errors
+    /// The first key whose value is out of bounds, with the bound.
+    pub fn build(&self) -> Result<Car, GroundError> {
+        let limits = &self.limits;
+        let speed = within("limits.speed_m_s", limits.speed_m_s, 1e-3, 100.0)?;
+        let estimated = if self.speed_m_s.is_none() { vec!["speed_m_s"] } else { vec![] };
+        Ok(Car {
+            name: named(&self.name)?,
+            caveat: self.caveat.clone(),
+            source: self.source.clone(),
+            wheelbase: within("wheelbase_m", self.wheelbase_m, 1e-3, 100.0)?,
+            steering: within("limits.steering_deg", limits.steering_deg, 0.1, 85.0)?.to_radians(),
+            steering_rate: within("limits.steering_rate_deg_s", limits.steering_rate_deg_s, 0.1, 1e4)?.to_radians(),
+            speed,
+            acceleration: within("limits.acceleration_m_s2", limits.acceleration_m_s2, 1e-3, 1e3)?,
+            default_speed: within("speed_m_s", self.speed_m_s.unwrap_or(0.25 * speed), 1e-4, speed)?,
+            estimated,
+        })
+    }
+}
+
+impl Car {
+    /// The car as the generator of drives steers it, at its default speed v: |κ| ≤ tan(δ)/L, |κ′| ≤ δ̇/(L v), which the
+    /// steering keeps at every angle.
+    pub fn vehicle(&self) -> Rover {
+        let limits = Limits {
+            curvature: libm::tan(self.steering) / self.wheelbase,
+            curvature_rate: self.steering_rate / (self.wheelbase * self.default_speed),
+            speed: self.speed,
+            acceleration: self.acceleration,
+            tilt: f64::INFINITY,
+            joint: f64::INFINITY,
+            turns_in_place: false,
+        };
+        let response =
+            Response { steering_rate: self.steering_rate, steered_axle: self.wheelbase, ..Response::default() };
+        let Self { name, caveat, source, estimated, .. } = self;
+        Named { name, caveat, source, estimated }.vehicle(limits, response, self.default_speed)
+    }
+
+    /// End points x, y (m), ψ (rad) of runs of `step` s from the origin at `speed` (m/s) and `steering` (rad), under each of
+    /// `resolution`² constant accelerations and steering rates, limits included.
+    pub fn sampled_ends(&self, step: f64, speed: f64, steering: f64, resolution: usize) -> Vec<[f64; 3]> {
+        let start = SVector::from([0.0, 0.0, 0.0, speed, steering]);
+        let rates = grid(self.steering_rate, resolution);
+        grid(self.acceleration, resolution)
+            .flat_map(|a| rates.clone().map(move |rate| Vector2::new(a, rate)))
+            .map(|control| run(self, &start, &control, step))
+            .collect()
+    }
+}
+
+/// ẋ = v cosψ, ẏ = v sinψ, ψ̇ = v tan(δ)/L; v̇ and δ̇ are the controls. The position is that of the rear axle's middle.
+impl Dynamics for Car {
+    type State = SVector<f64, 5>;
+    type Control = Vector2<f64>;
+
+    const STATE: &'static [Quantity] = &[
+        Quantity::new("x", "m"),
+        Quantity::new("y", "m"),
+        Quantity::new("yaw", "rad"),
+        Quantity::new("speed", "m_s"),
+        Quantity::new("steering", "rad"),
+    ];
+
+    fn derivative(&self, state: &Self::State, control: &Self::Control) -> Self::State {
+        let (sin, cos) = libm::sincos(state[2]);
+        let v = state[3];
+        SVector::from([v * cos, v * sin, v * libm::tan(state[4]) / self.wheelbase, control[0], control[1]])
+    }
+
+    fn control_bounds(&self) -> Bounds<Self::Control> {
+        let max = Vector2::new(self.acceleration, self.steering_rate);
+        Bounds { min: -max, max }
+    }
+
+    fn pose(&self, state: &Self::State) -> Isometry3<f64> {
+        planar_pose(state[0], state[1], state[2])
+    }
+
+    /// Speed and steering angle stop at their limits.
+    fn normalize(&self, state: &mut Self::State) {
+        state[3] = state[3].clamp(-self.speed, self.speed);
+        state[4] = state[4].clamp(-self.steering, self.steering);
+    }
+}

@@ -1,0 +1,173 @@
+//! A differential drive: two wheels on one axle, each with a speed of its own.
+
+use nalgebra::{Isometry3, SVector, Vector2};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{GroundError, Named, grid, named, planar_pose, run, within};
+use crate::math::power::square;
+use crate::robot::rover::{Limits, Response, Rover};
+use crate::robot::{Bounds, Dynamics, Quantity};
+
+/// The `kind` of a differential drive's file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DifferentialDriveKind {
+    /// Two driven wheels on one axle.
+    DifferentialDrive,
+}
+
+/// A differential drive's file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DifferentialDriveDescription {
+    /// Always `differential-drive`.
+    pub kind: DifferentialDriveKind,
+    /// Name in reports.
+    pub name: String,
+    /// Where the numbers come from.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub source: String,
+    /// What must be said wherever the robot is named.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub caveat: String,
+    /// Distance of the wheels.
+    pub track_m: f64,
+    /// Speed where none is given; half of the wheels' largest if not given, which leaves the other half to turning.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_m_s: Option<f64>,
+    /// What it may do.
+    pub limits: DifferentialDriveLimits,
+}
+
+/// Bounds of each wheel's rim, the same in both directions.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DifferentialDriveLimits {
+    /// Largest speed of a wheel's rim.
+    pub wheel_speed_m_s: f64,
+    /// Largest acceleration of a wheel's rim.
+    pub wheel_acceleration_m_s2: f64,
+}
+
+/// A differential drive's numbers, SI, all checked. Built by [`DifferentialDriveDescription::build`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct DifferentialDrive {
+    /// Name, as in `data/robots`.
+    pub name: String,
+    /// What must be said wherever the robot is named; empty if nothing.
+    pub caveat: String,
+    /// Where the numbers come from.
+    pub source: String,
+    /// Distance b of the wheels, m.
+    pub track: f64,
+    /// Largest speed of a wheel's rim, m/s.
+    pub wheel_speed: f64,
+    /// Largest acceleration of a wheel's rim, m/s².
+    pub wheel_acceleration: f64,
+    /// Speed where none is given, m/s.
+    pub default_speed: f64,
+    /// Names of the numbers that were derived here, not given.
+    pub estimated: Vec<&'static str>,
+}
+
+impl DifferentialDriveDescription {
+    /// Checks every number and builds the differential drive.
+    ///
+    /// # Errors
+    /// The first key whose value is out of bounds, with the bound.
+    pub fn build(&self) -> Result<DifferentialDrive, GroundError> {
+        let limits = &self.limits;
+        let wheel_speed = within("limits.wheel_speed_m_s", limits.wheel_speed_m_s, 1e-3, 100.0)?;
+        let speed = self.speed_m_s.unwrap_or(0.5 * wheel_speed);
+        Ok(DifferentialDrive {
+            name: named(&self.name)?,
+            caveat: self.caveat.clone(),
+            source: self.source.clone(),
+            track: within("track_m", self.track_m, 1e-3, 100.0)?,
+            wheel_speed,
+            wheel_acceleration: within("limits.wheel_acceleration_m_s2", limits.wheel_acceleration_m_s2, 1e-3, 1e3)?,
+            // A wheel at its limit leaves nothing to turn with.
+            default_speed: within("speed_m_s", speed, 1e-3 * wheel_speed, 0.99 * wheel_speed)?,
+            estimated: if self.speed_m_s.is_none() { vec!["speed_m_s"] } else { vec![] },
+        })
+    }
+}
+
+impl DifferentialDrive {
+    /// Largest rate of a turn in place, rad/s: 2 v_w / b.
+    pub fn turn_rate(&self) -> f64 {
+        2.0 * self.wheel_speed / self.track
+    }
+
+    /// The drive as the generator steers it, at its default speed v: the outer wheel keeps its limits, so that
+    /// |κ| ≤ 2 (v_w − v)/(b v) and |κ′| ≤ 2 a_w/(b v²).
+    pub fn vehicle(&self) -> Rover {
+        let v = self.default_speed;
+        let limits = Limits {
+            curvature: 2.0 * (self.wheel_speed - v) / (self.track * v),
+            curvature_rate: 2.0 * self.wheel_acceleration / (self.track * square(v)),
+            speed: self.wheel_speed,
+            acceleration: self.wheel_acceleration,
+            tilt: f64::INFINITY,
+            joint: f64::INFINITY,
+            turns_in_place: true,
+        };
+        let response = Response { steered_axle: 0.5 * self.track, ..Response::default() };
+        let Self { name, caveat, source, estimated, .. } = self;
+        Named { name, caveat, source, estimated }.vehicle(limits, response, v)
+    }
+
+    /// End points x, y (m), ψ (rad) of runs of `step` s from the origin at `speed` (m/s) and `turn_rate` (rad/s), under each
+    /// of `resolution`² pairs of constant wheel accelerations, limits included.
+    pub fn sampled_ends(&self, step: f64, speed: f64, turn_rate: f64, resolution: usize) -> Vec<[f64; 3]> {
+        let start = SVector::from([0.0, 0.0, 0.0, speed, turn_rate]);
+        let wheels = grid(self.wheel_acceleration, resolution);
+        wheels
+            .clone()
+            .flat_map(|left| wheels.clone().map(move |right| (left, right)))
+            .map(|(left, right)| Vector2::new(0.5 * (left + right), (right - left) / self.track))
+            .map(|control| run(self, &start, &control, step))
+            .collect()
+    }
+}
+
+/// ẋ = v cosψ, ẏ = v sinψ, ψ̇ = ω; v̇ and ω̇ are the controls. The position is that of the axle's middle.
+impl Dynamics for DifferentialDrive {
+    type State = SVector<f64, 5>;
+    type Control = Vector2<f64>;
+
+    const STATE: &'static [Quantity] = &[
+        Quantity::new("x", "m"),
+        Quantity::new("y", "m"),
+        Quantity::new("yaw", "rad"),
+        Quantity::new("speed", "m_s"),
+        Quantity::new("turn_rate", "rad_s"),
+    ];
+
+    fn derivative(&self, state: &Self::State, control: &Self::Control) -> Self::State {
+        let (sin, cos) = libm::sincos(state[2]);
+        SVector::from([state[3] * cos, state[3] * sin, state[4], control[0], control[1]])
+    }
+
+    /// Each alone; together the wheels bound them: |v̇| + b/2 |ω̇| ≤ a_w.
+    fn control_bounds(&self) -> Bounds<Self::Control> {
+        let max = Vector2::new(self.wheel_acceleration, 2.0 * self.wheel_acceleration / self.track);
+        Bounds { min: -max, max }
+    }
+
+    fn pose(&self, state: &Self::State) -> Isometry3<f64> {
+        planar_pose(state[0], state[1], state[2])
+    }
+
+    /// Each wheel's speed stops at its limit.
+    fn normalize(&self, state: &mut Self::State) {
+        let half = 0.5 * self.track;
+        let most = self.wheel_speed;
+        let (left, right) = (state[3] - half * state[4], state[3] + half * state[4]);
+        if left.abs() > most || right.abs() > most {
+            let (left, right) = (left.clamp(-most, most), right.clamp(-most, most));
+            (state[3], state[4]) = (0.5 * (left + right), (right - left) / self.track);
+        }
+    }
+}
