@@ -61,8 +61,14 @@ fn run<D: Dynamics<State = SVector<f64, 5>>>(robot: &D, start: &D::State, contro
     let steps = (time / STEP).ceil().max(LEAST_STEPS);
     let mut state = *start;
     robot.normalize(&mut state);
+    // A state at its limit moves as it stands there, at every stage of a step.
+    let derivative = |x: &D::State| {
+        let mut within = *x;
+        robot.normalize(&mut within);
+        robot.derivative(&within, control)
+    };
     for _ in 0..steps as usize {
-        state = rk4_step(|x| robot.derivative(x, control), &state, time / steps);
+        state = rk4_step(derivative, &state, time / steps);
         robot.normalize(&mut state);
     }
     [state[0], state[1], state[2]]
