@@ -77,7 +77,7 @@ fn by_beam(
 
 /// Replays every leg with another integrator and holds it against what was claimed.
 fn hold(site: &DriveSite, settings: &DriveSettings, drive: &Drive, told: &str) {
-    let ground = Site { rover: site.rover, map: site.map, speed: drive.speed, direction: drive.direction };
+    let ground = Site { rover: site.rover, map: site.map, speed: drive.speed.into(), direction: drive.direction.into() };
     for (number, leg) in drive.legs.iter().enumerate() {
         let replay = ground.replay(&leg.from, &leg.to, &leg.segments).expect("a way");
         let [x, y, yaw] = replay.error;
@@ -299,7 +299,7 @@ fn the_underside_keeps_its_distance_and_the_vehicle_the_keep_outs() {
     settings.limits.clearance = least;
     let (strict, tally) = legs_with(&settings);
     assert!(tally.refused(LegRefusal::Belly) > 0 && !strict.is_empty() && strict.len() < loose.len(), "{tally}");
-    let course = Site { rover: &rover, map: &yard, speed: settings.speed, direction: 0.0 };
+    let course = Site { rover: &rover, map: &yard, speed: settings.speed.into(), direction: 0.0.into() };
     for (_, drive) in &strict {
         let leg = &drive.legs[0];
         let mut at = leg.from;

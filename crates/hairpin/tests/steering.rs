@@ -15,8 +15,13 @@ fn replay(query: &Query, solution: &Solution) -> DriveReplay {
     };
     let pieces: Vec<DrivePiece> = solution.segments.iter().map(piece).collect();
     let Goal { x, y, yaw, curvature } = query.goal;
-    let claim =
-        DriveClaim { start_curvature: query.start_curvature, crab: 0.0, end: [x, y, yaw], end_curvature: curvature };
+    let claim = DriveClaim {
+        start_curvature: query.start_curvature,
+        crab: 0.0,
+        crab_rate: 0.0,
+        end: [x, y, yaw],
+        end_curvature: curvature,
+    };
     replay_drive(&pieces, &claim)
 }
 

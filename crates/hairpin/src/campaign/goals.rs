@@ -149,6 +149,7 @@ mod tests {
             let claim = DriveClaim {
                 start_curvature: query.start_curvature,
                 crab: 0.0,
+                crab_rate: 0.0,
                 end: [x, y, yaw],
                 end_curvature: curvature,
             };

@@ -1,11 +1,15 @@
 //! Floor 4: motions as data. A [`Track`] is poses in time with named channels; a [`Profile`] is the polynomial
 //! witness of a quadrotor's motion. Neither knows the world nor how it was found.
 
+pub mod direction;
 pub mod drive;
 pub mod flight;
 pub mod profile;
+pub mod speed;
 pub mod track;
 
+pub use direction::Direction;
 pub use flight::{Ended, Flight};
 pub use profile::{Profile, ProfileLeg};
+pub use speed::{SpeedError, SpeedProfile, Speeds, Timing};
 pub use track::{Channel, Track, TrackError};

@@ -24,8 +24,10 @@ pub enum DrivePiece {
 pub struct DriveClaim {
     /// κ at the start, 1/m.
     pub start_curvature: f64,
-    /// Direction of travel in the body, rad: 0 along x, left positive.
+    /// Direction of travel in the body where the drive begins, rad: 0 along x, left positive.
     pub crab: f64,
+    /// Its change along the drive, rad/m.
+    pub crab_rate: f64,
     /// x (m), y (m), yaw (rad) to end in.
     pub end: [f64; 3],
     /// κ to end with, 1/m.
@@ -64,8 +66,8 @@ const TRACED: usize = 60;
 /// Steps of one piece at most: a piece that would need more turns by more than a thousand circles.
 const MOST_STEPS: f64 = 1e6;
 
-/// Integrates x' = direction·cos(ψ + δ), y' = direction·sin(ψ + δ), ψ' = direction·κ(s) over every piece by the classical
-/// Runge-Kutta method, [`LEAST_STEPS`] steps or more in all, and looks for the largest curvature on the same grid, bisected
+/// Integrates x' = direction·cos(ψ + δ), y' = direction·sin(ψ + δ), ψ' = direction·κ(s), δ = crab + crab_rate · metres, over
+/// every piece by the classical Runge-Kutta method, [`LEAST_STEPS`] steps or more in all, and looks for the largest curvature on the same grid, bisected
 /// where it is largest. Numbers that are none give errors that are none.
 pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
     let total: f64 = pieces.iter().map(DrivePiece::length).sum();
@@ -84,6 +86,7 @@ pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
     // Curvature and direction at the end of the piece before; a turn in place leaves the wheels straight and no direction.
     let mut before: (f64, Option<f64>) = (claim.start_curvature, None);
     let mut last_direction = None;
+    let mut driven = 0.0;
     for (i, piece) in pieces.iter().enumerate() {
         let DrivePiece::Arc { length_m, curvature, direction } = *piece else {
             let DrivePiece::Turn { angle_rad } = *piece else { continue };
@@ -103,7 +106,8 @@ pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
         last_direction = Some(direction);
         let steps = steps(length_m, total, &curvature);
         replay.steps += steps;
-        state = integrate(state, claim.crab, direction, length_m, steps, &bend);
+        state = integrate(state, claim.crab_after(driven), direction, length_m, steps, &bend);
+        driven += length_m;
         let slope = |s: f64| (1..6).rev().fold(0.0, |sum, i| sum * s + i as f64 * curvature[i]);
         replay.max_curvature = largest(replay.max_curvature, peak(&bend, length_m, steps));
         replay.max_curvature_rate = largest(replay.max_curvature_rate, peak(&slope, length_m, steps));
@@ -120,24 +124,40 @@ pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
 pub fn trace_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> Vec<(f64, Vec<[f64; 3]>)> {
     let mut state = [0.0; 3];
     let mut traced = Vec::new();
+    let mut driven = 0.0;
     for piece in pieces {
         match *piece {
             DrivePiece::Turn { angle_rad } => state[2] += angle_rad,
             DrivePiece::Arc { length_m, curvature, direction } => {
-                let straight = curvature == [0.0; 6];
+                let straight = curvature == [0.0; 6] && claim.crab_rate == 0.0;
                 let parts = if straight { 1 } else { TRACED };
                 let mut poses = vec![state];
                 for part in 0..parts {
                     let from = length_m * part as f64 / parts as f64;
                     let bend = |s: f64| curvature.iter().rev().fold(0.0, |sum, a| sum * (from + s) + a);
-                    state = integrate(state, claim.crab, direction, length_m / parts as f64, 20, &bend);
+                    state = integrate(
+                        state,
+                        claim.crab_after(driven + from),
+                        direction,
+                        length_m / parts as f64,
+                        20,
+                        &bend,
+                    );
                     poses.push(state);
                 }
+                driven += length_m;
                 traced.push((direction, poses));
             }
         }
     }
     traced
+}
+
+impl DriveClaim {
+    /// Direction of travel in the body after `driven` metres, and its change with every one.
+    fn crab_after(&self, driven: f64) -> [f64; 2] {
+        [self.crab + self.crab_rate * driven, self.crab_rate]
+    }
 }
 
 impl DrivePiece {
@@ -158,7 +178,7 @@ fn steps(length: f64, total: f64, curvature: &[f64; 6]) -> usize {
 
 fn integrate(
     start: [f64; 3],
-    crab: f64,
+    crab: [f64; 2],
     direction: f64,
     length: f64,
     steps: usize,
@@ -166,7 +186,7 @@ fn integrate(
 ) -> [f64; 3] {
     let h = length / steps as f64;
     let rate = |s: f64, yaw: f64| {
-        let (sin, cos) = libm::sincos(yaw + crab);
+        let (sin, cos) = libm::sincos(yaw + crab[0] + crab[1] * s);
         [direction * cos, direction * sin, direction * bend(s)]
     };
     let mut state = start;
@@ -218,7 +238,8 @@ mod tests {
 
     use super::*;
 
-    const CLAIM: DriveClaim = DriveClaim { start_curvature: 0.0, crab: 0.0, end: [0.0; 3], end_curvature: 0.0 };
+    const CLAIM: DriveClaim =
+        DriveClaim { start_curvature: 0.0, crab: 0.0, crab_rate: 0.0, end: [0.0; 3], end_curvature: 0.0 };
 
     fn arc(length_m: f64, curvature: [f64; 6], direction: f64) -> DrivePiece {
         DrivePiece::Arc { length_m, curvature, direction }
@@ -242,6 +263,10 @@ mod tests {
         near(&replay_drive(&there, &CLAIM), [0.0, -2.0, -PI / 2.0]);
         let crab = DriveClaim { crab: PI / 2.0, ..CLAIM };
         near(&replay_drive(&[arc(1.0, [0.0; 6], 1.0)], &crab), [0.0, 1.0, 0.0]);
+        // Turned evenly by half a circle to the body, the direction itself is what bends the way: a circle of radius 1.
+        let swing = DriveClaim { crab_rate: 1.0, ..CLAIM };
+        let pieces = [arc(PI / 4.0, [0.0; 6], 1.0), arc(3.0 * PI / 4.0, [0.0; 6], 1.0)];
+        near(&replay_drive(&pieces, &swing), [0.0, 2.0, 0.0]);
         // A whole turn is no error of the heading.
         let round = replay_drive(&[arc(2.0 * PI, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], 1.0)], &CLAIM);
         near(&round, [0.0; 3]);
@@ -285,7 +310,7 @@ mod tests {
         let bent = [0.3, -0.2, 0.05, 0.0, 0.0, 0.0];
         let drive =
             [arc(2.0, bent, 1.0), DrivePiece::Turn { angle_rad: 0.4 }, arc(1.0, [0.0; 6], -1.0), arc(1.5, bent, -1.0)];
-        let claim = DriveClaim { crab: 0.2, ..CLAIM };
+        let claim = DriveClaim { crab: 0.2, crab_rate: -0.3, ..CLAIM };
         let traced = trace_drive(&drive, &claim);
         let end = traced[2].1.last().unwrap();
         near(&replay_drive(&drive, &claim), *end);

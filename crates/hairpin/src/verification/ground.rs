@@ -24,16 +24,18 @@ pub struct GroundVehicle {
 }
 
 /// What a drive on the ground was asked to do; world frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GroundClaim {
     /// x, y (m), ψ (rad) of the start.
     pub start: [f64; 3],
     /// κ at the start, 1/m.
     pub start_curvature: f64,
-    /// Direction of travel in the body, rad.
+    /// Direction of travel in the body where the drive begins, rad.
     pub crab: f64,
-    /// Speed, m/s, > 0.
-    pub speed_m_s: f64,
+    /// Its change along the drive, rad/m.
+    pub crab_rate: f64,
+    /// Metres of the drive, rising from 0, with the commanded speed there, m/s; v² is linear between, and as at the ends beyond.
+    pub speed: Vec<[f64; 2]>,
     /// x, y (m), ψ (rad) to end in.
     pub end: [f64; 3],
     /// κ to end with, 1/m.
@@ -78,7 +80,7 @@ pub fn replay_ground<T: Terrain>(
     terrain: &T,
     claim: &GroundClaim,
 ) -> Result<GroundReplay, Stopped> {
-    let wait = vehicle.latency_s * claim.speed_m_s;
+    let [wait, _] = claim.metres_of(vehicle.latency_s);
     let mut commands = Vec::with_capacity(pieces.len() + 1);
     if wait > 0.0 {
         let mut curvature = [0.0; 6];
@@ -86,7 +88,10 @@ pub fn replay_ground<T: Terrain>(
         commands.push(DrivePiece::Arc { length_m: wait, curvature, direction: 1.0 });
     }
     commands.extend_from_slice(pieces);
-    let total: f64 = pieces.iter().map(DrivePiece::length).sum();
+    let written: f64 = pieces.iter().map(DrivePiece::length).sum();
+    // The drive without what is only held while its last commands come to act; driven is that and the wait.
+    let drive = (written - claim.metres_of(vehicle.latency_s)[1]).max(0.0);
+    let total = wait + drive;
     let stopped = |after_m: f64, no_rest: NoRest| Stopped {
         after_m,
         no_ground: match no_rest {
@@ -110,6 +115,12 @@ pub fn replay_ground<T: Terrain>(
         let h = length / count as f64;
         for i in 0..count {
             let s = length * i as f64 / count as f64;
+            let at = driven - wait + s;
+            let way = Way {
+                piece,
+                crab: claim.crab + claim.crab_rate * (at + 0.5 * h).clamp(0.0, drive),
+                pace: claim.pace(at, h),
+            };
             let mut rates = |state: &[f64; 4], s: f64| -> Result<[f64; 4], NoRest> {
                 let place = [state[0], state[1], state[2]];
                 // Where the body falls over an edge, the rest it comes to is not near the one before.
@@ -118,7 +129,7 @@ pub fn replay_ground<T: Terrain>(
                 }
                 max_tilt =
                     max_tilt.max(libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0)));
-                Ok(vehicle.rates(piece, claim, &rest, state, s))
+                Ok(vehicle.rates(&way, &rest, state, s))
             };
             let middle = rates(&state, s).and_then(|k1| rates(&moved(&state, &k1, 0.5 * h), s + 0.5 * h));
             let k2 = middle.map_err(|no| stopped(driven, no))?;
@@ -144,6 +155,46 @@ pub fn replay_ground<T: Terrain>(
     })
 }
 
+/// What a step of the integrator follows.
+struct Way<'a> {
+    piece: &'a DrivePiece,
+    /// Direction of travel in the body at the step's middle, rad.
+    crab: f64,
+    /// Seconds a metre, in the mean over the step.
+    pace: f64,
+}
+
+impl GroundClaim {
+    /// Metres that the vehicle goes on for in `time` seconds before the drive, and after it.
+    fn metres_of(&self, time: f64) -> [f64; 2] {
+        let speed = |knot: Option<&[f64; 2]>| knot.map_or(0.0, |[_, v]| *v);
+        [time * speed(self.speed.first()), time * speed(self.speed.last())]
+    }
+
+    /// Seconds a metre from `s` on for `h` metres: ds/dv² is constant between knots, and so the time is 2 Δs/(v + v′).
+    fn pace(&self, s: f64, h: f64) -> f64 {
+        if h <= 0.0 {
+            return 0.0;
+        }
+        let end = s + h;
+        let speed = |pair: &[[f64; 2]], at: f64| {
+            let [[s0, v0], [s1, v1]] = [pair[0], pair[1]];
+            (v0 * v0 + (v1 * v1 - v0 * v0) * (at - s0) / (s1 - s0)).max(0.0).sqrt()
+        };
+        let mut seconds = 0.0;
+        for pair in self.speed.windows(2) {
+            let (from, to) = (s.max(pair[0][0]), end.min(pair[1][0]));
+            if to > from {
+                seconds += 2.0 * (to - from) / (speed(pair, from) + speed(pair, to));
+            }
+        }
+        let [first, last] = [self.speed.first(), self.speed.last()].map(|knot| knot.copied().unwrap_or_default());
+        seconds += (end.min(first[0]) - s).max(0.0) / first[1].max(f64::MIN_POSITIVE);
+        seconds += (end - s.max(last[0])).max(0.0) / last[1].max(f64::MIN_POSITIVE);
+        seconds / h
+    }
+}
+
 fn moved(state: &[f64; 4], rates: &[f64; 4], h: f64) -> [f64; 4] {
     [state[0] + h * rates[0], state[1] + h * rates[1], state[2] + h * rates[2], state[3] + h * rates[3]]
 }
@@ -154,10 +205,10 @@ impl GroundVehicle {
     }
 
     /// d(x, y, ψ, δ) per metre commanded, or per radian of a turn in place.
-    fn rates(&self, piece: &DrivePiece, claim: &GroundClaim, rest: &Rest, state: &[f64; 4], s: f64) -> [f64; 4] {
+    fn rates(&self, way: &Way<'_>, rest: &Rest, state: &[f64; 4], s: f64) -> [f64; 4] {
         let [(sf, cf), (st, ct), (sp, cp), (sd, cd)] =
-            [rest.roll(), rest.pitch(), state[2], claim.crab].map(libm::sincos);
-        let DrivePiece::Arc { curvature, direction, .. } = piece else {
+            [rest.roll(), rest.pitch(), state[2], way.crab].map(libm::sincos);
+        let DrivePiece::Arc { curvature, direction, .. } = way.piece else {
             return [0.0, 0.0, cf / ct, 0.0];
         };
         let commanded: f64 = curvature.iter().rev().fold(0.0, |sum, a| sum * s + a);
@@ -169,7 +220,7 @@ impl GroundVehicle {
                 wanted * f64::MAX.sqrt()
             };
             let rate = rate.clamp(-self.steering_rate_rad_s, self.steering_rate_rad_s);
-            (libm::tan(state[3]) / self.steered_axle_m, rate / claim.speed_m_s)
+            (libm::tan(state[3]) / self.steered_axle_m, rate * way.pace)
         } else {
             (commanded, 0.0)
         };

@@ -96,6 +96,7 @@ fn replay(query: &Query, direction: f64, solution: &Solution) -> DriveReplay {
     let claim = DriveClaim {
         start_curvature: query.start_curvature,
         crab: direction,
+        crab_rate: 0.0,
         end: [x, y, yaw],
         end_curvature: curvature,
     };

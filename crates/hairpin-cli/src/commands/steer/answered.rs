@@ -29,7 +29,13 @@ const JUMP: f64 = 1e-6;
 
 /// What the replay holds a drive to.
 pub(super) fn claim(asked: &Asked) -> DriveClaim {
-    DriveClaim { start_curvature: asked.k0, crab: asked.direction, end: asked.goal, end_curvature: asked.kf }
+    DriveClaim {
+        start_curvature: asked.k0,
+        crab: asked.direction,
+        crab_rate: 0.0,
+        end: asked.goal,
+        end_curvature: asked.kf,
+    }
 }
 
 /// A drive as plain numbers.

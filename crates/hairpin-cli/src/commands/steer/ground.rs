@@ -55,7 +55,7 @@ impl Ground<'_> {
     /// Answers `asked`, whose flat form is `query`.
     pub(super) fn answer(&self, asked: &Asked, query: &Query) -> Answered {
         let speed = asked.v0.or(asked.vf).filter(|v| *v > 0.0).unwrap_or(self.rover.default_speed);
-        let site = Site { rover: self.rover, map: self.map, speed, direction: asked.direction };
+        let site = Site { rover: self.rover, map: self.map, speed: speed.into(), direction: asked.direction.into() };
         let start = start(asked);
         let goal = goal(asked, &start);
         let begun = Instant::now();

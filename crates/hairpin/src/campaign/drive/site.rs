@@ -4,6 +4,7 @@ use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
 use crate::robot::rover::{Rover, Suspension};
 use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList};
+use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::verification::{DrivePiece, GroundClaim, GroundReplay, GroundVehicle, Stand, Stopped, replay_ground};
 use crate::world::terrain::ElevationMap;
 
@@ -14,10 +15,10 @@ pub struct Site<'a> {
     pub rover: &'a Rover,
     /// What it drives on.
     pub map: &'a ElevationMap,
-    /// Speed, m/s, > 0.
-    pub speed: f64,
-    /// Direction of travel in the body, rad.
-    pub direction: f64,
+    /// Speed along what is driven.
+    pub speed: SpeedProfile,
+    /// Direction of travel in the body.
+    pub direction: Direction,
 }
 
 /// The flat answers that a search on the ground is made of are exact to this, m, rad, 1/m.
@@ -58,6 +59,21 @@ impl Site<'_> {
         rough::solve(&self.course(Steps::default()), start, goal, bounds, settings, steer)
     }
 
+    /// What of `segments` the speeds are meant for: all but the stretch that is held while the last commands come to act.
+    pub fn driven(&self, segments: &[Segment]) -> SegmentList {
+        let mut driven = SegmentList::EMPTY;
+        driven.extend(segments.iter().copied());
+        let mut held = self.rover.response.latency * self.speed.end();
+        for segment in driven.iter_mut().rev() {
+            if let Motion::Arc { length_m, .. } = &mut segment.motion {
+                let cut = held.min(*length_m);
+                *length_m -= cut;
+                held -= cut;
+            }
+        }
+        driven
+    }
+
     /// Where `segments` lead from `start`, predicted in steps of `steps`.
     ///
     /// # Errors
@@ -91,11 +107,13 @@ impl Site<'_> {
     /// Where the ground ends or the body finds no rest.
     pub fn replay(&self, start: &Planar, goal: &Planar, segments: &[Segment]) -> Result<GroundReplay, Stopped> {
         let pieces: Vec<DrivePiece> = segments.iter().map(drive_piece).collect();
+        let driven = self.driven(segments);
         let claim = GroundClaim {
             start: [start.x, start.y, start.yaw],
             start_curvature: start.curvature,
-            crab: self.direction,
-            speed_m_s: self.speed,
+            crab: self.direction.start,
+            crab_rate: self.direction.rate(driven.iter().map(Segment::length_m).sum()),
+            speed: Timing::new(&self.speed, &driven).knots(),
             end: [goal.x, goal.y, goal.yaw],
             end_curvature: goal.curvature,
         };

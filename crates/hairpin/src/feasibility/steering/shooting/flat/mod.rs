@@ -32,6 +32,14 @@ pub fn least_length(query: &Query, bounds: &Curvatures) -> f64 {
     dubins::words(x * bounds.most, y * bounds.most, yaw)[0].length() / bounds.most
 }
 
+/// The shortest ways around, by Dubins: signs of the curvature ± `bounds.most` on three pieces, and their metres; those that do not
+/// exist are infinitely long.
+pub(super) fn ways(query: &Query, bounds: &Curvatures) -> [([f64; 3], [f64; 3]); 6] {
+    let Goal { x, y, yaw, .. } = query.goal;
+    dubins::words(x * bounds.most, y * bounds.most, yaw)
+        .map(|word| (word.signs, word.pieces.map(|piece| piece / bounds.most)))
+}
+
 /// Drives forward from the origin to the goal of `query` within `bounds`.
 ///
 /// ```text

@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::steering_lag::SteeringLag;
 use crate::robot::rover::{Gradient, Rates, Rover, Settled, Unsettled, rates};
 use crate::trajectory::drive::{Motion, Planar, Segment};
+use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::world::terrain::Terrain;
 
 /// What happened on the way.
@@ -79,10 +80,10 @@ pub struct Course<'a, T> {
     pub rover: &'a Rover,
     /// What it drives on.
     pub terrain: &'a T,
-    /// Speed, m/s, > 0; time matters only to lag.
-    pub speed: f64,
-    /// Direction of travel in the body, rad: 0 straight on, otherwise crab.
-    pub direction: f64,
+    /// Speed along what is driven; time matters only to latency and lag.
+    pub speed: SpeedProfile,
+    /// Direction of travel in the body: 0 straight on, otherwise crab.
+    pub direction: Direction,
     /// How finely.
     pub steps: Steps,
 }
@@ -115,7 +116,7 @@ pub fn predict<T: Terrain>(
         gradient,
         looked_at: *start,
         lag: SteeringLag::new(&rover.response, start.curvature),
-        direction: libm::sincos(course.direction),
+        timing: Timing::new(&course.speed, segments),
         prediction: Prediction { end: *start, tilt: (tilt(&settled), 0.0), joint: (joint(&settled), 0.0), steps: 1 },
     };
     for segment in segments {
@@ -135,7 +136,7 @@ struct Walk {
     /// Where the last look was.
     looked_at: Planar,
     lag: SteeringLag,
-    direction: (f64, f64),
+    timing: Timing,
     prediction: Prediction,
 }
 
@@ -165,18 +166,25 @@ impl Walk {
             Motion::Arc { length_m, .. } => {
                 let count = steps(length_m / course.steps.length, course.steps.least);
                 let h = length_m / f64::from(count);
-                let (time, slip) = (h / course.speed, &course.rover.slip);
+                let slip = &course.rover.slip;
+                let constant = libm::sincos(course.direction.start);
                 for step in 0..count {
+                    let time = self.timing.time_over(self.travelled, h);
+                    let direction = if course.direction.swing() == 0.0 {
+                        constant
+                    } else {
+                        libm::sincos(course.direction.at(self.travelled + 0.5 * h, self.timing.length()))
+                    };
                     let s = f64::from(step) * h;
                     // The curvature at the step's middle, half a step after the last one's end.
                     let curvature = self.lag.follow(|share| segment.curvature_at(s + 0.5 * h * share), 0.5 * time);
-                    let here = rates(&self.carried(&self.at), self.direction, sign, curvature, slip);
+                    let here = rates(&self.carried(&self.at), direction, sign, curvature, slip);
                     let mut middle = moved(&self.at, &here, 0.5 * h, self.at.yaw + 0.25 * h * here.yaw);
                     middle.curvature = curvature;
                     self.look(course, &middle)?;
                     self.travelled += h;
                     observe(&Driven { s: self.travelled - 0.5 * h, at: middle, settled: self.settled });
-                    let there = rates(&self.settled, self.direction, sign, curvature, slip);
+                    let there = rates(&self.settled, direction, sign, curvature, slip);
                     self.at = moved(&self.at, &there, h, self.at.yaw + 0.5 * h * there.yaw);
                     self.at.curvature =
                         self.lag.follow(|share| segment.curvature_at(s + 0.5 * h * (1.0 + share)), 0.5 * time);

@@ -86,10 +86,12 @@ pub fn solve<T: Terrain>(
     let mut answer =
         Answer { status: Status::Unreachable, segments: SegmentList::default(), prediction: None, iterations: 0 };
     // Until the first command acts, the vehicle goes on as it was.
-    let wait = course.rover.response.latency * course.speed;
+    let wait = course.rover.response.latency * course.speed.start();
     let mut from = *start;
     if wait > 0.0 {
-        match predict(course, start, &[hold(start.curvature, wait)], |_| {}) {
+        let waiting =
+            Course { speed: course.speed.start().into(), direction: course.direction.start.into(), ..*course };
+        match predict(&waiting, start, &[hold(start.curvature, wait)], |_| {}) {
             Ok(waited) => from = waited.end,
             Err(blocked) => {
                 answer.status = Status::Blocked(blocked);
@@ -105,6 +107,7 @@ pub fn solve<T: Terrain>(
         bend_commands(&task, steer, &mut answer);
     }
     // Commands go on for as long as they take to act.
+    let wait = course.rover.response.latency * course.speed.end();
     if let Some(last) = answer.segments.last().filter(|_| wait > 0.0) {
         let settled = hold(last.curvature_at(last.length_m()), wait);
         if answer.segments.push(settled).is_err() {
@@ -122,7 +125,7 @@ fn learn_goal<T: Terrain>(
     answer: &mut Answer,
 ) {
     let Task { course, from, goal, precision, bounds, aim } = *task;
-    let frame = Frame { origin: *from, direction: course.direction };
+    let frame = Frame { origin: *from, direction: course.direction.start };
     let mut inverse = Matrix4::identity();
     let mut virtual_goal = frame.seen(goal);
     let mut best: Option<Tried> = None;
@@ -215,7 +218,7 @@ fn gentle<T>(
     factor: f64,
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
 ) -> Option<SegmentList> {
-    let frame = Frame { origin: *task.from, direction: task.course.direction };
+    let frame = Frame { origin: *task.from, direction: task.course.direction.start };
     let mut goal = frame.seen(task.goal);
     // Where an end leaves less room, there is less of it.
     let factor = factor.min(task.bounds.most / task.from.curvature.abs());

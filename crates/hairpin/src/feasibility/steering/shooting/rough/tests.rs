@@ -14,7 +14,7 @@ fn shipped(name: &str) -> Rover {
 }
 
 fn course<'a, T>(rover: &'a Rover, terrain: &'a T) -> Course<'a, T> {
-    Course { rover, terrain, speed: rover.default_speed, direction: 0.0, steps: Steps::default() }
+    Course { rover, terrain, speed: rover.default_speed.into(), direction: 0.0.into(), steps: Steps::default() }
 }
 
 fn fine<'a, T>(rover: &'a Rover, terrain: &'a T) -> Course<'a, T> {

@@ -68,7 +68,7 @@ pub(super) struct Refined {
 pub(super) fn refine<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList) -> (Option<Refined>, u32) {
     let mut found: Option<Refined> = None;
     let Some(begun) = divided(segments) else { return (None, 0) };
-    let behind = task.course.rover.response.steering_time_constant * task.course.speed;
+    let behind = task.course.rover.response.steering_time_constant * task.course.speed.top();
     let mut here: Option<Stand> = None;
     let mut change = Change::zeros();
     let mut learned = Matrix4::identity();

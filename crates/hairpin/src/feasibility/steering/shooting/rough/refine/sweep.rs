@@ -88,7 +88,7 @@ mod tests {
         let text = std::fs::read_to_string(path).expect("a shipped rover");
         let rover = toml::from_str::<RoverDescription>(&text).expect("its keys").build().expect("its numbers");
         let steps = Steps { length: 0.002, angle: 0.002, least: 50 };
-        let course = Course { rover: &rover, terrain: &Flat, speed: 0.3, direction: 0.0, steps };
+        let course = Course { rover: &rover, terrain: &Flat, speed: 0.3.into(), direction: 0.0.into(), steps };
         for gear in [Gear::Forward, Gear::Reverse] {
             let from = Planar { x: 3.0, y: -2.0, yaw: 0.7, curvature: 0.1 };
             let mut drive = SegmentList::default();

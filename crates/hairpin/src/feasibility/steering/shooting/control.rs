@@ -1,0 +1,64 @@
+//! The controls by name: what the curvature, or the angular velocity, is a function of, and with which parameters.
+
+use super::flat;
+
+/// A family of controls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Control {
+    /// Constant curvature: (κ, L). Heading and curvature at the end are as they come.
+    Arc,
+    /// Turn in place, drive straight, turn in place: (α, L, β).
+    TurnDriveTurn,
+    /// κ(s) of third order: four coefficients and L, as many as there are conditions.
+    Cubic,
+    /// κ(s) of fifth order: six coefficients and L; where none keeps the bounds, a chain of clothoids.
+    #[default]
+    Quintic,
+    /// κ(t) of fifth order: six coefficients and the length that the speed profile makes a time of.
+    TimePolynomial,
+    /// The natural cubic spline κ(s) through eight even knots, and L.
+    Knots,
+    /// v(t) of second order, given by the speed profile, and ω(t): six coefficients beyond the common zeros of both, and L.
+    VelocityPolynomial,
+}
+
+impl Control {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Arc,
+        Self::TurnDriveTurn,
+        Self::Cubic,
+        Self::Quintic,
+        Self::TimePolynomial,
+        Self::Knots,
+        Self::VelocityPolynomial,
+    ];
+
+    /// As it is written: `turn-drive-turn`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Arc => "arc",
+            Self::TurnDriveTurn => "turn-drive-turn",
+            Self::Cubic => "cubic",
+            Self::Quintic => "quintic",
+            Self::TimePolynomial => "time-polynomial",
+            Self::Knots => "knots",
+            Self::VelocityPolynomial => "velocity-polynomial",
+        }
+    }
+
+    /// The control of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|control| control.name() == name)
+    }
+
+    /// What the flat solver calls it, if it is one of its own.
+    pub fn flat(self) -> Option<flat::Control> {
+        match self {
+            Self::Arc => Some(flat::Control::Arc),
+            Self::Cubic => Some(flat::Control::Cubic),
+            Self::Quintic => Some(flat::Control::Quintic),
+            Self::TurnDriveTurn | Self::TimePolynomial | Self::Knots | Self::VelocityPolynomial => None,
+        }
+    }
+}

@@ -1,0 +1,335 @@
+//! The shooting: parameters and length for which the drive ends in its goal, least in what exceeds a bound and in how much it bends.
+//!
+//! With unknowns z = (p, L), constraints c(z) = 0 (end position, turn, curvatures) and costs h(z), each step solves
+//! ```text
+//! [B  Jᵀ] [Δz]     [∇h]
+//! [J  −μ] [ y] = − [ c ]        B ≈ ∇²h + λ D
+//! ```
+//! (Gauss-Newton for h, the exact J by variation of the path): Newton's method where there are as many unknowns as constraints,
+//! else the step of least cost. λ rises until the merit ρ‖c‖ + h falls (Nocedal & Wright, Numerical optimization, ch. 18).
+
+use super::basis::{MOST, Row};
+use super::grid::{Grid, Node};
+use super::linear::solve;
+use super::search::Settings;
+use crate::feasibility::steering::shooting::Curvatures;
+
+/// Unknowns: the parameters and the length.
+const UNKNOWNS: usize = MOST + 1;
+/// Constraints: x, y, turn, κ and κ̇ at both ends.
+const CONSTRAINTS: usize = 7;
+const SYSTEM: usize = UNKNOWNS + CONSTRAINTS;
+
+/// What a drive is held to; its frame heads along the first direction of travel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Task {
+    /// Where it ends, m.
+    pub(super) place: [f64; 2],
+    /// Change of the body's heading, rad, not modulo 2π.
+    pub(super) turn: f64,
+    /// Change of the direction of travel in the body, rad.
+    pub(super) swing: f64,
+    /// κ at the start.
+    pub(super) start: f64,
+    /// κ at the end; `None` where it is as it comes.
+    pub(super) end: Option<f64>,
+    pub(super) bounds: Curvatures,
+    /// Misses below which the goal is met, m, rad and 1/m.
+    pub(super) tolerance: f64,
+}
+
+/// Parameters and length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Free {
+    pub(super) parameters: Row,
+    pub(super) length: f64,
+}
+
+/// How a descent ended.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fit {
+    pub(super) free: Free,
+    /// Largest of the constraints' errors, m, rad, 1/m.
+    pub(super) miss: f64,
+    /// Largest |κ|/most or |κ′|/most_rate at the nodes.
+    pub(super) bends: f64,
+    pub(super) iterations: u32,
+}
+
+impl Fit {
+    /// Whether goal and bounds are met.
+    pub(super) fn good(&self, tolerance: f64) -> bool {
+        self.miss <= tolerance && self.bends <= 1.0
+    }
+}
+
+/// Share of the bounds that is aimed at; the rest is for what lies between nodes.
+const ROOM: f64 = 0.997;
+/// Weights of what exceeds the bounds, of κ′², and of a length other than at the start. The first grows if it does not help.
+const STRICT: f64 = 1.0;
+const SMOOTH: f64 = 1e-4;
+const NEAR: f64 = 1e-4;
+/// Factors of the first.
+const STRICTER: [f64; 3] = [1.0, 100.0, 1e4];
+/// Longest step: of the curvature, as a share of its bound, and of the length, as a share of itself.
+const BOLDEST: [f64; 2] = [0.6, 0.3];
+/// Last steps of a descent.
+const POLISH: u32 = 4;
+/// The least μ: constraints that contradict each other are met as nearly as they can be.
+const SOFT: f64 = 1e-10;
+
+/// The drive of some parameters, with its derivatives.
+struct Shot {
+    constraints: [f64; CONSTRAINTS],
+    jacobian: [[f64; UNKNOWNS]; CONSTRAINTS],
+    cost: f64,
+    gradient: [f64; UNKNOWNS],
+    hessian: [[f64; UNKNOWNS]; UNKNOWNS],
+    bends: f64,
+}
+
+impl Shot {
+    fn miss(&self) -> f64 {
+        self.constraints.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) })
+    }
+
+    fn norm(&self) -> f64 {
+        self.constraints.iter().map(|c| c * c).sum::<f64>().sqrt()
+    }
+}
+
+fn dot(a: &Row, b: &Row) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn shoot(grid: &Grid, task: &Task, free: &Free, from: f64, strict: f64) -> Shot {
+    let Free { parameters: p, length } = free;
+    let (length, last) = (*length, UNKNOWNS - 1);
+    let mut shot = Shot {
+        constraints: [0.0; CONSTRAINTS],
+        jacobian: [[0.0; UNKNOWNS]; CONSTRAINTS],
+        cost: 0.0,
+        gradient: [0.0; UNKNOWNS],
+        hessian: [[0.0; UNKNOWNS]; UNKNOWNS],
+        bends: 0.0,
+    };
+    let (mut x, mut y) = (0.0, 0.0);
+    let mut by = [[0.0; UNKNOWNS]; 2];
+    let smooth = SMOOTH / (task.bounds.most * task.bounds.most);
+    for node in grid.nodes() {
+        let heading = length * dot(p, &node.integral);
+        let (sin, cos) = libm::sincos(heading + task.swing * node.share);
+        let (along, across) = (node.weight * cos, node.weight * sin);
+        x += along;
+        y += across;
+        for (i, integral) in node.integral.iter().enumerate() {
+            by[0][i] -= across * length * integral;
+            by[1][i] += along * length * integral;
+        }
+        by[0][last] -= across * heading / length;
+        by[1][last] += along * heading / length;
+        shot.look(task, free, node, strict);
+        let slope = dot(p, &node.slope);
+        shot.cost += 0.5 * smooth * node.weight * slope * slope;
+        for i in 0..MOST {
+            let weighted = smooth * node.weight * node.slope[i];
+            shot.gradient[i] += weighted * slope;
+            for j in 0..MOST {
+                shot.hessian[i][j] += weighted * node.slope[j];
+            }
+        }
+    }
+    for end in &grid.ends {
+        shot.look(task, free, end, strict);
+    }
+    let stretch = (length - from) / from;
+    shot.cost += 0.5 * NEAR * stretch * stretch;
+    shot.gradient[last] += NEAR * stretch / from;
+    shot.hessian[last][last] += NEAR / (from * from);
+    shot.constraints[0] = length * x - task.place[0];
+    shot.constraints[1] = length * y - task.place[1];
+    for (row, (by, sum)) in shot.jacobian.iter_mut().zip(by.iter().zip([x, y])) {
+        for (value, by) in row.iter_mut().zip(by) {
+            *value = length * by;
+        }
+        row[last] += sum;
+    }
+    let whole = dot(p, &grid.ends[1].integral);
+    shot.constraints[2] = length * whole - task.turn;
+    shot.jacobian[2][last] = whole;
+    for i in 0..MOST {
+        shot.jacobian[2][i] = length * grid.ends[1].integral[i];
+    }
+    let rows = [
+        Some((&grid.ends[0].value, task.start)),
+        task.end.map(|end| (&grid.ends[1].value, end)),
+        grid.rests[0].then_some((&grid.end_slopes[0], 0.0)),
+        grid.rests[1].then_some((&grid.end_slopes[1], 0.0)),
+    ];
+    for (index, row) in rows.into_iter().enumerate() {
+        let Some((row, wanted)) = row else { continue };
+        shot.constraints[3 + index] = dot(p, row) - wanted;
+        shot.jacobian[3 + index][..MOST].copy_from_slice(row);
+    }
+    shot
+}
+
+impl Shot {
+    /// Adds what exceeds the bounds at `node`.
+    fn look(&mut self, task: &Task, free: &Free, node: &Node, strict: f64) {
+        let last = UNKNOWNS - 1;
+        let Curvatures { most, most_rate } = task.bounds;
+        let curvature = dot(&free.parameters, &node.value) / most;
+        let rate = dot(&free.parameters, &node.slope) / (most_rate * free.length);
+        self.bends = self.bends.max(curvature.abs()).max(rate.abs());
+        let weight = strict * if node.weight > 0.0 { node.weight } else { 0.01 };
+        for (value, row, unit, by_length) in
+            [(curvature, &node.value, most, 0.0), (rate, &node.slope, most_rate * free.length, -rate / free.length)]
+        {
+            let excess = value.abs() - ROOM;
+            if excess <= 0.0 {
+                continue;
+            }
+            let sign = value.signum();
+            let mut by = [0.0; UNKNOWNS];
+            for (by, value) in by.iter_mut().zip(row) {
+                *by = sign * value / unit;
+            }
+            by[last] = sign * by_length;
+            self.cost += 0.5 * weight * excess * excess;
+            for i in 0..UNKNOWNS {
+                self.gradient[i] += weight * excess * by[i];
+                for j in 0..UNKNOWNS {
+                    self.hessian[i][j] += weight * by[i] * by[j];
+                }
+            }
+        }
+    }
+}
+
+/// Descends from `start`, as many steps as `settings` say at most; `observe` sees the miss and the bends after each.
+pub(super) fn descend(
+    grid: &Grid,
+    task: &Task,
+    start: Free,
+    settings: &Settings,
+    observe: &mut dyn FnMut(u32, &Free, f64, f64),
+) -> Fit {
+    let from = start.length;
+    let mut free = start;
+    let mut iterations = 0;
+    let mut best: Option<Fit> = None;
+    for factor in STRICTER {
+        let strict = STRICT * factor;
+        let mut shot = shoot(grid, task, &free, from, strict);
+        let (mut damping, mut settled) = (1e-6, 0);
+        while iterations < settings.iterations && settled < 2 {
+            iterations += 1;
+            let mut moved = false;
+            for _ in 0..8 {
+                let Some((step, multipliers)) = step(grid, task, &shot, &free, damping) else {
+                    damping = damping.max(1e-6) * 100.0;
+                    continue;
+                };
+                let price = 2.0 * multipliers + 1.0;
+                let Some(next) = taken(grid, &free, &step, settings.step_scale) else {
+                    damping *= 10.0;
+                    continue;
+                };
+                let tried = shoot(grid, task, &next, from, strict);
+                let (before, after) = (price * shot.norm() + shot.cost, price * tried.norm() + tried.cost);
+                // At rounding errors nothing falls any more.
+                if after < before || (tried.miss() < 1e-11 && after <= before * (1.0 + 1e-9)) {
+                    let gain = before - after;
+                    settled = if gain <= 1e-9 * before || tried.miss() < 0.1 * task.tolerance && gain < 1e-4 * before {
+                        settled + 1
+                    } else {
+                        0
+                    };
+                    (free, shot) = (next, tried);
+                    damping = (0.2 * damping).max(1e-9);
+                    moved = true;
+                    break;
+                }
+                damping *= 10.0;
+            }
+            observe(iterations, &free, shot.miss(), shot.bends);
+            if !moved {
+                break;
+            }
+        }
+        // Near the goal whole steps of Newton's method make its conditions exact, whatever little they cost.
+        for _ in 0..POLISH {
+            let step = step(grid, task, &shot, &free, 0.0).filter(|_| shot.miss() < 10.0 * task.tolerance);
+            let Some(next) = step.and_then(|(step, _)| taken(grid, &free, &step, 1.0)) else { break };
+            let tried = shoot(grid, task, &next, from, strict);
+            if tried.miss() >= 0.5 * shot.miss() {
+                break;
+            }
+            (free, shot) = (next, tried);
+            iterations += 1;
+        }
+        let fit = Fit { free, miss: shot.miss(), bends: shot.bends, iterations };
+        if fit.good(task.tolerance) {
+            return fit;
+        }
+        if best.is_none_or(|best| grade(&fit, task) < grade(&best, task)) {
+            best = Some(fit);
+        }
+        if fit.miss > task.tolerance {
+            break;
+        }
+    }
+    let best = best.unwrap_or(Fit { free, miss: f64::INFINITY, bends: f64::INFINITY, iterations });
+    Fit { iterations, ..best }
+}
+
+/// Less is better: whether the goal is met counts before the bounds.
+pub(super) fn grade(fit: &Fit, task: &Task) -> (bool, f64) {
+    let met = fit.miss <= task.tolerance;
+    (!met, if met { fit.bends } else { fit.miss })
+}
+
+/// The step from `shot` and the size of the constraints' multipliers; `None` where the system is singular.
+fn step(grid: &Grid, task: &Task, shot: &Shot, free: &Free, damping: f64) -> Option<([f64; UNKNOWNS], f64)> {
+    let mut matrix = [[0.0; SYSTEM]; SYSTEM];
+    let mut right = [0.0; SYSTEM];
+    let scale = [1.0 / (task.bounds.most * task.bounds.most), 1.0 / (free.length * free.length)];
+    for i in 0..UNKNOWNS {
+        matrix[i][..UNKNOWNS].copy_from_slice(&shot.hessian[i]);
+        let unit = if i < MOST { scale[0] } else { scale[1] };
+        // Parameters that the family does not have stay as they are.
+        let idle = i >= grid.count && i < MOST;
+        matrix[i][i] += if idle { 1.0 } else { (damping + 1e-9) * unit };
+        right[i] = -shot.gradient[i];
+    }
+    for (c, row) in shot.jacobian.iter().enumerate() {
+        for (i, value) in row.iter().enumerate() {
+            matrix[UNKNOWNS + c][i] = *value;
+            matrix[i][UNKNOWNS + c] = *value;
+        }
+        // Soft with the damping: far from the goal a step need not go the whole way.
+        matrix[UNKNOWNS + c][UNKNOWNS + c] = -(SOFT + if damping > 1e-4 { damping } else { 0.0 });
+        right[UNKNOWNS + c] = -shot.constraints[c];
+    }
+    if !solve(&mut matrix, &mut right) {
+        return None;
+    }
+    let mut step = [0.0; UNKNOWNS];
+    step.copy_from_slice(&right[..UNKNOWNS]);
+    let multipliers = right[UNKNOWNS..].iter().map(|y| y * y).sum::<f64>().sqrt();
+    let curvature = step[..MOST].iter().fold(0.0, |sum: f64, p| sum + p.abs()) / task.bounds.most;
+    let shrink = (BOLDEST[0] / curvature).min(BOLDEST[1] * free.length / step[MOST].abs()).min(1.0);
+    step.iter_mut().for_each(|value| *value *= shrink);
+    Some((step, multipliers))
+}
+
+/// The unknowns after `step`, if they are numbers and the length stays more than 0.
+fn taken(grid: &Grid, free: &Free, step: &[f64; UNKNOWNS], scale: f64) -> Option<Free> {
+    let mut next = *free;
+    for (parameter, step) in next.parameters[..grid.count].iter_mut().zip(step) {
+        *parameter += scale * step;
+    }
+    next.length += scale * step[MOST];
+    (next.length > 1e-9 && next.length.is_finite() && next.parameters.iter().all(|p| p.is_finite())).then_some(next)
+}

@@ -1,0 +1,93 @@
+//! A family's own parameters, as its textbook has them.
+
+use super::basis::{Basis, MOST, Row};
+use super::clock::Clock;
+use super::pieces::{monomials, scaled};
+use crate::math::power::power;
+
+/// What was solved for, in the family's own terms; SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Parameters {
+    /// κ(s) = Σ aᵢ sⁱ over `length` metres.
+    ArcLength {
+        /// a₀ … a₅, 1/m^(i+1).
+        curvature: [f64; 6],
+        /// m.
+        length: f64,
+    },
+    /// κ(t) = Σ cᵢ tⁱ over `duration` seconds.
+    Time {
+        /// c₀ … c₅, 1/(m sⁱ).
+        curvature: [f64; 6],
+        /// s.
+        duration: f64,
+    },
+    /// The natural cubic spline through these curvatures at even places of `length` metres.
+    Knots {
+        /// 1/m.
+        curvature: [f64; MOST],
+        /// m.
+        length: f64,
+    },
+    /// v(t) = Σ vᵢ tⁱ and ω(t) = Σ ωᵢ tⁱ over `duration` seconds.
+    Velocity {
+        /// v₀ … v₂, m/s^(i+1).
+        linear: [f64; 3],
+        /// ω₀ … ω₇, rad/s^(i+1).
+        angular: [f64; 8],
+        /// s.
+        duration: f64,
+    },
+}
+
+impl Parameters {
+    /// Those of the mirrored drive.
+    pub(super) fn mirrored(mut self) -> Self {
+        let turned: &mut [f64] = match &mut self {
+            Self::ArcLength { curvature, .. } | Self::Time { curvature, .. } => curvature,
+            Self::Knots { curvature, .. } => curvature,
+            Self::Velocity { angular, .. } => angular,
+        };
+        turned.iter_mut().for_each(|value| *value = -*value);
+        self
+    }
+}
+
+/// The parameters of `basis` on `clock`, for a drive of `length` metres and `duration` seconds.
+pub(super) fn named(basis: &Basis, clock: &Clock, row: &Row, length: f64, duration: f64) -> Parameters {
+    match (basis, clock) {
+        (Basis::Knots(_), _) => Parameters::Knots { curvature: *row, length },
+        (Basis::Polynomial(order), Clock::Metres) => {
+            Parameters::ArcLength { curvature: scaled(&monomials(*order, row), length), length }
+        }
+        (Basis::Polynomial(order), _) => {
+            Parameters::Time { curvature: scaled(&monomials(*order, row), duration), duration }
+        }
+        (Basis::Ratio(order, rest), clock) => {
+            let Clock::Polynomial(speed) = clock else {
+                return Parameters::ArcLength { curvature: [0.0; 6], length };
+            };
+            // Of the shape a + bu + cu² to v: its mean is length / duration.
+            let unit = length / (duration * (speed[0] + speed[1] / 2.0 + speed[2] / 3.0));
+            let linear = std::array::from_fn(|k| speed[k] * unit / power(duration, k));
+            // ω = κ v: the polynomial times what was left out of the ratio.
+            let [start, end] = clock.rests();
+            debug_assert!(rest.iter().all(|value| value.is_finite()), "a speed's polynomial overflows");
+            let mut angular = [0.0; 8];
+            angular[..6].copy_from_slice(&monomials(*order, row));
+            if start {
+                angular.copy_within(0..7, 1);
+                angular[0] = 0.0;
+            }
+            if end {
+                for k in (1..8).rev() {
+                    angular[k] -= angular[k - 1];
+                }
+            }
+            for (k, value) in angular.iter_mut().enumerate() {
+                *value *= unit / power(duration, k);
+            }
+            Parameters::Velocity { linear, angular, duration }
+        }
+    }
+}

@@ -1,0 +1,381 @@
+//! The search: one descent after another, from the nearest start values, until one keeps goal and bounds.
+
+use std::f64::consts::TAU;
+
+use super::basis::{Basis, Row};
+use super::clock::Clock;
+use super::descend::{Fit, Free, Task, descend, grade};
+use super::grid::Grid;
+use super::landing::landing;
+use super::parameters::{Parameters, named};
+use super::pieces;
+use super::start::{nearest, word};
+use crate::feasibility::steering::shooting::control::Control;
+use crate::feasibility::steering::shooting::flat::{self, Limit, Status, extremes, forward, ways};
+use crate::feasibility::steering::shooting::{Curvatures, Goal, Precision, Query};
+use crate::trajectory::SpeedProfile;
+use crate::trajectory::drive::{Motion, Segment, SegmentList};
+
+/// A boundary-value problem with speed and direction of travel: a query in the frame that looks along the first direction of travel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Problem {
+    /// Where to; driven forward. Its yaw is the change of the body's heading.
+    pub query: Query,
+    /// The speeds at both ends and between; it forms controls that are functions of time.
+    pub speed: SpeedProfile,
+    /// Change of the direction of travel in the body along the drive, rad, left positive.
+    pub swing: f64,
+    /// Whether the curvature at the end is as it comes. Only velocity polynomials ask for it.
+    pub free_end: bool,
+}
+
+/// How long and how exactly to look.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// The errors within which the goal counts as met; the descents go on to a thousandth of it.
+    pub precision: Precision,
+    /// Steps of each descent at most.
+    pub iterations: u32,
+    /// Start values at most.
+    pub starts: u32,
+    /// Share of each step that is taken at first, in (0, 1].
+    pub step_scale: f64,
+}
+
+impl Default for Settings {
+    /// 1 cm, 0.01 rad, 0.01 1/m; 60 steps from up to 24 starts; whole steps.
+    fn default() -> Self {
+        Self { precision: Precision::default(), iterations: 60, starts: 24, step_scale: 1.0 }
+    }
+}
+
+/// What was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// Whether it does what was asked, and what it lacks otherwise.
+    pub status: Status,
+    /// The commands; if not `Ok`, what came nearest.
+    pub segments: SegmentList,
+    /// The family's own parameters.
+    pub parameters: Parameters,
+    /// Largest difference between the family's curvature and that of the commands, 1/m; 0 where they are the same function.
+    pub fit_error: f64,
+    /// Steps over all descents.
+    pub iterations: u32,
+}
+
+/// One step of a descent, as an observer gets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// Which start, from 0.
+    pub start: u32,
+    /// Which step of it, from 1.
+    pub step: u32,
+    /// Metres of the drive.
+    pub length: f64,
+    /// Largest of what is missing at the end, m, rad, 1/m.
+    pub miss: f64,
+    /// Largest |κ| or |κ′| over its bound.
+    pub bends: f64,
+}
+
+/// The descents' tolerance as a share of the precision.
+const TOLERANCE: f64 = 1e-3;
+/// A drive no longer than the shortest way around by this factor is short enough.
+const SHORT: f64 = 1.25;
+/// Rounds in which length and speeds are made to agree.
+const ROUNDS: u32 = 12;
+/// Factors on the radius of Dubins' words as start values.
+const RADII: [f64; 4] = [1.0, 1.5, 2.5, 0.8];
+
+/// Drives forward from the origin to the goal of `problem` within `bounds`, the curvature being of the family `control`.
+///
+/// ```text
+/// x′ = cos(ψ + δ)   y′ = sin(ψ + δ)   ψ′ = κ   δ = swing · s/L   κ = Σ pᵢ Bᵢ   |κ| ≤ most   |κ′| ≤ most_rate
+/// ```
+/// Metres and radians. Mirrored problems have mirrored answers, to the bit. `stop` is asked before each descent; `observe` sees
+/// every step. The single arc and turns in place are not of these families: they are answered as the quintic.
+pub fn solve(
+    problem: &Problem,
+    control: Control,
+    bounds: &Curvatures,
+    settings: &Settings,
+    stop: &mut dyn FnMut() -> bool,
+    observe: &mut dyn FnMut(&Iteration),
+) -> Answer {
+    let Problem { query, swing, .. } = problem;
+    let Goal { y, yaw, curvature, .. } = query.goal;
+    let leans = [y, yaw, query.start_curvature, curvature, *swing].into_iter().find(|value| *value != 0.0);
+    if leans.is_some_and(|first| first < 0.0) {
+        return mirrored(search(&mirror(problem), control, bounds, settings, stop, observe));
+    }
+    search(problem, control, bounds, settings, stop, observe)
+}
+
+fn mirror(problem: &Problem) -> Problem {
+    let Goal { x, y, yaw, curvature } = problem.query.goal;
+    let goal = Goal { x, y: -y, yaw: -yaw, curvature: -curvature };
+    let query = Query { start_curvature: -problem.query.start_curvature, goal };
+    Problem { query, swing: -problem.swing, ..*problem }
+}
+
+fn mirrored(mut answer: Answer) -> Answer {
+    for segment in answer.segments.iter_mut() {
+        if let Motion::Arc { curvature, .. } = &mut segment.motion {
+            curvature.iter_mut().for_each(|a| *a = -*a);
+        }
+    }
+    answer.parameters = answer.parameters.mirrored();
+    answer
+}
+
+/// A search under way, in units of the least radius.
+struct Search<'a> {
+    problem: &'a Problem,
+    control: Control,
+    bounds: &'a Curvatures,
+    settings: &'a Settings,
+    /// What was found, with the clock and the basis that it was found on.
+    best: Option<(Fit, Task, Basis, Clock)>,
+    iterations: u32,
+    started: u32,
+}
+
+fn search(
+    problem: &Problem,
+    control: Control,
+    bounds: &Curvatures,
+    settings: &Settings,
+    stop: &mut dyn FnMut() -> bool,
+    observe: &mut dyn FnMut(&Iteration),
+) -> Answer {
+    let mut search = Search { problem, control, bounds, settings, best: None, iterations: 0, started: 0 };
+    let Query { goal, .. } = problem.query;
+    let distance = libm::hypot(goal.x, goal.y).max(0.5 / bounds.most);
+    // The path of travel turns by the direction, too, and begins and ends with its share of the bend.
+    let bend = problem.swing / distance;
+    let most = bounds.most;
+    let path = Query {
+        start_curvature: (problem.query.start_curvature + bend).clamp(-most, most),
+        goal: Goal { yaw: goal.yaw + problem.swing, curvature: (goal.curvature + bend).clamp(-most, most), ..goal },
+    };
+    let flat = forward(&path, bounds, &flat::Settings { precision: settings.precision, ..flat::Settings::default() });
+    let length: f64 = flat.segments.iter().map(Segment::length_m).sum();
+    if length > 0.0 {
+        let turn = landing(&flat.segments, 0.0)[2];
+        let curvature = |share: f64| curvature_along(&flat.segments, share * length);
+        search.from(&curvature, length, turn, observe);
+    }
+    let shortest = flat::least_length(&path, bounds);
+    for radius in RADII {
+        let wide = Curvatures { most: most / radius, ..*bounds };
+        for (signs, metres) in ways(&path, &wide) {
+            let whole: f64 = metres.iter().sum();
+            if !whole.is_finite()
+                || whole <= 0.0
+                || search.done(shortest)
+                || search.started >= settings.starts
+                || stop()
+            {
+                continue;
+            }
+            let turn: f64 = signs.iter().zip(metres).map(|(sign, piece)| sign * piece * wide.most).sum();
+            let curvature = |share: f64| word(signs, metres, wide.most, share);
+            search.from(&curvature, whole + 0.3 * most / bounds.most_rate, turn, observe);
+        }
+    }
+    search.answer()
+}
+
+/// κ of `segments` after `s` metres.
+fn curvature_along(segments: &[Segment], mut s: f64) -> f64 {
+    for segment in segments {
+        let length = segment.length_m();
+        if s <= length {
+            return segment.curvature_at(s);
+        }
+        s -= length;
+    }
+    segments.last().map_or(0.0, |last| last.curvature_at(last.length_m()))
+}
+
+impl Search<'_> {
+    /// The functions of the family and what they are functions of, for a drive of about `length` metres.
+    fn family(&self, length: f64) -> (Basis, Clock) {
+        let speed = &self.problem.speed;
+        match self.control {
+            Control::Cubic => (Basis::Polynomial(3), Clock::Metres),
+            Control::Knots => (Basis::knots(), Clock::Metres),
+            Control::TimePolynomial if !speed.is_constant() => {
+                (Basis::Polynomial(5), Clock::seconds(speed.over(length)))
+            }
+            Control::VelocityPolynomial => {
+                let shape = speed_polynomial(speed, length);
+                (Basis::ratio(5, shape), Clock::Polynomial(shape))
+            }
+            _ => (Basis::Polynomial(5), Clock::Metres),
+        }
+    }
+
+    /// Whether a drive was found that is good and not a long way round.
+    fn done(&self, shortest: f64) -> bool {
+        self.best.is_some_and(|(fit, task, ..)| {
+            fit.good(task.tolerance) && fit.free.length <= SHORT * shortest * self.bounds.most
+        })
+    }
+
+    /// Descends from a curve of the path of travel; its whole turn says how often the goal's heading is gone around.
+    fn from(&mut self, curvature: &dyn Fn(f64) -> f64, length: f64, turn: f64, observe: &mut dyn FnMut(&Iteration)) {
+        let Problem { query, swing, free_end, .. } = *self.problem;
+        let most = self.bounds.most;
+        let whole = ((turn - swing - query.goal.yaw) / TAU).round();
+        let task = Task {
+            place: [query.goal.x * most, query.goal.y * most],
+            turn: query.goal.yaw + whole * TAU,
+            swing,
+            start: query.start_curvature / most,
+            end: (!(free_end && self.control == Control::VelocityPolynomial)).then_some(query.goal.curvature / most),
+            bounds: Curvatures { most: 1.0, most_rate: self.bounds.most_rate / (most * most) },
+            tolerance: TOLERANCE * self.settings.precision.position * most.min(1.0),
+        };
+        let start = self.started;
+        self.started += 1;
+        let mut metres = length;
+        let mut free: Option<Free> = None;
+        for _ in 0..ROUNDS {
+            let (basis, clock) = self.family(metres);
+            let grid = Grid::new(&basis, &clock);
+            let begun = free.unwrap_or_else(|| Free {
+                parameters: nearest(
+                    &grid,
+                    &|share| (curvature(share) - swing / length) / most,
+                    [Some(task.start), task.end],
+                ),
+                length: length * most,
+            });
+            let mut seen = |step, free: &Free, miss, bends| {
+                observe(&Iteration { start, step, length: free.length / most, miss, bends });
+            };
+            let fit = descend(&grid, &task, begun, self.settings, &mut seen);
+            self.iterations += fit.iterations;
+            let found = fit.free.length / most;
+            let settled = (found - metres).abs() <= 1e-9 * metres || !self.shape_depends_on_length();
+            if settled || fit.miss > task.tolerance {
+                if self.best.is_none_or(|(best, of, ..)| better(&fit, &task, &best, &of)) {
+                    self.best = Some((fit, task, basis, clock));
+                }
+                return;
+            }
+            (metres, free) = (found, Some(fit.free));
+        }
+    }
+
+    /// Trapezoids are other functions of σ for every length.
+    fn shape_depends_on_length(&self) -> bool {
+        let timed = matches!(self.control, Control::TimePolynomial | Control::VelocityPolynomial);
+        timed && matches!(self.problem.speed, SpeedProfile::Trapezoid { .. }) && !self.problem.speed.is_constant()
+    }
+
+    fn answer(self) -> Answer {
+        let Problem { query, swing, speed, .. } = self.problem;
+        let Some((fit, task, basis, clock)) = self.best else {
+            // Nothing to drive: the goal is where the drive begins, or no way around exists.
+            let missed = libm::hypot(query.goal.x, query.goal.y);
+            let parameters = Parameters::ArcLength { curvature: [0.0; 6], length: 0.0 };
+            let status = Status::NotConverged { residual: missed };
+            return Answer {
+                status,
+                segments: SegmentList::EMPTY,
+                parameters,
+                fit_error: 0.0,
+                iterations: self.iterations,
+            };
+        };
+        let most = self.bounds.most;
+        let length = fit.free.length / most;
+        let parameters: Row = fit.free.parameters.map(|p| p * most);
+        let (segments, fit_error) = pieces::segments(&basis, &clock, &parameters, length);
+        let duration = match clock {
+            Clock::Polynomial([a, b, c]) => length / (a + b / 2.0 + c / 3.0),
+            Clock::Metres | Clock::Seconds { .. } => speed.over(length).duration(),
+        };
+        let mut named = named(&basis, &clock, &parameters, length, duration);
+        if let (Parameters::ArcLength { curvature, .. }, Control::TimePolynomial) = (named, self.control) {
+            // At a constant speed time and arc length are one.
+            named = Parameters::Time { curvature: in_time(&curvature, speed.start()), duration };
+        }
+        let status = judge(&segments, &task, query, *swing, self.bounds, &self.settings.precision);
+        Answer { status, segments, parameters: named, fit_error, iterations: self.iterations }
+    }
+}
+
+/// κ(s) as a polynomial of t = s/v.
+fn in_time(curvature: &[f64; 6], speed: f64) -> [f64; 6] {
+    std::array::from_fn(|k| curvature[k] * crate::math::power::power(speed, k))
+}
+
+/// The quadratic speed, m/s over the share of the time, that a profile stands for: with its ends, and of a trapezoid as much
+/// of its top as it comes to in the middle of its time.
+fn speed_polynomial(speed: &SpeedProfile, length: f64) -> [f64; 3] {
+    let (start, end) = (speed.start(), speed.end());
+    let middle = match speed {
+        SpeedProfile::Constant { speed } => *speed,
+        SpeedProfile::Ramp { .. } => 0.5 * (start + end),
+        SpeedProfile::Trapezoid { .. } => {
+            let speeds = speed.over(length);
+            speeds.speed_at(speeds.place_at(0.5 * speeds.duration()))
+        }
+    };
+    match Clock::through(start, middle, end) {
+        Clock::Polynomial(shape) => shape,
+        Clock::Metres | Clock::Seconds { .. } => [middle, 0.0, 0.0],
+    }
+}
+
+fn better(fit: &Fit, task: &Task, best: &Fit, of: &Task) -> bool {
+    match (fit.good(task.tolerance), best.good(of.tolerance)) {
+        (true, true) => fit.free.length < best.free.length,
+        (good, other) if good != other => good,
+        _ => grade(fit, task) < grade(best, of),
+    }
+}
+
+/// Judges by the numbers that are handed out, not by those that made them.
+fn judge(
+    segments: &[Segment],
+    task: &Task,
+    query: &Query,
+    swing: f64,
+    bounds: &Curvatures,
+    precision: &Precision,
+) -> Status {
+    let [x, y, yaw] = landing(segments, swing);
+    let missed = libm::hypot(x - query.goal.x, y - query.goal.y);
+    let last = segments.last().map_or(query.start_curvature, |last| last.curvature_at(last.length_m()));
+    let bent = if task.end.is_some() { (last - query.goal.curvature).abs() } else { 0.0 };
+    let turned = (yaw - task.turn).abs();
+    if !(missed <= precision.position && turned <= precision.yaw && bent <= precision.curvature) {
+        return Status::NotConverged { residual: missed };
+    }
+    let (mut most, mut rate) = (0.0_f64, 0.0_f64);
+    for segment in segments {
+        let Motion::Arc { length_m, curvature } = segment.motion else { continue };
+        let mut scale = 1.0;
+        let mut bend = [0.0; 6];
+        for (bend, a) in bend.iter_mut().zip(&curvature) {
+            *bend = a * scale;
+            scale *= length_m;
+        }
+        let slope: [f64; 6] = std::array::from_fn(|k| if k < 5 { (k + 1) as f64 * bend[k + 1] } else { 0.0 });
+        most = most.max(extremes::largest(&bend) / bounds.most);
+        rate = rate.max(extremes::largest(&slope) / (length_m * bounds.most_rate));
+    }
+    const KEPT: f64 = 1.0 + 1e-9;
+    if most <= KEPT && rate <= KEPT {
+        Status::Ok
+    } else if most >= rate {
+        Status::Infeasible { limit: Limit::Curvature, excess: (most - 1.0) * bounds.most }
+    } else {
+        Status::Infeasible { limit: Limit::CurvatureRate, excess: (rate - 1.0) * bounds.most_rate }
+    }
+}
