@@ -77,7 +77,8 @@ fn by_beam(
 
 /// Replays every leg with another integrator and holds it against what was claimed.
 fn hold(site: &DriveSite, settings: &DriveSettings, drive: &Drive, told: &str) {
-    let ground = Site { rover: site.rover, map: site.map, speed: drive.speed.into(), direction: drive.direction.into() };
+    let ground =
+        Site { rover: site.rover, map: site.map, speed: drive.speed.into(), direction: drive.direction.into() };
     for (number, leg) in drive.legs.iter().enumerate() {
         let replay = ground.replay(&leg.from, &leg.to, &leg.segments).expect("a way");
         let [x, y, yaw] = replay.error;

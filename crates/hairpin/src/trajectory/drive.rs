@@ -77,6 +77,14 @@ impl Segment {
         }
     }
 
+    /// Radians turned in place, left positive; 0 for an arc.
+    pub fn turn_rad(&self) -> f64 {
+        match self.motion {
+            Motion::Arc { .. } => 0.0,
+            Motion::Turn { angle_rad } => angle_rad,
+        }
+    }
+
     /// Time it takes at `speed` (m/s) and `turn_rate` (rad/s), s.
     pub fn duration(&self, speed: f64, turn_rate: f64) -> f64 {
         match self.motion {

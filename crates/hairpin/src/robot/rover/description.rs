@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::body::{BellyDescription, Body};
 use super::four_wheel::FourWheel;
+use super::wheels::{Steering, Wheels, WheelsDescription};
 use super::{Limits, Response, RockerBogie, Rover, Slip, Suspension};
 
 /// The `kind` of a rover's file.
@@ -55,6 +56,12 @@ pub struct RoverDescription {
     /// The underside; between the wheels if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub belly: Option<BellyDescription>,
+    /// Which wheels steer; those at the corners if not given.
+    #[serde(default)]
+    pub steering: Steering,
+    /// What the wheels may do.
+    #[serde(default)]
+    pub wheels: WheelsDescription,
     /// What it may do.
     pub limits: LimitsDescription,
     /// How commands become motion.
@@ -160,12 +167,14 @@ impl RoverDescription {
         let response = self.response(&suspension, &mut estimated)?;
         let body = Body::build(&suspension, self.centre_of_mass_m.as_ref(), self.belly.as_ref(), &mut estimated)?;
         let default_speed = within("speed_m_s", self.speed_m_s.unwrap_or(SPEED), 1e-4, limits.speed.min(100.0))?;
+        let wheels = Wheels::build(self.steering, &self.wheels, &suspension)?;
         Ok(Rover {
             name: self.name.clone(),
             caveat: self.caveat.clone(),
             source: self.source.clone(),
             suspension,
             body,
+            wheels,
             limits,
             response,
             slip: Slip {

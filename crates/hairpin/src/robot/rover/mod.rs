@@ -13,6 +13,7 @@ mod rocker_bogie;
 mod solve;
 mod stability;
 mod suspension;
+mod wheels;
 
 #[cfg(test)]
 mod tests;
@@ -24,6 +25,7 @@ pub use motion::{Rates, Slip, rates};
 pub use rest::{Gradient, Settled, Unsettled};
 pub use rocker_bogie::RockerBogie;
 pub use suspension::Suspension;
+pub use wheels::{Steering, Twist, WheelMotion, Wheels, WheelsDescription};
 
 /// A rover's numbers, SI, all checked and finite. Built by [`RoverDescription::build`].
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +40,8 @@ pub struct Rover {
     pub suspension: Suspension,
     /// What the wheels carry.
     pub body: Body,
+    /// How the wheels move it.
+    pub wheels: Wheels,
     /// What it may do.
     pub limits: Limits,
     /// How commands become motion.

@@ -55,7 +55,7 @@ pub(super) fn judge(
 /// The ways of driving, in the order in which they are tried.
 fn ways(settings: &DriveSettings) -> impl Iterator<Item = Choices> {
     let may = settings.manoeuvres;
-    let plain = Choices { gear: Gear::Forward, reversals: false, turns: false, arcs: true, flat: settings.flat };
+    let plain = Choices { flat: settings.flat, ..Choices::default() };
     [
         (may.forward, plain),
         (may.reverse, Choices { gear: Gear::Reverse, ..plain }),

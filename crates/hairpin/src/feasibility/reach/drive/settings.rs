@@ -126,6 +126,12 @@ impl DriveSettings {
     }
 
     pub(super) fn course<'a>(&self, site: &DriveSite<'a>, steps: Steps) -> Course<'a, ElevationMap> {
-        Course { rover: site.rover, terrain: site.map, speed: self.speed.into(), direction: self.direction.into(), steps }
+        Course {
+            rover: site.rover,
+            terrain: site.map,
+            speed: self.speed.into(),
+            direction: self.direction.into(),
+            steps,
+        }
     }
 }

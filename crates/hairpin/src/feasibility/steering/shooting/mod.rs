@@ -1,12 +1,41 @@
 //! Boundary-value trajectories of ground vehicles: find controls whose motion ends where it was asked to.
+//!
+//! [`generate`] is the one call: a [`families::Problem`] (query, speeds, direction of travel), a [`Control`], bounds and
+//! [`solve::Choices`]. On the ground, [`rough::solve`] shapes with it and [`rough::predict()`] integrates.
+//!
+//! What T. Howard's user guide of the rover trajectory generator (2006) lets one set, and what became of it:
+//!
+//! | there | default | here |
+//! | --- | --- | --- |
+//! | `SetXPrecision`, `SetYPrecision` | 0.01 m | [`Precision::position`], a distance; `tolerance_m` of files, `--tolerance-m` |
+//! | `SetYawPrecision` | 0.01 rad | [`Precision::yaw`] |
+//! | `SetKPrecision` | 0.01 1/m | [`Precision::curvature`] |
+//! | `SetVPrecision` | 0.01 m/s | [`SPEED_PRECISION`]: what the speed at the end is held to; profiles meet it by construction |
+//! | `SetMaxIterations` | 20 | [`flat::Settings::iterations`] (20), [`families::Settings::iterations`] (60, of each start), [`rough::Settings::iterations`] (30 predictions) |
+//! | `SetConvergenceRate` | 1.0 | [`families::Settings::step_scale`]; the flat solver's steps are scaled by their own search |
+//! | `SetTimeStep` | 0.001 s | of what is exported: [`Followed::time_step`](crate::campaign::states::Followed::time_step), `--time-step-s`; solving takes the steps of [`rough::Steps`], which agree with 1 ms within a tenth of the precision, by test |
+//! | `SetMaximumNumberSteps` | 10 000 | [`Followed::most_steps`](crate::campaign::states::Followed::most_steps), `--max-steps` |
+//! | `SetVehicleModel` | generic | [`Rover`](crate::robot::rover::Rover), from a file |
+//! | `SetVehicleControls` | fifth order | the value of [`Control`], `--control` |
+//! | `SolveTrajectory` | | [`generate`], [`rough::solve`] |
+//! | `GetVehicleControls` | | [`Generated::solution`] as segments, [`Generated::parameters`] as the family has them |
+//! | `GetPath`, `exportPath` | on | [`Followed::on`](crate::campaign::states::Followed::on), only where it is called; `--path FILE.csv` |
+//! | `setHeuristic` (15.7 MB table) | on | no table: start values are Dubins' words, computed in a microsecond |
+//! | `displayDebug` | on | the observer of [`generate`]; `RUST_LOG=debug` on the command line. The library prints nothing |
+//! | `DynamicsResponse`, `EvalSuspension` | identity | [`Response`](crate::robot::rover::Response), [`Suspension`](crate::robot::rover::Suspension) |
 
 pub mod cc;
 mod control;
 pub mod families;
 pub mod flat;
+mod generate;
 pub mod query;
 pub mod rough;
 pub mod solve;
 
 pub use control::Control;
+pub use generate::{Generated, generate};
 pub use query::{Curvatures, Goal, Precision, Query, Refusal};
+
+/// What the speed at the end of a drive may differ by from what was asked, m/s.
+pub const SPEED_PRECISION: f64 = 0.01;

@@ -6,6 +6,7 @@ use crate::math::fresnel::clothoid;
 use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
 
 use super::cc::{self, Gears};
+use super::families;
 use super::flat;
 use super::query::{Curvatures, Goal, Query};
 
@@ -22,12 +23,21 @@ pub struct Choices {
     pub arcs: bool,
     /// For the single arc.
     pub flat: flat::Settings,
+    /// For the families of controls that have a search of their own; the precision is the single arc's.
+    pub families: families::Settings,
 }
 
 impl Default for Choices {
     /// Forward arcs, no reversals, no turns in place.
     fn default() -> Self {
-        Self { gear: Gear::Forward, reversals: false, turns: false, arcs: true, flat: flat::Settings::default() }
+        Self {
+            gear: Gear::Forward,
+            reversals: false,
+            turns: false,
+            arcs: true,
+            flat: flat::Settings::default(),
+            families: families::Settings::default(),
+        }
     }
 }
 

@@ -59,12 +59,14 @@ pub(super) struct Fit {
 impl Fit {
     /// Whether goal and bounds are met.
     pub(super) fn good(&self, tolerance: f64) -> bool {
-        self.miss <= tolerance && self.bends <= 1.0
+        self.miss <= tolerance && self.bends <= ENOUGH
     }
 }
 
 /// Share of the bounds that is aimed at; the rest is for what lies between nodes.
 const ROOM: f64 = 0.997;
+/// What of them is left is kept between nodes, too.
+const ENOUGH: f64 = 0.9985;
 /// Weights of what exceeds the bounds, of κ′², and of a length other than at the start. The first grows if it does not help.
 const STRICT: f64 = 1.0;
 const SMOOTH: f64 = 1e-4;
@@ -73,6 +75,10 @@ const NEAR: f64 = 1e-4;
 const STRICTER: [f64; 3] = [1.0, 100.0, 1e4];
 /// Longest step: of the curvature, as a share of its bound, and of the length, as a share of itself.
 const BOLDEST: [f64; 2] = [0.6, 0.3];
+/// Tries of one step, two with each damping.
+const ATTEMPTS: u32 = 12;
+/// What a miss costs beside its multipliers.
+const PRICE: f64 = 0.1;
 /// Last steps of a descent.
 const POLISH: u32 = 4;
 /// The least μ: constraints that contradict each other are met as nearly as they can be.
@@ -226,32 +232,26 @@ pub(super) fn descend(
         while iterations < settings.iterations && settled < 2 {
             iterations += 1;
             let mut moved = false;
-            for _ in 0..8 {
-                let Some((step, multipliers)) = step(grid, task, &shot, &free, damping) else {
-                    damping = damping.max(1e-6) * 100.0;
-                    continue;
-                };
-                let price = 2.0 * multipliers + 1.0;
-                let Some(next) = taken(grid, &free, &step, settings.step_scale) else {
-                    damping *= 10.0;
-                    continue;
-                };
-                let tried = shoot(grid, task, &next, from, strict);
-                let (before, after) = (price * shot.norm() + shot.cost, price * tried.norm() + tried.cost);
-                // At rounding errors nothing falls any more.
-                if after < before || (tried.miss() < 1e-11 && after <= before * (1.0 + 1e-9)) {
-                    let gain = before - after;
-                    settled = if gain <= 1e-9 * before || tried.miss() < 0.1 * task.tolerance && gain < 1e-4 * before {
-                        settled + 1
-                    } else {
-                        0
-                    };
-                    (free, shot) = (next, tried);
-                    damping = (0.2 * damping).max(1e-9);
-                    moved = true;
-                    break;
+            for attempt in 0..ATTEMPTS {
+                // A step along the goal's conditions that bends them more than it gains is tried again across them alone.
+                let aim = if attempt % 2 == 0 { Aim::Both } else { Aim::Goal };
+                let tried = step(grid, task, &shot, &free, damping, aim).and_then(|(step, multipliers)| {
+                    let next = taken(grid, &free, &step, settings.step_scale)?;
+                    Some((shoot(grid, task, &next, from, strict), next, 2.0 * multipliers + PRICE))
+                });
+                if let Some((tried, next, price)) = tried {
+                    let (before, after) = (price * shot.norm() + shot.cost, price * tried.norm() + tried.cost);
+                    if after < before {
+                        let gain = before - after;
+                        let little = if tried.miss() < 0.1 * task.tolerance { 1e-4 } else { 1e-9 };
+                        settled = if gain <= little * before { settled + 1 } else { 0 };
+                        (free, shot) = (next, tried);
+                        damping = (0.2 * damping).max(1e-9);
+                        moved = true;
+                        break;
+                    }
                 }
-                damping *= 10.0;
+                damping *= if attempt % 2 == 0 { 1.0 } else { 30.0 };
             }
             observe(iterations, &free, shot.miss(), shot.bends);
             if !moved {
@@ -260,10 +260,10 @@ pub(super) fn descend(
         }
         // Near the goal whole steps of Newton's method make its conditions exact, whatever little they cost.
         for _ in 0..POLISH {
-            let step = step(grid, task, &shot, &free, 0.0).filter(|_| shot.miss() < 10.0 * task.tolerance);
+            let step = step(grid, task, &shot, &free, 0.0, Aim::Goal).filter(|_| shot.miss() < 10.0 * task.tolerance);
             let Some(next) = step.and_then(|(step, _)| taken(grid, &free, &step, 1.0)) else { break };
             let tried = shoot(grid, task, &next, from, strict);
-            if tried.miss() >= 0.5 * shot.miss() {
+            if tried.miss() >= 0.5 * shot.miss() || tried.bends > shot.bends.max(1.0) + 1e-3 {
                 break;
             }
             (free, shot) = (next, tried);
@@ -290,8 +290,17 @@ pub(super) fn grade(fit: &Fit, task: &Task) -> (bool, f64) {
     (!met, if met { fit.bends } else { fit.miss })
 }
 
+/// What a step is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Aim {
+    /// The goal's conditions and less cost.
+    Both,
+    /// The conditions alone, by the least change.
+    Goal,
+}
+
 /// The step from `shot` and the size of the constraints' multipliers; `None` where the system is singular.
-fn step(grid: &Grid, task: &Task, shot: &Shot, free: &Free, damping: f64) -> Option<([f64; UNKNOWNS], f64)> {
+fn step(grid: &Grid, task: &Task, shot: &Shot, free: &Free, damping: f64, aim: Aim) -> Option<([f64; UNKNOWNS], f64)> {
     let mut matrix = [[0.0; SYSTEM]; SYSTEM];
     let mut right = [0.0; SYSTEM];
     let scale = [1.0 / (task.bounds.most * task.bounds.most), 1.0 / (free.length * free.length)];
@@ -301,7 +310,7 @@ fn step(grid: &Grid, task: &Task, shot: &Shot, free: &Free, damping: f64) -> Opt
         // Parameters that the family does not have stay as they are.
         let idle = i >= grid.count && i < MOST;
         matrix[i][i] += if idle { 1.0 } else { (damping + 1e-9) * unit };
-        right[i] = -shot.gradient[i];
+        right[i] = if aim == Aim::Both { -shot.gradient[i] } else { 0.0 };
     }
     for (c, row) in shot.jacobian.iter().enumerate() {
         for (i, value) in row.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::basis::{Basis, MOST, Row};
 use super::clock::Clock;
-use super::pieces::{monomials, scaled};
+use super::pieces::{monomials, quintic, scaled};
 use crate::math::power::power;
 
 /// What was solved for, in the family's own terms; SI.
@@ -17,8 +17,8 @@ pub enum Parameters {
     },
     /// κ(t) = Σ cᵢ tⁱ over `duration` seconds.
     Time {
-        /// c₀ … c₅, 1/(m sⁱ).
-        curvature: [f64; 6],
+        /// c₀ … c₇, 1/(m sⁱ).
+        curvature: [f64; MOST],
         /// s.
         duration: f64,
     },
@@ -33,8 +33,8 @@ pub enum Parameters {
     Velocity {
         /// v₀ … v₂, m/s^(i+1).
         linear: [f64; 3],
-        /// ω₀ … ω₇, rad/s^(i+1).
-        angular: [f64; 8],
+        /// ω₀ … ω₉, rad/s^(i+1).
+        angular: [f64; MOST + 2],
         /// s.
         duration: f64,
     },
@@ -44,8 +44,8 @@ impl Parameters {
     /// Those of the mirrored drive.
     pub(super) fn mirrored(mut self) -> Self {
         let turned: &mut [f64] = match &mut self {
-            Self::ArcLength { curvature, .. } | Self::Time { curvature, .. } => curvature,
-            Self::Knots { curvature, .. } => curvature,
+            Self::ArcLength { curvature, .. } => curvature,
+            Self::Time { curvature, .. } | Self::Knots { curvature, .. } => curvature,
             Self::Velocity { angular, .. } => angular,
         };
         turned.iter_mut().for_each(|value| *value = -*value);
@@ -58,12 +58,12 @@ pub(super) fn named(basis: &Basis, clock: &Clock, row: &Row, length: f64, durati
     match (basis, clock) {
         (Basis::Knots(_), _) => Parameters::Knots { curvature: *row, length },
         (Basis::Polynomial(order), Clock::Metres) => {
-            Parameters::ArcLength { curvature: scaled(&monomials(*order, row), length), length }
+            Parameters::ArcLength { curvature: scaled(&quintic(*order, row), length), length }
         }
         (Basis::Polynomial(order), _) => {
             Parameters::Time { curvature: scaled(&monomials(*order, row), duration), duration }
         }
-        (Basis::Ratio(order, rest), clock) => {
+        (Basis::Ratio(order, _), clock) => {
             let Clock::Polynomial(speed) = clock else {
                 return Parameters::ArcLength { curvature: [0.0; 6], length };
             };
@@ -72,15 +72,14 @@ pub(super) fn named(basis: &Basis, clock: &Clock, row: &Row, length: f64, durati
             let linear = std::array::from_fn(|k| speed[k] * unit / power(duration, k));
             // ω = κ v: the polynomial times what was left out of the ratio.
             let [start, end] = clock.rests();
-            debug_assert!(rest.iter().all(|value| value.is_finite()), "a speed's polynomial overflows");
-            let mut angular = [0.0; 8];
-            angular[..6].copy_from_slice(&monomials(*order, row));
+            let mut angular = [0.0; MOST + 2];
+            angular[..MOST].copy_from_slice(&monomials(*order, row));
             if start {
-                angular.copy_within(0..7, 1);
+                angular.copy_within(0..MOST + 1, 1);
                 angular[0] = 0.0;
             }
             if end {
-                for k in (1..8).rev() {
+                for k in (1..MOST + 2).rev() {
                     angular[k] -= angular[k - 1];
                 }
             }

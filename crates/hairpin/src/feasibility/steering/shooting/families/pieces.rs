@@ -18,7 +18,7 @@ pub(super) fn segments(basis: &Basis, clock: &Clock, parameters: &Row, length: f
     let mut list = SegmentList::EMPTY;
     match (basis, clock) {
         (Basis::Polynomial(order), Clock::Metres) => {
-            list.extend([arc(length, scaled(&monomials(*order, parameters), length))]);
+            list.extend([arc(length, scaled(&quintic(*order, parameters), length))]);
             (list, 0.0)
         }
         (Basis::Knots(bends), Clock::Metres) => {
@@ -105,25 +105,33 @@ fn arc(length_m: f64, curvature: [f64; 6]) -> Segment {
 }
 
 /// Coefficients of t = s/length as those of s.
-pub(super) fn scaled(polynomial: &[f64; 6], length: f64) -> [f64; 6] {
+pub(super) fn scaled<const N: usize>(polynomial: &[f64; N], length: f64) -> [f64; N] {
     std::array::from_fn(|k| polynomial[k] / power(length, k))
 }
 
-/// Σ pᵢ `P_i(2u − 1)` as a polynomial of u, order 5 at most.
-pub(super) fn monomials(order: usize, parameters: &Row) -> [f64; 6] {
-    const LEGENDRE: [[f64; 6]; 6] = [
-        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [-1.0, 2.0, 0.0, 0.0, 0.0, 0.0],
-        [1.0, -6.0, 6.0, 0.0, 0.0, 0.0],
-        [-1.0, 12.0, -30.0, 20.0, 0.0, 0.0],
-        [1.0, -20.0, 90.0, -140.0, 70.0, 0.0],
-        [-1.0, 30.0, -210.0, 560.0, -630.0, 252.0],
+/// Σ pᵢ `P_i(2u − 1)` as a polynomial of u.
+pub(super) fn monomials(order: usize, parameters: &Row) -> Row {
+    const LEGENDRE: [Row; MOST] = [
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [-1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [1.0, -6.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [-1.0, 12.0, -30.0, 20.0, 0.0, 0.0, 0.0, 0.0],
+        [1.0, -20.0, 90.0, -140.0, 70.0, 0.0, 0.0, 0.0],
+        [-1.0, 30.0, -210.0, 560.0, -630.0, 252.0, 0.0, 0.0],
+        [1.0, -42.0, 420.0, -1680.0, 3150.0, -2772.0, 924.0, 0.0],
+        [-1.0, 56.0, -756.0, 4200.0, -11550.0, 16632.0, -12012.0, 3432.0],
     ];
-    let mut sum = [0.0; 6];
+    let mut sum = [0.0; MOST];
     for (p, row) in parameters.iter().zip(&LEGENDRE).take(order + 1) {
         for (sum, a) in sum.iter_mut().zip(row) {
             *sum += p * a;
         }
     }
     sum
+}
+
+/// The same of order 5 at most.
+pub(super) fn quintic(order: usize, parameters: &Row) -> [f64; 6] {
+    let all = monomials(order, parameters);
+    std::array::from_fn(|k| all[k])
 }

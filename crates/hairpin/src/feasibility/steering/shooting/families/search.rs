@@ -13,6 +13,7 @@ use super::start::{nearest, word};
 use crate::feasibility::steering::shooting::control::Control;
 use crate::feasibility::steering::shooting::flat::{self, Limit, Status, extremes, forward, ways};
 use crate::feasibility::steering::shooting::{Curvatures, Goal, Precision, Query};
+use crate::math::power::power;
 use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::{Motion, Segment, SegmentList};
 
@@ -83,6 +84,8 @@ pub struct Iteration {
 const TOLERANCE: f64 = 1e-3;
 /// A drive no longer than the shortest way around by this factor is short enough.
 const SHORT: f64 = 1.25;
+/// The wheels stand where they stand: the first curvature is exact to this, 1/m.
+const EXACT: f64 = 1e-7;
 /// Rounds in which length and speeds are made to agree.
 const ROUNDS: u32 = 12;
 /// Factors on the radius of Dubins' words as start values.
@@ -135,10 +138,22 @@ struct Search<'a> {
     control: Control,
     bounds: &'a Curvatures,
     settings: &'a Settings,
-    /// What was found, with the clock and the basis that it was found on.
-    best: Option<(Fit, Task, Basis, Clock)>,
+    best: Option<Found>,
     iterations: u32,
     started: u32,
+}
+
+/// What a descent came to.
+struct Found {
+    fit: Fit,
+    task: Task,
+    /// What it was found on.
+    basis: Basis,
+    clock: Clock,
+    /// The commands that are handed out, by how much they differ from the family, and what they are worth.
+    segments: SegmentList,
+    fit_error: f64,
+    status: Status,
 }
 
 fn search(
@@ -211,7 +226,8 @@ impl Search<'_> {
             }
             Control::VelocityPolynomial => {
                 let shape = speed_polynomial(speed, length);
-                (Basis::ratio(5, shape), Clock::Polynomial(shape))
+                let clock = Clock::Polynomial(shape);
+                (Basis::ratio(timed_order(&clock), shape), clock)
             }
             _ => (Basis::Polynomial(5), Clock::Metres),
         }
@@ -219,9 +235,8 @@ impl Search<'_> {
 
     /// Whether a drive was found that is good and not a long way round.
     fn done(&self, shortest: f64) -> bool {
-        self.best.is_some_and(|(fit, task, ..)| {
-            fit.good(task.tolerance) && fit.free.length <= SHORT * shortest * self.bounds.most
-        })
+        let short = |found: &Found| found.fit.free.length <= SHORT * shortest * self.bounds.most;
+        self.best.as_ref().is_some_and(|found| found.status == Status::Ok && short(found))
     }
 
     /// Descends from a curve of the path of travel; its whole turn says how often the goal's heading is gone around.
@@ -261,8 +276,12 @@ impl Search<'_> {
             let found = fit.free.length / most;
             let settled = (found - metres).abs() <= 1e-9 * metres || !self.shape_depends_on_length();
             if settled || fit.miss > task.tolerance {
-                if self.best.is_none_or(|(best, of, ..)| better(&fit, &task, &best, &of)) {
-                    self.best = Some((fit, task, basis, clock));
+                let parameters: Row = fit.free.parameters.map(|p| p * most);
+                let (segments, fit_error) = pieces::segments(&basis, &clock, &parameters, found);
+                let status = judge(&segments, &task, &query, swing, self.bounds, &self.settings.precision);
+                let found = Found { fit, task, basis, clock, segments, fit_error, status };
+                if self.best.as_ref().is_none_or(|best| found.better(best)) {
+                    self.best = Some(found);
                 }
                 return;
             }
@@ -277,8 +296,8 @@ impl Search<'_> {
     }
 
     fn answer(self) -> Answer {
-        let Problem { query, swing, speed, .. } = self.problem;
-        let Some((fit, task, basis, clock)) = self.best else {
+        let Problem { query, speed, .. } = self.problem;
+        let Some(Found { fit, basis, clock, segments, fit_error, status, .. }) = self.best else {
             // Nothing to drive: the goal is where the drive begins, or no way around exists.
             let missed = libm::hypot(query.goal.x, query.goal.y);
             let parameters = Parameters::ArcLength { curvature: [0.0; 6], length: 0.0 };
@@ -294,7 +313,6 @@ impl Search<'_> {
         let most = self.bounds.most;
         let length = fit.free.length / most;
         let parameters: Row = fit.free.parameters.map(|p| p * most);
-        let (segments, fit_error) = pieces::segments(&basis, &clock, &parameters, length);
         let duration = match clock {
             Clock::Polynomial([a, b, c]) => length / (a + b / 2.0 + c / 3.0),
             Clock::Metres | Clock::Seconds { .. } => speed.over(length).duration(),
@@ -304,14 +322,18 @@ impl Search<'_> {
             // At a constant speed time and arc length are one.
             named = Parameters::Time { curvature: in_time(&curvature, speed.start()), duration };
         }
-        let status = judge(&segments, &task, query, *swing, self.bounds, &self.settings.precision);
         Answer { status, segments, parameters: named, fit_error, iterations: self.iterations }
     }
 }
 
+/// Fifth, and one more for each end at rest: there κ̇ must vanish for κ′ to be finite.
+fn timed_order(clock: &Clock) -> usize {
+    5 + clock.rests().iter().filter(|rests| **rests).count()
+}
+
 /// κ(s) as a polynomial of t = s/v.
-fn in_time(curvature: &[f64; 6], speed: f64) -> [f64; 6] {
-    std::array::from_fn(|k| curvature[k] * crate::math::power::power(speed, k))
+fn in_time(curvature: &[f64; 6], speed: f64) -> Row {
+    std::array::from_fn(|k| curvature.get(k).map_or(0.0, |a| a * power(speed, k)))
 }
 
 /// The quadratic speed, m/s over the share of the time, that a profile stands for: with its ends, and of a trapezoid as much
@@ -332,11 +354,14 @@ fn speed_polynomial(speed: &SpeedProfile, length: f64) -> [f64; 3] {
     }
 }
 
-fn better(fit: &Fit, task: &Task, best: &Fit, of: &Task) -> bool {
-    match (fit.good(task.tolerance), best.good(of.tolerance)) {
-        (true, true) => fit.free.length < best.free.length,
-        (good, other) if good != other => good,
-        _ => grade(fit, task) < grade(best, of),
+impl Found {
+    /// Whether it is worth more: good before not, then the shorter, or what is nearer to goal and bounds.
+    fn better(&self, other: &Self) -> bool {
+        match (self.status == Status::Ok, other.status == Status::Ok) {
+            (true, true) => self.fit.free.length < other.fit.free.length,
+            (good, bad) if good != bad => good,
+            _ => grade(&self.fit, &self.task) < grade(&other.fit, &other.task),
+        }
     }
 }
 
@@ -354,7 +379,8 @@ fn judge(
     let last = segments.last().map_or(query.start_curvature, |last| last.curvature_at(last.length_m()));
     let bent = if task.end.is_some() { (last - query.goal.curvature).abs() } else { 0.0 };
     let turned = (yaw - task.turn).abs();
-    if !(missed <= precision.position && turned <= precision.yaw && bent <= precision.curvature) {
+    let first = segments.first().map_or(0.0, |first| (first.curvature_at(0.0) - query.start_curvature).abs());
+    if !(first <= EXACT && missed <= precision.position && turned <= precision.yaw && bent <= precision.curvature) {
         return Status::NotConverged { residual: missed };
     }
     let (mut most, mut rate) = (0.0_f64, 0.0_f64);

@@ -13,5 +13,5 @@ mod steering_lag;
 #[cfg(test)]
 mod tests;
 
-pub use predict::{Blocked, Cause, Course, Driven, Prediction, Steps, predict};
+pub use predict::{Blocked, Cause, Course, Driven, Prediction, Steps, predict, tilt};
 pub use solve::{Answer, Settings, Status, solve};

@@ -50,6 +50,12 @@ pub enum Cause {
 pub struct Driven {
     /// Metres of commanded travel so far.
     pub s: f64,
+    /// Radians turned in place so far, whichever way.
+    pub turned: f64,
+    /// Metres driven, + forward, or radians turned in place, + to the left, of the step: half of it is done here.
+    pub step: f64,
+    /// Whether it is one of a turn in place.
+    pub in_place: bool,
     /// Pose over the ground at the middle of a step.
     pub at: Planar,
     /// How the body stands.
@@ -112,6 +118,7 @@ pub fn predict<T: Terrain>(
     let mut walk = Walk {
         at: *start,
         travelled: 0.0,
+        turned: 0.0,
         settled,
         gradient,
         looked_at: *start,
@@ -130,6 +137,7 @@ pub fn predict<T: Terrain>(
 struct Walk {
     at: Planar,
     travelled: f64,
+    turned: f64,
     /// How the body stood at the last look, and how that changes with its place.
     settled: Settled,
     gradient: Gradient,
@@ -156,7 +164,15 @@ impl Walk {
                     let ratio = yaw_ratio(&self.settled);
                     let middle = Planar { yaw: self.at.yaw + 0.5 * h * ratio, ..self.at };
                     self.look(course, &middle)?;
-                    observe(&Driven { s: self.travelled, at: middle, settled: self.settled });
+                    self.turned += h.abs();
+                    observe(&Driven {
+                        s: self.travelled,
+                        turned: self.turned - 0.5 * h.abs(),
+                        step: h,
+                        in_place: true,
+                        at: middle,
+                        settled: self.settled,
+                    });
                     self.at.yaw += h * yaw_ratio(&self.settled);
                 }
                 // The wheels stand straight again afterwards.
@@ -183,7 +199,14 @@ impl Walk {
                     middle.curvature = curvature;
                     self.look(course, &middle)?;
                     self.travelled += h;
-                    observe(&Driven { s: self.travelled - 0.5 * h, at: middle, settled: self.settled });
+                    observe(&Driven {
+                        s: self.travelled - 0.5 * h,
+                        turned: self.turned,
+                        step: sign * h,
+                        in_place: false,
+                        at: middle,
+                        settled: self.settled,
+                    });
                     let there = rates(&self.settled, direction, sign, curvature, slip);
                     self.at = moved(&self.at, &there, h, self.at.yaw + 0.5 * h * there.yaw);
                     self.at.curvature =
@@ -247,7 +270,7 @@ fn yaw_ratio(settled: &Settled) -> f64 {
 }
 
 /// Angle of the body's z axis from the vertical, rad.
-fn tilt(settled: &Settled) -> f64 {
+pub fn tilt(settled: &Settled) -> f64 {
     libm::acos((libm::cos(settled.roll) * libm::cos(settled.pitch)).clamp(-1.0, 1.0))
 }
 

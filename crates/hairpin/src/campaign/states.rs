@@ -1,0 +1,278 @@
+//! The path of states of a drive, with what its wheels do: sampled in time, and held to the bounds of speeds and joints.
+
+use crate::feasibility::steering::shooting::rough::{Blocked, Course, Steps, predict, tilt};
+use crate::robot::rover::{Response, Rover, Settled, Slip, Twist, WheelMotion};
+use crate::trajectory::drive::{Planar, Segment};
+use crate::trajectory::{Direction, SpeedProfile, Timing};
+use crate::world::terrain::{Flat, Terrain};
+
+/// One moment of a drive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VehicleState {
+    /// Since the drive began, s; turns in place take their time.
+    pub time: f64,
+    /// Metres driven.
+    pub s: f64,
+    /// Over the ground; the curvature is the steering's.
+    pub at: Planar,
+    /// How the body stands: height, roll, pitch, joints.
+    pub settled: Settled,
+    /// Speed along the path, m/s; negative in reverse, 0 in turns in place.
+    pub speed: f64,
+    /// Direction of travel in the body, rad.
+    pub direction: f64,
+    /// Angle of the body's z axis from the vertical, rad.
+    pub tilt: f64,
+    /// Height of the underside over the ground, m; infinite without wheels, negative where it would touch.
+    pub clearance: f64,
+    /// Steer angle (rad) and rolling speed (rad/s) of each wheel.
+    pub wheels: [WheelState; 6],
+}
+
+/// One wheel at one moment.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WheelState {
+    /// rad, left positive.
+    pub steer: f64,
+    /// rad/s, forward positive.
+    pub speed: f64,
+}
+
+/// The largest that wheels do along a drive.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WheelPeaks {
+    /// |steer angle|, rad.
+    pub steer: f64,
+    /// Its rate while driving, rad/s; where the vehicle stands its wheels may swing.
+    pub steer_rate: f64,
+    /// |rolling speed|, rad/s.
+    pub speed: f64,
+    /// Its change, rad/s², where speed is a function of time.
+    pub acceleration: f64,
+}
+
+/// How a drive is followed.
+#[derive(Debug, Clone, Copy)]
+pub struct Followed<'a> {
+    /// The vehicle.
+    pub rover: &'a Rover,
+    /// Speed along the drive.
+    pub speed: SpeedProfile,
+    /// Rate of turns in place, rad/s, > 0.
+    pub turn_rate: f64,
+    /// Direction of travel in the body.
+    pub direction: Direction,
+    /// Time between states, s, > 0.
+    pub time_step: f64,
+    /// Steps at most; what would take more is followed in longer ones.
+    pub most_steps: usize,
+}
+
+/// The states of a drive, and what its wheels come to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct States {
+    /// In the order of time; the first and the last at the drive's ends.
+    pub states: Vec<VehicleState>,
+    /// Wheels of the vehicle, 0 to 6.
+    pub wheels: usize,
+    /// The largest along it.
+    pub peaks: WheelPeaks,
+}
+
+/// Longest step on the ground, m and rad: what its cells and wheels can be told by.
+const FINEST: f64 = 0.02;
+
+impl Followed<'_> {
+    /// The states of `segments` from `start` on level ground, as they are commanded: without slip, latency and lag.
+    ///
+    /// # Errors
+    /// Level ground blocks no vehicle; kept for what the wheels of a broken one might do.
+    pub fn in_the_plane(&self, start: &Planar, segments: &[Segment]) -> Result<States, Blocked> {
+        let ideal = Response { steered_axle: self.rover.response.steered_axle, ..Response::default() };
+        let rover = Rover { slip: Slip::default(), response: ideal, ..self.rover.clone() };
+        Followed { rover: &rover, ..*self }.on(&Flat, start, segments)
+    }
+
+    /// The states of `segments` from `start` on `terrain`.
+    ///
+    /// # Errors
+    /// Where the ground ends or the body finds no rest.
+    pub fn on<T: Terrain>(&self, terrain: &T, start: &Planar, segments: &[Segment]) -> Result<States, Blocked> {
+        let timing = Timing::new(&self.speed, segments);
+        let turns: f64 = segments.iter().map(|segment| segment.turn_rad().abs()).sum();
+        let finest = self.most_steps.max(16) as f64;
+        let length = (self.time_step * self.speed.top()).min(FINEST).max(timing.length() / finest);
+        let angle = (self.time_step * self.turn_rate).min(FINEST).max(turns / finest);
+        let course = Course {
+            rover: self.rover,
+            terrain,
+            speed: self.speed,
+            direction: self.direction,
+            steps: Steps { length, angle, least: 8 },
+        };
+        let mut walk = Walk {
+            followed: self,
+            timing: &timing,
+            terrain,
+            states: Vec::new(),
+            before: None,
+            peaks: WheelPeaks::default(),
+        };
+        let prediction = predict(&course, start, segments, |driven| walk.add(driven))?;
+        let Walk { mut states, peaks, .. } = walk;
+        let wheels = self.rover.suspension.wheels(&[0.0; 3]).1;
+        if let (Some(first), Some(last)) = (states.first().copied(), states.last().copied()) {
+            let begin = VehicleState {
+                time: 0.0,
+                s: 0.0,
+                at: *start,
+                speed: self.signed(first.speed, timing.speed_at(0.0)),
+                ..first
+            };
+            let time = timing.time_at(timing.length()) + turns / self.turn_rate;
+            let (s, speed) = (timing.length(), self.signed(last.speed, timing.end_speed()));
+            let end = VehicleState { time, s, at: prediction.end, speed, ..last };
+            states.insert(0, VehicleState { direction: self.direction.start, ..begin });
+            states.push(VehicleState { direction: self.direction.end, ..end });
+        }
+        let step = self.time_step.max(states.last().map_or(0.0, |last| last.time) / finest);
+        Ok(States { states: sampled(&states, step), wheels, peaks })
+    }
+
+    fn signed(&self, like: f64, speed: f64) -> f64 {
+        if like == 0.0 { 0.0 } else { speed.copysign(like) }
+    }
+}
+
+/// A drive under way.
+struct Walk<'a, 'f, T> {
+    followed: &'a Followed<'f>,
+    timing: &'a Timing,
+    terrain: &'a T,
+    states: Vec<VehicleState>,
+    /// What the wheels did a moment ago, and whether that was in the same stretch.
+    before: Option<([WheelMotion; 6], f64)>,
+    peaks: WheelPeaks,
+}
+
+impl<T: Terrain> Walk<'_, '_, T> {
+    fn add(&mut self, driven: &crate::feasibility::steering::shooting::rough::Driven) {
+        let Followed { rover, turn_rate, direction, .. } = *self.followed;
+        let time = self.timing.time_at(driven.s) + driven.turned / turn_rate;
+        let sign = driven.step.signum();
+        let delta = direction.at(driven.s, self.timing.length());
+        let (twist, pace) = if driven.in_place {
+            (Twist { turn: sign, ..Twist::IN_PLACE }, turn_rate)
+        } else {
+            (Twist::along(delta, driven.at.curvature, sign), self.timing.speed_at(driven.s))
+        };
+        let mode = if driven.in_place { 0.0 } else { sign };
+        let last = self.before.as_ref().map(|(motions, _)| motions);
+        let (motions, count) = rover.wheel_motions(&twist, &driven.settled.joints, last);
+        let radius = rover.suspension.wheels(&[0.0; 3]).2;
+        let mut wheels = [WheelState::default(); 6];
+        for (wheel, motion) in wheels[..count].iter_mut().zip(&motions) {
+            *wheel = WheelState { steer: motion.steer, speed: motion.rolls * pace / radius };
+        }
+        self.measure(&wheels[..count], time, mode);
+        let at = [driven.at.x, driven.at.y, driven.at.yaw];
+        self.states.push(VehicleState {
+            time,
+            s: driven.s,
+            at: driven.at,
+            settled: driven.settled,
+            speed: mode * pace,
+            direction: delta,
+            tilt: tilt(&driven.settled),
+            clearance: rover.belly_clearance(self.terrain, at, &driven.settled).unwrap_or(f64::NAN),
+            wheels,
+        });
+        self.before = Some((motions, mode));
+    }
+
+    /// Keeps the largest of what the wheels do; rates between moments of one stretch.
+    fn measure(&mut self, wheels: &[WheelState], time: f64, mode: f64) {
+        let peaks = &mut self.peaks;
+        for wheel in wheels {
+            peaks.steer = peaks.steer.max(wheel.steer.abs());
+            peaks.speed = peaks.speed.max(wheel.speed.abs());
+        }
+        let same = self.before.as_ref().is_some_and(|(_, before)| *before == mode);
+        let Some(last) = self.states.last().filter(|_| same && mode != 0.0) else { return };
+        let elapsed = time - last.time;
+        if elapsed <= 0.0 {
+            return;
+        }
+        for (wheel, before) in wheels.iter().zip(&last.wheels) {
+            peaks.steer_rate = peaks.steer_rate.max((wheel.steer - before.steer).abs() / elapsed);
+            peaks.acceleration = peaks.acceleration.max((wheel.speed - before.speed).abs() / elapsed);
+        }
+    }
+}
+
+impl WheelPeaks {
+    /// The first bound of the vehicle's wheels that is exceeded, by its name and by how much, in rad and s.
+    pub fn broken(&self, rover: &Rover) -> Option<(&'static str, f64)> {
+        /// What sampling and rounding may add.
+        const ROUNDING: f64 = 1e-6;
+        let bounds = &rover.wheels;
+        let found = [
+            ("steer_angle", self.steer, bounds.steer),
+            ("steer_rate", self.steer_rate, bounds.steer_rate),
+            ("wheel_speed", self.speed, bounds.speed),
+            ("wheel_acceleration", self.acceleration, bounds.acceleration),
+        ];
+        let over = found.into_iter().find(|(_, value, bound)| value.is_nan() || *value > bound * (1.0 + ROUNDING));
+        over.map(|(name, value, bound)| (name, value - bound))
+    }
+}
+
+/// `states` at every `step` seconds, linear between, and at both ends.
+fn sampled(states: &[VehicleState], step: f64) -> Vec<VehicleState> {
+    let (Some(first), Some(last)) = (states.first(), states.last()) else { return Vec::new() };
+    let mut sampled = vec![*first];
+    let mut pairs = states.windows(2).peekable();
+    // Rows that would come within rounding of the end are the end.
+    let count = (last.time / step - 1e-6).ceil().max(1.0) as usize;
+    for i in 1..count {
+        let time = i as f64 * step;
+        while pairs.next_if(|pair| pair[1].time < time).is_some() {}
+        let Some(pair) = pairs.peek() else { break };
+        sampled.push(between(&pair[0], &pair[1], time));
+    }
+    sampled.push(*last);
+    sampled
+}
+
+fn between(a: &VehicleState, b: &VehicleState, time: f64) -> VehicleState {
+    let share = if b.time > a.time { (time - a.time) / (b.time - a.time) } else { 0.0 };
+    let mix = |a: f64, b: f64| a + share * (b - a);
+    let at = Planar {
+        x: mix(a.at.x, b.at.x),
+        y: mix(a.at.y, b.at.y),
+        yaw: mix(a.at.yaw, b.at.yaw),
+        curvature: mix(a.at.curvature, b.at.curvature),
+    };
+    let settled = Settled {
+        z: mix(a.settled.z, b.settled.z),
+        roll: mix(a.settled.roll, b.settled.roll),
+        pitch: mix(a.settled.pitch, b.settled.pitch),
+        joints: std::array::from_fn(|i| mix(a.settled.joints[i], b.settled.joints[i])),
+    };
+    let wheel = |i: usize| WheelState {
+        steer: mix(a.wheels[i].steer, b.wheels[i].steer),
+        speed: mix(a.wheels[i].speed, b.wheels[i].speed),
+    };
+    VehicleState {
+        time,
+        s: mix(a.s, b.s),
+        at,
+        settled,
+        // Where a vehicle turns back its speed jumps.
+        speed: if a.speed * b.speed > 0.0 { mix(a.speed, b.speed) } else { b.speed },
+        direction: mix(a.direction, b.direction),
+        tilt: mix(a.tilt, b.tilt),
+        clearance: if a.clearance.is_finite() { mix(a.clearance, b.clearance) } else { b.clearance },
+        wheels: std::array::from_fn(wheel),
+    }
+}

@@ -1,0 +1,113 @@
+//! One call for every control: the flat solver's own, the closed forms, and the families; the value decides.
+
+use super::control::Control;
+use super::families::{self, Iteration, Parameters, Problem};
+use super::flat;
+use super::query::{Curvatures, Goal, Query};
+use super::solve::{Choices, Method, Outcome, Solution, solve};
+use crate::trajectory::drive::{Gear, Segment};
+
+/// What was found, with the family's own numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Generated {
+    /// The drive, and how it was found.
+    pub solution: Solution,
+    /// The parameters of controls other than chains, turns and single arcs.
+    pub parameters: Option<Parameters>,
+    /// Largest difference between the family's curvature and that of the drive's segments, 1/m.
+    pub fit_error: f64,
+}
+
+/// Solves `problem` within `bounds` by the controls of `control`.
+///
+/// The default, the quintic with a constant direction of travel, is [`solve`] itself. Other controls answer in their own family or
+/// not at all: then the outcome is `NotConverged` and [`Solution::arc`] says what the family lacks. With `choices.reversals`
+/// they try both gears; they do not change gear on the way. `stop` is asked between descents, `observe` sees their steps.
+pub fn generate(
+    problem: &Problem,
+    control: Control,
+    bounds: &Curvatures,
+    choices: &Choices,
+    mut stop: impl FnMut() -> bool,
+    mut observe: impl FnMut(&Iteration),
+) -> Generated {
+    let plain = |solution| Generated { solution, parameters: None, fit_error: 0.0 };
+    let straight = problem.swing == 0.0;
+    match control {
+        Control::Quintic if straight => return plain(solve(&problem.query, bounds, choices, stop)),
+        Control::TurnDriveTurn => {
+            let turning = Choices { turns: true, arcs: false, ..*choices };
+            return plain(solve(&problem.query, bounds, &turning, stop));
+        }
+        _ => {}
+    }
+    let other = choices.gear.opposite();
+    let gears: &[Gear] = if choices.reversals { &[choices.gear, other] } else { &[choices.gear] };
+    let mut best: Option<Generated> = None;
+    for &gear in gears {
+        if best.is_some() && stop() {
+            break;
+        }
+        let question = mirrored(problem, gear);
+        let mut found = match control.flat().filter(|_| straight) {
+            Some(family) => {
+                let settings = flat::Settings { control: family, ..choices.flat };
+                let answer = flat::forward(&question.query, bounds, &settings);
+                plain(solution(answer.status, answer.segments, answer.iterations, false))
+            }
+            None => {
+                let settings = families::Settings { precision: choices.flat.precision, ..choices.families };
+                let mut stopped = false;
+                let mut asked = || {
+                    stopped |= stop();
+                    stopped
+                };
+                let answer = families::solve(&question, control, bounds, &settings, &mut asked, &mut observe);
+                Generated {
+                    solution: solution(answer.status, answer.segments, answer.iterations, stopped),
+                    parameters: Some(answer.parameters),
+                    fit_error: answer.fit_error,
+                }
+            }
+        };
+        found.solution.segments.iter_mut().for_each(|segment| segment.gear = gear);
+        if best.as_ref().is_none_or(|best| better(&found.solution, &best.solution)) {
+            best = Some(found);
+        }
+    }
+    best.unwrap_or_else(|| plain(solve(&problem.query, bounds, choices, || true)))
+}
+
+fn solution(
+    status: flat::Status,
+    segments: crate::trajectory::drive::SegmentList,
+    iterations: u32,
+    stopped: bool,
+) -> Solution {
+    let outcome = match status {
+        flat::Status::Ok => Outcome::Solved,
+        _ if stopped => Outcome::Stopped,
+        _ => Outcome::NotConverged,
+    };
+    Solution { outcome, segments, method: Method::SingleArc, iterations, arc: Some(status) }
+}
+
+fn better(found: &Solution, best: &Solution) -> bool {
+    let length = |solution: &Solution| solution.segments.iter().map(Segment::length_m).sum::<f64>();
+    match (found.outcome == Outcome::Solved, best.outcome == Outcome::Solved) {
+        (true, true) => length(found) < length(best),
+        (found, _) => found,
+    }
+}
+
+/// The problem that a drive in `gear` solves if it is driven forward: in reverse, the mirror image about the y axis.
+fn mirrored(problem: &Problem, gear: Gear) -> Problem {
+    match gear {
+        Gear::Forward => *problem,
+        Gear::Reverse => {
+            let Query { goal, .. } = problem.query;
+            let query = Query { goal: Goal { x: -goal.x, yaw: -goal.yaw, ..goal }, ..problem.query };
+            Problem { query, swing: -problem.swing, ..*problem }
+        }
+    }
+}
