@@ -80,10 +80,8 @@ fn spline(y: &[f64]) -> impl Fn(f64) -> f64 + use<> {
     for k in 0..=n {
         for other in 0..=n {
             if other != k {
-                let factor = rows[other][k] / rows[k][k];
-                for column in 0..n + 2 {
-                    rows[other][column] -= factor * rows[k][column];
-                }
+                let (factor, lead) = (rows[other][k] / rows[k][k], rows[k].clone());
+                rows[other].iter_mut().zip(&lead).for_each(|(value, lead)| *value -= factor * lead);
             }
         }
     }

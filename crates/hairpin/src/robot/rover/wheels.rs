@@ -208,6 +208,32 @@ impl Rover {
         }
     }
 
+    /// The largest |dδ/dκ| of a steered wheel for |κ| ≤ `most`, m: |x| / ((1 − κy)² + κ²x²); 0 where none steers.
+    pub fn steering_gain(&self, most: f64) -> f64 {
+        let (wheels, count, _) = self.suspension.wheels(&[0.0; 3]);
+        let steers = self.steers(&wheels[..count]);
+        let point = self.commanded_x(&wheels[..count], &steers);
+        let mut gain = 0.0_f64;
+        for (wheel, _) in wheels[..count].iter().zip(&steers).filter(|(_, steers)| **steers) {
+            let (x, y) = (wheel.x - point, wheel.y);
+            // Least where the turning centre comes nearest to the wheel.
+            let nearest = (y / (x * x + y * y).max(1e-12)).clamp(-most, most);
+            gain = gain.max(x.abs() / ((1.0 - nearest * y) * (1.0 - nearest * y) + nearest * nearest * x * x));
+        }
+        gain
+    }
+
+    /// Names of the wheels in the order of [`Suspension::wheels`].
+    pub fn wheel_names(&self) -> &'static [&'static str] {
+        match self.suspension {
+            Suspension::Level => &[],
+            Suspension::FourWheel(_) => &["front_left", "front_right", "rear_left", "rear_right"],
+            Suspension::RockerBogie(_) => {
+                &["left_rocker", "left_bogie_1", "left_bogie_2", "right_rocker", "right_bogie_1", "right_bogie_2"]
+            }
+        }
+    }
+
     /// The largest |κ| straight ahead, 1/m, that the steer joints can reach: infinite without a limit below a right angle.
     ///
     /// A wheel at (x, y) stands at atan(κx/(1 − κy)); the inner one of those farthest off goes farthest.
@@ -320,6 +346,14 @@ mod tests {
         assert!((steers(most).to_degrees() - 30.0).abs() < 1e-9 && steers(-most).to_degrees() < 30.0 + 1e-9);
         let spin = motions(&car, Twist::IN_PLACE).iter().map(|m| m.steer.abs()).fold(0.0, f64::max);
         assert!(spin.to_degrees() > 60.0);
+        // dδ/dκ by differences never exceeds the gain, and comes to it.
+        let steep = (0..400).map(|i| {
+            let kappa = most * (f64::from(i) / 200.0 - 1.0);
+            let at = |kappa: f64| motions(&car, Twist::along(0.0, kappa, 1.0))[0].steer;
+            ((at(kappa + 1e-6) - at(kappa - 1e-6)) / 2e-6).abs()
+        });
+        let steepest = steep.fold(0.0, f64::max);
+        assert!(steepest <= car.steering_gain(most) * (1.0 + 1e-6) && steepest > 0.99 * car.steering_gain(most));
         assert_eq!(rover("corner", "").steerable_curvature(), f64::INFINITY);
         // Beyond a right angle the wheel goes on rather than swing about, as far as its joint does.
         let free = rover("all-wheel", "");

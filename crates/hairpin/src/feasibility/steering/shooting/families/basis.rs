@@ -13,35 +13,14 @@ pub(super) type Row = [f64; MOST];
 pub(super) enum Basis {
     /// Legendre's polynomials `P_i(2u − 1)` up to this order.
     Polynomial(usize),
-    /// Natural cubic splines that are 1 at one of [`MOST`] even knots and 0 at the others: Bᵢ'' at the knots.
-    Knots([Row; MOST]),
+    /// Natural cubic splines that are 1 at one of [`MOST`] even knots and 0 at the others.
+    Knots,
     /// `P_i(2u − 1)` over the speed, up to this order: the angular velocity is a polynomial, and the speed is this one. Common zeros at
     /// the ends are left out of both.
     Ratio(usize, [f64; 3]),
 }
 
 impl Basis {
-    /// Splines through even knots.
-    pub(super) fn knots() -> Self {
-        // Second derivatives mᵢ: mᵢ₋₁ + 4mᵢ + mᵢ₊₁ = 6 (yᵢ₋₁ − 2yᵢ + yᵢ₊₁)/h², 0 at both ends.
-        let last = MOST - 1;
-        let scale = 6.0 * (last * last) as f64;
-        let mut bends = [[0.0; MOST]; MOST];
-        for (i, bend) in bends.iter_mut().enumerate() {
-            let y = |k: usize| if k == i { 1.0 } else { 0.0 };
-            let (mut factor, mut right) = ([0.0; MOST], [0.0; MOST]);
-            for k in 1..last {
-                let pivot = 4.0 - factor[k - 1];
-                factor[k] = 1.0 / pivot;
-                right[k] = (scale * (y(k - 1) - 2.0 * y(k) + y(k + 1)) - right[k - 1]) / pivot;
-            }
-            for k in (1..last).rev() {
-                bend[k] = right[k] - factor[k] * bend[k + 1];
-            }
-        }
-        Self::Knots(bends)
-    }
-
     /// The ratio for the speed of `clock`, whose zeros at the ends are left out.
     pub(super) fn ratio(order: usize, speed: [f64; 3]) -> Self {
         let [a, b, c] = speed;
@@ -60,7 +39,7 @@ impl Basis {
     pub(super) fn count(&self) -> usize {
         match self {
             Self::Polynomial(order) | Self::Ratio(order, _) => order + 1,
-            Self::Knots(_) => MOST,
+            Self::Knots => MOST,
         }
     }
 
@@ -68,7 +47,7 @@ impl Basis {
     pub(super) fn at(&self, u: f64) -> (Row, Row) {
         match self {
             Self::Polynomial(order) => legendre(*order, u),
-            Self::Knots(bends) => splines(bends, u),
+            Self::Knots => splines(u),
             Self::Ratio(order, [a, b, c]) => {
                 let (mut value, mut slope) = legendre(*order, u);
                 let (v, rate) = (a + u * (b + u * c), b + 2.0 * u * c);
@@ -85,7 +64,7 @@ impl Basis {
     pub(super) fn breaks(&self) -> &'static [f64] {
         const KNOTS: [f64; MOST - 2] = [1.0 / 7.0, 2.0 / 7.0, 3.0 / 7.0, 4.0 / 7.0, 5.0 / 7.0, 6.0 / 7.0];
         match self {
-            Self::Knots(_) => &KNOTS,
+            Self::Knots => &KNOTS,
             Self::Polynomial(_) | Self::Ratio(..) => &[],
         }
     }
@@ -107,15 +86,49 @@ fn legendre(order: usize, u: f64) -> (Row, Row) {
     (value, slope)
 }
 
+/// Bᵢ'' of the splines at the knots: m of mᵢ₋₁ + 4mᵢ + mᵢ₊₁ = 6 (yᵢ₋₁ − 2yᵢ + yᵢ₊₁)/h², 0 at both ends.
+pub(super) const BENDS: [Row; MOST] = bends();
+
+const fn bends() -> [Row; MOST] {
+    let last = MOST - 1;
+    let scale = 6.0 * (last * last) as f64;
+    let mut bends = [[0.0; MOST]; MOST];
+    let mut i = 0;
+    while i < MOST {
+        let (mut factor, mut right) = ([0.0; MOST], [0.0; MOST]);
+        let mut k = 1;
+        while k < last {
+            let hill = if k == i {
+                -2.0
+            } else if k == i + 1 || k + 1 == i {
+                1.0
+            } else {
+                0.0
+            };
+            let pivot = 4.0 - factor[k - 1];
+            factor[k] = 1.0 / pivot;
+            right[k] = (scale * hill - right[k - 1]) / pivot;
+            k += 1;
+        }
+        k = last;
+        while k > 1 {
+            k -= 1;
+            bends[i][k] = right[k] - factor[k] * bends[i][k + 1];
+        }
+        i += 1;
+    }
+    bends
+}
+
 /// The cardinal splines and their derivatives.
-fn splines(bends: &[Row; MOST], u: f64) -> (Row, Row) {
+fn splines(u: f64) -> (Row, Row) {
     let last = MOST - 1;
     let h = 1.0 / last as f64;
     let k = ((u / h).floor().max(0.0) as usize).min(last - 1);
     let (right, left) = (u / h - k as f64, (k + 1) as f64 - u / h);
     let (mut value, mut slope) = ([0.0; MOST], [0.0; MOST]);
     for i in 0..MOST {
-        let [from, to] = [bends[i][k], bends[i][k + 1]];
+        let [from, to] = [BENDS[i][k], BENDS[i][k + 1]];
         let [y0, y1] = [k, k + 1].map(|at| if at == i { 1.0 } else { 0.0 });
         let cubic = |t: f64| (t * t * t - t) * h * h / 6.0;
         let bent = |t: f64| (3.0 * t * t - 1.0) * h / 6.0;

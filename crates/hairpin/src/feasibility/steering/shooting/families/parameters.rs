@@ -56,7 +56,7 @@ impl Parameters {
 /// The parameters of `basis` on `clock`, for a drive of `length` metres and `duration` seconds.
 pub(super) fn named(basis: &Basis, clock: &Clock, row: &Row, length: f64, duration: f64) -> Parameters {
     match (basis, clock) {
-        (Basis::Knots(_), _) => Parameters::Knots { curvature: *row, length },
+        (Basis::Knots, _) => Parameters::Knots { curvature: *row, length },
         (Basis::Polynomial(order), Clock::Metres) => {
             Parameters::ArcLength { curvature: scaled(&quintic(*order, row), length), length }
         }

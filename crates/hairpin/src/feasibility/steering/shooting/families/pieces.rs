@@ -1,6 +1,6 @@
 //! Curvature as the commands have it: polynomials of arc length, exact where the family is of that kind, otherwise a chain of them.
 
-use super::basis::{Basis, MOST, Row};
+use super::basis::{BENDS, Basis, MOST, Row};
 use super::clock::Clock;
 use crate::math::power::power;
 use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
@@ -21,12 +21,13 @@ pub(super) fn segments(basis: &Basis, clock: &Clock, parameters: &Row, length: f
             list.extend([arc(length, scaled(&quintic(*order, parameters), length))]);
             (list, 0.0)
         }
-        (Basis::Knots(bends), Clock::Metres) => {
+        (Basis::Knots, Clock::Metres) => {
             let pieces = (MOST - 1) as f64;
             let h = length / pieces;
             for k in 0..MOST - 1 {
-                let bend =
-                    |k: usize| parameters.iter().zip(bends).map(|(p, row)| p * row[k]).sum::<f64>() / (pieces * pieces);
+                let bend = |k: usize| {
+                    parameters.iter().zip(&BENDS).map(|(p, row)| p * row[k]).sum::<f64>() / (pieces * pieces)
+                };
                 let [y0, y1, m0, m1] = [parameters[k], parameters[k + 1], bend(k), bend(k + 1)];
                 let cubic = [y0, y1 - y0 - (2.0 * m0 + m1) / 6.0, 0.5 * m0, (m1 - m0) / 6.0, 0.0, 0.0];
                 list.extend([arc(h, scaled(&cubic, h))]);

@@ -220,7 +220,7 @@ impl Search<'_> {
         let speed = &self.problem.speed;
         match self.control {
             Control::Cubic => (Basis::Polynomial(3), Clock::Metres),
-            Control::Knots => (Basis::knots(), Clock::Metres),
+            Control::Knots => (Basis::Knots, Clock::Metres),
             Control::TimePolynomial if !speed.is_constant() => {
                 (Basis::Polynomial(5), Clock::seconds(speed.over(length)))
             }
