@@ -25,13 +25,14 @@ pub(crate) fn colour_on_stderr() -> bool {
     std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()) && io::stderr().is_terminal()
 }
 
-/// `-v` tells what is done, `-vv` with what.
+/// `-v` tells what is done, `-vv` with what; `RUST_LOG` (error, warn, info, debug, trace) goes first.
 pub(crate) fn chatter(verbose: u8) {
-    let level = match verbose {
+    let asked = std::env::var("RUST_LOG").ok().and_then(|level| level.parse::<LevelFilter>().ok());
+    let level = asked.unwrap_or(match verbose {
         0 => LevelFilter::WARN,
         1 => LevelFilter::INFO,
         _ => LevelFilter::DEBUG,
-    };
+    });
     let subscriber = tracing_subscriber::fmt().with_max_level(level).with_writer(io::stderr).without_time();
     // It fails only where there is a subscriber already.
     let _ = subscriber.with_target(false).with_ansi(colour_on_stderr()).try_init();

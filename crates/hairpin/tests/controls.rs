@@ -3,13 +3,19 @@
 
 use std::f64::consts::{PI, TAU};
 
-use hairpin::feasibility::steering::shooting::families::{Answer, Problem, Settings, solve};
-use hairpin::feasibility::steering::shooting::flat::Status;
-use hairpin::feasibility::steering::shooting::{Control, Curvatures, Goal, Query};
+use hairpin::campaign::drive::Site;
+use hairpin::campaign::goals::ground_goals;
+use hairpin::feasibility::steering::shooting::families::{Answer, Parameters, Problem, Settings, solve};
+use hairpin::feasibility::steering::shooting::flat::{self, Status};
+use hairpin::feasibility::steering::shooting::rough;
+use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome};
+use hairpin::feasibility::steering::shooting::{Control, Curvatures, Goal, Precision, Query, generate};
 use hairpin::math::random::{Stream, stream};
-use hairpin::trajectory::SpeedProfile;
-use hairpin::trajectory::drive::{Motion, Segment};
+use hairpin::robot::rover::{Response, Rover, RoverDescription, Slip};
+use hairpin::trajectory::drive::{Gear, Motion, Segment};
+use hairpin::trajectory::{Direction, SpeedProfile};
 use hairpin::verification::{DriveClaim, DrivePiece, DriveReplay, replay_drive};
+use hairpin::world::terrain::generate::{Recipe, generate as terrain};
 use rand::RngExt;
 
 const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
@@ -95,31 +101,9 @@ fn spline(y: &[f64]) -> impl Fn(f64) -> f64 + use<> {
     }
 }
 
-/// The share of the time at a share of the metres, by bisection of the speed's own integral.
-fn time_share(speed: impl Fn(f64) -> f64, share: f64) -> f64 {
-    let metres = |u: f64| (0..400).map(|i| speed((f64::from(i) + 0.5) / 400.0 * u) * u / 400.0).sum::<f64>();
-    let whole = metres(1.0);
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..50 {
-        let middle = 0.5 * (low + high);
-        if metres(middle) < share * whole { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
-
-/// Time shares at the samples of a curve.
-fn time_shares(speed: impl Fn(f64) -> f64) -> impl Fn(f64) -> f64 {
-    let table: Vec<f64> = (0..=200).map(|i| time_share(&speed, f64::from(i) / 200.0)).collect();
-    move |share: f64| {
-        // The table is a start; one step of Newton's method from it would do, interpolation of third order does, too.
-        let at = (share * 200.0).clamp(0.0, 200.0);
-        let k = (at as usize).clamp(1, 198);
-        let t = at - k as f64;
-        let [a, b, c, d] = [table[k - 1], table[k], table[k + 1], table[k + 2]];
-        -t * (t - 1.0) * (t - 2.0) / 6.0 * a + (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0 * b
-            - (t + 1.0) * t * (t - 2.0) / 2.0 * c
-            + (t + 1.0) * t * (t - 1.0) / 6.0 * d
-    }
+/// The share of the time at a share of the metres where v² = v0² + (vf² − v0²) σ.
+fn time_share(start: f64, end: f64) -> impl Fn(f64) -> f64 {
+    move |share| share * (start + end) / (start + f64::sqrt(start * start + (end * end - start * start) * share))
 }
 
 fn replay(problem: &Problem, segments: &[Segment]) -> DriveReplay {
@@ -227,11 +211,7 @@ fn polynomials_of_time_at_a_constant_speed() {
 fn on_a_ramp(random: &mut Stream) -> (Made, SpeedProfile, f64) {
     let (start, end) = (random.random_range(0.1..2.0), random.random_range(0.1..2.0));
     let (length, shape) = (length(random), polynomial(random, 5));
-    // u of v² = v0² + (vf² − v0²) σ.
-    let share = |sigma: f64| {
-        let v = f64::sqrt(start * start + (end * end - start * start) * sigma);
-        sigma * (start + end) / (start + v)
-    };
+    let share = time_share(start, end);
     (Made::new(random, length, |sigma| shape(share(sigma))), SpeedProfile::Ramp { start, end }, 0.0)
 }
 
@@ -246,7 +226,7 @@ fn velocity_polynomials_on_ramps() {
         let (start, end) = (random.random_range(0.2..1.0), random.random_range(0.2..1.0));
         let (length, omega) = (length(random), polynomial(random, 5));
         let speed = move |u: f64| start + (end - start) * u;
-        let share = time_shares(speed);
+        let share = time_share(start, end);
         let made = Made::new(random, length, |sigma| omega(share(sigma)) / speed(share(sigma)));
         (made, SpeedProfile::Ramp { start, end }, 0.0)
     });
@@ -289,5 +269,198 @@ fn from_rest_to_rest() {
             made.curvature.iter_mut().for_each(|k| *k *= 0.6);
             (made, speed, 0.0)
         });
+    }
+}
+
+#[test]
+fn mirrored_problems_have_mirrored_answers() {
+    let ramp = SpeedProfile::Ramp { start: 0.4, end: 1.0 };
+    for control in
+        [Control::Cubic, Control::Quintic, Control::TimePolynomial, Control::Knots, Control::VelocityPolynomial]
+    {
+        for seed in 0..40 {
+            let mut random = stream(seed);
+            let (length, shape) = (length(&mut random), polynomial(&mut random, 3));
+            let problem = Made::new(&mut random, length, shape).problem(ramp, 0.2);
+            let Goal { x, y, yaw, curvature } = problem.query.goal;
+            let goal = Goal { x, y: -y, yaw: -yaw, curvature: -curvature };
+            let query = Query { start_curvature: -problem.query.start_curvature, goal };
+            let other = answer(&Problem { query, swing: -problem.swing, ..problem }, control);
+            let this = answer(&problem, control);
+            assert_eq!((this.status, this.iterations), (other.status, other.iterations), "{control:?}, seed {seed}");
+            for (a, b) in this.segments.iter().zip(other.segments.iter()) {
+                let [Motion::Arc { length_m: one, curvature: a }, Motion::Arc { length_m: two, curvature: b }] =
+                    [a.motion, b.motion]
+                else {
+                    panic!("arcs")
+                };
+                assert!(one == two && a.iter().zip(&b).all(|(a, b)| *a == -*b), "{control:?}, seed {seed}");
+            }
+        }
+    }
+}
+
+/// The state at the end of a family's own parameters, x, y, ψ, by the midpoint rule in steps of 1 ms.
+fn reference(parameters: &Parameters, speed: &SpeedProfile) -> [f64; 3] {
+    let value = |c: &[f64], t: f64| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
+    let mut state = [0.0_f64; 3];
+    let mut advance = |dt: f64, v: f64, omega: f64| {
+        let middle = state[2] + 0.5 * dt * omega;
+        state = [state[0] + dt * v * middle.cos(), state[1] + dt * v * middle.sin(), state[2] + dt * omega];
+    };
+    let steps = |duration: f64| ((duration / 0.001).ceil(), duration / (duration / 0.001).ceil());
+    match parameters {
+        Parameters::Velocity { linear, angular, duration } => {
+            let (count, dt) = steps(*duration);
+            for i in 0..count as usize {
+                let t = (i as f64 + 0.5) * dt;
+                advance(dt, value(linear, t), value(angular, t));
+            }
+        }
+        Parameters::Time { curvature, duration } => {
+            let (count, dt) = steps(*duration);
+            // A ramp: v = v0 + (vf − v0) t/T.
+            for i in 0..count as usize {
+                let t = (i as f64 + 0.5) * dt;
+                let v = speed.start() + (speed.end() - speed.start()) * t / duration;
+                advance(dt, v, v * value(curvature, t));
+            }
+        }
+        Parameters::ArcLength { curvature, length } => {
+            let duration = speed.over(*length).duration();
+            let (count, dt) = steps(duration);
+            for i in 0..count as usize {
+                let s = speed.over(*length).place_at((i as f64 + 0.5) * dt);
+                let v = speed.over(*length).speed_at(s);
+                advance(dt, v, v * value(curvature, s));
+            }
+        }
+        Parameters::Knots { curvature, length } => {
+            let spline = spline(curvature);
+            let (count, dt) = steps(speed.over(*length).duration());
+            for i in 0..count as usize {
+                let s = speed.over(*length).place_at((i as f64 + 0.5) * dt);
+                let v = speed.over(*length).speed_at(s);
+                advance(dt, v, v * spline(s / length));
+            }
+        }
+    }
+    state
+}
+
+/// The families' own parameters, integrated in their own terms in steps of 1 ms, end where their segments do.
+#[test]
+fn a_reference_in_steps_of_a_millisecond_agrees_within_a_tenth_of_the_precision() {
+    for control in [Control::Cubic, Control::TimePolynomial, Control::Knots, Control::VelocityPolynomial] {
+        for seed in 0..25 {
+            let mut random = stream(100 + seed);
+            let speed = SpeedProfile::Ramp { start: random.random_range(0.2..1.0), end: random.random_range(0.2..1.0) };
+            let (length, shape) = (length(&mut random), polynomial(&mut random, 3));
+            let problem = Made::new(&mut random, length, move |u| 0.5 * shape(u)).problem(speed, 0.0);
+            let answer = answer(&problem, control);
+            let told = format!("{control:?}, seed {seed}: {answer:?}");
+            if answer.status != Status::Ok {
+                assert_eq!(control, Control::Cubic, "{told}");
+                continue;
+            }
+            let [x, y, yaw] = reference(&answer.parameters, &speed);
+            let Goal { x: gx, y: gy, yaw: gyaw, .. } = problem.query.goal;
+            let turned = (yaw - gyaw + PI).rem_euclid(TAU) - PI;
+            assert!((x - gx).hypot(y - gy) < 0.001 && turned.abs() < 0.001, "{x} {y} {yaw}, {told}");
+            assert!(answer.fit_error < 1e-6, "{told}");
+        }
+    }
+}
+
+#[test]
+fn arcs_and_turns_are_values_like_the_others_and_say_what_they_lack() {
+    let choices = Choices::default();
+    let ask = |control: Control, goal: Goal, choices: &Choices| {
+        let query = Query::new(0.0, goal, &BOUNDS).unwrap();
+        let problem = Problem { query, speed: 1.0.into(), swing: 0.0, free_end: false };
+        generate(&problem, control, &BOUNDS, choices, || false, |_| {}).solution
+    };
+    let mut random = stream(7);
+    for _ in 0..200 {
+        let (kappa, length) = (random.random_range(-1.0..1.0), random.random_range(0.5..2.5));
+        let goal = Goal {
+            x: f64::sin(kappa * length) / kappa,
+            y: (1.0 - f64::cos(kappa * length)) / kappa,
+            yaw: kappa * length,
+            curvature: kappa,
+        };
+        let arc = ask(Control::Arc, goal, &choices);
+        assert!(arc.outcome == Outcome::Solved && arc.segments.len() == 1, "{goal:?} {arc:?}");
+        let aside = ask(Control::Arc, Goal { yaw: goal.yaw + 0.5, ..goal }, &choices);
+        assert!(matches!(aside.arc, Some(Status::Infeasible { limit: flat::Limit::Yaw, .. })), "{aside:?}");
+        // The same goals by turns; and in reverse, where only that is allowed.
+        let turns = ask(Control::TurnDriveTurn, Goal { curvature: 0.0, ..goal }, &choices);
+        assert!(turns.outcome == Outcome::Solved && turns.segments.iter().any(|s| s.turn_rad() != 0.0), "{turns:?}");
+        let behind = Goal { x: -goal.x, yaw: -goal.yaw, ..goal };
+        for control in [Control::Knots, Control::Cubic] {
+            let start = Goal { curvature: 0.0, ..behind };
+            let back = ask(control, start, &Choices { gear: Gear::Reverse, ..choices });
+            assert!(back.segments.iter().all(|segment| segment.gear == Gear::Reverse), "{back:?}");
+            let either = ask(control, start, &Choices { reversals: true, ..choices });
+            assert!(either.outcome == Outcome::Solved || back.outcome != Outcome::Solved, "{back:?} {either:?}");
+        }
+    }
+}
+
+fn rocky8(lags: bool) -> Rover {
+    let path = format!("{}/../../data/robots/rover/rocky8.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a shipped rover");
+    let rover = toml::from_str::<RoverDescription>(&text).expect("its keys").build().expect("its numbers");
+    if !lags {
+        return rover;
+    }
+    let steering_rate = 30.0_f64.to_radians();
+    let response = Response { latency: 0.2, steering_time_constant: 0.2, steering_rate, ..rover.response };
+    Rover { slip: Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 }, response, ..rover }
+}
+
+/// On cratered ground: goals that were driven under the same speeds and directions are met again, slip, latency and lag included.
+#[test]
+fn speeds_and_directions_are_met_on_the_ground() {
+    let recipe =
+        Recipe { size_m: 30.0, relief_m: 1.0, crater_area_m2: 40.0, rock_cover: 0.0, seed: 3, ..Recipe::default() };
+    let map = terrain(&recipe).expect("a map");
+    let ramp = SpeedProfile::Ramp { start: 0.1, end: 0.4 };
+    let trapezoid = SpeedProfile::Trapezoid { start: 0.0, cruise: 0.3, end: 0.0, acceleration: 0.1 };
+    let turning = Direction { start: 0.3, end: -0.3 };
+    for (name, control, speed, direction, lags) in [
+        ("ramp, lags", Control::Quintic, ramp, 0.0.into(), true),
+        ("rest to rest, lags", Control::Quintic, trapezoid, 0.0.into(), true),
+        ("turning direction", Control::Quintic, 0.3.into(), turning, false),
+        ("turning direction, ramp, lags", Control::Knots, ramp, turning, true),
+        ("polynomial of time", Control::TimePolynomial, ramp, 0.0.into(), false),
+    ] {
+        let rover = rocky8(lags);
+        let site = Site { rover: &rover, map: &map, speed, direction };
+        let goals = ground_goals(&site, 40, &mut stream(23));
+        let bounds = site.bounds();
+        let precision = Precision { position: 1e-5, yaw: 1e-5, curvature: 1e-5 };
+        let choices = Choices { flat: flat::Settings { precision, ..flat::Settings::default() }, ..Choices::default() };
+        let mut met = 0;
+        for (start, goal) in &goals {
+            let mut steer = |query: &Query| {
+                let query = Query::new(query.start_curvature, query.goal, &bounds).ok()?;
+                let problem = Problem { query, speed, swing: direction.swing(), free_end: false };
+                let solution = generate(&problem, control, &bounds, &choices, || false, |_| {}).solution;
+                (solution.outcome == Outcome::Solved).then_some(solution.segments)
+            };
+            let answer = site.solve(start, goal, &bounds, &rough::Settings::default(), &mut steer);
+            if answer.status != rough::Status::Ok {
+                println!("{name}: {:?} after {} predictions", answer.status, answer.iterations);
+                continue;
+            }
+            let replay = site.replay(start, goal, &answer.segments).expect("a way");
+            let [x, y, yaw] = replay.error;
+            let good = x.hypot(y) <= 0.01 && yaw.abs() <= 0.01 && replay.error_curvature.abs() <= 0.01;
+            assert!(good, "{name}: {replay:?} {answer:?}");
+            met += 1;
+        }
+        println!("{name}: {met} of {}", goals.len());
+        assert!(goals.len() == 40 && met >= 36, "{name}: {met} of {}", goals.len());
     }
 }

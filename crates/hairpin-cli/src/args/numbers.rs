@@ -24,3 +24,15 @@ pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
     let (first, second) = text.split_once(',').ok_or_else(refuse)?;
     Ok([finite(first.trim()).map_err(|_| refuse())?, finite(second.trim()).map_err(|_| refuse())?])
 }
+
+pub(super) fn not_negative(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|number| *number >= 0.0).ok_or_else(|| "must be a finite number >= 0".into())
+}
+
+/// Steps of a simulation: few enough to be held in memory.
+pub(super) fn steps(text: &str) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|steps| (16..=10_000_000).contains(steps))
+        .ok_or_else(|| "must be a number from 16 to 1e7".into())
+}

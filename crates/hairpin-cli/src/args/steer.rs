@@ -5,14 +5,15 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::Threads;
-use super::numbers::{finite, milliseconds, positive};
+use super::numbers::{finite, milliseconds, not_negative, positive, steps};
 use super::terrain::{MapFlags, NoData};
+use hairpin::feasibility::steering::shooting::Control;
 
 /// Every answer is replayed by an integration of its own; `ok` means that the replay ends in the goal within 1 cm,
 /// 0.01 rad and 0.01 1/m and keeps the vehicle's curvature and curvature rate.
 ///
 /// Q.csv: id,x,y,yaw,k0,kf (from the start, m, rad, 1/m) or id,sx,sy,syaw,x,y,yaw,k0,kf; optional columns v0, vf,
-/// direction, frame, max_curvature, tolerance_m. R.csv has one row a segment: its curvature is a0 + a1 s + … + a5 s^5.
+/// direction, direction_end, frame, max_curvature, tolerance_m. R.csv has one row a segment: its curvature is a0 + a1 s + … + a5 s^5.
 #[derive(Debug, Args)]
 pub(crate) struct Steer {
     /// Vehicle: a shipped rover's name, such as generic, or a robot file
@@ -26,9 +27,27 @@ pub(crate) struct Steer {
     /// Frame of --from and --to; files have a column for it
     #[arg(long, value_enum, default_value_t = SteerFrame::Enu, conflicts_with = "queries")]
     pub(crate) frame: SteerFrame,
+    /// What curvature is a function of
+    #[arg(long, value_enum, default_value_t = SteerControl::Quintic, value_name = "NAME")]
+    pub(crate) control: SteerControl,
+    /// Speed at the start, m/s; files have a column for it, which goes first
+    #[arg(long, value_name = "M_S", value_parser = not_negative, allow_hyphen_values = true)]
+    pub(crate) v0: Option<f64>,
+    /// Speed at the goal, m/s; between different ones the speed is a ramp
+    #[arg(long, value_name = "M_S", value_parser = not_negative, allow_hyphen_values = true)]
+    pub(crate) vf: Option<f64>,
+    /// Speed between, m/s: a trapezoid from v0 over this to vf
+    #[arg(long, value_name = "M_S", value_parser = positive, allow_hyphen_values = true)]
+    pub(crate) cruise: Option<f64>,
+    /// Largest acceleration, m/s^2, where it is to be less than the vehicle's
+    #[arg(long, value_name = "M_S2", value_parser = positive, allow_hyphen_values = true)]
+    pub(crate) acceleration: Option<f64>,
     /// Direction of travel in the body, rad, for crabbing
     #[arg(long, value_name = "RAD", default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true, conflicts_with = "queries")]
     pub(crate) direction: f64,
+    /// Direction of travel at the goal, rad, where it turns evenly along the drive
+    #[arg(long, value_name = "RAD", value_parser = finite, allow_hyphen_values = true, conflicts_with = "queries")]
+    pub(crate) direction_end: Option<f64>,
     /// Largest |curvature|, 1/m, where it is to be less than the vehicle's
     #[arg(long, value_name = "K", value_parser = positive, allow_hyphen_values = true, conflicts_with = "queries")]
     pub(crate) max_curvature: Option<f64>,
@@ -61,6 +80,18 @@ pub(crate) struct Steer {
     /// Draw the drives, seen from above, each from its start
     #[arg(long, value_name = "F.svg")]
     pub(crate) plot: Option<PathBuf>,
+    /// Write the path of states, a row a time step
+    #[arg(long, value_name = "F.csv", conflicts_with = "queries")]
+    pub(crate) path: Option<PathBuf>,
+    /// Write steer angles and speeds of the wheels, a row a time step
+    #[arg(long, value_name = "F.csv", conflicts_with = "queries")]
+    pub(crate) wheels: Option<PathBuf>,
+    /// Time between rows of --path and --wheels; a thousandth of the drive's, at least 0.001 s, if not given
+    #[arg(long, value_name = "S", value_parser = positive, allow_hyphen_values = true, conflicts_with = "queries")]
+    pub(crate) time_step_s: Option<f64>,
+    /// Steps of --path and --wheels at most; they are longer where there would be more
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = steps)]
+    pub(crate) max_steps: usize,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,
@@ -75,4 +106,37 @@ pub(crate) enum SteerFrame {
     Enu,
     /// North, east, down; yaw from north, clockwise; right positive
     Ned,
+}
+
+/// Families of controls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SteerControl {
+    /// Constant curvature; heading and curvature at the goal are as they come
+    Arc,
+    /// Turn in place, straight, turn in place
+    TurnDriveTurn,
+    /// A polynomial of arc length of third order
+    Cubic,
+    /// Of fifth order, or lines, arcs and clothoids where none does
+    Quintic,
+    /// A polynomial of time
+    TimePolynomial,
+    /// A natural cubic spline through eight knots
+    Knots,
+    /// Linear and angular velocity as polynomials of time; the curvature at the goal is free if not given
+    VelocityPolynomial,
+}
+
+impl From<SteerControl> for Control {
+    fn from(control: SteerControl) -> Self {
+        match control {
+            SteerControl::Arc => Self::Arc,
+            SteerControl::TurnDriveTurn => Self::TurnDriveTurn,
+            SteerControl::Cubic => Self::Cubic,
+            SteerControl::Quintic => Self::Quintic,
+            SteerControl::TimePolynomial => Self::TimePolynomial,
+            SteerControl::Knots => Self::Knots,
+            SteerControl::VelocityPolynomial => Self::VelocityPolynomial,
+        }
+    }
 }

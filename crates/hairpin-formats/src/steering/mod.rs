@@ -3,7 +3,9 @@
 mod answer;
 mod plot;
 mod query;
+mod states;
 
 pub use answer::{Answer, Drive, Errors, Piece, Status, table};
 pub use plot::{Stretch, svg};
 pub use query::{Asked, BrokenFile, Frame, Queries, Row, Wrong, parse, read};
+pub use states::{path_table, wheel_table};

@@ -20,12 +20,16 @@ pub struct Asked {
     pub k0: f64,
     /// κ at the goal.
     pub kf: f64,
+    /// Whether κ at the goal may be anything where the controls do not need it; files always say it.
+    pub free_end: bool,
     /// Speed at the start, m/s.
     pub v0: Option<f64>,
     /// Speed at the goal, m/s.
     pub vf: Option<f64>,
     /// Direction of travel in the body, rad, left positive.
     pub direction: f64,
+    /// The same at the goal, where it turns evenly along the drive; `None`: it stays.
+    pub direction_end: Option<f64>,
     /// The frame it was asked in, and is to be answered in.
     pub frame: Frame,
     /// Largest |κ| of this drive, 1/m.
@@ -113,7 +117,7 @@ pub enum BrokenFile {
 
 const NEEDED: [&str; 6] = ["id", "x", "y", "yaw", "k0", "kf"];
 const START: [&str; 3] = ["sx", "sy", "syaw"];
-const OPTIONAL: [&str; 6] = ["v0", "vf", "direction", "frame", "max_curvature", "tolerance_m"];
+const OPTIONAL: [&str; 7] = ["v0", "vf", "direction", "direction_end", "frame", "max_curvature", "tolerance_m"];
 
 const NUMBER: &str = "a finite number";
 const POSITIVE: &str = "a finite number > 0";
@@ -232,9 +236,11 @@ impl<'n> Columns<'n> {
             goal: [number("x")?, left * number("y")?, left * number("yaw")?],
             k0: left * number("k0")?,
             kf: left * number("kf")?,
+            free_end: false,
             v0: optional("v0", SPEED, &|v| v >= 0.0)?,
             vf: optional("vf", SPEED, &|v| v >= 0.0)?,
             direction: left * optional("direction", NUMBER, &|_| true)?.unwrap_or(0.0),
+            direction_end: optional("direction_end", NUMBER, &|_| true)?.map(|direction| left * direction),
             frame,
             max_curvature: optional("max_curvature", POSITIVE, &|k| k > 0.0)?,
             tolerance_m: optional("tolerance_m", POSITIVE, &|m| m > 0.0)?,

@@ -2,7 +2,7 @@
 
 use crate::feasibility::steering::shooting::rough::{Blocked, Course, Steps, predict, tilt};
 use crate::robot::rover::{Response, Rover, Settled, Slip, Twist, WheelMotion};
-use crate::trajectory::drive::{Planar, Segment};
+use crate::trajectory::drive::{Gear, Planar, Segment, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::world::terrain::{Flat, Terrain};
 
@@ -93,11 +93,47 @@ impl Followed<'_> {
         Followed { rover: &rover, ..*self }.on(&Flat, start, segments)
     }
 
-    /// The states of `segments` from `start` on `terrain`.
+    /// The states of `segments` from `start` on `terrain`: with latency τ the vehicle first goes on for τ as it was, and the last τ of
+    /// the commands never act.
     ///
     /// # Errors
     /// Where the ground ends or the body finds no rest.
     pub fn on<T: Terrain>(&self, terrain: &T, start: &Planar, segments: &[Segment]) -> Result<States, Blocked> {
+        let latency = self.rover.response.latency;
+        let wait = latency * self.speed.start();
+        let mut states = Vec::new();
+        let (mut from, mut peaks) = (*start, WheelPeaks::default());
+        if wait > 0.0 {
+            let waiting =
+                Followed { speed: self.speed.start().into(), direction: self.direction.start.into(), ..*self };
+            let held = Segment::clothoid(wait, start.curvature, start.curvature, Gear::Forward);
+            let end;
+            (states, peaks, end) = waiting.along(terrain, start, &[held])?;
+            from = Planar { curvature: start.curvature, ..end };
+        }
+        let driven = shortened(segments, latency * self.speed.end());
+        let (mut then, others, _) = self.along(terrain, &from, &driven)?;
+        for state in &mut then {
+            state.time += latency;
+            state.s += wait;
+        }
+        if let Some(first) = then.first().filter(|first| first.time > 0.0 && states.is_empty()) {
+            states.push(VehicleState { time: 0.0, ..*first });
+        }
+        states.extend(then);
+        let finest = self.most_steps.max(16) as f64;
+        let step = self.time_step.max(states.last().map_or(0.0, |last| last.time) / finest);
+        let wheels = self.rover.suspension.wheels(&[0.0; 3]).1;
+        Ok(States { states: sampled(&states, step), wheels, peaks: peaks.or(&others) })
+    }
+
+    /// The states of commands that act at once, as finely as they are predicted, and the place where they end.
+    fn along<T: Terrain>(
+        &self,
+        terrain: &T,
+        start: &Planar,
+        segments: &[Segment],
+    ) -> Result<(Vec<VehicleState>, WheelPeaks, Planar), Blocked> {
         let timing = Timing::new(&self.speed, segments);
         let turns: f64 = segments.iter().map(|segment| segment.turn_rad().abs()).sum();
         let finest = self.most_steps.max(16) as f64;
@@ -120,23 +156,16 @@ impl Followed<'_> {
         };
         let prediction = predict(&course, start, segments, |driven| walk.add(driven))?;
         let Walk { mut states, peaks, .. } = walk;
-        let wheels = self.rover.suspension.wheels(&[0.0; 3]).1;
         if let (Some(first), Some(last)) = (states.first().copied(), states.last().copied()) {
-            let begin = VehicleState {
-                time: 0.0,
-                s: 0.0,
-                at: *start,
-                speed: self.signed(first.speed, timing.speed_at(0.0)),
-                ..first
-            };
+            let speed = self.signed(first.speed, timing.speed_at(0.0));
+            let begin = VehicleState { time: 0.0, s: 0.0, at: *start, speed, ..first };
             let time = timing.time_at(timing.length()) + turns / self.turn_rate;
             let (s, speed) = (timing.length(), self.signed(last.speed, timing.end_speed()));
             let end = VehicleState { time, s, at: prediction.end, speed, ..last };
             states.insert(0, VehicleState { direction: self.direction.start, ..begin });
             states.push(VehicleState { direction: self.direction.end, ..end });
         }
-        let step = self.time_step.max(states.last().map_or(0.0, |last| last.time) / finest);
-        Ok(States { states: sampled(&states, step), wheels, peaks })
+        Ok((states, peaks, prediction.end))
     }
 
     fn signed(&self, like: f64, speed: f64) -> f64 {
@@ -211,6 +240,16 @@ impl<T: Terrain> Walk<'_, '_, T> {
 }
 
 impl WheelPeaks {
+    /// The larger of both, one by one.
+    fn or(&self, other: &Self) -> Self {
+        Self {
+            steer: self.steer.max(other.steer),
+            steer_rate: self.steer_rate.max(other.steer_rate),
+            speed: self.speed.max(other.speed),
+            acceleration: self.acceleration.max(other.acceleration),
+        }
+    }
+
     /// The first bound of the vehicle's wheels that is exceeded, by its name and by how much, in rad and s.
     pub fn broken(&self, rover: &Rover) -> Option<(&'static str, f64)> {
         /// What sampling and rounding may add.
@@ -274,5 +313,66 @@ fn between(a: &VehicleState, b: &VehicleState, time: f64) -> VehicleState {
         tilt: mix(a.tilt, b.tilt),
         clearance: if a.clearance.is_finite() { mix(a.clearance, b.clearance) } else { b.clearance },
         wheels: std::array::from_fn(wheel),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::rover::RoverDescription;
+    use crate::trajectory::drive::Motion;
+
+    fn rover(latency: f64) -> Rover {
+        let path = format!("{}/../../data/robots/rover/four-wheel.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).expect("a shipped rover");
+        let rover = toml::from_str::<RoverDescription>(&text).expect("its keys").build().expect("its numbers");
+        Rover { response: Response { latency, ..rover.response }, ..rover }
+    }
+
+    fn followed(rover: &Rover, speed: SpeedProfile) -> Followed<'_> {
+        let direction = Direction::default();
+        Followed { rover, speed, turn_rate: 0.5, direction, time_step: 0.01, most_steps: 10_000 }
+    }
+
+    #[test]
+    fn times_places_and_wheels_of_a_drive_with_a_turn_are_those_of_closed_forms() {
+        let rover = rover(0.0);
+        let speed = SpeedProfile::Ramp { start: 0.0, end: 1.0 };
+        let turn = Segment { motion: Motion::Turn { angle_rad: 1.0 }, gear: Gear::Forward };
+        let drive = [turn, Segment::straight(2.0, Gear::Forward)];
+        let start = Planar { x: 1.0, y: 2.0, yaw: 0.5, curvature: 0.0 };
+        let States { states, wheels, peaks } =
+            followed(&rover, speed).in_the_plane(&start, &drive).expect("level ground");
+        // 2 s of turning at 0.5 rad/s, 4 s of 0.25 m/s².
+        let last = states.last().expect("states");
+        assert!(wheels == 4 && (last.time - 6.0).abs() < 1e-9 && (last.speed - 1.0).abs() < 1e-9, "{last:?}");
+        assert!((last.at.x - 1.0 - 2.0 * 1.5f64.cos()).abs() < 1e-9 && (last.at.yaw - 1.5).abs() < 1e-9, "{last:?}");
+        let at = |time: f64| {
+            states.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs())).expect("one")
+        };
+        let (turning, driving) = (at(1.0), at(4.0));
+        assert!((turning.at.yaw - 1.0).abs() < 0.01 && turning.speed == 0.0, "{turning:?}");
+        let outer = 0.3f64.hypot(0.25) * 0.5 / 0.12;
+        assert!(turning.wheels[..4].iter().all(|wheel| (wheel.speed.abs() - outer).abs() < 1e-9), "{turning:?}");
+        assert!((driving.s - 0.5).abs() < 0.01 && (driving.speed - 0.5).abs() < 0.005, "{driving:?}");
+        assert!((driving.wheels[0].speed - driving.speed / 0.12).abs() < 0.01 && driving.tilt < 1e-9, "{driving:?}");
+        assert!((driving.clearance - (rover.suspension.ride_height() + rover.body.belly.height)).abs() < 1e-6);
+        assert!((peaks.acceleration - 0.25 / 0.12).abs() < 0.01 && peaks.steer > 0.6, "{peaks:?}");
+        let slow = Rover { wheels: crate::robot::rover::Wheels { speed: 5.0, ..rover.wheels }, ..rover.clone() };
+        let (name, excess) = peaks.broken(&slow).expect("too fast");
+        assert!(name == "wheel_speed" && (excess - (1.0 / 0.12 - 5.0)).abs() < 0.02 && peaks.broken(&rover).is_none());
+    }
+
+    #[test]
+    fn with_latency_the_vehicle_goes_on_as_it_was() {
+        let rover = rover(0.5);
+        let drive = [Segment::straight(2.0, Gear::Forward)];
+        let start = Planar { curvature: 0.4, ..Planar::default() };
+        let States { states, .. } = followed(&rover, 1.0.into()).on(&Flat, &start, &drive).expect("level ground");
+        let last = states.last().expect("states");
+        // Half a metre of the arc, and of the commands what is left of two metres.
+        assert!((last.time - 2.0).abs() < 1e-9 && (last.s - 2.0).abs() < 1e-9, "{last:?}");
+        assert!((last.at.yaw - 0.2).abs() < 1e-9, "{last:?}");
+        assert!(states.windows(2).all(|pair| pair[1].time > pair[0].time));
     }
 }

@@ -146,6 +146,20 @@ impl Drive {
     }
 }
 
+/// `segments` without their last `metres`; turns in place stay.
+pub fn shortened(segments: &[Segment], mut metres: f64) -> SegmentList {
+    let mut list = SegmentList::EMPTY;
+    list.extend(segments.iter().copied());
+    for segment in list.iter_mut().rev() {
+        if let Motion::Arc { length_m, .. } = &mut segment.motion {
+            let cut = metres.min(*length_m);
+            *length_m -= cut;
+            metres -= cut;
+        }
+    }
+    list
+}
+
 /// Segments of a [`SegmentList`] at most.
 pub const MOST_SEGMENTS: usize = 40;
 

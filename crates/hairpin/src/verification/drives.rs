@@ -84,8 +84,13 @@ pub fn verify_drives<T: Terrain>(
             }
         };
         // In the plane: the commands themselves, whatever they lead to.
-        let plane =
-            DriveClaim { start_curvature: leg.from[3], crab: claim.direction, end: [0.0; 3], end_curvature: leg.to[3] };
+        let plane = DriveClaim {
+            start_curvature: leg.from[3],
+            crab: claim.direction,
+            crab_rate: 0.0,
+            end: [0.0; 3],
+            end_curvature: leg.to[3],
+        };
         let commands = replay_drive(&leg.pieces, &plane);
         let kept = |bound: f64| bound * (1.0 + ROUNDING);
         exceed("curvature", commands.max_curvature, kept(tolerances.most_curvature), "1/m");
@@ -96,7 +101,8 @@ pub fn verify_drives<T: Terrain>(
             start: [leg.from[0], leg.from[1], leg.from[2]],
             start_curvature: leg.from[3],
             crab: claim.direction,
-            speed_m_s: claim.speed,
+            crab_rate: 0.0,
+            speed: vec![[0.0, claim.speed]],
             end: [leg.to[0], leg.to[1], leg.to[2]],
             end_curvature: leg.to[3],
         };

@@ -3,10 +3,16 @@
 use std::time::Duration;
 
 use hairpin::campaign::drive::drive_piece;
+use hairpin::feasibility::steering::shooting::families::Parameters;
+use hairpin::feasibility::steering::shooting::flat::Limit;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision};
 use hairpin::feasibility::steering::shooting::solve::Solution;
+use hairpin::trajectory::SpeedProfile;
+use hairpin::trajectory::drive::Segment;
 use hairpin::verification::{DriveClaim, DrivePiece, DriveReplay};
 use hairpin_formats::steering::{Asked, Status};
+
+use super::pace::direction;
 
 /// An answer before it is put into a file or into words.
 pub(super) struct Answered {
@@ -20,6 +26,10 @@ pub(super) struct Answered {
     pub(super) bounds: Curvatures,
     /// Curvatures that would be feasible, where those asked for are not.
     pub(super) nearest: Option<[f64; 2]>,
+    /// Its speeds; without them where they make no profile.
+    pub(super) profile: Option<SpeedProfile>,
+    /// The controls' own parameters, and by how much the segments differ from them in curvature, 1/m.
+    pub(super) parameters: Option<(Parameters, f64)>,
 }
 
 /// Share by which rounding may exceed a limit.
@@ -27,14 +37,27 @@ const ROUNDING: f64 = 1e-9;
 /// Jump of curvature that is one, 1/m.
 const JUMP: f64 = 1e-6;
 
-/// What the replay holds a drive to.
-pub(super) fn claim(asked: &Asked) -> DriveClaim {
+/// What the replay holds a drive to; with `free_end` its last curvature is as it comes.
+pub(super) fn claim(asked: &Asked, segments: &[Segment], free_end: bool) -> DriveClaim {
+    let length: f64 = segments.iter().map(Segment::length_m).sum();
+    let direction = direction(asked);
+    let last = segments.last().map_or(asked.k0, |last| last.curvature_at(last.length_m()));
     DriveClaim {
         start_curvature: asked.k0,
-        crab: asked.direction,
-        crab_rate: 0.0,
+        crab: direction.start,
+        crab_rate: direction.rate(length),
         end: asked.goal,
-        end_curvature: asked.kf,
+        end_curvature: if free_end { last } else { asked.kf },
+    }
+}
+
+/// What a family of controls exceeds, by its name in answers.
+pub(super) fn named(limit: Limit) -> &'static str {
+    match limit {
+        Limit::Curvature => "curvature_1_m",
+        Limit::CurvatureRate => "curvature_rate_1_m2",
+        Limit::Yaw => "yaw_rad",
+        Limit::EndCurvature => "end_curvature_1_m",
     }
 }
 

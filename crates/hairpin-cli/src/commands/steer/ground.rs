@@ -3,10 +3,12 @@
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::drive::Site;
+use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
 use hairpin::feasibility::steering::shooting::flat;
-use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision, Query};
+use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Precision, Query};
 use hairpin::feasibility::steering::shooting::rough::{Blocked, Cause, Settings, Status as Found};
-use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, Solution, solve};
+use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, Solution};
+use hairpin::feasibility::steering::shooting::{Control, generate};
 use hairpin::robot::rover::{Rover, Unsettled};
 use hairpin::trajectory::drive::{Planar, SegmentList};
 use hairpin::verification::{DriveReplay, GroundReplay, Stopped, replay_drive};
@@ -14,6 +16,8 @@ use hairpin::world::terrain::{ElevationMap, HoleRule, NoGround};
 use hairpin_formats::steering::{Asked, Status};
 
 use super::answered::{Answered, broken, claim, pieces};
+use super::pace::{direction, start};
+use super::vehicle::told;
 use crate::args::{NoData, Steer};
 use crate::commands::terrain;
 use crate::console;
@@ -46,32 +50,37 @@ pub(super) struct Ground<'a> {
     pub(super) rover: &'a Rover,
     pub(super) map: &'a ElevationMap,
     pub(super) choices: Choices,
+    pub(super) control: Control,
+    /// The question in the plane.
+    pub(super) boundary: &'a Boundary,
     pub(super) bounds: Curvatures,
+    /// The bounds that drives are shaped with.
+    pub(super) shaping: Curvatures,
     pub(super) precision: Precision,
     pub(super) time_limit: Option<Duration>,
 }
 
 impl Ground<'_> {
-    /// Answers `asked`, whose flat form is `query`.
-    pub(super) fn answer(&self, asked: &Asked, query: &Query) -> Answered {
-        let speed = asked.v0.or(asked.vf).filter(|v| *v > 0.0).unwrap_or(self.rover.default_speed);
-        let site = Site { rover: self.rover, map: self.map, speed: speed.into(), direction: asked.direction.into() };
+    /// Answers `asked`.
+    pub(super) fn answer(&self, asked: &Asked) -> Answered {
+        let speed = self.boundary.speed;
+        let site = Site { rover: self.rover, map: self.map, speed, direction: direction(asked) };
         let start = start(asked);
         let goal = goal(asked, &start);
         let begun = Instant::now();
         let over = || self.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
-        let (mut found, mut solution) = self.search(&site, &start, &goal, query, self.choices, &over);
-        if matches!(found, Found::NotConverged { .. }) && self.choices.arcs && !over() {
+        let (mut found, mut solution) = self.search(&site, &start, &goal, self.choices, &over);
+        if matches!(found, Found::NotConverged { .. }) && self.control == Control::Quintic && !over() {
             // Closed forms change steadily with their goal where arcs do not.
             let choices = Choices { arcs: false, ..self.choices };
-            let (again, second) = self.search(&site, &start, &goal, query, choices, &over);
+            let (again, second) = self.search(&site, &start, &goal, choices, &over);
             if again == Found::Ok {
                 (found, solution) = (again, Solution { iterations: solution.iterations + second.iterations, ..second });
             }
         }
         let solving = begun.elapsed();
         let ran_out = over() && found != Found::Ok;
-        let flat = replay_drive(&pieces(&solution), &claim(asked));
+        let flat = replay_drive(&pieces(&solution), &claim(asked, &solution.segments, false));
         let replay = site.replay(&start, &goal, &solution.segments);
         let answered = |status, limit, drive: Option<(Solution, DriveReplay)>| Answered {
             status,
@@ -80,6 +89,8 @@ impl Ground<'_> {
             limit,
             bounds: self.bounds,
             nearest: None,
+            profile: None,
+            parameters: None,
         };
         let ground = match (&found, &replay) {
             (Found::Blocked(blocked), _) if !ran_out => {
@@ -109,7 +120,6 @@ impl Ground<'_> {
         site: &Site<'_>,
         start: &Planar,
         goal: &Planar,
-        query: &Query,
         choices: Choices,
         over: &dyn Fn() -> bool,
     ) -> (Found, Solution) {
@@ -118,27 +128,25 @@ impl Ground<'_> {
         let (mut first, mut method) = (None, None);
         let settings = Settings { precision: self.precision, ..Settings::default() };
         let mut steer = |query: &Query| -> Option<SegmentList> {
-            let query = Query::new(query.start_curvature, query.goal, &self.bounds).ok().filter(|_| !over())?;
-            let flat = solve(&query, &self.bounds, &choices, over);
+            let query = Query::new(query.start_curvature, query.goal, &self.shaping).ok().filter(|_| !over())?;
+            let boundary = Boundary { query, free_end: false, ..*self.boundary };
+            let flat = generate(&boundary, self.control, &self.shaping, &choices, over, told).solution;
+            let Goal { x, y, yaw, curvature } = query.goal;
+            tracing::debug!("flat goal {x:.4} {y:.4} {yaw:.4} {curvature:.4}: {:?}, {:?}", flat.outcome, flat.method);
             first.get_or_insert(flat);
             method = Some(flat.method);
             (flat.outcome == Outcome::Solved).then_some(flat.segments)
         };
-        let answer = site.solve(start, goal, &self.bounds, &settings, &mut steer);
+        let answer = site.solve(start, goal, &self.shaping, &settings, &mut steer);
         // Without any time there is still the flat start value.
-        let flat = first.unwrap_or_else(|| solve(query, &self.bounds, &choices, over));
+        let flat = first
+            .unwrap_or_else(|| generate(self.boundary, self.control, &self.shaping, &choices, over, told).solution);
         if answer.segments.is_empty() {
             return (answer.status, flat);
         }
         let method = method.unwrap_or(flat.method);
         (answer.status, Solution { segments: answer.segments, iterations: answer.iterations, method, ..flat })
     }
-}
-
-/// Where the drive starts in the map: its origin if nothing is said.
-fn start(asked: &Asked) -> Planar {
-    let [x, y, yaw] = asked.start.unwrap_or([0.0; 3]);
-    Planar { x, y, yaw, curvature: asked.k0 }
 }
 
 fn goal(asked: &Asked, start: &Planar) -> Planar {

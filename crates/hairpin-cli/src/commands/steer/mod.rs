@@ -2,7 +2,9 @@
 
 mod answered;
 mod batch;
+mod exported;
 mod ground;
+mod pace;
 mod question;
 mod single;
 mod vehicle;

@@ -17,6 +17,7 @@ pub(super) fn asked(steer: &Steer, to: &str) -> Result<Asked, Problem> {
         SteerFrame::Ned => Frame::Ned,
     };
     let from = state("--from", steer.from.as_deref().unwrap_or("0,0,0"), frame)?;
+    let free_end = to.split(',').count() == 3;
     let to = state("--to", to, frame)?;
     let (sin, cos) = libm::sincos(from[2]);
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
@@ -29,9 +30,11 @@ pub(super) fn asked(steer: &Steer, to: &str) -> Result<Asked, Problem> {
         goal: [cos * dx + sin * dy, cos * dy - sin * dx, yaw],
         k0: from[3],
         kf: to[3],
+        free_end,
         v0: None,
         vf: None,
         direction: frame.left() * steer.direction,
+        direction_end: steer.direction_end.map(|direction| frame.left() * direction),
         frame,
         max_curvature: steer.max_curvature,
         tolerance_m: steer.tolerance_m,
@@ -68,7 +71,7 @@ pub(super) fn pieces(solution: &Solution) -> Vec<Piece> {
 /// A drive as it is drawn, in the frame of its start.
 pub(super) fn stretches(solution: &Solution, asked: &Asked) -> Vec<Stretch> {
     let drive = answered::pieces(solution);
-    let traced = trace_drive(&drive, &claim(asked)).into_iter();
+    let traced = trace_drive(&drive, &claim(asked, &solution.segments, false)).into_iter();
     let drawn = traced.map(|(direction, poses)| Stretch {
         points: poses.iter().map(|[x, y, _]| [*x, *y]).collect(),
         reverse: direction < 0.0,

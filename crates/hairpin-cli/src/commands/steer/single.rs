@@ -1,13 +1,14 @@
 //! One question: its drive in words, as JSON, as a picture.
 
-use hairpin::feasibility::steering::shooting::flat::{Limit, Status as ArcStatus};
+use hairpin::feasibility::steering::shooting::flat::Status as ArcStatus;
 use hairpin::feasibility::steering::shooting::solve::{Method, Solution};
 use hairpin::verification::DriveReplay;
 use hairpin_formats::atomic;
 use hairpin_formats::steering::{Frame, Piece, Status, svg};
 use serde_json::{Value, json};
 
-use super::answered::Answered;
+use super::answered::{Answered, named};
+use super::exported;
 use super::question::{asked, pieces, stretches};
 use super::vehicle::Vehicle;
 use crate::args::Steer;
@@ -23,16 +24,25 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, to: &str) -> Result<u8, Prob
         Status::NotConverged | Status::TimeLimit => 5,
         Status::Invalid => {
             let field = answered.limit.map_or("", |(limit, _)| limit);
-            return Err(Problem::input(format!("--to {to}: `{field}` is beyond what can be planned (1e6 m, 1e6 rad)")));
+            let speeds = ["speed", "v0", "vf", "cruise", "acceleration"];
+            return Err(Problem::input(if speeds.contains(&field) {
+                format!(
+                    "--{field}: these speeds make no drive: v0 and vf go up to the cruising speed, and one must be more than 0"
+                )
+            } else {
+                format!("--to {to}: `{field}` is beyond what can be planned (1e6 m, 1e6 rad)")
+            }));
         }
     };
     if let (Some(plot), Some((solution, _))) = (&steer.plot, &answered.drive) {
         let picture = svg(&stretches(solution, &asked), &[[0.0; 3], asked.goal]).map_err(Problem::input)?;
         atomic::write(plot, picture.as_bytes())?;
     }
+    exported::write(steer, vehicle, &asked, &answered)?;
     let shorter = vehicle.with_reversals(&asked, &answered);
     if steer.json {
         let mut object = object(vehicle, &answered, asked.frame, code);
+        exported::add(&mut object, vehicle, &asked, &answered);
         if let Some(metres) = shorter {
             object["with_reversals_m"] = metres.into();
         }
@@ -58,13 +68,7 @@ fn method(method: Method) -> &'static str {
 fn arc_lacks(solution: &Solution) -> Option<(&'static str, f64)> {
     match solution.arc {
         Some(ArcStatus::Infeasible { limit, excess }) if solution.method != Method::SingleArc => {
-            let name = match limit {
-                Limit::Curvature => "curvature_1_m",
-                Limit::CurvatureRate => "curvature_rate_1_m2",
-                Limit::Yaw => "yaw_rad",
-                Limit::EndCurvature => "end_curvature_1_m",
-            };
-            Some((name, excess))
+            Some((named(limit), excess))
         }
         _ => None,
     }

@@ -78,7 +78,7 @@ impl<'a> DriveSetup<'a> {
 
     /// The vehicle on its ground at the commanded speed, straight on.
     pub fn site(&self) -> Site<'a> {
-        Site { rover: self.planner, map: self.map, speed: self.speed(), direction: 0.0 }
+        Site { rover: self.planner, map: self.map, speed: self.speed().into(), direction: 0.0.into() }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
 use crate::robot::rover::{Rover, Suspension};
-use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList};
+use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::verification::{DrivePiece, GroundClaim, GroundReplay, GroundVehicle, Stand, Stopped, replay_ground};
 use crate::world::terrain::ElevationMap;
@@ -60,18 +60,8 @@ impl Site<'_> {
     }
 
     /// What of `segments` the speeds are meant for: all but the stretch that is held while the last commands come to act.
-    pub fn driven(&self, segments: &[Segment]) -> SegmentList {
-        let mut driven = SegmentList::EMPTY;
-        driven.extend(segments.iter().copied());
-        let mut held = self.rover.response.latency * self.speed.end();
-        for segment in driven.iter_mut().rev() {
-            if let Motion::Arc { length_m, .. } = &mut segment.motion {
-                let cut = held.min(*length_m);
-                *length_m -= cut;
-                held -= cut;
-            }
-        }
-        driven
+    fn driven(&self, segments: &[Segment]) -> SegmentList {
+        shortened(segments, self.rover.response.latency * self.speed.end())
     }
 
     /// Where `segments` lead from `start`, predicted in steps of `steps`.

@@ -18,7 +18,7 @@ use thiserror::Error;
 use super::Dynamics;
 use crate::math::integrate::rk4_step;
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
-use crate::robot::rover::{Body, Limits, Response, Rover, Slip, Suspension};
+use crate::robot::rover::{Body, Limits, Response, Rover, Slip, Suspension, Wheels};
 
 /// Why a file's numbers are no car or differential drive.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -95,6 +95,7 @@ impl Named<'_> {
             source: self.source.into(),
             suspension: Suspension::Level,
             body: Body::default(),
+            wheels: Wheels::default(),
             limits,
             response,
             slip: Slip::default(),

@@ -60,6 +60,15 @@ pub struct Wheels {
     pub effective_track: f64,
 }
 
+impl Default for Wheels {
+    /// Corners steer, nothing binds.
+    fn default() -> Self {
+        let free = f64::INFINITY;
+        let steering = Steering::default();
+        Self { steering, steer: free, steer_rate: free, speed: free, acceleration: free, effective_track: 0.0 }
+    }
+}
+
 impl Wheels {
     /// Checked numbers.
     pub(super) fn build(
@@ -68,7 +77,7 @@ impl Wheels {
         suspension: &Suspension,
     ) -> Result<Self, RoverError> {
         let most = |key: &str, value: Option<f64>, low: f64, high: f64| {
-            value.map_or(Ok(f64::INFINITY), |value| within(&format!("wheels.{key}"), value, low, high))
+            value.map_or(Ok(f64::INFINITY), |value| within(key, value, low, high))
         };
         let (places, count, _) = suspension.wheels(&[0.0; 3]);
         let track = 2.0 * places[..count].iter().map(|w| w.y.abs()).sum::<f64>() / count.max(1) as f64;
@@ -78,10 +87,10 @@ impl Wheels {
         };
         Ok(Self {
             steering,
-            steer: most("steer_limit_deg", given.steer_limit_deg, 0.1, 180.0)?.to_radians(),
-            steer_rate: most("steer_rate_deg_s", given.steer_rate_deg_s, 1e-3, 1e5)?.to_radians(),
-            speed: most("speed_rad_s", given.speed_rad_s, 1e-4, 1e5)?,
-            acceleration: most("acceleration_rad_s2", given.acceleration_rad_s2, 1e-4, 1e7)?,
+            steer: most("wheels.steer_limit_deg", given.steer_limit_deg, 0.1, 180.0)?.to_radians(),
+            steer_rate: most("wheels.steer_rate_deg_s", given.steer_rate_deg_s, 1e-3, 1e5)?.to_radians(),
+            speed: most("wheels.speed_rad_s", given.speed_rad_s, 1e-4, 1e5)?,
+            acceleration: most("wheels.acceleration_rad_s2", given.acceleration_rad_s2, 1e-4, 1e7)?,
             effective_track: effective,
         })
     }

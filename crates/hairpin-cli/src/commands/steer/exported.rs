@@ -1,0 +1,120 @@
+//! What one question may write beside its answer: the path of states, the wheels, and what the answer's JSON says of speeds,
+//! direction and controls.
+
+use hairpin::campaign::states::States;
+use hairpin::feasibility::steering::shooting::families::Parameters;
+use hairpin::trajectory::{SpeedProfile, Timing};
+use hairpin_formats::atomic;
+use hairpin_formats::steering::{Asked, path_table, wheel_table};
+use serde_json::{Value, json};
+
+use super::answered::Answered;
+use super::pace::{Rows, direction};
+use super::vehicle::Vehicle;
+use crate::args::Steer;
+use crate::console;
+use crate::problem::Problem;
+
+/// Moments of the wheels in JSON at most.
+const MOMENTS: usize = 50;
+
+/// Writes --path and --wheels; a question without a drive writes neither.
+pub(super) fn write(steer: &Steer, vehicle: &Vehicle, asked: &Asked, answered: &Answered) -> Result<(), Problem> {
+    if steer.wheels.is_some() && vehicle.rover.wheel_names().is_empty() {
+        return Err(Problem::input(format!("--wheels: `{}` has no wheels (suspension)", vehicle.rover.name)));
+    }
+    if steer.path.is_none() && steer.wheels.is_none() {
+        return Ok(());
+    }
+    let Some(states) = vehicle.follow(asked, answered, Rows::AsAsked) else {
+        console::warn("without a drive there is nothing to write to --path and --wheels");
+        return Ok(());
+    };
+    if let Some(path) = &steer.path {
+        atomic::write(path, &path_table(&states, asked.frame).map_err(Problem::input)?)?;
+    }
+    if let Some(path) = &steer.wheels {
+        let table = wheel_table(&states, vehicle.rover.wheel_names(), asked.frame);
+        atomic::write(path, &table.map_err(Problem::input)?)?;
+    }
+    Ok(())
+}
+
+/// Adds speeds, direction of travel, controls and wheels to the object of an answer.
+pub(super) fn add(object: &mut Value, vehicle: &Vehicle, asked: &Asked, answered: &Answered) {
+    let left = asked.frame.left();
+    let direction = direction(asked);
+    object["control"] = vehicle.pace.control.name().into();
+    object["direction"] = json!({ "start_rad": left * direction.start, "end_rad": left * direction.end });
+    let Some((solution, _)) = &answered.drive else { return };
+    if let Some(profile) = &answered.profile {
+        let timing = Timing::new(profile, &solution.segments);
+        let kind = match profile {
+            SpeedProfile::Constant { .. } => "constant",
+            SpeedProfile::Ramp { .. } => "ramp",
+            SpeedProfile::Trapezoid { .. } => "trapezoid",
+        };
+        let finite = |value: f64| value.is_finite().then_some(value);
+        object["profile"] = json!({
+            "kind": kind,
+            "v0_m_s": profile.start(),
+            "cruise_m_s": profile.top(),
+            "vf_m_s": profile.end(),
+            "end_m_s": finite(timing.end_speed()),
+            "driving_s": finite(timing.time_at(timing.length())),
+            "max_acceleration_m_s2": finite(timing.hardest()),
+        });
+    }
+    if let Some((parameters, fit_error)) = &answered.parameters {
+        object["parameters"] = named(parameters, left);
+        object["fit_error_1_m"] = (*fit_error).into();
+    }
+    if !vehicle.rover.wheel_names().is_empty()
+        && let Some(states) = vehicle.follow(asked, answered, Rows::Few)
+    {
+        object["wheels"] = wheels(&states, vehicle.rover.wheel_names(), left);
+    }
+}
+
+fn named(parameters: &Parameters, left: f64) -> Value {
+    let turned = |values: &[f64]| -> Vec<f64> { values.iter().map(|value| left * value).collect() };
+    match parameters {
+        Parameters::ArcLength { curvature, length } => {
+            json!({ "curvature_of_s": turned(curvature), "length_m": length })
+        }
+        Parameters::Time { curvature, duration } => {
+            json!({ "curvature_of_t": turned(curvature), "duration_s": duration })
+        }
+        Parameters::Knots { curvature, length } => {
+            json!({ "curvature_at_knots": turned(curvature), "length_m": length })
+        }
+        Parameters::Velocity { linear, angular, duration } => {
+            json!({ "v_of_t": linear, "yaw_rate_of_t": turned(angular), "duration_s": duration })
+        }
+    }
+}
+
+fn wheels(states: &States, names: &[&str], left: f64) -> Value {
+    let every = states.states.len().div_ceil(MOMENTS).max(1);
+    let last = states.states.len().saturating_sub(1);
+    let moments: Vec<Value> = states
+        .states
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| i % every == 0 || *i == last)
+        .map(|(_, state)| {
+            let wheels = state.wheels.iter().take(names.len());
+            let steer: Vec<f64> = wheels.clone().map(|wheel| left * wheel.steer.to_degrees()).collect();
+            let speed: Vec<f64> = wheels.map(|wheel| wheel.speed).collect();
+            json!({ "t_s": state.time, "steer_deg": steer, "speed_rad_s": speed })
+        })
+        .collect();
+    json!({
+        "names": names,
+        "max_steer_deg": states.peaks.steer.to_degrees(),
+        "max_steer_rate_deg_s": states.peaks.steer_rate.to_degrees(),
+        "max_speed_rad_s": states.peaks.speed,
+        "max_acceleration_rad_s2": states.peaks.acceleration,
+        "moments": moments,
+    })
+}
