@@ -3,8 +3,11 @@
 use hairpin::campaign;
 use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
+use hairpin::feasibility::steering::shooting::rough;
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
 use hairpin::judgement::{Measures, Reference, Settings, measure};
+use hairpin::math::random::{stream, unit};
+use hairpin::robot::ground::{CarDescription, DifferentialDriveDescription};
 use hairpin::robot::rover::{Response, Rover, RoverDescription, Slip};
 use hairpin::simulation::ground::{
     DriveSettings, GroundConditions, GroundController, GroundSortie, drive, planned_track,
@@ -31,6 +34,15 @@ fn plane(a: f64, b: f64) -> ElevationMap {
         })
         .collect();
     ElevationMap::new(grid, &heights, HoleRule::Error).expect("a map")
+}
+
+fn robot_file(name: &str) -> String {
+    let path = format!("{}/../../data/robots/ground/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).expect("a shipped robot")
+}
+
+fn car() -> Rover {
+    toml::from_str::<CarDescription>(&robot_file("car")).expect("its keys").build().expect("its numbers").vehicle()
 }
 
 /// One leg a list of segments, from the origin; the legs' ends are where flat geometry leads.
@@ -172,8 +184,8 @@ fn each_controller_follows_a_plan_of_every_motion() {
 }
 
 /// How fast a vehicle 1 m to the left of a line comes to it: overshoot, m, and the way after which it stays within 5 cm, m.
-fn lateral_step(site: &Site, controller: &GroundController) -> (f64, f64) {
-    let line = plan(&[vec![Segment::straight(12.0, Gear::Forward)]], 0.1);
+fn lateral_step(site: &Site, controller: &GroundController, speed: f64) -> (f64, f64) {
+    let line = plan(&[vec![Segment::straight(12.0, Gear::Forward)]], speed);
     let (flight, _) = site.run(&line, controller, 1);
     assert_eq!(flight.ended, Ended::Done);
     let places: Vec<_> = (0..flight.track.len()).map(|i| flight.track.position(i)).collect();
@@ -191,9 +203,19 @@ fn a_lateral_step_of_one_metre_settles_without_much_overshoot() {
             site.conditions = GroundConditions { latency, start_offset: [0.0, 1.0, 0.0], ..site.conditions };
             site.vehicle.response = Response { steering_time_constant: 0.2, ..site.vehicle.response };
             for (word, controller) in &CONTROLLERS {
-                let (overshoot, settled) = lateral_step(&site, controller);
+                let (overshoot, settled) = lateral_step(&site, controller, 0.1);
                 assert!(overshoot < 0.1 && settled < 5.0, "{name} {word}: {overshoot} {settled}");
             }
+        }
+    }
+    // A car at 2 m/s, its steering as fast as its servo.
+    for latency in [0.0, 0.05] {
+        let conditions = GroundConditions { latency, start_offset: [0.0, 1.0, 0.0], ..GroundConditions::default() };
+        let site = Site { vehicle: car(), nominal: car(), map: plane(0.0, 0.0), conditions };
+        for (word, controller) in &CONTROLLERS {
+            let (overshoot, settled) = lateral_step(&site, controller, 2.0);
+            println!("car {word} {latency}: {overshoot:.3} {settled:.2}");
+            assert!(overshoot < 0.1 && settled < 6.0, "car {word}: {overshoot} {settled}");
         }
     }
 }
@@ -318,4 +340,136 @@ fn mistakes_are_told_by_field() {
         "start_offset"
     );
     assert_eq!(field(&good, &conditions, &DriveSettings { accept: 0.0, ..settings }), "accept");
+}
+
+/// An answer of the rough solver for the nominal vehicle.
+fn rough_answer(site: &Site, from: &Planar, to: &Planar, gear: Gear) -> Option<SegmentList> {
+    let bounds = Curvatures { most: 1.0, most_rate: 1.0 };
+    let on = campaign::drive::Site { rover: &site.nominal, map: &site.map, speed: 0.1, direction: 0.0 };
+    let choices = Choices { gear, flat: flat::Settings::default(), ..Choices::default() };
+    let mut shape = |query: &Query| {
+        let solution = solve(query, &bounds, &choices, || false);
+        (solution.outcome == Outcome::Solved).then_some(solution.segments)
+    };
+    let answer = on.solve(from, to, &bounds, &rough::Settings::default(), &mut shape);
+    (answer.status == rough::Status::Ok).then_some(answer.segments)
+}
+
+/// Twelve drives over rough ground, by seed, with slip, latency and lag of steering that the plan does not know.
+#[test]
+fn predictive_tracking_stays_closer_than_pure_pursuit_where_the_ground_gives_way() {
+    let recipe = Recipe { size_m: 24.0, relief_m: 0.5, rock_cover: 0.0, seed: 11, ..Recipe::default() };
+    let mut site = Site::new("rocky8", generate(&recipe).expect("a map"));
+    site.conditions.latency = 0.3;
+    site.vehicle.slip = Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 };
+    site.vehicle.response = Response { steering_time_constant: 0.2, ..site.vehicle.response };
+    let mut sums = [[0.0; 2]; 3];
+    for seed in 0..12 {
+        let mut random = stream(seed);
+        let mut draw = |low: f64, high: f64| low + (high - low) * unit(&mut random);
+        let start = Planar { x: draw(9.0, 15.0), y: draw(9.0, 15.0), yaw: draw(-3.0, 3.0), curvature: 0.0 };
+        let mut segments = vec![];
+        let mut bend = 0.0;
+        for _ in 0..4 {
+            let next = draw(-0.6, 0.6);
+            segments.push(Segment::clothoid(1.5, bend, next, Gear::Forward));
+            bend = next;
+        }
+        let mut plan = plan(&[segments], 0.1);
+        plan.legs[0].from = start;
+        let path = planned_track(&site.nominal, &site.map, &plan).expect("a plan on the map");
+        let end = path.position(path.len() - 1);
+        (plan.legs[0].to.x, plan.legs[0].to.y) = (end.x, end.y);
+        let resolve = |from: &Planar, to: &Planar, gear: Gear| rough_answer(&site, from, to, gear);
+        let predictive = ("predictive", GroundController::Predictive(&resolve));
+        let controllers = [&CONTROLLERS[0], &CONTROLLERS[1], &predictive];
+        for (sum, (word, controller)) in sums.iter_mut().zip(controllers) {
+            let (flight, measures) = site.run(&plan, controller, seed);
+            assert_eq!(flight.ended, Ended::Done, "seed {seed} {word}");
+            sum[0] += measures.max_deviation / 12.0;
+            sum[1] += measures.mean_deviation / 12.0;
+        }
+    }
+    for ((word, _), [worst, mean]) in CONTROLLERS.iter().zip(sums) {
+        println!("{word}: mean of the largest deviations {worst:.4} m, of the mean ones {mean:.4} m");
+    }
+    let [pursuit, stanley, predictive] = sums;
+    assert!(predictive[0] < pursuit[0] && predictive[1] < pursuit[1], "{predictive:?} {pursuit:?} {stanley:?}");
+}
+
+/// Cars and differential drives are driven as the vehicles that the generator steers.
+#[test]
+fn cars_and_differential_drives_follow_their_plans() {
+    let drive = toml::from_str::<DifferentialDriveDescription>(&robot_file("differential-drive")).expect("its keys");
+    let drive = drive.build().expect("its numbers").vehicle();
+    use Gear::{Forward, Reverse};
+    let ways = vec![
+        Segment::clothoid(1.5, 0.0, 0.9, Forward),
+        Segment::clothoid(1.5, 0.9, -0.5, Forward),
+        Segment::clothoid(1.0, -0.5, 0.0, Forward),
+        Segment::clothoid(1.0, 0.0, 0.8, Reverse),
+    ];
+    for (vehicle, bound) in [(car(), 0.2), (drive, 0.02)] {
+        let speed = vehicle.default_speed;
+        let site = Site {
+            vehicle: vehicle.clone(),
+            nominal: vehicle,
+            map: plane(0.0, 0.0),
+            conditions: GroundConditions::default(),
+        };
+        let mut segments = ways.clone();
+        if site.nominal.limits.turns_in_place {
+            segments.push(Segment { motion: Motion::Turn { angle_rad: 1.0 }, gear: Forward });
+        }
+        for (word, controller) in &CONTROLLERS {
+            let (flight, measures) = site.run(&plan(&[segments.clone()], speed), controller, 1);
+            println!("{} {word}: {:.4} m", site.nominal.name, measures.max_deviation);
+            assert_eq!(flight.ended, Ended::Done, "{} {word}", site.nominal.name);
+            assert!(measures.max_deviation < bound, "{} {word}: {}", site.nominal.name, measures.max_deviation);
+            assert!(flight.track.channel("tip_over_margin_deg").is_none());
+        }
+    }
+}
+
+#[test]
+fn debug_steady() {
+    for (lat, lag) in [(0.0, 0.0), (0.3, 0.0), (0.3, 0.2)] {
+        let mut site = Site::new("rocky8", plane(0.0, 0.3));
+        site.conditions.latency = lat;
+        site.vehicle.slip = Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 };
+        site.vehicle.response = Response { steering_time_constant: lag, ..site.vehicle.response };
+        for bend in [0.0, 0.3] {
+            let seg = if bend == 0.0 {
+                vec![Segment::straight(10.0, Gear::Forward)]
+            } else {
+                vec![
+                    Segment::clothoid(2.0, 0.0, bend, Gear::Forward),
+                    Segment::clothoid(2.0, bend, -bend, Gear::Forward),
+                    Segment::clothoid(2.0, -bend, bend, Gear::Forward),
+                    Segment::clothoid(2.0, bend, 0.0, Gear::Forward),
+                ]
+            };
+            let mut plan = plan(&[seg], 0.1);
+            let path = planned_track(&site.nominal, &site.map, &plan).expect("a plan on the map");
+            let end = path.position(path.len() - 1);
+            (plan.legs[0].to.x, plan.legs[0].to.y) = (end.x, end.y);
+            let resolve = |from: &Planar, to: &Planar, gear: Gear| rough_answer(&site, from, to, gear);
+            for (word, c) in [
+                ("pp", GroundController::PurePursuit),
+                ("st", GroundController::Stanley),
+                ("pr", GroundController::Predictive(&resolve)),
+            ] {
+                let (flight, m) = site.run(&plan, &c, 1);
+                let n = flight.track.len();
+                let ys: Vec<String> =
+                    (1..=10).map(|i| format!("{:.3}", flight.track.position(n * i / 10 - 1).y)).collect();
+                println!(
+                    "lat {lat} lag {lag} bend {bend} {word} max {:.4} mean {:.4} {:?}",
+                    m.max_deviation,
+                    m.mean_deviation,
+                    if bend == 0.0 { ys } else { vec![] }
+                );
+            }
+        }
+    }
 }

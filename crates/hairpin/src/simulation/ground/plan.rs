@@ -23,6 +23,8 @@ pub(super) struct Station {
     pub(super) at: Planar,
     /// Commanded metres since the section's first station.
     pub(super) s: f64,
+    /// Rise of the body per metre along its way and to the left of it.
+    pub(super) rises: [f64; 2],
     /// The leg it belongs to.
     pub(super) leg: usize,
 }
@@ -131,10 +133,12 @@ impl Plan {
     fn add_way(&mut self, plant: &mut Plant, drive: &Drive, segment: &Segment, leg: usize) -> Result<(), Lost> {
         let (length, gear) = (segment.length_m(), segment.gear.sign());
         let first = segment.curvature_at(0.0);
+        let direction = libm::sincos(drive.direction);
         let goes_on = matches!(self.sections.last(), Some(Section::Way { sign, .. }) if *sign == gear);
         let station = |plant: &Plant, s: f64| Station {
             at: Planar { x: plant.x, y: plant.y, yaw: plant.yaw, curvature: plant.curvature() },
             s,
+            rises: rises([plant.pose.roll, plant.pose.pitch], direction, gear),
             leg,
         };
         if !goes_on {
@@ -206,6 +210,13 @@ impl Section {
             Section::Turn { leg, .. } => *leg,
         }
     }
+}
+
+/// Rise per metre along the way, and to the left of it, of a body that leans by `lean` (φ, θ) and travels along `direction`
+/// (sine and cosine) of itself with `sign`.
+pub(super) fn rises([roll, pitch]: [f64; 2], (sin, cos): (f64, f64), sign: f64) -> [f64; 2] {
+    let (ahead, left) = (-libm::sin(pitch), libm::cos(pitch) * libm::sin(roll));
+    [sign * (cos * ahead + sin * left), sign * (cos * left - sin * ahead)]
 }
 
 /// The place `s` commanded metres along `stations`, between two by linear interpolation, beyond the last straight on; `heading`

@@ -11,7 +11,7 @@ use crate::robot::rover::Rover;
 /// Lookahead at rest, in smallest turning radii: shorter ones ask for circles that the vehicle cannot drive.
 const RADII: f64 = 0.5;
 /// Lookahead per speed, s: room for the delays of steering.
-const TIME: f64 = 1.0;
+const TIME: f64 = 0.3;
 
 /// Numbers of a run.
 #[derive(Debug, Clone)]

@@ -1,28 +1,33 @@
 //! Predictive tracking: the boundary-value problem is solved again and again, from where the vehicle will be when the answer
 //! acts to the planned path ahead.
 //!
-//! The commands under way say where the vehicle will be after the latency. What it drifted lately beyond the planned slip is
-//! expected to go on: the goal handed to the solver lies against the drift, and the vehicle goes crabwise along the path.
-//! Source: predictive trajectory tracking as the rover trajectory generator's papers have it (Howard & Kelly 2007); the drift's
-//! estimate is a first-order filter.
+//! The commands under way say where the vehicle will be after the latency. How much more the ground gives way than was planned is
+//! learnt from the way behind, in proportion to its slopes, by least squares that forget; the slopes ahead are the plan's.
+//! The goal handed to the solver lies against the drift that they will cause, and the vehicle goes crabwise along the path.
+//! Source: predictive trajectory tracking as the rover trajectory generator's papers have it (Howard & Kelly 2007).
 
 use std::collections::VecDeque;
 
 use super::Resolve;
 use crate::robot::rover::{Rover, Settled, rates};
 use crate::simulation::ground::guide::{Along, Measured, wrap};
-use crate::simulation::ground::plan::station_at;
+use crate::simulation::ground::plan::{rises, station_at};
 use crate::simulation::ground::plant::Command;
 use crate::simulation::ground::pursuit::PurePursuit;
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 
 /// How far ahead on the path the goal lies, in smallest turning radii, and per speed, s.
 const RADII: f64 = 1.5;
-const TIME: f64 = 2.0;
+const TIME: f64 = 0.5;
 /// Way from one solution to the next, as a share of that.
 const CYCLE: f64 = 0.1;
-/// Way on which the drift is averaged, as a share of it.
-const MEMORY: f64 = 0.5;
+/// Way after which what was learnt is forgotten, in smallest turning radii.
+const MEMORY: f64 = 5.0;
+/// What is taken for granted before anything is learnt, that nothing more gives way: as firmly as after this way on a slope
+/// of 20°, m.
+const PRIOR: f64 = 0.02;
+/// sin 20°, the slope to which slip is referred.
+const SIN_20: f64 = 0.342_020_143_325_668_7;
 /// Answers longer than the way to the goal by this factor go round in circles.
 const LONGEST: f64 = 1.5;
 
@@ -31,6 +36,27 @@ struct Answer {
     segments: SegmentList,
     /// Metres of it that were commanded.
     driven: f64,
+}
+
+/// A coefficient c in off = −c · rise/sin 20° · way, by least squares.
+#[derive(Debug, Clone, Copy, Default)]
+struct Learnt {
+    information: f64,
+    moment: f64,
+}
+
+impl Learnt {
+    /// Takes note of `off` (m) on a `way` (m) with `rise` per metre; all before counts `kept` as much.
+    fn note(&mut self, off: f64, rise: f64, way: f64, kept: f64) {
+        let x = rise / SIN_20;
+        self.information = kept * self.information + x * x * way;
+        self.moment = kept * self.moment - off * x;
+    }
+
+    /// Expected drift per metre where the body rises by `rise` per metre.
+    fn drift(&self, rise: f64) -> f64 {
+        -self.moment / (self.information + PRIOR) * rise / SIN_20
+    }
 }
 
 /// State of a run.
@@ -47,8 +73,8 @@ pub(in crate::simulation::ground) struct Predictive<'a> {
     section: Option<usize>,
     /// Way until the next solution, m.
     until_next: f64,
-    /// Drift beyond the planned slip per metre of the wheels' way: along the way and to its left.
-    drift: [f64; 2],
+    /// What gives way more than planned, along the way and across it.
+    slip: [Learnt; 2],
     before: Option<Measured>,
 }
 
@@ -64,7 +90,7 @@ impl<'a> Predictive<'a> {
             answer: None,
             section: None,
             until_next: 0.0,
-            drift: [0.0; 2],
+            slip: [Learnt::default(); 2],
             before: None,
         }
     }
@@ -91,10 +117,17 @@ impl<'a> Predictive<'a> {
         let heading = before.at.yaw + if way < 0.0 { std::f64::consts::PI } else { 0.0 };
         let (sin, cos) = libm::sincos(heading + libm::atan2(self.direction.0, self.direction.1));
         let (dx, dy) = (now.at.x - expected.x, now.at.y - expected.y);
-        let share = -libm::expm1(-way.abs() / (MEMORY * self.horizon(now.speed.abs())));
-        for (drift, off) in self.drift.iter_mut().zip([cos * dx + sin * dy, cos * dy - sin * dx]) {
-            *drift += share * (off / way.abs() - *drift);
+        let kept = libm::exp(-way.abs() * self.nominal.limits.curvature / MEMORY);
+        let rises = rises(before.lean, self.direction, way.signum());
+        let offs = [cos * dx + sin * dy, cos * dy - sin * dx];
+        for ((slip, off), rise) in self.slip.iter_mut().zip(offs).zip(rises) {
+            slip.note(off, rise, way.abs(), kept);
         }
+    }
+
+    /// Expected drift per metre beyond what was planned, along the way and to its left.
+    fn drift(&self, rises: [f64; 2]) -> [f64; 2] {
+        [self.slip[0].drift(rises[0]), self.slip[1].drift(rises[1])]
     }
 
     fn horizon(&self, speed: f64) -> f64 {
@@ -140,7 +173,8 @@ impl<'a> Predictive<'a> {
             let after = libm::tan(then) / response.steered_axle;
             let step = command.speed * time;
             let bend = if lag > 0.0 || fastest.is_finite() { 0.5 * (at.curvature + after) } else { after };
-            at = self.rolled(measured, &at, step, bend, &self.drift);
+            let drift = self.drift(rises(measured.lean, self.direction, step.signum()));
+            at = self.rolled(measured, &at, step, bend, &drift);
             at.curvature = after;
             way += step.abs();
         }
@@ -182,13 +216,17 @@ impl<'a> Predictive<'a> {
         }
         let mut goal = station_at(along.stations, goal_at, along.heading);
         // Against the drift that is to be expected on the way there.
-        let middle = station_at(along.stations, 0.5 * (start + goal_at), along.heading);
-        let (sin, cos) = libm::sincos(middle.yaw + along.heading);
-        let off = self.drift.map(|drift| drift * distance);
-        goal.x -= cos * off[0] - sin * off[1];
-        goal.y -= sin * off[0] + cos * off[1];
+        let mut crab = 0.0;
+        for pair in along.stations.windows(2).filter(|pair| pair[1].s > start && pair[0].s < goal_at) {
+            let way = pair[1].s.min(goal_at) - pair[0].s.max(start);
+            let [ahead, left] = self.drift(pair[0].rises);
+            let (sin, cos) = libm::sincos(pair[0].at.yaw + along.heading);
+            goal.x -= way * (cos * ahead - sin * left);
+            goal.y -= way * (sin * ahead + cos * left);
+            crab = libm::atan(left);
+        }
         if goal_at < end {
-            goal.yaw -= libm::atan(self.drift[1]);
+            goal.yaw -= crab;
         }
         goal.yaw = from.yaw + wrap(goal.yaw - from.yaw);
         let gear = if along.sign < 0.0 { Gear::Reverse } else { Gear::Forward };

@@ -13,7 +13,7 @@ use crate::simulation::ground::plan::station_at;
 /// Way of decay at rest, in smallest turning radii: the vehicle must be able to drive the curve that the law asks for.
 const RADII: f64 = 0.6;
 /// Way of decay per speed, s: room for the delays of steering.
-const TIME: f64 = 1.0;
+const TIME: f64 = 0.3;
 
 /// Numbers of a run.
 #[derive(Debug, Clone)]
