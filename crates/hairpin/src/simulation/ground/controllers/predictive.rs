@@ -34,8 +34,8 @@ const LONGEST: f64 = 1.5;
 /// An answer that is being driven.
 struct Answer {
     segments: SegmentList,
-    /// Metres of it that were commanded.
-    driven: f64,
+    /// What the odometer says where it begins, m.
+    from: f64,
 }
 
 /// A coefficient c in off = −c · rise/sin 20° · way, by least squares.
@@ -76,6 +76,8 @@ pub(in crate::simulation::ground) struct Predictive<'a> {
     /// What gives way more than planned, along the way and across it.
     slip: [Learnt; 2],
     before: Option<Measured>,
+    /// Way of the wheels, m.
+    odometer: f64,
 }
 
 impl<'a> Predictive<'a> {
@@ -92,6 +94,7 @@ impl<'a> Predictive<'a> {
             until_next: 0.0,
             slip: [Learnt::default(); 2],
             before: None,
+            odometer: 0.0,
         }
     }
 
@@ -103,6 +106,7 @@ impl<'a> Predictive<'a> {
             self.under_way.pop_front();
         }
         if let Some(before) = self.before.replace(*measured) {
+            self.odometer += 0.5 * (before.speed + measured.speed).abs() * (measured.t - before.t);
             self.learn(&before, measured);
         }
     }
@@ -152,10 +156,10 @@ impl<'a> Predictive<'a> {
         }
     }
 
-    /// Where the vehicle will be when what is commanded now acts.
+    /// Where the vehicle will be when what is commanded now acts, and how many metres it goes until then.
     fn predicted(&self, measured: &Measured) -> (Planar, f64) {
         let response = &self.nominal.response;
-        let (mut at, mut way) = (measured.at, 0.0);
+        let (mut at, mut way, mut speed) = (measured.at, 0.0, measured.speed);
         let acts = |index: usize| self.under_way.get(index).map_or(measured.t, |(given, _)| *given) + self.latency;
         for (index, (_, command)) in self.under_way.iter().enumerate() {
             let (from, to) = (acts(index).max(measured.t), acts(index + 1).min(measured.t + self.latency));
@@ -171,7 +175,11 @@ impl<'a> Predictive<'a> {
             let now = steering(at.curvature);
             let then = now + (share * (steering(command.curvature.clamp(-most, most)) - now)).clamp(-fastest, fastest);
             let after = libm::tan(then) / response.steered_axle;
-            let step = command.speed * time;
+            let most = self.nominal.limits.acceleration * time;
+            let after_speed = speed + (command.speed - speed).clamp(-most, most);
+            let mean = if most.is_finite() { 0.5 * (speed + after_speed) } else { after_speed };
+            let step = mean * time;
+            speed = after_speed;
             let bend = if lag > 0.0 || fastest.is_finite() { 0.5 * (at.curvature + after) } else { after };
             let drift = self.drift(rises(measured.lean, self.direction, step.signum()));
             at = self.rolled(measured, &at, step, bend, &drift);
@@ -186,16 +194,16 @@ impl<'a> Predictive<'a> {
         if self.section.replace(along.section) != Some(along.section) {
             (self.answer, self.until_next) = (None, 0.0);
         }
+        let (from, way) = self.predicted(measured);
         if self.until_next <= 0.0 {
             self.until_next = CYCLE * self.horizon(along.speed);
-            self.resolve(measured, along);
+            self.resolve(&from, way, along);
         }
         let step = along.speed * dt;
         self.until_next -= step;
         let most = self.nominal.limits.curvature;
-        if let Some(answer) = &mut self.answer {
-            let s = answer.driven + 0.5 * step;
-            answer.driven += step;
+        if let Some(answer) = &self.answer {
+            let s = self.odometer + way - answer.from + 0.5 * step;
             if let Some(curvature) = curvature_at(&answer.segments, s) {
                 return curvature.clamp(-most, most);
             }
@@ -204,9 +212,8 @@ impl<'a> Predictive<'a> {
         self.pursuit.steer(measured, along)
     }
 
-    /// Looks for a new answer; without one the last stays.
-    fn resolve(&mut self, measured: &Measured, along: &Along) {
-        let (from, way) = self.predicted(measured);
+    /// Looks for a new answer from `from`, `way` m ahead; without one the last stays.
+    fn resolve(&mut self, from: &Planar, way: f64, along: &Along) {
         let end = along.stations[along.stations.len() - 1].s;
         let (start, horizon) = (along.s + way, self.horizon(along.speed));
         let goal_at = (start + horizon).min(end);
@@ -218,11 +225,11 @@ impl<'a> Predictive<'a> {
         // Against the drift that is to be expected on the way there.
         let mut crab = 0.0;
         for pair in along.stations.windows(2).filter(|pair| pair[1].s > start && pair[0].s < goal_at) {
-            let way = pair[1].s.min(goal_at) - pair[0].s.max(start);
+            let part = pair[1].s.min(goal_at) - pair[0].s.max(start);
             let [ahead, left] = self.drift(pair[0].rises);
             let (sin, cos) = libm::sincos(pair[0].at.yaw + along.heading);
-            goal.x -= way * (cos * ahead - sin * left);
-            goal.y -= way * (sin * ahead + cos * left);
+            goal.x -= part * (cos * ahead - sin * left);
+            goal.y -= part * (sin * ahead + cos * left);
             crab = libm::atan(left);
         }
         if goal_at < end {
@@ -230,11 +237,11 @@ impl<'a> Predictive<'a> {
         }
         goal.yaw = from.yaw + wrap(goal.yaw - from.yaw);
         let gear = if along.sign < 0.0 { Gear::Reverse } else { Gear::Forward };
-        let Some(segments) = (self.solve)(&from, &goal, gear) else { return };
-        let way = |s: &Segment| matches!(s.motion, Motion::Arc { .. }) && s.gear == gear;
+        let Some(segments) = (self.solve)(from, &goal, gear) else { return };
+        let drives = |s: &Segment| matches!(s.motion, Motion::Arc { .. }) && s.gear == gear;
         let length: f64 = segments.iter().map(|segment| segment.length_m()).sum();
-        if segments.iter().all(way) && length <= LONGEST * distance {
-            self.answer = Some(Answer { segments, driven: 0.0 });
+        if segments.iter().all(drives) && length <= LONGEST * distance {
+            self.answer = Some(Answer { segments, from: self.odometer + way });
         }
     }
 }
