@@ -1,6 +1,7 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
 mod numbers;
+mod requirements;
 mod steer;
 mod terrain;
 
@@ -8,6 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+pub(crate) use requirements::Requirements;
 pub(crate) use steer::{Steer, SteerFrame};
 pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
 
@@ -56,6 +58,8 @@ pub(crate) enum Command {
     Steer(Steer),
     /// Measure what hairpin promises of its speed, on one core
     Bench(Bench),
+    /// Check the requirements of a generator one by one: requirements rover
+    Requirements(Requirements),
     /// Tell what a file holds: show terrain FILE
     Show(Show),
     /// Print the JSON Schema of scenario or robot files, for editors
@@ -77,6 +81,7 @@ impl Command {
             Self::Replay(a) => a.json,
             Self::Bench(a) => a.json,
             Self::Steer(a) => a.json,
+            Self::Requirements(a) => a.json,
             Self::Show(Show { what: Shown::Terrain(a) }) => a.json,
             Self::New(a) => a.json,
             Self::Export(a) => a.json,

@@ -29,7 +29,7 @@ fn rocky8() -> Rover {
 
 /// Solves `count` goals that were driven before and checks every answer by the replay: asked, solved.
 fn tally(rover: &Rover, yard: &ElevationMap, count: usize) -> (usize, usize) {
-    let site = Site { rover, map: yard, speed: rover.default_speed.into(), direction: 0.0.into() };
+    let site = Site::straight(rover, yard);
     let (mut solved, mut times) = (0, Vec::new());
     let goals = ground_goals(&site, count, &mut stream(50));
     for (index, (start, goal)) in goals.iter().enumerate() {

@@ -77,7 +77,7 @@ fn solving_on_the_ground_allocates_nothing() {
     let map = generate(&recipe).expect("a map");
     for slip_and_lag in [false, true] {
         let rover = rocky8(slip_and_lag);
-        let site = Site { rover: &rover, map: &map, speed: rover.default_speed.into(), direction: 0.0.into() };
+        let site = Site::straight(&rover, &map);
         let goals = ground_goals(&site, 60, &mut stream(22));
         let (mut solved, mut refined) = (0, 0);
         let heap = measure(|| {

@@ -11,6 +11,7 @@ pub(crate) mod new;
 mod parts;
 pub(crate) mod replay;
 pub(crate) mod report;
+pub(crate) mod requirements;
 pub(crate) mod schema;
 pub(crate) mod show;
 pub(crate) mod simulate;

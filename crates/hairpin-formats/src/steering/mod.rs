@@ -4,8 +4,10 @@ mod answer;
 mod plot;
 mod query;
 mod states;
+mod stored;
 
 pub use answer::{Answer, Drive, Errors, Piece, Status, table};
 pub use plot::{Stretch, svg};
 pub use query::{Asked, BrokenFile, Frame, Queries, Row, Wrong, parse, read};
 pub use states::{path_table, wheel_table};
+pub use stored::{Implausible, Stored, parse_stored, stored_text};

@@ -113,6 +113,7 @@ pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(
     let bounds = site.bounds();
     let (low, high) = site.map.extent();
     let inside = |i: usize| low[i] + MARGIN..high[i] - MARGIN;
+    let wait_m = site.rover.response.latency * site.speed;
     let mut goals = Vec::with_capacity(count);
     if (0..2).any(|i| inside(i).is_empty()) {
         return goals;
@@ -124,7 +125,11 @@ pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(
         let arc = smooth_arc(random, &bounds, &GROUND_LENGTHS, 4);
         let [x, y] = [0, 1].map(|i| between(random, &inside(i)));
         let start = Planar { x, y, yaw: between(random, &(-PI..PI)), curvature: arc.curvature_at(0.0) };
-        let Ok(driven) = site.predict(&start, &[arc], FINE) else { continue };
+        // Commands act late: until then the vehicle goes on as it was.
+        let wait = Segment::clothoid(wait_m, start.curvature, start.curvature, Gear::Forward);
+        let driven =
+            if wait_m > 0.0 { site.predict(&start, &[wait, arc], FINE) } else { site.predict(&start, &[arc], FINE) };
+        let Ok(driven) = driven else { continue };
         if driven.tilt.0 <= STEEP && inside(0).contains(&driven.end.x) && inside(1).contains(&driven.end.y) {
             goals.push((start, driven.end));
         }
@@ -135,8 +140,8 @@ pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::ground::replay_flat;
     use crate::math::random::stream;
-    use crate::verification::{DriveClaim, replay_drive};
 
     #[test]
     fn flat_goals_are_where_their_arcs_end() {
@@ -145,15 +150,7 @@ mod tests {
         for _ in 0..200 {
             let arc = smooth_arc(&mut random, &bounds, &(2.0..24.0), 6);
             let query = end_of(&arc);
-            let Goal { x, y, yaw, curvature } = query.goal;
-            let claim = DriveClaim {
-                start_curvature: query.start_curvature,
-                crab: 0.0,
-                crab_rate: 0.0,
-                end: [x, y, yaw],
-                end_curvature: curvature,
-            };
-            let replay = replay_drive(&[crate::campaign::drive::drive_piece(&arc)], &claim);
+            let replay = replay_flat(&query, 0.0, &[arc]);
             assert!(replay.error.iter().all(|error| error.abs() < 1e-8), "{arc:?} {replay:?}");
             assert!(replay.error_curvature == 0.0 && replay.start_error_curvature == 0.0);
             assert!(replay.max_curvature <= bounds.most && replay.max_curvature_rate <= bounds.most_rate, "{replay:?}");

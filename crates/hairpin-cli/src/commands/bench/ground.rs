@@ -62,7 +62,7 @@ impl Yard {
     }
 
     fn site(&self) -> Site<'_> {
-        Site { rover: &self.rover, map: &self.map, speed: self.rover.default_speed.into(), direction: 0.0.into() }
+        Site::straight(&self.rover, &self.map)
     }
 
     pub(super) fn solve(&self, (start, goal): &(Planar, Planar)) -> Answer {

@@ -5,19 +5,19 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use hairpin::campaign::goals::{anywhere, flat_goal};
+use hairpin::campaign::ground::replay_flat;
 use hairpin::feasibility::steering::shooting::cc::{self, Gears};
 use hairpin::feasibility::steering::shooting::flat;
-use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
-use hairpin::feasibility::steering::shooting::solve::{Choices, Solution, solve};
+use hairpin::feasibility::steering::shooting::query::{Curvatures, Query};
+use hairpin::feasibility::steering::shooting::solve::{Choices, solve};
 use hairpin::math::random::{Stream, stream, unit};
 use hairpin::trajectory::drive::Segment;
-use hairpin::verification::{DriveClaim, DriveReplay, replay_drive};
+use hairpin::verification::DriveReplay;
 use rayon::prelude::*;
 
 use super::clock::median_time;
 use super::{Row, Target};
 use crate::args::Bench;
-use crate::commands::steer::pieces;
 use crate::problem::Problem;
 
 const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
@@ -90,19 +90,6 @@ fn microseconds(queries: &[Query], reversals: bool) -> f64 {
     all / queries.len() as f64 * 1e6
 }
 
-/// The replay of a drive that was asked for `query` with the body at `direction` to the way.
-fn replay(query: &Query, direction: f64, solution: &Solution) -> DriveReplay {
-    let Goal { x, y, yaw, curvature } = query.goal;
-    let claim = DriveClaim {
-        start_curvature: query.start_curvature,
-        crab: direction,
-        crab_rate: 0.0,
-        end: [x, y, yaw],
-        end_curvature: curvature,
-    };
-    replay_drive(&pieces(solution), &claim)
-}
-
 /// Whether a replay ends within 1 cm, 0.01 rad and 0.01 1/m and keeps both bounds.
 fn good(found: &DriveReplay) -> bool {
     let [x, y, yaw] = found.error;
@@ -115,7 +102,8 @@ fn good(found: &DriveReplay) -> bool {
 
 /// Share (%) whose replay is good.
 fn success(queries: &[Query], reversals: bool) -> f64 {
-    let met = |query: &&Query| good(&replay(query, 0.0, &solve(query, &BOUNDS, &choices(reversals), || false)));
+    let met =
+        |query: &&Query| good(&replay_flat(query, 0.0, &solve(query, &BOUNDS, &choices(reversals), || false).segments));
     queries.iter().filter(met).count() as f64 / queries.len() as f64 * 100.0
 }
 
@@ -126,8 +114,9 @@ fn turned((query, direction): &(Query, f64)) -> Query {
 
 fn crab_success() -> f64 {
     let crabs = crabs();
-    let met =
-        |case: &&(Query, f64)| good(&replay(&case.0, case.1, &solve(&turned(case), &BOUNDS, &choices(true), || false)));
+    let met = |case: &&(Query, f64)| {
+        good(&replay_flat(&case.0, case.1, &solve(&turned(case), &BOUNDS, &choices(true), || false).segments))
+    };
     crabs.iter().filter(met).count() as f64 / crabs.len() as f64 * 100.0
 }
 

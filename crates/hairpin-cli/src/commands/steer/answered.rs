@@ -15,13 +15,13 @@ use hairpin_formats::steering::{Asked, Status};
 use super::pace::direction;
 
 /// An answer before it is put into a file or into words.
-pub(super) struct Answered {
-    pub(super) status: Status,
+pub(in crate::commands) struct Answered {
+    pub(in crate::commands) status: Status,
     /// Without one where the question has no answer.
-    pub(super) drive: Option<(Solution, DriveReplay)>,
-    pub(super) solving: Duration,
+    pub(in crate::commands) drive: Option<(Solution, DriveReplay)>,
+    pub(in crate::commands) solving: Duration,
     /// What stands in the way; its excess in its unit.
-    pub(super) limit: Option<(&'static str, Option<f64>)>,
+    pub(in crate::commands) limit: Option<(&'static str, Option<f64>)>,
     /// The bounds that were in force.
     pub(super) bounds: Curvatures,
     /// Curvatures that would be feasible, where those asked for are not.
@@ -62,7 +62,7 @@ pub(super) fn named(limit: Limit) -> &'static str {
 }
 
 /// A drive as plain numbers.
-pub(in crate::commands) fn pieces(solution: &Solution) -> Vec<DrivePiece> {
+pub(super) fn pieces(solution: &Solution) -> Vec<DrivePiece> {
     solution.segments.iter().map(drive_piece).collect()
 }
 

@@ -12,8 +12,7 @@ mod vehicle;
 use crate::args::Steer;
 use crate::folder;
 use crate::problem::Problem;
-pub(super) use answered::pieces;
-use vehicle::Vehicle;
+pub(super) use vehicle::Vehicle;
 
 /// Runs the command: 0 when everything was answered; one question alone is 3 when it is infeasible, 5 when it is open.
 pub(crate) fn run(steer: &Steer) -> Result<u8, Problem> {

@@ -21,7 +21,7 @@ use crate::args::Steer;
 use crate::problem::Problem;
 
 /// What every question of a run has in common.
-pub(super) struct Vehicle {
+pub(in crate::commands) struct Vehicle {
     pub(super) rover: Rover,
     /// What it drives on; the plane without one.
     map: Option<ElevationMap>,
@@ -48,8 +48,13 @@ impl Vehicle {
         Ok(Self { rover, map, choices, pace: Pace::new(steer), time_limit })
     }
 
+    /// `rover` on `map`, forward arcs, with `time_limit` for each question: what requirements are checked with.
+    pub(in crate::commands) fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
+        Self { rover, map, choices: Choices::default(), time_limit }
+    }
+
     /// Answers a question: solved under the clock, then replayed without it.
-    pub(super) fn answer(&self, asked: &Asked) -> Answered {
+    pub(in crate::commands) fn answer(&self, asked: &Asked) -> Answered {
         let limits = &self.rover.limits;
         let most = asked.max_curvature.map_or(limits.curvature, |most| most.min(limits.curvature));
         let bounds = Curvatures { most, most_rate: limits.curvature_rate };

@@ -5,7 +5,10 @@ use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat}
 use crate::robot::rover::{Rover, Suspension};
 use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
-use crate::verification::{DrivePiece, GroundClaim, GroundReplay, GroundVehicle, Stand, Stopped, replay_ground};
+use crate::verification::{
+    DriveClaim, DrivePiece, DriveReplay, GroundClaim, GroundReplay, GroundVehicle, Stand, Stopped, replay_drive,
+    replay_ground,
+};
 use crate::world::terrain::ElevationMap;
 
 /// A rover on a map, and how it travels.
@@ -23,6 +26,13 @@ pub struct Site<'a> {
 
 /// The flat answers that a search on the ground is made of are exact to this, m, rad, 1/m.
 const FLAT: f64 = 1e-5;
+
+impl<'a> Site<'a> {
+    /// `rover` on `map`, straight ahead at its default speed.
+    pub fn straight(rover: &'a Rover, map: &'a ElevationMap) -> Self {
+        Self { rover, map, speed: rover.default_speed.into(), direction: 0.0.into() }
+    }
+}
 
 impl Site<'_> {
     /// The curvatures that the vehicle keeps.
@@ -133,6 +143,24 @@ pub(super) fn ground_vehicle(rover: &Rover) -> GroundVehicle {
         steering_rate_rad_s: rover.response.steering_rate,
         steered_axle_m: rover.response.steered_axle,
     }
+}
+
+/// What a drive for a flat `query` is held to, of a vehicle that travels at `direction` to its body.
+pub fn flat_claim(query: &Query, direction: f64) -> DriveClaim {
+    let goal = &query.goal;
+    DriveClaim {
+        start_curvature: query.start_curvature,
+        crab: direction,
+        crab_rate: 0.0,
+        end: [goal.x, goal.y, goal.yaw],
+        end_curvature: goal.curvature,
+    }
+}
+
+/// `segments` as they would be written, replayed against a flat `query` of a vehicle that travels at `direction` to its body.
+pub fn replay_flat(query: &Query, direction: f64, segments: &[Segment]) -> DriveReplay {
+    let pieces: Vec<DrivePiece> = segments.iter().map(drive_piece).collect();
+    replay_drive(&pieces, &flat_claim(query, direction))
 }
 
 /// `segment` as it is written.

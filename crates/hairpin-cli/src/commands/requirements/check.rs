@@ -1,0 +1,42 @@
+//! What was measured, and what it is held to.
+
+/// A measured value in words, its bound, and whether it keeps it.
+#[derive(Debug, Clone)]
+pub(super) struct Check {
+    pub(super) measured: String,
+    pub(super) bound: String,
+    pub(super) passed: bool,
+}
+
+/// A test of the results document.
+#[derive(Debug, Clone)]
+pub(super) struct Test {
+    pub(super) id: &'static str,
+    /// The requirement that it covers.
+    pub(super) requirement: &'static str,
+    pub(super) what: String,
+    pub(super) check: Check,
+}
+
+impl Check {
+    pub(super) fn new(measured: String, bound: impl Into<String>, passed: bool) -> Self {
+        Self { measured, bound: bound.into(), passed }
+    }
+
+    /// What the tests named `ids` found together.
+    pub(super) fn of(ids: &[&str], tests: &[Test]) -> Self {
+        let found: Vec<&Check> =
+            ids.iter().filter_map(|id| tests.iter().find(|test| test.id == *id)).map(|test| &test.check).collect();
+        let joined = |text: fn(&Check) -> &str| found.iter().map(|check| text(check)).collect::<Vec<_>>().join("; ");
+        Self {
+            measured: joined(|check| &check.measured),
+            bound: joined(|check| &check.bound),
+            passed: found.len() == ids.len() && found.iter().all(|check| check.passed),
+        }
+    }
+}
+
+/// Share in per cent.
+pub(super) fn percent(part: usize, of: usize) -> f64 {
+    100.0 * part as f64 / of.max(1) as f64
+}

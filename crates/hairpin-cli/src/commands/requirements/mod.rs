@@ -1,0 +1,147 @@
+//! `hairpin requirements rover`: the source's test plan, run here and now, as its two tables: requirements and tests.
+
+mod anytime;
+mod check;
+mod dynamics;
+mod example;
+mod footprint;
+mod interfaces;
+mod regression;
+mod reliability;
+mod store;
+mod subject;
+mod suspension;
+
+use serde_json::{Value, json};
+
+use self::check::{Check, Test};
+use self::subject::Subject;
+use crate::args::Requirements;
+use crate::commands::bench::memory::resident;
+use crate::console;
+use crate::problem::Problem;
+
+/// A requirement in own words, with the tests that cover it.
+type Requirement = (&'static str, &'static str, &'static [&'static str]);
+
+const REQUIREMENTS: [Requirement; 17] = [
+    ("R-1", "controls and a path of states from boundary states, vehicle and controls", &["R1", "R4"]),
+    ("R-2", "an anytime mode", &["R14"]),
+    ("R-3", "converges from anywhere on flat ground where a drive is feasible", &["R2"]),
+    ("R-4", "within 1 % (0.01 m, rad, 1/m) on rough ground, 99 % of the time", &["R5"]),
+    ("R-5", "100 ms in the mean there", &["R6"]),
+    ("R-6", "10 MB of memory at most", &["R7"]),
+    ("R-7", "starts within 1 s", &["R8"]),
+    ("R-8", "takes boundary states and controls, gives controls and path", &["R3"]),
+    ("R-9", "takes any vehicle model", &["R9", "R13"]),
+    ("R-10", "takes any parameterisation of the controls", &["R12"]),
+    ("R-11", "the vehicle stands on an elevation map", &["R10"]),
+    ("R-12", "predicts from states, and meets what the vehicle's dynamics make of its commands", &["R11"]),
+    ("R-13", "implausible states are detected", &["R16"]),
+    ("R-14", "implausible controls are detected", &["R17"]),
+    ("R-15", "implausible vehicles are detected", &["R18"]),
+    ("R-16", "non-convergence and divergence are detected", &["R19"]),
+    ("R-17", "running over the time limit is detected", &["R15"]),
+];
+
+/// Runs the command: 0 when every requirement is met, 1 when one is not.
+pub(crate) fn run(asked: &Requirements) -> Result<u8, Problem> {
+    // Before anything else, so that the process holds nothing yet.
+    let before = resident("RssAnon:");
+    if let Some(folder) = &asked.write_regression {
+        return store::write(&Subject::new(asked)?, folder);
+    }
+    let (subject, footprint) = footprint::measured(asked, before)?;
+    let mut tests = Vec::from(regression::flat(&subject)?);
+    tests.extend(regression::rough(&subject)?);
+    tests.extend(footprint);
+    tests.push(interfaces::loads(&subject));
+    tests.push(suspension::stands(&subject)?);
+    tests.push(dynamics::compensated(&subject)?);
+    tests.push(interfaces::switches_controls());
+    tests.push(interfaces::switches_vehicles(&subject)?);
+    tests.extend(anytime::within(&subject));
+    tests.push(reliability::states(&subject)?);
+    tests.push(reliability::controls());
+    tests.push(reliability::vehicles());
+    tests.push(reliability::convergence(&subject));
+    let requirements: Vec<(Requirement, Check)> =
+        REQUIREMENTS.iter().map(|requirement| (*requirement, Check::of(requirement.2, &tests))).collect();
+    let example = example::Example::new()?;
+    let met = requirements.iter().all(|(_, check)| check.passed)
+        && tests.iter().all(|test| test.check.passed)
+        && example.solved();
+    let code = u8::from(!met);
+    if asked.json {
+        console::say(&object(&subject, &requirements, &tests, &example, code).to_string());
+    } else {
+        in_words(&subject, &requirements, &tests, &example);
+    }
+    Ok(code)
+}
+
+fn word(passed: bool) -> String {
+    if passed { "PASS".into() } else { "FAIL".into() }
+}
+
+fn in_words(subject: &Subject, requirements: &[(Requirement, Check)], tests: &[Test], example: &example::Example) {
+    subject.notes().iter().for_each(|note| console::say(note));
+    console::say("\nRequirements");
+    for ((id, text, _), check) in requirements {
+        console::say(&format!(
+            "{} {id:5} {text}\n           {}; must be {}",
+            word(check.passed),
+            check.measured,
+            check.bound
+        ));
+    }
+    console::say("\nTests of the results document");
+    for Test { id, requirement, what, check } in tests {
+        console::say(&format!(
+            "{} {id:4} ({requirement}) {what}\n           {}; must be {}",
+            word(check.passed),
+            check.measured,
+            check.bound
+        ));
+    }
+    console::say("\nThe source's example program");
+    example.lines().iter().for_each(|line| console::say(line));
+    let failed = tests.iter().filter(|test| !test.check.passed).count();
+    let met = requirements.iter().filter(|(_, check)| check.passed).count();
+    console::say(&format!(
+        "\n{met} of {} requirements met, {} of {} tests passed",
+        requirements.len(),
+        tests.len() - failed,
+        tests.len()
+    ));
+}
+
+fn object(
+    subject: &Subject,
+    requirements: &[(Requirement, Check)],
+    tests: &[Test],
+    example: &example::Example,
+    code: u8,
+) -> Value {
+    let judged = |check: &Check| json!({ "measured": check.measured, "bound": check.bound, "passed": check.passed });
+    let mut rows = Vec::new();
+    for ((id, text, covered), check) in requirements {
+        let mut row = judged(check);
+        (row["id"], row["requirement"], row["tests"]) = ((*id).into(), (*text).into(), (*covered).into());
+        rows.push(row);
+    }
+    let mut results = Vec::new();
+    for test in tests {
+        let mut row = judged(&test.check);
+        (row["id"], row["requirement"], row["what"]) =
+            (test.id.into(), test.requirement.into(), test.what.clone().into());
+        results.push(row);
+    }
+    json!({
+        "subject": subject.notes(),
+        "requirements": rows,
+        "tests": results,
+        "example": example.object(),
+        "exit_code": code,
+    })
+}

@@ -1,0 +1,144 @@
+//! What is examined: vehicles, the ground, and the problems they are asked.
+
+use std::f64::consts::PI;
+
+use hairpin::campaign::goals::{anywhere, flat_goal, ground_goals};
+use hairpin::campaign::ground::Site;
+use hairpin::feasibility::steering::shooting::{Curvatures, Query};
+use hairpin::math::random::stream;
+use hairpin::robot::rover::{Response, Rover, Slip};
+use hairpin::trajectory::drive::Planar;
+use hairpin::world::terrain::generate::{Recipe, generate};
+use hairpin::world::terrain::{ElevationMap, Grid, HoleRule};
+use hairpin_formats::scenario::rover_for;
+use hairpin_formats::steering::{Asked, Frame};
+
+use crate::args::Requirements;
+use crate::commands::terrain;
+use crate::problem::Problem;
+
+/// The embedded ground.
+pub(super) const CRATERS: Recipe = Recipe {
+    size_m: 30.0,
+    cell_m: 0.1,
+    relief_m: 1.0,
+    hurst: 0.7,
+    least_crater_m: 2.0,
+    crater_area_m2: 40.0,
+    rock_cover: 0.0,
+    seed: 7,
+};
+
+/// Vehicles, ground, and how many queries.
+pub(super) struct Subject {
+    /// Unity response, a point in the plane.
+    pub(super) generic: Rover,
+    /// Six wheels on a rocker-bogie, as it is shipped.
+    pub(super) rocky8: Rover,
+    /// The same with delay, lag and slip.
+    pub(super) late: Rover,
+    pub(super) ground: ElevationMap,
+    ground_name: String,
+    pub(super) queries: usize,
+}
+
+impl Subject {
+    pub(super) fn new(asked: &Requirements) -> Result<Self, Problem> {
+        let rocky8 = rover_for("rocky8")?;
+        let (ground, ground_name) = match &asked.terrain {
+            Some(path) => (terrain::read(path, &asked.map, HoleRule::KeepOut)?, path.display().to_string()),
+            None => {
+                let name = format!("the generator's craters, seed {}, {} m", CRATERS.seed, CRATERS.size_m);
+                (generate(&CRATERS).map_err(Problem::input)?, name)
+            }
+        };
+        let late = late(&rocky8);
+        Ok(Self { generic: rover_for("generic")?, rocky8, late, ground, ground_name, queries: asked.queries as usize })
+    }
+
+    /// What the numbers are of.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let late = &self.late;
+        vec![
+            format!(
+                "flat ground: {}, |κ| ≤ 1 1/m, |κ'| ≤ 1 1/m²; rough ground: {}",
+                self.generic.name, self.ground_name
+            ),
+            format!("{}: {}", self.rocky8.name, self.rocky8.caveat),
+            format!(
+                "with dynamics: latency {} s, steering lag {} s, at most {:.0}°/s, slip {:.0} % and drift {:.0} % at 20°",
+                late.response.latency,
+                late.response.steering_time_constant,
+                late.response.steering_rate.to_degrees(),
+                100.0 * late.slip.at_20_deg,
+                100.0 * late.slip.side_at_20_deg
+            ),
+        ]
+    }
+
+    pub(super) fn bounds(&self) -> Curvatures {
+        bounds(&self.generic)
+    }
+
+    /// `count` goals of `rover` on the rough ground that were driven to before.
+    pub(super) fn goals(&self, rover: &Rover, count: usize, seed: u64) -> Result<Vec<(Planar, Planar)>, Problem> {
+        let goals = ground_goals(&Site::straight(rover, &self.ground), count, &mut stream(seed));
+        if goals.len() < count {
+            return Err(Problem::input(format!(
+                "{}: it has room for {} of {count} drives of 1 to 6 m under 30° of tilt",
+                self.ground_name,
+                goals.len()
+            )));
+        }
+        Ok(goals)
+    }
+}
+
+pub(super) fn bounds(rover: &Rover) -> Curvatures {
+    Curvatures { most: rover.limits.curvature, most_rate: rover.limits.curvature_rate }
+}
+
+/// `rover` with commands that act late and ground that gives way.
+pub(super) fn late(rover: &Rover) -> Rover {
+    let response = Response { latency: 0.2, steering_time_constant: 0.2, steering_rate: PI / 6.0, ..rover.response };
+    Rover { response, slip: Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 }, ..rover.clone() }
+}
+
+/// Level ground of 100 m around the origin.
+pub(super) fn level() -> Result<ElevationMap, Problem> {
+    let grid = Grid { columns: 11, rows: 11, first_center: [-50.0, -50.0], cell: [10.0, 10.0] };
+    ElevationMap::new(grid, &[0.0; 121], HoleRule::Error).map_err(Problem::input)
+}
+
+/// `count` flat queries with whether the gear may change: two of three are ends of smooth curves, the rest lie anywhere.
+pub(super) fn flat_queries(bounds: &Curvatures, count: usize, seed: u64) -> Vec<(Query, bool)> {
+    let mut random = stream(seed);
+    let mut query = |i: usize| match i % 3 {
+        2 => (anywhere(&mut random, bounds, 0.0), true),
+        _ => (flat_goal(&mut random, bounds), false),
+    };
+    (0..count).map(&mut query).collect()
+}
+
+/// Distance, and heading with one metre a radian: what is missing to a goal.
+pub(super) fn missing(from: &Planar, to: &Planar) -> f64 {
+    libm::hypot(to.x - from.x, to.y - from.y) + libm::remainder(to.yaw - from.yaw, 2.0 * PI).abs()
+}
+
+/// The question as files have it: the goal as it is seen from the start.
+pub(super) fn asked(start: &Planar, goal: &Planar) -> Asked {
+    let (sin, cos) = libm::sincos(start.yaw);
+    let (dx, dy) = (goal.x - start.x, goal.y - start.y);
+    Asked {
+        start: Some([start.x, start.y, start.yaw]),
+        goal: [cos * dx + sin * dy, cos * dy - sin * dx, goal.yaw - start.yaw],
+        k0: start.curvature,
+        kf: goal.curvature,
+        v0: None,
+        vf: None,
+        direction: 0.0,
+        frame: Frame::Enu,
+        max_curvature: None,
+        tolerance_m: None,
+    }
+}
