@@ -21,7 +21,7 @@ pub(crate) struct Requirements {
     #[command(flatten)]
     pub(crate) map: MapFlags,
     /// Queries of each large family
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u32).range(20..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(20..=1_000_000))]
     pub(crate) queries: u32,
     /// Solve the problems of the regression store again, write their drives into DIR, and end
     #[arg(long, value_name = "DIR", conflicts_with = "terrain")]

@@ -2,17 +2,18 @@
 
 use hairpin::campaign::ground::Site;
 use hairpin::feasibility::steering::shooting::flat::{self, Control, Limit, Status as Flat};
-use hairpin::feasibility::steering::shooting::rough::{Blocked, Cause, Settings, Status};
+use hairpin::feasibility::steering::shooting::rough::{self, Settings};
 use hairpin::feasibility::steering::shooting::{Curvatures, Goal, Query};
 use hairpin::robot::rover::{FourWheel, RoverDescription, Suspension, Unsettled};
 use hairpin::trajectory::drive::Planar;
 use hairpin::world::terrain::Flat as Level;
 use hairpin_formats::library;
-use hairpin_formats::steering::{Piece, Stored, parse, parse_stored, stored_text};
+use hairpin_formats::steering::{Piece, Status, Stored, parse, parse_stored, stored_text};
 use nalgebra::Vector3;
 
 use super::check::{Check, Test};
-use super::subject::Subject;
+use super::subject::{Subject, asked};
+use crate::commands::steer::Vehicle;
 use crate::problem::Problem;
 
 const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
@@ -77,18 +78,21 @@ pub(super) fn states(subject: &Subject) -> Result<Test, Problem> {
         }
     }
     // On the ground: states beside the map, and none at all.
-    let site = Site::straight(&subject.rocky8, &subject.ground);
+    let vehicle = Vehicle::on(subject.rocky8.clone(), Some(subject.ground.clone()), None);
     let (low, high) = subject.ground.extent();
     let inside = Planar { x: 0.5 * (low[0] + high[0]), y: 0.5 * (low[1] + high[1]), ..Planar::default() };
-    for (case, start) in [
-        ("start beside the map", Planar { x: high[0] + 10.0, ..inside }),
-        ("start at NaN", Planar { y: f64::NAN, ..inside }),
-        ("start with no heading", Planar { yaw: f64::NAN, ..inside }),
+    let goal = Planar { x: inside.x + 3.0, ..inside };
+    let nowhere = Planar { x: f64::NAN, ..inside };
+    for (case, start, goal, field) in [
+        ("a start beside the map", Planar { x: high[0] + 10.0, ..inside }, goal, "map_edge"),
+        ("a goal beside the map", inside, Planar { x: high[0] + 10.0, ..goal }, "map_edge"),
+        ("a start at NaN", nowhere, goal, "x"),
+        ("a start with no heading", Planar { yaw: f64::NAN, ..inside }, goal, "x"),
+        ("a goal at NaN", inside, nowhere, "x"),
     ] {
-        let goal = Planar { x: inside.x + 3.0, ..inside };
-        let answer = site.drive(&start, &goal, &Settings::default());
-        let blocked = matches!(answer.status, Status::Blocked(_)).then_some("ground");
-        refusals.take(case.into(), "ground", blocked);
+        let answered = vehicle.answer(&asked(&start, &goal));
+        let refused = matches!(answered.status, Status::Invalid | Status::Infeasible);
+        refusals.take(case.into(), field, answered.limit.filter(|_| refused).map(|(limit, _)| limit));
     }
     Ok(refusals.test(
         "R16",
@@ -198,28 +202,26 @@ pub(super) fn vehicles() -> Test {
 pub(super) fn convergence(subject: &Subject) -> Test {
     let mut refusals = Refusals::default();
     let hard = Query { start_curvature: 0.0, goal: Goal { x: 0.5, y: 2.0, yaw: 2.5, curvature: 0.0 } };
-    for iterations in [0, 1] {
-        let settings = flat::Settings { iterations, starts: 1, control: Control::Cubic, ..flat::Settings::default() };
-        let status = flat::forward(&hard, &BOUNDS, &settings).status;
-        let said = matches!(status, Flat::NotConverged { residual } if residual > 0.0).then_some("residual");
-        refusals.take(format!("{iterations} iterations"), "residual", said);
-    }
+    let none = flat::Settings { iterations: 0, starts: 1, ..flat::Settings::default() };
+    let status = flat::forward(&hard, &BOUNDS, &none).status;
+    let said = matches!(status, Flat::NotConverged { residual } if residual > 0.0).then_some("residual");
+    refusals.take("no iterations in the plane".into(), "residual", said);
     // Beside the start no forward cubic keeps the bounds.
     let aside = Query { goal: Goal { x: 0.0, y: 1.0, yaw: 0.0, curvature: 0.0 }, ..hard };
     let settings = flat::Settings { control: Control::Cubic, ..flat::Settings::default() };
     let status = flat::forward(&aside, &BOUNDS, &settings).status;
     refusals.take("a goal out of reach".into(), "said", (status != Flat::Ok).then_some("said"));
-    // On the ground: where it ends, and where the iterations do.
     let site = Site::straight(&subject.rocky8, &subject.ground);
     if let Ok(goals) = subject.goals(&subject.late, 1, 38) {
         let (start, goal) = &goals[0];
+        let none = Settings { iterations: 0, ..Settings::default() };
+        let status = site.drive(start, goal, &none).status;
+        refusals.take("no iterations on the ground".into(), "said", (status != rough::Status::Ok).then_some("said"));
+        let vehicle = Vehicle::on(subject.rocky8.clone(), Some(subject.ground.clone()), None);
         let away = Planar { x: start.x + 200.0, ..*goal };
-        let status = site.drive(start, &away, &Settings::default()).status;
-        let ended = matches!(status, Status::Blocked(Blocked { cause: Cause::Unsettled(Unsettled::NoGround(_)), .. }));
-        refusals.take("a goal beside the map".into(), "edge", ended.then_some("edge"));
-        let once = Settings { iterations: 0, ..Settings::default() };
-        let status = site.drive(start, goal, &once).status;
-        refusals.take("no iterations on the ground".into(), "said", (status != Status::Ok).then_some("said"));
+        let answered = vehicle.answer(&asked(start, &away));
+        let ended = answered.limit.filter(|_| answered.status != Status::Ok).map(|(limit, _)| limit);
+        refusals.take("a goal far beside the map".into(), "", ended);
     }
     // A Jacobian that is singular: contacts that leave the pose undetermined.
     let at = Vector3::new(0.3, 0.0, -0.05);

@@ -9,7 +9,7 @@ use hairpin::math::random::stream;
 use hairpin::robot::rover::{Response, Rover, Slip};
 use hairpin::trajectory::drive::Planar;
 use hairpin::world::terrain::generate::{Recipe, generate};
-use hairpin::world::terrain::{ElevationMap, Grid, HoleRule};
+use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, Terrain};
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{Asked, Frame};
 
@@ -21,12 +21,12 @@ use crate::problem::Problem;
 pub(super) const CRATERS: Recipe = Recipe {
     size_m: 30.0,
     cell_m: 0.1,
-    relief_m: 1.0,
+    relief_m: 0.5,
     hurst: 0.7,
     least_crater_m: 2.0,
     crater_area_m2: 40.0,
     rock_cover: 0.0,
-    seed: 7,
+    seed: 3,
 };
 
 /// Vehicles, ground, and how many queries.
@@ -61,8 +61,11 @@ impl Subject {
         let late = &self.late;
         vec![
             format!(
-                "flat ground: {}, |κ| ≤ 1 1/m, |κ'| ≤ 1 1/m²; rough ground: {}",
-                self.generic.name, self.ground_name
+                "flat ground: {}, |κ| ≤ 1 1/m, |κ'| ≤ 1 1/m²; rough ground: {}, slopes of {:.1}° in the mean and {:.0}° at most",
+                self.generic.name,
+                self.ground_name,
+                self.slopes().0.to_degrees(),
+                self.slopes().1.to_degrees()
             ),
             format!("{}: {}", self.rocky8.name, self.rocky8.caveat),
             format!(
@@ -74,6 +77,20 @@ impl Subject {
                 100.0 * late.slip.side_at_20_deg
             ),
         ]
+    }
+
+    /// Mean and largest slope of the rough ground at its cells' centres, rad.
+    fn slopes(&self) -> (f64, f64) {
+        let (grid, (low, _)) = (self.ground.grid(), self.ground.extent());
+        let (mut sum, mut count, mut most) = (0.0, 0.0, 0.0_f64);
+        for cell in 0..grid.rows * grid.columns {
+            let at = [cell % grid.columns, cell / grid.columns];
+            let [x, y] = [0, 1].map(|i| low[i] + grid.cell[i] * at[i] as f64);
+            let Ok(patch) = self.ground.patch(x, y) else { continue };
+            let slope = libm::atan(libm::hypot(patch.slope[0], patch.slope[1]));
+            (sum, count, most) = (sum + slope, count + 1.0, most.max(slope));
+        }
+        (sum / f64::max(count, 1.0), most)
     }
 
     pub(super) fn bounds(&self) -> Curvatures {
