@@ -1,6 +1,6 @@
 //! The shortest way from two states to a drive: `cargo run --example 01_steer_rover`.
 
-use hairpin::campaign::ground::replay_flat;
+use hairpin::campaign::drive::replay_flat;
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
 use hairpin::feasibility::steering::shooting::{Curvatures, Goal, Query, Refusal};
 use hairpin::trajectory::drive::Motion;
@@ -19,7 +19,8 @@ fn main() -> Result<(), Refusal> {
             }
         }
         let replay = replay_flat(&query, 0.0, &drive.segments);
-        println!("{:.3} m; replayed, it ends {:.1e?} m, m, rad from the goal", replay.length, replay.error);
+        let [x, y, yaw] = replay.error;
+        println!("{:.3} m; replayed, it ends {:.1e} m and {yaw:.1e} rad from the goal", replay.length, x.hypot(y));
     }
     Ok(())
 }

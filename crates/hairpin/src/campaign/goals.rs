@@ -140,7 +140,7 @@ pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::ground::replay_flat;
+    use crate::campaign::drive::replay_flat;
     use crate::math::random::stream;
 
     #[test]

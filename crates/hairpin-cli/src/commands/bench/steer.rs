@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 use std::time::Instant;
 
+use hairpin::campaign::drive::replay_flat;
 use hairpin::campaign::goals::{anywhere, flat_goal};
-use hairpin::campaign::ground::replay_flat;
 use hairpin::feasibility::steering::shooting::cc::{self, Gears};
 use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Query};

@@ -1,6 +1,6 @@
 //! Delay, lag and slip: met by a generator that knows them, and what they do to one that does not.
 
-use hairpin::campaign::ground::Site;
+use hairpin::campaign::drive::Site;
 use hairpin::feasibility::steering::shooting::rough::Settings;
 
 use super::check::{Check, Test};

@@ -1,6 +1,6 @@
 //! The source's example program, in its frame and in ours.
 
-use hairpin::campaign::ground::replay_flat;
+use hairpin::campaign::drive::replay_flat;
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, Solution, solve};
 use hairpin::feasibility::steering::shooting::{Goal, Query};
 use hairpin::robot::rover::Rover;

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use hairpin::campaign::ground::Site;
+use hairpin::campaign::drive::Site;
 use hairpin::feasibility::steering::shooting::rough::Settings;
 use hairpin_formats::scenario::rover_for;
 

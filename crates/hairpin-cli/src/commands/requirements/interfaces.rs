@@ -1,6 +1,6 @@
 //! Vehicles and controls, switched to and fro: each does what is its own, and does it again after the others.
 
-use hairpin::campaign::ground::Site;
+use hairpin::campaign::drive::Site;
 use hairpin::feasibility::steering::shooting::flat::{self, Control, Cost};
 use hairpin::feasibility::steering::shooting::rough::{Answer, Settings, Status};
 use hairpin::feasibility::steering::shooting::solve::{Choices, solve};

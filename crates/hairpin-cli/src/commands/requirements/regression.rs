@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use hairpin::campaign::ground::{Site, drive_piece, flat_claim, replay_flat};
+use hairpin::campaign::drive::{Site, drive_piece, flat_claim, replay_flat};
 use hairpin::feasibility::steering::shooting::rough::Steps;
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
 use hairpin::robot::rover::Rover;

@@ -1,6 +1,6 @@
 //! Nonsense in, refusals out: states, controls and vehicles that cannot be, and problems without an answer.
 
-use hairpin::campaign::ground::Site;
+use hairpin::campaign::drive::Site;
 use hairpin::feasibility::steering::shooting::flat::{self, Control, Limit, Status as Flat};
 use hairpin::feasibility::steering::shooting::rough::{self, Settings};
 use hairpin::feasibility::steering::shooting::{Curvatures, Goal, Query};

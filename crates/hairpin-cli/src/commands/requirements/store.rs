@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use hairpin::campaign::ground::{Site, replay_flat};
+use hairpin::campaign::drive::{Site, replay_flat};
 use hairpin::feasibility::steering::shooting::rough::{Settings, Status};
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
 use hairpin::feasibility::steering::shooting::{Goal, Query};

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use hairpin::campaign::drive::Site;
 use hairpin::campaign::goals::{anywhere, flat_goal, ground_goals};
-use hairpin::campaign::ground::Site;
 use hairpin::feasibility::steering::shooting::{Curvatures, Query};
 use hairpin::math::random::stream;
 use hairpin::robot::rover::{Response, Rover, Slip};

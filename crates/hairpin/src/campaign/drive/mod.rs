@@ -13,6 +13,6 @@ pub(super) use drive::{Order, drive};
 pub(super) use plan::{timed, track};
 pub use setup::DriveSetup;
 pub(super) use setup::{keep_outs_of, map_of, planner_of, rover_of};
-pub use site::{Site, drive_piece};
+pub use site::{Site, drive_piece, flat_claim, replay_flat};
 pub(super) use solve::Solver;
 pub(super) use verify::verify;
