@@ -73,7 +73,7 @@ fn flat_solving_allocates_nothing() {
 #[test]
 fn solving_on_the_ground_allocates_nothing() {
     let recipe =
-        Recipe { size_m: 30.0, relief_m: 1.0, crater_area_m2: 40.0, rock_cover: 0.0, seed: 1, ..Recipe::default() };
+        Recipe { size_m: 30.0, relief_m: 0.5, crater_area_m2: 40.0, rock_cover: 0.0, seed: 3, ..Recipe::default() };
     let map = generate(&recipe).expect("a map");
     for slip_and_lag in [false, true] {
         let rover = rocky8(slip_and_lag);
@@ -98,7 +98,13 @@ fn solving_on_the_ground_allocates_nothing() {
 
 /// Rooms that run on board, and the files in them that do not: what is read or made before the drive.
 const ROOMS: &[&str] = &["feasibility/steering/shooting", "robot/rover", "world/terrain", "trajectory/drive.rs"];
-const BEFORE: &[&str] = &["robot/rover/description.rs", "world/terrain/generate.rs", "world/terrain/smooth.rs"];
+const BEFORE: &[&str] = &[
+    "robot/rover/description.rs",
+    "world/terrain/generate.rs",
+    "world/terrain/keep_out/",
+    "world/terrain/rocks.rs",
+    "world/terrain/smooth.rs",
+];
 /// What solving does not do: threads, clocks, files, the heap, calls made to panic.
 const NOT_ON_BOARD: &[&str] = &[
     "std::thread",
@@ -133,6 +139,7 @@ const NOT_ON_BOARD: &[&str] = &[
 const MADE_BEFORE: &[(&str, &[&str])] = &[
     ("world/terrain/map.rs", &["Vec<", "Vec::", "vec![", "String", ".to_string()", ".collect"]),
     ("robot/rover/mod.rs", &["String", "Vec<"]),
+    ("robot/rover/body.rs", &["Vec<", "format!"]),
     ("trajectory/drive.rs", &["Vec<"]),
 ];
 
@@ -179,7 +186,7 @@ fn solver_rooms_hold_no_thread_no_clock_no_heap_and_no_panic() {
     let mut found = Vec::new();
     for path in all {
         let name = path.strip_prefix(&source).expect("below src").to_string_lossy().replace('\\', "/");
-        if !BEFORE.contains(&name.as_str()) {
+        if !BEFORE.iter().any(|before| name.starts_with(before)) {
             found.extend(not_on_board(&name, &fs::read_to_string(&path).expect("a source file")));
         }
     }
