@@ -113,7 +113,7 @@ pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(
     let bounds = site.bounds();
     let (low, high) = site.map.extent();
     let inside = |i: usize| low[i] + MARGIN..high[i] - MARGIN;
-    let wait_m = site.rover.response.latency * site.speed;
+    let wait_m = site.rover.response.latency * site.speed.start();
     let mut goals = Vec::with_capacity(count);
     if (0..2).any(|i| inside(i).is_empty()) {
         return goals;

@@ -31,6 +31,14 @@ const LOOKS: f64 = 1000.0;
 /// Share by which sampling may exceed a limit.
 const ROUNDING: f64 = 1e-9;
 
+impl Default for Pace {
+    /// At the vehicle's own speed, by the usual control.
+    fn default() -> Self {
+        let (v0, vf, cruise, acceleration, time_step) = (None, None, None, None, None);
+        Self { control: Control::default(), v0, vf, cruise, acceleration, most_steps: 10_000, time_step }
+    }
+}
+
 impl Pace {
     pub(super) fn new(steer: &Steer) -> Self {
         Self {

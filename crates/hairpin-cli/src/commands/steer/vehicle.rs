@@ -50,7 +50,7 @@ impl Vehicle {
 
     /// `rover` on `map`, forward arcs, with `time_limit` for each question: what requirements are checked with.
     pub(in crate::commands) fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
-        Self { rover, map, choices: Choices::default(), time_limit }
+        Self { rover, map, choices: Choices::default(), pace: Pace::default(), time_limit }
     }
 
     /// Answers a question: solved under the clock, then replayed without it.
