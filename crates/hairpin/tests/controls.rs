@@ -458,7 +458,7 @@ fn rocky8(lags: bool) -> Rover {
 #[test]
 fn speeds_and_directions_are_met_on_the_ground() {
     let recipe =
-        Recipe { size_m: 30.0, relief_m: 1.0, crater_area_m2: 40.0, rock_cover: 0.0, seed: 3, ..Recipe::default() };
+        Recipe { size_m: 30.0, relief_m: 0.5, crater_area_m2: 150.0, rock_cover: 0.0, seed: 3, ..Recipe::default() };
     let map = terrain(&recipe).expect("a map");
     let ramp = SpeedProfile::Ramp { start: 0.1, end: 0.4 };
     let trapezoid = SpeedProfile::Trapezoid { start: 0.0, cruise: 0.3, end: 0.0, acceleration: 0.1 };

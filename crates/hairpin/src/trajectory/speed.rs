@@ -315,6 +315,11 @@ impl Timing {
         self.length
     }
 
+    /// Whether the speed is the same all along.
+    pub fn is_constant(&self) -> bool {
+        self.constant.is_some()
+    }
+
     /// Speed after `s` metres, m/s.
     pub fn speed_at(&self, s: f64) -> f64 {
         self.constant.unwrap_or_else(|| self.stretch_at(s).map_or(0.0, |(speeds, s, _)| speeds.speed_at(s)))

@@ -114,27 +114,32 @@ pub fn replay_ground<T: Terrain>(
         };
         let h = length / count as f64;
         for i in 0..count {
-            let s = length * i as f64 / count as f64;
-            let at = driven - wait + s;
-            let way = Way {
-                piece,
-                crab: claim.crab + claim.crab_rate * (at + 0.5 * h).clamp(0.0, drive),
-                pace: claim.pace(at, h),
-            };
-            let mut rates = |state: &[f64; 4], s: f64| -> Result<[f64; 4], NoRest> {
-                let place = [state[0], state[1], state[2]];
-                // Where the body falls over an edge, the rest it comes to is not near the one before.
-                if rest.follow(&vehicle.stand, terrain, place).is_err() {
-                    rest = Rest::find(&vehicle.stand, terrain, place)?;
-                }
-                max_tilt =
-                    max_tilt.max(libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0)));
-                Ok(vehicle.rates(&way, &rest, state, s))
-            };
-            let middle = rates(&state, s).and_then(|k1| rates(&moved(&state, &k1, 0.5 * h), s + 0.5 * h));
-            let k2 = middle.map_err(|no| stopped(driven, no))?;
-            state = moved(&state, &k2, h);
-            steps += 1;
+            let begun = length * i as f64 / count as f64;
+            let parts = vehicle.parts(claim.pace(driven - wait + begun, h) * h);
+            let h = h / parts as f64;
+            for part in 0..parts {
+                let s = begun + h * part as f64;
+                let at = driven - wait + s;
+                let way = Way {
+                    piece,
+                    crab: claim.crab + claim.crab_rate * (at + 0.5 * h).clamp(0.0, drive),
+                    pace: claim.pace(at, h),
+                };
+                let mut rates = |state: &[f64; 4], s: f64| -> Result<[f64; 4], NoRest> {
+                    let place = [state[0], state[1], state[2]];
+                    // Where the body falls over an edge, the rest it comes to is not near the one before.
+                    if rest.follow(&vehicle.stand, terrain, place).is_err() {
+                        rest = Rest::find(&vehicle.stand, terrain, place)?;
+                    }
+                    max_tilt =
+                        max_tilt.max(libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0)));
+                    Ok(vehicle.rates(&way, &rest, state, s))
+                };
+                let middle = rates(&state, s).and_then(|k1| rates(&moved(&state, &k1, 0.5 * h), s + 0.5 * h));
+                let k2 = middle.map_err(|no| stopped(driven, no))?;
+                state = moved(&state, &k2, h);
+                steps += 1;
+            }
         }
         if let DrivePiece::Arc { curvature, .. } = piece {
             driven += length;
@@ -202,6 +207,16 @@ fn moved(state: &[f64; 4], rates: &[f64; 4], h: f64) -> [f64; 4] {
 impl GroundVehicle {
     fn lags(&self) -> bool {
         self.steering_time_constant_s > 0.0 || self.steering_rate_rad_s.is_finite()
+    }
+
+    /// Parts of a step that takes `time` seconds: near rest steps are long, and the lag of each must stay small. Of n equal lengths
+    /// from rest the first takes the share 1/√n.
+    fn parts(&self, time: f64) -> usize {
+        if self.steering_time_constant_s <= 0.0 {
+            return 1;
+        }
+        let ratio = 8.0 * time.abs() / self.steering_time_constant_s;
+        (ratio * ratio).ceil().clamp(1.0, 400.0) as usize
     }
 
     /// d(x, y, ψ, δ) per metre commanded, or per radian of a turn in place.

@@ -1,7 +1,7 @@
 //! Boundary-value trajectories of ground vehicles: find controls whose motion ends where it was asked to.
 //!
-//! [`generate`] is the one call: a [`families::Problem`] (query, speeds, direction of travel), a [`Control`], bounds and
-//! [`solve::Choices`]. On the ground, [`rough::solve`] shapes with it and [`rough::predict()`] integrates.
+//! [`generate()`] is the one call: a [`families::Problem`] (query, speeds, direction of travel), a [`Control`], bounds and
+//! [`solve::Choices`]. On the ground, [`rough::solve()`] shapes with it and [`rough::predict()`] integrates.
 //!
 //! What T. Howard's user guide of the rover trajectory generator (2006) lets one set, and what became of it:
 //!
@@ -17,11 +17,11 @@
 //! | `SetMaximumNumberSteps` | 10 000 | [`Followed::most_steps`](crate::campaign::states::Followed::most_steps), `--max-steps` |
 //! | `SetVehicleModel` | generic | [`Rover`](crate::robot::rover::Rover), from a file |
 //! | `SetVehicleControls` | fifth order | the value of [`Control`], `--control` |
-//! | `SolveTrajectory` | | [`generate`], [`rough::solve`] |
+//! | `SolveTrajectory` | | [`generate()`], [`rough::solve()`] |
 //! | `GetVehicleControls` | | [`Generated::solution`] as segments, [`Generated::parameters`] as the family has them |
 //! | `GetPath`, `exportPath` | on | [`Followed::on`](crate::campaign::states::Followed::on), only where it is called; `--path FILE.csv` |
 //! | `setHeuristic` (15.7 MB table) | on | no table: start values are Dubins' words, computed in a microsecond |
-//! | `displayDebug` | on | the observer of [`generate`]; `RUST_LOG=debug` on the command line. The library prints nothing |
+//! | `displayDebug` | on | the observer of [`generate()`]; `RUST_LOG=debug` on the command line. The library prints nothing |
 //! | `DynamicsResponse`, `EvalSuspension` | identity | [`Response`](crate::robot::rover::Response), [`Suspension`](crate::robot::rover::Suspension) |
 
 pub mod cc;

@@ -185,7 +185,6 @@ impl Walk {
                 let slip = &course.rover.slip;
                 let constant = libm::sincos(course.direction.start);
                 for step in 0..count {
-                    let time = self.timing.time_over(self.travelled, h);
                     let direction = if course.direction.swing() == 0.0 {
                         constant
                     } else {
@@ -193,7 +192,8 @@ impl Walk {
                     };
                     let s = f64::from(step) * h;
                     // The curvature at the step's middle, half a step after the last one's end.
-                    let curvature = self.lag.follow(|share| segment.curvature_at(s + 0.5 * h * share), 0.5 * time);
+                    let begun = self.travelled;
+                    let curvature = self.steered(segment, s, begun, 0.5 * h);
                     let here = rates(&self.carried(&self.at), direction, sign, curvature, slip);
                     let mut middle = moved(&self.at, &here, 0.5 * h, self.at.yaw + 0.25 * h * here.yaw);
                     middle.curvature = curvature;
@@ -209,12 +209,28 @@ impl Walk {
                     });
                     let there = rates(&self.settled, direction, sign, curvature, slip);
                     self.at = moved(&self.at, &there, h, self.at.yaw + 0.5 * h * there.yaw);
-                    self.at.curvature =
-                        self.lag.follow(|share| segment.curvature_at(s + 0.5 * h * (1.0 + share)), 0.5 * time);
+                    self.at.curvature = self.steered(segment, s + 0.5 * h, begun + 0.5 * h, 0.5 * h);
                 }
             }
         }
         Ok(())
+    }
+
+    /// The steering's curvature after the `h` metres of `segment` from its `s` on, `begun` metres after the drive's beginning.
+    fn steered(&mut self, segment: &Segment, s: f64, begun: f64, h: f64) -> f64 {
+        let time = self.timing.time_over(begun, h);
+        // From rest a step takes long; at one speed all take the same.
+        let parts = if self.timing.is_constant() { 1 } else { self.lag.parts(time) };
+        if parts == 1 {
+            return self.lag.follow(|share| segment.curvature_at(s + h * share), time);
+        }
+        let (step, mut curvature) = (h / f64::from(parts), 0.0);
+        for part in 0..parts {
+            let done = step * f64::from(part);
+            let time = self.timing.time_over(begun + done, step);
+            curvature = self.lag.follow(|share| segment.curvature_at(s + done + step * share), time);
+        }
+        curvature
     }
 
     /// How the body would stand at `place`, to first order from the last look.

@@ -18,6 +18,17 @@ impl SteeringLag {
         Self { angle, response: *response, follows_at_once }
     }
 
+    /// Parts into which a step of `time` seconds is divided, so that the lag of each is short beside its time constant: from
+    /// rest the first of n equal lengths takes the share 1/√n of the time.
+    pub(super) fn parts(&self, time: f64) -> u32 {
+        let constant = self.response.steering_time_constant;
+        if self.follows_at_once || constant == 0.0 {
+            return 1;
+        }
+        let ratio = 4.0 * time / constant;
+        (ratio * ratio).ceil().clamp(1.0, 32.0) as u32
+    }
+
     /// The curvature after `time` seconds in which the command runs through `commanded` (1/m, from share 0 to 1).
     ///
     /// δ̇ = (δ_c − δ)/T within ± the largest rate, δ = atan(κ · axle); exact for a constant command, second order otherwise.
