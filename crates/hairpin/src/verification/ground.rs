@@ -194,8 +194,9 @@ impl GroundClaim {
             }
         }
         let [first, last] = [self.speed.first(), self.speed.last()].map(|knot| knot.copied().unwrap_or_default());
-        seconds += (end.min(first[0]) - s).max(0.0) / first[1].max(f64::MIN_POSITIVE);
-        seconds += (end - s.max(last[0])).max(0.0) / last[1].max(f64::MIN_POSITIVE);
+        // Beyond a stop there are only rounding errors.
+        let beyond = |metres: f64, speed: f64| if speed > 0.0 { metres.max(0.0) / speed } else { 0.0 };
+        seconds += beyond(end.min(first[0]) - s, first[1]) + beyond(end - s.max(last[0]), last[1]);
         seconds / h
     }
 }
