@@ -18,6 +18,14 @@ pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
             generate.solver.position_m, generate.solver.yaw_rad, generate.solver.curvature_1_m
         ),
     });
+    if generate.reach != GroundReach::Witness {
+        said.push(format!(
+            "Reach `{}` plans straight legs of {} s without commands; its scores see how steep they are, or are random; the \
+             runs are those of straight legs with turns in place.",
+            generate.reach.word(),
+            generate.step_s
+        ));
+    }
     let bounds = setup.bounds();
     said.push(format!(
         "Plans keep |κ| ≤ {} 1/m, |κ′| ≤ {} 1/m², a tilt of at most {:.1}°, and go at {} m/s.",

@@ -1,15 +1,16 @@
 //! What drives: rovers on elevation maps, cars and differential drives.
 
 mod assumptions;
-mod drive;
+mod execute;
 mod plan;
 mod setup;
 mod site;
 mod solve;
+mod stepwise;
 mod verify;
 
 pub(super) use assumptions::{act, claim, verdict};
-pub(super) use drive::{Order, drive};
+pub(super) use execute::{Order, drive};
 pub(super) use plan::{timed, track};
 pub use setup::DriveSetup;
 pub(super) use setup::{keep_outs_of, map_of, planner_of, rover_of};

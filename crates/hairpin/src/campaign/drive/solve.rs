@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use nalgebra::Point3;
 
 use super::DriveSetup;
+use super::stepwise::Stepwise;
 use crate::campaign::Evidence;
 use crate::campaign::graph::{Outcome, Plan, Question, search};
 use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
@@ -24,6 +25,8 @@ pub(in crate::campaign) struct Solver<'a> {
     setup: DriveSetup<'a>,
     settings: DriveSettings,
     search: SearchSection,
+    /// The reach set, where it is another than `witness`.
+    stepwise: Option<Stepwise<'a>>,
 }
 
 impl<'a> Solver<'a> {
@@ -31,7 +34,11 @@ impl<'a> Solver<'a> {
     /// Why nothing can be searched, in a sentence's part.
     pub(in crate::campaign) fn new(setup: DriveSetup<'a>) -> Result<Self, String> {
         let settings = settings(&setup)?;
-        Ok(Self { setup, settings, search: setup.scenario.generate.search.section() })
+        let stepwise = match setup.scenario.generate.reach {
+            GroundReach::Witness => None,
+            GroundReach::None | GroundReach::Sphere | GroundReach::Hull => Some(Stepwise::new(setup)?),
+        };
+        Ok(Self { setup, settings, search: setup.scenario.generate.search.section(), stepwise })
     }
 
     /// Searches graph number `graph`.
@@ -40,13 +47,9 @@ impl<'a> Solver<'a> {
             Ok(points) => points,
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
         };
-        match self.setup.scenario.generate.reach {
-            GroundReach::Witness => self.by_roadmap(graph, &points),
-            other => Outcome {
-                graphs: 1,
-                reason: Some(format!("reach `{}` is not in this version", other.word())),
-                ..Outcome::default()
-            },
+        match &self.stepwise {
+            Some(stepwise) => stepwise.solve(&self.search, graph, &points),
+            None => self.by_roadmap(graph, &points),
         }
     }
 

@@ -119,8 +119,8 @@ fn drawn_case(setup: &Setup, case: u64) -> Outcome {
 
 /// The part of a search that is the same for every graph.
 enum Solver<'a> {
-    Flight(flight::Solver<'a>),
-    Drive(drive::Solver<'a>),
+    Flight(Box<flight::Solver<'a>>),
+    Drive(Box<drive::Solver<'a>>),
 }
 
 impl<'a> Solver<'a> {
@@ -128,8 +128,8 @@ impl<'a> Solver<'a> {
     /// Why nothing can be searched, in a sentence's part.
     fn new(setup: &'a Setup) -> Result<Self, String> {
         Ok(match setup.kind() {
-            Kind::Flight(setup) => Self::Flight(flight::Solver::new(setup)?),
-            Kind::Drive(setup) => Self::Drive(drive::Solver::new(setup)?),
+            Kind::Flight(setup) => Self::Flight(Box::new(flight::Solver::new(setup)?)),
+            Kind::Drive(setup) => Self::Drive(Box::new(drive::Solver::new(setup)?)),
         })
     }
 
