@@ -97,6 +97,8 @@ pub(crate) enum Kind {
     Quadrotor,
     Arm,
     Rover,
+    Car,
+    DifferentialDrive,
 }
 
 #[derive(Debug, Args)]
@@ -348,6 +350,10 @@ pub(crate) enum Document {
     Robot,
     /// Rovers
     Rover,
+    /// Cars
+    Car,
+    /// Differential drives
+    DifferentialDrive,
 }
 
 #[derive(Debug, Args)]

@@ -16,6 +16,12 @@ pub(crate) fn run(demo: &Demo) -> Result<u8, Problem> {
     let scenario = match demo.kind {
         Kind::Quadrotor => "demo-quadrotor",
         Kind::Rover => "demo-rover",
+        Kind::Car | Kind::DifferentialDrive => {
+            return Err(Problem::input(format!(
+                "{0} has no demo of its own: hairpin stress {0}",
+                new::word(demo.kind)
+            )));
+        }
         Kind::Arm => return Err(new::unsupported(demo.kind)),
     };
     folder::take_threads(&demo.threads);

@@ -33,10 +33,15 @@ pub(crate) fn word(kind: Kind) -> &'static str {
         Kind::Quadrotor => "quadrotor",
         Kind::Arm => "arm",
         Kind::Rover => "rover",
+        Kind::Car => "car",
+        Kind::DifferentialDrive => "differential-drive",
     }
 }
 
 /// This version has no robots of that kind.
 pub(crate) fn unsupported(kind: Kind) -> Problem {
-    Problem::input(format!("{} is not in this version of hairpin: quadrotor and rover are", word(kind)))
+    Problem::input(format!(
+        "{} is not in this version of hairpin: quadrotor, rover, car and differential-drive are",
+        word(kind)
+    ))
 }

@@ -1,6 +1,8 @@
 //! `hairpin schema`: JSON Schema from the types that read the files.
 
-use hairpin_formats::schema::{drive_scenario_schema, robot_schema, rover_schema, scenario_schema};
+use hairpin_formats::schema::{
+    car_schema, differential_drive_schema, drive_scenario_schema, robot_schema, rover_schema, scenario_schema,
+};
 
 use crate::args::{Document, Schema};
 use crate::console;
@@ -13,6 +15,8 @@ pub(crate) fn run(schema: &Schema) -> Result<u8, Problem> {
         Document::RoverScenario => drive_scenario_schema(),
         Document::Robot => robot_schema(),
         Document::Rover => rover_schema(),
+        Document::Car => car_schema(),
+        Document::DifferentialDrive => differential_drive_schema(),
     };
     console::say(&serde_json::to_string_pretty(&schema).map_err(Problem::input)?);
     Ok(0)

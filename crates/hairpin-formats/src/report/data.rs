@@ -1,9 +1,11 @@
 //! What the report's script draws, as JSON: thinned and rounded to what a screen shows, so that files stay small.
 
-use hairpin::campaign::report::{Metric, ReportData, Shown, Surface};
+use hairpin::campaign::report::{Metric, Relief, ReportData, Shown, Surface};
 use hairpin::trajectory::Track;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use serde_json::{Value, json};
+
+use super::relief::shading;
 
 /// Samples of a flight and of a plan that are kept at most.
 const FLOWN: usize = 700;
@@ -18,14 +20,32 @@ pub(super) fn json(data: &ReportData) -> String {
     let size = data.drawing.size;
     let mut left = TRIANGLES;
     let obstacles: Vec<Value> = data.drawing.obstacles.iter().map(|surface| obstacle(surface, &mut left)).collect();
+    let low = data.drawing.low;
     let value = json!({
-        "size": [size.x, size.y, size.z],
+        "low": [round(low.x, 3), round(low.y, 3), round(low.z, 3)],
+        "size": [round(size.x, 3), round(size.y, 3), round(size.z, 3)],
+        "relief": data.drawing.relief.as_ref().map(relief),
         "obstacles": obstacles,
         "limit": data.deviation_limit,
         "metrics": data.metrics.iter().map(metric).collect::<Vec<_>>(),
         "cases": data.shown.iter().map(case).collect::<Vec<_>>(),
     });
     value.to_string().replace('<', "\\u003c")
+}
+
+/// The ground; holes are null.
+fn relief(relief: &Relief) -> Value {
+    let row = |row: &Vec<f64>| {
+        row.iter().map(|h| h.is_finite().then(|| round(*h, 3))).collect::<Vec<Option<f64>>>()
+    };
+    let shade: Vec<Vec<f64>> =
+        shading(relief).iter().map(|row| row.iter().map(|shade| round(*shade, 2)).collect()).collect();
+    json!({
+        "low": [round(relief.low[0], 3), round(relief.low[1], 3)],
+        "step": round(relief.step, 4),
+        "z": relief.heights.iter().map(row).collect::<Vec<_>>(),
+        "shade": shade,
+    })
 }
 
 fn obstacle(surface: &Surface, left: &mut usize) -> Value {
@@ -92,10 +112,50 @@ fn flown(shown: &Shown, track: &Track) -> Value {
     value["judged"] = json!(kept.iter().map(|&i| u8::from(shown.judged[i])).collect::<Vec<_>>());
     value["v"] = json!(take(&speeds(track), 2));
     value["leg"] = json!(track.channel("leg").map(|legs| take(legs, 0)));
-    value["saturated"] = json!(track.channel("saturated").map(|share| take(share, 2)));
-    let rotors = track.channels().iter().filter(|c| c.name.starts_with("rotor") && c.name.ends_with("_rad_s"));
-    value["rotors"] = rotors.map(|channel| json!(take(&channel.values, 0))).collect();
+    value["panels"] = json!(panels(track, &kept));
     value
+}
+
+/// Further series under deviation and speed: of flights the rotors, of drives curvature, attitude and joints.
+fn panels(track: &Track, kept: &[usize]) -> Vec<Value> {
+    let take = |values: &[f64], scale: f64, digits| {
+        kept.iter().map(|&i| round(scale * values[i], digits)).collect::<Vec<_>>()
+    };
+    let panel = |title: &str, lines: Vec<Value>| {
+        (!lines.is_empty()).then(|| json!({ "title": title, "lines": lines }))
+    };
+    let line = |name: &str, channel: &str, scale, digits| {
+        track.channel(channel).map(|values| json!({ "name": name, "y": take(values, scale, digits) }))
+    };
+    let rotors = (1..).map_while(|i| line(&format!("rotor {i}"), &format!("rotor{i}_rad_s"), 1.0, 0));
+    let curvature = [("commanded", "commanded_curvature_1_m"), ("steered", "curvature_1_m")];
+    let curvature = curvature.into_iter().filter_map(|(name, channel)| line(name, channel, 1.0, 3));
+    let margin = line("tip-over margin", "tip_over_margin_deg", 1.0, 1);
+    let attitude = margin.is_some().then(|| {
+        // How far the forward and the left axis point above the horizon.
+        let up = |axis: usize| {
+            let of = |i: &usize| {
+                let z = (track.poses()[*i].rotation * Vector3::ith(axis, 1.0)).z;
+                round(z.clamp(-1.0, 1.0).asin().to_degrees(), 1)
+            };
+            kept.iter().map(of).collect::<Vec<_>>()
+        };
+        [json!({ "name": "nose up", "y": up(0) }), json!({ "name": "left side up", "y": up(1) })]
+    });
+    let joints = ["rocker", "left_bogie", "right_bogie"].into_iter();
+    let joints = joints
+        .filter_map(|name| line(&name.replace('_', " "), &format!("joint_{name}_rad"), 180.0 / std::f64::consts::PI, 1));
+    let slip = line("slip", "slip", 100.0, 1);
+    [
+        panel("rotors rad/s", rotors.collect()),
+        panel("curvature 1/m", curvature.collect()),
+        panel("angles °", margin.into_iter().chain(attitude.into_iter().flatten()).collect()),
+        panel("joints °", joints.collect()),
+        panel("slip %", slip.into_iter().collect()),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 fn positions(track: &Track, kept: &[usize]) -> Value {

@@ -3,6 +3,7 @@
 
 mod data;
 mod page;
+mod relief;
 mod svg;
 
 use std::path::Path;

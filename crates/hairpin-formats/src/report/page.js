@@ -14,6 +14,7 @@
   const fixed = (value, digits) => (value === null || value === undefined ? "–" : value.toFixed(digits));
   const base = (more) => Object.assign({ font: FONT, paper_bgcolor: "#fff", plot_bgcolor: "#fff", hovermode: "closest", showlegend: true }, more);
   const axis = (title, more) => Object.assign({ title: { text: title, standoff: 8 }, gridcolor: "#edf1f4", zerolinecolor: LINE, linecolor: LINE, automargin: true }, more);
+  const DONE = data.relief ? "driven" : "flown";
   let current = 0, sample = 0, spatial = true;
 
   root.dataset.js = "1";
@@ -29,8 +30,8 @@
   }
 
   function cage() {
-    const [x, y, z] = data.size, xs = [], ys = [], zs = [];
-    const edge = (a, b) => { xs.push(a[0], b[0], null); ys.push(a[1], b[1], null); zs.push(a[2], b[2], null); };
+    const [x, y, z] = data.size, [u, v, w] = data.low, xs = [], ys = [], zs = [];
+    const edge = (a, b) => { xs.push(u + a[0], u + b[0], null); ys.push(v + a[1], v + b[1], null); zs.push(w + a[2], w + b[2], null); };
     for (const s of [0, 1]) for (const t of [0, 1]) {
       edge([0, s * y, t * z], [x, s * y, t * z]);
       edge([s * x, 0, t * z], [s * x, y, t * z]);
@@ -39,8 +40,14 @@
     return { type: "scatter3d", mode: "lines", x: xs, y: ys, z: zs, line: { color: "#b8c4ce", width: 2 }, hoverinfo: "skip", name: "world", showlegend: false };
   }
 
+  // Shaded ground: grey as light falls on it, so that the paths' colours stay the only ones.
+  function ground() {
+    const r = data.relief, at = (low, n) => Array.from({ length: n }, (_, i) => low + i * r.step);
+    return { type: "surface", x: at(r.low[0], r.z[0].length), y: at(r.low[1], r.z.length), z: r.z, surfacecolor: r.shade, cmin: 0, cmax: 1, colorscale: [[0, "#5c564f"], [1, "#fbf8f2"]], showscale: false, name: "ground", lighting: { ambient: 1, diffuse: 0, specular: 0 }, hovertemplate: "(%{x:.2f}, %{y:.2f}, %{z:.2f}) m<extra>ground</extra>", contours: { x: { highlight: false }, y: { highlight: false }, z: { highlight: false } } };
+  }
+
   function scene(c) {
-    const traces = [cage()];
+    const traces = [data.relief ? ground() : cage()];
     for (const o of data.obstacles) traces.push({ type: "mesh3d", x: o.x, y: o.y, z: o.z, i: o.i, j: o.j, k: o.k, color: "#9aa7b3", opacity: 0.55, flatshading: true, hoverinfo: "name", name: o.name });
     traces.push({ type: "scatter3d", mode: "lines", x: c.planned.x, y: c.planned.y, z: c.planned.z, name: "planned", line: { color: PLAN, width: 4, dash: "dash" }, hoverinfo: "skip" });
     const w = c.waypoints;
@@ -49,7 +56,7 @@
     if (f) {
       const top = Math.max(...f.d, data.limit || 0, 1e-9);
       traces.push({
-        type: "scatter3d", mode: "lines", name: "flown", x: f.x, y: f.y, z: f.z, customdata: f.t.map((t, i) => [t, f.d[i]]),
+        type: "scatter3d", mode: "lines", name: DONE, x: f.x, y: f.y, z: f.z, customdata: f.t.map((t, i) => [t, f.d[i]]),
         line: { width: 7, color: f.d, colorscale: SCALE, cmin: 0, cmax: top, showscale: true, colorbar: { title: { text: "deviation m", side: "right" }, thickness: 14, len: 0.7, outlinewidth: 0 } },
         hovertemplate: "t = %{customdata[0]:.2f} s<br>deviation %{customdata[1]:.2f} m<br>(%{x:.2f}, %{y:.2f}, %{z:.2f}) m<extra></extra>",
       });
@@ -72,7 +79,7 @@
     if (!spatial) throw new Error("the browser has no WebGL; top and side view are below");
     const ax = (name, size) => ({ title: { text: name + " m" }, range: range(name, size), backgroundcolor: "#fbfcfd", gridcolor: LINE, showbackground: true, zeroline: false, color: SOFT });
     const paths = ["x", "y", "z"].map((k) => (c.flown ? c.flown[k] : []).concat(c.planned[k]));
-    const reach = (k, size) => [Math.min(0, ...paths[k]), Math.max(size, ...paths[k])];
+    const reach = (k, size) => [Math.min(data.low[k], ...paths[k]), Math.max(data.low[k] + size, ...paths[k])];
     const range = (name, size) => reach("xyz".indexOf(name), size);
     const layout = base({
       margin: { l: 0, r: 0, t: 4, b: 0 }, uirevision: "keep", legend: { orientation: "h", y: 0.01, x: 0.01, bgcolor: "rgba(255,255,255,.75)" },
@@ -83,14 +90,18 @@
 
   function drawSeries(c) {
     const f = c.flown;
-    if (!f) throw new Error("the executor failed: nothing was flown");
+    if (!f) throw new Error("the executor failed: nothing was " + DONE);
     const judged = f.d.map((d, i) => (f.judged[i] ? d : null));
     // Each stretch inside a corner keeps the samples that it shares with the judged ones, so the line has no holes.
     const corner = f.d.map((d, i) => (!f.judged[i] || f.judged[i - 1] === 0 || f.judged[i + 1] === 0 ? d : null));
     const line = (y, name, yaxis, color, more) => Object.assign({ type: "scatter", mode: "lines", x: f.t, y, name, yaxis, line: { color, width: 2 }, hovertemplate: "%{y}<extra>" + name + "</extra>" }, more);
     const traces = [line(corner, "in corners (overshoot judges)", "y", "#9aa7b3", { line: { color: "#9aa7b3", width: 1.5, dash: "dot" } }), line(judged, "deviation", "y", FLOWN), line(f.v, "speed", "y2", PLAN)];
-    (f.rotors || []).forEach((r, i) => traces.push(line(r, "rotor " + (i + 1), "y3", ROTORS[i % 6], { line: { color: ROTORS[i % 6], width: 1.3, dash: DASHES[i % 6] } })));
-    const rotors = (f.rotors || []).length > 0;
+    const panels = f.panels || [];
+    panels.forEach((panel, p) => panel.lines.forEach((l, i) => traces.push(line(l.y, l.name, "y" + (p + 3), ROTORS[i % 6], { line: { color: ROTORS[i % 6], width: 1.4, dash: DASHES[i % 6] } }))));
+    // Deviation and speed on top, the other panels below in equal parts.
+    const gap = 0.06, part = 1 / (panels.length + 2.4), from = (k) => Math.max(0, 1 - (k === 0 ? 1.4 : k + 1.4) * part);
+    const domain = (k) => [from(k) + (k === panels.length + 1 ? 0 : gap / 2), k === 0 ? 1 : from(k - 1) - gap / 2];
+    byId("series").style.height = 200 + 160 * (panels.length + 1) + "px";
     const shapes = [{ type: "line", xref: "x", yref: "paper", x0: f.t[sample], x1: f.t[sample], y0: 0, y1: 1, line: { color: "#f0a202", width: 2 } }];
     if (data.limit !== null) shapes.push({ type: "line", xref: "paper", yref: "y", x0: 0, x1: 1, y0: data.limit, y1: data.limit, line: { color: INK, width: 1.5, dash: "dash" } });
     const notes = data.limit === null ? [] : [{ xref: "paper", yref: "y", x: 1, y: data.limit, xanchor: "right", yanchor: "bottom", text: "limit " + fixed(data.limit, 2) + " m", showarrow: false, font: { size: 12, color: INK } }];
@@ -98,11 +109,11 @@
     const top = Math.max(...f.d, data.limit || 0) * 1.15 || 1;
     const layout = base({
       margin: { l: 62, r: 14, t: 8, b: 44 }, hovermode: "x", legend: { orientation: "h", y: 1.09, x: 0 }, shapes, annotations: notes,
-      xaxis: axis("t s", { anchor: rotors ? "y3" : "y2", range: [f.t[0], f.t[f.t.length - 1]] }),
-      yaxis: axis("deviation m", { domain: rotors ? [0.66, 1] : [0.55, 1], range: [0, top] }),
-      yaxis2: axis("speed m/s", { domain: rotors ? [0.36, 0.6] : [0, 0.45], rangemode: "tozero" }),
+      xaxis: axis("t s", { anchor: "y" + (panels.length + 2), range: [f.t[0], f.t[f.t.length - 1]] }),
+      yaxis: axis("deviation m", { domain: domain(0), range: [0, top] }),
+      yaxis2: axis("speed m/s", { domain: domain(1), rangemode: "tozero" }),
     });
-    if (rotors) layout.yaxis3 = axis("rotors rad/s", { domain: [0, 0.3] });
+    panels.forEach((panel, p) => { layout["yaxis" + (p + 3)] = axis(panel.title, { domain: domain(p + 2) }); });
     return Plotly.react("series", traces, layout, CONFIG);
   }
 
@@ -142,7 +153,7 @@
     sample = Math.max(0, Math.min(i, f.t.length - 1));
     byId("time").value = String(sample);
     const leg = f.leg ? ", leg " + f.leg[sample] + "→" + (f.leg[sample] + 1) : "";
-    byId("moment").textContent = "t = " + fixed(f.t[sample], 2) + " s" + leg + ", deviation " + fixed(f.d[sample], 2) + " m, " + fixed(f.v[sample], 1) + " m/s";
+    byId("moment").textContent = "t = " + fixed(f.t[sample], 2) + " s" + leg + ", deviation " + fixed(f.d[sample], 2) + " m, " + fixed(f.v[sample], f.v[sample] < 1 ? 2 : 1) + " m/s";
     if (waiting) return;
     waiting = true;
     requestAnimationFrame(() => {

@@ -186,11 +186,12 @@ fn findings(shown: &Shown, first: bool) -> String {
 fn figure(data: &ReportData, shown: &Shown, first: bool) -> String {
     format!(
         "<figure class=\"case\" data-case=\"{:04}\"{}>{}\
-         <figcaption><span class=\"key flown\"></span>flown <span class=\"key planned\"></span>planned \
+         <figcaption><span class=\"key flown\"></span>{} <span class=\"key planned\"></span>planned \
          <span class=\"key legs\"></span>straight legs <span class=\"key worst\"></span>worst moment</figcaption></figure>",
         shown.result.case,
         if first { "" } else { " hidden" },
-        svg::views(shown, &data.drawing)
+        svg::views(shown, &data.drawing),
+        if data.drawing.relief.is_some() { "driven" } else { "flown" }
     )
 }
 
@@ -292,12 +293,16 @@ fn setup(data: &ReportData) -> String {
             "<section class=\"panel\" id=\"assumptions\"><h2>Assumptions and limits of this run</h2><ul>{assumptions}</ul></section>"
         )
     };
-    let robot = format!(
-        "<figure>{}<figcaption><span class=\"key cw\"></span>clockwise <span class=\"key ccw\"></span>counter-clockwise, seen \
-         from above; all inside a ball of {} m</figcaption></figure>",
-        svg::rotors(&data.drawing),
-        number(Some(data.drawing.radius))
-    );
+    let caption = if data.drawing.rotors.is_empty() {
+        format!("seen from above; all wheels inside a circle of {} m", number(Some(data.drawing.radius)))
+    } else {
+        format!(
+            "<span class=\"key cw\"></span>clockwise <span class=\"key ccw\"></span>counter-clockwise, seen from above; all \
+             inside a ball of {} m",
+            number(Some(data.drawing.radius))
+        )
+    };
+    let robot = format!("<figure>{}<figcaption>{caption}</figcaption></figure>", svg::robot(&data.drawing));
     format!(
         "<section class=\"panel\" id=\"setup\"><h2>How it was tested</h2><div class=\"columns\"><dl>{facts}</dl>{robot}</div></section>\n{assumptions}"
     )

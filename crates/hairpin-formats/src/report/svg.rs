@@ -2,9 +2,13 @@
 
 use std::fmt::Write;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use hairpin::campaign::report::{Drawing, Shown, Surface};
 use hairpin::trajectory::Track;
 use nalgebra::Point3;
+
+use super::relief;
 
 /// Drawing area of one view, in the SVG's own units.
 const SIDE: f64 = 420.0;
@@ -17,6 +21,7 @@ const POINTS: usize = 400;
 pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
     let size = drawing.size;
     let scale = SIDE / size.max();
+    let low = drawing.low;
     let (width, top, side) = (size.x * scale, size.y * scale, size.z * scale);
     let height = top.max(side);
     let (full, tall) = (2.0 * width + 2.0 * MARGIN + GAP, height + 2.0 * MARGIN);
@@ -25,7 +30,16 @@ pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
         shown.result.case
     );
     let at =
-        |x0: f64, across: usize, up: usize, span: f64| View { x0, y1: MARGIN + height, scale, across, up, width, span };
+        |x0: f64, across: usize, up: usize, span: f64| View {
+            x0,
+            y1: MARGIN + height,
+            scale,
+            low: [low[across], low[up]],
+            across,
+            up,
+            width,
+            span,
+        };
     view(&mut svg, shown, drawing, &at(MARGIN, 0, 1, top), "top");
     view(&mut svg, shown, drawing, &at(MARGIN + width + GAP, 0, 2, side), "side");
     svg.push_str("</svg>");
@@ -37,6 +51,8 @@ struct View {
     x0: f64,
     y1: f64,
     scale: f64,
+    /// Coordinates of the lower left corner.
+    low: [f64; 2],
     across: usize,
     up: usize,
     width: f64,
@@ -45,7 +61,10 @@ struct View {
 
 impl View {
     fn place(&self, p: &Point3<f64>) -> (f64, f64) {
-        (self.x0 + p[self.across] * self.scale, self.y1 - p[self.up] * self.scale)
+        (
+            self.x0 + (p[self.across] - self.low[0]) * self.scale,
+            self.y1 - (p[self.up] - self.low[1]) * self.scale,
+        )
     }
 }
 
@@ -57,20 +76,30 @@ fn view(svg: &mut String, shown: &Shown, drawing: &Drawing, view: &View, name: &
         "<rect class=\"cage\" x=\"{x0:.1}\" y=\"{y0:.1}\" width=\"{:.1}\" height=\"{:.1}\"/>",
         view.width, view.span
     ));
-    let ticks = |extent: f64| {
+    if let Some(picture) = drawing.relief.as_ref().filter(|_| view.up == 1).and_then(relief::picture) {
+        add(format!(
+            "<image x=\"{x0:.1}\" y=\"{y0:.1}\" width=\"{:.1}\" height=\"{:.1}\" preserveAspectRatio=\"none\" \
+             href=\"data:image/png;base64,{}\"/>",
+            view.width,
+            view.span,
+            STANDARD.encode(picture)
+        ));
+    }
+    let ticks = |low: f64, extent: f64| {
         let step =
             [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0].into_iter().find(|s| extent / s <= 6.5).unwrap_or(extent);
-        (0..=(extent / step) as usize).map(move |i| i as f64 * step)
+        let first = (low / step).ceil() as i64;
+        (first..=((low + extent) / step).floor() as i64).map(move |i| i as f64 * step)
     };
-    for tick in ticks(drawing.size[view.across]) {
-        let x = view.x0 + tick * view.scale;
+    for tick in ticks(view.low[0], drawing.size[view.across]) {
+        let x = view.x0 + (tick - view.low[0]) * view.scale;
         add(format!(
             "<text class=\"tick\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{tick}</text>",
             view.y1 + 15.0
         ));
     }
-    for tick in ticks(drawing.size[view.up]) {
-        let y = view.y1 - tick * view.scale + 3.5;
+    for tick in ticks(view.low[1], drawing.size[view.up]) {
+        let y = view.y1 - (tick - view.low[1]) * view.scale + 3.5;
         add(format!("<text class=\"tick\" x=\"{:.1}\" y=\"{y:.1}\" text-anchor=\"end\">{tick}</text>", view.x0 - 6.0));
     }
     let label = format!("{name} view: {} across, {} up, m", names[view.across], names[view.up]);
@@ -138,8 +167,34 @@ fn points(positions: impl Iterator<Item = Point3<f64>>, view: &View) -> String {
     text.trim_end().to_owned()
 }
 
-/// The rotors seen from above, forward up: numbers, spins, and the ball that holds the robot.
-pub(super) fn rotors(drawing: &Drawing) -> String {
+/// The robot seen from above, forward up: its rotors or its wheels.
+pub(super) fn robot(drawing: &Drawing) -> String {
+    if drawing.rotors.is_empty() { wheels(drawing) } else { rotors(drawing) }
+}
+
+fn wheels(drawing: &Drawing) -> String {
+    let reach = drawing.wheels.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max).max(1e-6);
+    let unit = 84.0 / reach;
+    let mut svg = String::from(
+        "<svg class=\"rotors\" viewBox=\"-120 -120 240 240\" role=\"img\" aria-label=\"Wheels seen from above\">\
+         <path class=\"forward\" d=\"M0 -14 L7 4 L0 0 L-7 4 Z\"/>\
+         <text class=\"axis\" x=\"0\" y=\"-104\" text-anchor=\"middle\">forward ↑</text>",
+    );
+    for [x, y] in &drawing.wheels {
+        let (x, y) = (-y * unit, -x * unit);
+        let _ = write!(
+            svg,
+            "<line class=\"arm\" x1=\"0\" y1=\"0\" x2=\"{x:.1}\" y2=\"{y:.1}\"/>\
+             <rect class=\"disc cw\" x=\"{:.1}\" y=\"{:.1}\" width=\"14\" height=\"30\" rx=\"4\"/>",
+            x - 7.0,
+            y - 15.0
+        );
+    }
+    svg + "</svg>"
+}
+
+/// The rotors: numbers, spins, and the ball that holds the robot.
+fn rotors(drawing: &Drawing) -> String {
     let reach = drawing.rotors.iter().map(|r| r.x.hypot(r.y)).fold(0.0, f64::max).max(1e-6);
     let unit = 62.0 / reach;
     let mut svg = String::from(

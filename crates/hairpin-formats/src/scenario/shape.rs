@@ -38,7 +38,7 @@ impl<'s> Shape<'s> {
             return self.complain(node, path, &format!("expected {}", expected.join(" or ")));
         };
         match &node.kind {
-            Kind::Table(_) => match tag(&alternatives) {
+            Kind::Table(_) => match self.tag(&alternatives) {
                 Some(tag) => self.check_tagged(tag, &alternatives, node, path),
                 None => self.check_table(schema, node, path),
             },
@@ -89,10 +89,23 @@ impl<'s> Shape<'s> {
         self.report.complain(&node.place, path, &format!("{word:?}"), &bound, message);
     }
 
+    /// The key whose word tells several tables apart: of serde's tagged enums, or a `kind` of one word each.
+    fn tag(&self, alternatives: &[&'s Value]) -> Option<&'s str> {
+        let first = alternatives.first()?["properties"].as_object()?;
+        let tells = |key: &&String| alternatives.iter().all(|schema| self.word_of(schema, key).is_some());
+        first.keys().find(tells).map(String::as_str)
+    }
+
+    /// The one word that `key` of a table may be, if there is only one.
+    fn word_of(&self, schema: &'s Value, key: &str) -> Option<&'s str> {
+        let allowed: Vec<&str> =
+            self.alternatives(&schema["properties"][key]).into_iter().flat_map(|schema| words(schema)).collect();
+        if let [word] = allowed[..] { Some(word) } else { None }
+    }
+
     /// A table that is one of several, told apart by the word under `tag`.
     fn check_tagged(&mut self, tag: &str, alternatives: &[&'s Value], node: &Node, path: &str) {
-        let word_of = |schema: &'s Value| schema["properties"][tag]["const"].as_str();
-        let words: Vec<&str> = alternatives.iter().filter_map(|schema| word_of(schema)).collect();
+        let words: Vec<&str> = alternatives.iter().filter_map(|schema| self.word_of(schema, tag)).collect();
         let key = below(path, tag);
         let Some(said) = node.get(tag) else {
             let bound = format!("`{tag}` is missing here: one of {}", words.join(", "));
@@ -100,7 +113,7 @@ impl<'s> Shape<'s> {
             return self.report.complain(place, &key, "", &bound, format!("`{key}` is missing"));
         };
         let chosen = match &said.kind {
-            Kind::Text(word) => alternatives.iter().find(|schema| word_of(schema) == Some(word)),
+            Kind::Text(word) => alternatives.iter().find(|schema| self.word_of(schema, tag) == Some(word)),
             _ => None,
         };
         match chosen {
@@ -213,14 +226,6 @@ impl<'s> Shape<'s> {
 }
 
 /// `"number"` of both `"number"` and `["number", "null"]`.
-/// The key whose constant tells several tables apart, as serde's tagged enums have it.
-fn tag<'s>(alternatives: &[&'s Value]) -> Option<&'s str> {
-    let first = alternatives.first()?["properties"].as_object()?;
-    let tells =
-        |key: &&String| alternatives.iter().all(|schema| schema["properties"][key.as_str()]["const"].is_string());
-    first.keys().find(tells).map(String::as_str)
-}
-
 fn type_of(schema: &Value) -> &str {
     let listed = schema["type"].as_array().and_then(|types| types.first());
     schema["type"].as_str().or(listed.and_then(Value::as_str)).unwrap_or_default()

@@ -87,12 +87,16 @@ impl<'a> DriveSetup<'a> {
 /// # Errors
 /// The robot's key that is out of bounds; a name that was not resolved before.
 pub(in crate::campaign) fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistake> {
-    let GroundDescription::Rover(description) = source.resolved()?;
-    description.build().map_err(|error| Mistake {
-        key: format!("robot.{}", error.field),
-        value: error.value,
-        bound: error.bound,
-    })
+    let wrong = |field: String, value, bound| Mistake { key: format!("robot.{field}"), value, bound };
+    match source.resolved()? {
+        GroundDescription::Rover(rover) => rover.build().map_err(|e| wrong(e.field, e.value, e.bound)),
+        GroundDescription::Car(car) => {
+            car.build().map(|car| car.vehicle()).map_err(|e| wrong(e.field, e.value, e.bound))
+        }
+        GroundDescription::DifferentialDrive(drive) => {
+            drive.build().map(|drive| drive.vehicle()).map_err(|e| wrong(e.field, e.value, e.bound))
+        }
+    }
 }
 
 /// `rover` as plans have it.

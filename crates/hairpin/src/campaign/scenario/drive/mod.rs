@@ -13,6 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Distribution, RobotSource};
+use crate::robot::ground::{CarDescription, DifferentialDriveDescription};
 use crate::robot::rover::RoverDescription;
 
 pub use execute::*;
@@ -55,10 +56,14 @@ pub struct DriveScenario {
 #[serde(untagged)]
 pub enum GroundDescription {
     /// `kind = "rover"`.
-    Rover(RoverDescription),
+    Rover(Box<RoverDescription>),
+    /// `kind = "car"`.
+    Car(CarDescription),
+    /// `kind = "differential-drive"`.
+    DifferentialDrive(DifferentialDriveDescription),
 }
 
 impl GroundDescription {
     /// Words of `kind`.
-    pub const KINDS: &'static [&'static str] = &["rover"];
+    pub const KINDS: &'static [&'static str] = &["rover", "car", "differential-drive"];
 }

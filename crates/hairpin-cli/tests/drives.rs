@@ -1,0 +1,171 @@
+//! Whole campaigns of drives through the binary: rovers on a map, a car and a differential drive on flat ground.
+
+mod commands;
+
+use std::fs;
+use std::path::Path;
+
+use commands::{assert_same, json, refused, run};
+use serde_json::Value;
+
+/// A small campaign of a rover: forward drives over generated ground.
+const SMALL: [&str; 13] = [
+    "rover",
+    "--set",
+    "task.length=4",
+    "--set",
+    "generate.manoeuvres=[\"forward\"]",
+    "--set",
+    "generate.search={ score = \"slope+slip\", waypoints = 24, cases = 2 }",
+    "--set",
+    "execute.controller=\"pure-pursuit\"",
+    "--set",
+    "execute.repeat=2",
+    "--set",
+    "world.terrain={ generator = \"craters\", size_m = 60, cell_m = 0.2 }",
+];
+
+fn small<'a>(command: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&[command], &SMALL[..], more].concat()
+}
+
+#[test]
+fn a_rovers_campaign_is_driven_judged_proven_and_driven_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let lax = ["--set", "spec.limits={ path_deviation_m = 5.0 }", "--out", "a"];
+    let object = json(at, &small("stress", &lax));
+    assert_eq!(object["exit_code"], 0, "{object}");
+    assert_eq!((&object["counts"]["cases"], &object["counts"]["pass"]), (&Value::from(2), &Value::from(2)));
+    assert_eq!(object["frame"]["relative_to"], "map origin");
+    assert_eq!(object["worst"]["evidence"], "witnessed");
+    let keys: Vec<&str> =
+        object["influences"].as_array().unwrap().iter().filter_map(|found| found["key"].as_str()).collect();
+    assert!(keys.contains(&"robot.slip_at_20_deg"), "{keys:?}");
+    let verified = json(at, &["verify", "a"]);
+    assert_eq!((&verified["checked"], &verified["failed"]), (&Value::from(2), &Value::from(0)), "{verified}");
+    assert!(verified["worst"]["end_error_m"].as_f64().unwrap() < 0.01);
+    let report = fs::read_to_string(at.join("a/report.html")).unwrap();
+    assert!(report.contains("\"relief\":{") && report.contains("data:image/png") && report.contains("tip-over margin"));
+
+    // A limit that nobody keeps; the violation is driven again to the bit.
+    let strict = json(at, &["judge", "a", "--set", "spec.limits.path_deviation_m=0.0001"]);
+    assert_eq!(strict["exit_code"], 1, "{strict}");
+    let again = json(at, &["replay", "a/repro/0000.json"]);
+    assert_eq!((&again["exit_code"], &again["reproduces"]), (&Value::from(1), &Value::from(true)), "{again}");
+    let (code, out, _) = run(at, &["export", "a", "--to", "waypoints,csv,tum"]);
+    assert_eq!(code, 0, "{out}");
+    assert_eq!(fs::read_to_string(at.join("a/missions/0000.csv")).unwrap().lines().count(), 5);
+}
+
+#[test]
+fn results_depend_on_no_threads_and_parts_make_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    run(at, &small("stress", &["--threads", "1", "--out", "one"]));
+    run(at, &small("generate", &["--threads", "2", "--out", "two"]));
+    run(at, &["execute", "two"]);
+    run(at, &["judge", "two"]);
+    assert_same(&at.join("one"), &at.join("two"));
+}
+
+#[test]
+fn a_map_is_kept_with_the_campaign_and_a_changed_one_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("yard.asc"), map(40, 0.5)).unwrap();
+    let scenario = "hairpin = 1\nrobot = \"rocky8\"\nseed = 3\n[world]\nterrain = { file = \"yard.asc\" }\nframe = \"ned\"\n\
+                    keep_out = [{ name = \"rock\", circle = { center_m = [12.0, 8.0], radius_m = 0.5 } }]\n\
+                    [task]\nstart = { x_m = 10.0, y_m = 9.0, yaw_deg = 90 }\nlength = 3\nleg_m = [2, 5]\n\
+                    [generate]\nsearch = { waypoints = 16, cases = 1 }\n[execute]\ncontroller = \"stanley\"\n";
+    fs::write(at.join("yard.toml"), scenario).unwrap();
+    let object = json(at, &["stress", "yard.toml", "--out", "a"]);
+    assert_eq!(object["exit_code"], 0, "{object}");
+    // x north, y east became x east, y north; yaw 90° from north is east.
+    let resolved = fs::read_to_string(at.join("a/scenario.toml")).unwrap();
+    assert!(resolved.contains("x_m = 9.0") && resolved.contains("y_m = 10.0"), "{resolved}");
+    assert!(resolved.contains("frame = \"enu\"") && resolved.contains("file = \"terrain.asc\""), "{resolved}");
+    // The folder is enough.
+    fs::remove_file(at.join("yard.asc")).unwrap();
+    assert_eq!(json(at, &["verify", "a"])["failed"], 0);
+    assert_eq!(json(at, &["judge", "a"])["exit_code"], 0);
+    fs::write(at.join("a/terrain.asc"), map(40, 0.6)).unwrap();
+    refused(at, &["judge", "a"], &["world.terrain.checksum", "another map"]);
+}
+
+#[test]
+fn where_nothing_can_be_driven_the_reasons_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let walls = "world.keep_out=[{ name = \"moat\", polygon = { points_m = [[28,28],[33,28],[33,33],[28,33],[28,29],[29,29],[29,32],[32,32],[32,29],[28,29]] } }]";
+    let few = ["--set", walls, "--set", "generate.search.graphs=2", "--out", "a"];
+    let (code, out, error) = run(folder.path(), &small("stress", &few));
+    assert_eq!(code, 3, "{out}{error}");
+    assert!(out.contains("NOTHING FEASIBLE") && out.contains("keep-out"), "{out}");
+}
+
+#[test]
+fn cars_and_differential_drives_go_the_same_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    for kind in ["car", "differential-drive"] {
+        assert_eq!(run(at, &["new", kind]).0, 0);
+        let file = format!("{kind}.toml");
+        let few = ["--set", "generate.search.cases=2", "--set", "generate.search.waypoints=24"];
+        let lax = ["--set", "spec.limits={ path_deviation_m = 50.0 }", "--out", kind];
+        let object = json(at, &[&["stress", &file][..], &few, &lax].concat());
+        assert_eq!(object["exit_code"], 0, "{kind}: {object}");
+        assert_eq!(json(at, &["verify", kind])["failed"], 0, "{kind}");
+        for (reach, evidence) in [("hull", "hull-feasible"), ("sphere", "unchecked"), ("none", "unchecked")] {
+            let out = format!("{kind}-{reach}");
+            let set = format!("generate.reach=\"{reach}\"");
+            let asked = ["--set", &set, "--set", "generate.step_s=2.0", "--set", "task.length=3", "--out", &out];
+            let object = json(at, &[&["generate", &file][..], &few, &asked].concat());
+            assert_eq!(object["exit_code"], 0, "{kind}, {reach}: {object}");
+            let table = at.join(&out).join("results.parquet");
+            assert!(fs::metadata(table).is_ok(), "{evidence}");
+        }
+    }
+}
+
+#[test]
+fn mistakes_are_told_with_their_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    for (set, words) in [
+        ("task.start.x_m=1e4", &["task.start", "outside the map"][..]),
+        ("task.leg_m=[6, 2]", &["task.leg_m", "rising"]),
+        ("generate.search.score=\"bumps\"", &["generate.search.score", "slope"]),
+        ("generate.limits.speed_m_s=-1", &["speed_m_s"]),
+        ("world.terrain={ file = \"none.tif\" }", &["none.tif", "cannot be read"]),
+        ("world.terrain={ generator = \"moon\" }", &["generator", "craters"]),
+        ("world.keep_out=[{ name = \"x\" }]", &["world.keep_out[0]", "circle"]),
+        ("robot.suspension.wheel_radius_m=-0.1", &["robot.suspension.wheel_radius_m"]),
+        ("execute.controler=\"stanley\"", &["execute.controler", "controller"]),
+    ] {
+        refused(at, &["stress", "rover", "--set", set, "--out", "a"], words);
+    }
+    refused(at, &["simulate", "rocky8", "--rotor-speeds", "x.csv"], &["rocky8", "rotors"]);
+    assert!(fs::read_dir(at).unwrap().next().is_none(), "mistakes leave nothing behind");
+}
+
+/// A gentle hill as an ESRI ASCII grid of `cells` × `cells` cells of 0.5 m, `height` m high.
+fn map(cells: usize, height: f64) -> String {
+    let mut text = format!("ncols {cells}\nnrows {cells}\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n");
+    for row in 0..cells {
+        let line = (0..cells).map(|column| {
+            let (x, y) = (column as f64 / cells as f64 - 0.5, row as f64 / cells as f64 - 0.5);
+            format!("{:.4}", height * (-8.0 * (x * x + y * y)).exp())
+        });
+        text.push_str(&line.collect::<Vec<_>>().join(" "));
+        text.push('\n');
+    }
+    text
+}
+
+#[test]
+fn a_demo_needs_nothing_but_the_binary() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, out, error) = run(folder.path(), &["demo", "rover", "--out", "d"]);
+    assert!([0, 1].contains(&code), "{out}{error}");
+    assert!(Path::new(&folder.path().join("d/report.html")).is_file());
+}
