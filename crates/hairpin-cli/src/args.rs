@@ -55,7 +55,7 @@ pub(crate) enum Command {
     /// Fly a rotor-speed profile open loop: poses in time as CSV
     Simulate(Simulate),
     /// Solve boundary-value drives of a ground vehicle: one (--to), or a file of them (--queries)
-    Steer(Steer),
+    Steer(Box<Steer>),
     /// Measure what hairpin promises of its speed, on one core
     Bench(Bench),
     /// Check the requirements of a generator one by one: requirements rover

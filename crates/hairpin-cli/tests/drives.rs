@@ -150,7 +150,8 @@ fn mistakes_are_told_with_their_place() {
 
 /// A gentle hill as an ESRI ASCII grid of `cells` × `cells` cells of 0.5 m, `height` m high.
 fn map(cells: usize, height: f64) -> String {
-    let mut text = format!("ncols {cells}\nnrows {cells}\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n");
+    let mut text =
+        format!("ncols {cells}\nnrows {cells}\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n");
     for row in 0..cells {
         let line = (0..cells).map(|column| {
             let (x, y) = (column as f64 / cells as f64 - 0.5, row as f64 / cells as f64 - 0.5);

@@ -35,9 +35,7 @@ pub(super) fn json(data: &ReportData) -> String {
 
 /// The ground; holes are null.
 fn relief(relief: &Relief) -> Value {
-    let row = |row: &Vec<f64>| {
-        row.iter().map(|h| h.is_finite().then(|| round(*h, 3))).collect::<Vec<Option<f64>>>()
-    };
+    let row = |row: &Vec<f64>| row.iter().map(|h| h.is_finite().then(|| round(*h, 3))).collect::<Vec<Option<f64>>>();
     let shade: Vec<Vec<f64>> =
         shading(relief).iter().map(|row| row.iter().map(|shade| round(*shade, 2)).collect()).collect();
     json!({
@@ -118,12 +116,9 @@ fn flown(shown: &Shown, track: &Track) -> Value {
 
 /// Further series under deviation and speed: of flights the rotors, of drives curvature, attitude and joints.
 fn panels(track: &Track, kept: &[usize]) -> Vec<Value> {
-    let take = |values: &[f64], scale: f64, digits| {
-        kept.iter().map(|&i| round(scale * values[i], digits)).collect::<Vec<_>>()
-    };
-    let panel = |title: &str, lines: Vec<Value>| {
-        (!lines.is_empty()).then(|| json!({ "title": title, "lines": lines }))
-    };
+    let take =
+        |values: &[f64], scale: f64, digits| kept.iter().map(|&i| round(scale * values[i], digits)).collect::<Vec<_>>();
+    let panel = |title: &str, lines: Vec<Value>| (!lines.is_empty()).then(|| json!({ "title": title, "lines": lines }));
     let line = |name: &str, channel: &str, scale, digits| {
         track.channel(channel).map(|values| json!({ "name": name, "y": take(values, scale, digits) }))
     };
@@ -143,8 +138,9 @@ fn panels(track: &Track, kept: &[usize]) -> Vec<Value> {
         [json!({ "name": "nose up", "y": up(0) }), json!({ "name": "left side up", "y": up(1) })]
     });
     let joints = ["rocker", "left_bogie", "right_bogie"].into_iter();
-    let joints = joints
-        .filter_map(|name| line(&name.replace('_', " "), &format!("joint_{name}_rad"), 180.0 / std::f64::consts::PI, 1));
+    let joints = joints.filter_map(|name| {
+        line(&name.replace('_', " "), &format!("joint_{name}_rad"), 180.0 / std::f64::consts::PI, 1)
+    });
     let slip = line("slip", "slip", 100.0, 1);
     [
         panel("rotors rad/s", rotors.collect()),

@@ -22,7 +22,11 @@ pub(super) fn shading(relief: &Relief) -> Vec<Vec<f64>> {
                     let (west, east) = (column.saturating_sub(1), (column + 1).min(heights[row].len() - 1));
                     let (south, north) = (row.saturating_sub(1), (row + 1).min(heights.len() - 1));
                     let x = slope(height(row, west), height(row, east), (east - west).max(1) as f64 * relief.step);
-                    let y = slope(height(south, column), height(north, column), (north - south).max(1) as f64 * relief.step);
+                    let y = slope(
+                        height(south, column),
+                        height(north, column),
+                        (north - south).max(1) as f64 * relief.step,
+                    );
                     let light = (SUN[2] - SUN[0] * x - SUN[1] * y) / (1.0 + x * x + y * y).sqrt();
                     if light.is_finite() { light.clamp(0.0, 1.0) } else { 0.5 }
                 })

@@ -29,17 +29,16 @@ pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
         "<svg class=\"views\" viewBox=\"0 0 {full:.0} {tall:.0}\" role=\"img\" aria-label=\"Top and side view of case {:04}\">",
         shown.result.case
     );
-    let at =
-        |x0: f64, across: usize, up: usize, span: f64| View {
-            x0,
-            y1: MARGIN + height,
-            scale,
-            low: [low[across], low[up]],
-            across,
-            up,
-            width,
-            span,
-        };
+    let at = |x0: f64, across: usize, up: usize, span: f64| View {
+        x0,
+        y1: MARGIN + height,
+        scale,
+        low: [low[across], low[up]],
+        across,
+        up,
+        width,
+        span,
+    };
     view(&mut svg, shown, drawing, &at(MARGIN, 0, 1, top), "top");
     view(&mut svg, shown, drawing, &at(MARGIN + width + GAP, 0, 2, side), "side");
     svg.push_str("</svg>");
@@ -61,10 +60,7 @@ struct View {
 
 impl View {
     fn place(&self, p: &Point3<f64>) -> (f64, f64) {
-        (
-            self.x0 + (p[self.across] - self.low[0]) * self.scale,
-            self.y1 - (p[self.up] - self.low[1]) * self.scale,
-        )
+        (self.x0 + (p[self.across] - self.low[0]) * self.scale, self.y1 - (p[self.up] - self.low[1]) * self.scale)
     }
 }
 
