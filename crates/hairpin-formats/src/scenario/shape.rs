@@ -38,10 +38,13 @@ impl<'s> Shape<'s> {
             return self.complain(node, path, &format!("expected {}", expected.join(" or ")));
         };
         match &node.kind {
-            Kind::Table(_) => match self.tag(&alternatives) {
-                Some(tag) => self.check_tagged(tag, &alternatives, node, path),
-                None => self.check_table(schema, node, path),
-            },
+            Kind::Table(_) => {
+                let tables: Vec<&'s Value> = alternatives.iter().copied().filter(|schema| fits(&schema)).collect();
+                match self.tag(&tables) {
+                    Some(tag) if tables.len() > 1 => self.check_tagged(tag, &tables, node, path),
+                    _ => self.check_table(schema, node, path),
+                }
+            }
             Kind::Array(items) => {
                 let count = items.len() as u64;
                 let least = schema["minItems"].as_u64().unwrap_or(0);

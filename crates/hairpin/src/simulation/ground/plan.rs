@@ -16,6 +16,9 @@ const STEPS: usize = 4;
 /// Angle between neighbouring poses of a turn in place, rad, at most.
 const TURN_SPACING: f64 = 0.05;
 
+/// What rounding leaves of segments of no length, m or rad: too short for time to pass.
+const NOTHING: f64 = 1e-9;
+
 /// A place on the plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Station {
@@ -106,8 +109,8 @@ impl Plan {
         }
         for segment in &drive.legs[leg].segments {
             match segment.motion {
-                Motion::Arc { length_m, .. } if length_m > 0.0 => self.add_way(&mut plant, drive, segment, leg)?,
-                Motion::Turn { angle_rad } if angle_rad != 0.0 => {
+                Motion::Arc { length_m, .. } if length_m > NOTHING => self.add_way(&mut plant, drive, segment, leg)?,
+                Motion::Turn { angle_rad } if angle_rad.abs() > NOTHING => {
                     self.sections.push(Section::Turn { from: plant.yaw, angle: angle_rad, leg });
                     let parts = (angle_rad.abs() / TURN_SPACING).ceil();
                     let time = angle_rad.abs() / drive.turn_rate / parts;
