@@ -99,6 +99,7 @@ fn solving_on_the_ground_allocates_nothing() {
 /// Rooms that run on board, and the files in them that do not: what is read or made before the drive.
 const ROOMS: &[&str] = &["feasibility/steering/shooting", "robot/rover", "world/terrain", "trajectory/drive.rs"];
 const BEFORE: &[&str] = &[
+    "robot/rover/body.rs",
     "robot/rover/description.rs",
     "world/terrain/generate.rs",
     "world/terrain/keep_out/",

@@ -2,11 +2,14 @@
 
 mod ascii;
 mod geotiff;
+mod keep_out;
 mod numpy;
 mod raster;
 
 #[cfg(test)]
 mod tests;
+
+pub use keep_out::{CircleSection, KeepOutError, KeepOutSection, PolygonSection, keep_outs, read_keep_outs};
 
 use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, MapError};
 use thiserror::Error;

@@ -70,7 +70,8 @@ const SIN_20: f64 = 0.342_020_143_325_668_7;
 const TURN_STEP: f64 = 0.005;
 
 /// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on its
-/// wheels at each. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act.
+/// wheels at each. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
+/// drive that begins in reverse or in place it stands, and all of them act.
 ///
 /// # Errors
 /// [`Stopped`] where the ground ends or the body finds no rest.
@@ -80,7 +81,8 @@ pub fn replay_ground<T: Terrain>(
     terrain: &T,
     claim: &GroundClaim,
 ) -> Result<GroundReplay, Stopped> {
-    let [wait, _] = claim.metres_of(vehicle.latency_s);
+    let under_way = matches!(pieces.first(), Some(DrivePiece::Arc { direction, .. }) if *direction > 0.0);
+    let [wait, held] = if under_way { claim.metres_of(vehicle.latency_s) } else { [0.0; 2] };
     let mut commands = Vec::with_capacity(pieces.len() + 1);
     if wait > 0.0 {
         let mut curvature = [0.0; 6];
@@ -90,7 +92,7 @@ pub fn replay_ground<T: Terrain>(
     commands.extend_from_slice(pieces);
     let written: f64 = pieces.iter().map(DrivePiece::length).sum();
     // The drive without what is only held while its last commands come to act; driven is that and the wait.
-    let drive = (written - claim.metres_of(vehicle.latency_s)[1]).max(0.0);
+    let drive = (written - held).max(0.0);
     let total = wait + drive;
     let stopped = |after_m: f64, no_rest: NoRest| Stopped {
         after_m,

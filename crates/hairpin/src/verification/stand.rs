@@ -47,6 +47,23 @@ pub(super) struct Rest {
     inverse: Option<SMatrix<f64, 6, 6>>,
 }
 
+/// Share of the ground's slope below the body, and height over it (m), from which a rest is looked for, in turn.
+const GUESSES: [(f64, f64); 14] = [
+    (1.0, 0.2),
+    (0.0, 0.2),
+    (0.5, 0.2),
+    (1.0, 0.0),
+    (0.0, 0.0),
+    (1.0, 0.5),
+    (0.0, 0.5),
+    (0.5, 0.0),
+    (0.5, 0.5),
+    (-0.5, 0.2),
+    (0.25, 0.3),
+    (0.75, 0.3),
+    (0.25, 0.1),
+    (0.75, 0.1),
+];
 /// Steps shorter than this end the search, m and rad.
 const CLOSED: f64 = 1e-9;
 /// Steps with the neighbour's Jacobian, and Jacobians, before the search is given up.
@@ -88,7 +105,7 @@ impl Rest {
         let pitch = -libm::atan(slope.dot(&(heading * Vector3::x())));
         let roll = libm::atan(slope.dot(&(heading * Vector3::y())));
         let mut refused = NoRest::NotFound;
-        for (share, height) in [(1.0, 0.2), (0.0, 0.2), (0.5, 0.2), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5)] {
+        for (share, height) in GUESSES {
             let mut unknowns = Unknowns::zeros();
             (unknowns[0], unknowns[1], unknowns[2]) = (ground.height + height, share * roll, share * pitch);
             let mut rest = Self { unknowns, inverse: None };
@@ -100,8 +117,14 @@ impl Rest {
         Err(refused)
     }
 
-    /// Brings the body to rest at `place`, from the rest it had before.
+    /// Brings the body to rest at `place`, from the rest it had before; no link of it on its head.
     pub(super) fn follow<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
+        self.approach(stand, terrain, place)?;
+        let upright = self.unknowns.rows(3, 3).iter().all(|joint| joint.abs() <= std::f64::consts::FRAC_PI_2);
+        if upright { Ok(()) } else { Err(NoRest::NotFound) }
+    }
+
+    fn approach<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
         if *stand == Stand::Level {
             return Ok(());
         }

@@ -67,6 +67,7 @@ impl<'a> DriveSetup<'a> {
         rough::Settings {
             iterations: solver.iterations as u32,
             precision: Precision { position: solver.position_m, yaw: solver.yaw_rad, curvature: solver.curvature_1_m },
+            ..rough::Settings::default()
         }
     }
 

@@ -1,5 +1,6 @@
 //! Boundary-value drives of rovers on elevation maps: solved, and replayed from what would be written.
 
+use crate::feasibility::steering::clear::{Around, ClearedOnGround, solve_on_ground};
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
 use crate::robot::rover::{Rover, Suspension};
@@ -71,7 +72,37 @@ impl Site<'_> {
 
     /// What of `segments` the speeds are meant for: all but the stretch that is held while the last commands come to act.
     fn driven(&self, segments: &[Segment]) -> SegmentList {
-        shortened(segments, self.rover.response.latency * self.speed.end())
+        let held = match rough::Waiting::before(segments) {
+            rough::Waiting::GoesOn => self.rover.response.latency * self.speed.end(),
+            rough::Waiting::Stands => 0.0,
+        };
+        shortened(segments, held)
+    }
+
+    /// What [`Self::solve`] finds until `over` says that the time is.
+    pub fn solve_until(
+        &self,
+        start: &Planar,
+        goal: &Planar,
+        bounds: &Curvatures,
+        settings: &Settings,
+        steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
+        over: &dyn Fn() -> bool,
+    ) -> Answer {
+        rough::solve_until(&self.course(Steps::default()), start, goal, bounds, settings, steer, over)
+    }
+
+    /// Commands that drive from `start` to `goal` and stay clear of places to keep out of.
+    pub fn solve_clear(
+        &self,
+        start: &Planar,
+        goal: &Planar,
+        bounds: &Curvatures,
+        settings: &Settings,
+        around: &Around<'_>,
+        over: &dyn Fn() -> bool,
+    ) -> ClearedOnGround {
+        solve_on_ground(&self.course(Steps::default()), start, goal, bounds, settings, around, over)
     }
 
     /// Where `segments` lead from `start`, predicted in steps of `steps`.

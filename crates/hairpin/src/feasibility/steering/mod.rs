@@ -1,5 +1,6 @@
 //! Steering: one leg from one state to another, with the controls that fly it.
 
+pub mod clear;
 pub mod flatness;
 pub mod leg;
 pub mod proof;

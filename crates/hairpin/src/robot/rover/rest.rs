@@ -52,6 +52,9 @@ pub enum Unsettled {
     /// The contacts do not determine the pose.
     #[error("the wheels' contacts do not determine the pose")]
     Singular,
+    /// All wheels would touch the ground only with a bogie on its head.
+    #[error("a rocker or bogie would stand on its head")]
+    OnItsHead,
     /// Newton's method ended with a gap.
     #[error("a wheel stays {gap:.4} m off the ground")]
     NotConverged {

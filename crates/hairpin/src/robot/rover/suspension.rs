@@ -1,5 +1,7 @@
 //! The kinds of suspension, and where a search for rest begins.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::Vector3;
 
 use super::RockerBogie;
@@ -18,6 +20,8 @@ pub enum Suspension {
     RockerBogie(RockerBogie),
 }
 
+/// How far above the ground's height a search for rest begins when it found none from there, m.
+const ABOVE: f64 = 0.3;
 /// Gaps from which one more step of Newton ends at rounding errors, m.
 const EXACT: f64 = 1e-6;
 
@@ -39,7 +43,14 @@ impl Suspension {
         match self {
             Self::Level => Ok((Settled::default(), Gradient::default())),
             Self::FourWheel(body) => body.settle(terrain, at, guess, coarse),
-            Self::RockerBogie(body) => body.settle(terrain, at, guess, coarse),
+            Self::RockerBogie(body) => {
+                let (settled, gradient) = body.settle(terrain, at, guess, coarse)?;
+                // The contacts know wheels, not links: they are met by links turned upside down as well.
+                if settled.joints.iter().any(|joint| joint.abs() > FRAC_PI_2) {
+                    return Err(Unsettled::OnItsHead);
+                }
+                Ok((settled, gradient))
+            }
         }
     }
 
@@ -62,11 +73,21 @@ impl Suspension {
             pitch,
             joints: [0.0; 3],
         };
-        // A single spot can lie in a pit or on a rock; level is the second try.
-        self.settle(terrain, at, &guess, EXACT).or_else(|error| match error {
-            Unsettled::NoGround(_) => Err(error),
-            _ => self.settle(terrain, at, &Settled { z: guess.z, ..Settled::default() }, EXACT),
-        })
+        // A single spot can lie in a pit or on a rock; level is the second try, and then what lies between and above.
+        let mut found = self.settle(terrain, at, &guess, EXACT);
+        for (share, above) in [(0.0, 0.0), (0.5, 0.0), (1.0, ABOVE), (0.0, ABOVE), (0.5, ABOVE)] {
+            if found.is_ok() || matches!(found, Err(Unsettled::NoGround(_))) {
+                break;
+            }
+            let Settled { z, roll, pitch, joints } = guess;
+            found = self.settle(
+                terrain,
+                at,
+                &Settled { z: z + above, roll: share * roll, pitch: share * pitch, joints },
+                EXACT,
+            );
+        }
+        found
     }
 
     /// Centres of the wheels in the body frame for given joints, how many there are, and their radius, m.

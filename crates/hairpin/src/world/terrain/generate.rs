@@ -2,12 +2,12 @@
 //!
 //! Fractal: octaves of gradient noise whose amplitude falls with the wavelength as λ^H (Turcotte 1987; Mars' H is about
 //! 0.7 at rover scale). Craters: cumulative number per area ∝ D⁻² of fresh bowls 0.2 D deep with a rim 0.04 D high (Pike 1977). Rocks:
-//! share of the area covered by rocks larger than D, F(D) = k e^(−q D), q = 1.79 + 0.152/k (Golombek & Rapp 1997), half
-//! of each above the ground.
+//! see [`super::rocks`].
 
 use std::f64::consts::TAU;
 
 use super::map::{ElevationMap, Grid, HoleRule, MapError};
+use super::rocks::Rocks;
 use crate::math::random::{hashed_unit, named_seed, stream, unit};
 
 /// What to make.
@@ -66,7 +66,7 @@ pub fn generate(recipe: &Recipe) -> Result<ElevationMap, MapError> {
     let mut ground = Ground { heights: vec![0.0; cells * cells], cells, cell };
     ground.fractal(recipe);
     ground.craters(recipe);
-    ground.rocks(recipe);
+    ground.rocks(recipe)?;
     let mut north_first = Vec::with_capacity(cells * cells);
     for row in ground.heights.chunks_exact(cells).rev() {
         north_first.extend(row.iter().map(|h| *h as f32));
@@ -148,29 +148,15 @@ impl Ground {
         }
     }
 
-    fn rocks(&mut self, recipe: &Recipe) {
-        if recipe.rock_cover == 0.0 {
-            return;
-        }
-        let mut random = stream(named_seed(recipe.seed, "terrain rocks", 0));
-        let q = 1.79 + 0.152 / recipe.rock_cover;
-        let area = recipe.size_m * recipe.size_m;
+    fn rocks(&mut self, recipe: &Recipe) -> Result<(), MapError> {
         // Rocks below two cells are the ground's own roughness.
-        let least = 2.0 * self.cell;
-        let mut to_cover = recipe.rock_cover * libm::exp(-q * least) * area;
-        while to_cover > 0.0 {
-            // By area covered the diameters are exponential.
-            let diameter = (least - libm::log(1.0 - unit(&mut random)) / q).min(recipe.size_m / 4.0);
-            let center = [recipe.size_m * unit(&mut random), recipe.size_m * unit(&mut random)];
-            let radius = 0.5 * diameter;
-            self.bump(center, radius, |r| {
-                let share = r / radius;
-                let inside = (1.0 - share * share).max(0.0);
-                // Rounded at the foot, so that wheels meet slopes, not walls.
-                radius * inside * (2.0 - inside).sqrt()
-            });
-            to_cover -= 0.25 * std::f64::consts::PI * diameter * diameter;
+        let least_m = 2.0 * self.cell;
+        let most_m = (recipe.size_m / 4.0).max(least_m);
+        let rocks = Rocks { cover: recipe.rock_cover, least_m, most_m, seed: recipe.seed };
+        for rock in rocks.scatter([0.0; 2], [recipe.size_m; 2])? {
+            self.bump(rock.center, 0.5 * rock.diameter, |r| rock.height(r));
         }
+        Ok(())
     }
 
     /// Adds `height` of the distance from `center`, m, to the cells within `reach`.

@@ -158,6 +158,18 @@ impl ElevationMap {
             .any(|row| near(at.column, self.grid.columns).any(|column| self.filled[row * self.grid.columns + column]))
     }
 
+    /// The same map with what `raise` makes of its cells' heights, rows from the south; holes are NaN and stay so.
+    pub(super) fn raised(&self, raise: impl FnOnce(&mut [f32])) -> Self {
+        let Grid { columns, rows, .. } = self.grid;
+        let mut cells = Vec::with_capacity(columns * rows);
+        for row in 1..=rows {
+            cells.extend_from_slice(&self.heights[row * self.stride + 1..][..columns]);
+        }
+        raise(&mut cells);
+        let (heights, _) = pad(&cells, columns, rows);
+        Self { heights, ..self.clone() }
+    }
+
     fn locate(&self, x: f64, y: f64) -> Option<Located> {
         let u = (x - self.grid.first_center[0]) * self.per_cell[0];
         let v = (y - self.grid.first_center[1]) * self.per_cell[1];

@@ -4,6 +4,7 @@ mod flat;
 pub mod generate;
 pub mod keep_out;
 mod map;
+pub mod rocks;
 mod smooth;
 
 #[cfg(test)]
@@ -12,6 +13,7 @@ mod tests;
 pub use flat::{Flat, Function};
 pub use keep_out::{KeepOut, KeepOutShape, KeepOuts};
 pub use map::{ElevationMap, Grid, HoleRule, MapError};
+pub use rocks::{Rock, Rocks, add_rocks};
 
 use thiserror::Error;
 

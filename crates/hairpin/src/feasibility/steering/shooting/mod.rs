@@ -29,6 +29,7 @@ mod control;
 pub mod families;
 pub mod flat;
 mod generate;
+pub mod nearest;
 pub mod query;
 pub mod rough;
 pub mod solve;

@@ -105,7 +105,7 @@ pub fn solve(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: im
     let arc = (solution.arc == Some(flat::Status::Ok)).then(|| length(&solution.segments));
     let arc_within = |metres: f64| arc.is_some_and(|arc| arc <= PATIENCE * metres);
     // Asked in the order of what they cost: most arcs are plainly short.
-    if arc_within(at_least(query, bounds))
+    if arc_within(least_length(query, bounds))
         || (!choices.reversals
             && !choices.turns
             && arc.is_some()
@@ -135,7 +135,7 @@ pub fn solve(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: im
 
 /// Metres below which no path of these bounds solves the query, in any gears: the way itself, and the heading to be
 /// turned, where arriving backwards is no turn saved.
-fn at_least(query: &Query, bounds: &Curvatures) -> f64 {
+pub fn least_length(query: &Query, bounds: &Curvatures) -> f64 {
     libm::hypot(query.goal.x, query.goal.y).max(wrapped(query.goal.yaw).abs() / bounds.most)
 }
 
@@ -144,7 +144,7 @@ fn length(segments: &[Segment]) -> f64 {
 }
 
 /// The single arc in `gear`; in reverse it is the mirror image, about the y axis, of one that is driven forward.
-fn single_arc(query: &Query, bounds: &Curvatures, gear: Gear, settings: &flat::Settings) -> flat::Answer {
+pub(super) fn single_arc(query: &Query, bounds: &Curvatures, gear: Gear, settings: &flat::Settings) -> flat::Answer {
     let mut answer = flat::forward(&mirrored(query, gear), bounds, settings);
     if gear == Gear::Reverse {
         for segment in answer.segments.iter_mut() {
@@ -152,6 +152,21 @@ fn single_arc(query: &Query, bounds: &Curvatures, gear: Gear, settings: &flat::S
         }
     }
     answer
+}
+
+/// Hands over the single arc along every way around for which there is one.
+pub(in crate::feasibility::steering) fn single_arcs(
+    query: &Query,
+    bounds: &Curvatures,
+    choices: &Choices,
+    mut take: impl FnMut(SegmentList),
+) {
+    flat::every(&mirrored(query, choices.gear), bounds, &choices.flat, |mut segments| {
+        if choices.gear == Gear::Reverse {
+            segments.iter_mut().for_each(|segment| segment.gear = segment.gear.opposite());
+        }
+        take(segments);
+    });
 }
 
 /// The question that a drive in `gear` answers if it is driven forward.
@@ -163,7 +178,7 @@ fn mirrored(query: &Query, gear: Gear) -> Query {
 }
 
 /// Clothoid to zero curvature, turn, straight, turn, clothoid from zero curvature; what there is no need of is left out.
-fn turn_drive_turn(query: &Query, bounds: &Curvatures, gear: Gear) -> SegmentList {
+pub(in crate::feasibility::steering) fn turn_drive_turn(query: &Query, bounds: &Curvatures, gear: Gear) -> SegmentList {
     let sign = gear.sign();
     let rate = bounds.most_rate * (1.0 - 1e-12);
     let (k0, kf) = (query.start_curvature, query.goal.curvature);

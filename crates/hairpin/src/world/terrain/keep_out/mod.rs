@@ -31,6 +31,8 @@ pub struct Nearest<'a> {
     pub distance: f64,
     /// Which one; the first of equals.
     pub keep_out: &'a KeepOut,
+    /// Its place in the list.
+    pub index: usize,
 }
 
 impl KeepOuts {
@@ -82,7 +84,7 @@ impl KeepOuts {
 
     fn least(&self, at: [f64; 2], reach: f64, distance: impl Fn(&KeepOutShape) -> f64) -> Option<Nearest<'_>> {
         let (index, distance) = self.index.least(at, reach, |index| distance(&self.list[index].shape))?;
-        Some(Nearest { distance, keep_out: &self.list[index] })
+        Some(Nearest { distance, keep_out: &self.list[index], index })
     }
 }
 

@@ -7,4 +7,4 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-pub use path::{Gears, Path, steer};
+pub use path::{Gears, Path, every, steer};

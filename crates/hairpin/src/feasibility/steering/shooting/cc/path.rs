@@ -59,6 +59,38 @@ const STRAIGHT: f64 = 1e-10;
 /// stop (Banzhaf et al., IEEE ITSC 2017). Each is the shortest of its family, not of all paths. `None` only where
 /// `query` or `bounds` hold numbers that [`Query::new`] refuses.
 pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
+    let mut best: Option<Path> = None;
+    for_each_anchoring(query, bounds, gears, |circle, family, from, to, gear| {
+        let leads = from.length() + to.length();
+        let below = best.map_or(f64::INFINITY, |path| path.length_m) - leads;
+        if libm::hypot(to.pose.x - from.pose.x, to.pose.y - from.pose.y) >= below {
+            return;
+        }
+        if let Some(core) = between(circle, family, from, to, below) {
+            best = Some(Path::new(circle, from, core, to, gear));
+        }
+    });
+    best
+}
+
+/// Hands over every path of these words that solves `query` within `bounds`, in no order.
+pub fn every(query: &Query, bounds: &Curvatures, gears: Gears, mut take: impl FnMut(Path)) {
+    for_each_anchoring(query, bounds, gears, |circle, family, from, to, gear| {
+        if let Some(straight) = straight_ahead(family, from, to) {
+            take(Path::new(circle, from, straight, to, gear));
+        }
+        let ends = ((from.pose, from.curvature), (to.pose, to.curvature));
+        words::every(circle, family, ends.0, ends.1, &mut |core| take(Path::new(circle, from, core, to, gear)));
+    });
+}
+
+/// The states that words may lie between, with the circle that they are spelt with, and the gear of what is found.
+fn for_each_anchoring(
+    query: &Query,
+    bounds: &Curvatures,
+    gears: Gears,
+    mut take: impl FnMut(&Circle, Family, &Anchor, &Anchor, f64),
+) {
     let reverse = gears == Gears::Only(Gear::Reverse);
     // In reverse: the mirror image about the y axis is driven forward.
     let mirror = if reverse { -1.0 } else { 1.0 };
@@ -66,44 +98,41 @@ pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
     let end = Pose { x: mirror * goal.x, y: goal.y, heading: mirror * goal.yaw };
     let start = Pose { x: 0.0, y: 0.0, heading: 0.0 };
     let family = if gears == Gears::Both { Family::ReedsShepp } else { Family::Dubins };
-    let mut best: Option<Path> = None;
     for share in SHARES {
         let circle = Circle::new(bounds, share);
         let starts = anchors(start, query.start_curvature, &circle, family, 1.0);
         let ends = anchors(end, goal.curvature, &circle, family, -1.0);
         for from in starts.iter().flatten() {
             for to in ends.iter().flatten() {
-                let leads = from.length() + to.length();
-                let below = best.map_or(f64::INFINITY, |path| path.length_m) - leads;
-                if libm::hypot(to.pose.x - from.pose.x, to.pose.y - from.pose.y) >= below {
-                    continue;
-                }
-                if let Some(core) = between(&circle, family, from, to, below) {
-                    let (length_m, most) = (core.length + leads, circle.curvature);
-                    best = Some(Path { length_m, most, lead_in: from.lead, core, lead_out: to.lead, gear: mirror });
-                }
+                take(&circle, family, from, to, mirror);
             }
         }
     }
-    best
 }
 
 fn between(circle: &Circle, family: Family, from: &Anchor, to: &Anchor, below: f64) -> Option<Plan> {
-    if from.curvature == 0.0 && to.curvature == 0.0 {
-        let (sin, cos) = libm::sincos(from.pose.heading);
-        let (dx, dy) = (to.pose.x - from.pose.x, to.pose.y - from.pose.y);
-        let (ahead, aside) = (cos * dx + sin * dy, cos * dy - sin * dx);
-        let turned = libm::sin(to.pose.heading - from.pose.heading)
-            .abs()
-            .max(1.0 - libm::cos(to.pose.heading - from.pose.heading));
-        let drivable = ahead >= 0.0 || family == Family::ReedsShepp;
-        if aside.abs() < STRAIGHT && turned < STRAIGHT && drivable {
-            let straight = Straight { before: 0, gear: 1f64.copysign(ahead), length: ahead.abs() };
-            let plan = Plan { length: straight.length, turns: [None; 4], straight: Some(straight) };
-            return (plan.length < below).then_some(plan);
-        }
+    if let Some(plan) = straight_ahead(family, from, to) {
+        return (plan.length < below).then_some(plan);
     }
     words::shortest(circle, family, (from.pose, from.curvature), (to.pose, to.curvature), below)
+}
+
+/// Straight on, where that is all there is to do.
+fn straight_ahead(family: Family, from: &Anchor, to: &Anchor) -> Option<Plan> {
+    if from.curvature != 0.0 || to.curvature != 0.0 {
+        return None;
+    }
+    let (sin, cos) = libm::sincos(from.pose.heading);
+    let (dx, dy) = (to.pose.x - from.pose.x, to.pose.y - from.pose.y);
+    let (ahead, aside) = (cos * dx + sin * dy, cos * dy - sin * dx);
+    let turn = to.pose.heading - from.pose.heading;
+    let turned = libm::sin(turn).abs().max(1.0 - libm::cos(turn));
+    let drivable = ahead >= 0.0 || family == Family::ReedsShepp;
+    if aside.abs() >= STRAIGHT || turned >= STRAIGHT || !drivable {
+        return None;
+    }
+    let straight = Straight { before: 0, gear: 1f64.copysign(ahead), length: ahead.abs() };
+    Some(Plan { length: straight.length, turns: [None; 4], straight: Some(straight) })
 }
 
 /// The states that stand for a start (`along` = 1) or an end (`along` = −1): itself, where the circle can be reached from
@@ -137,6 +166,11 @@ impl Anchor {
 }
 
 impl Path {
+    fn new(circle: &Circle, from: &Anchor, core: Plan, to: &Anchor, gear: f64) -> Self {
+        let length_m = core.length + from.length() + to.length();
+        Self { length_m, most: circle.curvature, lead_in: from.lead, core, lead_out: to.lead, gear }
+    }
+
     /// Metres driven.
     pub fn length_m(&self) -> f64 {
         self.length_m

@@ -76,39 +76,58 @@ pub(super) struct Finder<'c> {
     ends: &'c Ends,
     best: Option<Plan>,
     shortest: f64,
+    /// Where every plan goes, if not only the shortest is wanted.
+    all: Option<&'c mut dyn FnMut(Plan)>,
 }
 
 /// The shortest path of `family` between two poses with these curvatures; `None` if all are longer than `below`.
 pub(super) fn shortest(
     circle: &Circle,
     family: Family,
-    (start, k0): (Pose, f64),
-    (end, kf): (Pose, f64),
+    from: (Pose, f64),
+    to: (Pose, f64),
     below: f64,
 ) -> Option<Plan> {
-    let ends = Ends {
-        first: WAYS.map(|way| {
-            let lead = circle.entry_from(way, k0);
-            (lead, start.place(lead.center))
-        }),
-        last: WAYS.map(|way| {
-            let lead = circle.exit_to(way, kf);
-            (lead, end.place(lead.center))
-        }),
-        start: start.heading,
-        end: end.heading,
-    };
-    let mut finder = Finder { circle, ends: &ends, best: None, shortest: below };
-    let ways = if family == Family::Dubins { &WAYS[..2] } else { &WAYS[..] };
-    for &first in ways {
-        for &last in ways {
-            finder.pair(family, first, last);
-        }
-    }
+    let ends = Ends::new(circle, from, to);
+    let mut finder = Finder { circle, ends: &ends, best: None, shortest: below, all: None };
+    finder.spell(family);
     finder.best
 }
 
+/// Every path of `family` between two poses with these curvatures.
+pub(super) fn every(circle: &Circle, family: Family, from: (Pose, f64), to: (Pose, f64), take: &mut dyn FnMut(Plan)) {
+    let ends = Ends::new(circle, from, to);
+    Finder { circle, ends: &ends, best: None, shortest: f64::INFINITY, all: Some(take) }.spell(family);
+}
+
+impl Ends {
+    fn new(circle: &Circle, (start, k0): (Pose, f64), (end, kf): (Pose, f64)) -> Self {
+        Self {
+            first: WAYS.map(|way| {
+                let lead = circle.entry_from(way, k0);
+                (lead, start.place(lead.center))
+            }),
+            last: WAYS.map(|way| {
+                let lead = circle.exit_to(way, kf);
+                (lead, end.place(lead.center))
+            }),
+            start: start.heading,
+            end: end.heading,
+        }
+    }
+}
+
 impl<'c> Finder<'c> {
+    /// All words of a family.
+    fn spell(&mut self, family: Family) {
+        let ways = if family == Family::Dubins { &WAYS[..2] } else { &WAYS[..] };
+        for &first in ways {
+            for &last in ways {
+                self.pair(family, first, last);
+            }
+        }
+    }
+
     /// All words that begin and end with these turns.
     fn pair(&mut self, family: Family, first: Way, last: Way) {
         let (from, to) = (self.ends.first[index(first)].1, self.ends.last[index(last)].1);
@@ -281,8 +300,11 @@ impl<'c> Finder<'c> {
             }
             *slot = Some(turn);
         }
-        self.shortest = length;
-        self.best = Some(Plan { length, turns, straight });
+        let plan = Plan { length, turns, straight };
+        match &mut self.all {
+            Some(take) => take(plan),
+            None => (self.shortest, self.best) = (length, Some(plan)),
+        }
     }
 }
 

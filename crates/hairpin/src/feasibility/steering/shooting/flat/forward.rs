@@ -46,10 +46,7 @@ struct Search<'a> {
 /// Curvature as a polynomial or a chain, from the origin to the goal.
 pub(super) fn search(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {
     let bounds = tame(bounds);
-    let freedoms = if settings.control == Control::Cubic { Freedoms::One } else { Freedoms::Three };
-    let tolerance = TOLERANCE * settings.precision.position;
-    let task = Task { bounds, freedoms, tolerance, simd: settings.simd };
-    let mut search = Search { query, settings, task, best: None, iterations: 0 };
+    let mut search = Search::new(query, &bounds, settings);
     if miss(settings.simd, &[], query).within(&settings.precision.share(TOLERANCE)) {
         return Answer { status: Status::Ok, segments: SegmentList::EMPTY, iterations: 0 };
     }
@@ -64,7 +61,27 @@ pub(super) fn search(query: &Query, bounds: &Curvatures, settings: &Settings) ->
     search.answer()
 }
 
-impl Search<'_> {
+/// The answer along every way around by itself, shortest first.
+pub(super) fn every(query: &Query, bounds: &Curvatures, settings: &Settings, mut take: impl FnMut(Answer)) {
+    let bounds = tame(bounds);
+    let goal = &query.goal;
+    for word in words(goal.x * bounds.most, goal.y * bounds.most, goal.yaw) {
+        if word.length().is_finite() {
+            let mut search = Search::new(query, &bounds, settings);
+            search.along(&word);
+            take(search.answer());
+        }
+    }
+}
+
+impl<'a> Search<'a> {
+    fn new(query: &'a Query, bounds: &Curvatures, settings: &'a Settings) -> Self {
+        let freedoms = if settings.control == Control::Cubic { Freedoms::One } else { Freedoms::Three };
+        let tolerance = TOLERANCE * settings.precision.position;
+        let task = Task { bounds: *bounds, freedoms, tolerance, simd: settings.simd };
+        Self { query, settings, task, best: None, iterations: 0 }
+    }
+
     /// Looks for a curve that turns like `word`.
     fn along(&mut self, word: &Word) {
         let ends = Ends::along(self.query, word);

@@ -24,6 +24,7 @@ pub use controls::{crab, turn_drive_turn};
 pub use settings::{Answer, Control, Cost, Limit, Settings, Status};
 
 use super::query::{Curvatures, Goal, Query};
+use crate::trajectory::drive::SegmentList;
 
 /// Length of the shortest forward path to the goal of `query` whose curvature stays within ± `bounds.most` but may jump, m: no
 /// forward drive is shorter (Dubins 1957).
@@ -53,6 +54,22 @@ pub fn forward(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answe
         return mirror::answer(solve(&mirror::query(query), bounds, settings));
     }
     solve(query, bounds, settings)
+}
+
+/// Hands over the drives of every way around that [`forward`] may take, where it solves `query`, shortest way first.
+pub fn every(query: &Query, bounds: &Curvatures, settings: &Settings, mut take: impl FnMut(SegmentList)) {
+    let right = mirror::leans_right(query);
+    let asked = if right { mirror::query(query) } else { *query };
+    let mut solved = |answer: Answer| {
+        let answer = if right { mirror::answer(answer) } else { answer };
+        if answer.status == Status::Ok {
+            take(answer.segments);
+        }
+    };
+    match settings.control {
+        Control::Arc => solved(controls::arc(&asked, bounds, settings)),
+        Control::Cubic | Control::Quintic => forward::every(&asked, bounds, settings, solved),
+    }
 }
 
 fn solve(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {

@@ -10,11 +10,14 @@
 
 use nalgebra::{Matrix4, Vector4};
 
+use super::cheaper::cheaper;
+use super::cost::GroundCost;
 use super::miss::{Miss, miss};
-use super::predict::{Blocked, Course, Prediction, predict};
+use super::predict::{Blocked, Course, Prediction, Steps, predict};
 use super::refine::{Task, refinable, refine};
+use super::wait::Waiting;
 use crate::feasibility::steering::shooting::{Curvatures, Goal, Precision, Query};
-use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
+use crate::trajectory::drive::{Motion, Planar, SegmentList};
 use crate::world::terrain::Terrain;
 
 /// How long and how exactly to look.
@@ -24,11 +27,13 @@ pub struct Settings {
     pub iterations: u32,
     /// When a goal counts as met; the search aims at a fifth of it, so that a finer integration agrees.
     pub precision: Precision,
+    /// What to make small along the motion once it meets its goal.
+    pub cost: GroundCost,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { iterations: 30, precision: Precision::default() }
+        Self { iterations: 30, precision: Precision::default(), cost: GroundCost::Any }
     }
 }
 
@@ -69,12 +74,17 @@ const ENOUGH: f64 = 0.8;
 const MOST_FAILURES: [u32; 2] = [1, 4];
 /// Factors by which flat drives are made to bend less than the bounds allow before they are refined, in turn. The first bends
 /// more: it goes straight to goals for which the bounds leave but a loop, and is bent back into them.
-const GENTLER: [f64; 4] = [0.85, 1.04, 1.12, 1.25];
+const GENTLER: [f64; 6] = [0.85, 1.04, 1.12, 1.25, 1.5, 2.0];
+/// How far to the left the middles of drives are moved before they are refined where nothing else helped, in turn, m: around
+/// what the body finds no rest on.
+const ASIDE: [f64; 6] = [0.12, -0.12, 0.25, -0.25, 0.45, -0.45];
+/// Steps in which commands are looked along again, as shares of the first ones', in turn.
+const FINER: [f64; 2] = [0.3, 0.1];
 
 /// Commands from `start` whose motion on the ground ends at `goal`, shaped by `steer`, the flat solver.
 ///
 /// `steer` answers questions in the frame of the start within `bounds`, and should do so far better than the precision
-/// asked for here.
+/// asked for here. Until the first command acts, the vehicle does as [`Waiting`] says.
 pub fn solve<T: Terrain>(
     course: &Course<'_, T>,
     start: &Planar,
@@ -83,35 +93,120 @@ pub fn solve<T: Terrain>(
     settings: &Settings,
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
 ) -> Answer {
-    let mut answer =
-        Answer { status: Status::Unreachable, segments: SegmentList::default(), prediction: None, iterations: 0 };
-    // Until the first command acts, the vehicle goes on as it was.
-    let wait = course.rover.response.latency * course.speed.start();
-    let mut from = *start;
-    if wait > 0.0 {
-        let waiting =
-            Course { speed: course.speed.start().into(), direction: course.direction.start.into(), ..*course };
-        match predict(&waiting, start, &[hold(start.curvature, wait)], |_| {}) {
-            Ok(waited) => from = waited.end,
-            Err(blocked) => {
-                answer.status = Status::Blocked(blocked);
-                return answer;
+    solve_until(course, start, goal, bounds, settings, steer, &|| false)
+}
+
+/// The same, ended early where `over` says so: it is asked before every prediction, and the best so far is the answer.
+pub fn solve_until<T: Terrain>(
+    course: &Course<'_, T>,
+    start: &Planar,
+    goal: &Planar,
+    bounds: &Curvatures,
+    settings: &Settings,
+    steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
+    over: &dyn Fn() -> bool,
+) -> Answer {
+    let precision = &settings.precision;
+    let task = Task { course, from: start, goal, precision, bounds, aim: AIM, over };
+    if course.rover.response.latency == 0.0 {
+        return search(&task, settings, steer);
+    }
+    // Drives that begin otherwise than the flat one would are tried where those fail.
+    let seen = Frame { origin: *start, direction: course.direction.start }.seen(goal);
+    let first = steer(&question(start, &seen)).map_or(Waiting::GoesOn, |segments| Waiting::before(&segments));
+    let other = if first == Waiting::GoesOn { Waiting::Stands } else { Waiting::GoesOn };
+    let mut best: Option<Answer> = None;
+    let mut predictions = 0;
+    for waiting in [first, other] {
+        let mut answer = match waiting.over(course, start) {
+            Err(blocked) => Answer { status: Status::Blocked(blocked), ..Answer::NONE },
+            Ok(from) => {
+                let mut fitting = |query: &Query| steer(query).filter(|segments| Waiting::before(segments) == waiting);
+                search(&Task { from: &from, ..task }, settings, &mut fitting)
             }
+        };
+        if !waiting.outlast(course, &mut answer.segments) {
+            answer.status = Status::Unreachable;
+        }
+        predictions += answer.iterations;
+        if best.as_ref().is_none_or(|best| answer.rank() < best.rank()) {
+            best = Some(answer);
+        }
+        if best.as_ref().is_some_and(|best| best.status == Status::Ok) || over() {
+            break;
         }
     }
-    // Held as long, the steering stands where it stood.
-    let from = Planar { curvature: start.curvature, ..from };
-    let task = Task { course, from: &from, goal, precision: &settings.precision, bounds, aim: AIM };
-    learn_goal(&task, settings.iterations, steer, &mut answer);
-    if matches!(answer.status, Status::NotConverged { .. } | Status::Blocked(_)) {
-        bend_commands(&task, steer, &mut answer);
+    best.map_or(Answer::NONE, |best| Answer { iterations: predictions, ..best })
+}
+
+impl Answer {
+    const NONE: Self =
+        Self { status: Status::Unreachable, segments: SegmentList::EMPTY, prediction: None, iterations: 0 };
+
+    /// Less is better.
+    fn rank(&self) -> f64 {
+        match self.status {
+            Status::Ok => -1.0,
+            Status::NotConverged { residual } => residual,
+            Status::Blocked(_) => f64::MAX,
+            Status::Unreachable => f64::INFINITY,
+        }
     }
-    // Commands go on for as long as they take to act.
-    let wait = course.rover.response.latency * course.speed.end();
-    if let Some(last) = answer.segments.last().filter(|_| wait > 0.0) {
-        let settled = hold(last.curvature_at(last.length_m()), wait);
-        if answer.segments.push(settled).is_err() {
-            answer.status = Status::Unreachable;
+}
+
+/// Finds commands, and looks along them again in finer steps: where a body falls from one rest to another, coarse ones may
+/// find another rest than the vehicle. Then the finer ones are believed.
+fn search<T: Terrain>(
+    task: &Task<'_, '_, T>,
+    settings: &Settings,
+    steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
+) -> Answer {
+    let mut answer = sought(task, settings, steer);
+    for finer in FINER {
+        if answer.status != Status::Ok || (task.over)() {
+            break;
+        }
+        answer.iterations += 1;
+        let course = finer_course(task.course, finer);
+        if confirmed(task, &course, &answer.segments) {
+            break;
+        }
+        let found = sought(&Task { course: &course, ..*task }, settings, steer);
+        let iterations = answer.iterations + found.iterations;
+        answer = Answer { iterations, ..found };
+    }
+    answer
+}
+
+fn finer_course<'c, T>(course: &Course<'c, T>, share: f64) -> Course<'c, T> {
+    let Steps { length, angle, least } = course.steps;
+    Course { steps: Steps { length: share * length, angle: share * angle, least }, ..*course }
+}
+
+/// Whether `segments` meet the goal on `course` as well.
+fn confirmed<T: Terrain>(task: &Task<'_, '_, T>, course: &Course<'_, T>, segments: &SegmentList) -> bool {
+    let again = predict(course, task.from, segments, |_| {});
+    again.is_ok_and(|again| miss(task.goal, &again.end, task.precision).residual <= ENOUGH)
+}
+
+fn sought<T: Terrain>(
+    task: &Task<'_, '_, T>,
+    settings: &Settings,
+    steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
+) -> Answer {
+    let mut answer = Answer::NONE;
+    learn_goal(task, settings.iterations, steer, &mut answer);
+    if matches!(answer.status, Status::NotConverged { .. } | Status::Blocked(_)) {
+        bend_commands(task, steer, &mut answer);
+    }
+    if answer.status == Status::Ok && settings.cost != GroundCost::Any {
+        let (found, predictions) = cheaper(task, &answer.segments, settings.cost);
+        answer.iterations += predictions;
+        // What saves only in coarse steps is not worth its risk.
+        if let Some(found) =
+            found.filter(|found| confirmed(task, &finer_course(task.course, FINER[0]), &found.segments))
+        {
+            (answer.segments, answer.prediction) = (found.segments, Some(found.prediction));
         }
     }
     answer
@@ -124,13 +219,13 @@ fn learn_goal<T: Terrain>(
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
     answer: &mut Answer,
 ) {
-    let Task { course, from, goal, precision, bounds, aim } = *task;
+    let Task { course, from, goal, precision, bounds, aim, over } = *task;
     let frame = Frame { origin: *from, direction: course.direction.start };
     let mut inverse = Matrix4::identity();
     let mut virtual_goal = frame.seen(goal);
     let mut best: Option<Tried> = None;
     let mut failures = 0;
-    while answer.iterations < most_iterations {
+    while answer.iterations < most_iterations && !over() {
         answer.iterations += 1;
         virtual_goal[3] = within(virtual_goal[3], bounds.most);
         let question = question(from, &virtual_goal);
@@ -182,7 +277,8 @@ fn most_failures(segments: &SegmentList) -> u32 {
     MOST_FAILURES[usize::from(!refinable(segments))]
 }
 
-/// Refines the best commands so far, then gentler ones, which leave room within the bounds, until some meet the goal.
+/// Refines the best commands so far, then gentler ones, which leave room within the bounds, then some that pass to the side, until
+/// one meets the goal.
 fn bend_commands<T: Terrain>(
     task: &Task<'_, '_, T>,
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
@@ -192,9 +288,9 @@ fn bend_commands<T: Terrain>(
         Status::NotConverged { residual } => (Some(answer.segments), residual),
         _ => (None, f64::INFINITY),
     };
-    let mut attempt = |commands: Option<SegmentList>| {
+    let mut attempt = |commands: Option<SegmentList>, aside: f64| {
         let Some(commands) = commands else { return false };
-        let (refined, predictions) = refine(task, &commands);
+        let (refined, predictions) = refine(task, &commands, aside);
         answer.iterations += predictions;
         if let Some(refined) = refined.filter(|refined| refined.residual < left) {
             left = refined.residual;
@@ -206,9 +302,13 @@ fn bend_commands<T: Terrain>(
         }
         answer.status == Status::Ok
     };
-    if !attempt(begun) {
-        GENTLER.into_iter().any(|factor| attempt(gentle(task, factor, steer)));
+    if attempt(begun, 0.0)
+        || GENTLER.into_iter().any(|factor| (task.over)() || attempt(gentle(task, factor, steer), 0.0))
+    {
+        return;
     }
+    let plain = begun.or_else(|| gentle(task, 1.0, steer));
+    ASIDE.into_iter().any(|aside| (task.over)() || attempt(plain, aside));
 }
 
 /// Flat controls for the true goal that bend less than the bounds allow by `factor`: those of a world smaller by as much,
@@ -264,11 +364,6 @@ fn learn(inverse: &mut Matrix4<f64>, moved: &Vector4<f64>, effect: &Vector4<f64>
         let update = (moved - predicted) * (moved.transpose() * *inverse) / denominator;
         *inverse += update;
     }
-}
-
-/// A stretch of constant curvature.
-fn hold(curvature: f64, length_m: f64) -> Segment {
-    Segment::clothoid(length_m, curvature, curvature, Gear::Forward)
 }
 
 /// The frame in which the flat solver works: the start's, turned into the direction of travel.

@@ -199,7 +199,8 @@ fn on_level_ground_the_flat_answer_is_the_answer() {
         &Settings::default(),
         &mut flat_solver(&rover),
     );
-    assert_eq!((answer.status, answer.iterations), (Status::Ok, 1));
+    // One prediction finds it, and one in finer steps agrees.
+    assert_eq!((answer.status, answer.iterations), (Status::Ok, 2));
     let flat = flat_solver(&rover)(&Query {
         start_curvature: 0.0,
         goal: crate::feasibility::steering::shooting::Goal { x: 4.0, y: 1.0, yaw: 0.5, curvature: 0.0 },
@@ -217,4 +218,125 @@ fn ground_that_ends_is_said() {
     assert!(matches!(answer.status, Status::Blocked(_)), "{answer:?}");
     let nothing = Planar { x: f64::NAN, ..start };
     assert!(predict(&course(&rover, &yard), &nothing, &[random_arc(0, 1.0)], |_| {}).is_err());
+}
+
+#[test]
+fn whenever_it_ends_the_best_so_far_is_no_worse_than_before() {
+    let (yard, rover) = (yard(), shipped("rocky8"));
+    let rover = Rover { response: Response { latency: 0.2, ..rover.response }, ..rover };
+    let course = course(&rover, &yard);
+    let (mut bent, mut asked) = (0, 0);
+    for seed in 0..40 {
+        let unit = |i: u64| hashed_unit(seed, &[400 + i]);
+        let start = Planar { x: 9.0 + 12.0 * unit(0), y: 9.0 + 12.0 * unit(1), yaw: 6.0 * unit(2), curvature: 0.0 };
+        // Goals at the rim of what a forward drive can do.
+        let (sin, cos) = start.yaw.sin_cos();
+        let goal = Planar {
+            x: start.x + 1.8 * cos - (1.0 + unit(3)) * sin,
+            y: start.y + 1.8 * sin + (1.0 + unit(3)) * cos,
+            yaw: start.yaw + 1.5 * unit(4),
+            curvature: 0.0,
+        };
+        let mut last = f64::INFINITY;
+        for budget in [0, 1, 2, 3, 4, 5, 7, 9, 12, 16, 22, 30, 45, 60, 90, 200] {
+            let asked_before = std::cell::Cell::new(0);
+            let over = || {
+                asked_before.set(asked_before.get() + 1);
+                asked_before.get() > budget
+            };
+            let settings = Settings::default();
+            let mut steer = flat_solver(&rover);
+            let answer = solve_until(&course, &start, &goal, &bounds(&rover), &settings, &mut steer, &over);
+            assert!(answer.iterations <= budget + 1, "seed {seed}: {} predictions after {budget}", answer.iterations);
+            bent += u32::from(answer.iterations > 30);
+            let residual = match answer.status {
+                Status::Ok => 0.2,
+                Status::NotConverged { residual } => residual,
+                Status::Blocked(_) | Status::Unreachable => f64::INFINITY,
+            };
+            if last.is_finite() {
+                asked += 1;
+                assert!(residual <= last.max(0.8), "seed {seed}, {budget} predictions: {residual} after {last}");
+            }
+            last = residual;
+        }
+    }
+    assert!(asked > 300 && bent > 0, "{asked} asked, {bent} bent");
+}
+
+#[test]
+fn a_drive_that_begins_in_reverse_stands_until_its_first_command_acts() {
+    let (yard, rover) = (yard(), shipped("rocky8"));
+    let rover = Rover { response: Response { latency: 0.5, ..rover.response }, ..rover };
+    let course = Course { speed: 0.3.into(), ..course(&rover, &yard) };
+    let start = Planar { x: 15.0, y: 15.0, yaw: 0.4, curvature: 0.1 };
+    assert_eq!(Waiting::Stands.over(&course, &start), Ok(start));
+    let on = Waiting::GoesOn.over(&course, &start).expect("a way");
+    assert!((on.x - start.x).hypot(on.y - start.y) > 0.12 && on.curvature == start.curvature, "{on:?}");
+    let bounds = bounds(&rover);
+    let mirrored = |query: &Query| {
+        let goal = query.goal;
+        let asked = crate::feasibility::steering::shooting::Goal { x: -goal.x, yaw: -goal.yaw, ..goal };
+        flat_solver(&rover)(&Query { goal: asked, ..*query }).map(|mut segments| {
+            segments.iter_mut().for_each(|segment| segment.gear = Gear::Reverse);
+            segments
+        })
+    };
+    let goal = Planar { x: 12.2, y: 14.2, yaw: 0.5, curvature: 0.0 };
+    let answer = solve(&course, &start, &goal, &bounds, &Settings::default(), &mut { mirrored });
+    assert_eq!(answer.status, Status::Ok);
+    assert!(answer.segments.iter().all(|segment| segment.gear == Gear::Reverse), "{:?}", answer.segments);
+    // Nothing is driven before and nothing is commanded after.
+    let end = predict(&course, &start, &answer.segments, |_| {}).expect("a way").end;
+    assert!(difference(&end, &goal) < 0.01, "{end:?}");
+}
+
+#[test]
+fn costs_fall_and_goals_and_bounds_stay() {
+    let yard = yard();
+    let rover = Rover { slip: Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 }, ..shipped("rocky8") };
+    let course = course(&rover, &yard);
+    let total = |cost: GroundCost, start: &Planar, segments: &SegmentList| {
+        let mut along = super::cost::Along::new(&course, cost, segments);
+        predict(&course, start, segments, |driven| along.add(driven)).expect("a way");
+        along.total()
+    };
+    let mut all = 0;
+    for cost in [GroundCost::Curvature, GroundCost::Rate, GroundCost::Tilt, GroundCost::Slip, GroundCost::Energy] {
+        let (mut asked, mut cheaper, mut saved) = (0, 0, 0.0);
+        for seed in 0..12 {
+            let unit = |i: u64| hashed_unit(seed, &[500 + i]);
+            let drive = [random_arc(seed, 3.0 + 3.0 * unit(3))];
+            let at = Planar { x: 9.0 + 12.0 * unit(0), y: 9.0 + 12.0 * unit(1), yaw: 6.0 * unit(2), curvature: 0.0 };
+            let start = Planar { curvature: drive[0].curvature_at(0.0), ..at };
+            let Ok(driven) = predict(&fine(&rover, &yard), &start, &drive, |_| {}) else { continue };
+            let ask = |cost| {
+                let settings = Settings { cost, ..Settings::default() };
+                solve(&course, &start, &driven.end, &bounds(&rover), &settings, &mut flat_solver(&rover))
+            };
+            let (plain, cheap) = (ask(GroundCost::Any), ask(cost));
+            if plain.status != Status::Ok {
+                continue;
+            }
+            asked += 1;
+            assert_eq!(cheap.status, Status::Ok, "seed {seed}");
+            let (before, after) = (total(cost, &start, &plain.segments), total(cost, &start, &cheap.segments));
+            assert!(after <= before * (1.0 + 1e-12), "{cost:?}, seed {seed}: {after} after {before}");
+            saved += 1.0 - after / before;
+            cheaper += usize::from(after < 0.995 * before);
+            let end = predict(&fine(&rover, &yard), &start, &cheap.segments, |_| {}).expect("a way").end;
+            assert!(difference(&end, &driven.end) < 0.01, "{cost:?}, seed {seed}: {end:?}");
+            for segment in cheap.segments.iter() {
+                let Curvatures { most, most_rate } = bounds(&rover);
+                let step = segment.length_m() / 50.0;
+                let at = |i: i32| segment.curvature_at(step * f64::from(i));
+                assert!((0..=50).all(|i| at(i).abs() <= most * (1.0 + 1e-8)), "{cost:?}, seed {seed}");
+                assert!((0..50).all(|i| (at(i + 1) - at(i)).abs() <= most_rate * step * (1.0 + 1e-8) + 1e-12));
+            }
+        }
+        println!("{cost:?}: {cheaper} of {asked} cheaper, {:.1} % in the mean", 100.0 * saved / f64::from(asked));
+        all += cheaper;
+        assert!(asked >= 8, "{cost:?}: {asked}");
+    }
+    assert!(all >= 15, "{all} of 60 cheaper");
 }

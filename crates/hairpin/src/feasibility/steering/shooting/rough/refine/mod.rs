@@ -15,16 +15,17 @@
 mod pieces;
 mod sweep;
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Matrix4, SMatrix, Vector4};
 
-pub(super) use self::pieces::refinable;
-use self::pieces::{Change, UNKNOWNS, changed, divided, excess, for_each_limit};
+pub(super) use self::pieces::{Change, UNKNOWNS, changed, divided, refinable};
+use self::pieces::{excess, for_each_limit};
 use self::sweep::{Sweep, Tangent};
 use super::miss::{Miss, miss, units};
 use super::predict::{Course, Prediction, predict};
 use crate::feasibility::steering::shooting::query::{Curvatures, Precision};
-use crate::trajectory::drive::Planar;
-use crate::trajectory::drive::SegmentList;
+use crate::trajectory::drive::{Planar, Segment, SegmentList};
 use crate::world::terrain::Terrain;
 
 /// Predictions of one refinement, at most.
@@ -53,6 +54,8 @@ pub(super) struct Task<'a, 'c, T> {
     pub(super) bounds: &'a Curvatures,
     /// Residual that is good enough, in units of the precision.
     pub(super) aim: f64,
+    /// Whether the time is over.
+    pub(super) over: &'a dyn Fn() -> bool,
 }
 
 /// Commands with their motion and its largest error in units of the precision.
@@ -62,18 +65,19 @@ pub(super) struct Refined {
     pub(super) residual: f64,
 }
 
-/// Commands near `segments` that keep the bounds and end nearer to the goal, and the predictions made.
+/// Commands near `segments` that keep the bounds and end nearer to the goal, and the predictions made; begun with their middle
+/// moved by about `aside` m to the left.
 ///
 /// `None` where none was found that keep the bounds, and for drives with reversals, turns in place or too many pieces.
-pub(super) fn refine<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList) -> (Option<Refined>, u32) {
+pub(super) fn refine<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList, aside: f64) -> (Option<Refined>, u32) {
     let mut found: Option<Refined> = None;
     let Some(begun) = divided(segments) else { return (None, 0) };
     let behind = task.course.rover.response.steering_time_constant * task.course.speed.top();
     let mut here: Option<Stand> = None;
-    let mut change = Change::zeros();
+    let mut change = swing(&begun, aside);
     let mut learned = Matrix4::identity();
     let (mut predictions, mut halvings) = (0, 0);
-    while predictions < PREDICTIONS {
+    while predictions < PREDICTIONS && !(task.over)() {
         predictions += 1;
         let mut segments = here.as_ref().map_or(begun, |here| here.segments);
         changed(&mut segments, &change);
@@ -108,6 +112,27 @@ pub(super) fn refine<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList)
         change = next / f64::from(1_u32 << halvings);
     }
     (found, predictions)
+}
+
+/// How the end of the motion of `segments` moves with a change of them; `None` where they do not pass.
+pub(super) fn tangent<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList) -> Option<Tangent> {
+    let behind = task.course.rover.response.steering_time_constant * task.course.speed.top();
+    let mut sweep = Sweep::new(task.from, behind, segments);
+    let prediction = predict(task.course, task.from, segments, |driven| sweep.add(driven)).ok()?;
+    Some(sweep.tangent(&prediction.end))
+}
+
+/// A change that moves the middle of a drive by about `aside` m: y = aside (1 − cos 2πs/L)/2 has y″ = ½ aside (2π/L)² cos 2πs/L.
+fn swing(segments: &SegmentList, aside: f64) -> Change {
+    let length: f64 = segments.iter().map(Segment::length_m).sum();
+    let turns = TAU / length.max(f64::MIN_POSITIVE);
+    let mut change = Change::zeros();
+    let mut s = 0.0;
+    for (bend, segment) in change.iter_mut().zip(segments.iter()) {
+        s += segment.length_m();
+        *bend = 0.5 * aside * turns * turns * libm::cos(turns * s);
+    }
+    change
 }
 
 /// Where a step starts from, and what it is to take away.

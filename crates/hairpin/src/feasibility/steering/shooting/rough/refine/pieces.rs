@@ -9,12 +9,12 @@ use crate::trajectory::drive::{Motion, Segment, SegmentList};
 /// Pieces of a drive.
 pub(super) const PIECES: usize = 16;
 /// A bend at every piece's end, and the stretch.
-pub(super) const UNKNOWNS: usize = PIECES + 1;
+pub(in super::super) const UNKNOWNS: usize = PIECES + 1;
 /// What bounds may be exceeded by, relative: rounding, as the flat solver has it.
 const KEPT: f64 = 1.0 + 1e-9;
 
 /// What is added to κ at the pieces' ends, 1/m, linear between, and ε of the lengths (1 + ε)L.
-pub(super) type Change = SVector<f64, UNKNOWNS>;
+pub(in super::super) type Change = SVector<f64, UNKNOWNS>;
 
 /// Whether a drive is in one gear, without turns in place, in [`PIECES`] at most.
 pub(in super::super) fn refinable(segments: &[Segment]) -> bool {
@@ -24,7 +24,7 @@ pub(in super::super) fn refinable(segments: &[Segment]) -> bool {
 }
 
 /// The same drive in [`PIECES`] pieces, the longest halved first.
-pub(super) fn divided(segments: &SegmentList) -> Option<SegmentList> {
+pub(in super::super) fn divided(segments: &SegmentList) -> Option<SegmentList> {
     if !refinable(segments) {
         return None;
     }
@@ -55,7 +55,7 @@ fn halves(segment: &Segment) -> (Segment, Segment) {
 }
 
 /// Adds `change` to a drive.
-pub(super) fn changed(segments: &mut SegmentList, change: &Change) {
+pub(in super::super) fn changed(segments: &mut SegmentList, change: &Change) {
     let stretch = 1.0 + change[PIECES];
     let mut before = 0.0;
     for (segment, &after) in segments.iter_mut().zip(change.iter()) {

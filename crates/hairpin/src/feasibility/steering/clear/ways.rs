@@ -1,0 +1,64 @@
+//! All the ways around that are known between two states, shortest first.
+
+use crate::feasibility::steering::shooting::cc::{self, Gears};
+use crate::feasibility::steering::shooting::query::{Curvatures, Query};
+use crate::feasibility::steering::shooting::solve::{Choices, Method, single_arcs, turn_drive_turn};
+use crate::trajectory::drive::{Segment, SegmentList};
+
+/// A drive to the goal.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Way {
+    pub(super) segments: SegmentList,
+    pub(super) method: Method,
+    pub(super) length: f64,
+}
+
+/// Shares of the largest curvature that circles are tried with: gentler ones swing wider.
+const SHARES: [f64; 3] = [1.0, 0.6, 0.35];
+/// A smooth arc counts as this much shorter than it is.
+const SMOOTH: f64 = 0.8;
+
+/// Every way of every kind that `choices` allow.
+pub(super) fn every(query: &Query, bounds: &Curvatures, choices: &Choices) -> Vec<Way> {
+    let mut ways = Vec::new();
+    if choices.arcs {
+        single_arcs(query, bounds, choices, |segments| ways.push(Way::new(segments, Method::SingleArc)));
+    }
+    if choices.turns {
+        ways.push(Way::new(turn_drive_turn(query, bounds, choices.gear), Method::TurnDriveTurn));
+    }
+    let sharpest = query.start_curvature.abs().max(query.goal.curvature.abs());
+    for share in SHARES {
+        let gentler = Curvatures { most: share * bounds.most, ..*bounds };
+        if share == 1.0 || sharpest <= gentler.most {
+            cc::every(query, &gentler, gears(choices), |path| ways.push(Way::of(&path)));
+        }
+    }
+    let rank = |way: &Way| if way.method == Method::SingleArc { SMOOTH * way.length } else { way.length };
+    ways.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+    ways
+}
+
+/// The shortest way in closed form.
+pub(super) fn shortest(query: &Query, bounds: &Curvatures, choices: &Choices) -> Option<Way> {
+    if choices.turns {
+        return Some(Way::new(turn_drive_turn(query, bounds, choices.gear), Method::TurnDriveTurn));
+    }
+    cc::steer(query, bounds, gears(choices)).map(|path| Way::of(&path))
+}
+
+fn gears(choices: &Choices) -> Gears {
+    if choices.reversals { Gears::Both } else { Gears::Only(choices.gear) }
+}
+
+impl Way {
+    fn new(segments: SegmentList, method: Method) -> Self {
+        Self { length: segments.iter().map(Segment::length_m).sum(), segments, method }
+    }
+
+    fn of(path: &cc::Path) -> Self {
+        let mut segments = SegmentList::EMPTY;
+        path.segments(|segment| segments.extend([segment]));
+        Self::new(segments, Method::Clothoids)
+    }
+}
