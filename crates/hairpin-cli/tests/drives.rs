@@ -107,7 +107,7 @@ fn where_nothing_can_be_driven_the_reasons_are_told() {
 fn cars_and_differential_drives_go_the_same_way() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    for kind in ["car", "differential-drive"] {
+    for (kind, step) in [("car", "2.0"), ("differential-drive", "10.0")] {
         assert_eq!(run(at, &["new", kind]).0, 0);
         let file = format!("{kind}.toml");
         let few = ["--set", "generate.search.cases=2", "--set", "generate.search.waypoints=24"];
@@ -119,8 +119,8 @@ fn cars_and_differential_drives_go_the_same_way() {
         assert_eq!(json(at, &["verify", kind])["failed"], 0, "{kind}");
         for (reach, evidence) in [("hull", "hull-feasible"), ("sphere", "unchecked"), ("none", "unchecked")] {
             let out = format!("{kind}-{reach}");
-            let set = format!("generate.reach=\"{reach}\"");
-            let asked = ["--set", &set, "--set", "generate.step_s=2.0", "--set", "task.length=3", "--out", &out];
+            let (set, step) = (format!("generate.reach=\"{reach}\""), format!("generate.step_s={step}"));
+            let asked = ["--set", &set, "--set", &step, "--set", "task.length=3", "--out", &out];
             let object = json(at, &[&["generate", &file][..], &few, &asked].concat());
             assert_eq!(object["exit_code"], 0, "{kind}, {reach}: {object}");
             let table = at.join(&out).join("results.parquet");

@@ -127,6 +127,10 @@ pub fn replay_ground<T: Terrain>(
                     crab: claim.crab + claim.crab_rate * (at + 0.5 * h).clamp(0.0, drive),
                     pace: claim.pace(at, h),
                 };
+                let steered = vehicle.steered(&way, state[3], s, h);
+                if let Some(end) = steered {
+                    state[3] = 0.5 * (state[3] + end);
+                }
                 let mut rates = |state: &[f64; 4], s: f64| -> Result<[f64; 4], NoRest> {
                     let place = [state[0], state[1], state[2]];
                     // Where the body falls over an edge, the rest it comes to is not near the one before.
@@ -140,6 +144,7 @@ pub fn replay_ground<T: Terrain>(
                 let middle = rates(&state, s).and_then(|k1| rates(&moved(&state, &k1, 0.5 * h), s + 0.5 * h));
                 let k2 = middle.map_err(|no| stopped(driven, no))?;
                 state = moved(&state, &k2, h);
+                state[3] = steered.unwrap_or(state[3]);
                 steps += 1;
             }
         }
@@ -222,6 +227,18 @@ impl GroundVehicle {
         (ratio * ratio).ceil().clamp(1.0, 400.0) as usize
     }
 
+    /// The steering angle after a step from `s` of steering without a time constant: the command's, as far as the rate allows. Such
+    /// steering is no differential equation that small steps would solve: it would swing about its command.
+    fn steered(&self, way: &Way<'_>, angle: f64, s: f64, h: f64) -> Option<f64> {
+        let DrivePiece::Arc { curvature, .. } = way.piece else { return None };
+        if self.steering_time_constant_s > 0.0 || self.steering_rate_rad_s.is_infinite() {
+            return None;
+        }
+        let commanded: f64 = curvature.iter().rev().fold(0.0, |sum, a| sum * (s + h) + a);
+        let most = self.steering_rate_rad_s * way.pace * h;
+        Some(angle + (libm::atan(commanded * self.steered_axle_m) - angle).clamp(-most, most))
+    }
+
     /// d(x, y, ψ, δ) per metre commanded, or per radian of a turn in place.
     fn rates(&self, way: &Way<'_>, rest: &Rest, state: &[f64; 4], s: f64) -> [f64; 4] {
         let [(sf, cf), (st, ct), (sp, cp), (sd, cd)] =
@@ -232,11 +249,8 @@ impl GroundVehicle {
         let commanded: f64 = curvature.iter().rev().fold(0.0, |sum, a| sum * s + a);
         let (bend, turned) = if self.lags() {
             let wanted = libm::atan(commanded * self.steered_axle_m) - state[3];
-            let rate = if self.steering_time_constant_s > 0.0 {
-                wanted / self.steering_time_constant_s
-            } else {
-                wanted * f64::MAX.sqrt()
-            };
+            // Without a time constant the step's angle is known before: `steered`.
+            let rate = if self.steering_time_constant_s > 0.0 { wanted / self.steering_time_constant_s } else { 0.0 };
             let rate = rate.clamp(-self.steering_rate_rad_s, self.steering_rate_rad_s);
             (libm::tan(state[3]) / self.steered_axle_m, rate * way.pace)
         } else {

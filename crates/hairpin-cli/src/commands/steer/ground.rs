@@ -137,7 +137,7 @@ impl Ground<'_> {
             method = Some(flat.method);
             (flat.outcome == Outcome::Solved).then_some(flat.segments)
         };
-        let answer = site.solve(start, goal, &self.shaping, &settings, &mut steer);
+        let answer = site.solve_until(start, goal, &self.shaping, &settings, &mut steer, over);
         // Without any time there is still the flat start value.
         let flat = first
             .unwrap_or_else(|| generate(self.boundary, self.control, &self.shaping, &choices, over, told).solution);

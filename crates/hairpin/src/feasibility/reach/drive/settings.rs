@@ -126,6 +126,7 @@ impl DriveSettings {
     }
 
     pub(super) fn course<'a>(&self, site: &DriveSite<'a>, steps: Steps) -> Course<'a, ElevationMap> {
+        let steps = steps.for_rate(self.bounds.most_rate);
         Course {
             rover: site.rover,
             terrain: site.map,

@@ -20,6 +20,9 @@ pub struct Prediction {
     pub tilt: (f64, f64),
     /// Largest |rocker or bogie angle|, rad, and after how many metres.
     pub joint: (f64, f64),
+    /// Largest difference between roll or pitch as they were foreseen from the step before and as they were found, rad: small on
+    /// smooth ground, large where the body falls from one rest to another.
+    pub surprise: f64,
     /// Settled poses that were solved.
     pub steps: u32,
 }
@@ -80,6 +83,16 @@ impl Default for Steps {
     }
 }
 
+impl Steps {
+    /// These for paths whose curvature changes by up to `most_rate` (1/m²): where that is more than 1, shorter in proportion, so
+    /// that it changes by no more a step.
+    #[must_use]
+    pub fn for_rate(self, most_rate: f64) -> Self {
+        let shorter = if most_rate.is_finite() { most_rate.max(1.0) } else { 1.0 };
+        Self { length: self.length / shorter, ..self }
+    }
+}
+
 /// What stays the same along a prediction.
 pub struct Course<'a, T> {
     /// The vehicle.
@@ -124,7 +137,7 @@ pub fn predict<T: Terrain>(
         looked_at: *start,
         lag: SteeringLag::new(&rover.response, start.curvature),
         timing: Timing::new(&course.speed, segments),
-        prediction: Prediction { end: *start, tilt: (tilt(&settled), 0.0), joint: (joint(&settled), 0.0), steps: 1 },
+        prediction: Prediction { end: *start, tilt: (tilt(&settled), 0.0), joint: (joint(&settled), 0.0), surprise: 0.0, steps: 1 },
     };
     for segment in segments {
         walk.drive(course, segment, &mut observe)?;
@@ -244,8 +257,9 @@ impl Walk {
         let place = [middle.x, middle.y, middle.yaw];
         let blocked = |cause: Cause| Blocked { after_m: self.travelled, cause };
         let suspension = &course.rover.suspension;
+        let foreseen = self.carried(middle);
         let (settled, gradient) = suspension
-            .settle(course.terrain, place, &self.carried(middle), COARSE)
+            .settle(course.terrain, place, &foreseen, COARSE)
             .or_else(|_| suspension.settle_cold(course.terrain, place))
             .map_err(|cause| blocked(cause.into()))?;
         if settled.pitch.abs() >= ON_END {
@@ -254,6 +268,8 @@ impl Walk {
         (self.settled, self.gradient, self.looked_at) = (settled, gradient, *middle);
         let prediction = &mut self.prediction;
         prediction.steps += 1;
+        let surprise = (settled.roll - foreseen.roll).abs().max((settled.pitch - foreseen.pitch).abs());
+        prediction.surprise = prediction.surprise.max(surprise);
         let worse = |worst: &mut (f64, f64), value: f64, at: f64| {
             if value > worst.0 {
                 *worst = (value, at);

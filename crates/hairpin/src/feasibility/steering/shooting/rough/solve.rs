@@ -80,6 +80,9 @@ const GENTLER: [f64; 6] = [0.85, 1.04, 1.12, 1.25, 1.5, 2.0];
 const ASIDE: [f64; 6] = [0.12, -0.12, 0.25, -0.25, 0.45, -0.45];
 /// Steps in which commands are looked along again, as shares of the first ones', in turn.
 const FINER: [f64; 2] = [0.3, 0.1];
+/// What a prediction may be surprised by, rad, without being looked along again: a fifth of that is common on ground that is
+/// rough but not broken.
+const SMOOTH: f64 = 0.03;
 
 /// Commands from `start` whose motion on the ground ends at `goal`, shaped by `steer`, the flat solver.
 ///
@@ -154,14 +157,17 @@ impl Answer {
     }
 }
 
-/// Finds commands, and looks along them again in finer steps: where a body falls from one rest to another, coarse ones may
-/// find another rest than the vehicle. Then the finer ones are believed.
+/// Finds commands, and where the body's way was not as smooth as foreseen looks along them again in finer steps: where a body falls
+/// from one rest to another, coarse ones may find another rest than the vehicle. Then the finer ones are believed.
 fn search<T: Terrain>(
     task: &Task<'_, '_, T>,
     settings: &Settings,
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
 ) -> Answer {
     let mut answer = sought(task, settings, steer);
+    if answer.prediction.is_some_and(|prediction| prediction.surprise < SMOOTH) {
+        return answer;
+    }
     for finer in FINER {
         if answer.status != Status::Ok || (task.over)() {
             break;

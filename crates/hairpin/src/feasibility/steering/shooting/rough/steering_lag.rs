@@ -31,13 +31,15 @@ impl SteeringLag {
 
     /// The curvature after `time` seconds in which the command runs through `commanded` (1/m, from share 0 to 1).
     ///
-    /// δ̇ = (δ_c − δ)/T within ± the largest rate, δ = atan(κ · axle); exact for a constant command, second order otherwise.
+    /// δ̇ = (δ_c − δ)/T within ± the largest rate, δ = atan(κ · axle); exact for a constant command, second order otherwise. Without a
+    /// time constant it comes to the command, as far as the rate allows.
     pub(super) fn follow(&mut self, commanded: impl Fn(f64) -> f64, time: f64) -> f64 {
         if self.follows_at_once {
             return commanded(1.0);
         }
         let Response { steering_time_constant, steering_rate, steered_axle, .. } = self.response;
-        let wanted = libm::atan(commanded(0.5) * steered_axle) - self.angle;
+        let seen = if steering_time_constant > 0.0 { 0.5 } else { 1.0 };
+        let wanted = libm::atan(commanded(seen) * steered_axle) - self.angle;
         let share = if steering_time_constant > 0.0 { -libm::expm1(-time / steering_time_constant) } else { 1.0 };
         let most = steering_rate * time;
         self.angle += (wanted * share).clamp(-most, most);
