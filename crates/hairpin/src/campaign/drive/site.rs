@@ -89,7 +89,15 @@ impl Site<'_> {
         steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
         over: &dyn Fn() -> bool,
     ) -> Answer {
-        rough::solve_until(&self.course(Steps::default().for_rate(bounds.most_rate)), start, goal, bounds, settings, steer, over)
+        rough::solve_until(
+            &self.course(Steps::default().for_rate(bounds.most_rate)),
+            start,
+            goal,
+            bounds,
+            settings,
+            steer,
+            over,
+        )
     }
 
     /// Commands that drive from `start` to `goal` and stay clear of places to keep out of.
@@ -102,7 +110,15 @@ impl Site<'_> {
         around: &Around<'_>,
         over: &dyn Fn() -> bool,
     ) -> ClearedOnGround {
-        solve_on_ground(&self.course(Steps::default().for_rate(bounds.most_rate)), start, goal, bounds, settings, around, over)
+        solve_on_ground(
+            &self.course(Steps::default().for_rate(bounds.most_rate)),
+            start,
+            goal,
+            bounds,
+            settings,
+            around,
+            over,
+        )
     }
 
     /// Where `segments` lead from `start`, predicted in steps of `steps`.

@@ -137,7 +137,13 @@ pub fn predict<T: Terrain>(
         looked_at: *start,
         lag: SteeringLag::new(&rover.response, start.curvature),
         timing: Timing::new(&course.speed, segments),
-        prediction: Prediction { end: *start, tilt: (tilt(&settled), 0.0), joint: (joint(&settled), 0.0), surprise: 0.0, steps: 1 },
+        prediction: Prediction {
+            end: *start,
+            tilt: (tilt(&settled), 0.0),
+            joint: (joint(&settled), 0.0),
+            surprise: 0.0,
+            steps: 1,
+        },
     };
     for segment in segments {
         walk.drive(course, segment, &mut observe)?;
