@@ -138,6 +138,7 @@ fn mistakes_are_told_with_their_place() {
         ("task.leg_m=[6, 2]", &["task.leg_m", "rising"]),
         ("generate.search.score=\"bumps\"", &["generate.search.score", "slope"]),
         ("generate.limits.speed_m_s=-1", &["speed_m_s"]),
+        ("generate.control=\"knots\"", &["generate.control", "quintic"]),
         ("world.terrain={ file = \"none.tif\" }", &["none.tif", "cannot be read"]),
         ("world.terrain={ generator = \"moon\" }", &["generator", "craters"]),
         ("world.keep_out=[{ name = \"x\" }]", &["world.keep_out[0]", "circle"]),

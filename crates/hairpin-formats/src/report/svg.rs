@@ -181,7 +181,7 @@ fn wheels(drawing: &Drawing) -> String {
         let _ = write!(
             svg,
             "<line class=\"arm\" x1=\"0\" y1=\"0\" x2=\"{x:.1}\" y2=\"{y:.1}\"/>\
-             <rect class=\"disc cw\" x=\"{:.1}\" y=\"{:.1}\" width=\"14\" height=\"30\" rx=\"4\"/>",
+             <rect class=\"wheel\" x=\"{:.1}\" y=\"{:.1}\" width=\"14\" height=\"30\" rx=\"4\"/>",
             x - 7.0,
             y - 15.0
         );

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use crate::campaign::scenario::{
-    DriveScenario, GeneratorName, GroundDescription, KeepOutSection, Mistake, NoData, RobotSource, TerrainSection,
+    ControlName, DriveScenario, GeneratorName, GroundDescription, KeepOutSection, Mistake, NoData, RobotSource,
+    TerrainSection,
 };
 use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, flat, rough};
@@ -74,7 +75,11 @@ impl<'a> DriveSetup<'a> {
     /// The flat solver that shapes them.
     pub(super) fn flat_solver(&self) -> flat::Settings {
         let starts = self.scenario.generate.solver.starts as u32;
-        flat::Settings { starts, simd: self.simd, ..ReachSettings::of(self.planner).flat }
+        let control = match self.scenario.generate.control {
+            ControlName::Cubic => flat::Control::Cubic,
+            _ => flat::Control::Quintic,
+        };
+        flat::Settings { starts, control, simd: self.simd, ..ReachSettings::of(self.planner).flat }
     }
 
     /// The vehicle on its ground at the commanded speed, straight on.

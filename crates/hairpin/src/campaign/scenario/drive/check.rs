@@ -1,6 +1,6 @@
 //! The bounds of every key of a drive.
 
-use super::{DriveExecute, DriveGenerate, DriveScenario, DriveSpec, GroundReach, Manoeuvre};
+use super::{ControlName, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, GroundReach, Manoeuvre};
 use crate::campaign::drive::{keep_outs_of, map_of, rover_of};
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{Mistake, SearchMethod};
@@ -83,6 +83,9 @@ impl DriveScenario {
 fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut Findings) {
     let search = &generate.search;
     found.count("generate.headings", generate.headings, 1, 64);
+    let legs = matches!(generate.control, ControlName::Cubic | ControlName::Quintic);
+    let bound = "cubic or quintic: legs of campaigns have no others; `hairpin steer --control` has";
+    found.require(legs, "generate.control", format!("\"{}\"", generate.control.word()), bound);
     let most = if search.method == SearchMethod::Beam { MOST_NODES } else { MOST_NODES / 4 };
     found.count("generate.search.waypoints", search.waypoints, 1, most);
     let nodes = search.waypoints.saturating_mul(generate.headings);

@@ -85,6 +85,19 @@ pub enum ControlName {
     VelocityPolynomial,
 }
 
+impl ControlName {
+    /// The word in scenarios.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Arc => "arc",
+            Self::Cubic => "cubic",
+            Self::Quintic => "quintic",
+            Self::Knots => "knots",
+            Self::VelocityPolynomial => "velocity-polynomial",
+        }
+    }
+}
+
 /// What a vehicle may do on a leg.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
