@@ -85,11 +85,10 @@ impl Default for Steps {
 
 impl Steps {
     /// These for paths whose curvature changes by up to `most_rate` (1/m²): where that is more than 1, shorter in proportion, so
-    /// that it changes by no more a step.
+    /// that it changes by no more a step; a tenth at most, for vehicles whose wheels are turned at once.
     #[must_use]
     pub fn for_rate(self, most_rate: f64) -> Self {
-        let shorter = if most_rate.is_finite() { most_rate.max(1.0) } else { 1.0 };
-        Self { length: self.length / shorter, ..self }
+        Self { length: self.length / most_rate.clamp(1.0, 10.0), ..self }
     }
 }
 
