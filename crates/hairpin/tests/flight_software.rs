@@ -141,6 +141,7 @@ const MADE_BEFORE: &[(&str, &[&str])] = &[
     ("world/terrain/map.rs", &["Vec<", "Vec::", "vec![", "String", ".to_string()", ".collect"]),
     ("robot/rover/mod.rs", &["String", "Vec<"]),
     ("robot/rover/body.rs", &["Vec<", "format!"]),
+    ("robot/rover/error.rs", &["String", "format!", ".to_string()"]),
     ("trajectory/drive.rs", &["Vec<"]),
 ];
 

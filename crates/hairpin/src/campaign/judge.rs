@@ -1,5 +1,7 @@
 //! From runs to a case's result, and from results to the one sentence.
 
+use std::cell::OnceCell;
+
 use nalgebra::Point3;
 
 use super::case::gap_word;
@@ -10,7 +12,7 @@ use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, planned, vary}
 use crate::judgement::{
     self, Claim, Clearance, Judged, JudgementError, Measures, Reference, Settings, Verdict, Violation, Worst,
 };
-use crate::trajectory::Flight;
+use crate::trajectory::{Flight, Track};
 
 /// Confidence of intervals where the spec names none.
 const CONFIDENCE: f64 = 0.95;
@@ -32,6 +34,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
     let mut worst: Option<(JudgedRun, &Run)> = None;
     let mut deviations = Vec::with_capacity(runs.len());
     let (mut failed, mut unflown) = (None, None);
+    let path = OnceCell::new();
     for run in runs {
         let flight = match &run.outcome {
             Ok(flight) => flight,
@@ -40,7 +43,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
                 continue;
             }
         };
-        match judge_run(setup, case, run, flight)? {
+        match judge_run(setup, case, &path, run, flight)? {
             Ok(judged) => {
                 deviations.push(RunDeviation {
                     case: case.number,
@@ -115,10 +118,11 @@ impl PartialOrd for TotalOrder {
     }
 }
 
-/// Measures one run in the world that was drawn for it.
+/// Measures one run in the world that was drawn for it; `path` keeps the case's planned motion once a run asked for it.
 fn judge_run(
     setup: &Setup,
     case: &Case,
+    path: &OnceCell<Option<Track>>,
     run: &Run,
     flight: &Flight,
 ) -> Result<Result<JudgedRun, JudgementError>, Mistake> {
@@ -131,14 +135,14 @@ fn judge_run(
     };
     let terms = Terms::of(&own.scenario);
     let path = match terms.from {
-        DeviationFrom::Path => planned(setup, case).ok(),
+        DeviationFrom::Path => path.get_or_init(|| planned(setup, case).ok()).as_ref(),
         DeviationFrom::Leg | DeviationFrom::NearestLeg => None,
     };
     let obstructed = own.flight().filter(|setup| !setup.world.obstacles().is_empty());
     let clearance =
         obstructed.map(|setup| move |p: &Point3<f64>| setup.world.obstacle_distance(p) - setup.robot.clearance_radius);
     let settings = Settings {
-        reference: match (terms.from, &path) {
+        reference: match (terms.from, path) {
             (DeviationFrom::Path, Some(path)) => Reference::Path(path),
             (DeviationFrom::NearestLeg, _) => Reference::NearestLeg,
             _ => Reference::Leg,

@@ -43,6 +43,7 @@ impl Setup {
     /// # Errors
     /// The first key whose value is out of bounds.
     pub fn new(scenario: Scenario) -> Result<Self, Mistake> {
+        let scenario = scenario.with_ground();
         if let Some(mistake) = scenario.check().into_iter().next() {
             return Err(mistake);
         }

@@ -1,5 +1,6 @@
 //! Floor 5, the verdict: metrics on tracks, specs, statistics. It knows poses in time and nothing of robots or planners.
 
+mod apart;
 mod assign;
 mod deviation;
 pub mod measure;

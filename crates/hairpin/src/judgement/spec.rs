@@ -1,6 +1,6 @@
 //! Limits, and which of them a run violates.
 
-use super::verdict::apart;
+use super::apart::apart;
 use super::{LegMeasures, Measures};
 use crate::trajectory::{Ended, Flight};
 

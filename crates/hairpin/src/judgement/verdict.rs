@@ -228,17 +228,6 @@ fn worst_and_where(worst: &Worst) -> String {
     sentence
 }
 
-/// Two numbers with as many decimals as it takes to see that they differ: at least `least`.
-pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {
-    for decimals in least..12 {
-        let pair = (format!("{value:.decimals$}"), format!("{limit:.decimals$}"));
-        if pair.0 != pair.1 || value == limit {
-            return pair;
-        }
-    }
-    (value.to_string(), limit.to_string())
-}
-
 /// A share in percent: one decimal, or two digits where it is below 0.1 %.
 fn percent(share: f64) -> String {
     let percent = 100.0 * share;
@@ -402,8 +391,6 @@ mod tests {
 
     #[test]
     fn digits_show_the_difference() {
-        assert_eq!(apart(0.500_04, 0.5, 2), ("0.50004".into(), "0.50000".into()));
-        assert_eq!(apart(0.65, 0.5, 2), ("0.65".into(), "0.50".into()));
         assert_eq!((percent(0.015), percent(0.0), percent(0.000_031)), ("1.5".into(), "0.0".into(), "0.0031".into()));
     }
 }

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point3;
 
-use super::drawing::{Drawing, drawing};
-use super::facts::{facts, key_numbers, metrics};
+use super::drawing::Drawing;
 use super::text::attitude;
 use crate::campaign::scenario::DeviationFrom;
 use crate::campaign::terms::Terms;
@@ -57,7 +56,7 @@ pub struct Shown {
 
 impl Shown {
     /// Where it was, and where it was planned to be.
-    fn places(&self) -> impl Iterator<Item = Point3<f64>> {
+    pub(super) fn places(&self) -> impl Iterator<Item = Point3<f64>> {
         let of = |track: &'_ Track| (0..track.len()).map(|i| track.position(i)).collect::<Vec<_>>();
         self.waypoints.clone().into_iter().chain(of(&self.planned)).chain(self.flown.as_ref().map_or(Vec::new(), of))
     }
@@ -188,29 +187,4 @@ fn worst_attitude(track: &Track, measures: &Measures) -> String {
     let apart = |stamp: usize| (track.times()[stamp] - measures.t_worst).abs();
     let nearest = if apart(before) < apart(after) { before } else { after };
     attitude(&track.poses()[nearest].rotation)
-}
-
-/// Puts the pieces of a report together.
-pub fn assemble(pieces: Pieces) -> ReportData {
-    let order = |shown: &Shown| -> usize {
-        let ordered = worst_first(pieces.results);
-        ordered.iter().position(|result| result.case == shown.result.case).unwrap_or(usize::MAX)
-    };
-    let mut shown = pieces.shown.clone();
-    shown.sort_by_cached_key(order);
-    ReportData {
-        title: pieces.setup.robot_name().to_owned(),
-        verdict: pieces.verdict.clone(),
-        key_numbers: key_numbers(&pieces),
-        facts: facts(&pieces),
-        drawing: drawing(pieces.setup, shown.iter().flat_map(Shown::places)),
-        deviation_limit: pieces.setup.scenario.deviation_limit(),
-        results: worst_first(pieces.results).into_iter().cloned().collect(),
-        metrics: metrics(&pieces),
-        shown,
-        assumptions: pieces.assumptions,
-        frame: pieces.frame,
-        claims: pieces.cases.iter().map(|case| (case.number, case.claim())).collect(),
-        influences: pieces.influences,
-    }
 }

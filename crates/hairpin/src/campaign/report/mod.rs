@@ -1,12 +1,14 @@
 //! What a report shows, as plain data and plain words; how it looks is the format's business.
 
+mod assemble;
 mod data;
 mod drawing;
 mod facts;
 mod solid;
 mod text;
 
-pub use data::{Metric, Pieces, ReportData, Shown, assemble, shown, worst_first};
+pub use assemble::assemble;
+pub use data::{Metric, Pieces, ReportData, Shown, shown, worst_first};
 pub use drawing::{Drawing, Relief, Rotor};
 pub use solid::{Surface, surface};
 pub(in crate::campaign) use text::percent_digits;

@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+mod check;
 pub(crate) mod distribution;
 mod drive;
 mod findings;
@@ -74,25 +75,6 @@ pub struct Executor<'a> {
 }
 
 impl Scenario {
-    /// Every key whose value is out of bounds, in the order of the file. Empty: the scenario can be run.
-    ///
-    /// The scenario must be resolved: robot inline, meshes and elevation maps read, world base merged.
-    pub fn check(&self) -> Vec<Mistake> {
-        let mut mistakes = self.check_nominal();
-        if mistakes.is_empty() {
-            mistakes = vary::check(self);
-        }
-        mistakes
-    }
-
-    /// [`Scenario::check`] without `[vary]`, whose own check asks this of what it draws.
-    fn check_nominal(&self) -> Vec<Mistake> {
-        match self {
-            Self::Flight(scenario) => scenario.check(),
-            Self::Drive(scenario) => scenario.check(),
-        }
-    }
-
     /// The scenario of a flight.
     pub fn flight(&self) -> Option<&FlightScenario> {
         match self {

@@ -4,8 +4,8 @@ use nalgebra::{Isometry3, SVector, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{GroundError, Named, grid, named, planar_pose, run, within};
-use crate::robot::rover::{Limits, Response, Rover};
+use super::{Named, grid, named, planar_pose, run};
+use crate::robot::rover::{Limits, Response, Rover, RoverError, within};
 use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// The `kind` of a car's file.
@@ -83,7 +83,7 @@ impl CarDescription {
     ///
     /// # Errors
     /// The first key whose value is out of bounds, with the bound.
-    pub fn build(&self) -> Result<Car, GroundError> {
+    pub fn build(&self) -> Result<Car, RoverError> {
         let limits = &self.limits;
         let speed = within("limits.speed_m_s", limits.speed_m_s, 1e-3, 100.0)?;
         let estimated = if self.speed_m_s.is_none() { vec!["speed_m_s"] } else { vec![] };

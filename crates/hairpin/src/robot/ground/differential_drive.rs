@@ -4,9 +4,9 @@ use nalgebra::{Isometry3, SVector, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{GroundError, Named, grid, named, planar_pose, run, within};
+use super::{Named, grid, named, planar_pose, run};
 use crate::math::power::square;
-use crate::robot::rover::{Limits, Response, Rover};
+use crate::robot::rover::{Limits, Response, Rover, RoverError, within};
 use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// The `kind` of a differential drive's file.
@@ -76,7 +76,7 @@ impl DifferentialDriveDescription {
     ///
     /// # Errors
     /// The first key whose value is out of bounds, with the bound.
-    pub fn build(&self) -> Result<DifferentialDrive, GroundError> {
+    pub fn build(&self) -> Result<DifferentialDrive, RoverError> {
         let limits = &self.limits;
         let wheel_speed = within("limits.wheel_speed_m_s", limits.wheel_speed_m_s, 1e-3, 100.0)?;
         let speed = self.speed_m_s.unwrap_or(0.5 * wheel_speed);

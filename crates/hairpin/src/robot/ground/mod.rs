@@ -13,36 +13,15 @@ pub use differential_drive::{
 };
 
 use nalgebra::{Isometry3, SVector, Translation3};
-use thiserror::Error;
 
 use super::Dynamics;
 use crate::math::integrate::rk4_step;
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
-use crate::robot::rover::{Body, Limits, Response, Rover, Slip, Suspension, Wheels};
+use crate::robot::rover::{Body, Limits, Response, Rover, RoverError, Slip, Suspension, Wheels};
 
-/// Why a file's numbers are no car or differential drive.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("{field} = {value}: must be {bound}")]
-pub struct GroundError {
-    /// Key of the robot file, such as `limits.steering_deg`.
-    pub field: String,
-    /// The offending value.
-    pub value: String,
-    /// What it must be.
-    pub bound: String,
-}
-
-fn within(key: &str, value: f64, low: f64, high: f64) -> Result<f64, GroundError> {
-    if (low..=high).contains(&value) {
-        return Ok(value);
-    }
-    let bound = format!("a number from {low} to {high}");
-    Err(GroundError { field: key.into(), value: value.to_string(), bound })
-}
-
-fn named(name: &str) -> Result<String, GroundError> {
+fn named(name: &str) -> Result<String, RoverError> {
     if name.trim().is_empty() {
-        return Err(GroundError { field: "name".into(), value: "\"\"".into(), bound: "a name for reports".into() });
+        return Err(RoverError { field: "name".into(), value: "\"\"".into(), bound: "a name for reports".into() });
     }
     Ok(name.to_owned())
 }

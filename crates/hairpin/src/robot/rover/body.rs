@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::description::{place, within, wrong};
-use super::{RoverError, Suspension};
+use super::Suspension;
+use super::error::{RoverError, place, within, wrong};
 
 /// The rigid body on the suspension, in its own frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

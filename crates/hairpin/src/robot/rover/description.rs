@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 use super::body::{BellyDescription, Body};
+use super::error::{RoverError, place, within, wrong};
 use super::four_wheel::FourWheel;
 use super::wheels::{Steering, Wheels, WheelsDescription};
 use super::{Limits, Response, RockerBogie, Rover, Slip, Suspension};
@@ -16,18 +16,6 @@ use super::{Limits, Response, RockerBogie, Rover, Slip, Suspension};
 pub enum RoverKind {
     /// Wheels on the ground.
     Rover,
-}
-
-/// Why a file's numbers are no rover.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("{field} = {value}: must be {bound}")]
-pub struct RoverError {
-    /// Key of the robot file, such as `suspension.wheel_radius_m`.
-    pub field: String,
-    /// The offending value.
-    pub value: String,
-    /// What it must be.
-    pub bound: String,
 }
 
 /// A rover's file. Needed: `name` and `limits.curvature_1_m`; without `suspension` it is a point in the plane.
@@ -298,23 +286,4 @@ fn left(key: &str, at: &Vector3<f64>) -> Result<(), RoverError> {
 
 fn radius(value: f64) -> Result<f64, RoverError> {
     within("suspension.wheel_radius_m", value, 1e-4, 100.0)
-}
-
-pub(super) fn place(key: &str, at: &[f64; 3]) -> Result<Vector3<f64>, RoverError> {
-    for value in at {
-        within(key, *value, -100.0, 100.0)?;
-    }
-    Ok(Vector3::from(*at))
-}
-
-pub(super) fn within(key: &str, value: f64, low: f64, high: f64) -> Result<f64, RoverError> {
-    if (low..=high).contains(&value) {
-        Ok(value)
-    } else {
-        Err(wrong(key, value, format!("a number from {low} to {high}")))
-    }
-}
-
-pub(super) fn wrong(field: &str, value: impl ToString, bound: impl Into<String>) -> RoverError {
-    RoverError { field: field.into(), value: value.to_string(), bound: bound.into() }
 }

@@ -6,6 +6,7 @@
 mod body;
 mod contact;
 mod description;
+mod error;
 mod four_wheel;
 mod motion;
 mod rest;
@@ -19,7 +20,9 @@ mod wheels;
 mod tests;
 
 pub use body::{Belly, BellyDescription, Body};
-pub use description::{RoverDescription, RoverError, RoverKind};
+pub use description::{RoverDescription, RoverKind};
+pub use error::RoverError;
+pub(super) use error::within;
 pub use four_wheel::FourWheel;
 pub use motion::{Rates, Slip, rates};
 pub use rest::{Gradient, Settled, Unsettled};

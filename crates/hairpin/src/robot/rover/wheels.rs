@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::description::within;
-use super::{Rover, RoverError, Suspension};
+use super::error::{RoverError, within};
+use super::{Rover, Suspension};
 
 /// Which wheels steer, and so how a vehicle turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -14,6 +14,15 @@ const LONGEST: u64 = 1_000;
 const MOST_NODES: u64 = 5_000;
 
 impl DriveScenario {
+    /// Makes the ground that is asked for of the generator; keys that are wrong make none, and are told by the check.
+    pub(in crate::campaign::scenario) fn make_ground(&mut self) {
+        let terrain = &mut self.world.terrain;
+        if terrain.generator.is_some() {
+            terrain.map = None;
+            terrain.map = map_of(terrain, self.seed).ok();
+        }
+    }
+
     /// Every nominal value that is out of bounds, in the order of the file.
     pub(in crate::campaign::scenario) fn check(&self) -> Vec<Mistake> {
         let mut found = Findings::default();

@@ -11,7 +11,7 @@
 use super::basis::{MOST, Row};
 use super::grid::{Grid, Node};
 use super::linear::solve;
-use super::search::Settings;
+use super::settings::Settings;
 use crate::feasibility::steering::shooting::Curvatures;
 
 /// Unknowns: the parameters and the length.

@@ -14,7 +14,9 @@ mod linear;
 mod parameters;
 mod pieces;
 mod search;
+mod settings;
 mod start;
 
 pub use parameters::Parameters;
-pub use search::{Answer, Iteration, Problem, Settings, solve};
+pub use search::{Answer, Iteration, Problem, solve};
+pub use settings::Settings;

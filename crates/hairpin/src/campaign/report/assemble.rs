@@ -1,0 +1,30 @@
+//! From the pieces of a judged campaign to its report.
+
+use super::data::{Pieces, ReportData, Shown, worst_first};
+use super::drawing::drawing;
+use super::facts::{facts, key_numbers, metrics};
+
+/// Puts the pieces of a report together.
+pub fn assemble(pieces: Pieces) -> ReportData {
+    let order = |shown: &Shown| -> usize {
+        let ordered = worst_first(pieces.results);
+        ordered.iter().position(|result| result.case == shown.result.case).unwrap_or(usize::MAX)
+    };
+    let mut shown = pieces.shown.clone();
+    shown.sort_by_cached_key(order);
+    ReportData {
+        title: pieces.setup.robot_name().to_owned(),
+        verdict: pieces.verdict.clone(),
+        key_numbers: key_numbers(&pieces),
+        facts: facts(&pieces),
+        drawing: drawing(pieces.setup, shown.iter().flat_map(Shown::places)),
+        deviation_limit: pieces.setup.scenario.deviation_limit(),
+        results: worst_first(pieces.results).into_iter().cloned().collect(),
+        metrics: metrics(&pieces),
+        shown,
+        assumptions: pieces.assumptions,
+        frame: pieces.frame,
+        claims: pieces.cases.iter().map(|case| (case.number, case.claim())).collect(),
+        influences: pieces.influences,
+    }
+}

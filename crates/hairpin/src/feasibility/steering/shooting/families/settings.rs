@@ -1,0 +1,23 @@
+//! Choices of the shooting.
+
+use crate::feasibility::steering::shooting::Precision;
+
+/// How long and how exactly to look.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// The errors within which the goal counts as met; the descents go on to a thousandth of it.
+    pub precision: Precision,
+    /// Steps of each descent at most.
+    pub iterations: u32,
+    /// Start values at most.
+    pub starts: u32,
+    /// Share of each step that is taken at first, in (0, 1].
+    pub step_scale: f64,
+}
+
+impl Default for Settings {
+    /// 1 cm, 0.01 rad, 0.01 1/m; 60 steps from up to 24 starts; whole steps.
+    fn default() -> Self {
+        Self { precision: Precision::default(), iterations: 60, starts: 24, step_scale: 1.0 }
+    }
+}
