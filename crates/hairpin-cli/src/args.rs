@@ -354,6 +354,8 @@ pub(crate) enum Document {
     Car,
     /// Differential drives
     DifferentialDrive,
+    /// Arms
+    Arm,
 }
 
 #[derive(Debug, Args)]

@@ -105,7 +105,7 @@ fn new_writes_once_and_what_it_writes_is_a_scenario() {
 #[test]
 fn schemas_and_completions_are_printed() {
     let folder = tempfile::tempdir().unwrap();
-    for (document, key) in [("scenario", "generate"), ("robot", "mass_kg")] {
+    for (document, key) in [("scenario", "generate"), ("robot", "mass_kg"), ("arm", "joints")] {
         let (code, out, _) = run(folder.path(), &["schema", document]);
         let schema: serde_json::Value = serde_json::from_str(&out).unwrap();
         assert!(code == 0 && schema["properties"][key].is_object(), "{document}");

@@ -18,4 +18,5 @@ pub mod steering;
 pub mod template;
 pub mod terrain;
 pub mod tum;
+pub mod urdf;
 pub mod waypoints;

@@ -29,6 +29,11 @@ pub fn rovers() -> impl Iterator<Item = Shipped> {
     robots().filter(|robot| robot.path.starts_with("robots/rover/"))
 }
 
+/// The shipped arms, sorted by path.
+pub fn arms() -> impl Iterator<Item = Shipped> {
+    robots().filter(|robot| robot.path.starts_with("robots/arm/"))
+}
+
 /// The shipped cars, sorted by path.
 pub fn cars() -> impl Iterator<Item = Shipped> {
     on_the_ground("car")

@@ -1,6 +1,7 @@
 //! The JSON Schema of scenario and robot files, made from the types that read them.
 
 use hairpin::campaign::scenario::{DriveScenario, FlightScenario};
+use hairpin::robot::arm::ArmDescription;
 use hairpin::robot::ground::{CarDescription, DifferentialDriveDescription};
 use hairpin::robot::quadrotor::QuadrotorDescription;
 use hairpin::robot::rover::RoverDescription;
@@ -28,6 +29,11 @@ fn with_made_by(mut schema: Value) -> Value {
 /// The schema of a rover's file.
 pub fn rover_schema() -> Value {
     schemars::schema_for!(RoverDescription).to_value()
+}
+
+/// The schema of an arm's file.
+pub fn arm_schema() -> Value {
+    schemars::schema_for!(ArmDescription).to_value()
 }
 
 /// The schema of a car's file.

@@ -61,6 +61,11 @@ fn every_shipped_file_validates_against_its_schema() {
         let told: Vec<_> = rovers.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
         assert!(told.is_empty(), "{}: {told:?}", shipped.path);
     }
+    let arms = jsonschema::validator_for(&schema::arm_schema()).unwrap();
+    for shipped in library::arms() {
+        let told: Vec<_> = arms.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
+        assert!(told.is_empty(), "{}: {told:?}", shipped.path);
+    }
     let cars = jsonschema::validator_for(&schema::car_schema()).unwrap();
     let drives = jsonschema::validator_for(&schema::differential_drive_schema()).unwrap();
     let ground = library::cars().map(|car| (&cars, car)).chain(library::differential_drives().map(|d| (&drives, d)));

@@ -1,7 +1,8 @@
 //! `hairpin schema`: JSON Schema from the types that read the files.
 
 use hairpin_formats::schema::{
-    car_schema, differential_drive_schema, drive_scenario_schema, robot_schema, rover_schema, scenario_schema,
+    arm_schema, car_schema, differential_drive_schema, drive_scenario_schema, robot_schema, rover_schema,
+    scenario_schema,
 };
 
 use crate::args::{Document, Schema};
@@ -15,6 +16,7 @@ pub(crate) fn run(schema: &Schema) -> Result<u8, Problem> {
         Document::RoverScenario => drive_scenario_schema(),
         Document::Robot => robot_schema(),
         Document::Rover => rover_schema(),
+        Document::Arm => arm_schema(),
         Document::Car => car_schema(),
         Document::DifferentialDrive => differential_drive_schema(),
     };

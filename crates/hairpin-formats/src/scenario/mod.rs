@@ -1,5 +1,6 @@
 //! Scenario files in and out. Reading resolves: what comes out holds robot, world and meshes, and is checked.
 
+mod arm;
 mod report;
 mod resolve;
 mod rover;
@@ -15,6 +16,7 @@ use hairpin::campaign::Scenario;
 use hairpin::campaign::scenario::{GroundDescription, KeyPath};
 use toml::Table;
 
+pub use arm::arm_for;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub use terrain::attach_terrain;

@@ -1,0 +1,114 @@
+//! A serial chain of six turning joints: link frames, Jacobian, and numeric inverse kinematics by continuation.
+
+use nalgebra::{Isometry3, Matrix6, Point3, Vector3, Vector6};
+
+use super::{AXES, Joints};
+use crate::math::rotation::{from_rotation_vector, rotation_vector};
+
+/// One turning joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// Pose of the joint, at angle 0, in the link before it.
+    pub origin: Isometry3<f64>,
+    /// Axis of rotation in that pose, of length 1.
+    pub axis: Vector3<f64>,
+}
+
+/// Six joints one after the other, and the flange on the last link.
+///
+/// base_from_link_k = Π_{j ≤ k} origin_j · Rot(axis_j, q_j); base_from_flange = base_from_link_6 · flange. Lengths in m, angles in
+/// rad. Any arm's forward kinematics are computed here, whatever its inverse.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    /// The joints, from the base on.
+    pub joints: [Joint; AXES],
+    /// Pose of the flange in the last link.
+    pub flange: Isometry3<f64>,
+}
+
+/// `base_from_link`: index 0 is the base, index k the link that joint k moves.
+pub type Frames = [Isometry3<f64>; AXES + 1];
+
+/// What a numeric solution took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iterated {
+    /// Joint angles, rad.
+    pub joints: Joints,
+    /// Newton steps.
+    pub iterations: u32,
+}
+
+/// Newton steps at most; continuation from a near pose takes two or three.
+const MOST_ITERATIONS: u32 = 30;
+/// Length (m) and angle (rad) below which a pose is met.
+const MET: f64 = 1e-11;
+/// Longest step of a joint per iteration, rad.
+const LONGEST_STEP: f64 = 0.3;
+
+impl Chain {
+    /// All link frames at the joint angles `q`, rad.
+    pub fn frames(&self, q: &Joints) -> Frames {
+        let mut frames = [Isometry3::identity(); AXES + 1];
+        for (k, joint) in self.joints.iter().enumerate() {
+            frames[k + 1] = frames[k] * joint.origin * from_rotation_vector(&(joint.axis * q[k]));
+        }
+        frames
+    }
+
+    /// `base_from_flange` at the joint angles `q`, rad.
+    pub fn forward(&self, q: &Joints) -> Isometry3<f64> {
+        self.frames(q)[AXES] * self.flange
+    }
+
+    /// Origin and direction of every axis in the base, given the frames.
+    pub fn axes(&self, frames: &Frames) -> [(Point3<f64>, Vector3<f64>); AXES] {
+        std::array::from_fn(|k| {
+            // Turning about the axis moves neither its point nor its direction.
+            (frames[k + 1].translation.vector.into(), frames[k + 1].rotation * self.joints[k].axis)
+        })
+    }
+
+    /// The Jacobian at `point` of the last link: column k is (a_k × (p − o_k), a_k), m/rad above 1.
+    pub fn jacobian(&self, frames: &Frames, point: &Point3<f64>) -> Matrix6<f64> {
+        let mut jacobian = Matrix6::zeros();
+        for (k, (origin, axis)) in self.axes(frames).iter().enumerate() {
+            jacobian.fixed_view_mut::<3, 1>(0, k).copy_from(&axis.cross(&(point - origin)));
+            jacobian.fixed_view_mut::<3, 1>(3, k).copy_from(axis);
+        }
+        jacobian
+    }
+
+    /// Upper bound of the distance from the base to the flange, m.
+    pub fn reach(&self) -> f64 {
+        self.joints.iter().map(|joint| joint.origin.translation.vector.norm()).sum::<f64>()
+            + self.flange.translation.vector.norm()
+    }
+
+    /// Joint angles near `seed` whose flange is at `target`, by damped Newton steps
+    /// Δq = Jᵀ(J Jᵀ + λ²I)⁻¹ e on the twist e from the flange to the target, λ² falling with |e|.
+    ///
+    /// `None` if 30 steps do not meet the target within 1e-11 m and rad. (Nakamura, Hanafusa, "Inverse kinematic solutions with
+    /// singularity robustness for robot manipulator control", 1986; damping by the error: Sugihara, 2011.)
+    pub fn inverse_near(&self, target: &Isometry3<f64>, seed: &Joints) -> Option<Iterated> {
+        let mut q = *seed;
+        for iterations in 0..=MOST_ITERATIONS {
+            let frames = self.frames(&q);
+            let flange = frames[AXES] * self.flange;
+            let shift = target.translation.vector - flange.translation.vector;
+            let turn = rotation_vector(&(target.rotation * flange.rotation.inverse()));
+            let error = Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z);
+            if shift.norm() < MET && turn.norm() < MET {
+                return Some(Iterated { joints: q, iterations });
+            }
+            let jacobian = self.jacobian(&frames, &flange.translation.vector.into());
+            let damping = (1e-3 * error.norm_squared()).max(1e-18);
+            let normal = jacobian * jacobian.transpose() + Matrix6::identity() * damping;
+            let step = jacobian.transpose() * normal.cholesky()?.solve(&error);
+            let scale = (LONGEST_STEP / step.amax()).min(1.0);
+            for (angle, change) in q.iter_mut().zip(step.iter()) {
+                *angle += scale * change;
+            }
+        }
+        None
+    }
+}

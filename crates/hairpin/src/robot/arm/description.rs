@@ -1,0 +1,354 @@
+//! An arm as a file has it: mm, degrees and kg in the names, what is missing derived and marked `estimated`.
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::body::{self, Capsule, Link, Mass};
+use super::chain::{Chain, Joint};
+use super::opw::Opw;
+use super::{AXES, Arm, JointLimit, Joints, Kinematics};
+use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
+
+/// The `kind` of an arm's file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ArmKind {
+    /// Six joints and a flange.
+    Arm,
+}
+
+/// Why a file's numbers are no arm, tool or work object.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{field} = {value}: must be {bound}")]
+pub struct ArmError {
+    /// Key of the file, such as `opw.c2_mm`.
+    pub field: String,
+    /// The offending value.
+    pub value: String,
+    /// What it must be.
+    pub bound: String,
+}
+
+/// An arm's file. Needed: `name`, `joints`, and either `opw` or `chain`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ArmDescription {
+    /// Always `arm`.
+    pub kind: ArmKind,
+    /// Name in reports.
+    pub name: String,
+    /// Where the numbers come from.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub source: String,
+    /// What must be said wherever the robot is named ("a stand-in for ...").
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub caveat: String,
+    /// Dimensions of an arm with an ortho-parallel basis and a spherical wrist.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub opw: Option<OpwDescription>,
+    /// Any other six joints, one after the other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chain: Option<ChainDescription>,
+    /// What the joints may do.
+    pub joints: JointsDescription,
+    /// What the links take up; capsules along the dimensions if not given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub capsules: Vec<CapsuleDescription>,
+    /// Masses of links, of all six that move or of none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub masses: Vec<MassDescription>,
+}
+
+/// Brandstötter's parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OpwDescription {
+    /// Shoulder before axis 1.
+    pub a1_mm: f64,
+    /// Forearm's axis before the elbow; ABB's arms have it above: negative.
+    pub a2_mm: f64,
+    /// Sideways offset of the arm's plane; 0 if not given.
+    #[serde(default)]
+    pub b_mm: f64,
+    /// Shoulder above the base.
+    pub c1_mm: f64,
+    /// Upper arm.
+    pub c2_mm: f64,
+    /// Forearm.
+    pub c3_mm: f64,
+    /// Wrist centre to flange.
+    pub c4_mm: f64,
+    /// The parameters' angles are sign * angle - offset; 0 if not given.
+    #[serde(default)]
+    pub offsets_deg: [f64; AXES],
+    /// 1 or -1 an axis; 1 if not given.
+    #[serde(default = "positive")]
+    pub signs: [i8; AXES],
+}
+
+fn positive() -> [i8; AXES] {
+    [1; AXES]
+}
+
+/// Six joints, from the base on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChainDescription {
+    /// The joints.
+    pub joints: Vec<ChainJoint>,
+    /// Flange in the last link.
+    #[serde(default)]
+    pub flange_mm: [f64; 3],
+    /// Roll, pitch, yaw of the flange in the last link.
+    #[serde(default)]
+    pub flange_rpy_deg: [f64; 3],
+}
+
+/// A joint where URDF puts it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChainJoint {
+    /// Origin in the link before.
+    pub xyz_mm: [f64; 3],
+    /// Roll, pitch, yaw in the link before.
+    #[serde(default)]
+    pub rpy_deg: [f64; 3],
+    /// Axis of rotation in the joint's frame, of any length.
+    pub axis: [f64; 3],
+}
+
+/// Limits, axes 1 to 6.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointsDescription {
+    /// Least angles.
+    pub lower_deg: [f64; AXES],
+    /// Largest angles.
+    pub upper_deg: [f64; AXES],
+    /// Largest speeds.
+    pub speed_deg_s: [f64; AXES],
+    /// Largest accelerations; what reaches the largest speed in 0.2 s if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration_deg_s2: Option<[f64; AXES]>,
+}
+
+/// A part of a link.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CapsuleDescription {
+    /// 0 for the base, k for the link that axis k moves.
+    pub link: usize,
+    /// One end of the axis in the link's frame.
+    pub a_mm: [f64; 3],
+    /// The other end.
+    pub b_mm: [f64; 3],
+    /// Radius.
+    pub radius_mm: f64,
+}
+
+/// Mass of a link.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MassDescription {
+    /// k for the link that axis k moves.
+    pub link: usize,
+    /// Mass.
+    pub mass_kg: f64,
+    /// Centre of mass in the link's frame.
+    pub centre_mm: [f64; 3],
+    /// Moments of inertia about the centre along the link's axes; a point if not given.
+    #[serde(default)]
+    pub inertia_kg_m2: [f64; 3],
+}
+
+/// Time to the largest speed where a file gives no accelerations, s.
+const RISE_TIME: f64 = 0.2;
+
+impl ArmDescription {
+    /// Checks every number and builds the arm.
+    ///
+    /// # Errors
+    /// The first key whose value is out of bounds, with the bound.
+    pub fn build(&self) -> Result<Arm, ArmError> {
+        if self.name.trim().is_empty() {
+            return Err(wrong("name", "\"\"", "a name for reports"));
+        }
+        let mut estimated = Vec::new();
+        let (chain, kinematics, stand_ins) = match (&self.opw, &self.chain) {
+            (Some(opw), None) => {
+                let opw = opw.build()?;
+                (opw.chain(), Kinematics::Opw(opw), body::of_opw(&opw))
+            }
+            (None, Some(chain)) => {
+                let chain = chain.build()?;
+                let stand_ins = body::of_chain(&chain);
+                (chain, Kinematics::Chain, stand_ins)
+            }
+            (both, _) => {
+                let given = if both.is_some() { "given beside chain" } else { "missing, and so is chain" };
+                return Err(wrong("opw", given, "given, or chain, not both"));
+            }
+        };
+        let capsules = if self.capsules.is_empty() {
+            estimated.push("capsules");
+            stand_ins
+        } else {
+            self.capsules()?
+        };
+        let mut masses = self.masses()?.into_iter();
+        let links = capsules.map(|capsules| Link { capsules, mass: masses.next().flatten() });
+        Ok(Arm {
+            name: self.name.clone(),
+            caveat: self.caveat.clone(),
+            source: self.source.clone(),
+            chain,
+            kinematics,
+            limits: self.joints.build(&mut estimated)?,
+            links,
+            estimated,
+        })
+    }
+
+    fn capsules(&self) -> Result<[Vec<Capsule>; AXES + 1], ArmError> {
+        let mut links: [Vec<Capsule>; AXES + 1] = Default::default();
+        for (i, given) in self.capsules.iter().enumerate() {
+            let key = |name: &str| format!("capsules[{i}].{name}");
+            let link = links.get_mut(given.link).ok_or_else(|| wrong(&key("link"), given.link, "0 to 6"))?;
+            link.push(Capsule {
+                a: (place(&key("a_mm"), &given.a_mm)? * 1e-3).into(),
+                b: (place(&key("b_mm"), &given.b_mm)? * 1e-3).into(),
+                radius: within(&key("radius_mm"), given.radius_mm, 1e-3, 1e5)? * 1e-3,
+            });
+        }
+        Ok(links)
+    }
+
+    /// Of the base (none) and the six links.
+    fn masses(&self) -> Result<[Option<Mass>; AXES + 1], ArmError> {
+        let mut masses = [None; AXES + 1];
+        for (i, given) in self.masses.iter().enumerate() {
+            let key = |name: &str| format!("masses[{i}].{name}");
+            if !(1..=AXES).contains(&given.link) {
+                return Err(wrong(&key("link"), given.link, "1 to 6"));
+            }
+            if masses[given.link].is_some() {
+                return Err(wrong(&key("link"), given.link, "another link than those before"));
+            }
+            for moment in given.inertia_kg_m2 {
+                within(&key("inertia_kg_m2"), moment, 0.0, 1e6)?;
+            }
+            masses[given.link] = Some(Mass {
+                mass: within(&key("mass_kg"), given.mass_kg, 0.0, 1e5)?,
+                centre: (place(&key("centre_mm"), &given.centre_mm)? * 1e-3).into(),
+                inertia: given.inertia_kg_m2.into(),
+            });
+        }
+        let given = masses.iter().flatten().count();
+        if given != 0 && given != AXES {
+            return Err(wrong("masses", format!("of {given} links"), "of all six links that move, or of none"));
+        }
+        Ok(masses)
+    }
+}
+
+impl OpwDescription {
+    fn build(&self) -> Result<Opw, ArmError> {
+        let length = |key: &str, value: f64, low: f64| Ok(within(&format!("opw.{key}"), value, low, 1e5)? * 1e-3);
+        for (axis, sign) in self.signs.iter().enumerate() {
+            if sign.abs() != 1 {
+                return Err(wrong(&format!("opw.signs[{axis}]"), sign, "1 or -1"));
+            }
+        }
+        let mut offsets: Joints = [0.0; AXES];
+        for (axis, offset) in self.offsets_deg.iter().enumerate() {
+            offsets[axis] = within(&format!("opw.offsets_deg[{axis}]"), *offset, -360.0, 360.0)?.to_radians();
+        }
+        Ok(Opw {
+            a1: length("a1_mm", self.a1_mm, -1e5)?,
+            a2: length("a2_mm", self.a2_mm, -1e5)?,
+            b: length("b_mm", self.b_mm, -1e5)?,
+            c1: length("c1_mm", self.c1_mm, 0.0)?,
+            c2: length("c2_mm", self.c2_mm, 1e-2)?,
+            c3: length("c3_mm", self.c3_mm, 1e-2)?,
+            c4: length("c4_mm", self.c4_mm, 0.0)?,
+            offsets,
+            signs: self.signs.map(f64::from),
+        })
+    }
+}
+
+impl ChainDescription {
+    fn build(&self) -> Result<Chain, ArmError> {
+        let given = self.joints.len();
+        if given != AXES {
+            return Err(wrong("chain.joints", format!("{given} joints"), "six"));
+        }
+        let mut joints = [Joint { origin: Isometry3::identity(), axis: Vector3::z() }; AXES];
+        for (i, (joint, given)) in joints.iter_mut().zip(&self.joints).enumerate() {
+            let key = |name: &str| format!("chain.joints[{i}].{name}");
+            let axis = place(&key("axis"), &given.axis)?;
+            joint.origin = frame([&key("xyz_mm"), &key("rpy_deg")], &given.xyz_mm, &given.rpy_deg)?;
+            joint.axis = axis
+                .try_normalize(1e-9)
+                .ok_or_else(|| wrong(&key("axis"), format!("{:?}", given.axis), "a direction"))?;
+        }
+        let flange = frame(["chain.flange_mm", "chain.flange_rpy_deg"], &self.flange_mm, &self.flange_rpy_deg)?;
+        let chain = Chain { joints, flange };
+        within("chain, length in m", chain.reach(), 1e-3, 1e3)?;
+        Ok(chain)
+    }
+}
+
+impl JointsDescription {
+    fn build(&self, estimated: &mut Vec<&'static str>) -> Result<[JointLimit; AXES], ArmError> {
+        if self.acceleration_deg_s2.is_none() {
+            estimated.push("joints.acceleration_deg_s2");
+        }
+        let mut limits = [JointLimit { lower: 0.0, upper: 0.0, speed: 0.0, acceleration: 0.0 }; AXES];
+        for (axis, limit) in limits.iter_mut().enumerate() {
+            let key = |name: &str| format!("joints.{name}[{axis}]");
+            let lower = within(&key("lower_deg"), self.lower_deg[axis], -3600.0, 3600.0)?;
+            let upper = within(&key("upper_deg"), self.upper_deg[axis], lower, 3600.0)?;
+            let speed = within(&key("speed_deg_s"), self.speed_deg_s[axis], 1e-3, 1e5)?;
+            let acceleration = self.acceleration_deg_s2.map_or(speed / RISE_TIME, |given| given[axis]);
+            let acceleration = within(&key("acceleration_deg_s2"), acceleration, 1e-3, 1e7)?;
+            *limit = JointLimit {
+                lower: lower.to_radians(),
+                upper: upper.to_radians(),
+                speed: speed.to_radians(),
+                acceleration: acceleration.to_radians(),
+            };
+        }
+        Ok(limits)
+    }
+}
+
+fn frame([at, turned]: [&str; 2], mm: &[f64; 3], rpy_deg: &[f64; 3]) -> Result<Isometry3<f64>, ArmError> {
+    for angle in rpy_deg {
+        within(turned, *angle, -3600.0, 3600.0)?;
+    }
+    let [roll, pitch, yaw] = rpy_deg.map(f64::to_radians);
+    let rotation = unit_quaternion(&quaternion_from_euler(roll, pitch, yaw));
+    Ok(Isometry3::from_parts(Translation3::from(place(at, mm)? * 1e-3), rotation))
+}
+
+pub(super) fn place(key: &str, at: &[f64; 3]) -> Result<Vector3<f64>, ArmError> {
+    for value in at {
+        within(key, *value, -1e5, 1e5)?;
+    }
+    Ok(Vector3::from(*at))
+}
+
+pub(super) fn within(key: &str, value: f64, low: f64, high: f64) -> Result<f64, ArmError> {
+    if (low..=high).contains(&value) {
+        Ok(value)
+    } else {
+        Err(wrong(key, value, format!("a number from {low} to {high}")))
+    }
+}
+
+pub(super) fn wrong(field: &str, value: impl ToString, bound: impl Into<String>) -> ArmError {
+    ArmError { field: field.into(), value: value.to_string(), bound: bound.into() }
+}
