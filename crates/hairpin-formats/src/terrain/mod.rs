@@ -9,7 +9,7 @@ mod raster;
 #[cfg(test)]
 mod tests;
 
-pub use keep_out::{CircleSection, KeepOutError, KeepOutSection, PolygonSection, keep_outs, read_keep_outs};
+pub use keep_out::{KeepOutError, read_keep_outs};
 
 use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, MapError};
 use thiserror::Error;

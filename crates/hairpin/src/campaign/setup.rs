@@ -70,7 +70,7 @@ impl Setup {
                 let rover = Box::new(drive::rover_of(&scenario.robot)?);
                 let map = drive::map_of(&scenario.world.terrain, scenario.seed)?;
                 let planner = Box::new(drive::planner_of(&rover));
-                let keep_out = Arc::new(drive::keep_outs_of(&scenario.world.keep_out)?);
+                let keep_out = Arc::new(scenario.world.keep_outs()?);
                 Machine::Driver { rover, planner, map, keep_out }
             }
         };

@@ -13,7 +13,7 @@ pub(super) use assumptions::{act, claim, verdict};
 pub(super) use execute::{Order, drive};
 pub(super) use plan::{timed, track};
 pub use setup::DriveSetup;
-pub(super) use setup::{keep_outs_of, map_of, planner_of, rover_of};
+pub(super) use setup::{map_of, planner_of, rover_of};
 pub use site::{Site, drive_piece, flat_claim, replay_flat};
 pub(super) use solve::Solver;
 pub(super) use verify::verify;

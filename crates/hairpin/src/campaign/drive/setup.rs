@@ -3,15 +3,14 @@
 use std::sync::Arc;
 
 use crate::campaign::scenario::{
-    ControlName, DriveScenario, GeneratorName, GroundDescription, KeepOutSection, Mistake, NoData, RobotSource,
-    TerrainSection,
+    ControlName, DriveScenario, GeneratorName, GroundDescription, Mistake, NoData, RobotSource, TerrainSection,
 };
 use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, flat, rough};
 use crate::math::simd::Simd;
 use crate::robot::rover::{Response, Rover};
 use crate::world::terrain::generate::{Recipe, generate};
-use crate::world::terrain::{ElevationMap, HoleRule, KeepOut, KeepOutShape, KeepOuts, MapError};
+use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
 
 use super::Site;
 
@@ -154,33 +153,4 @@ impl From<NoData> for HoleRule {
             NoData::Fill => Self::Fill,
         }
     }
-}
-
-/// The places of a resolved section.
-///
-/// # Errors
-/// The key that is out of bounds.
-pub(in crate::campaign) fn keep_outs_of(sections: &[KeepOutSection]) -> Result<KeepOuts, Mistake> {
-    let mut list = Vec::with_capacity(sections.len());
-    for (index, section) in sections.iter().enumerate() {
-        let shape = match (&section.circle, &section.polygon) {
-            (Some(circle), None) => KeepOutShape::Circle { center_m: circle.center_m, radius_m: circle.radius_m },
-            (None, Some(polygon)) => KeepOutShape::Polygon { points_m: polygon.points_m.clone() },
-            (circle, _) => {
-                let value = if circle.is_some() { "circle and polygon" } else { "no shape" };
-                return Err(Mistake {
-                    key: format!("world.keep_out[{index}]"),
-                    value: value.into(),
-                    bound: "exactly one of circle, polygon".into(),
-                });
-            }
-        };
-        let name = if section.name.is_empty() { format!("keep-out {index}") } else { section.name.clone() };
-        list.push(KeepOut { name, shape });
-    }
-    KeepOuts::new(list).map_err(|error| Mistake {
-        key: format!("world.{}", error.field),
-        value: error.value,
-        bound: error.bound,
-    })
 }

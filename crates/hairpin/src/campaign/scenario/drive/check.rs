@@ -1,7 +1,7 @@
 //! The bounds of every key of a drive.
 
 use super::{ControlName, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, GroundReach, Manoeuvre};
-use crate::campaign::drive::{keep_outs_of, map_of, rover_of};
+use crate::campaign::drive::{map_of, rover_of};
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{Mistake, SearchMethod};
 use crate::feasibility::reach::drive::GroundScore;
@@ -49,7 +49,7 @@ impl DriveScenario {
             let fine = !given || terrain.generator.is_some();
             found.require(fine, &format!("world.terrain.{key}"), "given", "left out: it is for generated ground");
         }
-        if let Err(mistake) = keep_outs_of(&self.world.keep_out) {
+        if let Err(mistake) = self.world.keep_outs() {
             found.add(mistake);
         }
     }

@@ -3,6 +3,7 @@
 mod check;
 mod execute;
 mod generate;
+mod keep_out;
 mod spec;
 mod task;
 mod world;
@@ -18,6 +19,7 @@ use crate::robot::rover::RoverDescription;
 
 pub use execute::*;
 pub use generate::*;
+pub use keep_out::*;
 pub use spec::*;
 pub use task::*;
 pub use world::*;

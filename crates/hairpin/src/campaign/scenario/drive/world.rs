@@ -5,8 +5,9 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::Origin;
-use crate::world::terrain::ElevationMap;
+use super::keep_out::{KeepOutSection, keep_outs};
+use crate::campaign::scenario::{Mistake, Origin};
+use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// `[world]`: m, z up, x east, y north, as the elevation map has them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -23,6 +24,16 @@ pub struct GroundSection {
     /// Where on Earth the map's origin lies: used by geodetic exports.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<Origin>,
+}
+
+impl GroundSection {
+    /// The places of `keep_out`.
+    ///
+    /// # Errors
+    /// The key that is out of bounds.
+    pub(in crate::campaign) fn keep_outs(&self) -> Result<KeepOuts, Mistake> {
+        keep_outs(&self.keep_out).map_err(|mistake| Mistake { key: format!("world.{}", mistake.key), ..mistake })
+    }
 }
 
 /// Frames of poses in scenario files.
@@ -116,37 +127,4 @@ pub enum GeneratorName {
     Fractal,
     /// A plane at height 0.
     Flat,
-}
-
-/// One keep-out: exactly one of the shapes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct KeepOutSection {
-    /// Name in reports.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub name: String,
-    /// A disc.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub circle: Option<CircleSection>,
-    /// A polygon.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub polygon: Option<PolygonSection>,
-}
-
-/// `circle = { center_m, radius_m }`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CircleSection {
-    /// Centre.
-    pub center_m: [f64; 2],
-    /// Radius.
-    pub radius_m: f64,
-}
-
-/// `polygon = { points_m }`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PolygonSection {
-    /// Corners, in turn.
-    pub points_m: Vec<[f64; 2]>,
 }

@@ -1,7 +1,9 @@
 //! Clear drives on real ground: the flat ones keep farther away until the predicted motion stays clear.
 
 use super::hazards::{Hazards, Intrusion, MotionCheck};
-use super::solve;
+use super::generate::generate;
+use crate::feasibility::steering::shooting::Control;
+use crate::feasibility::steering::shooting::families::Problem;
 use crate::feasibility::steering::shooting::query::{Curvatures, Query};
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Settings, Status, Waiting};
 use crate::feasibility::steering::shooting::solve::{Choices, Method, Outcome};
@@ -15,6 +17,8 @@ pub struct Around<'a> {
     pub keep_outs: &'a KeepOuts,
     /// What the vehicle's middle keeps from them, m: see [`super::footprint`].
     pub radius: f64,
+    /// What the flat drives are shaped by.
+    pub control: Control,
     /// What may be driven.
     pub choices: Choices,
 }
@@ -83,17 +87,18 @@ fn attempt<T: Terrain>(
     added: f64,
     over: &dyn Fn() -> bool,
 ) -> ClearedOnGround {
-    let Around { keep_outs, radius, choices } = *around;
+    let Around { keep_outs, radius, control, choices } = *around;
     let (mut method, mut too_near) = (None, None);
     // Late commands find the vehicle farther on.
     let acting = Waiting::GoesOn.over(course, start).unwrap_or(*start);
     let hazards = Hazards { keep_outs, start: acting, direction: course.direction.start, radius: radius + added };
     let mut steer = |query: &Query| -> Option<SegmentList> {
         let query = Query::new(query.start_curvature, query.goal, bounds).ok().filter(|_| !over())?;
-        let flat = solve::solve(&query, bounds, &choices, &hazards, over);
+        let problem = Problem { query, speed: course.speed, swing: course.direction.swing(), free_end: false };
+        let (flat, intrusion) = generate(&problem, control, bounds, &choices, &hazards, over, |_| {});
         method = Some(flat.solution.method);
-        too_near = flat.intrusion;
-        let usable = flat.solution.outcome == Outcome::Solved && (flat.intrusion.is_none() || added == 0.0);
+        too_near = intrusion;
+        let usable = flat.solution.outcome == Outcome::Solved && (intrusion.is_none() || added == 0.0);
         usable.then_some(flat.solution.segments)
     };
     let answer = rough::solve_until(course, start, goal, bounds, settings, &mut steer, over);

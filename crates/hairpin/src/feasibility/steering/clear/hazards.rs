@@ -1,7 +1,7 @@
 //! Whether a drive stays clear, along all of it: no step between two looks can hide a place to keep out of.
 
 use crate::math::quadrature::Gauss;
-use crate::robot::rover::Suspension;
+use crate::robot::rover::Rover;
 use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::world::terrain::KeepOuts;
 
@@ -35,11 +35,14 @@ const NEAR: f64 = 0.02;
 const STEP: f64 = 0.25;
 const TURN: f64 = 0.5;
 
-/// Radius of the circle about the body's origin that all wheels stay within, whichever way it turns, m; 0 without wheels.
-pub fn footprint(suspension: &Suspension) -> f64 {
-    let (wheels, count, radius) = suspension.wheels(&[0.0; 3]);
+/// Radius of the circle about the body's origin that all wheels and the underside stay within, whichever way it turns, m; 0 for a
+/// vehicle that is a point.
+pub fn footprint(rover: &Rover) -> f64 {
+    let (wheels, count, radius) = rover.suspension.wheels(&[0.0; 3]);
+    let belly = &rover.body.belly;
+    let corner = libm::hypot(belly.front.abs().max(belly.rear.abs()), belly.half_width);
     // A wheel reaches ahead and back of its axle; tilted, it is seen from above as no larger.
-    wheels[..count].iter().map(|w| libm::hypot(w.x.abs() + radius, w.y)).fold(0.0, f64::max)
+    wheels[..count].iter().map(|w| libm::hypot(w.x.abs() + radius, w.y)).fold(corner, f64::max)
 }
 
 impl Hazards<'_> {

@@ -1,6 +1,7 @@
 //! Drives that stay clear of places to keep out of: the shortest of the ways around, and detours where none is clear.
 
 mod detour;
+mod generate;
 mod ground;
 mod hazards;
 mod solve;
@@ -9,6 +10,7 @@ mod ways;
 #[cfg(test)]
 mod tests;
 
+pub use generate::generate;
 pub use ground::{Around, ClearedOnGround, motion, solve_on_ground};
 pub use hazards::{Hazards, Intrusion, MotionCheck, footprint};
 pub use solve::{Cleared, solve};
