@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use requirements::Requirements;
-pub(crate) use steer::{Steer, SteerFrame};
+pub(crate) use steer::{KeepOutFlags, Steer, SteerCost, SteerFrame};
 pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
 
 /// Finds the trajectories a robot handles worst, and proves that they are ones it could have flown.

@@ -267,6 +267,11 @@ fn one_question_in_words_as_json_and_as_a_picture() {
     let metres =
         |answer: &serde_json::Value, key: &str| answer[key].as_f64().unwrap_or_else(|| panic!("{key}: {answer}"));
     assert!(metres(&aside, "length_m") < 0.5 * metres(&around, "length_m"));
+    // The long way round says so, and names the goal beside it that needs none.
+    assert!(metres(&around, "detour") > 2.0 && metres(&enu, "detour") < 1.5 && enu.get("nearest_goal").is_none());
+    let near = ["x", "y", "yaw", "kf"].map(|key| metres(&around["nearest_goal"], key).to_string()).join(",");
+    let (code, direct) = object(&[&format!("--to={near}")]);
+    assert!(code == 0 && metres(&direct, "detour") < 1.51, "{near}: {direct}");
     // The long way round names the reversal that spares it.
     assert!((metres(&around, "with_reversals_m") - metres(&aside, "length_m")).abs() < 1e-9);
     assert!(enu.get("with_reversals_m").is_none() && aside.get("with_reversals_m").is_none());
@@ -276,4 +281,85 @@ fn one_question_in_words_as_json_and_as_a_picture() {
         (code, serde_json::from_str::<serde_json::Value>(&out).unwrap())
     };
     assert!(code == 0 && own["robot"] == "own" && own["max_curvature_1_m"].as_f64().unwrap() <= 0.25 + 1e-9, "{own}");
+}
+
+#[test]
+fn answers_that_are_none_name_what_would_be_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let ask = |arguments: &[&str]| -> (i32, serde_json::Value) {
+        let (code, out, error) = run(folder.path(), &[&["steer", "generic", "--json"], arguments].concat());
+        (code, serde_json::from_str(&out).unwrap_or_else(|_| panic!("{out}{error}")))
+    };
+    // Beside the start is no place for a cubic; a goal that is one is named in the map, in either frame.
+    for (frame, from, to) in [("enu", "2,1,0.4", "2.2,2.5,0.4"), ("ned", "1,2,0.4", "2.5,2.2,0.4")] {
+        let whole = ["--control", "cubic", "--frame", frame, "--from", from];
+        let (code, answer) = ask(&[&whole[..], &["--to", to]].concat());
+        assert!(code != 0, "{answer}");
+        let part = |key: &str| answer["nearest_goal"][key].as_f64().unwrap_or_else(|| panic!("{key}: {answer}"));
+        let there = format!("{},{},{},{}", part("x"), part("y"), part("yaw"), part("kf"));
+        let (code, again) = ask(&[&whole[..], &["--to", &there]].concat());
+        assert_eq!(code, 0, "{there}: {again}");
+    }
+    // Walled in, a vehicle needs more than it is allowed.
+    let wall = ["--keep-out-polygon", "1.2,-9,1.4,-9,1.4,9,1.2,9", "--to=-2,0,0"];
+    let (code, alone) = ask(&wall);
+    let (_, both) = ask(&[&wall[..], &["--reversals"]].concat());
+    assert_eq!((code, &alone["limit"], &both["status"]), (3, &"keep_out".into(), &"ok".into()), "{alone} {both}");
+    assert_eq!(
+        (&alone["with_reversals_m"], &alone["keep_out"]["place"]),
+        (&both["length_m"], &"--keep-out-polygon 0".into())
+    );
+    assert!(alone["excess"].as_f64().unwrap() > 0.0 && alone["keep_out"]["after_m"].as_f64().unwrap() > 0.5, "{alone}");
+}
+
+#[test]
+fn precision_steps_and_costs_are_what_was_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let ask = |arguments: &[&str]| -> serde_json::Value {
+        let (_, out, error) =
+            run(folder.path(), &[&["steer", "generic", "--json", "--to", "5,2.5,-0.8"], arguments].concat());
+        serde_json::from_str(&out).unwrap_or_else(|_| panic!("{out}{error}"))
+    };
+    let number =
+        |answer: &serde_json::Value, key: &str| answer[key].as_f64().unwrap_or_else(|| panic!("{key}: {answer}"));
+    let plain = ask(&[]);
+    // Shorter steps take more of them, and none are too few.
+    let slow = ask(&["--step-scale", "0.5"]);
+    assert!(slow["status"] == "ok" && number(&slow, "iterations") > number(&plain, "iterations"), "{slow} {plain}");
+    let none = ask(&["--iterations", "0", "--control", "cubic"]);
+    assert!(none["status"] != "ok" && none["iterations"] == 0, "{none}");
+    // A looser precision is met in no more steps, a stricter one is met as well.
+    let strict = ask(&["--tolerance-m", "1e-7", "--tolerance-yaw-rad", "1e-7", "--tolerance-curvature-1-m", "1e-7"]);
+    assert!(strict["status"] == "ok" && number(&strict["errors"], "x_m").abs() < 1e-7, "{strict}");
+    assert!(number(&strict, "iterations") >= number(&plain, "iterations"), "{strict} {plain}");
+    // A cost is lowered, and named; what has none to lower is refused.
+    let cost = |name: &str| number(&ask(&["--cost", name])["cost"], "value");
+    let bent = |answer: &serde_json::Value, rate: bool| {
+        let a: Vec<f64> =
+            answer["segments"][0]["curvature"].as_array().unwrap().iter().map(|a| a.as_f64().unwrap()).collect();
+        let length = number(&answer["segments"][0], "length_m");
+        let at = |s: f64| match rate {
+            false => a.iter().rev().fold(0.0, |sum, a| sum * s + a),
+            true => (1..6).rev().fold(0.0, |sum, k| sum * s + k as f64 * a[k]),
+        };
+        let square = |i: u32| at(length * (f64::from(i) + 0.5) / 4000.0).powi(2) * length / 4000.0;
+        (0..4000).map(square).sum::<f64>()
+    };
+    assert!(cost("curvature") < 0.9999 * bent(&plain, false) && cost("rate") < 0.99 * bent(&plain, true));
+    let (rate, value) = (ask(&["--cost", "rate"]), cost("rate"));
+    assert!((bent(&rate, true) / value - 1.0).abs() < 1e-4, "{rate}");
+    for (flags, told) in [
+        (vec!["--cost", "tilt"], "--terrain"),
+        (vec!["--cost", "rate", "--control", "knots"], "quintic"),
+        (vec!["--cost", "rate", "--direction-end", "0.2"], "direction of travel"),
+        (vec!["--step-scale", "0"], "0.01 to 1"),
+        (vec!["--iterations=-1"], "100000"),
+        (vec!["--tolerance-yaw-rad", "0"], "> 0"),
+        (vec!["--keep-out-circle", "1,2"], "three finite numbers"),
+        (vec!["--keep-out-polygon", "0,0,1,1"], "three pairs"),
+        (vec!["--keep-out-polygon", "0,0,1,1,2,2"], "not all on one line"),
+    ] {
+        let (code, out, error) = run(folder.path(), &[&["steer", "generic", "--to", "4,1,0"], &flags[..]].concat());
+        assert!(code == 2 && out.is_empty() && error.contains(told), "{flags:?}: {code} {out} {error}");
+    }
 }

@@ -152,3 +152,71 @@ fn show_terrain_tells_what_was_understood() {
     let (code, out, error) = run(folder.path(), &["show", "terrain", "nothing.tif"]);
     assert!(code == 2 && out.is_empty() && error.contains("nothing.tif"), "{error}");
 }
+
+#[test]
+fn places_to_keep_out_of_are_gone_around_on_the_plane_and_on_the_ground() {
+    let folder = tempfile::tempdir().unwrap();
+    hills(folder.path(), rolling);
+    let rock = "keep_out = [{ name = \"rock\", circle = { center_m = [0.5, -0.6], radius_m = 0.4 } }]\n";
+    fs::write(folder.path().join("rocks.toml"), rock).unwrap();
+    let there = ["--from", "-3,-2,0.3", "--to", "4,1,0.5"];
+    for ground in [&["--terrain", "hills.asc"][..], &[]] {
+        let ask = |more: &[&str]| {
+            let (code, out, error) =
+                run(folder.path(), &[&["steer", "rocky8", "--json"], ground, &there[..], more].concat());
+            (code, serde_json::from_str::<Value>(&out).unwrap_or_else(|wrong| panic!("{wrong}: {out}{error}")))
+        };
+        let (_, plain) = ask(&[]);
+        let (code, around) = ask(&["--keep-out", "rocks.toml"]);
+        assert_eq!((code, &around["status"]), (0, &Value::from("ok")), "{around}");
+        assert!(around["segments"] != plain["segments"], "the rock is not in the way: {plain}");
+        assert!(around["length_m"].as_f64() > plain["length_m"].as_f64(), "{around} {plain}");
+        // The same place as a flag is the same place, and other families say that it is in their way.
+        let (_, flag) = ask(&["--keep-out-circle", "0.5,-0.6,0.4"]);
+        assert_eq!(flag["segments"], around["segments"]);
+        let (code, knots) = ask(&["--keep-out", "rocks.toml", "--control", "knots"]);
+        assert_eq!((code, &knots["limit"]), (3, &Value::from("keep_out")), "{knots}");
+        // A goal beside the rock is within reach of the wheels.
+        let to = [&there[..2], &["--to", "1.2,-0.4,0.3", "--keep-out", "rocks.toml"]].concat();
+        let (code, out, _) = run(folder.path(), &[&["steer", "rocky8", "--json"], ground, &to[..]].concat());
+        let near: Value = serde_json::from_str(&out).unwrap();
+        assert_eq!(
+            (code, &near["limit"], &near["keep_out"]["place"]),
+            (3, &"keep_out".into(), &"rock".into()),
+            "{near}"
+        );
+        let depth = near["excess"].as_f64().unwrap();
+        assert!(depth > 0.1 && depth < 1.5, "{near}");
+        // The nearest goal that is none of that is answered.
+        let part =
+            |key: &str| near["nearest_goal"][key].as_f64().unwrap_or_else(|| panic!("{key}: {near}")).to_string();
+        let nearest = ["x", "y", "yaw", "kf"].map(part).join(",");
+        let to = [&there[..2], &["--to", &nearest, "--keep-out", "rocks.toml"]].concat();
+        let (code, out, _) = run(folder.path(), &[&["steer", "rocky8", "--json"], ground, &to[..]].concat());
+        assert_eq!(code, 0, "{nearest}: {out}");
+    }
+    let (code, out, _) =
+        run(folder.path(), &["steer", "rocky8", "--from", "-3,-2,0", "--to", "0.5,-0.5,0", "--keep-out", "rocks.toml"]);
+    assert!(code == 3 && out.contains("keep_out exceeded by") && out.contains("m (rock, after "), "{out}");
+    assert!(out.contains("nearest goal that one arc leads to: --to "), "{out}");
+    fs::write(folder.path().join("wrong.toml"), "keep_out = [{ name = \"rock\" }]\n").unwrap();
+    for (file, told) in [("wrong.toml", "exactly one of circle, polygon"), ("none.toml", "none.toml")] {
+        let (code, _, error) = run(folder.path(), &["steer", "rocky8", "--to", "2,0,0", "--keep-out", file]);
+        assert!(code == 2 && error.contains(told), "{code} {error}");
+    }
+}
+
+#[test]
+fn costs_are_lowered_on_the_ground_and_told() {
+    let folder = tempfile::tempdir().unwrap();
+    hills(folder.path(), rolling);
+    let there = ["--from", "-3,-2,0.3", "--to", "4,1,0.5"];
+    for name in ["curvature", "rate", "tilt", "energy"] {
+        let (code, cheap) = steer(folder.path(), "rocky8", &[&there[..], &["--cost", name]].concat());
+        assert_eq!((code, &cheap["status"], &cheap["cost"]["name"]), (0, &"ok".into(), &name.into()), "{cheap}");
+        assert!(cheap["cost"]["value"].as_f64().unwrap() > 0.0, "{cheap}");
+    }
+    let (_, plain) = steer(folder.path(), "rocky8", &there);
+    let (_, tilt) = steer(folder.path(), "rocky8", &[&there[..], &["--cost", "tilt"]].concat());
+    assert!(plain.get("cost").is_none() && tilt["segments"] != plain["segments"], "{tilt}");
+}

@@ -25,6 +25,39 @@ pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
     Ok([finite(first.trim()).map_err(|_| refuse())?, finite(second.trim()).map_err(|_| refuse())?])
 }
 
+/// Three finite numbers, the last more than 0.
+pub(super) fn triple(text: &str) -> Result<[f64; 3], String> {
+    match list(text)[..] {
+        [Some(x), Some(y), Some(radius)] if radius > 0.0 => Ok([x, y, radius]),
+        _ => Err("must be three finite numbers, the last more than 0, such as -1.5,2,0.4".into()),
+    }
+}
+
+/// Three pairs of finite numbers or more.
+pub(super) fn corners(text: &str) -> Result<Vec<[f64; 2]>, String> {
+    let numbers: Option<Vec<f64>> = list(text).into_iter().collect();
+    match numbers {
+        Some(numbers) if numbers.len() >= 6 && numbers.len().is_multiple_of(2) => {
+            Ok(numbers.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect())
+        }
+        _ => Err("must be three pairs of finite numbers or more, such as 0,0,2,0,2,1.5".into()),
+    }
+}
+
+fn list(text: &str) -> Vec<Option<f64>> {
+    text.split(',').map(|part| finite(part.trim()).ok()).collect()
+}
+
+/// Steps of a search.
+pub(super) fn count(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|count| *count <= 100_000).ok_or_else(|| "must be a number from 0 to 100000".into())
+}
+
+/// Share of a step.
+pub(super) fn share(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|share| (0.01..=1.0).contains(share)).ok_or_else(|| "must be from 0.01 to 1".into())
+}
+
 pub(super) fn not_negative(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|number| *number >= 0.0).ok_or_else(|| "must be a finite number >= 0".into())
 }

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use hairpin::campaign::drive::drive_piece;
+use hairpin::feasibility::steering::clear::Intrusion;
 use hairpin::feasibility::steering::shooting::families::Parameters;
 use hairpin::feasibility::steering::shooting::flat::Limit;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision};
@@ -10,6 +11,7 @@ use hairpin::feasibility::steering::shooting::solve::Solution;
 use hairpin::trajectory::SpeedProfile;
 use hairpin::trajectory::drive::Segment;
 use hairpin::verification::{DriveClaim, DrivePiece, DriveReplay};
+use hairpin::world::terrain::KeepOuts;
 use hairpin_formats::steering::{Asked, Status};
 
 use super::pace::direction;
@@ -22,6 +24,8 @@ pub(in crate::commands) struct Answered {
     pub(in crate::commands) solving: Duration,
     /// What stands in the way; its excess in its unit.
     pub(in crate::commands) limit: Option<(&'static str, Option<f64>)>,
+    /// Which place to keep out of that is.
+    pub(super) near: Option<Near>,
     /// The bounds that were in force.
     pub(super) bounds: Curvatures,
     /// Curvatures that would be feasible, where those asked for are not.
@@ -30,6 +34,44 @@ pub(in crate::commands) struct Answered {
     pub(super) profile: Option<SpeedProfile>,
     /// The controls' own parameters, and by how much the segments differ from them in curvature, 1/m.
     pub(super) parameters: Option<(Parameters, f64)>,
+    /// What the drive costs by the measure that was asked for.
+    pub(super) cost: Option<f64>,
+}
+
+impl Answered {
+    /// Without a drive.
+    pub(super) fn new(
+        status: Status,
+        limit: Option<(&'static str, Option<f64>)>,
+        bounds: Curvatures,
+        solving: Duration,
+    ) -> Self {
+        let (drive, near, nearest, profile, parameters, cost) = (None, None, None, None, None, None);
+        Self { status, drive, solving, limit, near, bounds, nearest, profile, parameters, cost }
+    }
+}
+
+/// A place to keep out of that a drive comes too near to.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Near {
+    /// Its name.
+    pub(super) place: String,
+    /// What is missing to stay clear, m.
+    pub(super) depth: f64,
+    /// Metres driven before.
+    pub(super) after_m: f64,
+}
+
+impl Near {
+    pub(super) fn new(intrusion: &Intrusion, keep_outs: &KeepOuts) -> Self {
+        let place = keep_outs.list().get(intrusion.place).map_or_else(String::new, |place| place.name.clone());
+        Self { place, depth: intrusion.depth, after_m: intrusion.after_m }
+    }
+
+    /// As a limit, with what it is exceeded by.
+    pub(super) fn limit(&self) -> (&'static str, Option<f64>) {
+        ("keep_out", Some(self.depth))
+    }
 }
 
 /// Share by which rounding may exceed a limit.

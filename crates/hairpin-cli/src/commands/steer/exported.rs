@@ -3,6 +3,7 @@
 
 use hairpin::campaign::states::States;
 use hairpin::feasibility::steering::shooting::families::Parameters;
+use hairpin::feasibility::steering::shooting::rough::GroundCost;
 use hairpin::trajectory::{SpeedProfile, Timing};
 use hairpin_formats::atomic;
 use hairpin_formats::steering::{Asked, path_table, wheel_table};
@@ -64,6 +65,9 @@ pub(super) fn add(object: &mut Value, vehicle: &Vehicle, asked: &Asked, answered
             "driving_s": finite(timing.time_at(timing.length())),
             "max_acceleration_m_s2": finite(timing.hardest()),
         });
+    }
+    if vehicle.means.ground.cost != GroundCost::Any {
+        object["cost"] = json!({ "name": vehicle.means.ground.cost.name(), "value": answered.cost });
     }
     if let Some((parameters, fit_error)) = &answered.parameters {
         object["parameters"] = named(parameters, left);

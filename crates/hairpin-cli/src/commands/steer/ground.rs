@@ -1,12 +1,13 @@
 //! Questions on an elevation map: the same answer, found and replayed with the body on its wheels.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use hairpin::campaign::drive::Site;
+use hairpin::feasibility::steering::clear::{Around, Intrusion, footprint};
 use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
 use hairpin::feasibility::steering::shooting::flat;
-use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Precision, Query};
-use hairpin::feasibility::steering::shooting::rough::{Blocked, Cause, Settings, Status as Found};
+use hairpin::feasibility::steering::shooting::query::{Goal, Precision, Query};
+use hairpin::feasibility::steering::shooting::rough::{Answer, Blocked, Cause, Settings, Status as Found};
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, Solution};
 use hairpin::feasibility::steering::shooting::{Control, generate};
 use hairpin::robot::rover::{Rover, Unsettled};
@@ -15,9 +16,10 @@ use hairpin::verification::{DriveReplay, GroundReplay, Stopped, replay_drive};
 use hairpin::world::terrain::{ElevationMap, HoleRule, NoGround};
 use hairpin_formats::steering::{Asked, Status};
 
-use super::answered::{Answered, broken, claim, pieces};
+use super::answered::{Answered, Near, broken, claim, pieces};
 use super::pace::{direction, start};
-use super::vehicle::told;
+use super::plane::Task;
+use super::told::told;
 use crate::args::{NoData, Steer};
 use crate::commands::terrain;
 use crate::console;
@@ -45,108 +47,115 @@ pub(super) fn map(steer: &Steer, rover: &Rover) -> Result<Option<ElevationMap>, 
     Ok(Some(map))
 }
 
-/// What one question on the ground is asked with.
-pub(super) struct Ground<'a> {
-    pub(super) rover: &'a Rover,
-    pub(super) map: &'a ElevationMap,
-    pub(super) choices: Choices,
-    pub(super) control: Control,
-    /// The question in the plane.
-    pub(super) boundary: &'a Boundary,
-    pub(super) bounds: Curvatures,
-    /// The bounds that drives are shaped with.
-    pub(super) shaping: Curvatures,
-    pub(super) precision: Precision,
-    pub(super) time_limit: Option<Duration>,
+/// Answers `asked` on `map`.
+pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answered {
+    let (means, bounds) = (task.means, task.bounds);
+    let site = Site { rover: task.rover, map, speed: task.boundary.speed, direction: direction(asked) };
+    let start = start(asked);
+    let goal = goal(asked, &start);
+    let begun = Instant::now();
+    let over = || means.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
+    let mut found = search(task, &site, &start, &goal, means.choices, &over);
+    if matches!(found.status, Found::NotConverged { .. }) && task.control == Control::Quintic && !over() {
+        // Closed forms change steadily with their goal where arcs do not.
+        let choices = Choices { arcs: false, ..means.choices };
+        let second = search(task, &site, &start, &goal, choices, &over);
+        if second.status == Found::Ok {
+            let iterations = found.solution.iterations + second.solution.iterations;
+            found = Searched { solution: Solution { iterations, ..second.solution }, ..second };
+        }
+    }
+    let solving = begun.elapsed();
+    let Searched { status, solution, intrusion } = found;
+    let ran_out = over() && status != Found::Ok;
+    let near = intrusion.filter(|_| !ran_out).map(|intrusion| Near::new(&intrusion, task.keep_outs));
+    let flat = replay_drive(&pieces(&solution), &claim(asked, &solution.segments, false));
+    let replay = site.replay(&start, &goal, &solution.segments);
+    let answered = |status, limit, drive: Option<(Solution, DriveReplay)>| Answered {
+        drive: drive.filter(|_| !solution.segments.is_empty()),
+        ..Answered::new(status, limit, bounds, solving)
+    };
+    let too_near = |near: Near, drive| Answered {
+        near: Some(near.clone()),
+        ..answered(Status::Infeasible, Some(near.limit()), drive)
+    };
+    let ground = match (&status, &replay) {
+        (Found::Blocked(blocked), _) if !ran_out => {
+            return answered(Status::Infeasible, Some((way(blocked), None)), None);
+        }
+        (_, Err(stopped)) if !ran_out => {
+            let limit = Some((stands_in_the_way(stopped), None));
+            return near.map_or_else(|| answered(Status::Infeasible, limit, None), |near| too_near(near, None));
+        }
+        (_, Err(_)) => return answered(Status::TimeLimit, None, None),
+        (_, Ok(ground)) => ground,
+    };
+    let replay = on_the_ground(&flat, ground, &start);
+    let drive = Some((solution, replay));
+    let over_tilt = ground.max_tilt - task.rover.limits.tilt;
+    if let Some(near) = near {
+        return too_near(near, drive);
+    }
+    match (status, broken(&replay, &bounds, &task.precision)) {
+        _ if ran_out => answered(Status::TimeLimit, None, drive),
+        (Found::Ok, None) if over_tilt > 0.0 => {
+            answered(Status::Infeasible, Some(("tilt_rad", Some(over_tilt))), drive)
+        }
+        (Found::Ok, None) => Answered {
+            cost: site.cost(&start, &solution.segments, means.ground.cost),
+            ..answered(Status::Ok, None, drive)
+        },
+        (_, limit) => answered(Status::NotConverged, limit, drive),
+    }
 }
 
-impl Ground<'_> {
-    /// Answers `asked`.
-    pub(super) fn answer(&self, asked: &Asked) -> Answered {
-        let speed = self.boundary.speed;
-        let site = Site { rover: self.rover, map: self.map, speed, direction: direction(asked) };
-        let start = start(asked);
-        let goal = goal(asked, &start);
-        let begun = Instant::now();
-        let over = || self.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
-        let (mut found, mut solution) = self.search(&site, &start, &goal, self.choices, &over);
-        if matches!(found, Found::NotConverged { .. }) && self.control == Control::Quintic && !over() {
-            // Closed forms change steadily with their goal where arcs do not.
-            let choices = Choices { arcs: false, ..self.choices };
-            let (again, second) = self.search(&site, &start, &goal, choices, &over);
-            if again == Found::Ok {
-                (found, solution) = (again, Solution { iterations: solution.iterations + second.iterations, ..second });
-            }
-        }
-        let solving = begun.elapsed();
-        let ran_out = over() && found != Found::Ok;
-        let flat = replay_drive(&pieces(&solution), &claim(asked, &solution.segments, false));
-        let replay = site.replay(&start, &goal, &solution.segments);
-        let answered = |status, limit, drive: Option<(Solution, DriveReplay)>| Answered {
-            status,
-            drive: drive.filter(|_| !solution.segments.is_empty()),
-            solving,
-            limit,
-            bounds: self.bounds,
-            nearest: None,
-            profile: None,
-            parameters: None,
-        };
-        let ground = match (&found, &replay) {
-            (Found::Blocked(blocked), _) if !ran_out => {
-                return answered(Status::Infeasible, Some((way(blocked), None)), None);
-            }
-            (_, Err(stopped)) if !ran_out => {
-                return answered(Status::Infeasible, Some((stands_in_the_way(stopped), None)), None);
-            }
-            (_, Err(_)) => return answered(Status::TimeLimit, None, None),
-            (_, Ok(ground)) => ground,
-        };
-        let replay = on_the_ground(&flat, ground, &start);
-        let drive = Some((solution, replay));
-        let over_tilt = ground.max_tilt - self.rover.limits.tilt;
-        match (found, broken(&replay, &self.bounds, &self.precision)) {
-            _ if ran_out => answered(Status::TimeLimit, None, drive),
-            (Found::Ok, None) if over_tilt > 0.0 => {
-                answered(Status::Infeasible, Some(("tilt_rad", Some(over_tilt))), drive)
-            }
-            (Found::Ok, None) => answered(Status::Ok, None, drive),
-            (_, limit) => answered(Status::NotConverged, limit, drive),
-        }
-    }
+/// What a search came to.
+struct Searched {
+    status: Found,
+    solution: Solution,
+    /// Where the motion comes too near to a place to keep out of.
+    intrusion: Option<Intrusion>,
+}
 
-    fn search(
-        &self,
-        site: &Site<'_>,
-        start: &Planar,
-        goal: &Planar,
-        choices: Choices,
-        over: &dyn Fn() -> bool,
-    ) -> (Found, Solution) {
-        let precision = Precision { position: FLAT, yaw: FLAT, curvature: FLAT };
-        let choices = Choices { flat: flat::Settings { precision, ..choices.flat }, ..choices };
-        let (mut first, mut method) = (None, None);
-        let settings = Settings { precision: self.precision, ..Settings::default() };
-        let mut steer = |query: &Query| -> Option<SegmentList> {
-            let query = Query::new(query.start_curvature, query.goal, &self.shaping).ok().filter(|_| !over())?;
-            let boundary = Boundary { query, free_end: false, ..*self.boundary };
-            let flat = generate(&boundary, self.control, &self.shaping, &choices, over, told).solution;
-            let Goal { x, y, yaw, curvature } = query.goal;
-            tracing::debug!("flat goal {x:.4} {y:.4} {yaw:.4} {curvature:.4}: {:?}, {:?}", flat.outcome, flat.method);
-            first.get_or_insert(flat);
-            method = Some(flat.method);
-            (flat.outcome == Outcome::Solved).then_some(flat.segments)
-        };
-        let answer = site.solve_until(start, goal, &self.shaping, &settings, &mut steer, over);
-        // Without any time there is still the flat start value.
-        let flat = first
-            .unwrap_or_else(|| generate(self.boundary, self.control, &self.shaping, &choices, over, told).solution);
-        if answer.segments.is_empty() {
-            return (answer.status, flat);
-        }
-        let method = method.unwrap_or(flat.method);
-        (answer.status, Solution { segments: answer.segments, iterations: answer.iterations, method, ..flat })
+fn search(
+    task: &Task<'_>,
+    site: &Site<'_>,
+    start: &Planar,
+    goal: &Planar,
+    choices: Choices,
+    over: &dyn Fn() -> bool,
+) -> Searched {
+    let Task { boundary, control, shaping, .. } = *task;
+    let precision = Precision { position: FLAT, yaw: FLAT, curvature: FLAT };
+    let choices = Choices { flat: flat::Settings { precision, ..choices.flat }, ..choices };
+    let settings = Settings { precision: task.precision, ..task.means.ground };
+    let plainly = || generate(boundary, control, &shaping, &choices, over, told).solution;
+    if !task.keep_outs.is_empty() {
+        let around = Around { keep_outs: task.keep_outs, radius: footprint(task.rover), control, choices };
+        let cleared = site.solve_clear(start, goal, &shaping, &settings, &around, over);
+        let (flat, Answer { status, segments, iterations, .. }) = (plainly(), cleared.answer);
+        let method = cleared.method.unwrap_or(flat.method);
+        let drive = if segments.is_empty() { flat } else { Solution { segments, iterations, method, ..flat } };
+        return Searched { status, solution: drive, intrusion: cleared.intrusion };
     }
+    let (mut first, mut method) = (None, None);
+    let mut steer = |query: &Query| -> Option<SegmentList> {
+        let query = Query::new(query.start_curvature, query.goal, &shaping).ok().filter(|_| !over())?;
+        let boundary = Boundary { query, free_end: false, ..*boundary };
+        let flat = generate(&boundary, control, &shaping, &choices, over, told).solution;
+        let Goal { x, y, yaw, curvature } = query.goal;
+        tracing::debug!("flat goal {x:.4} {y:.4} {yaw:.4} {curvature:.4}: {:?}, {:?}", flat.outcome, flat.method);
+        first.get_or_insert(flat);
+        method = Some(flat.method);
+        (flat.outcome == Outcome::Solved).then_some(flat.segments)
+    };
+    let answer = site.solve_until(start, goal, &shaping, &settings, &mut steer, over);
+    // Without any time there is still the flat start value.
+    let flat = first.unwrap_or_else(plainly);
+    let Answer { status, segments, iterations, .. } = answer;
+    let method = method.unwrap_or(flat.method);
+    let solution = if segments.is_empty() { flat } else { Solution { segments, iterations, method, ..flat } };
+    Searched { status, solution, intrusion: None }
 }
 
 fn goal(asked: &Asked, start: &Planar) -> Planar {

@@ -4,9 +4,13 @@ mod answered;
 mod batch;
 mod exported;
 mod ground;
+mod means;
 mod pace;
+mod plane;
 mod question;
+mod remedy;
 mod single;
+mod told;
 mod vehicle;
 
 use crate::args::Steer;

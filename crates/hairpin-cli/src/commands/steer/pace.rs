@@ -19,6 +19,8 @@ pub(super) struct Pace {
     acceleration: Option<f64>,
     pub(super) most_steps: usize,
     time_step: Option<f64>,
+    /// What speeds at both ends may differ by, m/s.
+    speed_precision: f64,
 }
 
 /// Seconds in which vehicles without a limit come to their cruising speed.
@@ -35,7 +37,16 @@ impl Default for Pace {
     /// At the vehicle's own speed, by the usual control.
     fn default() -> Self {
         let (v0, vf, cruise, acceleration, time_step) = (None, None, None, None, None);
-        Self { control: Control::default(), v0, vf, cruise, acceleration, most_steps: 10_000, time_step }
+        Self {
+            control: Control::default(),
+            v0,
+            vf,
+            cruise,
+            acceleration,
+            most_steps: 10_000,
+            time_step,
+            speed_precision: SPEED_PRECISION,
+        }
     }
 }
 
@@ -49,6 +60,7 @@ impl Pace {
             acceleration: steer.acceleration,
             most_steps: steer.max_steps,
             time_step: steer.time_step_s,
+            speed_precision: steer.effort.tolerance_speed_m_s.unwrap_or(SPEED_PRECISION),
         }
     }
 
@@ -105,8 +117,8 @@ impl Pace {
             ("start_speed_m_s", timing.speed_at(0.0) - profile.start()),
             ("end_speed_m_s", timing.end_speed() - profile.end()),
         ];
-        let missed = ends.into_iter().find(|(_, miss)| miss.abs() > SPEED_PRECISION);
-        missed.map(|(name, miss)| (name, Some(miss.abs() - SPEED_PRECISION)))
+        let missed = ends.into_iter().find(|(_, miss)| miss.abs() > self.speed_precision);
+        missed.map(|(name, miss)| (name, Some(miss.abs() - self.speed_precision)))
     }
 
     /// By how much the steered axle is asked to turn faster than it can, rad/s: δ̇ = axle κ′ v / (1 + (κ axle)²).

@@ -41,6 +41,18 @@ pub(super) fn asked(steer: &Steer, to: &str) -> Result<Asked, Problem> {
     })
 }
 
+/// A goal from the start (x, y, yaw, curvature) as `--to` takes it.
+pub(super) fn typed(asked: &Asked, goal: &[f64; 4]) -> [f64; 4] {
+    let [x0, y0, yaw0] = asked.start.unwrap_or([0.0; 3]);
+    let (sin, cos) = libm::sincos(yaw0);
+    let [dx, dy, turned, curvature] = *goal;
+    let (x, y, yaw) = (x0 + cos * dx - sin * dy, y0 + sin * dx + cos * dy, yaw0 + turned);
+    match asked.frame {
+        Frame::Enu => [x, y, yaw, curvature],
+        Frame::Ned => [y, x, other_yaw(yaw), -curvature],
+    }
+}
+
 /// X,Y,YAW or X,Y,YAW,CURVATURE in ENU, left positive.
 fn state(flag: &str, text: &str, frame: Frame) -> Result<[f64; 4], Problem> {
     let refuse = || Problem::input(format!("{flag} {text}: must be X,Y,YAW or X,Y,YAW,CURVATURE in m, rad, 1/m"));

@@ -4,12 +4,13 @@ use hairpin::feasibility::steering::shooting::flat::Status as ArcStatus;
 use hairpin::feasibility::steering::shooting::solve::{Method, Solution};
 use hairpin::verification::DriveReplay;
 use hairpin_formats::atomic;
-use hairpin_formats::steering::{Frame, Piece, Status, svg};
+use hairpin_formats::steering::{Asked, Frame, Piece, Status, svg};
 use serde_json::{Value, json};
 
 use super::answered::{Answered, named};
 use super::exported;
-use super::question::{asked, pieces, stretches};
+use super::question::{asked, pieces, stretches, typed};
+use super::remedy::Remedies;
 use super::vehicle::Vehicle;
 use crate::args::Steer;
 use crate::console;
@@ -39,21 +40,49 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, to: &str) -> Result<u8, Prob
         atomic::write(plot, picture.as_bytes())?;
     }
     exported::write(steer, vehicle, &asked, &answered)?;
-    let shorter = vehicle.with_reversals(&asked, &answered);
+    let remedies = vehicle.remedies(&asked, &answered);
     if steer.json {
         let mut object = object(vehicle, &answered, asked.frame, code);
         exported::add(&mut object, vehicle, &asked, &answered);
-        if let Some(metres) = shorter {
-            object["with_reversals_m"] = metres.into();
-        }
+        add_remedies(&mut object, &remedies, &asked);
         console::say(&object.to_string());
     } else {
         words(vehicle, &answered, asked.frame).iter().for_each(|line| console::say(line));
-        if let Some(metres) = shorter {
-            console::say(&format!("--reversals would do it in {metres:.3} m"));
-        }
+        told(&remedies, &asked).iter().for_each(|line| console::say(line));
     }
     Ok(code)
+}
+
+/// What would help, as JSON: goals as `--to` takes them.
+fn add_remedies(object: &mut Value, remedies: &Remedies, asked: &Asked) {
+    let metres = [
+        ("detour", remedies.detour),
+        ("with_reversals_m", remedies.with_reversals_m),
+        ("with_turns_m", remedies.with_turns_m),
+    ];
+    for (key, value) in metres {
+        if let Some(value) = value {
+            object[key] = value.into();
+        }
+    }
+    if let Some(nearest) = &remedies.nearest {
+        let [x, y, yaw, kf] = typed(asked, nearest);
+        object["nearest_goal"] = json!({ "x": x, "y": y, "yaw": yaw, "kf": kf });
+    }
+}
+
+/// What would help, in words.
+fn told(remedies: &Remedies, asked: &Asked) -> Vec<String> {
+    let flags = [("--reversals", remedies.with_reversals_m), ("--turns", remedies.with_turns_m)];
+    let mut lines: Vec<String> = flags
+        .into_iter()
+        .filter_map(|(flag, metres)| Some(format!("{flag} would do it in {:.3} m", metres?)))
+        .collect();
+    if let Some(nearest) = &remedies.nearest {
+        let [x, y, yaw, kf] = typed(asked, nearest);
+        lines.push(format!("nearest goal that one arc leads to: --to {x:.4},{y:.4},{yaw:.4},{kf:.4}"));
+    }
+    lines
 }
 
 fn method(method: Method) -> &'static str {
@@ -81,6 +110,11 @@ fn words(vehicle: &Vehicle, answered: &Answered, frame: Frame) -> Vec<String> {
     let limit = answered.limit.map_or(String::new(), |(limit, excess)| {
         excess.map_or(format!(": {limit}"), |excess| format!(": {limit} exceeded by {excess:.6}"))
     });
+    let place = answered
+        .near
+        .as_ref()
+        .map_or(String::new(), |near| format!(" m ({}, after {:.3} m)", near.place, near.after_m));
+    let limit = limit + &place;
     let name = &vehicle.rover.name;
     let Some((solution, replay)) = &answered.drive else {
         lines.push(format!("{status} ({name}){limit}"));
@@ -147,6 +181,9 @@ fn object(vehicle: &Vehicle, answered: &Answered, frame: Frame, code: u8) -> Val
         "time_us": answered.solving.as_secs_f64() * 1e6,
         "exit_code": code,
     });
+    if let Some(near) = &answered.near {
+        object["keep_out"] = json!({ "place": near.place, "depth_m": near.depth, "after_m": near.after_m });
+    }
     if let Some([k0, kf]) = answered.nearest {
         object["nearest"] = json!({ "k0": left * k0, "kf": left * kf });
     }

@@ -1,22 +1,23 @@
 //! What drives: limits and choices, and how a question becomes an answer that its replay holds to.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use hairpin::campaign::states::States;
-use hairpin::feasibility::steering::shooting::families::{Iteration, Problem as Boundary};
-use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Precision, Query, Refusal};
-use hairpin::feasibility::steering::shooting::solve::{Choices, Method, Outcome, Solution};
-use hairpin::feasibility::steering::shooting::{Control, Generated, cc, flat, generate};
+use hairpin::feasibility::steering::shooting::Control;
+use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
+use hairpin::feasibility::steering::shooting::flat::{self, Cost};
+use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query, Refusal};
 use hairpin::robot::rover::{Rover, Twist};
 use hairpin::trajectory::SpeedProfile;
-use hairpin::verification::{DriveReplay, replay_drive};
-use hairpin::world::terrain::ElevationMap;
+use hairpin::world::terrain::{ElevationMap, KeepOuts};
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{Asked, Status};
 
-use super::answered::{Answered, broken, claim, named, pieces};
-use super::ground::{self, Ground};
+use super::answered::Answered;
+use super::means::{Means, places};
 use super::pace::{Pace, Rows, direction, start, wheels_broken};
+use super::plane::Task;
+use super::{ground, plane};
 use crate::args::Steer;
 use crate::problem::Problem;
 
@@ -24,14 +25,12 @@ use crate::problem::Problem;
 pub(in crate::commands) struct Vehicle {
     pub(super) rover: Rover,
     /// What it drives on; the plane without one.
-    map: Option<ElevationMap>,
-    choices: Choices,
+    pub(super) map: Option<ElevationMap>,
+    /// What it keeps out of.
+    pub(super) keep_outs: KeepOuts,
+    pub(super) means: Means,
     pub(super) pace: Pace,
-    time_limit: Option<Duration>,
 }
-
-/// Share of a drive's length below which one with reversals is worth telling of.
-const WORTH_IT: f64 = 0.7;
 
 impl Vehicle {
     pub(super) fn new(steer: &Steer) -> Result<Self, Problem> {
@@ -42,36 +41,38 @@ impl Vehicle {
                 rover.name
             )));
         }
+        let means = Means::new(steer)?;
+        let keep_outs = places(&steer.keep_out)?;
         let map = ground::map(steer, &rover)?;
-        let choices = Choices { reversals: steer.reversals, turns: steer.turns, ..Choices::default() };
-        let time_limit = steer.time_limit_ms.map(|ms| Duration::from_secs_f64(ms * 1e-3));
-        Ok(Self { rover, map, choices, pace: Pace::new(steer), time_limit })
+        Ok(Self { rover, map, keep_outs, means, pace: Pace::new(steer) })
     }
 
     /// `rover` on `map`, forward arcs, with `time_limit` for each question: what requirements are checked with.
     pub(in crate::commands) fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
-        Self { rover, map, choices: Choices::default(), pace: Pace::default(), time_limit }
+        let (keep_outs, means) = (KeepOuts::default(), Means::plain(time_limit));
+        Self { rover, map, keep_outs, means, pace: Pace::default() }
     }
 
     /// Answers a question: solved under the clock, then replayed without it.
     pub(in crate::commands) fn answer(&self, asked: &Asked) -> Answered {
+        self.answer_by(asked, &self.means)
+    }
+
+    /// The bounds of a question.
+    pub(super) fn bounds(&self, asked: &Asked) -> Curvatures {
         let limits = &self.rover.limits;
         let most = asked.max_curvature.map_or(limits.curvature, |most| most.min(limits.curvature));
-        let bounds = Curvatures { most, most_rate: limits.curvature_rate };
+        Curvatures { most, most_rate: limits.curvature_rate }
+    }
+
+    /// Answers a question by other means.
+    pub(super) fn answer_by(&self, asked: &Asked, means: &Means) -> Answered {
+        let (limits, bounds) = (&self.rover.limits, self.bounds(asked));
+        let most = bounds.most;
         let refused = |status, limit, excess| {
             let nearest =
                 (limit == "curvature_1_m").then(|| [asked.k0.clamp(-most, most), asked.kf.clamp(-most, most)]);
-            let limit = Some((limit, excess));
-            Answered {
-                status,
-                drive: None,
-                solving: Duration::ZERO,
-                limit,
-                bounds,
-                nearest,
-                profile: None,
-                parameters: None,
-            }
+            Answered { nearest, ..Answered::new(status, Some((limit, excess)), bounds, Duration::ZERO) }
         };
         let profile = match self.pace.profile(asked, &self.rover) {
             Ok(profile) => profile,
@@ -88,79 +89,45 @@ impl Vehicle {
             Ok(query) => query,
             Err(refusal) => return refused(Status::Invalid, refusal.field, None),
         };
+        let swing = direction(asked).swing();
+        if means.choices.flat.cost != Cost::Any && swing != 0.0 && self.map.is_none() {
+            // Such a drive has no parameters to spare for the cost.
+            return refused(Status::Invalid, "direction_end", None);
+        }
         if self.pace.control == Control::TurnDriveTurn
             && let Some(excess) = self.cannot_turn()
         {
             return refused(Status::Infeasible, "steer_angle", excess);
         }
-        let precision = Precision::default();
-        let precision = Precision { position: asked.tolerance_m.unwrap_or(precision.position), ..precision };
         let free_end = asked.free_end && self.pace.control == Control::VelocityPolynomial;
-        let boundary = Boundary { query, speed: profile, swing: direction(asked).swing(), free_end };
+        let boundary = Boundary { query, speed: profile, swing, free_end };
         let shaping = self.pace.tightened(&bounds, &self.rover, &profile);
-        let mut answered = self.found(asked, &boundary, &bounds, &shaping, &precision);
+        let task = Task {
+            rover: &self.rover,
+            keep_outs: &self.keep_outs,
+            means,
+            control: self.pace.control,
+            boundary: &boundary,
+            bounds,
+            shaping,
+            precision: means.precision(asked),
+        };
+        let mut answered = self.found(asked, &task, &shaping);
         if answered.status == Status::NotConverged && shaping != bounds && shaping.most >= sharpest {
             // What steering can follow at every curvature is more than enough: without it the limits themselves decide.
-            answered = self.found(asked, &boundary, &bounds, &bounds, &precision);
+            answered = self.found(asked, &task, &bounds);
         }
         self.hold_to_pace(asked, answered, &profile)
     }
 
-    /// Solves under the clock and replays without it.
-    fn found(
-        &self,
-        asked: &Asked,
-        boundary: &Boundary,
-        bounds: &Curvatures,
-        shaping: &Curvatures,
-        precision: &Precision,
-    ) -> Answered {
-        let (bounds, precision, free_end) = (*bounds, *precision, boundary.free_end);
-        let shaping = Curvatures { most: shaping.most.max(boundary.query.start_curvature.abs()), ..*shaping };
-        if let Some(map) = &self.map {
-            let (rover, choices, time_limit) = (&self.rover, self.choices, self.time_limit);
-            let control = self.pace.control;
-            let ground = Ground { rover, map, choices, control, boundary, bounds, shaping, precision, time_limit };
-            return ground.answer(asked);
+    /// Solves and replays, on the map or in the plane.
+    fn found(&self, asked: &Asked, task: &Task<'_>, shaping: &Curvatures) -> Answered {
+        let most = shaping.most.max(task.boundary.query.start_curvature.abs());
+        let task = Task { shaping: Curvatures { most, ..*shaping }, ..*task };
+        match &self.map {
+            Some(map) => ground::answer(&task, map, asked),
+            None => plane::answer(&task, asked),
         }
-        let flat = flat::Settings { precision, ..self.choices.flat };
-        let mut choices = Choices { flat, ..self.choices };
-        let begun = Instant::now();
-        let stop = || self.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
-        let Generated { mut solution, mut parameters, fit_error } =
-            generate(boundary, self.pace.control, &shaping, &choices, stop, told);
-        let mut solving = begun.elapsed();
-        if tracing::enabled!(tracing::Level::DEBUG) && parameters.is_none() {
-            retrace(boundary, self.pace.control, &shaping, &choices, &solution);
-        }
-        let mut replay = self.replay(asked, &solution, free_end);
-        let mut broken = broken(&replay, &bounds, &precision);
-        let default = self.pace.control == Control::Quintic && boundary.swing == 0.0;
-        if solution.outcome == Outcome::Solved && broken.is_some() && default && solution.method == Method::SingleArc {
-            // The solver believes what the replay does not: closed forms remain.
-            choices.arcs = false;
-            let again = Instant::now();
-            let second = generate(boundary, self.pace.control, &shaping, &choices, || false, told);
-            solution = Solution { iterations: solution.iterations, ..second.solution };
-            parameters = second.parameters;
-            solving += again.elapsed();
-            replay = self.replay(asked, &solution, free_end);
-            broken = super::answered::broken(&replay, &bounds, &precision);
-        }
-        let lacks = match solution.arc {
-            Some(flat::Status::Infeasible { limit, excess }) if !default => Some((named(limit), Some(excess))),
-            _ => None,
-        };
-        let status = match (solution.outcome, broken) {
-            (Outcome::Solved, None) => Status::Ok,
-            (Outcome::NotConverged, _) if lacks.is_some() => Status::Infeasible,
-            (Outcome::Solved | Outcome::NotConverged, _) => Status::NotConverged,
-            (Outcome::Stopped, _) => Status::TimeLimit,
-        };
-        let limit = if status == Status::Ok { None } else { lacks.or(broken) };
-        let parameters = parameters.map(|parameters| (parameters, fit_error));
-        let drive = Some((solution, replay));
-        Answered { status, drive, solving, limit, bounds, nearest: None, profile: None, parameters }
     }
 
     /// By how much the joints stand in the way of a turn in place, rad; `None` where it can be turned, and no number where
@@ -207,45 +174,10 @@ impl Vehicle {
             None => followed.in_the_plane(&start, &solution.segments).ok(),
         }
     }
-
-    /// Metres with reversals where they would spare a long way round and are not allowed.
-    pub(super) fn with_reversals(&self, asked: &Asked, answered: &Answered) -> Option<f64> {
-        let (solution, replay) = answered.drive.as_ref()?;
-        if self.map.is_some()
-            || self.pace.control != Control::Quintic
-            || self.choices.reversals
-            || solution.outcome != Outcome::Solved
-        {
-            return None;
-        }
-        let query = query(asked, &answered.bounds).ok()?;
-        let metres = cc::steer(&query, &answered.bounds, cc::Gears::Both)?.length_m();
-        (metres < WORTH_IT * replay.length).then_some(metres)
-    }
-
-    fn replay(&self, asked: &Asked, solution: &Solution, free_end: bool) -> DriveReplay {
-        replay_drive(&pieces(solution), &claim(asked, &solution.segments, free_end))
-    }
-}
-
-/// A step of a descent, for those who want to see it.
-pub(super) fn told(step: &Iteration) {
-    let Iteration { start, step, length, miss, bends } = step;
-    tracing::debug!("start {start}, step {step}: {length:.4} m, misses by {miss:.2e}, {bends:.4} of the bounds");
-}
-
-/// The flat solver's steps: it takes no observer along, so its answers after one, two and more steps are asked for again.
-fn retrace(boundary: &Boundary, control: Control, bounds: &Curvatures, choices: &Choices, solution: &Solution) {
-    for iterations in 0..=solution.iterations.min(choices.flat.iterations) {
-        let flat = flat::Settings { iterations, ..choices.flat };
-        let stopped = generate(boundary, control, bounds, &Choices { flat, ..*choices }, || false, |_| {});
-        let length: f64 = stopped.solution.segments.iter().map(|segment| segment.length_m()).sum();
-        tracing::debug!("{iterations} steps at most: {length:.4} m, {:?}", stopped.solution.arc);
-    }
 }
 
 /// The question in the frame of travel: with a crab direction the path is that of a vehicle which looks along it.
-fn query(asked: &Asked, bounds: &Curvatures) -> Result<Query, Refusal> {
+pub(super) fn query(asked: &Asked, bounds: &Curvatures) -> Result<Query, Refusal> {
     let [x, y, yaw] = asked.goal;
     let query = Query::new(asked.k0, Goal { x, y, yaw, curvature: asked.kf }, bounds)?;
     Ok(flat::crab(&query, asked.direction))

@@ -1,7 +1,7 @@
 //! Boundary-value drives of rovers on elevation maps: solved, and replayed from what would be written.
 
 use crate::feasibility::steering::clear::{Around, ClearedOnGround, solve_on_ground};
-use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, Settings, Steps};
+use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, GroundCost, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
 use crate::robot::rover::{Rover, Suspension};
 use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList, shortened};
@@ -119,6 +119,11 @@ impl Site<'_> {
             around,
             over,
         )
+    }
+
+    /// What `segments` from `start` cost along their motion; `None` where they do not pass.
+    pub fn cost(&self, start: &Planar, segments: &[Segment], cost: GroundCost) -> Option<f64> {
+        rough::cost_along(&self.course(Steps::default()), start, segments, cost)
     }
 
     /// Where `segments` lead from `start`, predicted in steps of `steps`.

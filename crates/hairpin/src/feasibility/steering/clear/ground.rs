@@ -1,7 +1,7 @@
 //! Clear drives on real ground: the flat ones keep farther away until the predicted motion stays clear.
 
-use super::hazards::{Hazards, Intrusion, MotionCheck};
 use super::generate::generate;
+use super::hazards::{Hazards, Intrusion, MotionCheck};
 use crate::feasibility::steering::shooting::Control;
 use crate::feasibility::steering::shooting::families::Problem;
 use crate::feasibility::steering::shooting::query::{Curvatures, Query};

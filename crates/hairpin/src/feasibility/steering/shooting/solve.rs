@@ -84,8 +84,23 @@ const PATIENCE: f64 = 1.25;
 /// Solves `query` within `bounds`: a single arc if it keeps them without a long way round; else, as allowed, turn, drive,
 /// turn, or the shortest path of continuous curvature.
 ///
-/// `stop` is asked between the stages; stopped before the first, the answer is the single arc's start value.
+/// A cost is lowered along the single arc that is chosen so; by how much it may grow for that, does not decide. `stop` is asked between the
+/// stages; stopped before the first, the answer is the single arc's start value.
 pub fn solve(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: impl FnMut() -> bool) -> Solution {
+    let flat = flat::Settings { cost: flat::Cost::Any, ..choices.flat };
+    let solution = plainly(query, bounds, &Choices { flat, ..*choices }, &mut stop);
+    let arc = solution.outcome == Outcome::Solved && solution.method == Method::SingleArc;
+    if choices.flat.cost == flat::Cost::Any || !arc || stop() {
+        return solution;
+    }
+    let cheap = single_arc(query, bounds, choices.gear, &choices.flat);
+    if cheap.status != flat::Status::Ok {
+        return solution;
+    }
+    Solution { segments: cheap.segments, iterations: cheap.iterations, arc: Some(cheap.status), ..solution }
+}
+
+fn plainly(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: impl FnMut() -> bool) -> Solution {
     let mut solution = Solution {
         outcome: Outcome::Stopped,
         segments: SegmentList::EMPTY,

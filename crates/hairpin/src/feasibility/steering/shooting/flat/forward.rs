@@ -78,7 +78,8 @@ impl<'a> Search<'a> {
     fn new(query: &'a Query, bounds: &Curvatures, settings: &'a Settings) -> Self {
         let freedoms = if settings.control == Control::Cubic { Freedoms::One } else { Freedoms::Three };
         let tolerance = TOLERANCE * settings.precision.position;
-        let task = Task { bounds: *bounds, freedoms, tolerance, simd: settings.simd };
+        let Settings { step_scale, simd, .. } = *settings;
+        let task = Task { bounds: *bounds, freedoms, tolerance, step_scale, simd };
         Self { query, settings, task, best: None, iterations: 0 }
     }
 

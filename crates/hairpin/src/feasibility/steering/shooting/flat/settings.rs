@@ -11,6 +11,8 @@ pub struct Settings {
     pub precision: Precision,
     /// Steps of each descent at most.
     pub iterations: u32,
+    /// Share of each step that is taken, in (0, 1].
+    pub step_scale: f64,
     /// Ways around (Dubins' words, 6 at most) to start from, at most.
     pub starts: u32,
     /// The family of controls.
@@ -22,11 +24,12 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// 1 cm, 0.01 rad, 0.01 1/m; 20 steps, 8 starts; fifth order; the first good curve.
+    /// 1 cm, 0.01 rad, 0.01 1/m; 20 whole steps, 8 starts; fifth order; the first good curve.
     fn default() -> Self {
         Self {
             precision: Precision::default(),
             iterations: 20,
+            step_scale: 1.0,
             starts: 8,
             control: Control::default(),
             cost: Cost::default(),

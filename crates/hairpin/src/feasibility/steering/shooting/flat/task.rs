@@ -21,6 +21,8 @@ pub(super) struct Task {
     pub(super) freedoms: Freedoms,
     /// The miss at which a descent has arrived, m and rad.
     pub(super) tolerance: f64,
+    /// Share of each step that is taken.
+    pub(super) step_scale: f64,
     /// Version of the kernels.
     pub(super) simd: Simd,
 }

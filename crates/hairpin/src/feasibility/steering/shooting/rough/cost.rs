@@ -1,8 +1,9 @@
 //! What a motion on the ground costs, and what may be asked to become small along it.
 
-use super::predict::{Course, Driven};
+use super::predict::{Course, Driven, predict};
 use crate::robot::rover::{Settled, Slip};
-use crate::trajectory::drive::{Motion, Segment};
+use crate::trajectory::drive::{Motion, Planar, Segment};
+use crate::world::terrain::Terrain;
 
 /// What to minimise along the motion on the ground, once it meets its goal within the bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -20,6 +21,40 @@ pub enum GroundCost {
     Slip,
     /// ∫g max(0, μ + sin γ) / (1 − a) ds, γ the climb along the way, a the slip, μ = 0.15: J/kg.
     Energy,
+}
+
+impl GroundCost {
+    /// As it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Any => "any",
+            Self::Curvature => "curvature",
+            Self::Rate => "rate",
+            Self::Tilt => "tilt",
+            Self::Slip => "slip",
+            Self::Energy => "energy",
+        }
+    }
+
+    /// ∫κ² ds or ∫κ′² ds of `commands`; 0 for costs that depend on the ground.
+    pub fn of_commands(self, commands: &[Segment]) -> f64 {
+        match self {
+            Self::Curvature | Self::Rate => commands.iter().map(|piece| squares(piece, self)).sum(),
+            Self::Any | Self::Tilt | Self::Slip | Self::Energy => 0.0,
+        }
+    }
+}
+
+/// What `commands` from `start` cost along their predicted motion; `None` where they do not pass.
+pub fn cost_along<T: Terrain>(
+    course: &Course<'_, T>,
+    start: &Planar,
+    commands: &[Segment],
+    cost: GroundCost,
+) -> Option<f64> {
+    let mut along = Along::new(course, cost, commands);
+    predict(course, start, commands, |driven| along.add(driven)).ok()?;
+    Some(along.total())
 }
 
 /// sin 20°, where slips are told.
@@ -47,10 +82,7 @@ pub(super) struct Along {
 impl Along {
     /// The cost of `commands` along a prediction of theirs on `course`.
     pub(super) fn new<T>(course: &Course<'_, T>, cost: GroundCost, commands: &[Segment]) -> Self {
-        let total = match cost {
-            GroundCost::Curvature | GroundCost::Rate => commands.iter().map(|piece| squares(piece, cost)).sum(),
-            _ => 0.0,
-        };
+        let total = cost.of_commands(commands);
         let sign = commands.first().map_or(1.0, |first| first.gear.sign());
         Self { cost, slip: course.rover.slip, direction: libm::sincos(course.direction.start), sign, done: 0.0, total }
     }

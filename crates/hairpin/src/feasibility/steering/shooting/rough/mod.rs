@@ -16,7 +16,7 @@ mod wait;
 #[cfg(test)]
 mod tests;
 
-pub use cost::GroundCost;
+pub use cost::{GroundCost, cost_along};
 pub use predict::{Blocked, Cause, Course, Driven, Prediction, Steps, predict, tilt};
 pub use solve::{Answer, Settings, Status, solve, solve_until};
 pub use wait::Waiting;

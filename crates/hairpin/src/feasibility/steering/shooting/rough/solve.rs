@@ -29,11 +29,13 @@ pub struct Settings {
     pub precision: Precision,
     /// What to make small along the motion once it meets its goal.
     pub cost: GroundCost,
+    /// Share of each step of the flat goal that is taken, in (0, 1].
+    pub step_scale: f64,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { iterations: 30, precision: Precision::default(), cost: GroundCost::Any }
+        Self { iterations: 30, precision: Precision::default(), cost: GroundCost::Any, step_scale: 1.0 }
     }
 }
 
@@ -201,7 +203,7 @@ fn sought<T: Terrain>(
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
 ) -> Answer {
     let mut answer = Answer::NONE;
-    learn_goal(task, settings.iterations, steer, &mut answer);
+    learn_goal(task, settings, steer, &mut answer);
     if matches!(answer.status, Status::NotConverged { .. } | Status::Blocked(_)) {
         bend_commands(task, steer, &mut answer);
     }
@@ -221,7 +223,7 @@ fn sought<T: Terrain>(
 /// Looks for the flat goal whose controls reach the true one.
 fn learn_goal<T: Terrain>(
     task: &Task<'_, '_, T>,
-    most_iterations: u32,
+    settings: &Settings,
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
     answer: &mut Answer,
 ) {
@@ -231,7 +233,7 @@ fn learn_goal<T: Terrain>(
     let mut virtual_goal = frame.seen(goal);
     let mut best: Option<Tried> = None;
     let mut failures = 0;
-    while answer.iterations < most_iterations && !over() {
+    while answer.iterations < settings.iterations && !over() {
         answer.iterations += 1;
         virtual_goal[3] = within(virtual_goal[3], bounds.most);
         let question = question(from, &virtual_goal);
@@ -275,7 +277,7 @@ fn learn_goal<T: Terrain>(
         }
         let Some(good) = &best else { return };
         // What was learned from a step that did not help is applied to the best place once, then in parts.
-        virtual_goal = good.goal + inverse * good.error / f64::from(failures.max(1));
+        virtual_goal = good.goal + settings.step_scale * (inverse * good.error) / f64::from(failures.max(1));
     }
 }
 

@@ -36,7 +36,7 @@ const NEAR: f64 = 0.05;
 /// ```
 /// from `start` until the end is met within the tolerance and the bounds hold, or for `iterations` steps.
 pub(in super::super) fn descend(task: &Task, ends: &Ends, start: Free, iterations: u32) -> Fit {
-    let Task { bounds, freedoms, tolerance, simd } = *task;
+    let Task { bounds, freedoms, tolerance, step_scale, simd } = *task;
     let narrow = Curvatures { most: bounds.most * (1.0 - MARGIN), most_rate: bounds.most_rate * (1.0 - MARGIN) };
     let mut fit = Fit { free: start, miss: f64::INFINITY, good: false, iterations: 0 };
     let mut free = start;
@@ -58,7 +58,7 @@ pub(in super::super) fn descend(task: &Task, ends: &Ends, start: Free, iteration
         if !broken && miss < NEAR {
             objective = Objective { gradient: [0.0; SHAPES + 1], ..smoothness(&free) };
         }
-        free.advance(&step(&objective, &error, &jacobian, freedoms));
+        free.advance(&step(&objective, &error, &jacobian, freedoms).map(|change| step_scale * change));
         fit.iterations += 1;
     }
 }

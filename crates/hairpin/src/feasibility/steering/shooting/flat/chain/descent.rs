@@ -38,7 +38,7 @@ const NEAR: f64 = 0.02;
 /// ```
 /// from `start` until the end is met within the tolerance and the bounds hold, or for `iterations` steps.
 pub(in super::super) fn descend(task: &Task, ends: &Ends, start: Chain, iterations: u32) -> Fit {
-    let Task { bounds, tolerance, simd, .. } = *task;
+    let Task { bounds, tolerance, step_scale, simd, .. } = *task;
     let narrow = Curvatures { most: bounds.most * (1.0 - MARGIN), most_rate: bounds.most_rate * (1.0 - MARGIN) };
     let unknown = Bends { curvature: f64::INFINITY, rate: f64::INFINITY };
     let mut fit = Fit { chain: start, miss: f64::INFINITY, bends: unknown, iterations: 0 };
@@ -61,7 +61,7 @@ pub(in super::super) fn descend(task: &Task, ends: &Ends, start: Chain, iteratio
             gradient = [0.0; PIECES];
         }
         let step = newton(&matrix, &gradient, &error, &end.gradients);
-        let scale = stride(&chain, &step);
+        let scale = step_scale * stride(&chain, &step);
         for (knot, change) in chain.curvatures.iter_mut().skip(1).zip(&step) {
             *knot += scale * change;
         }

@@ -1,13 +1,20 @@
 //! What can be typed after `hairpin steer`.
 
+mod effort;
+mod keep_out;
+mod names;
+
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::Threads;
 use super::numbers::{finite, milliseconds, not_negative, positive, steps};
 use super::terrain::{MapFlags, NoData};
-use hairpin::feasibility::steering::shooting::Control;
+use effort::Effort;
+pub(crate) use keep_out::KeepOutFlags;
+use names::SteerControl;
+pub(crate) use names::{SteerCost, SteerFrame};
 
 /// Every answer is replayed by an integration of its own; `ok` means that the replay ends in the goal within 1 cm,
 /// 0.01 rad and 0.01 1/m and keeps the vehicle's curvature and curvature rate.
@@ -68,6 +75,13 @@ pub(crate) struct Steer {
     /// What cells without data are
     #[arg(long, value_enum, default_value_t = NoData::Error, requires = "terrain")]
     pub(crate) no_data: NoData,
+    #[command(flatten)]
+    pub(crate) keep_out: KeepOutFlags,
+    /// What becomes small along the drive once it meets its goal: of quintics in the plane any, curvature or rate; on the ground any
+    #[arg(long, value_enum, default_value_t = SteerCost::Any, value_name = "NAME")]
+    pub(crate) cost: SteerCost,
+    #[command(flatten)]
+    pub(crate) effort: Effort,
     /// Time for each query; 0 gives the solver's start value
     #[arg(long, value_name = "N", value_parser = milliseconds, allow_negative_numbers = true)]
     pub(crate) time_limit_ms: Option<f64>,
@@ -97,46 +111,4 @@ pub(crate) struct Steer {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) threads: Threads,
-}
-
-/// Frames of poses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SteerFrame {
-    /// East, north, up; yaw from east, counter-clockwise; left positive
-    Enu,
-    /// North, east, down; yaw from north, clockwise; right positive
-    Ned,
-}
-
-/// Families of controls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SteerControl {
-    /// Constant curvature; heading and curvature at the goal are as they come
-    Arc,
-    /// Turn in place, straight, turn in place
-    TurnDriveTurn,
-    /// A polynomial of arc length of third order
-    Cubic,
-    /// Of fifth order, or lines, arcs and clothoids where none does
-    Quintic,
-    /// A polynomial of time
-    TimePolynomial,
-    /// A natural cubic spline through eight knots
-    Knots,
-    /// Linear and angular velocity as polynomials of time; the curvature at the goal is free if not given
-    VelocityPolynomial,
-}
-
-impl From<SteerControl> for Control {
-    fn from(control: SteerControl) -> Self {
-        match control {
-            SteerControl::Arc => Self::Arc,
-            SteerControl::TurnDriveTurn => Self::TurnDriveTurn,
-            SteerControl::Cubic => Self::Cubic,
-            SteerControl::Quintic => Self::Quintic,
-            SteerControl::TimePolynomial => Self::TimePolynomial,
-            SteerControl::Knots => Self::Knots,
-            SteerControl::VelocityPolynomial => Self::VelocityPolynomial,
-        }
-    }
 }

@@ -1,0 +1,110 @@
+//! How drives are looked for: what may be driven, how exactly, how long, and what is to become small.
+
+use std::path::Path;
+use std::time::Duration;
+
+use hairpin::campaign::scenario::{CircleSection, KeepOutSection, PolygonSection, keep_outs};
+use hairpin::feasibility::steering::shooting::flat::Cost;
+use hairpin::feasibility::steering::shooting::rough::{GroundCost, Settings};
+use hairpin::feasibility::steering::shooting::solve::Choices;
+use hairpin::feasibility::steering::shooting::{Control, Precision};
+use hairpin::world::terrain::KeepOuts;
+use hairpin_formats::steering::Asked;
+use hairpin_formats::terrain::read_keep_outs;
+
+use crate::args::{KeepOutFlags, Steer, SteerCost};
+use crate::problem::Problem;
+
+/// What the questions of a run are answered with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Means {
+    /// In the plane.
+    pub(super) choices: Choices,
+    /// On the ground.
+    pub(super) ground: Settings,
+    pub(super) time_limit: Option<Duration>,
+}
+
+impl Means {
+    /// Forward arcs with `time_limit` for each question.
+    pub(super) fn plain(time_limit: Option<Duration>) -> Self {
+        Self { choices: Choices::default(), ground: Settings::default(), time_limit }
+    }
+
+    pub(super) fn new(steer: &Steer) -> Result<Self, Problem> {
+        let mut means = Self::plain(steer.time_limit_ms.map(|ms| Duration::from_secs_f64(ms * 1e-3)));
+        let Self { choices, ground, .. } = &mut means;
+        (choices.reversals, choices.turns) = (steer.reversals, steer.turns);
+        ground.cost = cost(steer)?;
+        choices.flat.cost = match ground.cost {
+            GroundCost::Curvature => Cost::Curvature,
+            GroundCost::Rate => Cost::Rate,
+            _ => Cost::Any,
+        };
+        let effort = &steer.effort;
+        let usual = Precision::default();
+        ground.precision = Precision {
+            position: usual.position,
+            yaw: effort.tolerance_yaw_rad.unwrap_or(usual.yaw),
+            curvature: effort.tolerance_curvature_1_m.unwrap_or(usual.curvature),
+        };
+        if let Some(iterations) = effort.iterations {
+            (choices.flat.iterations, choices.families.iterations) = (iterations, iterations);
+            ground.iterations = iterations;
+        }
+        (choices.flat.step_scale, choices.families.step_scale) = (effort.step_scale, effort.step_scale);
+        ground.step_scale = effort.step_scale;
+        Ok(means)
+    }
+
+    /// How exactly `asked` is to be met.
+    pub(super) fn precision(&self, asked: &Asked) -> Precision {
+        let precision = self.ground.precision;
+        Precision { position: asked.tolerance_m.unwrap_or(precision.position), ..precision }
+    }
+}
+
+/// The cost asked for, where there is something to lower it with.
+fn cost(steer: &Steer) -> Result<GroundCost, Problem> {
+    let cost = GroundCost::from(steer.cost);
+    if cost == GroundCost::Any {
+        return Ok(cost);
+    }
+    if Control::from(steer.control) != Control::Quintic {
+        return Err(Problem::input("--cost: only --control quintic has parameters to spare for it"));
+    }
+    if steer.terrain.is_some() {
+        return Ok(cost);
+    }
+    if !matches!(steer.cost, SteerCost::Curvature | SteerCost::Rate) {
+        return Err(Problem::input("--cost: in the plane nothing tilts, slips or climbs; give --terrain"));
+    }
+    if steer.direction_end.is_some() {
+        return Err(Problem::input(
+            "--cost: a direction of travel that turns leaves no parameters to spare in the plane",
+        ));
+    }
+    Ok(cost)
+}
+
+/// The places of the file and of the flags, in this order.
+pub(super) fn places(flags: &KeepOutFlags) -> Result<KeepOuts, Problem> {
+    let mut sections = flags.keep_out.as_deref().map_or(Ok(Vec::new()), file)?;
+    sections.extend(flags.keep_out_circle.iter().enumerate().map(|(number, &[x, y, radius_m])| KeepOutSection {
+        name: format!("--keep-out-circle {number}"),
+        circle: Some(CircleSection { center_m: [x, y], radius_m }),
+        polygon: None,
+    }));
+    sections.extend(flags.keep_out_polygon.iter().enumerate().map(|(number, corners)| KeepOutSection {
+        name: format!("--keep-out-polygon {number}"),
+        circle: None,
+        polygon: Some(PolygonSection { points_m: corners.0.clone() }),
+    }));
+    keep_outs(&sections).map_err(|mistake| Problem::input(mistake.to_string()))
+}
+
+fn file(path: &Path) -> Result<Vec<KeepOutSection>, Problem> {
+    let wrong = |error: &dyn std::fmt::Display| Problem::input(format!("{}: {error}", path.display()));
+    let text = std::fs::read_to_string(path).map_err(|error| wrong(&error))?;
+    read_keep_outs(&text).map_err(|error| wrong(&error))
+}
