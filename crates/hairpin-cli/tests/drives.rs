@@ -129,6 +129,73 @@ fn cars_and_differential_drives_go_the_same_way() {
     }
 }
 
+/// Changing controls and speeds is changing a value: what is found is proven, or refused by name.
+#[test]
+fn every_family_of_controls_and_speeds_joins_legs() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let few = [
+        "--set",
+        "generate.search={ score = \"speed+reversals\", waypoints = 14, cases = 1 }",
+        "--set",
+        "task.length=4",
+    ];
+    let controls = ["arc", "turn-drive-turn", "cubic", "quintic", "time-polynomial", "knots", "velocity-polynomial"];
+    for (index, control) in controls.into_iter().enumerate() {
+        let control = format!("generate.control=\"{control}\"");
+        let profile = format!("generate.speed.profile=\"{}\"", ["constant", "ramp", "trapezoid"][index % 3]);
+        let asked = ["--set", &control, "--set", &profile, "--out", &control];
+        let object = json(at, &[&["generate", "differential-drive"][..], &few, &asked].concat());
+        assert_eq!(object["exit_code"], 0, "{control}: {object}");
+        let verified = json(at, &["verify", &control]);
+        assert_eq!((&verified["checked"], &verified["failed"]), (&Value::from(1), &Value::from(0)), "{verified}");
+    }
+    for control in ["arc", "turn-drive-turn"] {
+        let control = format!("generate.control=\"{control}\"");
+        refused(at, &["stress", "car", "--set", &control, "--out", "a"], &["generate.control", "turn-in-place"]);
+    }
+    let turn = "generate.manoeuvres=[\"forward\", \"turn-in-place\"]";
+    refused(at, &["stress", "car", "--set", turn, "--out", "a"], &["generate.manoeuvres", "does not turn"]);
+    refused(
+        at,
+        &["stress", "car", "--set", "generate.direction_deg=20", "--out", "a"],
+        &["generate.direction_deg", "all-wheel"],
+    );
+}
+
+/// A rover that travels at an angle to its body, with an acceleration and a lag of its own.
+#[test]
+fn a_rover_travels_crabwise_and_stops_for_its_turns() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let own = [
+        "--set",
+        "generate.direction_deg=25",
+        "--set",
+        "generate.manoeuvres=[\"forward\", \"reverse\", \"turn-in-place\"]",
+        "--set",
+        "robot.limits.acceleration_m_s2=0.05",
+        "--set",
+        "robot.response.steering_time_constant_s=0.5",
+        "--set",
+        "spec.limits={ path_deviation_m = 5.0 }",
+        "--set",
+        "world.terrain={ generator = \"craters\", size_m = 60, cell_m = 0.2, relief_m = 0.3 }",
+        "--set",
+        "generate.search={ score = \"reversals+speed\", waypoints = 16, cases = 1 }",
+        "--set",
+        "task.length=3",
+        "--out",
+        "a",
+    ];
+    let object = json(at, &small("stress", &own));
+    assert_eq!(object["exit_code"], 0, "{object}");
+    let verified = json(at, &["verify", "a"]);
+    assert_eq!((&verified["checked"], &verified["failed"]), (&Value::from(1), &Value::from(0)), "{verified}");
+    let report = fs::read_to_string(at.join("a/report.html")).unwrap();
+    assert!(report.contains("as trapezoids"), "the speeds of plans are told");
+}
+
 #[test]
 fn mistakes_are_told_with_their_place() {
     let folder = tempfile::tempdir().unwrap();
@@ -138,7 +205,10 @@ fn mistakes_are_told_with_their_place() {
         ("task.leg_m=[6, 2]", &["task.leg_m", "rising"]),
         ("generate.search.score=\"bumps\"", &["generate.search.score", "slope"]),
         ("generate.limits.speed_m_s=-1", &["speed_m_s"]),
-        ("generate.control=\"knots\"", &["generate.control", "quintic"]),
+        ("generate.control=\"spiral\"", &["generate.control", "quintic"]),
+        ("generate.speed.profile=\"ramp\"", &["generate.speed.acceleration_m_s2", "not bounded"]),
+        ("generate.speed.waypoint_m_s=[0.01, 0.05]", &["generate.speed.waypoint_m_s", "constant"]),
+        ("generate.direction_deg=400", &["generate.direction_deg", "180"]),
         ("world.terrain={ file = \"none.tif\" }", &["none.tif", "cannot be read"]),
         ("world.terrain={ generator = \"moon\" }", &["generator", "craters"]),
         ("world.keep_out=[{ name = \"x\" }]", &["world.keep_out[0]", "circle"]),

@@ -14,7 +14,8 @@ use hairpin::search::{
     Aggregate, BeamSettings, ExactSettings, Found, LegGraph, OpenEnd, OpenNode, Score, Task, UniformSettings, beam,
     exact, uniform,
 };
-use hairpin::trajectory::drive::{Drive, Gear, Motion, Planar, Segment};
+use hairpin::trajectory::Drive;
+use hairpin::trajectory::drive::{Gear, Motion, Planar, Segment};
 use hairpin::world::Sampling;
 use hairpin::world::terrain::generate::{Recipe, generate};
 use hairpin::world::terrain::{ElevationMap, KeepOut, KeepOutShape, KeepOuts};

@@ -1,13 +1,15 @@
 //! `profiles/CASE.parquet` of a drive: its commands, one row per segment:
 //! `leg,segment,kind,direction,length_m,turn_rad,a0…a5,from_x_m,from_y_m,from_yaw_rad,from_curvature_1_m,to_x_m,…`.
 //!
-//! The leg's ends stand in each of its rows; speed, turn rate and direction of travel in every row.
+//! The leg's ends stand in each of its rows, and its speeds: `profile` (constant, ramp, trapezoid) with `start_speed_m_s`,
+//! `cruise_speed_m_s`, `end_speed_m_s`, `acceleration_m_s2`, NaN where a profile has none; the highest speed, turn rate and direction of travel in every row.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use arrow::array::{Float64Array, Int64Array, StringArray};
-use hairpin::trajectory::drive::{Drive, DriveLeg, Gear, Motion, Planar, Segment};
+use hairpin::trajectory::drive::{Gear, Motion, Planar, Segment};
+use hairpin::trajectory::{Drive, DriveLeg, SpeedProfile};
 
 use super::table::{Columns, Table, TableError};
 use crate::atomic::WriteError;
@@ -55,10 +57,60 @@ pub fn write(path: &Path, drive: &Drive) -> Result<(), WriteError> {
         numbers(format!("{end}_yaw_rad"), &|leg, _| of(leg).yaw);
         numbers(format!("{end}_curvature_1_m"), &|leg, _| of(leg).curvature);
     }
+    for (name, of) in SPEEDS {
+        numbers(name.into(), &|leg, _| of(&leg.speed));
+    }
     numbers("speed_m_s".into(), &|_, _| drive.speed);
     numbers("turn_rate_rad_s".into(), &|_, _| drive.turn_rate);
     numbers("travel_direction_rad".into(), &|_, _| drive.direction);
+    let profiles = rows.iter().map(|row| Some(profile_word(&row.2.speed))).collect::<StringArray>();
+    columns.push("profile", Arc::new(profiles));
     columns.write(path, "drive")
+}
+
+/// A number of a leg's speeds.
+type Of = fn(&SpeedProfile) -> f64;
+/// The columns of a leg's speeds.
+const SPEEDS: [(&str, Of); 4] = [
+    ("start_speed_m_s", SpeedProfile::start),
+    ("cruise_speed_m_s", SpeedProfile::top),
+    ("end_speed_m_s", SpeedProfile::end),
+    ("acceleration_m_s2", |profile| match profile {
+        SpeedProfile::Trapezoid { acceleration, .. } => *acceleration,
+        SpeedProfile::Constant { .. } | SpeedProfile::Ramp { .. } => f64::NAN,
+    }),
+];
+const CONSTANT: &str = "constant";
+const RAMP: &str = "ramp";
+const TRAPEZOID: &str = "trapezoid";
+
+fn profile_word(profile: &SpeedProfile) -> &'static str {
+    match profile {
+        SpeedProfile::Constant { .. } => CONSTANT,
+        SpeedProfile::Ramp { .. } => RAMP,
+        SpeedProfile::Trapezoid { .. } => TRAPEZOID,
+    }
+}
+
+/// The speeds of each row's leg.
+fn read_speeds(table: &Table) -> Result<Vec<SpeedProfile>, TableError> {
+    let words = table.texts("profile")?;
+    let [starts, cruises, ends] = [0, 1, 2].map(|i| table.numbers(SPEEDS[i].0));
+    let (starts, cruises, ends) = (starts?, cruises?, ends?);
+    let accelerations = table.optional_numbers(SPEEDS[3].0)?;
+    let profile = |row: usize| {
+        let (start, cruise, end) = (starts[row], cruises[row], ends[row]);
+        let profile = match words[row].as_str() {
+            CONSTANT => SpeedProfile::Constant { speed: cruise },
+            RAMP => SpeedProfile::Ramp { start, end },
+            TRAPEZOID => {
+                SpeedProfile::Trapezoid { start, cruise, end, acceleration: accelerations[row].unwrap_or(f64::NAN) }
+            }
+            other => return Err(table.refuse("profile", row, format!("`{other}`"), "constant, ramp or trapezoid")),
+        };
+        profile.checked().map_err(|error| table.refuse("profile", row, error, "speeds that make a profile"))
+    };
+    (0..table.rows()).map(profile).collect()
 }
 
 /// Whether a witness is a drive's: it has segments.
@@ -88,6 +140,7 @@ pub fn read(path: &Path) -> Result<Drive, TableError> {
     let (from, to) = (end("from")?, end("to")?);
     let (speeds, turn_rates) = (table.numbers("speed_m_s")?, table.numbers("turn_rate_rad_s")?);
     let travel = table.numbers("travel_direction_rad")?;
+    let profiles = read_speeds(&table)?;
     if table.rows() == 0 {
         return Err(table.refuse("leg", 0, "missing", "one row for each segment"));
     }
@@ -101,7 +154,7 @@ pub fn read(path: &Path) -> Result<Drive, TableError> {
     }
     for row in order {
         if segments[row] == 0 {
-            drive.legs.push(DriveLeg { from: from[row], to: to[row], segments: Vec::new() });
+            drive.legs.push(DriveLeg { from: from[row], to: to[row], segments: Vec::new(), speed: profiles[row] });
         }
         let number = drive.legs.len();
         let Some(leg) =
@@ -140,15 +193,32 @@ mod tests {
             Segment { motion: arc, gear: Gear::Reverse },
             Segment { motion: Motion::Turn { angle_rad: -0.7 }, gear: Gear::Forward },
         ];
-        let leg = |x: f64, segments: &[Segment]| DriveLeg { from: at(x), to: at(x + 1.0), segments: segments.to_vec() };
-        let legs = vec![leg(0.0, &segments), leg(1.0, &segments[..1])];
+        let leg = |x: f64, segments: &[Segment], speed| DriveLeg {
+            from: at(x),
+            to: at(x + 1.0),
+            segments: segments.to_vec(),
+            speed,
+        };
+        let legs = vec![
+            leg(0.0, &segments, SpeedProfile::Ramp { start: 0.0, end: 0.05 }),
+            leg(
+                1.0,
+                &segments[..1],
+                SpeedProfile::Trapezoid { start: 0.05, cruise: 0.06, end: 0.0, acceleration: 0.1 },
+            ),
+            leg(2.0, &segments[..1], SpeedProfile::Constant { speed: 0.06 }),
+        ];
         let drive = Drive { legs, speed: 0.06, turn_rate: 0.1, direction: 0.2 };
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("0000.parquet");
         write(&path, &drive).unwrap();
         assert_eq!(read(&path).unwrap(), drive);
-        let broken = Drive { speed: 0.0, ..drive };
+        let broken = Drive { speed: 0.0, ..drive.clone() };
         write(&path, &broken).unwrap();
         assert!(read(&path).unwrap_err().to_string().contains("speed_m_s"));
+        let mut broken = drive;
+        broken.legs[0].speed = SpeedProfile::Ramp { start: 0.0, end: 0.0 };
+        write(&path, &broken).unwrap();
+        assert!(read(&path).unwrap_err().to_string().contains("profile"));
     }
 }

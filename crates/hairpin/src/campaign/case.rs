@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::judgement::Measures;
 pub use crate::judgement::Violation;
-use crate::trajectory::drive::Drive;
+use crate::trajectory::Drive;
 use crate::trajectory::{Flight, Profile};
 
 /// What stands behind a case: the evidence words of files, JSON and reports.

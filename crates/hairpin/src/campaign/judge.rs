@@ -7,6 +7,7 @@ use nalgebra::Point3;
 use super::case::gap_word;
 use super::influence::RunDeviation;
 use super::scenario::DeviationFrom;
+use super::setup::Kind;
 use super::terms::Terms;
 use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, planned, vary};
 use crate::judgement::{
@@ -138,9 +139,7 @@ fn judge_run(
         DeviationFrom::Path => path.get_or_init(|| planned(setup, case).ok()).as_ref(),
         DeviationFrom::Leg | DeviationFrom::NearestLeg => None,
     };
-    let obstructed = own.flight().filter(|setup| !setup.world.obstacles().is_empty());
-    let clearance =
-        obstructed.map(|setup| move |p: &Point3<f64>| setup.world.obstacle_distance(p) - setup.robot.clearance_radius);
+    let clearance = clearance_of(own);
     let settings = Settings {
         reference: match (terms.from, path) {
             (DeviationFrom::Path, Some(path)) => Reference::Path(path),
@@ -148,7 +147,7 @@ fn judge_run(
             _ => Reference::Leg,
         },
         corner: terms.corner,
-        clearance: clearance.as_ref().map(|clearance| clearance as &Clearance<'_>),
+        clearance: clearance.as_deref(),
     };
     Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|measures| JudgedRun {
         violations: judgement::violations(&measures, flight, &terms.limits),
@@ -157,6 +156,22 @@ fn judge_run(
         crashed: flight.ended.is_crash(),
         measures,
     }))
+}
+
+/// How far the robot, a ball or a disc about its origin, is from what it must not meet, m; `None` where there is nothing.
+fn clearance_of(setup: &Setup) -> Option<Box<Clearance<'_>>> {
+    match setup.kind() {
+        Kind::Flight(setup) => {
+            let (world, radius) = (setup.world, setup.robot.clearance_radius);
+            (!world.obstacles().is_empty())
+                .then(|| Box::new(move |p: &Point3<f64>| world.obstacle_distance(p) - radius) as Box<Clearance<'_>>)
+        }
+        Kind::Drive(setup) => {
+            let (places, radius) = (setup.keep_out, setup.radius());
+            (!setup.scenario.world.keep_out.is_empty())
+                .then(|| Box::new(move |p: &Point3<f64>| places.distance(p.x, p.y) - radius) as Box<Clearance<'_>>)
+        }
+    }
 }
 
 /// The verdict on a campaign: on its results, or that nothing was feasible.

@@ -46,6 +46,7 @@ impl Terms {
             corner: 0.0,
             limits: Limits {
                 deviation: spec.path_deviation_m,
+                clearance: spec.clearance_m,
                 tip_over_margin: spec.tip_over_margin_deg,
                 total_time: spec.total_time_s,
                 ..Limits::default()

@@ -42,7 +42,7 @@ impl Default for Limits {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
     /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`; or an
-    /// event: `crash`, of a ground vehicle `tip-over`, `stuck` or `off-map`, `left-world`, `unfinished`.
+    /// event: `crash`, of a ground vehicle `tip-over`, `belly-contact`, `stuck` or `off-map`, `left-world`, `unfinished`.
     pub what: String,
     /// The measured value in `unit`; of a crash of any kind and of leaving the world the time, s; of an unfinished run
     /// the number of waypoints reached.
@@ -65,7 +65,7 @@ impl Violation {
 
     /// Whether the run came to a bad end, of whatever kind.
     pub fn is_crash(&self) -> bool {
-        matches!(self.what.as_str(), "crash" | "tip-over" | "stuck" | "off-map")
+        matches!(self.what.as_str(), "crash" | "tip-over" | "belly-contact" | "stuck" | "off-map")
     }
 
     /// What happened, in words, where no measured limit is violated.
@@ -73,6 +73,7 @@ impl Violation {
         Some(match self.what.as_str() {
             "crash" => "crash".into(),
             "tip-over" => "tipped over".into(),
+            "belly-contact" => "set its underside on the ground".into(),
             "stuck" => "got stuck".into(),
             "off-map" => "left the map".into(),
             "left-world" => "left the world".into(),
@@ -161,7 +162,7 @@ fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violatio
     let mut found = Vec::new();
     if flight.ended.is_crash() {
         let what = match flight.ended {
-            Ended::TipOver | Ended::Stuck | Ended::OffMap => flight.ended.word(),
+            Ended::TipOver | Ended::BellyContact | Ended::Stuck | Ended::OffMap => flight.ended.word(),
             _ => "crash",
         };
         found.push(event(what, end, 0.0, "s", end, last));

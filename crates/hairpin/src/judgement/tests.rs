@@ -184,7 +184,8 @@ fn the_tip_over_margin_is_the_least_and_a_lower_limit() {
         Violation { what: "tip-over-margin".into(), value: 7.2, limit: 10.0, unit: "°".into(), at: 1.0, leg: 0 };
     assert_eq!(found, [violation]);
     assert!(violations(&m, &flight(Ended::Done), &limits(7.0)).is_empty());
-    for (ended, word) in [(Ended::TipOver, "tip-over"), (Ended::Stuck, "stuck"), (Ended::OffMap, "off-map")] {
+    let ends = [Ended::TipOver, Ended::BellyContact, Ended::Stuck, Ended::OffMap];
+    for (ended, word) in ends.into_iter().zip(["tip-over", "belly-contact", "stuck", "off-map"]) {
         let found = violations(&m, &flight(ended), &limits(10.0));
         assert_eq!(found.iter().map(|v| v.what.as_str()).collect::<Vec<_>>(), [word, "tip-over-margin"]);
         assert!(found[0].is_crash() && found[0].event().is_some() && found[1].event().is_none());

@@ -304,6 +304,7 @@ mod tests {
             (at("tip-over-margin", 7.2, 10.0, "°"), "worst tip-over margin 7.2° < 10.0°"),
             (at("tip-over-margin", 9.996, 10.0, "°"), "worst tip-over margin 9.996° < 10.000°"),
             (at("tip-over", 41.2, 0.0, "s"), "worst tipped over"),
+            (at("belly-contact", 41.2, 0.0, "s"), "worst set its underside on the ground"),
             (at("stuck", 41.2, 0.0, "s"), "worst got stuck"),
             (at("off-map", 41.2, 0.0, "s"), "worst left the map"),
         ] {

@@ -115,37 +115,6 @@ pub struct Planar {
     pub curvature: f64,
 }
 
-/// One leg of a [`Drive`]: what is commanded from one waypoint to the next.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct DriveLeg {
-    /// Pose and curvature at its first waypoint.
-    pub from: Planar,
-    /// Pose and curvature at its last waypoint.
-    pub to: Planar,
-    /// The commands.
-    pub segments: Vec<Segment>,
-}
-
-/// The path of a whole mission, leg after leg, driven at one speed: the witness of a ground vehicle's trajectory.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Drive {
-    /// The legs in the order they are driven; each begins where the one before ends.
-    pub legs: Vec<DriveLeg>,
-    /// Commanded speed along the path, m/s, > 0.
-    pub speed: f64,
-    /// Commanded rate of turns in place, rad/s, > 0.
-    pub turn_rate: f64,
-    /// Direction of travel in the body, rad: 0 along x, left positive.
-    pub direction: f64,
-}
-
-impl Drive {
-    /// Duration of leg `index` as it is commanded, s: metres over speed and radians over turn rate.
-    pub fn leg_time(&self, index: usize) -> f64 {
-        self.legs[index].segments.iter().map(|segment| segment.duration(self.speed, self.turn_rate)).sum()
-    }
-}
-
 /// `segments` without their last `metres`; turns in place stay.
 pub fn shortened(segments: &[Segment], mut metres: f64) -> SegmentList {
     let mut list = SegmentList::EMPTY;

@@ -19,6 +19,8 @@ pub enum Ended {
     Tumble,
     /// Tipped over its wheels.
     TipOver,
+    /// Set its underside on the ground.
+    BellyContact,
     /// Came no further, or its wheels found no rest.
     Stuck,
     /// Had no ground below it any more: the map's edge, or cells without data.
@@ -28,7 +30,7 @@ pub enum Ended {
 }
 
 impl Ended {
-    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `tip-over`, `stuck`, `off-map`, `crash`.
+    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `tip-over`, `belly-contact`, `stuck`, `off-map`, `crash`.
     pub fn word(self) -> &'static str {
         match self {
             Ended::Done => "done",
@@ -38,6 +40,7 @@ impl Ended {
             Ended::Wall => "wall",
             Ended::Tumble => "tumble",
             Ended::TipOver => "tip-over",
+            Ended::BellyContact => "belly-contact",
             Ended::Stuck => "stuck",
             Ended::OffMap => "off-map",
             Ended::Crash => "crash",
@@ -46,8 +49,8 @@ impl Ended {
 
     /// The reason whose word in files is `word`.
     pub fn from_word(word: &str) -> Option<Self> {
-        use Ended::{Crash, Done, Ground, Obstacle, OffMap, Stuck, Time, TipOver, Tumble, Wall};
-        [Done, Time, Ground, Obstacle, Wall, Tumble, TipOver, Stuck, OffMap, Crash]
+        use Ended::{BellyContact, Crash, Done, Ground, Obstacle, OffMap, Stuck, Time, TipOver, Tumble, Wall};
+        [Done, Time, Ground, Obstacle, Wall, Tumble, TipOver, BellyContact, Stuck, OffMap, Crash]
             .into_iter()
             .find(|ended| ended.word() == word)
     }

@@ -4,12 +4,14 @@
 pub mod direction;
 pub mod drive;
 pub mod flight;
+pub mod legs;
 pub mod profile;
 pub mod speed;
 pub mod track;
 
 pub use direction::Direction;
 pub use flight::{Ended, Flight};
+pub use legs::{Drive, DriveLeg};
 pub use profile::{Profile, ProfileLeg};
 pub use speed::{SpeedError, SpeedProfile, Speeds, Timing};
 pub use track::{Channel, Track, TrackError};

@@ -1,12 +1,14 @@
 //! Speed along a drive: constant, a ramp, or a trapezoid, and the time that each makes of the metres.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::drive::{MOST_SEGMENTS, Motion, Segment};
 
 /// How speed depends on time, m/s. Where a drive stops on the way (to change gear or to turn in place) ramps and trapezoids
 /// stop there too; a constant speed knows no stops.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SpeedProfile {
     /// The same all along.
     Constant {
@@ -157,7 +159,10 @@ impl Phase {
         if self.from == self.to || self.length <= 0.0 {
             return self.from;
         }
-        let share = (s / self.length).clamp(0.0, 1.0);
+        if s >= self.length {
+            return self.to;
+        }
+        let share = (s / self.length).max(0.0);
         (self.from * self.from + (self.to * self.to - self.from * self.from) * share).sqrt()
     }
 
@@ -261,9 +266,9 @@ impl Timing {
     pub fn new(profile: &SpeedProfile, segments: &[Segment]) -> Self {
         let rest = SpeedProfile::from(1.0).over(0.0);
         let length = segments.iter().map(Segment::length_m).sum();
-        let constant = profile.is_constant().then(|| profile.start());
-        let mut timing = Self { stretches: [(0.0, rest); MOST_SEGMENTS], len: 0, constant, length };
-        if constant.is_some() {
+        let mut timing = Self { stretches: [(0.0, rest); MOST_SEGMENTS], len: 0, constant: None, length };
+        if let SpeedProfile::Constant { speed } = *profile {
+            timing.constant = Some(speed);
             return timing;
         }
         // Stretches: lengths, each but the first begun after a stop.
@@ -287,6 +292,10 @@ impl Timing {
                     timing.stretches[timing.len - 1].0 += length_m;
                 }
             }
+        }
+        if timing.len <= 1 && !stopped_first && !stops_last && profile.is_constant() {
+            timing.constant = Some(profile.start());
+            return timing;
         }
         for index in 0..timing.len {
             let length = timing.stretches[index].0;
@@ -444,6 +453,11 @@ mod tests {
             knots.windows(2).all(|pair| pair[0][0] <= pair[1][0]) && knots.last() == Some(&[21.0, 0.5]),
             "{knots:?}"
         );
+        // The same speed all along, but for the stops.
+        let stopping = SpeedProfile::Trapezoid { start: 1.5, cruise: 1.5, end: 1.5, acceleration: 0.5 };
+        let timing = Timing::new(&stopping, &drive);
+        assert!(timing.speed_at(8.0 - 1e-9) < 1e-3 && timing.speed_at(4.0) == 1.5 && !timing.is_constant());
+        assert!(Timing::new(&stopping, &drive[..2]).is_constant());
         let even = Timing::new(&0.5.into(), &drive);
         assert_eq!((even.time_at(21.0), even.speed_at(8.0), even.hardest()), (42.0, 0.5, 0.0));
     }

@@ -3,6 +3,7 @@
 use super::drive::{DriveClaim, DrivePiece, replay_drive};
 use super::finding::{Finding, Proof, Worst, note};
 use super::ground::{GroundClaim, GroundVehicle, replay_ground};
+use super::pace::{PaceClaim, check_speeds};
 use crate::world::terrain::Terrain;
 
 /// One leg of a drive as it was written.
@@ -14,6 +15,8 @@ pub struct DriveLegClaim {
     pub to: [f64; 4],
     /// The commands.
     pub pieces: Vec<DrivePiece>,
+    /// Metres of the leg, rising from 0, with the commanded speed there, m/s; v² is linear between, and as at the ends beyond.
+    pub speed: Vec<[f64; 2]>,
     /// Planned duration, s.
     pub duration: f64,
 }
@@ -25,8 +28,10 @@ pub struct DrivesClaim<'a> {
     pub waypoints: &'a [[f64; 2]],
     /// One leg between each two.
     pub legs: &'a [DriveLegClaim],
-    /// Commanded speed, m/s.
+    /// The highest commanded speed, m/s.
     pub speed: f64,
+    /// Rate of turns in place, rad/s.
+    pub turn_rate: f64,
     /// Direction of travel in the body, rad.
     pub direction: f64,
 }
@@ -46,6 +51,8 @@ pub struct DriveTolerances {
     pub most_curvature_rate: f64,
     /// Largest angle of the body's z axis from the vertical, rad.
     pub most_tilt: f64,
+    /// Largest change of speed, m/s²; infinite where drives do not stop for changes of gear and turns in place.
+    pub most_acceleration: f64,
 }
 
 /// Bounds are kept up to this share of them: what a replay on a grid may see of rounding.
@@ -76,6 +83,19 @@ pub fn verify_drives<T: Terrain>(
     let mut at = 0.0;
     for (number, leg) in claim.legs.iter().enumerate() {
         check_joint(&mut proof, claim, number, at);
+        let pace = PaceClaim {
+            pieces: &leg.pieces,
+            knots: &leg.speed,
+            before: number.checked_sub(1).map(|before| &claim.legs[before]).map(|leg| (&*leg.pieces, &*leg.speed)),
+            last: number + 1 == claim.legs.len(),
+            speed: claim.speed,
+            turn_rate: claim.turn_rate,
+            duration: leg.duration,
+            most_acceleration: tolerances.most_acceleration,
+        };
+        check_speeds(&pace, |field, value, bound, unit| {
+            proof.findings.push(finding(format!("legs[{number}].{field}"), value, bound, unit, number, at));
+        });
         at += leg.duration;
         let mut exceed = |what: &str, value: f64, bound: f64, unit: &'static str| {
             if value.is_nan() || value > bound {
@@ -102,7 +122,7 @@ pub fn verify_drives<T: Terrain>(
             start_curvature: leg.from[3],
             crab: claim.direction,
             crab_rate: 0.0,
-            speed: vec![[0.0, claim.speed]],
+            speed: leg.speed.clone(),
             end: [leg.to[0], leg.to[1], leg.to[2]],
             end_curvature: leg.to[3],
         };
@@ -168,6 +188,7 @@ mod tests {
         most_curvature: 1.0,
         most_curvature_rate: 1.0,
         most_tilt: 0.5,
+        most_acceleration: f64::INFINITY,
     };
 
     /// A quarter of a circle of radius 2 with clothoids of no length, then straight on: curvature jumps at the joint only.
@@ -183,20 +204,22 @@ mod tests {
                 from: [0.0, 0.0, 0.0, 0.5],
                 to: [2.0, 2.0, quarter, 0.5],
                 pieces: vec![arc(0.5, 2.0 * quarter)],
-                duration: 3.0,
+                speed: vec![[0.0, 1.0]],
+                duration: 2.0 * quarter,
             },
             DriveLegClaim {
                 from: [2.0, 2.0, quarter, 0.5],
                 to: [0.0, 4.0, 2.0 * quarter, 0.5],
                 pieces: vec![arc(0.5, 2.0 * quarter)],
-                duration: 3.0,
+                speed: vec![[0.0, 1.0]],
+                duration: 2.0 * quarter,
             },
         ]
     }
 
     fn prove(legs: &[DriveLegClaim]) -> Proof {
         let waypoints = [[0.0, 0.0], [2.0, 2.0], [0.0, 4.0]];
-        let claim = DrivesClaim { waypoints: &waypoints, legs, speed: 1.0, direction: 0.0 };
+        let claim = DrivesClaim { waypoints: &waypoints, legs, speed: 1.0, turn_rate: 1.0, direction: 0.0 };
         verify_drives(&VEHICLE, &Flat, &claim, &TOLERANCES)
     }
 
@@ -215,6 +238,7 @@ mod tests {
             }
         });
         assert!(longer.contains("legs[1].end.position") && longer.contains("legs[1].end.yaw"), "{longer}");
+        assert!(fields(|legs| legs[1].speed[0][1] = 0.5).contains("legs[1].speed_jump"));
         let sharper = fields(|legs| {
             if let DrivePiece::Arc { curvature, .. } = &mut legs[0].pieces[0] {
                 curvature[0] = 1.5;

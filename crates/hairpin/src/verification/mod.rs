@@ -17,6 +17,7 @@ mod gauss;
 mod ground;
 mod jet;
 mod knots;
+mod pace;
 mod proof;
 mod replay;
 mod rotors;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup};
-use hairpin::trajectory::drive::Drive;
+use hairpin::trajectory::Drive;
 use hairpin::trajectory::{Profile, ProfileLeg};
 use hairpin_formats::atomic;
 use nalgebra::Point3;

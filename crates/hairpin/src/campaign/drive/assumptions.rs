@@ -2,6 +2,7 @@
 
 use super::DriveSetup;
 use crate::campaign::scenario::{GroundControllerKind, GroundReach};
+use crate::feasibility::reach::drive::{Pace, Slopes};
 
 /// What stands behind the legs.
 pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
@@ -28,11 +29,11 @@ pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
     }
     let bounds = setup.bounds();
     said.push(format!(
-        "Plans keep |κ| ≤ {} 1/m, |κ′| ≤ {} 1/m², a tilt of at most {:.1}°, and go at {} m/s.",
+        "Plans keep |κ| ≤ {} 1/m, |κ′| ≤ {} 1/m², a tilt of at most {:.1}°, and go at {}.",
         bounds.most,
         bounds.most_rate,
         setup.tilt().to_degrees(),
-        setup.speed()
+        pace(setup)
     ));
     if setup.rover.response.latency > 0.0 {
         said.push(format!(
@@ -49,6 +50,26 @@ pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
     }
     if setup.map.holes() > 0 {
         said.push(format!("{} cells of the map came without data.", setup.map.holes()));
+    }
+}
+
+/// How fast plans are, and what they know of stops.
+fn pace(setup: &DriveSetup) -> String {
+    let speed = setup.speed();
+    let slopes = |slopes: Slopes, how: &str| {
+        let [low, high] = slopes.waypoints.map(|bound| bound.min(speed));
+        format!(
+            "up to {speed} m/s, {how}, with {} m/s²: at rest at both ends, where the gear changes and around turns in place, \
+             through other waypoints at {low} to {high} m/s as far as that allows",
+            slopes.acceleration
+        )
+    };
+    match setup.pace() {
+        Pace::Constant => {
+            format!("{speed} m/s, without time to stop where the gear changes and the vehicle turns in place")
+        }
+        Pace::Ramp(given) => slopes(given, "evenly from waypoint to waypoint"),
+        Pace::Trapezoid(given) => slopes(given, "as trapezoids"),
     }
 }
 

@@ -5,8 +5,8 @@ use nalgebra::{Point3, Vector3};
 use super::DriveSetup;
 use crate::campaign::{Case, PlanError, Timed};
 use crate::simulation::ground::planned_track;
-use crate::trajectory::drive::{Drive, DriveLeg, Gear, Motion, Planar, Segment};
-use crate::trajectory::{Channel, Track};
+use crate::trajectory::drive::{Gear, Motion, Planar, Segment};
+use crate::trajectory::{Channel, Drive, DriveLeg, Track};
 
 /// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. A case without a drive is drawn along its straight
 /// legs, turning in place at each waypoint.
@@ -55,21 +55,27 @@ pub(in crate::campaign) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> 
         .collect()
 }
 
+/// Turns towards each waypoint and straight lines to it, from rest to rest.
 fn straight_legs(setup: &DriveSetup, waypoints: &[Point3<f64>]) -> Drive {
+    let (speed, direction) = (setup.speed(), setup.direction());
     let mut yaw = setup.scenario.task.start.yaw_deg.to_radians();
     let mut legs = Vec::with_capacity(waypoints.len().saturating_sub(1));
     for pair in waypoints.windows(2) {
         let way = pair[1] - pair[0];
-        let (length, heading) = (libm::hypot(way.x, way.y), libm::atan2(way.y, way.x));
+        let (length, heading) = (libm::hypot(way.x, way.y), libm::atan2(way.y, way.x) - direction);
         let turn = libm::remainder(heading - yaw, std::f64::consts::TAU);
         let turn = Segment { motion: Motion::Turn { angle_rad: turn }, gear: Gear::Forward };
         let place = |p: &Point3<f64>, yaw| Planar { x: p.x, y: p.y, yaw, curvature: 0.0 };
-        legs.push(DriveLeg {
-            from: place(&pair[0], yaw),
-            to: place(&pair[1], heading),
-            segments: vec![turn, Segment::straight(length, Gear::Forward)],
-        });
+        let segments = vec![turn, Segment::straight(length, Gear::Forward)];
+        let (from, to) = (place(&pair[0], yaw), place(&pair[1], heading));
+        legs.push(DriveLeg { from, to, segments, speed: speed.into() });
         yaw = heading;
     }
-    Drive { legs, speed: setup.speed(), turn_rate: setup.turn_rate(), direction: 0.0 }
+    let segments: Vec<&[Segment]> = legs.iter().map(|leg| leg.segments.as_slice()).collect();
+    let wishes = vec![0.0; legs.len() + 1];
+    let profiles = setup.pace().over(speed, &wishes, &segments, &setup.planner.response);
+    for (leg, profile) in legs.iter_mut().zip(profiles) {
+        leg.speed = profile;
+    }
+    Drive { legs, speed, turn_rate: setup.turn_rate(), direction }
 }

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use crate::campaign::scenario::{
-    ControlName, DriveScenario, GeneratorName, GroundDescription, Mistake, NoData, RobotSource, TerrainSection,
+    DriveScenario, GeneratorName, GroundDescription, Mistake, NoData, ProfileName, RobotSource, TerrainSection,
 };
-use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite};
+use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite, Pace, Slopes};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, flat, rough};
 use crate::math::simd::Simd;
 use crate::robot::rover::{Response, Rover};
@@ -42,6 +42,25 @@ impl<'a> DriveSetup<'a> {
         self.speed() / self.rover.suspension.outer_radius().max(0.1)
     }
 
+    /// How speeds follow each other along a drive.
+    pub fn pace(&self) -> Pace {
+        let given = &self.scenario.generate.speed;
+        let acceleration = given.acceleration_m_s2.unwrap_or(self.rover.limits.acceleration);
+        let slopes = Slopes { waypoints: given.waypoint_m_s.unwrap_or([self.speed(); 2]), acceleration };
+        match given.profile {
+            Some(ProfileName::Constant) => Pace::Constant,
+            Some(ProfileName::Ramp) => Pace::Ramp(slopes),
+            Some(ProfileName::Trapezoid) => Pace::Trapezoid(slopes),
+            None if acceleration.is_finite() => Pace::Trapezoid(slopes),
+            None => Pace::Constant,
+        }
+    }
+
+    /// Direction of travel in the body, rad.
+    pub fn direction(&self) -> f64 {
+        self.scenario.generate.direction_deg.to_radians()
+    }
+
     /// Bounds of the commands' curvature: the scenario's or the robot's, whichever is smaller.
     pub fn bounds(&self) -> Curvatures {
         let (given, own) = (&self.scenario.generate.limits, &self.rover.limits);
@@ -74,16 +93,12 @@ impl<'a> DriveSetup<'a> {
     /// The flat solver that shapes them.
     pub(super) fn flat_solver(&self) -> flat::Settings {
         let starts = self.scenario.generate.solver.starts as u32;
-        let control = match self.scenario.generate.control {
-            ControlName::Cubic => flat::Control::Cubic,
-            _ => flat::Control::Quintic,
-        };
-        flat::Settings { starts, control, simd: self.simd, ..ReachSettings::of(self.planner).flat }
+        flat::Settings { starts, simd: self.simd, ..ReachSettings::of(self.planner).flat }
     }
 
-    /// The vehicle on its ground at the commanded speed, straight on.
+    /// The vehicle on its ground at the commanded speed and in its direction of travel.
     pub fn site(&self) -> Site<'a> {
-        Site { rover: self.planner, map: self.map, speed: self.speed().into(), direction: 0.0.into() }
+        Site { rover: self.planner, map: self.map, speed: self.speed().into(), direction: self.direction().into() }
     }
 }
 

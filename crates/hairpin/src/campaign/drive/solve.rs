@@ -12,6 +12,7 @@ use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
 use crate::feasibility::reach::drive::{
     DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres, sample_ground,
 };
+use crate::feasibility::steering::shooting::families;
 use crate::math::random::named_seed;
 use crate::search::{Found, OpenEnd, Score};
 use crate::trajectory::drive::Planar;
@@ -93,7 +94,9 @@ impl<'a> Solver<'a> {
         let length = task.length as usize;
         let plan = |found: Found<_>| {
             let drive = roadmap.drive(&found.nodes)?;
-            Some(Plan { drive: Some(drive), ..Plan::new(&found, points, Evidence::Witnessed) })
+            // With stops, which the search does not see before it knows what follows what.
+            let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
+            Some(Plan { leg_times, drive: Some(drive), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
         let mut outcome = if task.end_m.is_some() {
             let question = Question {
@@ -155,6 +158,13 @@ fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
         },
         solver: setup.leg_solver(),
         flat: setup.flat_solver(),
+        families: families::Settings {
+            starts: generate.solver.starts.min(u64::from(u32::MAX)) as u32,
+            ..families::Settings::default()
+        },
+        pace: setup.pace(),
+        control: generate.control.control(),
+        direction: setup.direction(),
         score: GroundScore::named(&generate.search.score).map_err(|error| error.to_string())?,
         ..DriveSettings::of(setup.planner)
     };

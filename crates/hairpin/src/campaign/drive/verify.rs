@@ -3,6 +3,7 @@
 use super::DriveSetup;
 use super::site::{drive_piece, ground_vehicle};
 use crate::campaign::Case;
+use crate::feasibility::reach::drive::Pace;
 use crate::trajectory::drive::Planar;
 use crate::verification::{DriveLegClaim, DriveTolerances, DrivesClaim, Proof, verify_drives};
 
@@ -16,11 +17,19 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
             from: end(&leg.from),
             to: end(&leg.to),
             pieces: leg.segments.iter().map(drive_piece).collect(),
-            duration: drive.leg_time(number),
+            speed: leg.timing().knots(),
+            // What the case says, which others read.
+            duration: case.leg_times.get(number).copied().unwrap_or_else(|| drive.leg_time(number)),
         })
         .collect();
     let waypoints: Vec<[f64; 2]> = case.waypoints.iter().map(|p| [p.x, p.y]).collect();
-    let claim = DrivesClaim { waypoints: &waypoints, legs: &legs, speed: drive.speed, direction: drive.direction };
+    let claim = DrivesClaim {
+        waypoints: &waypoints,
+        legs: &legs,
+        speed: drive.speed,
+        turn_rate: drive.turn_rate,
+        direction: drive.direction,
+    };
     let (solver, bounds) = (&setup.scenario.generate.solver, setup.bounds());
     let tolerances = DriveTolerances {
         position: solver.position_m,
@@ -29,6 +38,10 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
         most_curvature: bounds.most,
         most_curvature_rate: bounds.most_rate,
         most_tilt: setup.tilt(),
+        most_acceleration: match setup.pace() {
+            Pace::Constant => f64::INFINITY,
+            Pace::Ramp(slopes) | Pace::Trapezoid(slopes) => slopes.acceleration,
+        },
     };
     Some(verify_drives(&ground_vehicle(setup.planner), setup.map.as_ref(), &claim, &tolerances))
 }

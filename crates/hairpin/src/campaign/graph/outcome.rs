@@ -5,8 +5,8 @@ use nalgebra::Point3;
 use super::search::Answer;
 use crate::campaign::Evidence;
 use crate::search::Found;
+use crate::trajectory::Drive;
 use crate::trajectory::Profile;
-use crate::trajectory::drive::Drive;
 
 /// A trajectory that a graph gave.
 #[derive(Debug, Clone)]

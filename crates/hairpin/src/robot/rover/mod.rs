@@ -89,6 +89,13 @@ pub struct Response {
     pub steered_axle: f64,
 }
 
+impl Response {
+    /// Whether the wheels take time to steer.
+    pub fn lags(&self) -> bool {
+        self.steering_time_constant > 0.0 || self.steering_rate.is_finite()
+    }
+}
+
 impl Default for Response {
     /// At once and exactly.
     fn default() -> Self {

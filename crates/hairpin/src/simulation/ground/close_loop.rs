@@ -5,14 +5,14 @@ use std::collections::VecDeque;
 use super::controllers::{Driver, GroundController};
 use super::guide::{Guide, Measured, Task};
 use super::plan::Plan;
-use super::plant::{Command, Lost, Plant};
+use super::plant::{Command, Lost, Plant, Stands};
 use super::recorder::Recorder;
 use crate::math::power::square;
 use crate::math::random::{Stream, named_seed, standard_normals, stream};
 use crate::robot::rover::Rover;
 use crate::simulation::SimulationError;
-use crate::trajectory::drive::{Drive, Planar};
-use crate::trajectory::{Ended, Flight};
+use crate::trajectory::drive::Planar;
+use crate::trajectory::{Drive, Ended, Flight};
 use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// What drives where.
@@ -93,13 +93,14 @@ const LONGEST_LATENCY: f64 = 60.0;
 /// Drives one run: the same bytes for the same arguments.
 ///
 /// The run ends `linger` seconds after the plan is over (`done`, or `time` if a waypoint was missed), at the time limit, or
-/// where the vehicle tips over (its margin falls below 0), has no ground below it (`off-map`), finds no rest or gets nowhere
+/// where the vehicle tips over (its margin falls below 0), sets its underside on the ground (`belly-contact`), has no ground below
+/// it (`off-map`), finds no rest or gets nowhere
 /// (`stuck`), or comes within the clearance radius of a place to keep out of (`obstacle`). A waypoint, the end of a leg, is
 /// reached if the vehicle comes within `accept` of it while one of its two legs is driven.
 ///
 /// The log has the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`, `speed_m_s` (of the wheels, negative in reverse),
 /// `curvature_1_m` (of the wheels), `commanded_curvature_1_m`, `slip` (share of the wheels' way that is lost), with wheels
-/// `tip_over_margin_deg` (the least since the sample before) and `belly_clearance_m`, with a rocker-bogie `joint_rocker_rad`,
+/// `tip_over_margin_deg` and `belly_clearance_m` (the least since the sample before), with a rocker-bogie `joint_rocker_rad`,
 /// `joint_left_bogie_rad`, `joint_right_bogie_rad`; about 3000 samples.
 ///
 /// # Errors
@@ -132,17 +133,19 @@ pub fn drive(
     let mut watch = Watch::new(sortie, settings, time_limit, [run.plant.x, run.plant.y, run.plant.yaw]);
     for tick in 0.. {
         let t = tick as f64 * run.period;
-        let margin = run.plant.tip_over_margin();
-        watch.least_margin = watch.least_margin.min(*margin.as_ref().unwrap_or(&f64::INFINITY));
-        let ended = margin.map_or_else(|lost| Some(word(lost)), |_| watch.note(t, &run));
+        let stands = run.plant.stands();
+        if let Ok(stands) = &stands {
+            watch.least = watch.least.least(stands);
+        }
+        let ended = stands.map_or_else(|lost| Some(word(lost)), |_| watch.note(t, &run));
         if let Some(ended) = ended {
             // A body that hangs over the map's edge has no clearance to tell.
-            let _ = run.record(&mut recorder, t, watch.least_margin);
+            let _ = run.record(&mut recorder, t, &watch.least);
             return Ok(Flight { track: recorder.into_track(), ended, left_world: None, reached: watch.reached });
         }
         if tick % log_every == 0 {
-            match run.record(&mut recorder, t, watch.least_margin) {
-                Ok(()) => watch.least_margin = f64::INFINITY,
+            match run.record(&mut recorder, t, &watch.least) {
+                Ok(()) => watch.least = Stands::FREE,
                 Err(lost) => run.lost = Some(lost),
             }
         }
@@ -189,7 +192,7 @@ impl<'a> Run<'a> {
         })?;
         Ok(Self {
             plant,
-            guide: Guide::new(plan, sortie.nominal, [*speed, *turn_rate, *direction]),
+            guide: Guide::new(plan, sortie.nominal, latency, [*speed, *turn_rate, *direction]),
             driver: Driver::new(controller, sortie.nominal, *direction, latency),
             noise: conditions.noise.then(|| stream(named_seed(seed, "pose", 0))),
             latency,
@@ -233,8 +236,8 @@ impl<'a> Run<'a> {
         Measured { t, at, speed: plant.speed, lean: [plant.pose.roll, plant.pose.pitch] }
     }
 
-    fn record(&self, recorder: &mut Recorder, t: f64, margin: f64) -> Result<(), Lost> {
-        recorder.push(t, &self.plant, self.guide.leg(), self.acting.curvature, margin)
+    fn record(&self, recorder: &mut Recorder, t: f64, least: &Stands) -> Result<(), Lost> {
+        recorder.push(t, &self.plant, self.guide.leg(), self.acting.curvature, least)
     }
 }
 
@@ -259,7 +262,8 @@ struct Watch<'a> {
     /// Where the body was when it last moved on: s; x, y, ψ.
     moved: (f64, [f64; 3]),
     before: [f64; 2],
-    least_margin: f64,
+    /// How it stood at its worst since the last sample.
+    least: Stands,
 }
 
 impl<'a> Watch<'a> {
@@ -279,7 +283,7 @@ impl<'a> Watch<'a> {
             over: None,
             moved: (0.0, place),
             before: [place[0], place[1]],
-            least_margin: f64::INFINITY,
+            least: Stands::FREE,
         }
     }
 
@@ -288,8 +292,11 @@ impl<'a> Watch<'a> {
         if let Some(lost) = run.lost {
             return Some(word(lost));
         }
-        if self.least_margin < 0.0 {
+        if self.least.margin < 0.0 {
             return Some(Ended::TipOver);
+        }
+        if self.least.clearance < 0.0 {
+            return Some(Ended::BellyContact);
         }
         let at = [run.plant.x, run.plant.y];
         let before = std::mem::replace(&mut self.before, at);

@@ -1,9 +1,10 @@
 //! Where a run stands in its plan: progress along a section, stops between sections, turns in place. The same for every
 //! controller; what differs is how each steers.
 
+use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
-use super::plan::{Plan, Section, Station};
+use super::plan::{Plan, Section, Station, speed_at};
 use super::plant::Command;
 use crate::math::power::square;
 use crate::robot::rover::Rover;
@@ -35,7 +36,7 @@ pub(super) struct Along<'a> {
     pub(super) heading: f64,
     /// Commanded metres to the station nearest to the vehicle.
     pub(super) s: f64,
-    /// Speed to go at, m/s, > 0.
+    /// Speed to go at, m/s, ≥ 0.
     pub(super) speed: f64,
 }
 
@@ -74,6 +75,10 @@ pub(super) struct Guide<'a> {
     patience: f64,
     /// Angle turned in the section, rad, and the yaw measured last.
     turned: Option<(f64, f64)>,
+    /// Time from a command to its effect, s.
+    latency: f64,
+    /// Speeds that were commanded and have not acted to their end, m/s, and when they were given, s.
+    under_way: VecDeque<(f64, f64)>,
     speed: f64,
     turn_rate: f64,
     acceleration: f64,
@@ -82,8 +87,9 @@ pub(super) struct Guide<'a> {
 }
 
 impl<'a> Guide<'a> {
-    /// At the beginning of `plan`, driven at `speed` (m/s) and `turn_rate` (rad/s) along `direction` (rad) of the body.
-    pub(super) fn new(plan: &'a Plan, nominal: &Rover, [speed, turn_rate, direction]: [f64; 3]) -> Self {
+    /// At the beginning of `plan`, driven at up to `speed` (m/s) and `turn_rate` (rad/s) along `direction` (rad) of the body by
+    /// commands that act `latency` s late.
+    pub(super) fn new(plan: &'a Plan, nominal: &Rover, latency: f64, [speed, turn_rate, direction]: [f64; 3]) -> Self {
         let response = &nominal.response;
         let swing = 2.0 * libm::atan(nominal.limits.curvature * response.steered_axle) / response.steering_rate;
         Self {
@@ -93,6 +99,8 @@ impl<'a> Guide<'a> {
             waiting: Some(0.0),
             patience: 3.0 + 6.0 * response.steering_time_constant + swing,
             turned: None,
+            latency,
+            under_way: VecDeque::new(),
             speed: speed.min(nominal.limits.speed),
             turn_rate,
             acceleration: nominal.limits.acceleration,
@@ -121,6 +129,40 @@ impl<'a> Guide<'a> {
 
     /// Takes note of where the vehicle is, and says what to do for the next `dt` s.
     pub(super) fn task(&mut self, measured: &Measured, dt: f64) -> Task<'a> {
+        let task = self.next(measured, dt);
+        let speed = if let Task::Follow(along) = &task { along.speed } else { 0.0 };
+        self.under_way.push_back((measured.t, speed));
+        while self.under_way.get(1).is_some_and(|(given, _)| *given <= measured.t + dt - self.latency) {
+            self.under_way.pop_front();
+        }
+        task
+    }
+
+    /// Metres that the commands under way still bring before one given at `t` acts.
+    fn coming(&self, t: f64) -> f64 {
+        let acts = |index: usize| self.under_way.get(index).map_or(t, |(given, _)| *given) + self.latency;
+        let time = |index: usize| (acts(index + 1).min(t + self.latency) - acts(index).max(t)).max(0.0);
+        self.under_way.iter().enumerate().map(|(index, (_, speed))| speed * time(index)).sum()
+    }
+
+    /// The speed to command `s` metres along `stations`: what is planned where the vehicle will be when the command has acted.
+    ///
+    /// With the acceleration a the way until then is v·dt + ½ a dt² behind the commands under way. Near the end half of what is left, so that
+    /// it is reached.
+    fn pace(&self, stations: &[Station], measured: &Measured, s: f64, dt: f64) -> f64 {
+        let left = (stations[stations.len() - 1].s - s - self.coming(measured.t)).max(0.0);
+        if !self.acceleration.is_finite() {
+            return speed_at(stations, s).min(self.speed).min(left / dt);
+        }
+        let before = self.under_way.back().map_or(0.0, |(_, speed)| *speed);
+        let gained = 0.5 * self.acceleration * dt;
+        let ahead = stations[stations.len() - 1].s - left + (before + gained) * dt;
+        let braking = (2.0 * self.acceleration * (left - (before + gained) * dt).max(0.0)).sqrt();
+        let creeping = (0.5 * left / dt).min(gained);
+        speed_at(stations, ahead).min(braking).max(creeping).min(self.speed).min(left / dt)
+    }
+
+    fn next(&mut self, measured: &Measured, dt: f64) -> Task<'a> {
         let plan = self.plan;
         loop {
             match plan.sections.get(self.section) {
@@ -139,8 +181,7 @@ impl<'a> Guide<'a> {
                     let s = self.progress(stations, &measured.at, heading);
                     let left = stations[stations.len() - 1].s - s;
                     if left > ARRIVED {
-                        let braking = (2.0 * self.acceleration * left).sqrt();
-                        let speed = self.speed.min(left / dt).min(braking);
+                        let speed = self.pace(stations, measured, s, dt);
                         return Task::Follow(Along { section: self.section, stations, sign: *sign, heading, s, speed });
                     }
                 }

@@ -3,10 +3,11 @@
 use nalgebra::Isometry3;
 
 use super::plant::{Command, Lost, Plant};
+use crate::math::power::square;
 use crate::robot::rover::{Response, Rover};
 use crate::simulation::SimulationError;
-use crate::trajectory::drive::{Drive, Motion, Planar, Segment};
-use crate::trajectory::{Channel, Track};
+use crate::trajectory::drive::{Motion, Planar, Segment};
+use crate::trajectory::{Channel, Drive, Timing, Track};
 use crate::world::terrain::ElevationMap;
 
 /// Distance of neighbouring stations, m, at most.
@@ -28,6 +29,8 @@ pub(super) struct Station {
     pub(super) s: f64,
     /// Rise of the body per metre along its way and to the left of it.
     pub(super) rises: [f64; 2],
+    /// Planned speed, m/s, ≥ 0.
+    pub(super) speed: f64,
     /// The leg it belongs to.
     pub(super) leg: usize,
 }
@@ -67,7 +70,7 @@ pub(super) struct Plan {
 
 /// Where the commands of `drive` lead the vehicle `nominal`, leg after leg from each leg's own start: poses over time with the
 /// channel `leg`. It is the path that a run is to be compared with ([`crate::trajectory::Track`] of
-/// `judgement::Reference::Path`). Latency and the time that acceleration takes are left out.
+/// `judgement::Reference::Path`), at the speeds that were planned. Latency is left out.
 ///
 /// # Errors
 /// A drive without legs or with numbers that are none; a place where the vehicle cannot stand.
@@ -103,13 +106,17 @@ impl Plan {
     }
 
     fn add_leg(&mut self, vehicle: &Rover, terrain: &ElevationMap, drive: &Drive, leg: usize) -> Result<(), Lost> {
+        let timing = drive.legs[leg].timing();
+        let mut driven = 0.0;
         let mut plant = Plant::new(vehicle, terrain, drive.direction, &drive.legs[leg].from)?;
         if self.times.is_empty() {
             self.note(&plant, leg);
         }
         for segment in &drive.legs[leg].segments {
             match segment.motion {
-                Motion::Arc { length_m, .. } if length_m > NOTHING => self.add_way(&mut plant, drive, segment, leg)?,
+                Motion::Arc { length_m, .. } if length_m > NOTHING => {
+                    self.add_way(&mut plant, drive.direction, segment, &timing, driven, leg)?;
+                }
                 Motion::Turn { angle_rad } if angle_rad.abs() > NOTHING => {
                     self.sections.push(Section::Turn { from: plant.yaw, angle: angle_rad, leg });
                     let parts = (angle_rad.abs() / TURN_SPACING).ceil();
@@ -129,42 +136,56 @@ impl Plan {
                 }
                 _ => {}
             }
+            driven += segment.length_m();
         }
         Ok(())
     }
 
-    fn add_way(&mut self, plant: &mut Plant, drive: &Drive, segment: &Segment, leg: usize) -> Result<(), Lost> {
+    /// Follows `segment`, which begins `driven` metres after its leg.
+    fn add_way(
+        &mut self,
+        plant: &mut Plant,
+        direction: f64,
+        segment: &Segment,
+        timing: &Timing,
+        driven: f64,
+        leg: usize,
+    ) -> Result<(), Lost> {
         let (length, gear) = (segment.length_m(), segment.gear.sign());
         let first = segment.curvature_at(0.0);
-        let direction = libm::sincos(drive.direction);
+        let direction = libm::sincos(direction);
         let goes_on = matches!(self.sections.last(), Some(Section::Way { sign, .. }) if *sign == gear);
-        let station = |plant: &Plant, s: f64| Station {
+        let station = |plant: &Plant, s: f64, done: f64| Station {
             at: Planar { x: plant.x, y: plant.y, yaw: plant.yaw, curvature: plant.curvature() },
             s,
+            speed: timing.speed_at(driven + done),
             rises: rises([plant.pose.roll, plant.pose.pitch], direction, gear),
             leg,
         };
         if !goes_on {
             // Where the vehicle stands its wheels may swing.
             plant.steer_at_once(first);
-            self.sections.push(Section::Way { sign: gear, stations: vec![station(plant, 0.0)] });
+            self.sections.push(Section::Way { sign: gear, stations: vec![station(plant, 0.0, 0.0)] });
         }
+        let lags = plant.vehicle.response.lags();
         let parts = (length / SPACING).ceil();
         let step = length / parts / STEPS as f64;
         for part in 0..parts as usize {
             for i in 0..STEPS {
-                let curvature = segment.curvature_at(step * ((part * STEPS + i) as f64 + 0.5));
-                let command = Command { speed: gear * drive.speed, curvature, turn_rate: 0.0 };
-                plant.advance(&command, step / drive.speed)?;
+                let begun = step * (part * STEPS + i) as f64;
+                let time = timing.time_over(driven + begun, step);
+                let curvature = segment.curvature_at(begun + 0.5 * step);
+                plant.advance(&Command { speed: gear * step / time, curvature, turn_rate: 0.0 }, time)?;
+                self.duration += time;
             }
-            if !plant.lags() {
-                plant.steer_at_once(segment.curvature_at(step * ((part + 1) * STEPS) as f64));
+            let done = step * ((part + 1) * STEPS) as f64;
+            if !lags {
+                plant.steer_at_once(segment.curvature_at(done));
             }
-            self.duration += step * STEPS as f64 / drive.speed;
             self.note(plant, leg);
             if let Some(Section::Way { stations, .. }) = self.sections.last_mut() {
                 let s = stations.last().map_or(0.0, |last| last.s) + step * STEPS as f64;
-                stations.push(station(plant, s));
+                stations.push(station(plant, s, done));
             }
         }
         plant.speed = 0.0;
@@ -198,6 +219,9 @@ fn check(drive: &Drive) -> Result<(), SimulationError> {
             }
             Motion::Turn { angle_rad } => angle_rad.abs() <= 1e3,
         };
+        if let Err(error) = leg.speed.checked() {
+            return Err(SimulationError::new("drive.legs.speed", format!("leg {index}: {error}"), "a profile"));
+        }
         if !(known(&leg.from) && known(&leg.to) && leg.segments.iter().all(possible)) {
             return Err(SimulationError::new("drive.legs", format!("leg {index}"), "finite, of length 0 to 100 km"));
         }
@@ -220,6 +244,16 @@ impl Section {
 pub(super) fn rises([roll, pitch]: [f64; 2], (sin, cos): (f64, f64), sign: f64) -> [f64; 2] {
     let (ahead, left) = (-libm::sin(pitch), libm::cos(pitch) * libm::sin(roll));
     [sign * (cos * ahead + sin * left), sign * (cos * left - sin * ahead)]
+}
+
+/// The planned speed `s` commanded metres along `stations`, m/s: v² is linear between two; beyond the last, its own.
+pub(super) fn speed_at(stations: &[Station], s: f64) -> f64 {
+    let next = stations.partition_point(|station| station.s < s);
+    let (Some(b), Some(a)) = (stations.get(next), stations.get(next.wrapping_sub(1))) else {
+        return stations[next.min(stations.len() - 1)].speed;
+    };
+    let share = (s - a.s) / (b.s - a.s);
+    (square(a.speed) + share * (square(b.speed) - square(a.speed))).sqrt()
 }
 
 /// The place `s` commanded metres along `stations`, between two by linear interpolation, beyond the last straight on; `heading`

@@ -1,7 +1,5 @@
 //! The vehicle as it drives: a body that settles on its wheels at every step, slips, and steers and speeds up with lags.
 
-use std::f64::consts::FRAC_PI_2;
-
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
@@ -49,7 +47,7 @@ const STILL: f64 = 1e-9;
 /// bounded acceleration; z, φ, θ and the joints by the suspension on the ground.
 #[derive(Debug, Clone)]
 pub(super) struct Plant<'a> {
-    vehicle: &'a Rover,
+    pub(super) vehicle: &'a Rover,
     terrain: &'a ElevationMap,
     /// Sine and cosine of the direction of travel in the body.
     direction: (f64, f64),
@@ -117,12 +115,6 @@ impl<'a> Plant<'a> {
         libm::tan(self.steering) / self.vehicle.response.steered_axle
     }
 
-    /// Whether the wheels take time to steer.
-    pub(super) fn lags(&self) -> bool {
-        let response = &self.vehicle.response;
-        response.steering_time_constant > 0.0 || response.steering_rate.is_finite()
-    }
-
     /// Swings the wheels, as a standing vehicle can, 1/m.
     pub(super) fn steer_at_once(&mut self, curvature: f64) {
         self.steering = libm::atan(curvature * self.vehicle.response.steered_axle);
@@ -150,7 +142,7 @@ impl<'a> Plant<'a> {
     fn step(&mut self, command: &Command, h: f64) -> Result<(), Lost> {
         let bend_before = self.curvature();
         self.steer(command.curvature, h);
-        let bend = if self.lags() { 0.5 * (bend_before + self.curvature()) } else { self.curvature() };
+        let bend = if self.vehicle.response.lags() { 0.5 * (bend_before + self.curvature()) } else { self.curvature() };
         let (way, turn) = self.accelerate(command, h);
         if way == 0.0 && turn == 0.0 {
             return Ok(());
@@ -249,16 +241,33 @@ impl<'a> Plant<'a> {
         Isometry3::from_parts(Translation3::new(self.x, self.y, z), attitude)
     }
 
-    /// Angle by which the body must lean further to tip over, rad; see [`Rover::tip_over_margin`].
-    pub(super) fn tip_over_margin(&self) -> Result<f64, Lost> {
+    /// How safely it stands; see [`Rover::tip_over_margin`] and [`Rover::belly_clearance`]. A point without wheels stands freely.
+    pub(super) fn stands(&self) -> Result<Stands, Lost> {
         if self.vehicle.suspension == Suspension::Level {
-            return Ok(FRAC_PI_2);
+            return Ok(Stands::FREE);
         }
-        Ok(self.vehicle.tip_over_margin(self.terrain, self.place(), &self.pose)?)
+        Ok(Stands {
+            margin: self.vehicle.tip_over_margin(self.terrain, self.place(), &self.pose)?,
+            clearance: self.vehicle.belly_clearance(self.terrain, self.place(), &self.pose)?,
+        })
     }
+}
 
-    /// Height of the underside over the ground, m; see [`Rover::belly_clearance`].
-    pub(super) fn belly_clearance(&self) -> Result<f64, Lost> {
-        Ok(self.vehicle.belly_clearance(self.terrain, self.place(), &self.pose)?)
+/// How safely a vehicle stands; infinite where nothing is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stands {
+    /// Angle by which the body must lean further to tip over, rad.
+    pub(super) margin: f64,
+    /// Height of the underside over the ground, m.
+    pub(super) clearance: f64,
+}
+
+impl Stands {
+    /// As freely as can be.
+    pub(super) const FREE: Self = Self { margin: f64::INFINITY, clearance: f64::INFINITY };
+
+    /// The worse of both, number by number.
+    pub(super) fn least(&self, other: &Self) -> Self {
+        Self { margin: self.margin.min(other.margin), clearance: self.clearance.min(other.clearance) }
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use super::plant::{Lost, Plant};
+use super::plant::{Lost, Plant, Stands};
 use crate::robot::rover::{Rover, Suspension};
 use crate::trajectory::{Channel, Track};
 
@@ -29,16 +29,23 @@ impl Recorder {
         Self { times: vec![], poses: vec![], channels }
     }
 
-    /// Appends a sample; one that is not later than the last is left out. `margin` is the least since the sample before, rad.
-    pub(super) fn push(&mut self, t: f64, plant: &Plant, leg: usize, commanded: f64, margin: f64) -> Result<(), Lost> {
+    /// Appends a sample; one that is not later than the last is left out. `least` is the worst since the sample before.
+    pub(super) fn push(
+        &mut self,
+        t: f64,
+        plant: &Plant,
+        leg: usize,
+        commanded: f64,
+        least: &Stands,
+    ) -> Result<(), Lost> {
         if self.times.last().is_some_and(|last| t <= *last) {
             return Ok(());
         }
         let v = plant.velocity();
         let mut values = vec![leg as f64, v.x, v.y, v.z, plant.speed, plant.curvature(), commanded, plant.slip()];
         if self.channels.len() > values.len() {
-            let margin = if margin.is_finite() { margin } else { plant.tip_over_margin()? };
-            values.extend([margin.to_degrees(), plant.belly_clearance()?]);
+            let least = if least.margin.is_finite() { *least } else { plant.stands()? };
+            values.extend([least.margin.to_degrees(), least.clearance]);
         }
         if self.channels.len() > values.len() {
             values.extend(plant.pose.joints);

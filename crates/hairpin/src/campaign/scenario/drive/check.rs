@@ -1,11 +1,14 @@
 //! The bounds of every key of a drive.
 
-use super::{ControlName, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, GroundReach, Manoeuvre};
+use super::{
+    ControlName, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, GroundReach, Manoeuvre, ProfileName,
+    SpeedSection,
+};
 use crate::campaign::drive::{map_of, rover_of};
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{Mistake, SearchMethod};
 use crate::feasibility::reach::drive::GroundScore;
-use crate::robot::rover::Rover;
+use crate::robot::rover::{Rover, Steering};
 use crate::world::terrain::Terrain;
 
 /// Longer trajectories take days to drive.
@@ -92,9 +95,8 @@ impl DriveScenario {
 fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut Findings) {
     let search = &generate.search;
     found.count("generate.headings", generate.headings, 1, 64);
-    let legs = matches!(generate.control, ControlName::Cubic | ControlName::Quintic);
-    let bound = "cubic or quintic: legs of campaigns have no others; `hairpin steer --control` has";
-    found.require(legs, "generate.control", format!("\"{}\"", generate.control.word()), bound);
+    check_controls(generate, rover, found);
+    check_speed(&generate.speed, rover, found);
     let most = if search.method == SearchMethod::Beam { MOST_NODES } else { MOST_NODES / 4 };
     found.count("generate.search.waypoints", search.waypoints, 1, most);
     let nodes = search.waypoints.saturating_mul(generate.headings);
@@ -132,6 +134,57 @@ fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
     found.count("generate.solver.starts", solver.starts, 1, 1_000);
 }
 
+/// What the controls need of manoeuvres and robot.
+fn check_controls(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut Findings) {
+    let turns = generate.manoeuvres.contains(&Manoeuvre::TurnInPlace);
+    let word = format!("\"{}\"", generate.control.word());
+    let bound = match generate.control {
+        ControlName::Arc => {
+            "joined by turns in place, with `turn-in-place` among generate.manoeuvres: an arc ends in the heading that it comes to"
+        }
+        _ => "driven with `turn-in-place` among generate.manoeuvres",
+    };
+    let needed = matches!(generate.control, ControlName::Arc | ControlName::TurnDriveTurn);
+    found.require(turns || !needed, "generate.control", word, bound);
+    let Some(rover) = rover else { return };
+    let able = !turns || rover.limits.turns_in_place;
+    found.require(able, "generate.manoeuvres", "\"turn-in-place\"", "what the robot can do: it does not turn in place");
+    let direction = generate.direction_deg;
+    found.from("generate.direction_deg", direction, -180.0, 180.0, "°");
+    let crabs = direction == 0.0 || rover.wheels.steering == Steering::AllWheel;
+    found.require(
+        crabs,
+        "generate.direction_deg",
+        direction,
+        "0: the robot does not steer all wheels (steering = \"all-wheel\")",
+    );
+}
+
+fn check_speed(speed: &SpeedSection, rover: Option<&Rover>, found: &mut Findings) {
+    if let Some([low, high]) = speed.waypoint_m_s {
+        found.from("generate.speed.waypoint_m_s[0]", low, 0.0, 100.0, " m/s");
+        found.above("generate.speed.waypoint_m_s[1]", high, 0.0, 100.0, " m/s");
+        found.require(
+            low <= high,
+            "generate.speed.waypoint_m_s",
+            format!("[{low}, {high}]"),
+            "rising: [least, greatest]",
+        );
+    }
+    let Some(rover) = rover else { return };
+    let own = rover.limits.acceleration;
+    if let Some(acceleration) = speed.acceleration_m_s2 {
+        found.above("generate.speed.acceleration_m_s2", acceleration, 0.0, own.min(1e3), " m/s²");
+    }
+    let bounded = own.is_finite() || speed.acceleration_m_s2.is_some();
+    let changes = matches!(speed.profile, Some(ProfileName::Ramp | ProfileName::Trapezoid));
+    let bound = "given: the robot's own acceleration is not bounded";
+    found.require(!changes || bounded, "generate.speed.acceleration_m_s2", "left out", bound);
+    let idle = !matches!(speed.profile, Some(ProfileName::Constant)) && bounded;
+    let given = speed.waypoint_m_s.is_some();
+    found.require(idle || !given, "generate.speed.waypoint_m_s", "given", "left out where the speed is constant");
+}
+
 fn check_execute(execute: &DriveExecute, found: &mut Findings) {
     let both = execute.controller.is_some() && execute.command.is_some();
     let given = format!("\"{}\"", execute.command.as_deref().unwrap_or_default());
@@ -163,6 +216,9 @@ fn check_spec(spec: &DriveSpec, found: &mut Findings) {
     }
     if let Some(least) = limits.tip_over_margin_deg {
         found.from("spec.limits.tip_over_margin_deg", least, 0.0, 90.0, "°");
+    }
+    if let Some(least) = limits.clearance_m {
+        found.from("spec.limits.clearance_m", least, 0.0, 1e6, " m");
     }
     if let Some(most) = limits.total_time_s {
         found.above("spec.limits.total_time_s", most, 0.0, 1e9, " s");

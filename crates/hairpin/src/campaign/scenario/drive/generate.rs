@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::scenario::{Aggregate, Sampling, SearchMethod, SearchSection};
+use crate::feasibility::steering::shooting::Control;
 
 /// `[generate]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -13,10 +14,14 @@ pub struct DriveGenerate {
     pub reach: GroundReach,
     /// Time step of the reach sets that have one: sphere, hull.
     pub step_s: f64,
-    /// arc | cubic | quintic | knots | velocity-polynomial.
+    /// arc | turn-drive-turn | cubic | quintic | time-polynomial | knots | velocity-polynomial.
     pub control: ControlName,
     /// What the vehicle may do on a leg.
     pub manoeuvres: Vec<Manoeuvre>,
+    /// How speed changes along the way.
+    pub speed: SpeedSection,
+    /// Direction of travel in the body, left positive: for vehicles that steer all wheels.
+    pub direction_deg: f64,
     /// Headings per waypoint in the `witness` roadmap.
     pub headings: u64,
     /// Limits beside the robot's own.
@@ -34,6 +39,8 @@ impl Default for DriveGenerate {
             step_s: 5.0,
             control: ControlName::Quintic,
             manoeuvres: vec![Manoeuvre::Forward],
+            speed: SpeedSection::default(),
+            direction_deg: 0.0,
             headings: 4,
             limits: DriveLimits::default(),
             solver: SolverSection::default(),
@@ -68,17 +75,21 @@ impl GroundReach {
     }
 }
 
-/// Families of controls: how curvature may depend on the way.
+/// Families of controls: how curvature may depend on the way, and what there is beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ControlName {
-    /// Constant.
+    /// Constant curvature, after a turn in place: the heading of an arc's end is as it comes.
     Arc,
+    /// Straight, between turns in place.
+    TurnDriveTurn,
     /// A polynomial of third order in arc length.
     Cubic,
-    /// A polynomial of fifth order in arc length.
+    /// A polynomial of fifth order in arc length; where none keeps the bounds, clothoids, in both gears if they are allowed.
     #[default]
     Quintic,
+    /// A polynomial of fifth order in time.
+    TimePolynomial,
     /// A spline through knots.
     Knots,
     /// Linear and angular velocity as polynomials of time.
@@ -86,16 +97,51 @@ pub enum ControlName {
 }
 
 impl ControlName {
-    /// The word in scenarios.
-    pub fn word(self) -> &'static str {
+    /// The generator's own name for it.
+    pub fn control(self) -> Control {
         match self {
-            Self::Arc => "arc",
-            Self::Cubic => "cubic",
-            Self::Quintic => "quintic",
-            Self::Knots => "knots",
-            Self::VelocityPolynomial => "velocity-polynomial",
+            Self::Arc => Control::Arc,
+            Self::TurnDriveTurn => Control::TurnDriveTurn,
+            Self::Cubic => Control::Cubic,
+            Self::Quintic => Control::Quintic,
+            Self::TimePolynomial => Control::TimePolynomial,
+            Self::Knots => Control::Knots,
+            Self::VelocityPolynomial => Control::VelocityPolynomial,
         }
     }
+
+    /// The word in scenarios.
+    pub fn word(self) -> &'static str {
+        self.control().name()
+    }
+}
+
+/// `generate.speed`: how the commanded speed changes along the way. Without `constant`, drives begin and end at rest and stop where the
+/// gear changes and for turns in place.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct SpeedSection {
+    /// constant | ramp | trapezoid; if not given a trapezoid where the robot's acceleration is bounded, else constant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile: Option<ProfileName>,
+    /// Least and greatest speed at which waypoints are passed, each at its own; the commanded speed if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub waypoint_m_s: Option<[f64; 2]>,
+    /// Acceleration and deceleration; the robot's own if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub acceleration_m_s2: Option<f64>,
+}
+
+/// How speed changes from waypoint to waypoint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ProfileName {
+    /// One speed all along, without time for stops.
+    Constant,
+    /// From one waypoint's speed to the next one's, evenly in time.
+    Ramp,
+    /// Up to the commanded speed between waypoints.
+    Trapezoid,
 }
 
 /// What a vehicle may do on a leg.

@@ -4,9 +4,11 @@ use super::settings::{DriveSettings, DriveSite};
 use super::stress::Demands;
 use super::tally::LegRefusal;
 use super::watch::{curvature_change, refusal, watch};
+use super::ways::{Way, ways};
 use crate::feasibility::steering::shooting::rough::{self, Status, Steps};
-use crate::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
 use crate::feasibility::steering::shooting::{Goal, Query, flat};
+use crate::trajectory::SpeedProfile;
+use crate::trajectory::Timing;
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 
 /// A leg that is one.
@@ -14,7 +16,9 @@ use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 pub(super) struct Solved {
     /// Commands.
     pub(super) segments: Box<[Segment]>,
-    /// Time they take, s.
+    /// How they came about.
+    pub(super) way: Way,
+    /// Time they take with no legs before and after them, s.
     pub(super) duration: f64,
     /// The score of the settings.
     pub(super) stress: f64,
@@ -27,6 +31,8 @@ pub(super) struct Ends<'a> {
     pub(super) to: &'a Planar,
     /// Distance between them, m.
     pub(super) distance: f64,
+    /// Speeds at them, m/s.
+    pub(super) speeds: [f64; 2],
     /// The value of the term `random`.
     pub(super) random: f64,
 }
@@ -39,12 +45,12 @@ pub(super) fn judge(
     solves: &mut u64,
 ) -> Result<Solved, LegRefusal> {
     let mut farthest = LegRefusal::Detour;
-    for choices in ways(settings) {
-        if !may_be_short(settings, ends, &choices) {
+    for way in ways(settings) {
+        if !may_be_short(settings, ends, way) {
             continue;
         }
         *solves += 1;
-        match driven(site, settings, ends, &choices) {
+        match driven(site, settings, ends, way) {
             Ok(solved) => return Ok(solved),
             Err(reason) => farthest = farthest.max(reason),
         }
@@ -52,29 +58,13 @@ pub(super) fn judge(
     Err(farthest)
 }
 
-/// The ways of driving, in the order in which they are tried.
-fn ways(settings: &DriveSettings) -> impl Iterator<Item = Choices> {
-    let may = settings.manoeuvres;
-    let plain = Choices { flat: settings.flat, ..Choices::default() };
-    [
-        (may.forward, plain),
-        (may.reverse, Choices { gear: Gear::Reverse, ..plain }),
-        (may.forward && may.reverse, Choices { reversals: true, arcs: false, ..plain }),
-        (may.turn_in_place, Choices { gear: settings.gear(), turns: true, arcs: false, ..plain }),
-    ]
-    .into_iter()
-    .filter_map(|(allowed, choices)| allowed.then_some(choices))
-}
-
 /// Necessary for a drive in one gear to be no longer than the longest detour: Dubins' path is not.
-fn may_be_short(settings: &DriveSettings, ends: &Ends, choices: &Choices) -> bool {
-    if choices.reversals || choices.turns {
-        return true;
-    }
+fn may_be_short(settings: &DriveSettings, ends: &Ends, way: Way) -> bool {
+    let Some(gear) = way.gear() else { return true };
     let (from, to) = (ends.from, ends.to);
     let (sin, cos) = libm::sincos(from.yaw + settings.direction);
     let (dx, dy) = (to.x - from.x, to.y - from.y);
-    let sign = choices.gear.sign();
+    let sign = gear.sign();
     // In reverse, the mirror image about the y axis.
     let goal = Goal {
         x: sign * (cos * dx + sin * dy),
@@ -86,10 +76,15 @@ fn may_be_short(settings: &DriveSettings, ends: &Ends, choices: &Choices) -> boo
     flat::least_length(&query, &settings.bounds) <= settings.detour * ends.distance
 }
 
-fn driven(site: &DriveSite, settings: &DriveSettings, ends: &Ends, choices: &Choices) -> Result<Solved, LegRefusal> {
-    let segments = solved(site, settings, ends, choices)?;
-    let met = watch(site, settings, ends.from, &as_moved(site, settings, ends.from, &segments))?;
-    let duration = segments.iter().map(|segment| segment.duration(settings.speed, settings.turn_rate)).sum();
+fn driven(site: &DriveSite, settings: &DriveSettings, ends: &Ends, way: Way) -> Result<Solved, LegRefusal> {
+    let segments = solved(site, settings, ends, way, &settings.speed.into())?;
+    let met =
+        watch(site, settings, ends.from, &as_moved(site, settings, ends.from, &segments), &settings.speed.into())?;
+    let turned: f64 = segments.iter().map(|segment| segment.turn_rad().abs()).sum();
+    let profiles = settings.pace.over(settings.speed, &ends.speeds, &[&segments], &site.rover.response);
+    let driving: f64 =
+        profiles.iter().map(|profile| Timing::new(profile, &segments)).map(|t| t.time_at(t.length())).sum();
+    let duration = driving + turned / settings.turn_rate;
     let full = settings.full_tilt();
     let stress = settings.score.of(&Demands {
         slope: met.slope / full,
@@ -100,7 +95,27 @@ fn driven(site: &DriveSite, settings: &DriveSettings, ends: &Ends, choices: &Cho
         reversals: reversals(&segments),
         random: ends.random,
     });
-    Ok(Solved { segments: segments.as_ref().into(), duration, stress })
+    Ok(Solved { segments: segments.as_ref().into(), way, duration, stress })
+}
+
+/// Commands that come to the same end the same `way` at the speeds of `profile`; `None`: `segments` do so already, as they do
+/// wherever a lag of the steering makes no difference.
+pub(super) fn refitted(
+    site: &DriveSite,
+    settings: &DriveSettings,
+    ends: &Ends,
+    way: Way,
+    segments: &[Segment],
+    profile: &SpeedProfile,
+) -> Result<Option<Box<[Segment]>>, LegRefusal> {
+    let course = settings.course(site, Steps::default(), *profile);
+    let again = rough::predict(&course, ends.from, segments, |_| {});
+    if again.is_ok_and(|again| settings.solver.met(ends.to, &again.end)) {
+        return Ok(None);
+    }
+    let segments = solved(site, settings, ends, way, profile)?;
+    watch(site, settings, ends.from, &segments, profile)?;
+    Ok(Some(segments.as_ref().into()))
 }
 
 /// Commands whose predicted motion ends where it should, no longer than the longest detour.
@@ -108,18 +123,17 @@ fn solved(
     site: &DriveSite,
     settings: &DriveSettings,
     ends: &Ends,
-    choices: &Choices,
+    way: Way,
+    speed: &SpeedProfile,
 ) -> Result<SegmentList, LegRefusal> {
     let longest = settings.detour * ends.distance;
     let mut too_long = false;
     let mut steer = |query: &Query| -> Option<SegmentList> {
-        let query = Query::new(query.start_curvature, query.goal, &settings.bounds).ok()?;
-        let flat = solve(&query, &settings.bounds, choices, || false);
-        let found = (flat.outcome == Outcome::Solved).then_some(flat.segments)?;
+        let found = way.steer(settings, query)?;
         too_long = metres(&found) > longest;
         (!too_long).then_some(found)
     };
-    let course = settings.course(site, Steps::default());
+    let course = settings.course(site, Steps::default(), *speed);
     let answer = rough::solve(&course, ends.from, ends.to, &settings.bounds, &settings.solver, &mut steer);
     match answer.status {
         Status::Ok if metres(&answer.segments) > longest => Err(LegRefusal::Detour),

@@ -1,13 +1,16 @@
 //! `witness` for ground vehicles: a roadmap of headed waypoints, whose legs are solved boundary-value drives.
 
 mod judge;
+mod pace;
 mod roadmap;
 mod sample;
 mod settings;
 mod stress;
 mod tally;
 mod watch;
+mod ways;
 
+pub use pace::{Pace, Slopes};
 pub use roadmap::{DriveNode, DriveRoadmap};
 pub use sample::{GroundSampling, TooFewPlaces, sample_ground};
 pub use settings::{DriveLimits, DriveSettings, DriveSite, Manoeuvres};

@@ -6,14 +6,17 @@ use std::rc::Rc;
 
 use nalgebra::{Point3, Vector3};
 
-use super::judge::{Ends, Solved, judge};
+use super::judge::{Ends, Solved, judge, refitted};
+use super::pace::Pace;
 use super::settings::{DriveSettings, DriveSite};
 use super::tally::DriveTally;
 use super::watch::stands;
+use super::ways::Way;
 use crate::feasibility::reach::{Leg, LegFeatures, Reach};
 use crate::math::random::{Stream, hashed_unit, named_seed, stream, unit};
 use crate::math::rotation::angle_between;
-use crate::trajectory::drive::{Drive, DriveLeg, Planar};
+use crate::trajectory::drive::{Planar, Segment};
+use crate::trajectory::{Drive, DriveLeg, SpeedProfile};
 
 /// A node: a waypoint and one of its headings, passed with straight wheels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -35,7 +38,7 @@ struct Kept {
 ///
 /// A leg is a drive that the boundary-value solver found on the map: its predicted motion ends in the next waypoint's
 /// pose and curvature within the solver's precision and keeps every limit of [`DriveSettings`] on the way. Its
-/// [`LegFeatures`] have the commanded speed at both ends, the angle from the direction of travel to the straight
+/// [`LegFeatures`] have the speeds at both ends, the angle from the direction of travel to the straight
 /// line to the next waypoint as `turn`, and the score of the settings as `ground`.
 pub struct DriveRoadmap<'a> {
     site: DriveSite<'a>,
@@ -51,6 +54,8 @@ pub struct DriveRoadmap<'a> {
 
 /// Headings that are drawn for one that stands, at most.
 const DRAWS: usize = 8;
+/// Rounds in which commands and their speeds are made to agree.
+const ROUNDS: usize = 5;
 /// One heading in so many points anywhere, the others at waypoints.
 const ANYWHERE: usize = 4;
 
@@ -113,16 +118,67 @@ impl<'a> DriveRoadmap<'a> {
         self.distance(node.waypoint as usize, end) <= steps as f64 * self.settings.leg_m[1] * (1.0 + 1e-9)
     }
 
-    /// The drive over `nodes`; `None` where two successive ones are no leg.
+    /// The drive over `nodes`, with its speeds; `None` where two successive ones are no leg, and where a leg that was solved for the
+    /// commanded speed has no commands for those that it really has, which lags of the steering can do.
     pub fn drive(&self, nodes: &[DriveNode]) -> Option<Drive> {
-        let leg = |pair: &[DriveNode]| {
-            let (from, to) = (self.state(&pair[0]), self.state(&pair[1]));
-            let kept = self.kept_legs(from);
-            let leg = kept.iter().find(|leg| leg.state as usize == to)?;
-            Some(DriveLeg { from: self.states[from], to: self.states[to], segments: leg.solved.segments.to_vec() })
-        };
+        let states: Vec<usize> = nodes.iter().map(|node| self.state(node)).collect();
+        let kept: Vec<Rc<[Kept]>> = states.iter().map(|&state| self.kept_legs(state)).collect();
+        let mut legs = Vec::with_capacity(nodes.len().saturating_sub(1));
+        for (pair, kept) in states.windows(2).zip(&kept) {
+            let leg = kept.iter().find(|leg| leg.state as usize == pair[1])?;
+            legs.push((self.ends(pair[0], pair[1]), leg.solved.way, leg.solved.segments.clone()));
+        }
+        let profiles = self.settled(&mut legs)?;
         let DriveSettings { speed, turn_rate, direction, .. } = self.settings;
-        Some(Drive { legs: nodes.windows(2).map(leg).collect::<Option<_>>()?, speed, turn_rate, direction })
+        let leg = |((ends, _, segments), speed): ((Ends, Way, Box<[Segment]>), _)| DriveLeg {
+            from: *ends.from,
+            to: *ends.to,
+            segments: segments.into_vec(),
+            speed,
+        };
+        Some(Drive { legs: legs.into_iter().zip(profiles).map(leg).collect(), speed, turn_rate, direction })
+    }
+
+    /// The speeds of `legs`, whose commands are fitted to them where the steering lags: other commands stop elsewhere, and so it goes
+    /// on until nothing changes. `None` if that does not come to an end.
+    fn settled(&self, legs: &mut [(Ends, Way, Box<[Segment]>)]) -> Option<Vec<SpeedProfile>> {
+        for _ in 0..ROUNDS {
+            let profiles = self.profiles(legs);
+            if !self.site.rover.response.lags() || self.settings.pace == Pace::Constant {
+                return Some(profiles);
+            }
+            let mut changed = false;
+            for ((ends, way, segments), profile) in legs.iter_mut().zip(&profiles) {
+                let other = refitted(&self.site, &self.settings, ends, *way, segments, profile).ok()?;
+                changed |= other.is_some();
+                *segments = other.unwrap_or_else(|| std::mem::take(segments));
+            }
+            if !changed {
+                return Some(profiles);
+            }
+        }
+        None
+    }
+
+    /// The speeds of legs that follow each other from rest to rest.
+    fn profiles(&self, legs: &[(Ends, Way, Box<[Segment]>)]) -> Vec<SpeedProfile> {
+        let between = legs.iter().skip(1).map(|(ends, ..)| ends.speeds[0]);
+        let wishes: Vec<f64> = std::iter::once(0.0).chain(between).chain([0.0]).collect();
+        let segments: Vec<&[Segment]> = legs.iter().map(|(.., segments)| segments.as_ref()).collect();
+        self.settings.pace.over(self.settings.speed, &wishes, &segments, &self.site.rover.response)
+    }
+
+    /// What a leg from one state to another joins.
+    fn ends(&self, from: usize, to: usize) -> Ends<'_> {
+        let [a, b] = [from, to].map(|state| self.node(state as u32).waypoint as usize);
+        let DriveSettings { pace, speed, seed, .. } = self.settings;
+        Ends {
+            from: &self.states[from],
+            to: &self.states[to],
+            distance: self.distance(a, b),
+            speeds: [a, b].map(|waypoint| pace.wish(speed, seed, waypoint)),
+            random: hashed_unit(seed, &[a as u64, b as u64]),
+        }
     }
 
     fn state(&self, node: &DriveNode) -> usize {
@@ -154,9 +210,8 @@ impl<'a> DriveRoadmap<'a> {
             if w == own || !at_a_leg(&self.settings, distance) {
                 continue;
             }
-            let random = hashed_unit(self.settings.seed, &[own as u64, w as u64]);
             for state in self.first[w]..self.first[w + 1] {
-                let ends = Ends { from: &self.states[from], to: &self.states[state as usize], distance, random };
+                let ends = self.ends(from, state as usize);
                 let outcome = judge(&self.site, &self.settings, &ends, &mut tally.solves);
                 tally.count(&outcome);
                 legs.extend(outcome.ok().map(|solved| Kept { state, solved }));
@@ -176,6 +231,8 @@ impl Reach<DriveNode> for DriveRoadmap<'_> {
         let (sin, cos) = libm::sincos(self.states[left].yaw + self.settings.direction);
         let heading = Vector3::new(cos, sin, 0.0);
         let here = self.points[from.waypoint as usize];
+        let DriveSettings { pace, speed, seed, .. } = self.settings;
+        let speed_at = |waypoint: u32| pace.wish(speed, seed, waypoint as usize);
         for leg in self.kept_legs(left).iter() {
             let to = self.node(leg.state);
             let way = self.points[to.waypoint as usize] - here;
@@ -184,8 +241,8 @@ impl Reach<DriveNode> for DriveRoadmap<'_> {
                 waypoint: to.waypoint,
                 duration: leg.solved.duration,
                 features: LegFeatures {
-                    v_in: self.settings.speed,
-                    v_out: self.settings.speed,
+                    v_in: speed_at(from.waypoint),
+                    v_out: speed_at(to.waypoint),
                     turn: angle_between(&heading, &Vector3::new(way.x, way.y, 0.0)),
                     length: way.norm(),
                     climb: way.z,

@@ -2,12 +2,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::Vector3;
-
+use super::pace::Pace;
 use super::stress::GroundScore;
+use crate::feasibility::steering::clear::footprint;
 use crate::feasibility::steering::shooting::rough::{Course, Steps};
-use crate::feasibility::steering::shooting::{Curvatures, flat, rough};
+use crate::feasibility::steering::shooting::{Control, Curvatures, families, flat, rough};
 use crate::robot::rover::Rover;
+use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::Gear;
 use crate::world::terrain::{ElevationMap, KeepOuts};
 
@@ -25,14 +26,9 @@ pub struct DriveSite<'a> {
 }
 
 impl<'a> DriveSite<'a> {
-    /// `rover` keeps all of itself out of `keep_outs`: the radius reaches from its origin to the farthest rim of a wheel and corner
-    /// of the underside.
+    /// `rover` keeps all of itself out of `keep_outs`, whichever way it turns.
     pub fn new(rover: &'a Rover, map: &'a ElevationMap, keep_outs: &'a KeepOuts) -> Self {
-        let (wheels, count, wheel_radius) = rover.suspension.wheels(&[0.0; 3]);
-        let belly = &rover.body.belly;
-        let corner = libm::hypot(belly.front.abs().max(belly.rear.abs()), belly.half_width);
-        let rim = |radius: f64, w: &Vector3<f64>| radius.max(libm::hypot(w.x, w.y) + wheel_radius);
-        Self { rover, map, keep_outs, radius: wheels[..count].iter().fold(corner, rim) }
+        Self { rover, map, keep_outs, radius: footprint(rover) }
     }
 }
 
@@ -79,10 +75,16 @@ pub struct DriveSettings {
     pub bounds: Curvatures,
     /// What the body keeps to.
     pub limits: DriveLimits,
+    /// How speeds follow each other. Without [`Pace::Constant`], a drive begins and ends at rest.
+    pub pace: Pace,
+    /// The controls of legs in one gear. Arcs need turns in place: their headings are as they come.
+    pub control: Control,
     /// How exactly goals are met on the ground.
     pub solver: rough::Settings,
     /// The flat solver's choices. Its precision should be far finer than the one on the ground.
     pub flat: flat::Settings,
+    /// The choices of the families of controls that have a search of their own.
+    pub families: families::Settings,
     /// What makes a leg stressful.
     pub score: GroundScore,
     /// Seed of the headings.
@@ -108,8 +110,11 @@ impl DriveSettings {
             manoeuvres: Manoeuvres { forward: true, reverse: false, turn_in_place: false },
             bounds: Curvatures { most: limits.curvature, most_rate: limits.curvature_rate },
             limits: DriveLimits { tilt: limits.tilt, joint: limits.joint, clearance: f64::NEG_INFINITY },
+            pace: Pace::Constant,
+            control: Control::default(),
             solver: rough::Settings::default(),
             flat,
+            families: families::Settings::default(),
             score: GroundScore::default(),
             seed: 0,
         }
@@ -125,14 +130,14 @@ impl DriveSettings {
         if self.manoeuvres.forward || !self.manoeuvres.reverse { Gear::Forward } else { Gear::Reverse }
     }
 
-    pub(super) fn course<'a>(&self, site: &DriveSite<'a>, steps: Steps) -> Course<'a, ElevationMap> {
-        let steps = steps.for_rate(self.bounds.most_rate);
-        Course {
-            rover: site.rover,
-            terrain: site.map,
-            speed: self.speed.into(),
-            direction: self.direction.into(),
-            steps,
-        }
+    pub(super) fn course<'a>(
+        &self,
+        site: &DriveSite<'a>,
+        steps: Steps,
+        speed: SpeedProfile,
+    ) -> Course<'a, ElevationMap> {
+        let lag = site.rover.response.steering_time_constant * speed.top();
+        let steps = steps.for_rate(self.bounds.most_rate).for_lag(lag);
+        Course { rover: site.rover, terrain: site.map, speed, direction: self.direction.into(), steps }
     }
 }

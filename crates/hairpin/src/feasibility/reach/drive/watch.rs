@@ -4,6 +4,7 @@ use super::settings::{DriveSettings, DriveSite};
 use super::tally::LegRefusal;
 use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Steps, predict};
 use crate::robot::rover::{Settled, Slip, Suspension, Unsettled};
+use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
 
@@ -31,14 +32,15 @@ pub(super) struct Met {
     pub(super) slip: f64,
 }
 
-/// Follows `motion` from `start` and looks at every limit on the way.
+/// Follows `motion` from `start` at `speed` and looks at every limit on the way.
 pub(super) fn watch(
     site: &DriveSite,
     settings: &DriveSettings,
     start: &Planar,
     motion: &[Segment],
+    speed: &SpeedProfile,
 ) -> Result<Met, LegRefusal> {
-    let course = settings.course(site, STEPS);
+    let course = settings.course(site, STEPS, *speed);
     let mut watcher = Watcher {
         site,
         settings,

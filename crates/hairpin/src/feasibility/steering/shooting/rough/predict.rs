@@ -90,6 +90,14 @@ impl Steps {
     pub fn for_rate(self, most_rate: f64) -> Self {
         Self { length: self.length / most_rate.clamp(1.0, 10.0), ..self }
     }
+
+    /// These for steering that takes `metres` of the way to follow a jump, its time constant times the speed: no more than a third of
+    /// that, where it is any; a tenth at most.
+    #[must_use]
+    pub fn for_lag(self, metres: f64) -> Self {
+        let length = if metres > 0.0 { self.length.min((metres / 3.0).max(0.1 * self.length)) } else { self.length };
+        Self { length, ..self }
+    }
 }
 
 /// What stays the same along a prediction.

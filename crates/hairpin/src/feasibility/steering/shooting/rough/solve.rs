@@ -39,6 +39,13 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    /// Whether `end` is as near to `goal` as answers are, with room for a finer integration's difference.
+    pub fn met(&self, goal: &Planar, end: &Planar) -> bool {
+        miss(goal, end, &self.precision).residual <= ENOUGH
+    }
+}
+
 /// How an answer ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Status {

@@ -1,0 +1,171 @@
+//! The speeds of a drive as they were written: do they fit together, and could the vehicle keep them?
+
+use super::drive::DrivePiece;
+
+/// The speeds of one leg, and what they are held to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PaceClaim<'a> {
+    pub(super) pieces: &'a [DrivePiece],
+    /// Metres of the leg, rising from 0, with the speed there, m/s; v² is linear between.
+    pub(super) knots: &'a [[f64; 2]],
+    /// Pieces and knots of the leg before; `None`: there is none.
+    pub(super) before: Option<(&'a [DrivePiece], &'a [[f64; 2]])>,
+    /// Whether no leg follows.
+    pub(super) last: bool,
+    /// The highest speed, m/s.
+    pub(super) speed: f64,
+    /// Rate of turns in place, rad/s.
+    pub(super) turn_rate: f64,
+    /// Seconds that the leg is said to take.
+    pub(super) duration: f64,
+    /// m/s²; infinite where nothing stops.
+    pub(super) most_acceleration: f64,
+}
+
+/// Shares that a comparison of sums may be off by.
+const ROUNDING: f64 = 1e-6;
+/// Speeds below this are none, m/s: √(2 a · rounding of metres).
+const STILL: f64 = 1e-4;
+
+/// Tells `found` of every speed that is none, too high, or does not join, of stops that are none, accelerations beyond the bound, and
+/// of a duration that the speeds do not give: field, value, bound, unit.
+pub(super) fn check_speeds(claim: &PaceClaim, mut found: impl FnMut(&str, f64, f64, &'static str)) {
+    let knots = claim.knots;
+    let sound = |[s, v]: &[f64; 2]| s.is_finite() && (0.0..=claim.speed * (1.0 + ROUNDING)).contains(v);
+    if let Some([_, bad]) = knots.iter().find(|knot| !sound(knot)) {
+        return found("speed", *bad, claim.speed, "m/s");
+    }
+    let (Some(first), Some(last)) = (knots.first(), knots.last()) else {
+        return found("speed", f64::NAN, claim.speed, "m/s");
+    };
+    if let Some(pair) = knots.windows(2).find(|pair| pair[1][0] < pair[0][0] - 1e-9) {
+        return found("speed.metres", pair[1][0], pair[0][0], "m");
+    }
+    if let Some((_, before)) = claim.before {
+        let jump = (first[1] - before.last().map_or(f64::NAN, |knot| knot[1])).abs();
+        if jump.is_nan() || jump > 1e-9 {
+            found("speed_jump", jump, 1e-9, "m/s");
+        }
+    }
+    if claim.most_acceleration.is_finite() {
+        check_stops(claim, first[1], last[1], &mut found);
+        for pair in knots.windows(2) {
+            let ([s, v], [t, w]) = (pair[0], pair[1]);
+            let off = (w * w - v * v).abs() - 2.0 * claim.most_acceleration * (1.0 + ROUNDING) * (t - s);
+            // Knots at one place are one knot, but for rounding.
+            if off > STILL * STILL {
+                found("acceleration", (w * w - v * v).abs() / (2.0 * (t - s)), claim.most_acceleration, "m/s²");
+            }
+        }
+    }
+    let total: f64 = claim.pieces.iter().map(DrivePiece::length).sum();
+    let taken = seconds(claim, total);
+    if (taken - claim.duration).abs().total_cmp(&(ROUNDING * (1.0 + claim.duration))).is_gt() {
+        found("duration", claim.duration, taken, "s");
+    }
+}
+
+/// The vehicle stands where it begins and ends, where the gear changes, and before and after turns in place.
+fn check_stops(claim: &PaceClaim, first: f64, last: f64, found: &mut impl FnMut(&str, f64, f64, &'static str)) {
+    let gear = |piece: Option<&DrivePiece>| match piece {
+        Some(DrivePiece::Arc { direction, .. }) => Some(*direction),
+        _ => None,
+    };
+    let mut stands = |speed: f64| {
+        if speed > STILL {
+            found("stop", speed, 0.0, "m/s");
+        }
+    };
+    let begins = gear(claim.pieces.first());
+    if begins.is_none() || claim.before.is_none_or(|(pieces, _)| gear(pieces.last()) != begins) {
+        stands(first);
+    }
+    if claim.last || gear(claim.pieces.last()).is_none() {
+        stands(last);
+    }
+    let mut driven = 0.0;
+    for pair in claim.pieces.windows(2) {
+        driven += pair[0].length();
+        if gear(Some(&pair[0])) != gear(Some(&pair[1])) {
+            stands(speed_at(claim.knots, driven));
+        }
+    }
+}
+
+/// The slowest of the speeds `s` metres after the leg's beginning, m/s, as far as rounding tells places apart.
+fn speed_at(knots: &[[f64; 2]], s: f64) -> f64 {
+    let near = 1e-9 * (1.0 + s);
+    let there = knots.iter().filter(|knot| (knot[0] - s).abs() <= near).map(|knot| knot[1]);
+    let between = knots.windows(2).filter(|pair| pair[0][0] + near < s && s < pair[1][0] - near).map(|pair| {
+        let share = (s - pair[0][0]) / (pair[1][0] - pair[0][0]);
+        (pair[0][1] * pair[0][1] * (1.0 - share) + pair[1][1] * pair[1][1] * share).sqrt()
+    });
+    let slowest = there.chain(between).fold(f64::INFINITY, f64::min);
+    if slowest.is_finite() { slowest } else { knots[knots.len() - 1][1] }
+}
+
+/// ∫ ds/v over `total` metres, and the turns' time.
+fn seconds(claim: &PaceClaim, total: f64) -> f64 {
+    let knots = claim.knots;
+    let end = knots[knots.len() - 1];
+    let driving: f64 = (knots.windows(2))
+        .filter(|pair| pair[1][0] > pair[0][0])
+        .map(|pair| 2.0 * (pair[1][0] - pair[0][0]) / (pair[0][1] + pair[1][1]))
+        .sum();
+    let beyond = total - end[0];
+    let rest = if beyond > 1e-9 * (1.0 + total) { beyond / end[1] } else { 0.0 };
+    let turns = claim.pieces.iter().map(|piece| match piece {
+        DrivePiece::Turn { angle_rad } => angle_rad.abs(),
+        DrivePiece::Arc { .. } => 0.0,
+    });
+    driving + rest + turns.sum::<f64>() / claim.turn_rate
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arc(length_m: f64, direction: f64) -> DrivePiece {
+        DrivePiece::Arc { length_m, curvature: [0.0; 6], direction }
+    }
+
+    /// 2 m forward and 2 m back, from rest to rest at 0.5 m/s² to 1 m/s: 1 m up, 1 m down, twice.
+    fn told(change: impl Fn(&mut PaceClaim, &mut Vec<[f64; 2]>)) -> String {
+        let pieces = [arc(2.0, 1.0), arc(2.0, -1.0)];
+        let mut knots = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [3.0, 1.0], [4.0, 0.0]];
+        let sound = PaceClaim {
+            pieces: &pieces,
+            knots: &[],
+            before: None,
+            last: true,
+            speed: 1.0,
+            turn_rate: 0.5,
+            duration: 8.0,
+            most_acceleration: 0.5,
+        };
+        let mut claim = sound;
+        change(&mut claim, &mut knots);
+        let claim = PaceClaim { knots: &knots, ..claim };
+        let mut fields = Vec::new();
+        check_speeds(&claim, |field, _, _, _| fields.push(field.to_owned()));
+        fields.join(" ")
+    }
+
+    #[test]
+    fn speeds_that_fit_are_fine_and_each_flaw_has_its_name() {
+        assert_eq!(told(|_, _| {}), "");
+        assert_eq!(told(|claim, _| claim.duration = 8.01), "duration");
+        assert_eq!(told(|claim, _| claim.most_acceleration = 0.49), "acceleration ".repeat(4).trim_end());
+        assert_eq!(told(|_, knots| knots[1][1] = 1.1), "speed");
+        assert_eq!(told(|_, knots| knots[1][1] = f64::NAN), "speed");
+        assert_eq!(told(|_, knots| knots.clear()), "speed");
+        assert_eq!(told(|_, knots| knots[3][0] = 0.5), "speed.metres");
+        // Through the change of gear at 0.1 m/s, and on at the end.
+        assert!(told(|_, knots| knots[2][1] = 0.1).contains("stop"));
+        assert!(told(|_, knots| knots[4][1] = 0.1).contains("stop"));
+        assert!(told(|claim, knots| (claim.last, knots[4][1]) = (false, 0.1)).contains("duration"));
+        const TURN: [DrivePiece; 1] = [DrivePiece::Turn { angle_rad: 1.0 }];
+        assert_eq!(told(|claim, _| claim.before = Some((&TURN, &[[0.0, 0.0]]))), "");
+        assert_eq!(told(|claim, _| claim.before = Some((&TURN, &[[0.0, 0.3]]))), "speed_jump");
+    }
+}
