@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod csv;
+pub mod decimal;
 pub mod executor;
 pub mod folder;
 pub mod frames;
@@ -11,6 +12,7 @@ pub mod junit;
 pub mod library;
 pub mod mesh;
 pub mod parquet;
+pub mod rapid;
 pub mod report;
 pub mod scenario;
 pub mod schema;

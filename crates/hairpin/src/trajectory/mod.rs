@@ -6,6 +6,7 @@ pub mod drive;
 pub mod flight;
 pub mod legs;
 pub mod profile;
+pub mod program;
 pub mod speed;
 pub mod track;
 

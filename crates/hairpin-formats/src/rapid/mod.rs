@@ -1,0 +1,26 @@
+//! ABB's RAPID, out and in: programs as modules that controllers load, and modules from cells as programs.
+//!
+//! The subset is in `docs/rapid.md`. What is written reads back to the same program, and that is written as the same bytes.
+
+mod builtin;
+mod instructions;
+mod kinds;
+mod lex;
+mod lines;
+mod names;
+mod parse;
+mod read;
+mod run;
+mod syntax;
+mod text;
+mod value;
+mod write;
+
+#[cfg(test)]
+mod tests;
+
+pub use lex::At;
+pub use lines::{Class, Line};
+pub use names::{LONGEST_NAME, NameError, as_name, check_name};
+pub use read::{Declared, Found, Module, NoModule, Options, Procedure, read};
+pub use write::{FIRST_RUN, NOTICE, RapidError, module, program_file, slow, write};

@@ -1,0 +1,255 @@
+//! From words to what a module says, by recursive descent. What cannot be understood costs its line, never the file.
+
+mod data;
+mod expressions;
+mod statements;
+
+use super::lex::{At, Token, Word, lex};
+use super::syntax::{Routine, RoutineKind, Source};
+
+/// Blocks and brackets may be nested this deep.
+const DEEPEST: usize = 60;
+
+/// Something in the file that is not RAPID as it is known here.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Mistake {
+    pub(super) at: At,
+    pub(super) what: String,
+}
+
+/// What an attempt to understand gives: a mistake ends the line.
+type Parsed<T> = Result<T, Mistake>;
+
+/// The modules in `text`, and what was not understood; `None` where there is no module.
+pub(super) fn parse(text: &str) -> (Option<Source>, Vec<Mistake>, Vec<super::lex::Comment>) {
+    let (tokens, comments) = lex(text);
+    let mut parser = Parser { tokens, next: 0, depth: 0, mistakes: Vec::new() };
+    let source = parser.file();
+    (source, parser.mistakes, comments)
+}
+
+struct Parser {
+    tokens: Vec<Token>,
+    next: usize,
+    depth: usize,
+    mistakes: Vec<Mistake>,
+}
+
+impl Parser {
+    fn word(&self) -> &Word {
+        &self.tokens[self.next].word
+    }
+
+    fn at(&self) -> At {
+        self.tokens[self.next].at
+    }
+
+    /// Takes a word; the end of the file stays.
+    fn advance(&mut self) {
+        self.next = (self.next + 1).min(self.tokens.len() - 1);
+    }
+
+    fn ahead(&self, by: usize) -> &Word {
+        &self.tokens[(self.next + by).min(self.tokens.len() - 1)].word
+    }
+
+    fn is_sign(&self, sign: &str) -> bool {
+        matches!(self.word(), Word::Sign(found) if *found == sign)
+    }
+
+    fn is_keyword(&self, keyword: &str) -> bool {
+        matches!(self.word(), Word::Name(name) if name.eq_ignore_ascii_case(keyword))
+    }
+
+    /// The keyword of `keywords` that comes next.
+    fn keyword_of(&self, keywords: &[&'static str]) -> Option<&'static str> {
+        keywords.iter().copied().find(|keyword| self.is_keyword(keyword))
+    }
+
+    fn take_sign(&mut self, sign: &str) -> bool {
+        let found = self.is_sign(sign);
+        if found {
+            self.advance();
+        }
+        found
+    }
+
+    fn take_keyword(&mut self, keyword: &str) -> bool {
+        let found = self.is_keyword(keyword);
+        if found {
+            self.advance();
+        }
+        found
+    }
+
+    fn expect_sign(&mut self, sign: &'static str) -> Parsed<()> {
+        if self.take_sign(sign) { Ok(()) } else { Err(self.expected(&format!("`{sign}`"))) }
+    }
+
+    fn expect_keyword(&mut self, keyword: &str) -> Parsed<()> {
+        if self.take_keyword(keyword) { Ok(()) } else { Err(self.expected(keyword)) }
+    }
+
+    fn expect_name(&mut self) -> Parsed<String> {
+        match self.word() {
+            Word::Name(name) => {
+                let name = name.clone();
+                self.advance();
+                Ok(name)
+            }
+            _ => Err(self.expected("a name")),
+        }
+    }
+
+    fn expected(&self, what: &str) -> Mistake {
+        let found = match self.word() {
+            Word::Name(name) => format!("`{name}`"),
+            Word::Number(number) => format!("{number}"),
+            Word::Text(_) => "a string".into(),
+            Word::Sign(sign) => format!("`{sign}`"),
+            Word::Stray('"') => "a string without its second quote".into(),
+            Word::Stray(c) => format!("`{}`", c.escape_default()),
+            Word::End => "the end of the file".into(),
+        };
+        Mistake { at: self.at(), what: format!("expected {what}, found {found}") }
+    }
+
+    /// Runs `inner` one level deeper.
+    fn deeper<T>(&mut self, inner: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
+        if self.depth == DEEPEST {
+            return Err(Mistake { at: self.at(), what: format!("nested more than {DEEPEST} deep") });
+        }
+        self.depth += 1;
+        let result = inner(self);
+        self.depth -= 1;
+        result
+    }
+
+    /// Skips to behind the next `;`, or to the next line if none comes before it ends.
+    fn recover(&mut self, from: At) {
+        let line = self.at().line.max(from.line);
+        while !matches!(self.word(), Word::End) && self.at().line <= line {
+            if self.take_sign(";") {
+                return;
+            }
+            self.advance();
+        }
+    }
+
+    /// All modules of the file as one.
+    fn file(&mut self) -> Option<Source> {
+        let mut source: Option<Source> = None;
+        while !matches!(self.word(), Word::End) {
+            // Expressions of a file that is none may hold the word as well; a module has a name.
+            if !(self.is_keyword("MODULE") && matches!(self.ahead(1), Word::Name(_))) {
+                self.advance();
+                continue;
+            }
+            let line = self.at().line;
+            self.advance();
+            let name = self.expect_name().unwrap_or_default();
+            let source = source.get_or_insert_with(|| Source { name, line, ..Source::default() });
+            self.attributes();
+            self.module(source);
+        }
+        source
+    }
+
+    /// `(SYSMODULE, NOSTEPIN)`
+    fn attributes(&mut self) {
+        if self.is_sign("(") {
+            while !matches!(self.word(), Word::End) && !self.take_sign(")") {
+                self.advance();
+            }
+        }
+    }
+
+    fn module(&mut self, source: &mut Source) {
+        loop {
+            let at = self.at();
+            if matches!(self.word(), Word::End) {
+                self.mistakes.push(self.expected("ENDMODULE"));
+                return;
+            }
+            if self.take_keyword("ENDMODULE") {
+                return;
+            }
+            if let Err(mistake) = self.part(source) {
+                self.mistakes.push(mistake);
+                self.recover(at);
+            }
+        }
+    }
+
+    fn part(&mut self, source: &mut Source) -> Parsed<()> {
+        let start = self.next;
+        while self.take_keyword("LOCAL") || self.take_keyword("TASK") {}
+        let at = self.at();
+        let kind = match self.keyword_of(&["PROC", "FUNC", "TRAP", "RECORD", "ALIAS", "CONST", "PERS", "VAR"]) {
+            Some("PROC") => RoutineKind::Procedure,
+            Some("FUNC") => RoutineKind::Function,
+            Some("TRAP") => RoutineKind::Trap,
+            Some("RECORD") => {
+                while !matches!(self.word(), Word::End) && !self.take_keyword("ENDRECORD") {
+                    self.advance();
+                }
+                return Ok(());
+            }
+            Some("ALIAS") => {
+                self.recover(at);
+                return Ok(());
+            }
+            Some(_) => {
+                source.data.push(self.declaration()?);
+                return Ok(());
+            }
+            None => {
+                let mistake = self.expected("a declaration, PROC, FUNC, TRAP or ENDMODULE");
+                if self.next == start {
+                    self.advance();
+                }
+                return Err(mistake);
+            }
+        };
+        self.advance();
+        source.routines.push(self.routine(kind, at)?);
+        Ok(())
+    }
+
+    fn routine(&mut self, kind: RoutineKind, at: At) -> Parsed<Routine> {
+        if kind == RoutineKind::Function {
+            self.expect_name()?;
+        }
+        let name = self.expect_name()?;
+        let parameters = if kind == RoutineKind::Trap { Vec::new() } else { self.parameters()? };
+        let mut data = Vec::new();
+        while self.keyword_of(&["VAR", "CONST", "PERS"]).is_some() {
+            let start = self.at();
+            match self.declaration() {
+                Ok(declaration) => data.push(declaration),
+                Err(mistake) => {
+                    self.mistakes.push(mistake);
+                    self.recover(start);
+                }
+            }
+        }
+        let end = match kind {
+            RoutineKind::Procedure => "ENDPROC",
+            RoutineKind::Function => "ENDFUNC",
+            RoutineKind::Trap => "ENDTRAP",
+        };
+        let ends = [end, "ERROR", "UNDO", "BACKWARD"];
+        let body = self.block(&ends);
+        let mut handlers = Vec::new();
+        while self.keyword_of(&ends[1..]).is_some() {
+            self.advance();
+            self.attributes();
+            handlers.extend(self.block(&ends));
+        }
+        // A routine that is cut short keeps what it has.
+        if !self.take_keyword(end) {
+            self.mistakes.push(self.expected(end));
+        }
+        Ok(Routine { at, kind, name, parameters, data, body, handlers })
+    }
+}

@@ -1,0 +1,218 @@
+//! A module from a cell as a program, with what every line of it means for motion.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use hairpin::trajectory::program::{PoseTarget, Program, Tool, WorkObject};
+use thiserror::Error;
+
+use super::kinds::Kind;
+use super::lex::{At, decode};
+use super::lines::{Class, Line};
+use super::parse::parse;
+use super::run::{Known, Machine};
+use super::syntax::{RoutineKind, Source, What};
+use super::value;
+
+/// What the reader does not find in the file.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Options<'a> {
+    /// The procedure to execute; `main` if not given, or the first one that no other calls.
+    pub procedure: Option<&'a str>,
+    /// Tools on the controller beside `tool0`.
+    pub tools: &'a [Tool],
+    /// Work objects on the controller beside `wobj0`.
+    pub work_objects: &'a [WorkObject],
+}
+
+/// A file without any module in it, or without the procedure asked for.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NoModule {
+    /// No `MODULE name` anywhere.
+    #[error("no RAPID module in it: no line says MODULE and a name")]
+    Absent,
+    /// The procedure asked for is not there.
+    #[error("no procedure `{asked}` in it; there is {}", if there.is_empty() { "none".into() } else { there.join(", ") })]
+    Procedure {
+        /// What was asked for.
+        asked: String,
+        /// The procedures without parameters.
+        there: Vec<String>,
+    },
+}
+
+/// Something that is not RAPID as it is known here.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Found {
+    /// Where.
+    pub at: At,
+    /// What.
+    pub what: String,
+}
+
+/// A procedure of the file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Procedure {
+    /// Its name.
+    pub name: String,
+    /// Its line.
+    pub line: usize,
+    /// Whether it was executed.
+    pub executed: bool,
+}
+
+/// A robtarget that the modules declare.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Declared {
+    /// Its line.
+    pub line: usize,
+    /// Its name; of an element of an array with its number: `p_3`.
+    pub name: String,
+    /// The target, or why it is none.
+    pub target: Result<PoseTarget, String>,
+}
+
+/// A file, read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Module {
+    /// The moves of the procedure, in the order of their execution.
+    pub program: Program,
+    /// Moves before the first line that changes motion and is not understood; all of them where there is none.
+    pub certain: usize,
+    /// The line of the file (from 1) up to which moves are certain.
+    pub unclear_line: Option<usize>,
+    /// Comments that follow the first MODULE, without the notice of written programs.
+    pub header: Vec<String>,
+    /// Every line that says something, from 1.
+    pub lines: BTreeMap<usize, Line>,
+    /// What could not be understood.
+    pub mistakes: Vec<Found>,
+    /// All procedures.
+    pub procedures: Vec<Procedure>,
+    /// All robtargets that the modules declare.
+    pub targets: Vec<Declared>,
+}
+
+impl Module {
+    /// Lines that change motion and are not understood.
+    pub fn unclear(&self) -> impl Iterator<Item = (usize, &Line)> {
+        self.lines.iter().filter(|(_, line)| line.class == Class::ChangesMotion).map(|(number, line)| (*number, line))
+    }
+
+    /// The class of a line; one that says nothing is harmless.
+    pub fn class(&self, line: usize) -> Class {
+        self.lines.get(&line).map_or(Class::Harmless, |line| line.class)
+    }
+}
+
+/// Reads a file. Nothing in it is refused but a file without a module: what is not understood is told, and the moves up to
+/// there are certain.
+///
+/// # Errors
+/// [`NoModule`].
+pub fn read(bytes: &[u8], options: &Options<'_>) -> Result<Module, NoModule> {
+    let text = decode(bytes);
+    let (source, mistakes, comments) = parse(&text);
+    let source = source.ok_or(NoModule::Absent)?;
+    let entry = entry(&source, options.procedure)?;
+    let known = Known { tools: options.tools, work_objects: options.work_objects };
+    let mut machine = Machine::new(&source, known);
+    let targets = targets(&source, &machine);
+    if let Some(entry) = &entry {
+        machine.run(entry);
+    }
+    let mut lines = machine.lines;
+    for mistake in &mistakes {
+        // Within routines they are told where they are executed; a declaration that is lost shows where it is used.
+        lines.entry(mistake.at.line).or_insert_with(|| Line { class: Class::Harmless, what: mistake.what.clone() });
+    }
+    let (certain, unclear_line) = match machine.unclear {
+        Some((moves, line)) => (moves, Some(line)),
+        None => (machine.moves.len(), None),
+    };
+    let procedures = source.routines.iter().filter(|routine| routine.kind == RoutineKind::Procedure);
+    let procedures = procedures.map(|routine| Procedure {
+        name: routine.name.clone(),
+        line: routine.at.line,
+        executed: machine.ran.contains(&routine.name.to_ascii_lowercase()),
+    });
+    let mut header = Vec::new();
+    for comment in comments.iter().skip_while(|comment| comment.line <= source.line) {
+        if comment.line != source.line + 1 + header.len() {
+            break;
+        }
+        header.push(comment.text.strip_prefix(' ').unwrap_or(&comment.text).to_owned());
+    }
+    header.retain(|line| line != super::write::NOTICE);
+    Ok(Module {
+        procedures: procedures.collect(),
+        program: Program {
+            name: source.name.clone(),
+            procedure: entry.unwrap_or_default(),
+            tools: machine.tools,
+            work_objects: machine.work_objects,
+            moves: machine.moves,
+        },
+        certain,
+        unclear_line,
+        header,
+        lines,
+        mistakes: mistakes.into_iter().map(|mistake| Found { at: mistake.at, what: mistake.what }).collect(),
+        targets,
+    })
+}
+
+/// The procedure to execute; `None` where there is none without parameters.
+fn entry(source: &Source, asked: Option<&str>) -> Result<Option<String>, NoModule> {
+    let procedures = source.routines.iter().filter(|routine| routine.kind == RoutineKind::Procedure);
+    let callable: Vec<_> = procedures.filter(|routine| routine.parameters.iter().all(|p| p.optional)).collect();
+    let named = |name: &str| callable.iter().find(|routine| routine.name.eq_ignore_ascii_case(name));
+    if let Some(asked) = asked {
+        return match named(asked) {
+            Some(routine) => Ok(Some(routine.name.clone())),
+            None => Err(NoModule::Procedure {
+                asked: asked.into(),
+                there: callable.iter().map(|routine| routine.name.clone()).collect(),
+            }),
+        };
+    }
+    let mut called = BTreeSet::new();
+    for routine in &source.routines {
+        super::run::each(&routine.body, &mut |statement| {
+            if let What::Call { name, .. } = &statement.what
+                && !name.eq_ignore_ascii_case(&routine.name)
+            {
+                called.insert(name.to_ascii_lowercase());
+            }
+        });
+    }
+    let root = callable.iter().find(|routine| !called.contains(&routine.name.to_ascii_lowercase()));
+    let routine = named("main").or(root).or(callable.first());
+    Ok(routine.map(|routine| routine.name.clone()))
+}
+
+/// Robtargets as they are declared, arrays element by element.
+fn targets(source: &Source, machine: &Machine<'_>) -> Vec<Declared> {
+    let mut found = Vec::new();
+    let robtargets = source.data.iter().filter(|declaration| Kind::of(&declaration.kind) == Some(Kind::RobTarget));
+    for declaration in robtargets {
+        let Some(variable) = machine.global(&declaration.name) else { continue };
+        let mut leaves = Vec::new();
+        collect(variable, declaration.name.clone(), &mut leaves);
+        for (name, value) in leaves {
+            let target = value::pose_target(value, Some(&name));
+            found.push(Declared { line: declaration.at.line, name, target });
+        }
+    }
+    found
+}
+
+fn collect<'v>(value: &'v value::Value, name: String, found: &mut Vec<(String, &'v value::Value)>) {
+    match value {
+        value::Value::Array(parts) => {
+            for (index, part) in parts.iter().enumerate() {
+                collect(part, format!("{name}_{}", index + 1), found);
+            }
+        }
+        _ => found.push((name, value)),
+    }
+}

@@ -1,0 +1,128 @@
+//! Calls of the file's own routines.
+
+use super::variables::Variable;
+use super::{DEEPEST, Flow, Frame, Machine};
+use crate::rapid::kinds::Kind;
+use crate::rapid::lex::At;
+use crate::rapid::lines::Class;
+use crate::rapid::syntax::{Argument, Expression, Path, Routine};
+use crate::rapid::value::Value;
+
+/// A routine about to be executed: its variables, and which of the caller's come back.
+struct Bound<'a> {
+    frame: Frame,
+    back: Vec<(String, &'a Path)>,
+}
+
+impl<'a> Machine<'a> {
+    /// Calls the routine of that name (lower case, one of the file's): whether execution goes on behind it, and its value.
+    pub(super) fn call(&mut self, name: &str, arguments: &[Argument], at: At) -> (bool, Option<Value>) {
+        let Some(routine) = self.routines.get(name).copied() else { return (true, None) };
+        if self.depth >= DEEPEST {
+            let what =
+                format!("`{}` is called in itself, or blocks are nested, more than {DEEPEST} deep", routine.name);
+            self.mark(at, Class::ChangesMotion, what);
+            return (false, None);
+        }
+        let bound = match self.bind(routine, arguments, at) {
+            Ok(bound) => bound,
+            Err(what) => {
+                self.mark(at, Class::ChangesMotion, what);
+                return (true, None);
+            }
+        };
+        self.frames.push(bound.frame);
+        let flow = self.enter(routine);
+        let frame = self.frames.pop().unwrap_or_default();
+        self.size -= frame.size.min(self.size);
+        for (parameter, path) in bound.back {
+            if let Some(variable) = frame.variables.get(&parameter)
+                && !variable.untouched
+            {
+                let value = variable.value.clone();
+                // Its kind was checked on the way in; what does not fit any more is unknown now.
+                if self.assign(path, value, at).is_err() {
+                    self.forget(&path.name);
+                }
+            }
+        }
+        match flow {
+            Flow::Next => (true, None),
+            Flow::Return(value) => (true, value),
+            Flow::End => (false, None),
+        }
+    }
+
+    /// Executes the routine in the innermost frame.
+    pub(super) fn enter(&mut self, routine: &'a Routine) -> Flow {
+        self.ran.insert(routine.name.to_ascii_lowercase());
+        self.mark(routine.at, Class::Understood, "");
+        for declaration in &routine.data {
+            self.declare(declaration);
+        }
+        self.depth += 1;
+        let flow = self.block(&routine.body);
+        self.depth -= 1;
+        flow
+    }
+
+    fn bind<'b>(&mut self, routine: &Routine, arguments: &'b [Argument], at: At) -> Result<Bound<'b>, String> {
+        let mut bound = Bound { frame: Frame::default(), back: Vec::new() };
+        let mut placed = arguments.iter().filter_map(|argument| match argument {
+            Argument::Placed(value) => Some(value),
+            _ => None,
+        });
+        for parameter in &routine.parameters {
+            let value: Option<Option<&Expression>> = if parameter.optional {
+                self.optional(arguments, &parameter.name)
+            } else {
+                let value = placed.next();
+                Some(Some(value.ok_or_else(|| format!("`{}` needs `{}`", routine.name, parameter.name))?))
+            };
+            let kind = Kind::of(&parameter.kind);
+            let mut known = Value::Unknown;
+            if let Some(given) = value {
+                bound.frame.given.insert(parameter.name.clone());
+                if let Some(expression) = given {
+                    let evaluated = self.evaluate(expression, at);
+                    known = match (&evaluated, kind) {
+                        (Value::Array(_), _) => evaluated,
+                        (_, Some(kind)) => {
+                            let named = |what| format!("`{}` of `{}` {what}", parameter.name, routine.name);
+                            evaluated.as_kind(kind).map_err(named)?
+                        }
+                        (_, None) => evaluated,
+                    };
+                    if let (true, Expression::Path(path)) = (parameter.returned, expression) {
+                        bound.back.push((parameter.name.clone(), path));
+                    }
+                }
+            }
+            let variable = Variable { name: parameter.name.clone(), kind, value: known, untouched: true };
+            bound.frame.variables.insert(parameter.name.clone(), variable);
+        }
+        match placed.next() {
+            Some(_) => Err(format!("`{}` takes fewer arguments", routine.name)),
+            None => Ok(bound),
+        }
+    }
+
+    /// Whether the caller gave this optional parameter of the routine that is being executed.
+    pub(super) fn is_given(&self, parameter: &Expression) -> bool {
+        match (parameter, self.frames.last()) {
+            (Expression::Path(path), Some(frame)) => frame.given.contains(&path.name.to_ascii_lowercase()),
+            _ => false,
+        }
+    }
+
+    /// The optional argument of that name: not given, given as a switch, or given with a value.
+    fn optional<'b>(&self, arguments: &'b [Argument], wanted: &str) -> Option<Option<&'b Expression>> {
+        arguments.iter().find_map(|argument| match argument {
+            Argument::Named { name, value } if name == wanted => Some(value.as_ref()),
+            Argument::IfGiven { name, parameter } if name == wanted => {
+                self.is_given(parameter).then_some(Some(parameter))
+            }
+            _ => None,
+        })
+    }
+}

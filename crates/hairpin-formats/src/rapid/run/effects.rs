@@ -1,0 +1,176 @@
+//! What statements might do, without executing them.
+
+use std::collections::BTreeSet;
+
+use super::Machine;
+use crate::rapid::instructions::{self, Effect};
+use crate::rapid::syntax::{Argument, Expression, Path, Statement, Step, What};
+
+/// What a block might do.
+#[derive(Debug, Default)]
+pub(super) struct Effects {
+    /// It may move the arm or change how it moves.
+    pub(super) moves: bool,
+    /// It may end a routine or the program.
+    pub(super) leaves: bool,
+    /// What it may assign to.
+    pub(super) assigned: BTreeSet<String>,
+    /// Routines that were looked at.
+    seen: BTreeSet<String>,
+}
+
+/// Variables handed over as they are.
+pub(super) fn paths(arguments: &[Argument]) -> impl Iterator<Item = &Path> {
+    arguments.iter().filter_map(|argument| match argument {
+        Argument::Placed(Expression::Path(path)) | Argument::Named { value: Some(Expression::Path(path)), .. } => {
+            Some(path)
+        }
+        _ => None,
+    })
+}
+
+/// Whether the expression is the same whatever happens.
+pub(super) fn is_constant(expression: &Expression) -> bool {
+    match expression {
+        Expression::Number(_) | Expression::Bool(_) | Expression::Text(_) => true,
+        Expression::Unary { of, .. } => is_constant(of),
+        Expression::Chain { first, rest } => is_constant(first) && rest.iter().all(|(_, part)| is_constant(part)),
+        Expression::Aggregate(_) | Expression::Path(_) | Expression::Call { .. } => false,
+    }
+}
+
+/// Whether a block can be left other than by its end.
+pub(super) fn has_way_out(block: &[Statement]) -> bool {
+    block.iter().any(|statement| match &statement.what {
+        What::Return(_) | What::Exit | What::Goto(_) => true,
+        _ => inner(statement).into_iter().any(has_way_out),
+    })
+}
+
+/// Blocks within a statement.
+fn inner(statement: &Statement) -> Vec<&[Statement]> {
+    match &statement.what {
+        What::If { branches, otherwise } => {
+            branches.iter().map(|(_, body)| body.as_slice()).chain([otherwise.as_slice()]).collect()
+        }
+        What::Test { cases, otherwise, .. } => {
+            cases.iter().map(|(_, body)| body.as_slice()).chain([otherwise.as_slice()]).collect()
+        }
+        What::While { body, .. } | What::For { body, .. } => vec![body.as_slice()],
+        _ => Vec::new(),
+    }
+}
+
+impl Machine<'_> {
+    /// What any of the blocks might do, with all that they call.
+    pub(super) fn effects(&mut self, blocks: &[&[Statement]]) -> Effects {
+        let mut effects = Effects::default();
+        for block in blocks {
+            self.collect(block, &mut effects);
+        }
+        effects
+    }
+
+    fn collect(&mut self, block: &[Statement], effects: &mut Effects) {
+        // Looking is work as well, or loops around unknown conditions would not end.
+        self.steps = self.steps.saturating_add(block.len());
+        for statement in block {
+            match &statement.what {
+                What::Assign { to, value } => {
+                    effects.assigned.insert(to.name.clone());
+                    self.in_path(to, effects);
+                    self.in_expression(value, effects);
+                }
+                What::Call { name, arguments } => self.in_call(name, arguments, effects),
+                What::LateCall(_) | What::Broken(_) => effects.moves = true,
+                What::Return(_) | What::Exit | What::Goto(_) => effects.leaves = true,
+                What::If { branches, .. } => {
+                    branches.iter().for_each(|(condition, _)| self.in_expression(condition, effects));
+                }
+                What::While { condition, .. } => self.in_expression(condition, effects),
+                What::For { bounds, .. } => bounds.iter().for_each(|bound| self.in_expression(bound, effects)),
+                What::Test { of, .. } => self.in_expression(of, effects),
+                What::Label | What::Harmless(_) => {}
+            }
+            for block in inner(statement) {
+                self.collect(block, effects);
+            }
+        }
+    }
+
+    fn in_call(&mut self, name: &str, arguments: &[Argument], effects: &mut Effects) {
+        for argument in arguments {
+            if let Argument::Placed(value) | Argument::Named { value: Some(value), .. } = argument {
+                self.in_expression(value, effects);
+            }
+        }
+        let lower = name.to_ascii_lowercase();
+        if let Some(routine) = self.routines.get(&lower).copied() {
+            if routine.parameters.iter().any(|parameter| parameter.returned) {
+                effects.assigned.extend(paths(arguments).map(|path| path.name.clone()));
+            }
+            if effects.seen.insert(lower) {
+                let leaves = effects.leaves;
+                self.collect(&routine.body, effects);
+                // Its RETURN ends only itself.
+                effects.leaves = leaves || ends(&routine.body);
+            }
+            return;
+        }
+        match instructions::effect(&lower) {
+            Some(Effect::Harmless) => {}
+            Some(Effect::Writes) => effects.assigned.extend(paths(arguments).map(|path| path.name.clone())),
+            Some(Effect::Followed) if ["incr", "decr", "add", "clear"].contains(&lower.as_str()) => {
+                effects.assigned.extend(paths(arguments).map(|path| path.name.clone()));
+            }
+            Some(Effect::Move(_) | Effect::Followed | Effect::Changes) | None => effects.moves = true,
+        }
+    }
+
+    fn in_path(&mut self, path: &Path, effects: &mut Effects) {
+        for step in &path.steps {
+            if let Step::Element(indices) = step {
+                indices.iter().for_each(|index| self.in_expression(index, effects));
+            }
+        }
+    }
+
+    /// Functions of the file may do what procedures do.
+    fn in_expression(&mut self, expression: &Expression, effects: &mut Effects) {
+        match expression {
+            Expression::Number(_) | Expression::Bool(_) | Expression::Text(_) => {}
+            Expression::Aggregate(parts) => parts.iter().for_each(|part| self.in_expression(part, effects)),
+            Expression::Path(path) => self.in_path(path, effects),
+            Expression::Unary { of, .. } => self.in_expression(of, effects),
+            Expression::Chain { first, rest } => {
+                self.in_expression(first, effects);
+                rest.iter().for_each(|(_, part)| self.in_expression(part, effects));
+            }
+            Expression::Call { name, arguments } if self.routines.contains_key(&name.to_ascii_lowercase()) => {
+                self.in_call(name, arguments, effects);
+            }
+            Expression::Call { arguments, .. } => {
+                for argument in arguments {
+                    if let Argument::Placed(value) | Argument::Named { value: Some(value), .. } = argument {
+                        self.in_expression(value, effects);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Calls `seen` with every statement of the block and of the blocks within.
+pub(in crate::rapid) fn each(block: &[Statement], seen: &mut impl FnMut(&Statement)) {
+    for statement in block {
+        seen(statement);
+        inner(statement).into_iter().for_each(|block| each(block, seen));
+    }
+}
+
+/// Whether a routine may end the program.
+fn ends(block: &[Statement]) -> bool {
+    block
+        .iter()
+        .any(|statement| matches!(statement.what, What::Exit | What::Goto(_)) || inner(statement).into_iter().any(ends))
+}

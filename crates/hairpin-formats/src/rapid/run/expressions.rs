@@ -1,0 +1,139 @@
+//! What expressions come to. Whatever depends on the cell is unknown; nothing here fails.
+
+use super::Machine;
+use crate::rapid::builtin::{self, Arguments};
+use crate::rapid::lex::At;
+use crate::rapid::syntax::{Argument, Expression};
+use crate::rapid::value::Value;
+
+/// Longest string.
+const LONGEST_TEXT: usize = 80;
+
+impl Machine<'_> {
+    pub(super) fn evaluate(&mut self, expression: &Expression, at: At) -> Value {
+        self.steps = self.steps.saturating_add(1);
+        match expression {
+            Expression::Number(value) => Value::Num(*value),
+            Expression::Bool(value) => Value::Bool(*value),
+            Expression::Text(text) if text.chars().count() > LONGEST_TEXT => Value::Unknown,
+            Expression::Text(text) => Value::Text(text.clone()),
+            Expression::Aggregate(parts) => {
+                let parts = parts.iter().map(|part| self.evaluate(part, at)).collect();
+                Value::Record { kind: None, parts }
+            }
+            Expression::Path(path) => self.look(path, at),
+            Expression::Call { name, arguments } => self.function(name, arguments, at),
+            Expression::Unary { sign, of } => match (*sign, self.evaluate(of, at)) {
+                ("-", Value::Num(value)) => Value::Num(-value),
+                ("NOT", Value::Bool(value)) => Value::Bool(!value),
+                _ => Value::Unknown,
+            },
+            Expression::Chain { first, rest } => {
+                let first = self.evaluate(first, at);
+                rest.iter().fold(first, |left, (sign, right)| {
+                    let right = self.evaluate(right, at);
+                    combine(sign, &left, &right)
+                })
+            }
+        }
+    }
+
+    fn function(&mut self, name: &str, arguments: &[Argument], at: At) -> Value {
+        let lower = name.to_ascii_lowercase();
+        if self.routines.contains_key(&lower) {
+            return self.call(&lower, arguments, at).1.unwrap_or(Value::Unknown);
+        }
+        if lower == "present" {
+            return self.present(arguments);
+        }
+        let mut evaluated = Arguments { placed: Vec::new(), named: Vec::new() };
+        for argument in arguments {
+            match argument {
+                Argument::Placed(value) => evaluated.placed.push(self.evaluate(value, at)),
+                Argument::Named { name, value } => {
+                    let value = value.as_ref().map_or(Value::Bool(true), |value| self.evaluate(value, at));
+                    evaluated.named.push((name.clone(), value));
+                }
+                Argument::IfGiven { .. } => return Value::Unknown,
+            }
+        }
+        builtin::call(&lower, &evaluated)
+    }
+
+    /// `Present(parameter)`.
+    fn present(&self, arguments: &[Argument]) -> Value {
+        match arguments {
+            [Argument::Placed(parameter)] => Value::Bool(self.is_given(parameter)),
+            _ => Value::Unknown,
+        }
+    }
+}
+
+fn combine(sign: &str, left: &Value, right: &Value) -> Value {
+    match (left, right) {
+        (Value::Num(a), Value::Num(b)) => numbers(sign, *a, *b),
+        (Value::Bool(a), Value::Bool(b)) => Value::Bool(match sign {
+            "AND" => *a && *b,
+            "OR" => *a || *b,
+            "XOR" | "<>" => a != b,
+            "=" => a == b,
+            _ => return Value::Unknown,
+        }),
+        // One side may decide alone.
+        (Value::Bool(false), Value::Unknown) | (Value::Unknown, Value::Bool(false)) if sign == "AND" => {
+            Value::Bool(false)
+        }
+        (Value::Bool(true), Value::Unknown) | (Value::Unknown, Value::Bool(true)) if sign == "OR" => Value::Bool(true),
+        (Value::Text(a), Value::Text(b)) => match sign {
+            "+" if a.chars().count() + b.chars().count() <= LONGEST_TEXT => Value::Text(format!("{a}{b}")),
+            "=" => Value::Bool(a == b),
+            "<>" => Value::Bool(a != b),
+            _ => Value::Unknown,
+        },
+        (Value::Record { kind, parts: a }, Value::Record { parts: b, .. }) if a.len() == b.len() => {
+            records(sign, left == right, *kind, a, b)
+        }
+        // pos * num
+        (Value::Record { kind, parts }, Value::Num(_)) if sign == "*" && parts.len() == 3 => {
+            let parts = parts.iter().map(|part| combine("*", part, right)).collect();
+            Value::Record { kind: *kind, parts }
+        }
+        (Value::Num(_), Value::Record { .. }) if sign == "*" => combine(sign, right, left),
+        _ => Value::Unknown,
+    }
+}
+
+fn numbers(sign: &str, a: f64, b: f64) -> Value {
+    let value = match sign {
+        "+" => a + b,
+        "-" => a - b,
+        "*" => a * b,
+        "/" => a / b,
+        "DIV" => (a / b).trunc(),
+        "MOD" => a % b,
+        "=" => return Value::Bool(a == b),
+        "<>" => return Value::Bool(a != b),
+        "<" => return Value::Bool(a < b),
+        ">" => return Value::Bool(a > b),
+        "<=" => return Value::Bool(a <= b),
+        ">=" => return Value::Bool(a >= b),
+        _ => return Value::Unknown,
+    };
+    // Division by zero stops a controller.
+    if value.is_finite() { Value::Num(value) } else { Value::Unknown }
+}
+
+/// pos + pos, pos − pos, and comparisons of records without unknown parts.
+fn records(sign: &str, equal: bool, kind: Option<crate::rapid::kinds::Kind>, a: &[Value], b: &[Value]) -> Value {
+    let unknown = |value: &Value| *value == Value::Unknown;
+    match sign {
+        "+" | "-" if a.len() == 3 => {
+            let parts = a.iter().zip(b).map(|(a, b)| combine(sign, a, b)).collect();
+            Value::Record { kind, parts }
+        }
+        "=" | "<>" if !a.iter().chain(b).any(|part| unknown(part) || part.parts().iter().any(unknown)) => {
+            Value::Bool(equal == (sign == "="))
+        }
+        _ => Value::Unknown,
+    }
+}

@@ -1,0 +1,226 @@
+//! Statements one after the other.
+
+use super::{DEEPEST, Flow, Machine};
+use crate::rapid::instructions::{self, Effect};
+use crate::rapid::lex::At;
+use crate::rapid::lines::Class;
+use crate::rapid::syntax::{Argument, Expression, Statement, What};
+use crate::rapid::value::Value;
+
+type Blocks<'b> = Vec<&'b [Statement]>;
+
+impl Machine<'_> {
+    pub(super) fn block(&mut self, statements: &[Statement]) -> Flow {
+        if self.depth >= DEEPEST {
+            if let Some(first) = statements.first() {
+                self.mark(first.at, Class::ChangesMotion, format!("nested more than {DEEPEST} deep"));
+            }
+            return Flow::End;
+        }
+        self.depth += 1;
+        let mut flow = Flow::Next;
+        for statement in statements {
+            if !self.step(statement.at, 1) {
+                flow = Flow::End;
+            } else {
+                flow = self.statement(statement);
+            }
+            if !matches!(flow, Flow::Next) {
+                break;
+            }
+        }
+        self.depth -= 1;
+        flow
+    }
+
+    fn statement(&mut self, statement: &Statement) -> Flow {
+        let at = statement.at;
+        match &statement.what {
+            What::Assign { to, value } => {
+                let value = self.evaluate(value, at);
+                match self.assign(to, value, at) {
+                    Ok(()) => self.mark(at, Class::Understood, ""),
+                    // What was assigned to is unknown, which matters where it is used.
+                    Err(what) => self.mark(at, Class::Harmless, what),
+                }
+            }
+            What::Call { name, arguments } => return self.instruction(name, arguments, at),
+            What::LateCall(name) => return self.late(name, at),
+            What::If { branches, otherwise } => return self.branches(branches, otherwise, at),
+            What::While { condition, body } => return self.repeat(condition, body, at),
+            What::For { variable, bounds, step, body } => {
+                return self.count(variable, &[&bounds[0], &bounds[1]], step.as_ref(), body, at);
+            }
+            What::Test { of, cases, otherwise } => return self.test(of, cases, otherwise, at),
+            What::Return(value) => {
+                let value = value.as_ref().map(|value| self.evaluate(value, at));
+                self.mark(at, Class::Understood, "");
+                return Flow::Return(value);
+            }
+            What::Exit => {
+                self.mark(at, Class::Understood, "ends the program");
+                return Flow::End;
+            }
+            What::Label => self.mark(at, Class::Harmless, ""),
+            What::Goto(label) => {
+                self.mark(at, Class::ChangesMotion, format!("GOTO {label} is not followed"));
+                return Flow::End;
+            }
+            What::Harmless(keyword) => self.mark(at, Class::Harmless, *keyword),
+            What::Broken(what) => self.mark(at, Class::ChangesMotion, what.clone()),
+        }
+        Flow::Next
+    }
+
+    fn instruction(&mut self, name: &str, arguments: &[Argument], at: At) -> Flow {
+        let lower = name.to_ascii_lowercase();
+        if self.routines.contains_key(&lower) {
+            self.mark(at, Class::Understood, "");
+            let (on, _) = self.call(&lower, arguments, at);
+            return if on { Flow::Next } else { Flow::End };
+        }
+        match instructions::effect(&lower) {
+            Some(Effect::Move(kind)) => self.go(kind, arguments, at),
+            Some(Effect::Followed) => self.follow(&lower, arguments, at),
+            Some(Effect::Harmless) => self.mark(at, Class::Harmless, ""),
+            Some(Effect::Writes) => {
+                self.mark(at, Class::Harmless, "");
+                for path in super::effects::paths(arguments) {
+                    self.forget(&path.name);
+                }
+            }
+            Some(Effect::Changes) => self.mark(at, Class::ChangesMotion, format!("{name} is not followed")),
+            None => self.mark(at, Class::ChangesMotion, format!("`{name}` is not in this file")),
+        }
+        Flow::Next
+    }
+
+    /// `%"name"%`: followed where the name is known and nothing is handed over.
+    fn late(&mut self, name: &Expression, at: At) -> Flow {
+        if let Value::Text(name) = self.evaluate(name, at) {
+            let name = name.rsplit(':').next().unwrap_or_default().to_owned();
+            return self.instruction(&name, &[], at);
+        }
+        self.mark(at, Class::ChangesMotion, "which procedure is called depends on the cell");
+        Flow::Next
+    }
+
+    fn branches(&mut self, branches: &[(Expression, Vec<Statement>)], otherwise: &[Statement], at: At) -> Flow {
+        for (index, (condition, body)) in branches.iter().enumerate() {
+            match self.evaluate(condition, at).truth() {
+                Some(true) => {
+                    self.mark(at, Class::Understood, "");
+                    return self.block(body);
+                }
+                Some(false) => {}
+                None => {
+                    let rest = branches[index..].iter().map(|(_, body)| body.as_slice()).chain([otherwise]);
+                    self.depends(&rest.collect::<Blocks<'_>>(), at);
+                    return Flow::Next;
+                }
+            }
+        }
+        self.mark(at, Class::Understood, "");
+        self.block(otherwise)
+    }
+
+    fn test(
+        &mut self,
+        of: &Expression,
+        cases: &[(Vec<Expression>, Vec<Statement>)],
+        otherwise: &[Statement],
+        at: At,
+    ) -> Flow {
+        let of = self.evaluate(of, at);
+        for (index, (values, body)) in cases.iter().enumerate() {
+            for value in values {
+                let value = self.evaluate(value, at);
+                if of == Value::Unknown || value == Value::Unknown {
+                    let rest = cases[index..].iter().map(|(_, body)| body.as_slice()).chain([otherwise]);
+                    self.depends(&rest.collect::<Blocks<'_>>(), at);
+                    return Flow::Next;
+                }
+                if of == value {
+                    self.mark(at, Class::Understood, "");
+                    return self.block(body);
+                }
+            }
+        }
+        self.mark(at, Class::Understood, "");
+        self.block(otherwise)
+    }
+
+    fn repeat(&mut self, condition: &Expression, body: &[Statement], at: At) -> Flow {
+        // Production programs go round for ever; another round would only repeat the moves.
+        let endless = super::effects::is_constant(condition) && !super::effects::has_way_out(body);
+        loop {
+            match self.evaluate(condition, at).truth() {
+                Some(true) => {}
+                Some(false) => {
+                    self.mark(at, Class::Understood, "");
+                    return Flow::Next;
+                }
+                None => {
+                    self.depends(&[body], at);
+                    return Flow::Next;
+                }
+            }
+            self.mark(at, Class::Understood, if endless { "without end: one round is followed" } else { "" });
+            match self.block(body) {
+                Flow::Next if endless || !self.step(at, 1) => return Flow::End,
+                Flow::Next => {}
+                other => return other,
+            }
+        }
+    }
+
+    fn count(
+        &mut self,
+        variable: &str,
+        bounds: &[&Expression; 2],
+        step: Option<&Expression>,
+        body: &[Statement],
+        at: At,
+    ) -> Flow {
+        let [from, to] = bounds.map(|bound| self.evaluate(bound, at).number());
+        let by = match step {
+            Some(step) => self.evaluate(step, at).number(),
+            None => from.zip(to).map(|(from, to)| if from <= to { 1.0 } else { -1.0 }),
+        };
+        let (Some(from), Some(to), Some(by)) = (from, to, by.filter(|by| *by != 0.0)) else {
+            self.depends(&[body], at);
+            return Flow::Next;
+        };
+        self.mark(at, Class::Understood, "");
+        let hidden = self.hide(variable);
+        let mut value = from;
+        let mut flow = Flow::Next;
+        while if by > 0.0 { value <= to } else { value >= to } {
+            self.hold(variable, value);
+            flow = self.block(body);
+            if !matches!(flow, Flow::Next) {
+                break;
+            }
+            if !self.step(at, 1) {
+                flow = Flow::End;
+                break;
+            }
+            value += by;
+        }
+        self.unhide(variable, hidden);
+        flow
+    }
+
+    /// What comes next depends on the cell: told where it matters to motion, and whatever it assigns is unknown.
+    fn depends(&mut self, blocks: &[&[Statement]], at: At) {
+        let effects = self.effects(blocks);
+        if effects.moves || effects.leaves {
+            self.mark(at, Class::ChangesMotion, "whether this moves the arm depends on the cell");
+        } else {
+            self.mark(at, Class::Harmless, "depends on the cell");
+        }
+        for name in effects.assigned {
+            self.forget(&name);
+        }
+    }
+}

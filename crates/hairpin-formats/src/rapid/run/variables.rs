@@ -1,0 +1,222 @@
+//! Data while a program is executed.
+
+use super::Machine;
+use crate::rapid::kinds::Kind;
+use crate::rapid::lex::At;
+use crate::rapid::lines::Class;
+use crate::rapid::syntax::{Declaration, Path, Step};
+use crate::rapid::value::Value;
+
+/// Data of all declarations together, in values.
+const MOST_VALUES: usize = 1_000_000;
+
+/// A variable, constant or persistent.
+#[derive(Debug, Clone)]
+pub(super) struct Variable {
+    /// As it was declared.
+    pub(super) name: String,
+    /// `None`: a kind that is not followed.
+    pub(super) kind: Option<Kind>,
+    pub(super) value: Value,
+    /// Whether it holds what it was declared with.
+    pub(super) untouched: bool,
+}
+
+impl Machine<'_> {
+    /// The variable of the innermost routine, or of the modules.
+    pub(super) fn find(&self, name: &str) -> Option<&Variable> {
+        let name = name.to_ascii_lowercase();
+        let local = self.frames.last().and_then(|frame| frame.variables.get(&name));
+        local.or_else(|| self.globals.get(&name))
+    }
+
+    fn find_mut(&mut self, name: &str) -> Option<&mut Variable> {
+        let name = name.to_ascii_lowercase();
+        let local = self.frames.last_mut().and_then(|frame| frame.variables.get_mut(&name));
+        local.or_else(|| self.globals.get_mut(&name))
+    }
+
+    /// The declaration of the modules itself, if it is what `name` means and still holds what it was declared with.
+    pub(super) fn declared(&self, name: &str) -> Option<&Variable> {
+        let lower = name.to_ascii_lowercase();
+        let hidden = self.frames.last().is_some_and(|frame| frame.variables.contains_key(&lower));
+        self.globals.get(&lower).filter(|variable| !hidden && variable.untouched)
+    }
+
+    /// Declares into the innermost routine, or into the modules where there is none.
+    pub(super) fn declare(&mut self, declaration: &Declaration) {
+        let kind = Kind::of(&declaration.kind);
+        let value = match kind {
+            Some(kind) => self.declared_value(declaration, kind),
+            None => Ok(Value::Unknown),
+        };
+        let value = match value {
+            Ok(value) => {
+                let class = if kind.is_some() { Class::Understood } else { Class::Harmless };
+                self.mark(declaration.at, class, "");
+                value
+            }
+            Err(what) => {
+                // It matters where it is used.
+                self.mark(declaration.at, Class::Harmless, format!("`{}` {what}", declaration.name));
+                Value::Unknown
+            }
+        };
+        let variable = Variable { name: declaration.name.clone(), kind, value, untouched: true };
+        let name = declaration.name.to_ascii_lowercase();
+        match self.frames.last_mut() {
+            Some(frame) => frame.variables.insert(name, variable),
+            None => self.globals.insert(name, variable),
+        };
+    }
+
+    fn declared_value(&mut self, declaration: &Declaration, kind: Kind) -> Result<Value, String> {
+        let mut extents = Vec::new();
+        for extent in &declaration.extents {
+            let count = self.evaluate(extent, declaration.at).number().filter(|n| (1.0..=1e6).contains(n));
+            extents.push(count.ok_or("has an extent that is not known, or none from 1 to 1000000")? as usize);
+        }
+        let count = extents.iter().try_fold(1_usize, |all, extent| all.checked_mul(*extent));
+        let initial = Value::initial(kind);
+        let size = count.and_then(|count| count.checked_mul(initial.size()));
+        let size = size.filter(|size| self.size + size <= MOST_VALUES);
+        let size = size.ok_or_else(|| format!("is too large: more than {MOST_VALUES} values at a time"))?;
+        self.size += size;
+        self.steps = self.steps.saturating_add(size);
+        if let Some(frame) = self.frames.last_mut() {
+            frame.size += size;
+        }
+        match &declaration.value {
+            Some(value) => self.evaluate(value, declaration.at).as_declared(kind, &extents),
+            None => {
+                let of = |inner: Value, extent: &usize| Value::Array(vec![inner; *extent]);
+                Ok(extents.iter().rev().fold(initial, of))
+            }
+        }
+    }
+
+    /// What a path holds; `Unknown` where there is no such thing.
+    pub(super) fn look(&mut self, path: &Path, at: At) -> Value {
+        let Some(steps) = self.resolve(path, at) else { return Value::Unknown };
+        let Some(variable) = self.find_mut(&path.name) else {
+            return if path.name.eq_ignore_ascii_case("pi") {
+                Value::Num(std::f64::consts::PI)
+            } else {
+                Value::Unknown
+            };
+        };
+        let value = walk(&mut variable.value, &steps).map_or(Value::Unknown, |value| value.clone());
+        self.steps = self.steps.saturating_add(value.size());
+        value
+    }
+
+    /// Puts a value where a path leads. What cannot be told from what makes the whole variable unknown.
+    pub(super) fn assign(&mut self, path: &Path, value: Value, at: At) -> Result<(), String> {
+        let steps = self.resolve(path, at);
+        let Some(variable) = self.find_mut(&path.name) else {
+            return Err(format!("`{}` is not declared in this file", path.name));
+        };
+        variable.untouched = false;
+        let (kind, whole) = (variable.kind, path.steps.is_empty());
+        let place = match &steps {
+            Some(steps) => walk(&mut variable.value, steps),
+            None => None,
+        };
+        let Some(place) = place else {
+            let known = variable.value != Value::Unknown;
+            variable.value = Value::Unknown;
+            return if steps.is_some() && known { Err(format!("`{}` has no such part", path.name)) } else { Ok(()) };
+        };
+        let fitted = match (&*place, kind) {
+            _ if value == Value::Unknown => Ok(Value::Unknown),
+            (_, None) => Ok(Value::Unknown),
+            (Value::Record { kind: Some(part), .. }, _) => value.as_kind(*part),
+            (Value::Array(_), Some(kind)) => {
+                let extents = extents(place);
+                value.as_declared(kind, &extents)
+            }
+            (_, Some(kind)) if whole => value.as_kind(kind),
+            _ => Ok(value),
+        };
+        match fitted {
+            Ok(value) => *place = value,
+            Err(what) => {
+                *place = Value::Unknown;
+                return Err(format!("the value for `{}` {what}", path.name));
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts the counter of a loop before whatever has its name; what it hides comes back by [`Self::unhide`].
+    pub(super) fn hide(&mut self, name: &str) -> Option<Variable> {
+        self.frames.last_mut()?.variables.remove(&name.to_ascii_lowercase())
+    }
+
+    /// Sets the counter of a loop.
+    pub(super) fn hold(&mut self, name: &str, value: f64) {
+        let variable =
+            Variable { name: name.into(), kind: Some(Kind::Num), value: Value::Num(value), untouched: false };
+        if let Some(frame) = self.frames.last_mut() {
+            frame.variables.insert(name.to_ascii_lowercase(), variable);
+        }
+    }
+
+    /// Takes the counter of a loop away.
+    pub(super) fn unhide(&mut self, name: &str, hidden: Option<Variable>) {
+        if let Some(frame) = self.frames.last_mut() {
+            frame.variables.remove(&name.to_ascii_lowercase());
+            frame.variables.extend(hidden.map(|variable| (name.to_ascii_lowercase(), variable)));
+        }
+    }
+
+    /// The variable is no longer known.
+    pub(super) fn forget(&mut self, name: &str) {
+        if let Some(variable) = self.find_mut(name) {
+            variable.value = Value::Unknown;
+            variable.untouched = false;
+        }
+    }
+
+    /// The steps of a path with their indices evaluated, counted from 0; `None` where one is unknown.
+    fn resolve(&mut self, path: &Path, at: At) -> Option<Vec<Resolved>> {
+        let mut resolved = Vec::new();
+        for step in &path.steps {
+            match step {
+                Step::Component(name) => resolved.push(Resolved::Component(name.clone())),
+                Step::Element(indices) => {
+                    for index in indices {
+                        let index = self.evaluate(index, at).number().filter(|index| (1.0..1e7).contains(index))?;
+                        resolved.push(Resolved::Element(index as usize - 1));
+                    }
+                }
+            }
+        }
+        Some(resolved)
+    }
+}
+
+enum Resolved {
+    Element(usize),
+    Component(String),
+}
+
+fn walk<'v>(mut value: &'v mut Value, steps: &[Resolved]) -> Option<&'v mut Value> {
+    for step in steps {
+        value = match (step, value) {
+            (Resolved::Element(index), Value::Array(parts)) => parts.get_mut(*index)?,
+            (Resolved::Component(name), record) => record.component(name)?,
+            _ => return None,
+        };
+    }
+    Some(value)
+}
+
+fn extents(value: &Value) -> Vec<usize> {
+    match value {
+        Value::Array(parts) => {
+            std::iter::once(parts.len()).chain(parts.first().map(extents).unwrap_or_default()).collect()
+        }
+        _ => Vec::new(),
+    }
+}

@@ -1,0 +1,153 @@
+//! What a module says, before anything is executed.
+
+use super::lex::At;
+
+/// A value to be computed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Expression {
+    Number(f64),
+    Bool(bool),
+    Text(String),
+    /// `[a, b, …]`
+    Aggregate(Vec<Expression>),
+    /// A variable, perhaps an element of it, perhaps a component of that.
+    Path(Path),
+    Call {
+        name: String,
+        arguments: Vec<Argument>,
+    },
+    Unary {
+        sign: &'static str,
+        of: Box<Expression>,
+    },
+    /// Operands from left to right: however many, they lie no deeper.
+    Chain {
+        first: Box<Expression>,
+        rest: Vec<(&'static str, Expression)>,
+    },
+}
+
+/// `p10{3}.trans.x`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Path {
+    /// As written.
+    pub(super) name: String,
+    pub(super) steps: Vec<Step>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Step {
+    Element(Vec<Expression>),
+    Component(String),
+}
+
+/// What is handed to a procedure, function or instruction.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Argument {
+    /// By its place.
+    Placed(Expression),
+    /// `\Name` or `\Name:=value`.
+    Named { name: String, value: Option<Expression> },
+    /// `\Name?parameter`: given if the caller's parameter was.
+    IfGiven { name: String, parameter: Expression },
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Statement {
+    pub(super) at: At,
+    pub(super) what: What,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum What {
+    Assign {
+        to: Path,
+        value: Expression,
+    },
+    /// An instruction or a procedure: they look the same.
+    Call {
+        name: String,
+        arguments: Vec<Argument>,
+    },
+    /// `%"name"%` and the like.
+    LateCall(Expression),
+    If {
+        branches: Vec<(Expression, Vec<Statement>)>,
+        otherwise: Vec<Statement>,
+    },
+    While {
+        condition: Expression,
+        body: Vec<Statement>,
+    },
+    For {
+        variable: String,
+        bounds: Box<[Expression; 2]>,
+        step: Option<Expression>,
+        body: Vec<Statement>,
+    },
+    Test {
+        of: Expression,
+        cases: Vec<(Vec<Expression>, Vec<Statement>)>,
+        otherwise: Vec<Statement>,
+    },
+    Return(Option<Expression>),
+    Exit,
+    Label,
+    Goto(String),
+    /// RETRY, TRYNEXT, RAISE, CONNECT.
+    Harmless(&'static str),
+    /// A line that could not be understood.
+    Broken(String),
+}
+
+/// A piece of data.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Declaration {
+    pub(super) at: At,
+    pub(super) kind: String,
+    pub(super) name: String,
+    /// Extents of an array, innermost last; empty for a single one.
+    pub(super) extents: Vec<Expression>,
+    pub(super) value: Option<Expression>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Parameter {
+    pub(super) name: String,
+    /// `switch` for switches.
+    pub(super) kind: String,
+    pub(super) optional: bool,
+    /// INOUT, VAR or PERS: what is assigned comes back.
+    pub(super) returned: bool,
+}
+
+/// PROC, FUNC or TRAP.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Routine {
+    pub(super) at: At,
+    pub(super) kind: RoutineKind,
+    pub(super) name: String,
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) data: Vec<Declaration>,
+    pub(super) body: Vec<Statement>,
+    /// Statements of its ERROR, UNDO and BACKWARD parts.
+    pub(super) handlers: Vec<Statement>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum RoutineKind {
+    Procedure,
+    Function,
+    Trap,
+}
+
+/// A file: its modules taken together.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Source {
+    /// Name of the first module.
+    pub(super) name: String,
+    /// Line of the first module.
+    pub(super) line: usize,
+    pub(super) data: Vec<Declaration>,
+    pub(super) routines: Vec<Routine>,
+}

@@ -1,0 +1,212 @@
+//! What is no program: nothing panics, nothing takes for ever, and mistakes have their places.
+
+use std::time::{Duration, Instant};
+
+use proptest::prelude::*;
+
+use super::super::{Class, NoModule, Options, read};
+use super::{FIRST, inside, main_of};
+
+#[test]
+fn only_a_file_without_a_module_is_refused() {
+    for bytes in [&b""[..], b"hello", b"\xff\xfe\x00\x01", b"MODULE", b"! MODULE M\n", b"\"MODULE M\"", b"x,y\n1,2\n"] {
+        assert_eq!(read(bytes, &Options::default()), Err(NoModule::Absent), "{bytes:?}");
+    }
+    for text in ["MODULE M", "MODULE M\n???\nENDMODULE", "MODULE M(", "module m\nendmodule", "MODULE M PROC"] {
+        assert_eq!(read(text.as_bytes(), &Options::default()).unwrap().program.moves, []);
+    }
+}
+
+#[test]
+fn mistakes_have_line_and_column() {
+    let module = main_of("MoveL p10, v5, fine, tool0;\n  MoveL p10, , fine tool0;\nMoveL p20, v5, fine, tool0;");
+    let found = &module.mistakes[0];
+    assert_eq!((found.at.line, found.at.column), (FIRST + 1, 14), "{found:?}");
+    assert_eq!(found.what, "expected a value, found `,`");
+    assert_eq!((module.program.moves.len(), module.certain), (2, 1));
+    assert_eq!(module.class(FIRST + 1), Class::ChangesMotion);
+    let module = inside("CONST robtarget p := [[1,2],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]];");
+    assert_eq!(module.lines[&2].what, "`p` has 2 components, a pos has 3");
+}
+
+#[test]
+fn broken_blocks_cost_themselves_only() {
+    let module = inside(
+        "PROC first()\nIF TRUE THEN\nWaitTime 1;\nENDPROC\n\
+         PROC main()\nMoveAbsJ [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,tool0;\nENDPROC",
+    );
+    assert_eq!(module.mistakes[0].what, "expected ENDIF, found `ENDPROC`");
+    assert_eq!((module.program.moves.len(), module.certain), (1, 1));
+}
+
+/// A second is far more than any of these takes, and far less than what they would take if they were followed.
+#[test]
+fn nothing_takes_for_ever_or_too_much() {
+    let deep = |open: &str, close: &str, n: usize| format!("{}{}", open.repeat(n), close.repeat(n));
+    let bodies = [
+        "FOR i FROM 1 TO 1E9 DO\nMoveL p10,v5,fine,tool0;\nENDFOR".to_owned(),
+        "FOR i FROM 1 TO 1E9 DO\nFOR j FROM 1 TO 1E9 DO\nENDFOR\nENDFOR".to_owned(),
+        "FOR i FROM 1 TO 2 STEP 1E-300 DO\nWaitTime 1;\nENDFOR".to_owned(),
+        "main;\nmain;".to_owned(),
+        "WHILE 1<2 DO\nIF FALSE RETURN;\nENDWHILE".to_owned(),
+        format!("reg1 := {};", deep("(", ")", 100_000)),
+        format!("reg1 := {}1;", "-".repeat(100_000)),
+        format!("reg1 := 1{};", "+1".repeat(100_000)),
+        format!("reg1 := {};", deep("[", "]", 100_000)),
+        deep("IF TRUE THEN\n", "ENDIF\n", 10_000),
+        deep("IF di1=1 THEN\n", "ENDIF\n", 50),
+        "IF TRUE ".repeat(10_000),
+    ];
+    for body in bodies {
+        let begun = Instant::now();
+        let module = main_of(&body);
+        assert!(begun.elapsed() < Duration::from_secs(5), "{:.60}", body);
+        assert!(module.program.moves.len() <= 100_000);
+    }
+    let huge = inside(
+        "VAR num a{1000,1000,1000};\nVAR robtarget b{1E300};\nVAR num c{400000};\n\
+         PROC main()\nVAR num d{400000};\nWHILE di1=0 DO\nENDWHILE\nFOR i FROM 1 TO 1000000 DO\nc:=d;\nd:=c;\nENDFOR\nENDPROC",
+    );
+    assert!(huge.lines[&2].what.contains("too large") && huge.lines[&3].what.contains("extent"));
+}
+
+#[test]
+fn endless_programs_are_followed_once_round() {
+    let module = main_of(
+        "WHILE TRUE DO\nMoveL p10,v5,fine,tool0;\nMoveL p20,v5,fine,tool0;\nENDWHILE\nMoveL p10,v5,fine,tool0;",
+    );
+    assert_eq!((module.program.moves.len(), module.certain), (2, 2));
+    assert!(module.lines[&FIRST].what.contains("one round"));
+    assert_eq!(module.class(FIRST + 4), Class::Unreached);
+    let counted = main_of("WHILE TRUE DO\nMoveL p10,v5,fine,tool0;\nIncr reg1;\nIF reg1>3 RETURN;\nENDWHILE");
+    assert_eq!(counted.certain, 1, "reg1 is the controller's: {:?}", counted.lines);
+    let counted = main_of("reg1:=0;\nWHILE TRUE DO\nMoveL p10,v5,fine,tool0;\nIncr reg1;\nIF reg1>3 RETURN;\nENDWHILE");
+    assert_eq!((counted.certain, counted.unclear_line), (4, None));
+}
+
+/// Words that make most of what can go wrong.
+const WORDS: [&str; 48] = [
+    "MODULE",
+    "M",
+    "ENDMODULE",
+    "PROC",
+    "main",
+    "(",
+    ")",
+    "ENDPROC",
+    "FUNC",
+    "num",
+    "ENDFUNC",
+    "IF",
+    "THEN",
+    "ELSE",
+    "ENDIF",
+    "WHILE",
+    "DO",
+    "ENDWHILE",
+    "FOR",
+    "i",
+    "FROM",
+    "TO",
+    "ENDFOR",
+    "TEST",
+    "CASE",
+    ":",
+    "ENDTEST",
+    ":=",
+    ";",
+    "[",
+    "]",
+    "{",
+    "}",
+    "\\",
+    ",",
+    "1",
+    "-",
+    "+",
+    "NOT",
+    "MoveL",
+    "p10",
+    "v5",
+    "fine",
+    "tool0",
+    ".trans",
+    "VAR",
+    "%",
+    "\"a",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1500, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_words_are_read(picked in prop::collection::vec(0..WORDS.len(), 0..200), newlines in any::<u64>()) {
+        let mut text = String::from("MODULE M PROC main() ");
+        for (index, word) in picked.iter().enumerate() {
+            text.push_str(WORDS[*word]);
+            text.push(if newlines >> (index % 64) & 1 == 1 { '\n' } else { ' ' });
+        }
+        let module = read(text.as_bytes(), &Options::default()).unwrap();
+        prop_assert!(module.certain <= module.program.moves.len());
+    }
+
+    #[test]
+    fn any_bytes_are_read(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        let all = [b"MODULE M\n".as_slice(), &bytes].concat();
+        prop_assert!(read(&all, &Options::default()).is_ok());
+        let _ = read(&bytes, &Options::default());
+    }
+
+    #[test]
+    fn changed_modules_are_read(cuts in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..12)) {
+        let mut bytes = CELL.as_bytes().to_vec();
+        for (at, byte, what) in cuts {
+            let at = at.index(bytes.len());
+            match what {
+                0 => bytes[at] = byte,
+                1 => drop(bytes.drain(at..(at + usize::from(byte) % 20).min(bytes.len() - 1).max(at))),
+                2 => bytes.insert(at, byte),
+                _ => {
+                    let piece = bytes[at..(at + 30).min(bytes.len())].to_vec();
+                    bytes.splice(at..at, piece);
+                }
+            }
+        }
+        let _ = read(&bytes, &Options::default());
+    }
+}
+
+/// Everything that is followed, at least once.
+const CELL: &str = "MODULE Cell(SYSMODULE)
+  RECORD part num id; ENDRECORD
+  ALIAS num level;
+  PERS tooldata tGrip:=[TRUE,[[0,0,120],[1,0,0,0]],[0.8,[0,0,50],[1,0,0,0],0,0,0]];
+  CONST robtarget p10:=[[500,0,600],[0.707107,0,0.707107,0],[0,-1,0,1],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  VAR num grid{2,3}:=[[1,2,3],[4,5,6]];
+  PROC main()
+    VAR num n:=2;
+    VAR robtarget there;
+    there:=Offs(p10,grid{1,n},0,-grid{2,3});
+    there.trans.z:=there.trans.z+Sqrt(2)*Sin(45);
+    FOR i FROM 1 TO 3 STEP 2 DO
+      TEST i
+      CASE 1,2:
+        go RelTool(there,0,0,10\\Rx:=10)\\fast;
+      DEFAULT:
+        go there;
+      ENDTEST
+    ENDFOR
+    WHILE n<5 DO n:=n+twice(n); ENDWHILE
+    IF di1=1 THEN SetDO do1,1; ELSEIF n>3 THEN TPWrite \"n=\"\\Num:=n; ELSE Stop; ENDIF
+    MoveC Offs(p10,50,50,0),Offs(p10,100,0,0),[100,500,5000,1000]\\T:=2,[FALSE,5,8,8,.8,8,.8],tGrip;
+    %\"main\"+\"2\"%;
+  ERROR
+    RETRY;
+  ENDPROC
+  LOCAL PROC go(robtarget goal \\switch fast | num slow, INOUT num k{*})
+    MoveL goal,v100,z10,tGrip;
+  ENDPROC
+  FUNC num twice(num x) RETURN 2*x; ENDFUNC
+  TRAP t1 Incr grid{1,1}; ENDTRAP
+ENDMODULE
+";

@@ -1,0 +1,104 @@
+//! A robot's program as data: what RAPID, KRL and URScript all say, unrolled to one move after the other, in SI.
+//!
+//! Languages are read into a [`Program`] and written from one; nothing here knows any of them. Names of targets, speeds and
+//! zones are kept so that what is written can be recognised by who wrote it.
+
+mod arc;
+mod check;
+mod frames;
+mod speed;
+mod target;
+mod zone;
+
+#[cfg(test)]
+mod tests;
+
+pub use arc::Arc;
+pub use check::{Place, ProgramError};
+pub use frames::{Tool, WorkObject, unit_quaternion};
+pub use speed::Speed;
+pub use target::{External, JointTarget, Motion, NO_EXTERNAL, PoseTarget};
+pub use zone::Zone;
+
+/// A program: moves in the order in which they are executed.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Program {
+    /// Name of the module or file.
+    pub name: String,
+    /// Name of the procedure that holds the moves.
+    pub procedure: String,
+    /// Tools that moves refer to.
+    pub tools: Vec<Tool>,
+    /// Work objects that moves refer to.
+    pub work_objects: Vec<WorkObject>,
+    /// The moves.
+    pub moves: Vec<Move>,
+}
+
+/// One move from wherever the arm is to a target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Move {
+    /// How, and where to.
+    pub motion: Motion,
+    /// How fast.
+    pub speed: Speed,
+    /// How near.
+    pub zone: Zone,
+    /// What it is to take, s, whatever the speed says.
+    pub duration: Option<f64>,
+    /// Index into [`Program::tools`].
+    pub tool: usize,
+    /// Index into [`Program::work_objects`].
+    pub work_object: usize,
+    /// Whether the target's configuration is demanded (RAPID's ConfL and ConfJ), or the nearest one will do.
+    pub configuration_demanded: bool,
+    /// Line of the file that it was read from, from 1.
+    pub line: Option<usize>,
+}
+
+impl Program {
+    /// A program without moves, for one tool and one work object.
+    pub fn new(name: &str, procedure: &str, tool: Tool, work_object: WorkObject) -> Self {
+        Self {
+            name: name.into(),
+            procedure: procedure.into(),
+            tools: vec![tool],
+            work_objects: vec![work_object],
+            moves: Vec::new(),
+        }
+    }
+
+    /// The program itself, if it can be executed.
+    ///
+    /// # Errors
+    /// The first of [`Program::problems`].
+    pub fn checked(self) -> Result<Self, ProgramError> {
+        match self.problems().into_iter().next() {
+            Some(problem) => Err(problem),
+            None => Ok(self),
+        }
+    }
+
+    /// The same program with no component of any speed above `cap`'s, for a first run: `_slow` after both names, cut to
+    /// `longest` characters, and no move timed.
+    pub fn slowed(&self, cap: &Speed, longest: usize) -> Self {
+        let named = |name: &str| {
+            let room = longest.saturating_sub("_slow".len());
+            name.chars().take(room).chain("_slow".chars()).collect()
+        };
+        let slow = |m: &Move| Move { speed: m.speed.capped(cap), duration: None, ..m.clone() };
+        Self {
+            name: named(&self.name),
+            procedure: named(&self.procedure),
+            moves: self.moves.iter().map(slow).collect(),
+            ..self.clone()
+        }
+    }
+}
+
+impl Move {
+    /// A move with the program's first tool and work object, its configuration demanded.
+    pub fn new(motion: Motion, speed: Speed, zone: Zone) -> Self {
+        Self { motion, speed, zone, duration: None, tool: 0, work_object: 0, configuration_demanded: true, line: None }
+    }
+}
