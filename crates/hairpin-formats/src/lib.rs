@@ -1,6 +1,8 @@
 //! The doors of hairpin: scenario and robot files in; Parquet, JUnit, TUM, CSV and HTML out.
 
 pub mod atomic;
+pub mod banner;
+pub mod cloud;
 pub mod csv;
 pub mod decimal;
 pub mod executor;
@@ -8,7 +10,9 @@ pub mod folder;
 pub mod frames;
 pub mod geodetic;
 pub mod header;
+pub mod joint_trajectory;
 pub mod junit;
+pub mod krl;
 pub mod library;
 pub mod mesh;
 pub mod parquet;
@@ -21,4 +25,5 @@ pub mod template;
 pub mod terrain;
 pub mod tum;
 pub mod urdf;
+pub mod urscript;
 pub mod waypoints;

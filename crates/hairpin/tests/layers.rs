@@ -108,7 +108,24 @@ const VARIANTS: &[(&str, &[&str])] = &[
         "hairpin::simulation::controllers",
         &["unstable_waypoint", "stable_waypoint", "fixed_velocity", "minimum_snap", "geometric", "anafi"],
     ),
-    ("hairpin_formats", &["csv", "junit", "parquet", "tum", "waypoints", "stl", "obj", "toml", "executor"]),
+    (
+        "hairpin_formats",
+        &[
+            "csv",
+            "junit",
+            "parquet",
+            "tum",
+            "waypoints",
+            "stl",
+            "obj",
+            "toml",
+            "executor",
+            "rapid",
+            "krl",
+            "urscript",
+            "joint_trajectory",
+        ],
+    ),
 ];
 
 /// Rooms of the library that the formats must not see: they know tracks, scenarios, worlds and results.

@@ -34,7 +34,7 @@ impl Arguments {
     }
 
     fn record(&self, place: usize, kind: Kind) -> Option<Value> {
-        self.placed.get(place)?.clone().as_kind(kind).ok().filter(|value| *value != Value::Unknown)
+        self.placed.get(place)?.clone().into_kind(kind).ok().filter(|value| *value != Value::Unknown)
     }
 }
 

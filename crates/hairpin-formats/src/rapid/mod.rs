@@ -3,6 +3,7 @@
 //! The subset is in `docs/rapid.md`. What is written reads back to the same program, and that is written as the same bytes.
 
 mod builtin;
+mod clock;
 mod instructions;
 mod kinds;
 mod lex;
@@ -19,8 +20,9 @@ mod write;
 #[cfg(test)]
 mod tests;
 
+pub use clock::{ArcTimes, Clocked, Clocking, LogError, arc_clock, read_log};
 pub use lex::At;
 pub use lines::{Class, Line};
 pub use names::{LONGEST_NAME, NameError, as_name, check_name};
 pub use read::{Declared, Found, Module, NoModule, Options, Procedure, read};
-pub use write::{FIRST_RUN, NOTICE, RapidError, module, program_file, slow, write};
+pub use write::{FIRST_RUN, RapidError, module, program_file, slow, write};

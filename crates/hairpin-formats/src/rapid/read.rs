@@ -142,7 +142,7 @@ pub fn read(bytes: &[u8], options: &Options<'_>) -> Result<Module, NoModule> {
         }
         header.push(comment.text.strip_prefix(' ').unwrap_or(&comment.text).to_owned());
     }
-    header.retain(|line| line != super::write::NOTICE);
+    header.retain(|line| line != crate::banner::NOTICE);
     Ok(Module {
         procedures: procedures.collect(),
         program: Program {

@@ -3,6 +3,7 @@
 use hairpin::trajectory::program::{External, JointTarget, PoseTarget, Speed, Tool, WorkObject, Zone};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use crate::banner::plain;
 use crate::decimal::decimal;
 
 /// Decimals of mm, degrees, kg: a controller keeps about seven digits.
@@ -100,21 +101,4 @@ pub(super) fn seconds(value: f64) -> String {
 
 fn truth(value: bool) -> String {
     if value { "TRUE".into() } else { "FALSE".into() }
-}
-
-/// The text in ASCII on one line: arrows and dashes by their looks, anything else that is not ASCII as `?`.
-pub(super) fn plain(text: &str) -> String {
-    let mut plain = String::new();
-    for c in text.chars() {
-        match c {
-            ' '..='~' => plain.push(c),
-            '→' => plain.push_str("->"),
-            '–' | '—' | '−' => plain.push('-'),
-            '°' => plain.push_str(" deg"),
-            '·' | '×' => plain.push('x'),
-            '\t' | '\r' | '\n' => plain.push(' '),
-            _ => plain.push('?'),
-        }
-    }
-    plain
 }

@@ -46,7 +46,7 @@ impl Value {
     }
 
     /// The same value as one of `kind`: aggregates get it, anything else must have it.
-    pub(super) fn as_kind(self, kind: Kind) -> Result<Self, Unfit> {
+    pub(super) fn into_kind(self, kind: Kind) -> Result<Self, Unfit> {
         let expected = kind.components();
         match (self, kind) {
             (Self::Unknown, _) => Ok(Self::Unknown),
@@ -55,7 +55,7 @@ impl Value {
             | (value @ Self::Text(_), Kind::Text) => Ok(value),
             (Self::Record { kind: own, parts }, _) if own == Some(kind) => Ok(Self::Record { kind: own, parts }),
             (Self::Record { kind: None, parts }, _) if !expected.is_empty() && parts.len() == expected.len() => {
-                let parts = parts.into_iter().zip(expected).map(|(part, (_, kind))| part.as_kind(*kind));
+                let parts = parts.into_iter().zip(expected).map(|(part, (_, kind))| part.into_kind(*kind));
                 Ok(Self::Record { kind: Some(kind), parts: parts.collect::<Result<_, _>>()? })
             }
             (Self::Record { kind: None, parts }, _) if !expected.is_empty() => {
@@ -66,12 +66,12 @@ impl Value {
     }
 
     /// The same value for a variable of `kind` with the extents `extents`.
-    pub(super) fn as_declared(self, kind: Kind, extents: &[usize]) -> Result<Self, Unfit> {
-        let Some((count, inner)) = extents.split_first() else { return self.as_kind(kind) };
+    pub(super) fn into_declared(self, kind: Kind, extents: &[usize]) -> Result<Self, Unfit> {
+        let Some((count, inner)) = extents.split_first() else { return self.into_kind(kind) };
         match self {
             Self::Unknown => Ok(Self::Unknown),
             Self::Array(parts) | Self::Record { kind: None, parts } if parts.len() == *count => {
-                let parts = parts.into_iter().map(|part| part.as_declared(kind, inner));
+                let parts = parts.into_iter().map(|part| part.into_declared(kind, inner));
                 Ok(Self::Array(parts.collect::<Result<_, _>>()?))
             }
             Self::Array(parts) | Self::Record { kind: None, parts } => {

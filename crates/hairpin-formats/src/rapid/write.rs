@@ -9,9 +9,7 @@ use thiserror::Error;
 use super::names::{LONGEST_NAME, NameError, check_name};
 use super::text;
 use crate::atomic::{self, WriteError};
-
-/// What is told in every program once.
-pub const NOTICE: &str = "This is a test program: it is stressful by design, and no safety certificate.";
+use crate::banner::{comments, plain};
 
 /// The speed of the first run.
 pub const FIRST_RUN: &str = "v50";
@@ -29,6 +27,14 @@ pub enum RapidError {
         what: &'static str,
         /// Why it cannot.
         cause: NameError,
+    },
+    /// An arc or a start that refers to a point that is not there.
+    #[error("point {index} of {count}")]
+    Point {
+        /// The point.
+        index: usize,
+        /// How many there are.
+        count: usize,
     },
     /// Two different things of one name.
     #[error("`{name}` names two different things")]
@@ -54,23 +60,13 @@ pub fn module(program: &Program, header: &[String]) -> Result<String, RapidError
     if let Some(problem) = program.problems().into_iter().next() {
         return Err(problem.into());
     }
-    let mut writer = Writer { declared: BTreeMap::new(), lines: Vec::new(), data: Vec::new() };
-    writer.reserve("module", &program.name)?;
-    writer.reserve("procedure", &program.procedure)?;
+    let mut writer = Writer::new(&program.name, &program.procedure)?;
     let mut demanded = (true, true);
     for (index, m) in program.moves.iter().enumerate() {
         writer.configuration(m, &mut demanded);
         writer.go(program, index, m)?;
     }
-    let comments = header.iter().map(|line| line.as_str()).chain([NOTICE]);
-    let mut lines = vec![format!("MODULE {}", program.name)];
-    lines.extend(comments.map(|line| format!("  ! {}", text::plain(line)).trim_end().to_owned()));
-    lines.extend(writer.data.iter().map(|line| format!("  {line}")));
-    lines.push(String::new());
-    lines.push(format!("  PROC {}()", program.procedure));
-    lines.extend(writer.lines.iter().map(|line| format!("    {line}")));
-    lines.extend(["  ENDPROC".into(), "ENDMODULE".into(), String::new()]);
-    Ok(lines.join("\r\n"))
+    Ok(writer.assemble(&program.name, &program.procedure, header, &[]))
 }
 
 /// The same program for its first run: no speed above `cap` ([`FIRST_RUN`] where nothing else is asked for).
@@ -80,7 +76,7 @@ pub fn slow(program: &Program, cap: &Speed) -> Program {
 
 /// A program file that names the module's file, as controllers load them.
 pub fn program_file(module_file: &str) -> String {
-    let escaped = text::plain(module_file).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let escaped = plain(module_file).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     let lines = [
         "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>",
         "<Program>",
@@ -99,17 +95,39 @@ pub fn write(path: &Path, text: &str) -> Result<(), WriteError> {
     atomic::write(path, text.as_bytes())
 }
 
-struct Writer {
+/// A module in the making.
+pub(super) struct Writer {
     /// Names in lower case, and what they were declared as.
     declared: BTreeMap<String, String>,
     /// Statements of the procedure.
-    lines: Vec<String>,
+    pub(super) lines: Vec<String>,
     /// Declarations, in the order of their first use.
-    data: Vec<String>,
+    pub(super) data: Vec<String>,
 }
 
 impl Writer {
-    fn reserve(&mut self, what: &'static str, name: &str) -> Result<(), RapidError> {
+    pub(super) fn new(module: &str, procedure: &str) -> Result<Self, RapidError> {
+        let mut writer = Self { declared: BTreeMap::new(), lines: Vec::new(), data: Vec::new() };
+        writer.reserve("module", module)?;
+        writer.reserve("procedure", procedure)?;
+        Ok(writer)
+    }
+
+    /// The module's text; `routines` follow the procedure.
+    pub(super) fn assemble(self, module: &str, procedure: &str, header: &[String], routines: &[String]) -> String {
+        let mut lines = vec![format!("MODULE {module}")];
+        lines.extend(comments("  !", header));
+        lines.extend(self.data.iter().map(|line| format!("  {line}")));
+        lines.push(String::new());
+        lines.push(format!("  PROC {procedure}()"));
+        lines.extend(self.lines.iter().map(|line| format!("    {line}")));
+        lines.push("  ENDPROC".into());
+        lines.extend(routines.iter().map(|line| format!("  {line}")));
+        lines.extend(["ENDMODULE".into(), String::new()]);
+        lines.join("\r\n")
+    }
+
+    pub(super) fn reserve(&mut self, what: &'static str, name: &str) -> Result<(), RapidError> {
         check_name(name).map_err(|cause| RapidError::Name { what, cause })?;
         match self.declared.insert(name.to_ascii_lowercase(), String::new()) {
             None => Ok(()),
@@ -134,7 +152,7 @@ impl Writer {
         Ok(name.into())
     }
 
-    fn pose(&mut self, target: &PoseTarget) -> Result<String, RapidError> {
+    pub(super) fn pose(&mut self, target: &PoseTarget) -> Result<String, RapidError> {
         let value = text::robtarget(target);
         match &target.name {
             Some(name) => self.declare("target", "robtarget", name, &value),
@@ -190,7 +208,7 @@ impl Writer {
         }
     }
 
-    fn go(&mut self, program: &Program, index: usize, m: &Move) -> Result<(), RapidError> {
+    pub(super) fn go(&mut self, program: &Program, index: usize, m: &Move) -> Result<(), RapidError> {
         let target = match &m.motion {
             Motion::AbsoluteJoint(to) => format!("MoveAbsJ {}", self.joints(to)?),
             Motion::Joint(to) => format!("MoveJ {}", self.pose(to)?),
@@ -204,12 +222,12 @@ impl Writer {
         let tool_name = if tool.declare {
             self.declare("tool", "tooldata", &tool.name, &text::tooldata(tool))?
         } else {
-            text::plain(&tool.name)
+            plain(&tool.name)
         };
         let object_name = if object.declare {
             self.declare("work object", "wobjdata", &object.name, &text::wobjdata(object))?
         } else {
-            text::plain(&object.name)
+            plain(&object.name)
         };
         self.lines.push(format!("{target}, {speed}{duration}, {zone}, {tool_name} \\WObj:={object_name};"));
         Ok(())

@@ -28,7 +28,9 @@ impl Parser {
         let mut all = Vec::new();
         self.expect_sign("(")?;
         while !self.take_sign(")") {
-            let optional = self.take_sign("\\") || (self.take_sign("|") && (self.take_sign("\\") || true));
+            // Behind a `|` the backslash of an alternative may be missing.
+            let alternative = self.take_sign("|");
+            let optional = self.take_sign("\\") || alternative;
             let returned = match self.keyword_of(&["INOUT", "VAR", "PERS"]) {
                 Some(_) => {
                     self.advance();

@@ -89,7 +89,7 @@ impl<'a> Machine<'a> {
                         (Value::Array(_), _) => evaluated,
                         (_, Some(kind)) => {
                             let named = |what| format!("`{}` of `{}` {what}", parameter.name, routine.name);
-                            evaluated.as_kind(kind).map_err(named)?
+                            evaluated.into_kind(kind).map_err(named)?
                         }
                         (_, None) => evaluated,
                     };

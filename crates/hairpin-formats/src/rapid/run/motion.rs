@@ -116,7 +116,7 @@ impl Machine<'_> {
             }
             _ => None,
         };
-        let value = self.evaluate(expression, at).as_kind(kind).map_err(|what| self.about(expression, what))?;
+        let value = self.evaluate(expression, at).into_kind(kind).map_err(|what| self.about(expression, what))?;
         if value == Value::Unknown {
             return Err(self.about(expression, "is not known from this file".into()));
         }

@@ -87,7 +87,7 @@ impl Machine<'_> {
             frame.size += size;
         }
         match &declaration.value {
-            Some(value) => self.evaluate(value, declaration.at).as_declared(kind, &extents),
+            Some(value) => self.evaluate(value, declaration.at).into_declared(kind, &extents),
             None => {
                 let of = |inner: Value, extent: &usize| Value::Array(vec![inner; *extent]);
                 Ok(extents.iter().rev().fold(initial, of))
@@ -130,12 +130,12 @@ impl Machine<'_> {
         let fitted = match (&*place, kind) {
             _ if value == Value::Unknown => Ok(Value::Unknown),
             (_, None) => Ok(Value::Unknown),
-            (Value::Record { kind: Some(part), .. }, _) => value.as_kind(*part),
+            (Value::Record { kind: Some(part), .. }, _) => value.into_kind(*part),
             (Value::Array(_), Some(kind)) => {
                 let extents = extents(place);
-                value.as_declared(kind, &extents)
+                value.into_declared(kind, &extents)
             }
-            (_, Some(kind)) if whole => value.as_kind(kind),
+            (_, Some(kind)) if whole => value.into_kind(kind),
             _ => Ok(value),
         };
         match fitted {

@@ -2,6 +2,7 @@
 
 mod broken;
 mod cells;
+mod clocks;
 mod round_trip;
 mod written;
 

@@ -5,7 +5,9 @@ use hairpin::trajectory::program::{
 };
 use nalgebra::{Isometry3, Translation3, Vector3};
 
-use super::super::{NOTICE, NameError, Options, RapidError, as_name, check_name, module, program_file, read, slow};
+use crate::banner::NOTICE;
+
+use super::super::{NameError, Options, RapidError, as_name, check_name, module, program_file, read, slow};
 
 fn target(x: f64, y: f64, z: f64) -> PoseTarget {
     let turn = unit_quaternion([0.0, 0.6, 0.0, 0.8]).unwrap();

@@ -129,7 +129,8 @@ fn arcs_start_where_the_move_before_ended() {
 fn numbers_that_are_none_are_found() {
     let good = || program(vec![Motion::Linear(target(1.0, 2.0).named("p1"))]);
     assert!(good().checked().is_ok());
-    let changes: [(&dyn Fn(&mut Program), &str); 7] = [
+    type Change<'a> = (&'a dyn Fn(&mut Program), &'static str);
+    let changes: [Change<'_>; 7] = [
         (&|p| p.moves[0].speed.tcp = f64::NAN, "move 0 (to p1): tcp speed = NaN"),
         (&|p| p.moves[0].speed.orientation = -1.0, "orientation speed = -1"),
         (&|p| p.moves[0].duration = Some(0.0), "duration = 0"),
