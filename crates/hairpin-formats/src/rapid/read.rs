@@ -104,12 +104,26 @@ impl Module {
     }
 }
 
+/// What is nested is read and executed by recursion, as deep as the limits allow; the caller's stack may be small.
+const STACK: usize = 64 << 20;
+
 /// Reads a file. Nothing in it is refused but a file without a module: what is not understood is told, and the moves up to
 /// there are certain.
 ///
 /// # Errors
 /// [`NoModule`].
 pub fn read(bytes: &[u8], options: &Options<'_>) -> Result<Module, NoModule> {
+    std::thread::scope(|scope| {
+        let reader = std::thread::Builder::new().stack_size(STACK);
+        match reader.spawn_scoped(scope, || read_here(bytes, options)) {
+            Ok(reading) => reading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            // No thread to be had: this one's stack does for all but the deepest programs.
+            Err(_) => read_here(bytes, options),
+        }
+    })
+}
+
+fn read_here(bytes: &[u8], options: &Options<'_>) -> Result<Module, NoModule> {
     let text = decode(bytes);
     let (source, mistakes, comments) = parse(&text);
     let source = source.ok_or(NoModule::Absent)?;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::Machine;
+use super::{DEEPEST, Machine};
 use crate::rapid::instructions::{self, Effect};
 use crate::rapid::syntax::{Argument, Expression, Path, Statement, Step, What};
 
@@ -17,6 +17,8 @@ pub(super) struct Effects {
     pub(super) assigned: BTreeSet<String>,
     /// Routines that were looked at.
     seen: BTreeSet<String>,
+    /// How many of them call each other just now.
+    depth: usize,
 }
 
 /// Variables handed over as they are.
@@ -109,9 +111,16 @@ impl Machine<'_> {
             if routine.parameters.iter().any(|parameter| parameter.returned) {
                 effects.assigned.extend(paths(arguments).map(|path| path.name.clone()));
             }
+            if effects.depth >= DEEPEST {
+                // Too far to look: anything may happen there.
+                effects.moves = true;
+                return;
+            }
             if effects.seen.insert(lower) {
                 let leaves = effects.leaves;
+                effects.depth += 1;
                 self.collect(&routine.body, effects);
+                effects.depth -= 1;
                 // Its RETURN ends only itself.
                 effects.leaves = leaves || ends(&routine.body);
             }

@@ -1,6 +1,6 @@
 //! What expressions come to. Whatever depends on the cell is unknown; nothing here fails.
 
-use super::Machine;
+use super::{DEEPEST, Machine};
 use crate::rapid::builtin::{self, Arguments};
 use crate::rapid::lex::At;
 use crate::rapid::syntax::{Argument, Expression};
@@ -10,8 +10,19 @@ use crate::rapid::value::Value;
 const LONGEST_TEXT: usize = 80;
 
 impl Machine<'_> {
+    /// What it comes to; unknown as well where functions within functions go too deep.
     pub(super) fn evaluate(&mut self, expression: &Expression, at: At) -> Value {
         self.steps = self.steps.saturating_add(1);
+        if self.depth >= DEEPEST {
+            return Value::Unknown;
+        }
+        self.depth += 1;
+        let value = self.value_of(expression, at);
+        self.depth -= 1;
+        value
+    }
+
+    fn value_of(&mut self, expression: &Expression, at: At) -> Value {
         match expression {
             Expression::Number(value) => Value::Num(*value),
             Expression::Bool(value) => Value::Bool(*value),

@@ -23,8 +23,8 @@ use variables::Variable;
 const MOST_STEPS: usize = 1_000_000;
 /// Moves at most.
 const MOST_MOVES: usize = 100_000;
-/// Routines that call each other, and blocks in blocks, this deep at most.
-const DEEPEST: usize = 150;
+/// Routines that call each other, blocks in blocks and values in values, this deep at most.
+const DEEPEST: usize = 250;
 
 /// What execution gave.
 pub(super) struct Machine<'a> {

@@ -8,30 +8,37 @@ use proptest::prelude::*;
 
 use super::super::{Options, module, read};
 
-fn turn() -> impl Strategy<Value = UnitQuaternion<f64>> {
+fn turn() -> BoxedStrategy<UnitQuaternion<f64>> {
     let component = || prop_oneof![3 => -1.0..1.0_f64, 1 => Just(0.0)];
     let four = (component(), component(), component(), component());
     four.prop_filter_map("a direction", |(w, x, y, z)| {
         UnitQuaternion::try_new(nalgebra::Quaternion::new(w, x, y, z), 1e-3)
     })
+    .boxed()
 }
 
-fn frame() -> impl Strategy<Value = Isometry3<f64>> {
+fn frame() -> BoxedStrategy<Isometry3<f64>> {
     (prop::array::uniform3(-3.0..3.0_f64), turn())
         .prop_map(|(at, turn)| Isometry3::from_parts(Translation3::from(Vector3::from(at)), turn))
+        .boxed()
 }
 
 fn external() -> impl Strategy<Value = [Option<f64>; 6]> {
     prop::array::uniform6(prop::option::weighted(0.3, -5000.0..5000.0_f64))
 }
 
-fn pose_target(name: Option<String>) -> impl Strategy<Value = PoseTarget> {
-    (frame(), prop::option::weighted(0.9, prop::array::uniform4(-4..8_i32)), external()).prop_map(
-        move |(pose, configuration, external)| PoseTarget { name: name.clone(), pose, configuration, external },
-    )
+fn pose_target(name: Option<String>) -> BoxedStrategy<PoseTarget> {
+    (frame(), prop::option::weighted(0.9, prop::array::uniform4(-4..8_i32)), external())
+        .prop_map(move |(pose, configuration, external)| PoseTarget {
+            name: name.clone(),
+            pose,
+            configuration,
+            external,
+        })
+        .boxed()
 }
 
-fn speed() -> impl Strategy<Value = Speed> {
+fn speed() -> BoxedStrategy<Speed> {
     let names: Vec<String> = Speed::predefined_names().collect();
     prop_oneof![
         3 => prop::sample::select(names).prop_map(|name| Speed::predefined(&name).unwrap()),
@@ -40,9 +47,10 @@ fn speed() -> impl Strategy<Value = Speed> {
         }),
         1 => (1..4_u32).prop_map(|n| Speed { name: Some(format!("vOwn{n}")), tcp: f64::from(n) / 7.0, ..Speed::predefined("v5").unwrap() }),
     ]
+    .boxed()
 }
 
-fn zone() -> impl Strategy<Value = Zone> {
+fn zone() -> BoxedStrategy<Zone> {
     let names: Vec<&str> = Zone::predefined_names().collect();
     prop_oneof![
         3 => prop::sample::select(names).prop_map(|name| Zone::predefined(name).unwrap()),
@@ -51,16 +59,17 @@ fn zone() -> impl Strategy<Value = Zone> {
         }),
         1 => (1..4_u32).prop_map(|n| Zone { name: Some(format!("zOwn{n}")), tcp: f64::from(n) / 70.0, ..Zone::predefined("z0").unwrap() }),
     ]
+    .boxed()
 }
 
 /// Move `index`; names differ from move to move, or are absent.
-fn one_move(index: usize) -> impl Strategy<Value = Move> {
+fn one_move(index: usize) -> BoxedStrategy<Move> {
     let named = move |prefix: &'static str| prop::option::weighted(0.7, Just(format!("{prefix}{index}")));
     let target = move |prefix| named(prefix).prop_flat_map(pose_target);
     let joints = (named("j"), prop::array::uniform6(-7.0..7.0_f64), external())
         .prop_map(|(name, joints, external)| Motion::AbsoluteJoint(JointTarget { name, joints, external }));
     let motion = prop_oneof![
-        joints,
+        joints.boxed(),
         target("p").prop_map(Motion::Joint),
         target("p").prop_map(Motion::Linear),
         (target("c"), target("p")).prop_map(|(via, to)| Motion::Circular { via, to }),
@@ -76,9 +85,10 @@ fn one_move(index: usize) -> impl Strategy<Value = Move> {
             configuration_demanded,
             line: None,
         })
+        .boxed()
 }
 
-fn tool() -> impl Strategy<Value = Tool> {
+fn tool() -> BoxedStrategy<Tool> {
     (frame(), 0.001..50.0_f64, prop::array::uniform3(-0.5..0.5_f64), turn(), prop::array::uniform3(0.0..2.0_f64))
         .prop_map(|(tcp, mass, cog, axes_of_inertia, inertia)| Tool {
             name: "tOwn".into(),
@@ -90,9 +100,10 @@ fn tool() -> impl Strategy<Value = Tool> {
             axes_of_inertia,
             inertia,
         })
+        .boxed()
 }
 
-fn program() -> impl Strategy<Value = Program> {
+fn program() -> BoxedStrategy<Program> {
     let moves = (1..12_usize).prop_flat_map(|count| (0..count).map(one_move).collect::<Vec<_>>());
     (tool(), frame(), frame(), moves)
         .prop_map(|(tool, user, object, moves)| {
@@ -106,6 +117,7 @@ fn program() -> impl Strategy<Value = Program> {
             }
         })
         .prop_filter("arcs that a controller takes", |program| program.problems().is_empty())
+        .boxed()
 }
 
 fn near(a: &Isometry3<f64>, b: &Isometry3<f64>) -> bool {
