@@ -192,8 +192,10 @@ mod tests {
         program
     }
 
+    type Call = (String, Vec<Vec<f64>>, Vec<(String, f64)>);
+
     /// A reader of its own: function name, and each call with its numbers in brackets and its named arguments.
-    fn calls(text: &str) -> Vec<(String, Vec<Vec<f64>>, Vec<(String, f64)>)> {
+    fn calls(text: &str) -> Vec<Call> {
         let lines = text.lines().filter(|line| line.starts_with("  "));
         lines
             .map(|line| {
