@@ -1,5 +1,6 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
+mod max_load;
 mod numbers;
 mod requirements;
 mod steer;
@@ -9,6 +10,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use requirements::Requirements;
 pub(crate) use steer::{KeepOutFlags, Steer, SteerCost, SteerFrame};
 pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
@@ -56,6 +58,8 @@ pub(crate) enum Command {
     Simulate(Simulate),
     /// Solve boundary-value drives of a ground vehicle: one (--to), or a file of them (--queries)
     Steer(Box<Steer>),
+    /// Find the path through a graph that costs most: --graph COSTS.csv
+    MaxLoad(Box<MaxLoad>),
     /// Measure what hairpin promises of its speed, on one core
     Bench(Bench),
     /// Check the requirements of a generator one by one: requirements rover
@@ -81,6 +85,7 @@ impl Command {
             Self::Replay(a) => a.json,
             Self::Bench(a) => a.json,
             Self::Steer(a) => a.json,
+            Self::MaxLoad(a) => a.json,
             Self::Requirements(a) => a.json,
             Self::Show(Show { what: Shown::Terrain(a) }) => a.json,
             Self::New(a) => a.json,

@@ -75,6 +75,7 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
         Command::Report(report) => commands::report::run(&report),
         Command::Simulate(simulate) => commands::simulate::run(&simulate),
         Command::Steer(steer) => commands::steer::run(&steer),
+        Command::MaxLoad(asked) => commands::max_load::run(&asked),
         Command::Bench(bench) => commands::bench::run(&bench),
         Command::Requirements(requirements) => commands::requirements::run(&requirements),
         Command::Show(show) => commands::show::run(&show),

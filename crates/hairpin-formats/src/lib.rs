@@ -3,6 +3,7 @@
 pub mod atomic;
 pub mod banner;
 pub mod cloud;
+pub mod costs;
 pub mod csv;
 pub mod decimal;
 pub mod executor;

@@ -7,6 +7,7 @@ pub(crate) mod execute;
 pub(crate) mod export;
 pub(crate) mod generate;
 pub(crate) mod judge;
+pub(crate) mod max_load;
 pub(crate) mod new;
 mod parts;
 pub(crate) mod replay;

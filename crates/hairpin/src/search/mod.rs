@@ -1,12 +1,14 @@
 //! Floor 6: scores and the searches over them. Points, a reach set and a score come in; nothing else is known.
 //!
 //! [`beam()`] is algorithms 1 and 2 of the paper on one graph; [`exact()`] is dynamic programming over the legs of a
-//! [`graph`]: best, k best, counts, the proof that none exists; [`uniform()`] draws evenly from all that is feasible.
+//! [`graph`]: best, k best, counts, the proof that none exists; [`uniform()`] draws evenly from all that is feasible. [`heaviest`] is the
+//! path of maximal cost through a graph of arcs that visits no point twice.
 
 pub mod beam;
 pub mod exact;
 mod frontier;
 pub mod graph;
+pub mod heaviest;
 pub mod objective;
 pub mod open_end;
 #[cfg(test)]

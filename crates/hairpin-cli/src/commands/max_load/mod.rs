@@ -1,0 +1,54 @@
+//! `hairpin max-load`: the heaviest path through a graph.
+
+mod answer;
+mod graph;
+
+use std::time::Instant;
+
+use hairpin::search::heaviest::{Ends, Heaviest, HeaviestSettings, Method, Outcome, heaviest};
+
+use crate::args::{MaxLoad, SearchMethod};
+use crate::folder;
+use crate::interrupt::{self, Deadline};
+use crate::problem::Problem;
+use graph::Graph;
+
+/// Runs the command: 3 if there is no path, 5 if none was found in time.
+pub(crate) fn run(asked: &MaxLoad) -> Result<u8, Problem> {
+    folder::take_threads(&asked.threads);
+    let graph = Graph::read(&asked.graph)?;
+    let settings = settings(asked, &graph)?;
+    let (begun, deadline) = (Instant::now(), Deadline::after(asked.time_limit));
+    let found = heaviest(&graph.arcs, &settings, &|| interrupt::asked() || deadline.passed());
+    let found = found.map_err(Problem::input)?;
+    answer::tell(asked, &graph, &found, begun.elapsed());
+    Ok(code(&found))
+}
+
+fn settings(asked: &MaxLoad, graph: &Graph) -> Result<HeaviestSettings, Problem> {
+    let method = match asked.method {
+        SearchMethod::Auto => Method::Auto,
+        SearchMethod::Subsets => Method::Subsets,
+        SearchMethod::Branch => Method::Branch,
+        SearchMethod::Local => Method::Local,
+        SearchMethod::Dfs => Method::Dfs,
+    };
+    let min_cost = asked.min_cost.as_deref().map(|text| graph.at_least(text)).transpose()?;
+    Ok(HeaviestSettings {
+        ends: Ends { start: asked.start, end: asked.end },
+        min_cost,
+        method,
+        programs: asked.programs.into(),
+        seed: asked.seed,
+        most_nodes: asked.nodes,
+        ..HeaviestSettings::default()
+    })
+}
+
+fn code(found: &Heaviest) -> u8 {
+    match found.outcome {
+        Outcome::Found => 0,
+        Outcome::Infeasible | Outcome::BelowMinCost => 3,
+        Outcome::NotFound => 5,
+    }
+}

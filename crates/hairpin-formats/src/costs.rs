@@ -1,0 +1,266 @@
+//! Costs of arcs as CSV: N lines of N numbers, row = from, column = to, an empty cell where there is no arc.
+//!
+//! Decimals become whole numbers without passing through floating point: all costs times the same power of ten.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// More digits behind the point leave no room in front of it.
+const MOST_DECIMALS: usize = 18;
+
+/// Why a file is no table of costs.
+#[derive(Debug, Error)]
+pub enum CostsError {
+    /// The file cannot be read.
+    #[error("cannot read {}: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The system's answer.
+        cause: io::Error,
+    },
+    /// No line with anything in it.
+    #[error("{}: empty; needed: N lines of N costs", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A line is longer or shorter than the table has lines.
+    #[error("{}, line {line}: {found} cells, must be {expected}, as many as there are lines", path.display())]
+    Width {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// Cells found.
+        found: usize,
+        /// Lines of the table.
+        expected: usize,
+    },
+    /// A cell is no cost.
+    #[error(
+        "{}, line {line}, column {column}: `{value}`, must be a decimal number ≥ 0, or empty for no arc",
+        path.display()
+    )]
+    Value {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// Column, counted from 1.
+        column: usize,
+        /// The text found.
+        value: String,
+    },
+    /// A cost times the common scale has no room in 64 bits.
+    #[error(
+        "{}, line {line}, column {column}: `{value}` × {scale} (the scale at which all costs are whole) overflows 64 bits",
+        path.display()
+    )]
+    Overflow {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// Column, counted from 1.
+        column: usize,
+        /// The text found.
+        value: String,
+        /// The power of ten.
+        scale: String,
+    },
+}
+
+/// A table of costs, whole numbers of 1/10^decimals of the file's unit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Costs {
+    /// Number of points.
+    pub points: usize,
+    /// Costs in rows; `None` without an arc, and on the diagonal.
+    pub costs: Vec<Option<i64>>,
+    /// Digits behind the point that whole numbers stand for.
+    pub decimals: usize,
+}
+
+impl Costs {
+    /// The power of ten that all costs of the file were multiplied by.
+    pub fn scale(&self) -> i64 {
+        10i64.pow(self.decimals as u32)
+    }
+
+    /// A cost as the file would have it: in its unit, exactly.
+    pub fn text(&self, cost: i64) -> String {
+        if self.decimals == 0 {
+            return cost.to_string();
+        }
+        let scale = i128::from(self.scale());
+        let (sign, cost) = (if cost < 0 { "-" } else { "" }, i128::from(cost).abs());
+        format!("{sign}{}.{:0width$}", cost / scale, cost % scale, width = self.decimals)
+    }
+
+    /// The smallest whole cost that is at least the decimal number `text`; `None` if that is no cost.
+    pub fn at_least(&self, text: &str) -> Option<i64> {
+        let number = Decimal::parse(text.trim())?;
+        let finer = number.decimals().saturating_sub(self.decimals);
+        if finer > MOST_DECIMALS {
+            return None;
+        }
+        let (cost, step) = (number.times(self.decimals + finer)?, 10i64.pow(finer as u32));
+        Some(cost / step + i64::from(cost % step > 0))
+    }
+}
+
+/// Reads a file. Blank lines at its end are skipped, spaces around numbers too; the diagonal has no meaning but must be
+/// a cost or empty.
+///
+/// # Errors
+/// The first thing wrong, with line and column.
+pub fn read(path: &Path) -> Result<Costs, CostsError> {
+    let bytes = fs::read(path).map_err(|cause| CostsError::Unreadable { path: path.into(), cause })?;
+    // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
+    parse(path, &String::from_utf8_lossy(&bytes))
+}
+
+/// A number as digits in front of the point, behind it, and a power of ten.
+struct Decimal<'t> {
+    whole: &'t str,
+    fraction: &'t str,
+    exponent: i32,
+}
+
+impl<'t> Decimal<'t> {
+    fn parse(text: &'t str) -> Option<Self> {
+        let (number, exponent) = match text.split_once(['e', 'E']) {
+            Some((number, exponent)) => (number, exponent.parse().ok()?),
+            None => (text, 0),
+        };
+        let number = number.strip_prefix('+').unwrap_or(number);
+        let (whole, fraction) = number.split_once('.').unwrap_or((number, ""));
+        let digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+        let minus_zero = whole.strip_prefix('-').filter(|rest| [*rest, fraction].concat().bytes().all(|b| b == b'0'));
+        let whole = minus_zero.unwrap_or(whole);
+        let number = digits(whole) && digits(fraction) && !(whole.is_empty() && fraction.is_empty());
+        number.then(|| Self { whole, fraction: fraction.trim_end_matches('0'), exponent })
+    }
+
+    /// Digits behind the point that it needs.
+    fn decimals(&self) -> usize {
+        let zero = self.fraction.is_empty() && self.whole.bytes().all(|byte| byte == b'0');
+        let trailing = self.whole.len() - self.whole.trim_end_matches('0').len();
+        let shown = if self.fraction.is_empty() { -(trailing as i64) } else { self.fraction.len() as i64 };
+        if zero { 0 } else { (shown - i64::from(self.exponent)).max(0) as usize }
+    }
+
+    /// The number times 10^decimals.
+    fn times(&self, decimals: usize) -> Option<i64> {
+        let mut value: i128 = 0;
+        for byte in self.whole.bytes().chain(self.fraction.bytes()) {
+            value = value.checked_mul(10)?.checked_add(i128::from(byte - b'0'))?;
+        }
+        let mut shift = decimals as i64 + i64::from(self.exponent) - self.fraction.len() as i64;
+        while shift > 0 && value != 0 {
+            value = value.checked_mul(10)?;
+            shift -= 1;
+        }
+        while shift < 0 && value != 0 {
+            // Only zeros go: `decimals` counts all others.
+            value /= 10;
+            shift += 1;
+        }
+        i64::try_from(value).ok()
+    }
+}
+
+fn parse(path: &Path, text: &str) -> Result<Costs, CostsError> {
+    let lines: Vec<&str> = text.trim_start_matches('\u{feff}').trim_end().lines().collect();
+    let points = lines.len();
+    if points == 0 {
+        return Err(CostsError::Empty { path: path.into() });
+    }
+    let wrong = |row: usize, column: usize, value: &str| CostsError::Value {
+        path: path.into(),
+        line: row + 1,
+        column: column + 1,
+        value: value.into(),
+    };
+    let mut numbers = Vec::new();
+    for (row, line) in lines.iter().enumerate() {
+        let cells: Vec<&str> = line.split(',').map(|cell| cell.trim().trim_matches('"').trim()).collect();
+        if cells.len() != points {
+            let found = cells.len();
+            return Err(CostsError::Width { path: path.into(), line: row + 1, found, expected: points });
+        }
+        for (column, cell) in cells.into_iter().enumerate() {
+            if !cell.is_empty() {
+                let number = Decimal::parse(cell).ok_or_else(|| wrong(row, column, cell))?;
+                if row != column {
+                    numbers.push((row, column, cell, number));
+                }
+            }
+        }
+    }
+    let decimals = numbers.iter().map(|(.., number)| number.decimals()).max().unwrap_or(0);
+    let mut costs = vec![None; points * points];
+    for (row, column, cell, number) in &numbers {
+        let cost = (decimals <= MOST_DECIMALS).then(|| number.times(decimals)).flatten();
+        costs[row * points + column] = Some(cost.ok_or_else(|| CostsError::Overflow {
+            path: path.into(),
+            line: row + 1,
+            column: column + 1,
+            value: (*cell).into(),
+            scale: format!("10^{decimals}"),
+        })?);
+    }
+    Ok(Costs { points, costs, decimals })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Costs, String> {
+        parse(Path::new("costs.csv"), text).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn decimals_become_whole_numbers_exactly() {
+        let costs = read("7,1.25,\n+3e1,,0.1\r\n1e-3,-0,\n\n").unwrap();
+        assert_eq!(costs.decimals, 3);
+        assert_eq!(costs.costs, [None, Some(1250), None, Some(30_000), None, Some(100), Some(1), Some(0), None]);
+        assert_eq!(costs.text(1250), "1.250");
+        // 0.1 + 0.2 and 16 digits, which no double holds.
+        let costs = read(",0.1234567890123456\n0.3,").unwrap();
+        assert_eq!(costs.costs[1], Some(1_234_567_890_123_456));
+        assert_eq!(costs.text(costs.costs[2].unwrap()), "0.3000000000000000");
+        let costs = read(",100\n5.50,").unwrap();
+        assert_eq!((costs.decimals, costs.costs[1]), (1, Some(1000)));
+        assert_eq!(["2", "2.01", "0", "2.1000", "-1", "x"].map(|text| costs.at_least(text)), {
+            [Some(20), Some(21), Some(0), Some(21), None, None]
+        });
+    }
+
+    #[test]
+    fn what_is_no_cost_is_refused_with_its_place() {
+        for (text, words) in [
+            ("", "empty"),
+            ("0,1\n2\n", "line 2: 1 cells, must be 2"),
+            ("0,1,2\n3,4,5\n", "line 1: 3 cells, must be 2"),
+            ("0,-1\n1,0\n", "line 1, column 2: `-1`"),
+            ("0,1\nnan,0\n", "line 2, column 1: `nan`"),
+            ("0,inf\n1,0\n", "line 1, column 2: `inf`"),
+            ("0,1\n1 2,0\n", "line 2, column 1: `1 2`"),
+            ("x,1\n1,0\n", "line 1, column 1: `x`"),
+            ("0,.\n1,0\n", "line 1, column 2: `.`"),
+            ("0,12345678901\n0.000000001,0\n", "`12345678901` × 10^9"),
+            ("0,1e30\n1,0\n", "`1e30` × 10^0"),
+            ("0,1e-30\n1,0\n", "`1e-30` × 10^30"),
+            ("0,1e999999999\n1,0\n", "`1e999999999`"),
+        ] {
+            let error = read(text).unwrap_err();
+            assert!(error.contains(words), "{text:?} should mention {words:?}: {error}");
+        }
+    }
+}

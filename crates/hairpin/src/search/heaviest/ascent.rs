@@ -1,0 +1,123 @@
+//! Multipliers by subgradients: small bounds soon.
+//!
+//! λ ← λ + t·(d + momentum), d = arcs too many; t = α (L − target) / |d|² (Polyak 1969), α halved where nothing improves.
+
+use super::choices::{Choices, Made};
+use super::relaxation::Relaxation;
+
+/// Share of the last step that the next keeps.
+const MOMENTUM: f64 = 0.3;
+
+/// Multipliers, the best so far, and what relaxed solutions had in common.
+pub(super) struct Ascent {
+    /// The best multipliers, and their bound.
+    pub(super) best: Vec<i64>,
+    pub(super) bound: i64,
+    /// How often each choice was in the late relaxed solutions.
+    pub(super) often: Vec<f64>,
+    weight: f64,
+    at: Vec<i64>,
+    excess: Vec<i32>,
+    step: Vec<f64>,
+    /// No multiplier is farther from 0, so that sums stay in their numbers.
+    limit: i64,
+}
+
+/// How an ascent came to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ended {
+    /// The bound is below the threshold, or nothing keeps the choices.
+    Closed,
+    /// The relaxed solution keeps all rules: it is a path, and the best of this problem.
+    Path,
+    /// Neither.
+    Open,
+}
+
+/// What an ascent may do.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pace {
+    pub(super) iterations: usize,
+    /// First α.
+    pub(super) alpha: f64,
+    /// α is halved after so many iterations without a better bound.
+    pub(super) patience: usize,
+}
+
+impl Ascent {
+    pub(super) fn new(choices: &Choices, limit: i64) -> Self {
+        Self {
+            best: vec![0; choices.points + 1],
+            bound: i64::MAX,
+            often: vec![0.0; choices.len()],
+            weight: 1.0,
+            at: vec![0; choices.points + 1],
+            excess: vec![0; choices.points + 1],
+            step: vec![0.0; choices.points + 1],
+            limit,
+        }
+    }
+
+    /// From `begin` downwards until the bound is below `threshold`. The relaxation is left at the last multipliers.
+    pub(super) fn run<R: Relaxation>(
+        &mut self,
+        relaxation: &mut R,
+        (choices, made): (&Choices, &Made),
+        begin: &[i64],
+        (threshold, target): (i64, f64),
+        pace: Pace,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Ended {
+        self.at.copy_from_slice(begin);
+        self.best.copy_from_slice(begin);
+        self.bound = i64::MAX;
+        self.often.resize(choices.len(), 0.0);
+        self.often.fill(0.0);
+        self.weight = 1.0;
+        self.step.fill(0.0);
+        let (mut alpha, mut waited) = (pace.alpha, 0);
+        for iteration in 0..pace.iterations.max(1) {
+            if iteration % 32 == 31 && stop() {
+                return Ended::Open;
+            }
+            let Some(bound) = relaxation.solve(choices, made, &self.at, iteration == 0) else { return Ended::Closed };
+            if bound < self.bound {
+                self.bound = bound;
+                self.best.copy_from_slice(&self.at);
+                waited = 0;
+                if bound < threshold {
+                    return Ended::Closed;
+                }
+            } else {
+                waited += 1;
+                if waited >= pace.patience {
+                    alpha *= 0.5;
+                    waited = 0;
+                }
+            }
+            for id in relaxation.used() {
+                self.often[*id as usize] += self.weight;
+            }
+            self.weight *= 1.1;
+            relaxation.excess(choices, &mut self.excess);
+            let norm: i64 = self.excess.iter().map(|e| i64::from(*e) * i64::from(*e)).sum();
+            if norm == 0 {
+                self.bound = bound;
+                self.best.copy_from_slice(&self.at);
+                return Ended::Path;
+            }
+            let length = alpha * (bound as f64 - target) / norm as f64;
+            for ((at, step), excess) in self.at.iter_mut().zip(&mut self.step).zip(&self.excess) {
+                *step = MOMENTUM * *step + f64::from(*excess) * (1.0 - MOMENTUM);
+                let moved = (*step * length + 0.5).floor() as i64;
+                *at = at.saturating_add(moved).clamp(-self.limit, self.limit);
+            }
+        }
+        Ended::Open
+    }
+
+    /// Share of the late relaxed solutions in which a choice was.
+    pub(super) fn share(&self, id: usize) -> f64 {
+        self.often[id] / ((self.weight - 1.0) / 0.1)
+    }
+}

@@ -1,0 +1,47 @@
+//! The best paths found so far, pairwise different.
+
+/// Up to so many paths, the heaviest first.
+#[derive(Clone)]
+pub(super) struct Best {
+    wanted: usize,
+    /// Backwards is the same path.
+    turns: bool,
+    paths: Vec<(i64, Vec<usize>)>,
+    /// Lighter ones are not wanted.
+    least: i64,
+}
+
+impl Best {
+    pub(super) fn new(wanted: usize, turns: bool, least: i64) -> Self {
+        Self { wanted: wanted.max(1), turns, paths: Vec::new(), least }
+    }
+
+    /// Takes a path that is good enough and not there yet; whether it did.
+    pub(super) fn offer(&mut self, cost: i64, mut path: Vec<usize>) -> bool {
+        if self.turns && path.first() > path.last() {
+            path.reverse();
+        }
+        let place = self.paths.partition_point(|(other, _)| *other >= cost);
+        if place >= self.wanted || self.paths.iter().any(|(other, known)| *other == cost && *known == path) {
+            return false;
+        }
+        self.paths.insert(place, (cost, path));
+        self.paths.truncate(self.wanted);
+        true
+    }
+
+    /// What a further path must cost to be wanted.
+    pub(super) fn needed(&self) -> i64 {
+        let beaten = if self.paths.len() == self.wanted { self.paths[self.wanted - 1].0 + 1 } else { 0 };
+        beaten.max(self.least)
+    }
+
+    /// The heaviest cost, −1 without a path.
+    pub(super) fn cost(&self) -> i64 {
+        self.paths.first().map_or(-1, |(cost, _)| *cost)
+    }
+
+    pub(super) fn into_paths(self) -> Vec<(i64, Vec<usize>)> {
+        self.paths
+    }
+}

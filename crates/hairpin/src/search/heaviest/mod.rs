@@ -1,0 +1,30 @@
+//! The path of maximal total cost through a graph in which no point comes twice; points may be left out, ends be fixed.
+//!
+//! [`heaviest`] proves it: by dynamic programming over subsets of few points, else by branch and bound on Lagrangian
+//! bounds that hold where points may be left out, under a path from local search. `docs/heaviest-paths.md` has the
+//! equations.
+
+mod arborescence;
+mod ascent;
+mod best;
+mod branch;
+mod choices;
+mod dfs;
+mod first_multipliers;
+mod forest;
+mod local;
+mod problem;
+mod record;
+mod relaxation;
+mod root;
+mod solve;
+mod subsets;
+mod tour;
+
+#[cfg(test)]
+mod tests;
+
+pub use problem::{Arcs, ArcsMistake, Ends, MOST_POINTS};
+pub use record::{Next, Proof, Step};
+pub use solve::{Heaviest, HeaviestMistake, HeaviestSettings, Method, Outcome, heaviest};
+pub use subsets::{MOST_SUBSET_POINTS, subset_bytes};

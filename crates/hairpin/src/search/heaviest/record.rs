@@ -1,0 +1,93 @@
+//! The branching tree as it was searched: what a certificate says.
+
+/// One look at a problem: the multipliers, what their bound decides, and what was done then.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Step {
+    /// One integer a point, and one for starts, in units of cost / [`Proof::scale`].
+    pub multipliers: Vec<i64>,
+    /// Choices whose opposite has too small a bound: out.
+    pub out: Vec<u64>,
+    /// Likewise: in.
+    pub into: Vec<u64>,
+    /// What follows.
+    pub next: Next,
+}
+
+/// What follows a [`Step`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Next {
+    /// Nothing: the bound is too small, or the choices contradict each other.
+    Closed,
+    /// Another look at the same problem, by number.
+    Again(usize),
+    /// A choice is out in one step, in in the other.
+    Branch {
+        /// The choice.
+        choice: u64,
+        /// The step with it out.
+        out: usize,
+        /// The step with it in.
+        into: usize,
+    },
+}
+
+/// A proof that no path is heavier than the best: steps from number 0.
+///
+/// Choices have numbers: the arc i→j is i·n + j (of an undirected arc, i < j), then follow n starts, n loops (a point is
+/// left out), and n ends.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Proof {
+    /// Multipliers are in units of cost / scale.
+    pub scale: i64,
+    /// Whether arcs have directions.
+    pub directed: bool,
+    /// The tree.
+    pub steps: Vec<Step>,
+}
+
+/// Steps as they come; a search that is to prove nothing to anybody keeps none.
+#[derive(Clone, Default)]
+pub(super) struct Recorder {
+    pub(super) wanted: bool,
+    pub(super) steps: Vec<Step>,
+}
+
+impl Recorder {
+    pub(super) fn new(wanted: bool) -> Self {
+        Self { wanted, steps: Vec::new() }
+    }
+
+    /// A step that is closed until [`Recorder::follow`] says otherwise; its number.
+    pub(super) fn step(&mut self, multipliers: &[i64], out: Vec<u64>, into: Vec<u64>) -> usize {
+        if self.wanted {
+            self.steps.push(Step { multipliers: multipliers.to_vec(), out, into, next: Next::Closed });
+        }
+        self.steps.len().saturating_sub(1)
+    }
+
+    pub(super) fn follow(&mut self, step: usize, next: Next) {
+        if self.wanted {
+            self.steps[step].next = next;
+        }
+    }
+
+    /// The number that the next step will have.
+    pub(super) fn next_number(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// Puts the steps of a part behind the own ones; where they begin.
+    pub(super) fn append(&mut self, part: Vec<Step>) -> usize {
+        let base = self.steps.len();
+        let moved = part.into_iter().map(|step| {
+            let next = match step.next {
+                Next::Closed => Next::Closed,
+                Next::Again(step) => Next::Again(step + base),
+                Next::Branch { choice, out, into } => Next::Branch { choice, out: out + base, into: into + base },
+            };
+            Step { next, ..step }
+        });
+        self.steps.extend(moved);
+        base
+    }
+}

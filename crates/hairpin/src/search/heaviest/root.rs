@@ -1,0 +1,240 @@
+//! The whole problem before any branching: a good path, good multipliers, and few arcs left.
+
+use super::ascent::{Ascent, Ended, Pace};
+use super::best::Best;
+use super::branch::{Ground, Open, Searched, branch};
+use super::choices::{Choices, IN, Made, OPEN, OUT};
+use super::first_multipliers::first_multipliers;
+use super::local::Local;
+use super::problem::{Arcs, Ends};
+use super::record::{Next, Recorder};
+use super::relaxation::{Relaxation, path_of};
+use super::solve::{HeaviestSettings, Method};
+use crate::math::random::{named_seed, stream};
+
+/// Candidates of each point while multipliers are far from good.
+const NEAR: usize = 10;
+/// Steps of the multipliers in each round.
+const STEPS: usize = 200;
+/// Rounds without a better path before branching begins.
+const PATIENCE: usize = 2;
+/// Costs times the scale are about so many bits long, so that multipliers are finer than costs.
+const BITS: u32 = 33;
+
+/// Units of a multiplier in one unit of cost.
+pub(super) fn scale_of(arcs: &Arcs) -> i64 {
+    let mut scale = 1;
+    while scale < 1 << 16 && arcs.largest().max(1) * scale < 1 << (BITS - 1) {
+        scale *= 2;
+    }
+    scale
+}
+
+/// What is known of the whole problem.
+struct Root<'a, R> {
+    arcs: &'a Arcs,
+    ends: Ends,
+    scale: i64,
+    choices: Choices,
+    made: Made,
+    relaxation: R,
+    ascent: Ascent,
+    multipliers: Vec<i64>,
+    best: Best,
+    local: Local<'a>,
+    record: Recorder,
+    /// The last step recorded.
+    step: usize,
+    /// Upper bound, scaled.
+    bound: i64,
+    stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Proves the heaviest path, or comes as far as it may; `path` meets the ends. The second value is the upper bound, scaled.
+pub(super) fn prove<'a, R: Relaxation>(
+    arcs: &'a Arcs,
+    settings: &HeaviestSettings,
+    path: &[usize],
+    record: Recorder,
+    stop: &'a (dyn Fn() -> bool + Sync),
+) -> (Searched, i64, Recorder) {
+    let mut root = Root::<R>::new(arcs, settings, path, record, stop);
+    let closed = root.settle(settings);
+    let Root { choices, made, multipliers, best, mut record, bound, scale, step, .. } = root;
+    if closed {
+        return (Searched { best, open: None, nodes: 0, first: 0 }, bound, record);
+    }
+    if settings.method == Method::Local {
+        return (Searched { best, open: Some(bound), nodes: 0, first: 0 }, bound, record);
+    }
+    let gap = (bound - best.cost() * scale).max(0) as f64;
+    let most_nodes = settings.most_nodes.unwrap_or(u64::MAX);
+    let ground = Ground { arcs, choices: &choices, scale, gap, most_nodes, stop };
+    let searched = branch::<R>(ground, Open::new(made, multipliers, bound), best, &mut record);
+    record.follow(step, Next::Again(searched.first));
+    (searched, bound, record)
+}
+
+impl<'a, R: Relaxation> Root<'a, R> {
+    fn new(
+        arcs: &'a Arcs,
+        settings: &HeaviestSettings,
+        path: &[usize],
+        record: Recorder,
+        stop: &'a (dyn Fn() -> bool + Sync),
+    ) -> Self {
+        let (scale, ends) = (scale_of(arcs), settings.ends);
+        let multipliers = first_multipliers(arcs, scale);
+        let random = stream(named_seed(settings.seed, "heaviest path", 0));
+        let local = Local::new(arcs, ends, path, &unscaled(&multipliers, scale), random);
+        let turns = arcs.symmetric() && ends == Ends::default();
+        let mut best = Best::new(settings.programs, turns, settings.min_cost.unwrap_or(0));
+        best.offer(arcs.total(path).unwrap_or(0), path.to_vec());
+        let full = Choices::all(arcs, scale);
+        let choices = full.near(&multipliers, if arcs.points() > 3 * NEAR { NEAR } else { usize::MAX });
+        let made = Made::new(&choices, ends).unwrap_or_else(|| Made::nothing(&choices));
+        let mut root = Self {
+            arcs,
+            ends,
+            scale,
+            relaxation: R::new(&choices),
+            ascent: Ascent::new(&choices, 4 * arcs.largest() * scale),
+            choices,
+            made,
+            multipliers,
+            best,
+            local,
+            record,
+            step: 0,
+            bound: i64::MAX,
+            stop,
+        };
+        root.polish(arcs.points() as u64);
+        // Among few arcs no bound is one of the whole problem, so that none may end the ascent.
+        root.ascend(i64::MIN);
+        root.choices = full;
+        root
+    }
+
+    /// Kicks the local search, and takes what it found.
+    fn polish(&mut self, kicks: u64) -> bool {
+        self.local.kick(kicks, self.stop);
+        let before = self.best.cost();
+        for (cost, path) in self.local.take_found() {
+            self.best.offer(cost, path);
+        }
+        self.best.cost() > before
+    }
+
+    fn ascend(&mut self, threshold: i64) -> Ended {
+        let pace = Pace { iterations: STEPS, alpha: 0.7, patience: 6 };
+        let target = self.best.cost().max(0) as f64 * self.scale as f64;
+        let problem = (&self.choices, &self.made);
+        let ended =
+            self.ascent.run(&mut self.relaxation, problem, &self.multipliers, (threshold, target), pace, self.stop);
+        self.multipliers.copy_from_slice(&self.ascent.best);
+        self.local.rank(&unscaled(&self.multipliers, self.scale));
+        ended
+    }
+
+    fn threshold(&self) -> i64 {
+        self.best.needed() * self.scale
+    }
+
+    /// Bounds the whole problem, and goes on while paths get better; whether nothing is left to prove.
+    fn settle(&mut self, settings: &HeaviestSettings) -> bool {
+        let kicks = settings.kicks.unwrap_or(self.arcs.points() as u64);
+        self.polish(2 * kicks);
+        let Some(made) = Made::new(&self.choices, self.ends) else { return self.close() };
+        (self.made, self.relaxation) = (made, R::new(&self.choices));
+        let mut waited = 0;
+        loop {
+            if self.decide() {
+                return true;
+            }
+            if waited >= PATIENCE || (self.stop)() {
+                return false;
+            }
+            waited = if self.polish(kicks) { 0 } else { waited + 1 };
+            match self.ascend(self.threshold()) {
+                Ended::Closed => return self.close(),
+                Ended::Path => {
+                    let path = path_of(&self.choices, self.relaxation.used());
+                    if let Some(cost) = self.arcs.total(&path) {
+                        self.best.offer(cost, path);
+                    }
+                }
+                Ended::Open => {}
+            }
+        }
+    }
+
+    /// Records that the bound at the multipliers is below what is wanted.
+    fn close(&mut self) -> bool {
+        self.look(Vec::new(), Vec::new());
+        true
+    }
+
+    fn look(&mut self, out: Vec<u64>, into: Vec<u64>) {
+        let first = self.record.next_number() == 0;
+        let step = self.record.step(&self.multipliers, out, into);
+        if !first {
+            self.record.follow(self.step, Next::Again(step));
+        }
+        self.step = step;
+    }
+
+    /// Decides what the bound at the multipliers decides, and forgets the arcs that are out; whether nothing is left.
+    fn decide(&mut self) -> bool {
+        let Some(bound) = self.relaxation.solve(&self.choices, &self.made, &self.multipliers, true) else {
+            return self.close();
+        };
+        self.bound = self.bound.min(bound);
+        let threshold = self.threshold();
+        if bound < threshold {
+            return self.close();
+        }
+        let mut decided = Vec::new();
+        self.relaxation.decided(&self.choices, &self.made, &self.multipliers, bound, threshold, &mut decided);
+        let numbers = |wanted: u8| {
+            let those = decided.iter().filter(|(_, state)| *state == wanted && self.record.wanted);
+            those.map(|(id, _)| self.choices.number(*id as usize)).collect()
+        };
+        let (out, into) = (numbers(OUT), numbers(IN));
+        self.look(out, into);
+        for (id, state) in &decided {
+            if self.made.choose(&self.choices, *id as usize, *state).is_none() {
+                return true;
+            }
+        }
+        if self.made.follow(&self.choices).is_none() {
+            return true;
+        }
+        let arcs = self.made.state[..self.choices.arcs.len()].iter().filter(|state| **state != OUT).count();
+        if arcs < self.choices.arcs.len() {
+            let Some((choices, made)) = forget(&self.choices, &self.made) else { return true };
+            (self.choices, self.made) = (choices, made);
+            self.relaxation = R::new(&self.choices);
+        }
+        false
+    }
+}
+
+fn unscaled(multipliers: &[i64], scale: i64) -> Vec<i64> {
+    multipliers.iter().map(|multiplier| multiplier / scale).collect()
+}
+
+/// The same problem without the arcs that are out.
+fn forget(choices: &Choices, made: &Made) -> Option<(Choices, Made)> {
+    let kept: Vec<usize> = (0..choices.arcs.len()).filter(|id| made.state[*id] != OUT).collect();
+    let few = Choices::new(choices.points, choices.directed, kept.iter().map(|id| choices.arcs[*id]).collect());
+    let mut small = Made::nothing(&few);
+    let others = |choices: &Choices| choices.arcs.len()..choices.len();
+    for (old, new) in kept.into_iter().chain(others(choices)).zip(0..few.len()) {
+        if made.state[old] != OPEN {
+            small.choose(&few, new, made.state[old])?;
+        }
+    }
+    small.follow(&few)?;
+    Some((few, small))
+}
