@@ -4,6 +4,7 @@ pub mod certify;
 pub mod collision;
 pub mod limits;
 pub mod reach;
+pub mod reachability;
 pub mod steering;
 
 pub use certify::{Certificate, Impossible, certify};

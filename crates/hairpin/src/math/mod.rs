@@ -5,6 +5,7 @@ pub mod fresnel;
 pub mod integrate;
 pub mod interval;
 pub mod minimum_snap;
+pub mod outward;
 pub mod polynomial;
 pub mod power;
 pub mod quadrature;

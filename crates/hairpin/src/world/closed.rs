@@ -42,7 +42,12 @@ pub(super) fn segment_to_box(q: &Vector3<f64>, d: &Vector3<f64>, half: &Vector3<
         if above > below { lo - below * (hi - lo) / (above - below) } else { lo }
     };
     let distance = excess(best).norm();
-    if distance > 0.0 { distance } else { deepest_in_box(q, d, half) }
+    // A segment that enters the box may be nearest to it, rounded, just outside where it enters.
+    if distance > 1e-12 * (half.max() + q.amax()) {
+        return distance;
+    }
+    let deepest = deepest_in_box(q, d, half);
+    if deepest <= 0.0 { deepest } else { distance }
 }
 
 /// min over t ∈ [0, 1] of max_i(|q_i + t d_i| − h_i): convex and piecewise linear, so that the minimum lies at an end

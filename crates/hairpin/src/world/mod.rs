@@ -3,6 +3,7 @@
 //! World frame: metres, z up, origin at a floor corner of the volume, axes along its edges.
 
 pub mod bounds;
+pub mod cell;
 mod closed;
 pub mod obstacle;
 pub mod sample;

@@ -1,0 +1,149 @@
+//! Why a move is refused, with its numbers, and the sentence that says so.
+
+use std::fmt;
+
+use crate::robot::arm::{Margin, Singularity};
+
+/// Why a move between two points is not possible.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Refusal {
+    /// The tool's sphere meets a part of the cell, or could not be proven not to.
+    ToolMeets {
+        /// Index of the part.
+        part: usize,
+        /// Neither clear nor a hit could be proven.
+        undecided: bool,
+    },
+    /// No joint angles reach the pose.
+    OutOfReach {
+        /// Share of the move.
+        at: f64,
+    },
+    /// A joint would leave its bounds.
+    JointLimit {
+        /// From 0.
+        axis: usize,
+        /// Angle there, rad.
+        angle: f64,
+        /// The bound that it is beyond, rad.
+        bound: f64,
+        /// Share of the move.
+        at: f64,
+    },
+    /// The arm would come too near to a singularity.
+    Singular {
+        /// Which, and how near.
+        margin: Margin,
+        /// What is asked for.
+        least: f64,
+        /// Share of the move.
+        at: f64,
+    },
+    /// A link meets a part of the cell, or could not be proven not to.
+    Collides {
+        /// 0 the base, 1 to 6 the links, 7 the tool.
+        link: usize,
+        /// Index of the part.
+        part: usize,
+        /// Share of the move.
+        at: f64,
+        /// Neither clear nor a hit could be proven.
+        undecided: bool,
+    },
+    /// Two links meet.
+    SelfCollides {
+        /// The links, the one nearer to the base first.
+        links: [usize; 2],
+        /// Share of the move.
+        at: f64,
+        /// Neither clear nor a hit could be proven.
+        undecided: bool,
+    },
+    /// The move arrives on another turn of an axis, or in another branch, than the end point's.
+    Configuration {
+        /// From 0.
+        axis: usize,
+        /// Angle at which the move arrives, rad.
+        arrives: f64,
+        /// Angle of the end point, rad.
+        wanted: f64,
+    },
+    /// The arc through the three points is none that a controller takes.
+    NoArc,
+}
+
+impl Refusal {
+    /// The sentence, with the names of the parts of the cell.
+    pub fn told<'r>(&'r self, parts: &'r [String]) -> Told<'r> {
+        Told { refusal: self, parts }
+    }
+}
+
+/// A refusal in words.
+pub struct Told<'r> {
+    refusal: &'r Refusal,
+    parts: &'r [String],
+}
+
+struct Degrees(f64);
+
+impl fmt::Display for Degrees {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.1}°", self.0.to_degrees())
+    }
+}
+
+fn body(link: usize) -> String {
+    match link {
+        0 => "the base".into(),
+        7 => "the tool".into(),
+        link => format!("link {link}"),
+    }
+}
+
+impl fmt::Display for Told<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let part = |index: usize| self.parts.get(index).map_or("?", String::as_str);
+        let percent = |at: f64| format!("at {:.0} % of the move", 100.0 * at);
+        let (meets, meet) = ("meets", "meet");
+        let not_proven = "is not proven clear of";
+        match *self.refusal {
+            Refusal::ToolMeets { part: index, undecided } => {
+                write!(f, "the tool's sphere {} {}", if undecided { not_proven } else { meets }, part(index))
+            }
+            Refusal::OutOfReach { at } => write!(f, "out of reach {}", percent(at)),
+            Refusal::JointLimit { axis, angle, bound, at } => {
+                let sign = if angle > bound { '>' } else { '<' };
+                let axis = axis + 1;
+                write!(f, "axis {axis} at {} {sign} {} {}", Degrees(angle), Degrees(bound), percent(at))
+            }
+            Refusal::Singular { margin, least, at } => {
+                let measure = match margin.of {
+                    Singularity::Wrist => "|sin axis 5|",
+                    Singularity::Elbow => "|sin elbow|",
+                    Singularity::Shoulder => "distance from axis 1 over length",
+                    Singularity::Chain => "1/‖J⁻¹‖",
+                };
+                write!(f, "{} singularity: {measure} {:.3} < {least:.3} {}", margin.of, margin.value, percent(at))
+            }
+            Refusal::Collides { link, part: index, at, undecided } => {
+                let verb = if undecided { not_proven } else { meets };
+                write!(f, "{} {verb} {} {}", body(link), part(index), percent(at))
+            }
+            Refusal::SelfCollides { links: [a, b], at, undecided } => {
+                let verb = if undecided { "are not proven apart" } else { meet };
+                write!(f, "{} and {} {verb} {}", body(a), body(b), percent(at))
+            }
+            Refusal::Configuration { axis, arrives, wanted } => {
+                write!(
+                    f,
+                    "configuration change: axis {} arrives at {}, not {}",
+                    axis + 1,
+                    Degrees(arrives),
+                    Degrees(wanted)
+                )
+            }
+            Refusal::NoArc => f.write_str("no circular move: the points give no arc under 240°"),
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! One segment against one region, proven: intervals in the segment's parameter alone, halved until they decide.
+
+use nalgebra::Point3;
+
+use super::surface;
+use crate::math::outward::{Centred, Interval, Real};
+use crate::world::Shape;
+use crate::world::cell::{Region, Surface, Words, directions};
+
+/// What is proven of a segment a + t(b − a), t in [0, 1], grown by a radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Verdict {
+    /// It does not meet the region.
+    Clear,
+    /// The point at this t is within the radius of the region.
+    Hit {
+        /// Parameter of the point.
+        at: f64,
+    },
+    /// Neither could be proven down to the least width; to be treated as a hit.
+    Undecided {
+        /// Parameter of the place.
+        at: f64,
+        /// Width of the parameter's interval there.
+        width: f64,
+    },
+}
+
+/// A region with what is worked out about it once.
+#[derive(Debug)]
+pub struct Obstacle {
+    /// The region.
+    pub region: Region,
+    /// Triangles, of hulls and meshes.
+    surface: Option<Surface>,
+}
+
+/// Intervals of t below this width are not halved.
+const LEAST_WIDTH: f64 = 1.0 / (1u64 << 36) as f64;
+/// Intervals looked at before a segment is given up as undecided.
+const MOST_PIECES: usize = 4000;
+
+impl Obstacle {
+    /// Prepares a region.
+    pub fn new(region: Region) -> Self {
+        let surface = match &region {
+            Region::Shape(Shape::Hull(solid) | Shape::Mesh(solid)) => Some(Surface::of(solid)),
+            _ => None,
+        };
+        Self { region, surface }
+    }
+
+    /// Whether the segment a–b grown by `radius` (m, ≥ 0) meets the region: proofs, or undecided.
+    ///
+    /// The region counts with its border. Intervals are computed with outward rounding on the numbers given, so that only what is
+    /// true of the real numbers is said.
+    pub fn certify(&self, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Verdict {
+        match (&self.surface, &self.region) {
+            (Some(surface), _) => surface::certify(surface, a, b, radius),
+            (None, Region::Words(words)) => of_words(words, a, b, radius),
+            (None, region) => at_nearest(region, a, b, radius).unwrap_or_else(|| {
+                halve(LEAST_WIDTH, |t| {
+                    let value = region.formula(point(a, b, Centred::parameter(t)), radius)?.bounds();
+                    if value.low > 0.0 {
+                        return Some(Piece::Clear);
+                    }
+                    let middle = t.middle();
+                    let there = region.formula(point(a, b, Interval::point(middle)), radius)?;
+                    Some(if there.high <= 0.0 { Piece::Hit(middle) } else { Piece::Unknown })
+                })
+            }),
+        }
+    }
+}
+
+/// Where the segment is nearest to a convex region, found in floating point, most is decided: the point there is proven within the
+/// radius, or the direction to it is proven to separate: n·p > h(n) + r|n| at both ends, with the region's support function h.
+fn at_nearest(region: &Region, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Option<Verdict> {
+    let (t, n) = region.nearest(a, b)?;
+    let i = Interval::point;
+    let (support, own) = region.support(&n)?;
+    let length = (i(n.x).square() + i(n.y).square() + i(n.z).square()).sqrt();
+    let least = support + (i(own) + i(radius)) * length;
+    let beyond = |p: &Point3<f64>| (i(n.x) * i(p.x) + i(n.y) * i(p.y) + i(n.z) * i(p.z)).low > least.high;
+    if beyond(a) && beyond(b) {
+        return Some(Verdict::Clear);
+    }
+    let there = region.formula(point(a, b, i(t)), radius)?;
+    (there.high <= 0.0).then_some(Verdict::Hit { at: t })
+}
+
+/// a + t(b − a).
+pub(super) fn point<N: Real>(a: &Point3<f64>, b: &Point3<f64>, t: N) -> [N; 3] {
+    std::array::from_fn(|k| N::constant(a[k]) + t * (N::constant(b[k]) - N::constant(a[k])))
+}
+
+/// What is known of an interval of t.
+enum Piece {
+    Clear,
+    Hit(f64),
+    Unknown,
+}
+
+/// Halves [0, 1] until every piece is clear, one is hit, or one is as narrow as `least` and neither. `None` from `look` ends as
+/// undecided.
+fn halve(least: f64, mut look: impl FnMut(Interval) -> Option<Piece>) -> Verdict {
+    let mut open = vec![Interval { low: 0.0, high: 1.0 }];
+    let mut undecided: Option<Verdict> = None;
+    for looked in 0.. {
+        let Some(t) = open.pop() else { break };
+        let width = t.high - t.low;
+        let unsure = Verdict::Undecided { at: t.middle(), width };
+        match look(t) {
+            Some(Piece::Clear) => {}
+            Some(Piece::Hit(at)) => return Verdict::Hit { at },
+            Some(Piece::Unknown) if width > least && looked < MOST_PIECES => {
+                let middle = t.middle();
+                open.push(Interval { low: middle, high: t.high });
+                open.push(Interval { low: t.low, high: middle });
+            }
+            // Elsewhere a hit may still be proven.
+            Some(Piece::Unknown) if looked < MOST_PIECES => undecided = undecided.or(Some(unsure)),
+            Some(Piece::Unknown) | None => return undecided.unwrap_or(unsure),
+        }
+    }
+    undecided.unwrap_or(Verdict::Clear)
+}
+
+/// Words grown by the cube around a ball: what is clear is so for the ball; what only the cube's corners meet stays undecided.
+fn of_words(words: &Words, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Verdict {
+    let ball = Interval { low: -radius, high: radius };
+    // Pieces much shorter than the ball say nothing new.
+    let least = LEAST_WIDTH.max((radius / (64.0 * (b - a).norm())).min(1.0));
+    halve(if least.is_nan() { LEAST_WIDTH } else { least }, |t| {
+        let grown = point(a, b, Centred::parameter(t)).map(|c| c + Centred::anywhere_in(ball));
+        if words.holds_on(grown) == Some(false) {
+            return Some(Piece::Clear);
+        }
+        let middle = t.middle();
+        let centre = point(a, b, Interval::point(middle));
+        let hit = directions(radius).any(|shift| {
+            let there: [Interval; 3] = std::array::from_fn(|k| centre[k] + Interval::point(shift[k]));
+            words.holds_on(there) == Some(true)
+        });
+        Some(if hit { Piece::Hit(middle) } else { Piece::Unknown })
+    })
+}
