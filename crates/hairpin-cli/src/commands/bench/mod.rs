@@ -1,5 +1,6 @@
 //! `hairpin bench`: the speeds that hairpin promises, measured here and now on one core, beside their targets.
 
+mod arm;
 mod clock;
 mod exact;
 pub(super) mod ground;
@@ -70,6 +71,7 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
         steer::rows(),
         ground::rows(),
         memory::rows(),
+        arm::rows(),
     ];
     let all: Vec<Row> = rooms.into_iter().flatten().collect();
     let wanted = |row: &&Row| bench.name.as_ref().is_none_or(|name| row.name.starts_with(name.as_str()));

@@ -5,7 +5,8 @@ use nalgebra::Point3;
 use super::filter::{self, Filter};
 use super::graph::ReachabilityGraph;
 use super::refusal::Refusal;
-use super::segment::{Obstacle, Verdict};
+use super::segment::Obstacle;
+use super::verdict::Verdict;
 use crate::math::simd::Simd;
 use crate::world::cell::Cell;
 

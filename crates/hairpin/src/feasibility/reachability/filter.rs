@@ -10,6 +10,7 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
+use crate::math::outward::Interval;
 use crate::math::simd::{Simd, kernel};
 use crate::world::Shape;
 use crate::world::cell::Region;
@@ -52,6 +53,8 @@ enum Kind {
     Cylinder(f64, f64, f64),
     /// Points must stay within this radius.
     Beyond(f64),
+    /// Coordinates are bounds of the height over a grown half-space, lower and upper.
+    Heights,
     /// Half extents of a box that holds the region, already grown.
     Around([f64; 3]),
 }
@@ -59,6 +62,9 @@ enum Kind {
 impl Filter {
     /// Prepares `points` against a region grown by `radius`; `None` for regions without a filter.
     pub(super) fn new(region: &Region, points: &[Point3<f64>], radius: f64) -> Option<Self> {
+        if let Region::HalfSpace { .. } = region {
+            return heights(region, points, radius);
+        }
         let no_turn = Matrix3::identity();
         let (centre, turn, kind) = match region {
             Region::Shape(Shape::Sphere { center, radius: own }) => (*center, no_turn, Kind::Ball(own + radius)),
@@ -85,6 +91,7 @@ impl Filter {
             Kind::Box(h, r) => h.into_iter().fold(0.0, f64::max) + r,
             Kind::Cylinder(own, half, r) => own.max(half) + r,
             Kind::Around(h) => h.into_iter().fold(0.0, f64::max),
+            Kind::Heights => 0.0,
         };
         let centred = centre.coords.amax();
         let m = relative.iter().map(|v| v.amax()).fold(sizes, f64::max).max(f64::MIN_POSITIVE) * (1.0 + 1e-12);
@@ -109,9 +116,25 @@ impl Filter {
             Kind::Beyond(r) => beyond(simd, from, r, scale, points, out),
             Kind::Box(half, r) => cuboid(simd, from, half, r, scale, points, out),
             Kind::Cylinder(own, half, r) => cylinder(simd, from, [own, half, r], scale, points, out),
+            Kind::Heights => {
+                let [low, high, _] = points;
+                for ((low, high), out) in low.iter().zip(high).zip(out) {
+                    // Heights are linear along the segment.
+                    let clear = (from[0] > 0.0) & (*low > 0.0);
+                    *out = u64::from(clear) | (u64::from((from[1] <= 0.0) | (*high <= 0.0)) << 1);
+                }
+            }
             Kind::Around(half) => around(simd, from, half, scale, points, out),
         }
     }
+}
+
+/// Heights of all points over a half-space, in intervals: no more than that is needed.
+fn heights(region: &Region, points: &[Point3<f64>], radius: f64) -> Option<Filter> {
+    let height = |p: &Point3<f64>| region.formula([p.x, p.y, p.z].map(Interval::point), radius);
+    let all: Vec<Interval> = points.iter().map(height).collect::<Option<_>>()?;
+    let coordinates = [all.iter().map(|h| h.low).collect(), all.iter().map(|h| h.high).collect(), vec![0.0; all.len()]];
+    Some(Filter { kind: Kind::Heights, coordinates, scale: Scale { m: 0.0, eta: 0.0 } })
 }
 
 /// A rotation that turns `axis` into z; along a coordinate axis without rounding.

@@ -18,7 +18,7 @@ pub struct ReachabilityGraph {
 }
 
 impl ReachabilityGraph {
-    /// Of `points` points, all moves refused until they are [`set`](Self::allow).
+    /// Of `points` points, with the reason of every ordered pair, row = from: 0 for free, k for `refusals[k − 1]`.
     pub(super) fn new(points: usize, reasons: Vec<u32>, refusals: Vec<Refusal>, queries: u64) -> Self {
         assert!(reasons.len() == points * points, "a reason for every ordered pair");
         Self { points, reasons, refusals, costs: vec![0; points * points], queries, unit: "µm" }

@@ -3,9 +3,11 @@
 mod cartesian;
 mod filter;
 mod graph;
+pub mod joint;
 mod refusal;
 mod segment;
 mod surface;
+mod verdict;
 
 #[cfg(test)]
 mod tests;
@@ -13,4 +15,5 @@ mod tests;
 pub use cartesian::{CartesianSettings, Level, cartesian, micrometres};
 pub use graph::ReachabilityGraph;
 pub use refusal::{Refusal, Told};
-pub use segment::{Obstacle, Verdict};
+pub use segment::Obstacle;
+pub use verdict::Verdict;

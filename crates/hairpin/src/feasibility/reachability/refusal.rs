@@ -68,11 +68,42 @@ pub enum Refusal {
         /// Angle of the end point, rad.
         wanted: f64,
     },
-    /// The arc through the three points is none that a controller takes.
-    NoArc,
+    /// The point can be met, but not in the branch in which most others can.
+    OtherBranch {
+        /// The branch of the others.
+        cfx: u8,
+    },
 }
 
 impl Refusal {
+    /// The same at another share of the move.
+    pub(super) fn shifted(mut self, share: f64) -> Self {
+        match &mut self {
+            Self::OutOfReach { at }
+            | Self::JointLimit { at, .. }
+            | Self::Singular { at, .. }
+            | Self::Collides { at, .. }
+            | Self::SelfCollides { at, .. } => *at = share,
+            Self::ToolMeets { .. } | Self::Configuration { .. } | Self::OtherBranch { .. } => {}
+        }
+        self
+    }
+
+    /// Of two reasons against a point the one that came farther: reach, limits, then everything else.
+    pub(super) fn or_nearer(self, other: Self) -> Self {
+        let rank = |refusal: &Self| match refusal {
+            Self::OutOfReach { .. } => 0,
+            Self::JointLimit { .. } => 1,
+            _ => 2,
+        };
+        let least = |refusal: &Self| match refusal {
+            Self::JointLimit { angle, bound, .. } => (angle - bound).abs(),
+            _ => 0.0,
+        };
+        let nearer = rank(&other) > rank(&self) || (rank(&other) == rank(&self) && least(&other) < least(&self));
+        if nearer { other } else { self }
+    }
+
     /// The sentence, with the names of the parts of the cell.
     pub fn told<'r>(&'r self, parts: &'r [String]) -> Told<'r> {
         Told { refusal: self, parts }
@@ -143,7 +174,7 @@ impl fmt::Display for Told<'_> {
                     Degrees(wanted)
                 )
             }
-            Refusal::NoArc => f.write_str("no circular move: the points give no arc under 240°"),
+            Refusal::OtherBranch { cfx } => write!(f, "reached in other configurations than cfx {cfx} only"),
         }
     }
 }

@@ -3,28 +3,10 @@
 use nalgebra::Point3;
 
 use super::surface;
-use crate::math::outward::{Centred, Interval, Real};
+use super::verdict::{Verdict, point};
+use crate::math::outward::{Centred, Interval};
 use crate::world::Shape;
 use crate::world::cell::{Region, Surface, Words, directions};
-
-/// What is proven of a segment a + t(b − a), t in [0, 1], grown by a radius.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Verdict {
-    /// It does not meet the region.
-    Clear,
-    /// The point at this t is within the radius of the region.
-    Hit {
-        /// Parameter of the point.
-        at: f64,
-    },
-    /// Neither could be proven down to the least width; to be treated as a hit.
-    Undecided {
-        /// Parameter of the place.
-        at: f64,
-        /// Width of the parameter's interval there.
-        width: f64,
-    },
-}
 
 /// A region with what is worked out about it once.
 #[derive(Debug)]
@@ -87,11 +69,6 @@ fn at_nearest(region: &Region, a: &Point3<f64>, b: &Point3<f64>, radius: f64) ->
     }
     let there = region.formula(point(a, b, i(t)), radius)?;
     (there.high <= 0.0).then_some(Verdict::Hit { at: t })
-}
-
-/// a + t(b − a).
-pub(super) fn point<N: Real>(a: &Point3<f64>, b: &Point3<f64>, t: N) -> [N; 3] {
-    std::array::from_fn(|k| N::constant(a[k]) + t * (N::constant(b[k]) - N::constant(a[k])))
 }
 
 /// What is known of an interval of t.

@@ -7,7 +7,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::segment::{Verdict, point};
+use super::verdict::{Verdict, point};
 use crate::math::outward::Interval;
 use crate::math::segment::{nearest_parameter, nearest_point};
 use crate::world::Bounds;

@@ -4,6 +4,7 @@ mod body;
 mod chain;
 mod configuration;
 mod description;
+mod dynamics;
 mod opw;
 mod rates;
 mod singularity;
