@@ -70,3 +70,28 @@ fn what_is_no_table_is_refused_with_its_place() {
     refused(folder.path(), &[&graph[..], &["--min-cost", "-3"]].concat(), &["min-cost", "-3"]);
     refused(folder.path(), &[&graph[..], &["--programs", "2", "--method", "dfs"]].concat(), &["dfs", "2"]);
 }
+
+#[test]
+fn a_certificate_holds_until_it_is_changed() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("ring.csv"), RING).unwrap();
+    for method in ["subsets", "branch"] {
+        let ask = ["max-load", "--graph", "ring.csv", "--method", method, "--certificate", "proof.json"];
+        assert_eq!(json(folder.path(), &ask)["cost"], object!(9.25));
+        let check = ["max-load", "--graph", "ring.csv", "--verify", "proof.json"];
+        let answer = json(folder.path(), &check);
+        assert_eq!((&answer["verified"], &answer["exit_code"]), (&object!(true), &object!(0)), "{answer}");
+        let text = fs::read_to_string(folder.path().join("proof.json")).unwrap();
+        let changed = text.replacen("\"cost\":925", "\"cost\":924", 1);
+        assert_ne!(changed, text);
+        fs::write(folder.path().join("proof.json"), changed).unwrap();
+        let answer = json(folder.path(), &check);
+        assert_eq!((&answer["verified"], &answer["exit_code"]), (&object!(false), &object!(1)), "{answer}");
+    }
+    fs::write(folder.path().join("other.json"), "{}").unwrap();
+    refused(
+        folder.path(),
+        &["max-load", "--graph", "ring.csv", "--verify", "other.json"],
+        &["other.json", "certificate"],
+    );
+}

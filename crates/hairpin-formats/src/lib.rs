@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod banner;
+pub mod checksum;
 pub mod cloud;
 pub mod costs;
 pub mod csv;

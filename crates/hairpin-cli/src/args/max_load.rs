@@ -39,6 +39,12 @@ pub(crate) struct MaxLoad {
     /// Seed of the local search
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED), allow_negative_numbers = true)]
     pub(crate) seed: u64,
+    /// Write the proof of the answer
+    #[arg(long, value_name = "OUT.json", conflicts_with = "programs")]
+    pub(crate) certificate: Option<PathBuf>,
+    /// Check a certificate against the graph by independent code instead of searching; exit code 1 if it does not hold
+    #[arg(long, value_name = "CERTIFICATE.json", conflicts_with = "certificate")]
+    pub(crate) verify: Option<PathBuf>,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,

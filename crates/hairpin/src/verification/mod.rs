@@ -5,7 +5,8 @@
 //! from truncated Taylor series of the thrust vector (`demand`), the rigid body with a rotation matrix
 //! (`body`), implicit Gauss collocation of order 12 (`gauss`). Nothing is shared with feasibility, search,
 //! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have replays of their
-//! own, in the plane (`drive`) and on the ground (`ground`).
+//! own, in the plane (`drive`) and on the ground (`ground`). That no path through a graph is heavier is checked bound by
+//! bound ([`verify_heaviest`]).
 
 mod body;
 mod claim;
@@ -15,6 +16,9 @@ mod drives;
 mod finding;
 mod gauss;
 mod ground;
+mod heaviest;
+mod heaviest_bound;
+mod heaviest_choices;
 mod jet;
 mod knots;
 mod pace;
@@ -32,5 +36,6 @@ pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive, 
 pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{EndError, Finding, Proof, Tolerances, Worst};
 pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Stopped, replay_ground};
+pub use heaviest::{HeaviestClaim, MOST_SEARCHED_AGAIN, NextClaim, PathFinding, StepClaim, TreeClaim, verify_heaviest};
 pub use proof::{open_loop_with_lag, verify};
 pub use stand::Stand;

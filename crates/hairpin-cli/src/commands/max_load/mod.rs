@@ -1,6 +1,7 @@
 //! `hairpin max-load`: the heaviest path through a graph.
 
 mod answer;
+mod certificate;
 mod graph;
 
 use std::time::Instant;
@@ -17,11 +18,17 @@ use graph::Graph;
 pub(crate) fn run(asked: &MaxLoad) -> Result<u8, Problem> {
     folder::take_threads(&asked.threads);
     let graph = Graph::read(&asked.graph)?;
+    if let Some(path) = &asked.verify {
+        return certificate::verify(asked, path, &graph);
+    }
     let settings = settings(asked, &graph)?;
     let (begun, deadline) = (Instant::now(), Deadline::after(asked.time_limit));
     let found = heaviest(&graph.arcs, &settings, &|| interrupt::asked() || deadline.passed());
     let found = found.map_err(Problem::input)?;
     answer::tell(asked, &graph, &found, begun.elapsed());
+    if let Some(out) = &asked.certificate {
+        certificate::write(out, &graph, settings.ends, &found)?;
+    }
     Ok(code(&found))
 }
 
@@ -41,6 +48,7 @@ fn settings(asked: &MaxLoad, graph: &Graph) -> Result<HeaviestSettings, Problem>
         programs: asked.programs.into(),
         seed: asked.seed,
         most_nodes: asked.nodes,
+        proof: asked.certificate.is_some(),
         ..HeaviestSettings::default()
     })
 }

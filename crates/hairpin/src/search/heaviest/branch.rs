@@ -59,6 +59,8 @@ pub(super) struct Searched {
     pub(super) nodes: u64,
     /// The first step of the problem, if steps were recorded.
     pub(super) first: usize,
+    /// A heavier path was found before the problems were shared out: the whole is better begun again with it.
+    pub(super) again: bool,
 }
 
 /// A search on one thread.
@@ -77,7 +79,7 @@ type Part<'a, R> = (Option<(usize, u8)>, Branching<'a, R>, Option<i64>);
 
 /// Searches all of a problem; the steps go to `record`.
 pub(super) fn branch<R: Relaxation>(ground: Ground<'_>, problem: Open, best: Best, record: &mut Recorder) -> Searched {
-    let first = record.next_number();
+    let (first, before) = (record.next_number(), best.cost());
     let mut own = Branching::<R>::new(ground, best, std::mem::take(record));
     // Those with the largest bounds first, until there is enough to share out.
     let mut open = vec![problem];
@@ -87,6 +89,11 @@ pub(super) fn branch<R: Relaxation>(ground: Ground<'_>, problem: Open, best: Bes
         own.look(problem, &mut open);
     }
     let Branching { best, record: mut steps, nodes, .. } = own;
+    if best.cost() > before && !open.is_empty() {
+        let open = open.iter().map(|problem| problem.bound).max();
+        *record = steps;
+        return Searched { best, open, nodes, first, again: true };
+    }
     let parts: Vec<Part<'_, R>> = open
         .into_par_iter()
         .map(|problem| {
@@ -96,7 +103,7 @@ pub(super) fn branch<R: Relaxation>(ground: Ground<'_>, problem: Open, best: Bes
             (parent, part, open)
         })
         .collect();
-    let mut searched = Searched { best, open: None, nodes, first };
+    let mut searched = Searched { best, open: None, nodes, first, again: false };
     for (parent, part, open) in parts {
         part.best.into_paths().into_iter().for_each(|(cost, path)| {
             searched.best.offer(cost, path);

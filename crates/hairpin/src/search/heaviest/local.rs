@@ -103,6 +103,18 @@ impl<'a> Local<'a> {
         std::mem::take(&mut self.found)
     }
 
+    /// Goes on from a path that was found elsewhere, if it is heavier.
+    pub(super) fn offer(&mut self, path: &[usize]) {
+        let tour = Tour::of_path(&self.table, path);
+        let total = tour.total(&self.table);
+        if total > self.best_total {
+            (self.best_total, self.total) = (total, total);
+            self.tour.copy_from(&tour);
+            self.best = tour;
+            self.note();
+        }
+    }
+
     /// Kicks and improves `times`, or until `stop` says so, which is asked now and then. Returns how often.
     pub(super) fn kick(&mut self, times: u64, stop: &(dyn Fn() -> bool + Sync)) -> u64 {
         for time in 0..times {

@@ -71,6 +71,11 @@ impl Recorder {
         }
     }
 
+    /// Forgets the steps from this number on.
+    pub(super) fn forget(&mut self, from: usize) {
+        self.steps.truncate(from);
+    }
+
     /// The number that the next step will have.
     pub(super) fn next_number(&self) -> usize {
         self.steps.len()

@@ -33,7 +33,6 @@ pub(super) fn scale_of(arcs: &Arcs) -> i64 {
 /// What is known of the whole problem.
 struct Root<'a, R> {
     arcs: &'a Arcs,
-    ends: Ends,
     scale: i64,
     choices: Choices,
     made: Made,
@@ -60,19 +59,33 @@ pub(super) fn prove<'a, R: Relaxation>(
 ) -> (Searched, i64, Recorder) {
     let mut root = Root::<R>::new(arcs, settings, path, record, stop);
     let closed = root.settle(settings);
-    let Root { choices, made, multipliers, best, mut record, bound, scale, step, .. } = root;
+    let finished = |best: Best, open: Option<i64>| Searched { best, open, nodes: 0, first: 0, again: false };
     if closed {
-        return (Searched { best, open: None, nodes: 0, first: 0 }, bound, record);
+        return (finished(root.best, None), root.bound, root.record);
     }
     if settings.method == Method::Local {
-        return (Searched { best, open: Some(bound), nodes: 0, first: 0 }, bound, record);
+        return (finished(root.best, Some(root.bound)), root.bound, root.record);
     }
-    let gap = (bound - best.cost() * scale).max(0) as f64;
-    let most_nodes = settings.most_nodes.unwrap_or(u64::MAX);
-    let ground = Ground { arcs, choices: &choices, scale, gap, most_nodes, stop };
-    let searched = branch::<R>(ground, Open::new(made, multipliers, bound), best, &mut record);
-    record.follow(step, Next::Again(searched.first));
-    (searched, bound, record)
+    let mut nodes = 0;
+    loop {
+        let gap = (root.bound - root.best.cost() * root.scale).max(0) as f64;
+        let most_nodes = settings.most_nodes.unwrap_or(u64::MAX);
+        let ground = Ground { arcs, choices: &root.choices, scale: root.scale, gap, most_nodes, stop };
+        let problem = Open::new(root.made.clone(), root.multipliers.clone(), root.bound);
+        let mut searched = branch::<R>(ground, problem, root.best.clone(), &mut root.record);
+        nodes += searched.nodes;
+        searched.nodes = nodes;
+        if !searched.again || stop() {
+            root.record.follow(root.step, Next::Again(searched.first));
+            return (searched, root.bound, root.record);
+        }
+        // A heavier path decides more before anything is split: what was split with the lighter one is forgotten.
+        root.record.forget(searched.first);
+        root.learn(searched.best);
+        if root.settle(settings) {
+            return (Searched { nodes, ..finished(root.best, None) }, root.bound, root.record);
+        }
+    }
 }
 
 impl<'a, R: Relaxation> Root<'a, R> {
@@ -95,7 +108,6 @@ impl<'a, R: Relaxation> Root<'a, R> {
         let made = Made::new(&choices, ends).unwrap_or_else(|| Made::nothing(&choices));
         let mut root = Self {
             arcs,
-            ends,
             scale,
             relaxation: R::new(&choices),
             ascent: Ascent::new(&choices, 4 * arcs.largest() * scale),
@@ -112,8 +124,18 @@ impl<'a, R: Relaxation> Root<'a, R> {
         root.polish(arcs.points() as u64);
         // Among few arcs no bound is one of the whole problem, so that none may end the ascent.
         root.ascend(i64::MIN);
+        root.made = Made::new(&full, ends).unwrap_or_else(|| Made::nothing(&full));
+        root.relaxation = R::new(&full);
         root.choices = full;
         root
+    }
+
+    /// Takes paths that were found elsewhere; the local search goes on from the best.
+    fn learn(&mut self, best: Best) {
+        for (cost, path) in best.into_paths() {
+            self.local.offer(&path);
+            self.best.offer(cost, path);
+        }
     }
 
     /// Kicks the local search, and takes what it found.
@@ -143,10 +165,10 @@ impl<'a, R: Relaxation> Root<'a, R> {
 
     /// Bounds the whole problem, and goes on while paths get better; whether nothing is left to prove.
     fn settle(&mut self, settings: &HeaviestSettings) -> bool {
-        let kicks = settings.kicks.unwrap_or(self.arcs.points() as u64);
+        // Branching with a path that is not the heaviest costs many times what kicks cost.
+        let points = self.arcs.points() as u64;
+        let kicks = settings.kicks.unwrap_or(points * (1 + points / 60));
         self.polish(2 * kicks);
-        let Some(made) = Made::new(&self.choices, self.ends) else { return self.close() };
-        (self.made, self.relaxation) = (made, R::new(&self.choices));
         let mut waited = 0;
         loop {
             if self.decide() {

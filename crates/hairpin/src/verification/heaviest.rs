@@ -1,0 +1,233 @@
+//! The proof that no path is heavier: every bound of a branching tree recomputed, by other algorithms than those that
+//! found it.
+//!
+//! Shares nothing with the search: trees by Prim's algorithm on the whole table, arborescences by contraction of one
+//! circle at a time, sums in 128 bits; what follows from choices is found by going over all rules again and again. Where
+//! there is no tree of steps, the heaviest path is searched again, backwards over subsets.
+
+use super::heaviest_choices::{Chosen, IN, Layout, OPEN, OUT};
+
+/// A path and what proves it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct HeaviestClaim {
+    /// Number of points.
+    pub points: usize,
+    /// Costs in rows, from → to; `None` without an arc. The diagonal has no meaning.
+    pub costs: Vec<Option<i64>>,
+    /// First point, if fixed.
+    pub start: Option<usize>,
+    /// Last point, if fixed.
+    pub end: Option<usize>,
+    /// The path.
+    pub path: Vec<usize>,
+    /// Its cost.
+    pub cost: i64,
+    /// The branching tree; without it the path is searched again.
+    pub tree: Option<TreeClaim>,
+}
+
+/// A branching tree: steps from number 0.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TreeClaim {
+    /// Multipliers are in units of cost / scale.
+    pub scale: i64,
+    /// Whether arcs have directions.
+    pub directed: bool,
+    /// The steps.
+    pub steps: Vec<StepClaim>,
+}
+
+/// A step: with these multipliers, these choices must be out or in, and then something follows. The arc i→j is choice
+/// i·n + j (of an undirected arc, i < j); then follow n starts, n loops (points left out), and n ends.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StepClaim {
+    /// One a point, and one for starts.
+    pub multipliers: Vec<i64>,
+    /// Must be out: with it in, the bound is too small.
+    pub out: Vec<u64>,
+    /// Must be in: with it out, the bound is too small.
+    pub into: Vec<u64>,
+    /// What follows.
+    pub next: NextClaim,
+}
+
+/// What follows a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NextClaim {
+    /// Nothing is left.
+    Closed,
+    /// Another step for the same problem.
+    Again(usize),
+    /// One step with a choice out, one with it in.
+    Branch {
+        /// The choice.
+        choice: u64,
+        /// Step with it out.
+        out: usize,
+        /// Step with it in.
+        into: usize,
+    },
+}
+
+/// Something about a claim that does not hold.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PathFinding {
+    /// The step, if it is about one.
+    pub step: Option<usize>,
+    /// What does not hold.
+    pub what: String,
+}
+
+/// More points are not searched again: n·2^n numbers.
+pub const MOST_SEARCHED_AGAIN: usize = 22;
+
+/// All that does not hold; empty: the path is one of this cost, and none is heavier.
+pub fn verify_heaviest(claim: &HeaviestClaim) -> Vec<PathFinding> {
+    let mut findings = Vec::new();
+    let mut find = |step: Option<usize>, what: String| findings.push(PathFinding { step, what });
+    if let Err(what) = check_path(claim) {
+        find(None, what);
+        return findings;
+    }
+    match &claim.tree {
+        None if claim.points > MOST_SEARCHED_AGAIN => find(None, format!("no proof, and {} points", claim.points)),
+        None => {
+            let most = search_again(claim);
+            if most != Some(claim.cost) {
+                find(None, format!("the heaviest path costs {most:?}, not {}", claim.cost));
+            }
+        }
+        Some(tree) => {
+            if let Err((step, what)) = check_tree(claim, tree) {
+                find(step, what);
+            }
+        }
+    }
+    findings
+}
+
+fn check_path(claim: &HeaviestClaim) -> Result<(), String> {
+    let n = claim.points;
+    if n == 0 || claim.costs.len() != n * n {
+        return Err(format!("{} costs for {n} points", claim.costs.len()));
+    }
+    let (Some(first), Some(last)) = (claim.path.first(), claim.path.last()) else {
+        return Err("the path has no point".into());
+    };
+    if claim.start.is_some_and(|start| start != *first) || claim.end.is_some_and(|end| end != *last) {
+        return Err(format!("the path leads from {first} to {last}"));
+    }
+    let mut seen = vec![false; n];
+    for point in &claim.path {
+        match seen.get_mut(*point) {
+            None => return Err(format!("point {point} of {n}")),
+            Some(true) => return Err(format!("point {point} comes twice")),
+            Some(seen) => *seen = true,
+        }
+    }
+    let mut sum = 0i128;
+    for leg in claim.path.windows(2) {
+        let cost = claim.costs[leg[0] * n + leg[1]].ok_or_else(|| format!("no arc {}→{}", leg[0], leg[1]))?;
+        sum += i128::from(cost);
+    }
+    if sum == i128::from(claim.cost) { Ok(()) } else { Err(format!("the path costs {sum}, not {}", claim.cost)) }
+}
+
+/// f(S, j): the heaviest way on from j when S has been met, from the full set downwards.
+fn search_again(claim: &HeaviestClaim) -> Option<i64> {
+    let n = claim.points;
+    let full = (1usize << n) - 1;
+    let mut on: Vec<Option<i64>> = vec![None; n << n];
+    for met in (1..=full).rev() {
+        for at in (0..n).filter(|at| met >> at & 1 == 1) {
+            let ends = claim.end.is_none_or(|end| end == at).then_some(0);
+            let nexts = (0..n).filter(|next| met >> next & 1 == 0);
+            let ways = nexts.filter_map(|next| Some(claim.costs[at * n + next]? + on[(met | 1 << next) * n + next]?));
+            on[met * n + at] = ways.max().max(ends);
+        }
+    }
+    (0..n).filter(|start| claim.start.is_none_or(|fixed| fixed == *start)).filter_map(|s| on[(1 << s) * n + s]).max()
+}
+
+type Finding = (Option<usize>, String);
+
+fn check_tree(claim: &HeaviestClaim, tree: &TreeClaim) -> Result<(), Finding> {
+    let n = claim.points;
+    let arc = |from: usize, to: usize| claim.costs[from * n + to].filter(|_| from != to);
+    let asymmetric = (0..n).any(|i| (0..i).any(|j| arc(i, j) != arc(j, i)));
+    if asymmetric && !tree.directed {
+        return Err((None, "costs depend on the direction, the tree does not".into()));
+    }
+    let small = |cost: &i64| cost.checked_mul(tree.scale).is_some_and(|scaled| (0..1 << 60).contains(&scaled));
+    if tree.scale < 1 || !small(&claim.cost) || !claim.costs.iter().flatten().all(small) {
+        return Err((None, format!("scale {} and these costs leave 60 bits", tree.scale)));
+    }
+    let layout = Layout { points: n, directed: tree.directed, costs: &claim.costs, scale: tree.scale };
+    let mut visited = vec![false; tree.steps.len()];
+    let mut open = vec![(0, Some(Chosen::new(&layout, claim.start, claim.end)))];
+    while let Some((number, chosen)) = open.pop() {
+        let wrong = |what: String| (Some(number), what);
+        let step = tree.steps.get(number).ok_or_else(|| wrong("is missing".into()))?;
+        if std::mem::replace(&mut visited[number], true) {
+            return Err(wrong("comes twice".into()));
+        }
+        let left = match chosen {
+            None => None,
+            Some(chosen) => check_step(&layout, claim.cost, step, chosen).map_err(wrong)?,
+        };
+        match (left, step.next) {
+            (_, NextClaim::Again(next)) if next <= number => return Err(wrong("goes back".into())),
+            (None, NextClaim::Closed) => {}
+            (Some(_), NextClaim::Closed) => return Err(wrong("is left open".into())),
+            (left, NextClaim::Again(next)) => open.push((next, left)),
+            (left, NextClaim::Branch { choice, out, into }) => {
+                for (next, state) in [(out, OUT), (into, IN)] {
+                    if next <= number {
+                        return Err(wrong("goes back".into()));
+                    }
+                    let child = left.clone().and_then(|left| left.with(&layout, choice as usize, state));
+                    open.push((next, child));
+                }
+                if choice as usize >= layout.len() {
+                    return Err(wrong(format!("choice {choice} of {}", layout.len())));
+                }
+            }
+        }
+    }
+    match visited.iter().position(|visited| !visited) {
+        Some(number) => Err((Some(number), "belongs to nothing".into())),
+        None => Ok(()),
+    }
+}
+
+/// What a step leaves of a problem; `None` if nothing.
+fn check_step(layout: &Layout<'_>, cost: i64, step: &StepClaim, chosen: Chosen) -> Result<Option<Chosen>, String> {
+    let n = layout.points;
+    if step.multipliers.len() != n + 1 || step.multipliers.iter().any(|m| m.unsigned_abs() > 1 << 60) {
+        return Err(format!("{} multipliers, or one beyond 60 bits", step.multipliers.len()));
+    }
+    let threshold = (i128::from(cost) + 1) * i128::from(layout.scale);
+    let Some(mut chosen) = chosen.closed(layout) else { return Ok(None) };
+    let below = |probe: Option<(usize, u8)>| {
+        super::heaviest_bound::bound(layout, &chosen, &step.multipliers, probe).is_none_or(|bound| bound < threshold)
+    };
+    if below(None) {
+        return Ok(None);
+    }
+    let sides = [(&step.out, OUT, IN), (&step.into, IN, OUT)];
+    let mut must = Vec::new();
+    for (choices, state, opposite) in sides {
+        for choice in choices.iter().map(|choice| *choice as usize) {
+            let now = *chosen.state.get(choice).ok_or_else(|| format!("choice {choice} of {}", layout.len()))?;
+            if now == state {
+                continue;
+            }
+            if now != OPEN || !below(Some((choice, opposite))) {
+                return Err(format!("choice {choice} is not decided by the bound"));
+            }
+            must.push((choice, state));
+        }
+    }
+    must.into_iter().for_each(|(choice, state)| chosen.state[choice] = state);
+    Ok(chosen.closed(layout))
+}

@@ -1,0 +1,163 @@
+//! Bounds at given multipliers, recomputed: Prim 1957 for undirected arcs, Edmonds 1967 for directed ones.
+//!
+//! The equations are those of `docs/heaviest-paths.md`; a probe is one more choice that is tried.
+
+use super::heaviest_choices::{Chosen, IN, Layout, OUT};
+
+/// No path that keeps the choices (and the probe) costs more, scaled; `None` if there is none.
+pub(super) fn bound(
+    layout: &Layout<'_>,
+    chosen: &Chosen,
+    multipliers: &[i64],
+    probe: Option<(usize, u8)>,
+) -> Option<i128> {
+    let n = layout.points;
+    let state = |choice: usize| match probe {
+        Some((probed, state)) if probed == choice => state,
+        _ => chosen.state[choice],
+    };
+    let price = |point: usize| i128::from(multipliers[point]);
+    let ends = (0..n).filter(|point| state(layout.end(*point)) != OUT);
+    let forced = (0..n).find(|point| state(layout.end(*point)) == IN);
+    let end = match probe {
+        Some((probed, IN)) if probed >= layout.end(0) => Some(-price(probed - layout.end(0))),
+        _ => forced.map_or_else(|| ends.map(|point| -price(point)).max(), |point| Some(-price(point))),
+    }?;
+    let times = if layout.directed { 1 } else { 2 };
+    let constant: i128 = (0..n).map(|point| times * price(point)).sum::<i128>() + price(n);
+    let hung = if layout.directed {
+        arborescence(layout, multipliers, &state, probe)?
+    } else {
+        tree(layout, multipliers, &state)?
+    };
+    Some(constant + hung + end)
+}
+
+/// The heaviest spanning tree with all that is in.
+fn tree(layout: &Layout<'_>, multipliers: &[i64], state: &dyn Fn(usize) -> u8) -> Option<i128> {
+    let n = layout.points;
+    let price = |point: usize| i128::from(multipliers[point]);
+    // Chosen ones first, then by weight.
+    let weigh = |choice: usize, weight: i128| (state(choice) != OUT).then(|| (state(choice) == IN, weight));
+    let between = |a: usize, b: usize| {
+        let (a, b) = (a.min(b), a.max(b));
+        if b == n {
+            let start = weigh(layout.start(a), -price(a) - price(n));
+            return start.max(weigh(layout.looped(a), -2 * price(a)));
+        }
+        let arc = layout.arc(a, b);
+        weigh(arc, layout.cost(arc)? - price(a) - price(b))
+    };
+    let mut reach: Vec<Option<(bool, i128)>> = (0..n).map(|point| between(point, n)).collect();
+    let mut inside = vec![false; n];
+    let (mut total, mut kept) = (0, 0);
+    for _ in 0..n {
+        let next = (0..n).filter(|point| !inside[*point]).max_by_key(|point| reach[*point])?;
+        let (chosen, weight) = reach[next]?;
+        inside[next] = true;
+        total += weight;
+        kept += usize::from(chosen);
+        for point in (0..n).filter(|point| !inside[*point]) {
+            reach[point] = reach[point].max(between(next, point));
+        }
+    }
+    // A chosen arc beside the tree closes a circle of chosen ones.
+    let wanted = (0..layout.end(0)).filter(|choice| state(*choice) == IN).count();
+    (kept == wanted).then_some(total)
+}
+
+/// An arc between contracted points.
+#[derive(Clone, Copy)]
+struct Way {
+    from: usize,
+    to: usize,
+    weight: i128,
+}
+
+/// The heaviest arborescence from the dummy with all that is in.
+fn arborescence(
+    layout: &Layout<'_>,
+    multipliers: &[i64],
+    state: &dyn Fn(usize) -> u8,
+    probe: Option<(usize, u8)>,
+) -> Option<i128> {
+    let n = layout.points;
+    let price = |point: usize| i128::from(multipliers[point]);
+    let mut ways = Vec::new();
+    let head = |choice: usize| if choice < n * n { choice % n } else { (choice - n * n) % n };
+    for choice in (0..layout.end(0)).filter(|choice| state(*choice) != OUT) {
+        // Whatever else enters a point that a probe enters is out.
+        if probe.is_some_and(|(tried, tried_state)| {
+            tried_state == IN && tried < layout.end(0) && tried != choice && head(tried) == head(choice)
+        }) {
+            continue;
+        }
+        let way = match choice {
+            _ if choice < n * n => {
+                Way { from: choice / n, to: choice % n, weight: layout.cost(choice)? - price(choice / n) }
+            }
+            _ if choice < layout.looped(0) => Way { from: n, to: head(choice), weight: -price(n) },
+            _ => Way { from: n, to: head(choice), weight: -price(head(choice)) },
+        };
+        ways.push(way);
+    }
+    let mut total = 0;
+    let (mut count, mut alive) = (n + 1, vec![true; n + 1]);
+    loop {
+        let mut best: Vec<Option<Way>> = vec![None; count];
+        for way in &ways {
+            if best[way.to].is_none_or(|held| way.weight > held.weight) {
+                best[way.to] = Some(*way);
+            }
+        }
+        let Some(circle) = first_circle(&best, &alive, n)? else {
+            let sum: i128 =
+                (0..count).filter(|at| *at != n && alive[*at]).filter_map(|at| Some(best[at]?.weight)).sum();
+            return Some(total + sum);
+        };
+        // The circle becomes one new point: what enters it costs what it takes the place of.
+        let merged = count;
+        count += 1;
+        alive.push(true);
+        let mut inside = vec![None; count];
+        for at in &circle {
+            let taken = best[*at]?.weight;
+            total += taken;
+            inside[*at] = Some(taken);
+            alive[*at] = false;
+        }
+        ways.retain_mut(|way| {
+            let (from, to) = (inside[way.from].is_some(), inside[way.to]);
+            if let Some(taken) = to {
+                way.weight -= taken;
+                way.to = merged;
+            }
+            if from {
+                way.from = merged;
+            }
+            !(from && to.is_some())
+        });
+    }
+}
+
+/// Points of a circle among the best ways in; the outer `None` if a point cannot be entered.
+fn first_circle(best: &[Option<Way>], alive: &[bool], root: usize) -> Option<Option<Vec<usize>>> {
+    let mut seen = vec![usize::MAX; best.len()];
+    for begin in (0..best.len()).filter(|at| alive[*at] && *at != root) {
+        let mut at = begin;
+        while at != root && seen[at] == usize::MAX {
+            seen[at] = begin;
+            at = best[at]?.from;
+        }
+        if at != root && seen[at] == begin {
+            let mut circle = vec![at];
+            let mut next = best[at]?.from;
+            while next != at {
+                circle.push(next);
+                next = best[next]?.from;
+            }
+            return Some(Some(circle));
+        }
+    }
+    Some(None)
+}
