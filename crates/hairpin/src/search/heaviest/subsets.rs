@@ -9,7 +9,7 @@ use crate::math::simd::{Simd, kernel};
 /// More points than any memory has room for.
 pub const MOST_SUBSET_POINTS: usize = 28;
 
-/// Bytes that [`best_by_subsets`] takes.
+/// Bytes that dynamic programming over subsets takes: 2^n rows of one number a point, rounded up to what fills a vector.
 pub fn subset_bytes(arcs: &Arcs) -> u128 {
     let cell = if narrow(arcs) { 4 } else { 8 };
     (1u128 << arcs.points().min(100)) * lanes(arcs.points()) as u128 * cell
