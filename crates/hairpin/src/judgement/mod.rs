@@ -5,6 +5,7 @@ mod assign;
 mod deviation;
 pub mod measure;
 pub mod measures;
+pub mod moves;
 pub mod settings;
 pub mod spec;
 pub mod statistics;

@@ -119,6 +119,14 @@ pub fn rule_of_three(n: usize) -> f64 {
     if n == 0 { 1.0 } else { (3.0 / n as f64).min(1.0) }
 }
 
+/// The t beyond which Student's distribution with `freedom` ≥ 1 degrees lies, on both sides together, as often as a normal one
+/// lies beyond `sigma` standard deviations: P(|T| > t) = erfc(σ/√2), and P(|T| > t) = I_x(ν/2, ½) with x = ν/(ν + t²).
+pub fn student_quantile(freedom: usize, sigma: f64) -> f64 {
+    let freedom = freedom as f64;
+    let x = beta_quantile(0.5 * freedom, 0.5, libm::erfc(sigma * std::f64::consts::FRAC_1_SQRT_2));
+    if x > 0.0 { (freedom * (1.0 / x - 1.0)).max(0.0).sqrt() } else { f64::INFINITY }
+}
+
 /// The x with I_x(a, b) = `probability`, by bisection to the last bit: the library's own quantile (AS 109) starts
 /// from a guess clamped to 0.0001, too large for one case in a hundred thousand.
 fn beta_quantile(a: f64, b: f64, probability: f64) -> f64 {
@@ -165,6 +173,17 @@ const MOST_TERMS: u32 = 100_000;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn student_is_that_of_tables() {
+        // Two-sided 95 %: σ = 1.959964.
+        for (freedom, t) in [(1, 12.7062), (4, 2.776_445), (10, 2.228_139), (1000, 1.962_339)] {
+            let found = student_quantile(freedom, 1.959_963_985);
+            assert!((found - t).abs() < 1e-4 * t, "{freedom}: {found}");
+        }
+        assert!((student_quantile(4, 3.0) - 6.6201).abs() < 1e-3);
+        assert_eq!(student_quantile(4, 0.0), 0.0);
+    }
 
     #[test]
     fn known_statistics() {

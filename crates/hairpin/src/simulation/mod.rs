@@ -4,6 +4,7 @@
 //! what happened. The act shares the robot's numbers with
 //! the claim and nothing else.
 
+pub mod arm;
 mod close_loop;
 mod controllers;
 mod course;

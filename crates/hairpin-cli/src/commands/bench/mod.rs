@@ -1,6 +1,7 @@
 //! `hairpin bench`: the speeds that hairpin promises, measured here and now on one core, beside their targets.
 
 mod arm;
+mod arm_controller;
 mod clock;
 mod exact;
 pub(super) mod ground;
@@ -68,6 +69,7 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
         exact::rows(),
         witness::rows(),
         simulation::rows(),
+        arm_controller::rows(),
         steer::rows(),
         ground::rows(),
         memory::rows(),

@@ -1,0 +1,198 @@
+//! What a recording did on each move: how far it was off the path, and when it arrived.
+
+use super::MovesError;
+use super::align::Way;
+use crate::trajectory::{PlannedPath, Track};
+
+/// Which times are judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Clock {
+    /// Those of the recording: a late start is late.
+    #[default]
+    AsRecorded,
+    /// Those of the recording less the estimated offset: asked for by name where two clocks are known to differ.
+    OffsetRemoved,
+}
+
+/// How recordings are measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasureSettings {
+    /// A target counts as arrived at when this much of the way to it (m) is left, in the plan and in the recording alike: the last of
+    /// an approach takes a servo for ever.
+    pub arrival: f64,
+    /// For alignment alone 1 rad counts as this many metres; 0 where the recording has no orientation.
+    pub turn_weight: f64,
+    /// Which times are judged.
+    pub clock: Clock,
+}
+
+impl Default for MeasureSettings {
+    /// 1 mm before the target, 0.1 m a radian, times as recorded.
+    fn default() -> Self {
+        Self { arrival: 1e-3, turn_weight: 0.1, clock: Clock::AsRecorded }
+    }
+}
+
+/// One move of one recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MoveMeasures {
+    /// As in the plan.
+    pub name: String,
+    /// Largest distance from the path, m; `None` without a sample on the move.
+    pub deviation: Option<f64>,
+    /// When that was, s, by the recording's clock.
+    pub deviation_at: f64,
+    /// When it arrived, s, by the judged clock; `None`: it did not.
+    pub arrived: Option<f64>,
+    /// When it was to arrive, s.
+    pub planned: f64,
+    /// Since the arrival before, s; of the first move since the start of the clock, or since it set out where the offset is removed.
+    pub duration: Option<f64>,
+    /// The same as planned, s.
+    pub planned_duration: f64,
+}
+
+impl MoveMeasures {
+    /// How late it arrived, s; negative is early.
+    pub fn late(&self) -> Option<f64> {
+        Some(self.arrived? - self.planned)
+    }
+}
+
+/// By how much the recording's clock differs from the plan's: estimated, told, and not applied unless asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Offset {
+    /// Median of all arrivals' lateness, s.
+    pub seconds: f64,
+    /// Their spread: 1.4826 times the median distance from it, s.
+    pub spread: f64,
+    /// Whether it was taken off.
+    pub removed: bool,
+}
+
+/// One recording, measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// In the order of the plan.
+    pub moves: Vec<MoveMeasures>,
+    /// The estimated offset; `None` if nothing arrived.
+    pub offset: Option<Offset>,
+    /// Median time between samples, s.
+    pub sample: f64,
+    /// Distance from the path at every sample, m.
+    pub deviations: Vec<f64>,
+}
+
+/// Measures `recording` against the planned path, move by move.
+///
+/// Samples are aligned with the path monotonely; arrival is when progress along it first comes within `arrival` of a target's, between
+/// samples by linear interpolation.
+///
+/// # Errors
+/// A plan without a move, fewer than two samples, settings out of their bounds.
+pub fn measure_moves(
+    path: &PlannedPath,
+    recording: &Track,
+    settings: &MeasureSettings,
+) -> Result<Measured, MovesError> {
+    for (field, value) in [("arrival", settings.arrival), ("turn_weight", settings.turn_weight)] {
+        if !(value >= 0.0 && value.is_finite()) {
+            return Err(MovesError::Setting { field, value, bound: "at least 0" });
+        }
+    }
+    if path.moves().is_empty() {
+        return Err(MovesError::NoMoves);
+    }
+    if recording.len() < 2 {
+        return Err(MovesError::Samples { found: recording.len() });
+    }
+    let way = Way::new(path, settings.turn_weight);
+    let (progress, nearest) = way.progress(recording);
+    let targets: Vec<f64> = targets(&way.ends, settings.arrival);
+    let planned = arrivals(path.track().times(), &way.planned, &targets);
+    let as_recorded = arrivals(recording.times(), &progress, &targets);
+    let offset = offset(&as_recorded, &planned, settings.clock);
+    let shift = offset.filter(|offset| offset.removed).map_or(0.0, |offset| offset.seconds);
+    let arrived: Vec<Option<f64>> = as_recorded.iter().map(|time| time.map(|time| time - shift)).collect();
+    let deviations: Vec<f64> = nearest.iter().zip(recording.poses()).map(|(j, pose)| way.deviation(*j, pose)).collect();
+    // Without a common clock the first move begins when the arm sets out.
+    let set_out = |times: &[f64], progress: &[f64]| {
+        let first = targets[0].min(settings.arrival);
+        arrivals(times, progress, &[first])[0]
+    };
+    let begins = match settings.clock {
+        Clock::AsRecorded => [Some(0.0), Some(0.0)],
+        Clock::OffsetRemoved => [
+            set_out(recording.times(), &progress).map(|time| time - shift),
+            set_out(path.track().times(), &way.planned),
+        ],
+    };
+    let mut moves: Vec<MoveMeasures> = Vec::with_capacity(targets.len());
+    for (index, given) in path.moves().iter().enumerate() {
+        let before = if index == 0 { begins } else { [arrived[index - 1], planned[index - 1]] };
+        let since = |time: Option<f64>, before: Option<f64>| Some(time? - before?);
+        moves.push(MoveMeasures {
+            name: given.name.clone(),
+            deviation: None,
+            deviation_at: 0.0,
+            arrived: arrived[index],
+            planned: planned[index].unwrap_or_else(|| path.passes(index)),
+            duration: since(arrived[index], before[0]),
+            planned_duration: since(planned[index], before[1]).unwrap_or(0.0),
+        });
+    }
+    for (sample, deviation) in deviations.iter().enumerate() {
+        let one = &mut moves[way.owner(progress[sample])];
+        if one.deviation.is_none_or(|most| *deviation > most) {
+            one.deviation = Some(*deviation);
+            one.deviation_at = recording.times()[sample];
+        }
+    }
+    let steps = recording.times().windows(2).map(|pair| pair[1] - pair[0]).collect();
+    Ok(Measured { moves, offset, sample: median(steps), deviations })
+}
+
+/// Where along the path each move counts as arrived; never before the one before it.
+fn targets(ends: &[f64], arrival: f64) -> Vec<f64> {
+    let mut before = 0.0;
+    let targets = ends.iter().map(|end| {
+        // A move shorter than twice the distance is over at its middle.
+        let target = (end - arrival).max(0.5 * (before + end));
+        before = *end;
+        target
+    });
+    targets.collect()
+}
+
+/// When progress first reaches each target, between samples linearly.
+fn arrivals(times: &[f64], progress: &[f64], targets: &[f64]) -> Vec<Option<f64>> {
+    let reach = |target: &f64| {
+        let i = progress.partition_point(|progress| progress < target);
+        if i == progress.len() {
+            return None;
+        }
+        if i == 0 {
+            return Some(times[0]);
+        }
+        let share = (target - progress[i - 1]) / (progress[i] - progress[i - 1]);
+        Some(times[i - 1] + share * (times[i] - times[i - 1]))
+    };
+    targets.iter().map(reach).collect()
+}
+
+fn offset(arrived: &[Option<f64>], planned: &[Option<f64>], clock: Clock) -> Option<Offset> {
+    let late: Vec<f64> = arrived.iter().zip(planned).filter_map(|(a, p)| Some((*a)? - (*p)?)).collect();
+    if late.is_empty() {
+        return None;
+    }
+    let seconds = median(late.clone());
+    let spread = 1.4826 * median(late.iter().map(|late| (late - seconds).abs()).collect());
+    Some(Offset { seconds, spread, removed: clock == Clock::OffsetRemoved })
+}
+
+/// Of at least one value.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    let half = values.len() / 2;
+    if values.len().is_multiple_of(2) { 0.5 * (values[half - 1] + values[half]) } else { values[half] }
+}

@@ -1,0 +1,68 @@
+//! The oracle of programs: recordings of an arm against its planned path, move by move, against a spec and against what an earlier
+//! release did. It knows poses in time and nothing of arms.
+
+mod align;
+mod compare;
+mod measure;
+mod spec;
+mod trend;
+mod verdict;
+
+#[cfg(test)]
+mod tests;
+
+use thiserror::Error;
+
+pub use compare::{Band, Comparison, Metric, MoveComparison, Outcome, Release, compare};
+pub use measure::{Clock, MeasureSettings, Measured, MoveMeasures, Offset, measure_moves};
+pub use spec::{MoveLimits, move_violations, worst_of};
+pub use trend::{Trend, trend};
+pub use verdict::{JudgedMoves, moves_verdict};
+
+/// Why recordings cannot be judged.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MovesError {
+    /// A plan without a move.
+    #[error("the planned path has no move")]
+    NoMoves,
+    /// Too little to align.
+    #[error("the recording has {found} samples: must be at least 2")]
+    Samples {
+        /// How many there are.
+        found: usize,
+    },
+    /// A setting out of its bounds.
+    #[error("{field} = {value}: must be {bound}")]
+    Setting {
+        /// Which.
+        field: &'static str,
+        /// As given.
+        value: f64,
+        /// What it must be.
+        bound: &'static str,
+    },
+    /// Runs of one program differ in their moves.
+    #[error("`{release}`, run {run}: move {index} is `{found}`, expected `{expected}`")]
+    Moves {
+        /// Whose runs.
+        release: String,
+        /// From 0.
+        run: usize,
+        /// From 0.
+        index: usize,
+        /// Its name there; empty if missing.
+        found: String,
+        /// As in the first run of the baseline; empty if missing.
+        expected: String,
+    },
+    /// A band needs a spread.
+    #[error("`{release}` has {found} runs: must be at least {least}")]
+    Runs {
+        /// Whose runs.
+        release: String,
+        /// How many there are.
+        found: usize,
+        /// How many it takes.
+        least: usize,
+    },
+}

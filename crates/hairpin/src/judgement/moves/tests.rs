@@ -1,0 +1,320 @@
+//! Recordings with known faults against plans with known times.
+
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+
+use super::*;
+use crate::judgement::Violation;
+use crate::math::random::{Stream, standard_normals, stream};
+use crate::trajectory::{Channel, PlannedMove, PlannedPath, Track};
+
+fn pose(p: &Point3<f64>, angle: f64) -> Isometry3<f64> {
+    Isometry3::from_parts(Translation3::from(p.coords), UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle))
+}
+
+/// Corners with an angle about z each, joined by straight lines of one second each with a rest of 0.1 s after.
+fn plan(corners: &[([f64; 3], f64)]) -> PlannedPath {
+    let (mut times, mut poses, mut moves) = (vec![0.0], vec![pose(&corners[0].0.into(), corners[0].1)], Vec::new());
+    for (number, pair) in corners.windows(2).enumerate() {
+        let (from, to) = (Point3::from(pair[0].0), Point3::from(pair[1].0));
+        for i in 1..=50 {
+            let share = f64::from(i) / 50.0;
+            times.push(1.1 * number as f64 + share);
+            poses.push(pose(&(from + (to - from) * share), pair[0].1 + share * (pair[1].1 - pair[0].1)));
+        }
+        moves.push(PlannedMove { name: format!("p{number}→p{}", number + 1), end: times.len() - 1, stops: true });
+        times.push(1.1 * (number + 1) as f64 - 1e-3);
+        poses.push(poses[poses.len() - 1]);
+    }
+    PlannedPath::new(Track::new(times, poses, Vec::new()).unwrap(), moves)
+}
+
+/// A to B, back, and out elsewhere through where it came from.
+fn revisiting() -> PlannedPath {
+    plan(&[
+        ([0.0, 0.0, 0.0], 0.0),
+        ([0.3, 0.0, 0.0], 0.0),
+        ([0.0, 0.0, 0.0], 0.0),
+        ([0.3, 0.1, 0.0], 0.3),
+        ([0.1, -0.2, 0.1], 0.3),
+    ])
+}
+
+/// The plan as a recording of 10 ms samples whose time runs as `clock` says, moved by `shift`.
+fn record(path: &PlannedPath, until: f64, clock: impl Fn(f64) -> f64, shift: impl Fn(f64) -> Vector3<f64>) -> Track {
+    let (times, poses) = (path.track().times(), path.track().poses());
+    let n = (until / 0.01).round() as usize;
+    let sampled = (0..n).map(|i| {
+        let t = clock(i as f64 * 0.01);
+        let j = times.partition_point(|time| *time <= t).clamp(1, times.len() - 1);
+        let share = ((t - times[j - 1]) / (times[j] - times[j - 1])).clamp(0.0, 1.0);
+        let mut at = poses[j - 1].lerp_slerp(&poses[j], share);
+        at.translation.vector += shift(t);
+        at
+    });
+    Track::new((0..n).map(|i| i as f64 * 0.01).collect(), sampled.collect(), Vec::new()).unwrap()
+}
+
+fn still(_: f64) -> Vector3<f64> {
+    Vector3::zeros()
+}
+
+fn measure(path: &PlannedPath, recording: &Track) -> Measured {
+    measure_moves(path, recording, &MeasureSettings::default()).unwrap()
+}
+
+const LIMITS: MoveLimits = MoveLimits { path: Some(5e-4), late: Some(0.02) };
+
+#[test]
+fn what_was_planned_is_on_time_and_on_its_path() {
+    let path = revisiting();
+    let measured = measure(&path, &record(&path, 4.6, |t| t, still));
+    for one in &measured.moves {
+        assert!(one.deviation.unwrap() < 1e-9 && one.late().unwrap().abs() < 2e-4, "{one:?}");
+        assert!((one.duration.unwrap() - one.planned_duration).abs() < 3e-4);
+    }
+    assert!((measured.moves[1].planned - 2.1).abs() < 0.01 && (measured.sample - 0.01).abs() < 1e-12);
+    assert_eq!(move_violations(&measured, &LIMITS), vec![]);
+}
+
+#[test]
+fn a_deviation_belongs_to_its_move_even_where_paths_are_revisited() {
+    let path = revisiting();
+    // On the way back only, aside by 0.8 mm at most, at 1.6 s.
+    let aside = |t: f64| Vector3::y() * 8e-4 * (1.0 - (t - 1.6).abs() / 0.3).max(0.0);
+    let measured = measure(&path, &record(&path, 4.6, |t| t, aside));
+    let found = move_violations(&measured, &LIMITS);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].what == "deviation" && found[0].leg == 1 && (found[0].value - 0.8).abs() < 1e-6);
+    assert!((found[0].at - 1.6).abs() < 0.011 && found[0].limit == 0.5 && found[0].unit == "mm");
+    for index in [0, 2, 3] {
+        assert!(measured.moves[index].deviation.unwrap() < 1e-9);
+    }
+}
+
+#[test]
+fn offsets_are_told_and_removed_only_when_asked() {
+    let path = revisiting();
+    let late = record(&path, 4.7, |t| t - 0.05, still);
+    let measured = measure(&path, &late);
+    let offset = measured.offset.unwrap();
+    assert!((offset.seconds - 0.05).abs() < 3e-4 && offset.spread < 1e-3 && !offset.removed, "{offset:?}");
+    assert_eq!(move_violations(&measured, &LIMITS).len(), 4);
+    let settings = MeasureSettings { clock: Clock::OffsetRemoved, ..MeasureSettings::default() };
+    let removed = measure_moves(&path, &late, &settings).unwrap();
+    assert!(removed.offset.unwrap().removed && move_violations(&removed, &LIMITS).is_empty());
+    // One late move of four does not move the median.
+    let once = measure(&path, &record(&path, 4.8, |t| if t < 3.5 { t } else { t - 0.2 }, still));
+    assert!(once.offset.unwrap().seconds.abs() < 1e-3, "{:?}", once.offset);
+}
+
+#[test]
+fn a_slow_move_is_late_itself_and_makes_the_later_ones_late() {
+    let path = revisiting();
+    // Halfway through the third move the arm waits for 60 ms.
+    let waits = |t: f64| if t < 2.7 { t } else { (t - 0.06).max(2.7) };
+    let measured = measure(&path, &record(&path, 4.8, waits, still));
+    let late: Vec<i64> = measured.moves.iter().map(|one| (1e3 * one.late().unwrap()).round() as i64).collect();
+    assert_eq!(late, [0, 0, 60, 60]);
+    let longer = |one: &MoveMeasures| (1e3 * (one.duration.unwrap() - one.planned_duration)).round() as i64;
+    assert_eq!(measured.moves.iter().map(longer).collect::<Vec<_>>(), [0, 0, 60, 0]);
+    let arrivals: Vec<usize> = move_violations(&measured, &LIMITS).iter().map(|violation| violation.leg).collect();
+    assert_eq!(arrivals, [2, 3]);
+}
+
+#[test]
+fn targets_that_are_not_reached_are_told_once() {
+    let path = revisiting();
+    let measured = measure(&path, &record(&path, 2.5, |t| t, still));
+    let found = move_violations(&measured, &LIMITS);
+    assert_eq!(found.len(), 1);
+    assert_eq!((found[0].what.as_str(), found[0].leg, found[0].value, found[0].limit), ("unreached", 2, 2.0, 4.0));
+    let verdict = moves_verdict(&JudgedMoves {
+        how: &["simulated"],
+        runs: &[measured],
+        limits: &LIMITS,
+        comparison: None,
+        evidence: &[],
+    });
+    assert_eq!(verdict.sentence, "FAIL 1/4 moves (simulated, 1 run): p2→p3 not reached, 2 of 4 targets were");
+    assert_eq!(verdict.exit_code, 1);
+}
+
+#[test]
+fn turns_on_the_spot_arrive_by_orientation() {
+    let path = plan(&[([0.0; 3], 0.0), ([0.0; 3], 1.0), ([0.1, 0.0, 0.0], 1.0)]);
+    let measured = measure(&path, &record(&path, 2.3, |t| t - 0.03, still));
+    for one in &measured.moves {
+        assert!((one.late().unwrap() - 0.03).abs() < 1e-3, "{one:?}");
+    }
+}
+
+#[test]
+fn told_moves_and_thinned_alignment_give_the_same() {
+    let path = revisiting();
+    let plain = record(&path, 4.6, |t| t - 0.02, |t| Vector3::z() * (2e-4 * (7.0 * t).sin()));
+    let told: Vec<f64> = plain.times().iter().map(|t| (t / 1.1).floor().min(3.0)).collect();
+    let channels = vec![Channel { name: "move".into(), values: told }];
+    let with = Track::new(plain.times().to_vec(), plain.poses().to_vec(), channels).unwrap();
+    assert_eq!(measure(&path, &plain), measure(&path, &with));
+    // So many samples that they are not all aligned at once.
+    let n = 20_000;
+    let fine = |i: usize| plain.poses()[i * plain.len() / n];
+    let times = (0..n).map(|i| 4.6 * i as f64 / n as f64).collect();
+    let dense = Track::new(times, (0..n).map(fine).collect(), Vec::new()).unwrap();
+    let (dense, plain) = (measure(&path, &dense), measure(&path, &plain));
+    for (a, b) in dense.moves.iter().zip(&plain.moves) {
+        assert!((a.arrived.unwrap() - b.arrived.unwrap()).abs() < 0.011);
+        assert!((a.deviation.unwrap() - b.deviation.unwrap()).abs() < 1e-12);
+    }
+}
+
+/// 48 moves around a polygon.
+fn long() -> PlannedPath {
+    let corner = |i: usize| {
+        let (s, c) = (0.7 * i as f64).sin_cos();
+        ([0.3 + 0.1 * c, 0.1 * s, 0.002 * i as f64], 0.0)
+    };
+    plan(&(0..=48).map(corner).collect::<Vec<_>>())
+}
+
+/// Repeats whose every move takes a little more or less, by a normal number of 1.5 ms; `slower` adds to moves.
+fn repeats(path: &PlannedPath, runs: usize, random: &mut Stream, slower: &[(usize, f64)]) -> Vec<Measured> {
+    let exact = measure(path, &record(path, 53.0, |t| t, still));
+    let one = |random: &mut Stream| {
+        let mut measured = exact.clone();
+        for (index, one) in measured.moves.iter_mut().enumerate() {
+            let [jitter] = standard_normals::<1>(random);
+            let more = slower.iter().find(|(slow, _)| *slow == index).map_or(0.0, |(_, more)| *more);
+            one.duration = Some(one.planned_duration + 1.5e-3 * jitter + more);
+        }
+        measured
+    };
+    (0..runs).map(|_| one(random)).collect()
+}
+
+#[test]
+fn regressions_read_as_designed() {
+    let path = long();
+    let mut random = stream(1);
+    let (old, new) =
+        (repeats(&path, 5, &mut random, &[]), repeats(&path, 5, &mut random, &[(17, 0.041), (3, 0.02), (30, 0.03)]));
+    let (old, new) = (Release { name: "7.14", runs: &old }, Release { name: "7.15", runs: &new });
+    let comparison = compare(&old, &new, &Band::default()).unwrap();
+    assert_eq!((comparison.count(Outcome::Worse), comparison.worst().unwrap().index), (3, 17));
+    let limits = MoveLimits { path: Some(5e-4), late: Some(0.5) };
+    let judged = JudgedMoves {
+        how: &["simulated"],
+        runs: new.runs,
+        limits: &limits,
+        comparison: Some(&comparison),
+        evidence: &[],
+    };
+    let verdict = moves_verdict(&judged);
+    let worst = comparison.worst().unwrap();
+    assert_eq!(
+        verdict.sentence,
+        format!(
+            "REGRESSION 7.15 against 7.14 (5 + 5 runs): 3/48 moves outside the baseline's band, worst p17→p18 +{:.0} ms (band ±{:.0} ms); \
+             all still within spec",
+            1e3 * worst.difference(),
+            1e3 * worst.band
+        )
+    );
+    assert_eq!(verdict.exit_code, 1);
+    assert!((worst.difference() - 0.041).abs() < 3e-3 && (0.004..0.012).contains(&worst.band), "{worst:?}");
+    // The other way round everything is better, and that is told.
+    let back = compare(&new, &old, &Band::default()).unwrap();
+    let judged = JudgedMoves { runs: old.runs, comparison: Some(&back), ..judged };
+    let verdict = moves_verdict(&judged);
+    assert!(verdict.sentence.starts_with("PASS 48/48 moves (simulated, 5 runs): worst "), "{}", verdict.sentence);
+    assert!(verdict.sentence.ends_with("against 7.15: no move outside the baseline's band; 3 better than the band"));
+    assert_eq!(verdict.exit_code, 0);
+}
+
+#[test]
+fn equal_releases_seldom_differ() {
+    let path = long();
+    let mut random = stream(2);
+    let (mut outside, trials) = (0, 12);
+    for _ in 0..trials {
+        let (a, b) = (repeats(&path, 3, &mut random, &[]), repeats(&path, 3, &mut random, &[]));
+        // Without floors: the quantile alone.
+        let band = Band { sigma: 2.0, least_deviation: 1.0, least_samples: 0.0 };
+        let found = compare(&Release { name: "a", runs: &a }, &Release { name: "b", runs: &b }, &band).unwrap();
+        outside += found.count(Outcome::Worse) + found.count(Outcome::Better);
+    }
+    // 4.55 % of 12 · 48 moves, with four standard errors.
+    let expected = 0.0455 * (48 * trials) as f64;
+    assert!((outside as f64 - expected).abs() < 4.0 * expected.sqrt(), "{outside} {expected}");
+}
+
+#[test]
+fn violations_come_before_regressions() {
+    let path = revisiting();
+    let aside = |t: f64| Vector3::z() * 6.5e-4 * (1.0 - (t - 1.6).abs() / 0.3).max(0.0);
+    let (good, bad) =
+        (measure(&path, &record(&path, 4.6, |t| t, still)), measure(&path, &record(&path, 4.6, |t| t, aside)));
+    let (old, new) = ([good.clone(), good.clone()], [good.clone(), bad]);
+    let comparison =
+        compare(&Release { name: "1", runs: &old }, &Release { name: "2", runs: &new[1..] }, &Band::default()).unwrap();
+    let judged = JudgedMoves {
+        how: &["simulated", "virtual controller"],
+        runs: &new,
+        limits: &LIMITS,
+        comparison: Some(&comparison),
+        evidence: &["all links clear"],
+    };
+    let verdict = moves_verdict(&judged);
+    assert_eq!(
+        verdict.sentence,
+        "FAIL 1/4 moves (simulated, virtual controller, 2 runs): worst 0.65 mm > 0.50 mm, p1→p2, t = 1.60 s, run 1; against 1: \
+         1/4 moves outside the baseline's band, worst p1→p2 +0.65 mm (band ±0.02 mm); all links clear"
+    );
+    let nothing = JudgedMoves { limits: &MoveLimits::default(), comparison: None, ..judged };
+    assert_eq!(moves_verdict(&nothing).exit_code, 5);
+    let lost = measure(&path, &record(&path, 2.5, |t| t, still));
+    let comparison =
+        compare(&Release { name: "1", runs: &old }, &Release { name: "2", runs: &[lost] }, &Band::default());
+    assert_eq!(comparison.unwrap().lost, [2, 3]);
+}
+
+#[test]
+fn trends_follow_releases() {
+    let path = revisiting();
+    let slower = |more: f64| {
+        let mut measured = measure(&path, &record(&path, 4.6, |t| t, still));
+        measured.moves[2].duration = measured.moves[2].duration.map(|duration| duration + more);
+        [measured.clone(), measured]
+    };
+    let runs = [0.0, 0.004, 0.008, 0.02].map(slower);
+    let releases: Vec<Release> = runs.iter().map(|runs| Release { name: "x", runs }).collect();
+    let found = trend(&releases).unwrap();
+    let third = found.iter().find(|one| one.index == 2 && one.metric == Metric::Duration).unwrap();
+    // Slopes 4, 4, 12, 4, 8, 20/3 ms: the median is 16/3.
+    assert!((third.slope.unwrap() - 0.016 / 3.0).abs() < 1e-9 && third.correlation == Some(1.0), "{third:?}");
+    let first = found.iter().find(|one| one.index == 0).unwrap();
+    assert_eq!((first.slope, first.correlation), (Some(0.0), None));
+    assert!(trend(&[]).unwrap().is_empty());
+}
+
+#[test]
+fn what_cannot_be_judged_is_refused() {
+    let path = revisiting();
+    let good = measure(&path, &record(&path, 4.6, |t| t, still));
+    let one = Track::new(vec![0.0], vec![Isometry3::identity()], Vec::new()).unwrap();
+    let settings = MeasureSettings::default();
+    assert_eq!(measure_moves(&path, &one, &settings), Err(MovesError::Samples { found: 1 }));
+    let odd = MeasureSettings { arrival: f64::NAN, ..settings };
+    assert!(matches!(measure_moves(&path, &one, &odd), Err(MovesError::Setting { field: "arrival", .. })));
+    let single = [good.clone()];
+    let release = Release { name: "7.14", runs: &single };
+    let error = compare(&release, &release, &Band::default()).unwrap_err();
+    assert_eq!(error.to_string(), "`7.14` has 1 runs: must be at least 2");
+    let mut other = good.clone();
+    other.moves[1].name = "elsewhere".into();
+    let runs = [good, other];
+    let error = compare(&Release { name: "7.14", runs: &runs }, &release, &Band::default()).unwrap_err();
+    assert_eq!(error.to_string(), "`7.14`, run 1: move 1 is `elsewhere`, expected `p1→p2`");
+    let violation: Option<(usize, Violation)> = worst_of(&[], &LIMITS);
+    assert!(violation.is_none());
+}

@@ -1,0 +1,107 @@
+//! How programs are planned and run; every number is a stand-in for a controller whose own is not public.
+
+use crate::simulation::SimulationError;
+
+/// How speed rises and falls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// At constant acceleration where the limits do not change.
+    Trapezoid,
+    /// The trapezoid's progress averaged over this time, s: jerk is bounded, the path stays the path, every stop comes that much later.
+    SCurve(f64),
+}
+
+/// How a path and its time law are made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlanSettings {
+    /// How speed rises and falls.
+    pub shape: Shape,
+    /// Largest acceleration of the tool's point along the path, m/s².
+    pub acceleration: f64,
+    /// Largest angular acceleration of the tool along the path, rad/s².
+    pub turn_acceleration: f64,
+    /// How long the arm waits at a fine point, s.
+    pub settle: f64,
+    /// Along lines and arcs the arm stops where a singularity's margin falls below this.
+    pub singularity: f64,
+}
+
+impl Default for PlanSettings {
+    /// A trapezoid, 10 m/s², 100 rad/s², 50 ms at fine points, margin 0.01.
+    fn default() -> Self {
+        Self { shape: Shape::Trapezoid, acceleration: 10.0, turn_acceleration: 100.0, settle: 0.05, singularity: 0.01 }
+    }
+}
+
+/// How servos follow and what is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunSettings {
+    /// Time between samples, s.
+    pub sample: f64,
+    /// Time between set points of the servos, s; rounded so that samples are whole multiples.
+    pub interpolation: f64,
+    /// Time constant of every joint's lag, s. What is left after a controller's feed-forward.
+    pub lag: f64,
+    /// What differs from run to run.
+    pub noise: Noise,
+}
+
+impl Default for RunSettings {
+    /// Samples every 10 ms, set points every 2 ms, a lag of 5 ms, no noise.
+    fn default() -> Self {
+        Self { sample: 0.01, interpolation: 0.002, lag: 0.005, noise: Noise::default() }
+    }
+}
+
+/// Standard deviations of what differs from run to run; 0 is none.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Noise {
+    /// Of each coordinate of the measured position, m.
+    pub position: f64,
+    /// Of each component of the measured orientation's rotation vector, rad.
+    pub orientation: f64,
+    /// Of each measured joint angle, rad.
+    pub joints: f64,
+    /// Longest extra wait at a fine point, uniform from 0, s.
+    pub pause: f64,
+}
+
+impl PlanSettings {
+    pub(super) fn check(&self) -> Result<(), SimulationError> {
+        if let Shape::SCurve(width) = self.shape {
+            positive("shape.s_curve", width, 1.0)?;
+        }
+        positive("acceleration", self.acceleration, 1e6)?;
+        positive("turn_acceleration", self.turn_acceleration, 1e6)?;
+        at_least_0("settle", self.settle, 3600.0)?;
+        at_least_0("singularity", self.singularity, 1.0)
+    }
+}
+
+impl RunSettings {
+    pub(super) fn check(&self) -> Result<(), SimulationError> {
+        positive("sample", self.sample, 10.0)?;
+        positive("interpolation", self.interpolation, self.sample)?;
+        at_least_0("lag", self.lag, 10.0)?;
+        at_least_0("noise.position", self.noise.position, 1.0)?;
+        at_least_0("noise.orientation", self.noise.orientation, 1.0)?;
+        at_least_0("noise.joints", self.noise.joints, 1.0)?;
+        at_least_0("noise.pause", self.noise.pause, 3600.0)
+    }
+}
+
+fn positive(field: &'static str, value: f64, most: f64) -> Result<(), SimulationError> {
+    if value > 0.0 && value <= most {
+        Ok(())
+    } else {
+        Err(SimulationError::new(field, value.to_string(), "more than 0, and no more than is of use"))
+    }
+}
+
+fn at_least_0(field: &'static str, value: f64, most: f64) -> Result<(), SimulationError> {
+    if (0.0..=most).contains(&value) {
+        Ok(())
+    } else {
+        Err(SimulationError::new(field, value.to_string(), "at least 0, and no more than is of use"))
+    }
+}
