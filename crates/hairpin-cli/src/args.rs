@@ -12,7 +12,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use requirements::Requirements;
-pub(crate) use steer::{KeepOutFlags, Steer, SteerCost, SteerFrame};
+pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerCost, SteerFrame};
 pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
 
 /// Finds the trajectories a robot handles worst, and proves that they are ones it could have flown.
@@ -60,6 +60,8 @@ pub(crate) enum Command {
     Steer(Box<Steer>),
     /// Find the path through a graph that costs most: --graph COSTS.csv
     MaxLoad(Box<MaxLoad>),
+    /// Make a table of start values for a vehicle, for steer --start-table
+    StartTable(StartTable),
     /// Measure what hairpin promises of its speed, on one core
     Bench(Bench),
     /// Check the requirements of a generator one by one: requirements rover
@@ -86,6 +88,7 @@ impl Command {
             Self::Bench(a) => a.json,
             Self::Steer(a) => a.json,
             Self::MaxLoad(a) => a.json,
+            Self::StartTable(a) => a.json,
             Self::Requirements(a) => a.json,
             Self::Show(Show { what: Shown::Terrain(a) }) => a.json,
             Self::New(a) => a.json,

@@ -76,6 +76,7 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
         Command::Simulate(simulate) => commands::simulate::run(&simulate),
         Command::Steer(steer) => commands::steer::run(&steer),
         Command::MaxLoad(asked) => commands::max_load::run(&asked),
+        Command::StartTable(table) => commands::steer::make_table(&table),
         Command::Bench(bench) => commands::bench::run(&bench),
         Command::Requirements(requirements) => commands::requirements::run(&requirements),
         Command::Show(show) => commands::show::run(&show),

@@ -363,3 +363,39 @@ fn precision_steps_and_costs_are_what_was_asked_for() {
         assert!(code == 2 && out.is_empty() && error.contains(told), "{flags:?}: {code} {out} {error}");
     }
 }
+
+#[test]
+fn start_tables_are_made_kept_and_refused_where_they_do_not_fit() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, out, error) = run(folder.path(), &["start-table", "generic", "--out", "arcs.table"]);
+    assert!(code == 0 && out.contains("8976 goals"), "{out}{error}");
+    assert!(fs::metadata(folder.path().join("arcs.table")).unwrap().len() < 200_000);
+    let (_, again, _) = run(folder.path(), &["start-table", "generic", "--out", "again.table", "--json"]);
+    let again: serde_json::Value = serde_json::from_str(&again).unwrap();
+    assert!(again["arcs"].as_u64() > Some(5000), "{again}");
+    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(read("arcs.table"), read("again.table"));
+    let ask = |more: &[&str]| -> serde_json::Value {
+        let (_, out, error) =
+            run(folder.path(), &[&["steer", "generic", "--to", "4.2,2.1,0.3", "--json"], more].concat());
+        serde_json::from_str(&out).unwrap_or_else(|_| panic!("{out}{error}"))
+    };
+    let (plain, table) = (ask(&[]), ask(&["--start-table", "arcs.table"]));
+    assert_eq!((&plain["status"], &table["status"]), (&"ok".into(), &"ok".into()), "{table}");
+    assert!(table["iterations"].as_u64() < plain["iterations"].as_u64(), "{table} {plain}");
+    // A vehicle that steers otherwise, a file that is none, and one that was touched.
+    fs::write(folder.path().join("own.toml"), "kind = \"rover\"\nname = \"own\"\n[limits]\ncurvature_1_m = 0.25\n")
+        .unwrap();
+    let mut bytes = read("arcs.table");
+    bytes[5000] ^= 1;
+    fs::write(folder.path().join("touched.table"), bytes).unwrap();
+    for (rover, file, told) in [
+        ("own.toml", "arcs.table", "made for vehicles with"),
+        ("generic", "own.toml", "no start table"),
+        ("generic", "touched.table", "checksum"),
+        ("generic", "none.table", "none.table"),
+    ] {
+        let (code, _, error) = run(folder.path(), &["steer", rover, "--to", "4,1,0", "--start-table", file]);
+        assert!(code == 2 && error.contains(told), "{file}: {code} {error}");
+    }
+}

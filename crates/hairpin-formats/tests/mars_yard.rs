@@ -5,9 +5,12 @@ use std::time::{Duration, Instant};
 
 use hairpin::campaign::drive::Site;
 use hairpin::campaign::goals::ground_goals;
-use hairpin::feasibility::steering::shooting::rough::{Settings, Status};
+use hairpin::feasibility::steering::shooting::rough::{GroundCost, Settings, Status};
+use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
+use hairpin::feasibility::steering::shooting::{Precision, Query, flat};
 use hairpin::math::random::stream;
 use hairpin::robot::rover::{Response, Rover, RoverDescription, Slip};
+use hairpin::trajectory::drive::{Planar, SegmentList};
 use hairpin::world::terrain::{ElevationMap, Rocks, Terrain, add_rocks};
 use hairpin_formats::terrain::{Georeference, read_terrain};
 
@@ -97,6 +100,50 @@ fn late_and_slipping() -> Rover {
         },
         default_speed: 0.3,
         ..rocky8()
+    }
+}
+
+/// What 100 drives cost before and after, in the median of the ratios; begun from closed forms or from the arcs that drives begin with.
+fn lowered(site: &Site<'_>, cost: GroundCost, arcs: bool) -> Vec<[f64; 2]> {
+    let bounds = site.bounds();
+    let precision = Precision { position: 1e-5, yaw: 1e-5, curvature: 1e-5 };
+    let flat = flat::Settings { precision, ..flat::Settings::default() };
+    let mut steer = |query: &Query| -> Option<SegmentList> {
+        let query = Query::new(query.start_curvature, query.goal, &bounds).ok()?;
+        let solution = solve(&query, &bounds, &Choices { arcs, flat, ..Choices::default() }, || false);
+        (solution.outcome == Outcome::Solved).then_some(solution.segments)
+    };
+    let mut costs = |start: &Planar, goal: &Planar, lowered: GroundCost| {
+        let settings = Settings { cost: lowered, ..Settings::default() };
+        let answer = site.solve(start, goal, &bounds, &settings, &mut steer);
+        assert_eq!(answer.status, Status::Ok);
+        cost.of_commands(&answer.segments)
+    };
+    let goals = ground_goals(site, 100, &mut stream(50));
+    goals.iter().map(|(start, goal)| [GroundCost::Any, cost].map(|lowered| costs(start, goal, lowered))).collect()
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted[sorted.len() / 2]
+}
+
+#[test]
+fn costs_fall_to_the_same_from_wherever_they_begin() {
+    let Some(yard) = yard() else { return };
+    let rover = rocky8();
+    let site = Site::straight(&rover, &yard);
+    for (cost, share) in [(GroundCost::Curvature, 0.75), (GroundCost::Rate, 0.2)] {
+        let (arcs, clothoids) = (lowered(&site, cost, true), lowered(&site, cost, false));
+        let fell = |of: &[[f64; 2]]| median(of.iter().map(|[before, after]| after / before));
+        let apart = median(arcs.iter().zip(&clothoids).map(|([_, arc], [_, clothoid])| clothoid / arc));
+        eprintln!("{cost:?}: arcs to {:.3}, clothoids to {:.3}, apart {apart:.3}", fell(&arcs), fell(&clothoids));
+        // Arcs begin near the least: the flat solver's descent minimises what bends them. Clothoids come down to it.
+        assert!(fell(&arcs) <= 1.0 && fell(&arcs) > 0.95 && fell(&clothoids) < share, "{cost:?}");
+        assert!((apart - 1.0).abs() < 0.02, "{cost:?}: {apart}");
+        let highest = |of: &[[f64; 2]]| of.iter().map(|[before, after]| after / before).fold(0.0, f64::max);
+        assert!(highest(&arcs) <= 1.0 + 1e-9 && highest(&clothoids) <= 1.0 + 1e-9, "{cost:?}");
     }
 }
 

@@ -8,7 +8,7 @@ use allocation_counter::measure;
 use hairpin::campaign::drive::Site;
 use hairpin::campaign::goals::{anywhere, flat_goal, ground_goals};
 use hairpin::feasibility::steering::shooting::cc::{self, Gears};
-use hairpin::feasibility::steering::shooting::flat::{self, Control, Cost};
+use hairpin::feasibility::steering::shooting::flat::{self, Control, Cost, StartTable};
 use hairpin::feasibility::steering::shooting::rough::{Settings, Status, Steps};
 use hairpin::feasibility::steering::shooting::solve::{Choices, solve};
 use hairpin::feasibility::steering::shooting::{Curvatures, Query};
@@ -96,6 +96,35 @@ fn solving_on_the_ground_allocates_nothing() {
     }
 }
 
+#[test]
+fn the_heap_of_one_solver_is_its_vehicle_and_its_table() {
+    let recipe = Recipe { size_m: 30.0, relief_m: 0.5, crater_area_m2: 40.0, rock_cover: 0.0, ..Recipe::default() };
+    let mut ground = None;
+    let map = measure(|| ground = Some(generate(&recipe).expect("a map")));
+    let map_held = map.bytes_current;
+    let ground = ground.expect("a map");
+    let grid = ground.grid();
+    // The map is data: four bytes a cell and a ring around them, whoever solves on it.
+    let cells = (grid.columns + 2) * (grid.rows + 2);
+    assert!(map_held.unsigned_abs() < 5 * cells as u64, "{map_held} bytes held for {cells} cells");
+    // A workspace: a vehicle from its file, a table of start values, flat and rough solving, until the last answer.
+    let workspace = measure(|| {
+        let rover = rocky8(true);
+        let table = StartTable::generate(&BOUNDS).expect("a vehicle");
+        let table: &'static StartTable = Box::leak(Box::new(table));
+        let settings = flat::Settings { table: Some(table), ..flat::Settings::default() };
+        let goal = flat_goal(&mut stream(21), &BOUNDS);
+        assert_eq!(flat::forward(&goal, &BOUNDS, &settings).status, flat::Status::Ok);
+        let site = Site::straight(&rover, &ground);
+        let start = hairpin::trajectory::drive::Planar { x: 15.0, y: 15.0, yaw: 0.3, curvature: 0.0 };
+        let goal = hairpin::trajectory::drive::Planar { x: 18.0, y: 16.5, yaw: 0.6, curvature: 0.0 };
+        assert!(site.drive(&start, &goal, &Settings::default()).iterations > 0);
+    });
+    eprintln!("one workspace: {} bytes of heap at most; the map of {cells} cells: {map_held}", workspace.bytes_max);
+    // The table is nearly all of it.
+    assert!((150_000..500_000).contains(&workspace.bytes_max), "{workspace:?}");
+}
+
 /// Rooms that run on board, and the files in them that do not: what is read or made before the drive.
 const ROOMS: &[&str] = &["feasibility/steering/shooting", "robot/rover", "world/terrain", "trajectory/drive.rs"];
 const BEFORE: &[&str] = &[
@@ -139,6 +168,7 @@ const NOT_ON_BOARD: &[&str] = &[
 /// Made once, before: the map's table and its errors in words, the vehicle's name; whole missions, which no solver makes.
 const MADE_BEFORE: &[(&str, &[&str])] = &[
     ("world/terrain/map.rs", &["Vec<", "Vec::", "vec![", "String", ".to_string()", ".collect"]),
+    ("shooting/flat/start_table.rs", &["Vec<", "vec!["]),
     ("robot/rover/mod.rs", &["String", "Vec<"]),
     ("robot/rover/body.rs", &["Vec<", "format!"]),
     ("robot/rover/error.rs", &["String", "format!", ".to_string()"]),

@@ -1,5 +1,7 @@
 //! How exactly and how long is looked for drives.
 
+use std::path::PathBuf;
+
 use clap::Args;
 
 use crate::args::numbers::{count, positive, share};
@@ -21,4 +23,19 @@ pub(crate) struct Effort {
     /// Share of each step that is taken, from 0.01 to 1
     #[arg(long, value_name = "SHARE", default_value_t = 1.0, value_parser = share, allow_hyphen_values = true)]
     pub(crate) step_scale: f64,
+    /// Look start values of quintics and cubics up in a table that `hairpin start-table` made for the vehicle
+    #[arg(long, value_name = "FILE")]
+    pub(crate) start_table: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StartTable {
+    /// Vehicle: a shipped rover's name, such as generic, or a robot file
+    pub(crate) rover: String,
+    /// Where the table goes, 180 kB
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
 }

@@ -12,6 +12,7 @@ use super::Threads;
 use super::numbers::{finite, milliseconds, not_negative, positive, steps};
 use super::terrain::{MapFlags, NoData};
 use effort::Effort;
+pub(crate) use effort::StartTable;
 pub(crate) use keep_out::KeepOutFlags;
 use names::SteerControl;
 pub(crate) use names::{SteerCost, SteerFrame};

@@ -2,12 +2,13 @@
 
 use std::f64::consts::PI;
 use std::hint::black_box;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use hairpin::campaign::drive::replay_flat;
 use hairpin::campaign::goals::{anywhere, flat_goal};
 use hairpin::feasibility::steering::shooting::cc::{self, Gears};
-use hairpin::feasibility::steering::shooting::flat;
+use hairpin::feasibility::steering::shooting::flat::{self, StartTable};
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Query};
 use hairpin::feasibility::steering::shooting::solve::{Choices, solve};
 use hairpin::math::random::{Stream, stream, unit};
@@ -34,6 +35,11 @@ pub(super) fn rows() -> Vec<Row> {
     vec![
         row("steer-feasible", "µs", most(5.0), |_: &Bench| Ok(microseconds(&feasible(), false))),
         row("steer-feasible-success", "%", all, |_| Ok(success(&feasible(), false))),
+        row("steer-feasible-steps", "steps", None, |_| Ok(steps(&feasible(), None))),
+        row("steer-feasible-table", "µs", None, |_| {
+            Ok(micros_by(&feasible(), &Choices { flat: with_table(), ..choices(false) }))
+        }),
+        row("steer-feasible-table-steps", "steps", None, |_| Ok(steps(&feasible(), Some(table())))),
         row("steer-hard", "µs", most(60.0), |_| Ok(microseconds(&hard(), true))),
         row("steer-hard-success", "%", all, |_| Ok(success(&hard(), true))),
         row("steer-hard-length-median", "× CC", most(1.3), |_| Ok(lengths(&hard()).0)),
@@ -48,6 +54,23 @@ pub(super) fn rows() -> Vec<Row> {
         row("steer-batch-1-thread", "1/s", None, |_| batch(1)),
         row("steer-batch-2-threads", "× 1 thread", Some(Target::AtLeast(1.8)), |_| Ok(batch(2)? / batch(1)?)),
     ]
+}
+
+/// The table of start values of `generic`, made once.
+fn table() -> &'static StartTable {
+    static TABLE: OnceLock<StartTable> = OnceLock::new();
+    TABLE.get_or_init(|| StartTable::generate(&BOUNDS).unwrap_or_else(|error| unreachable!("generic steers: {error}")))
+}
+
+fn with_table() -> flat::Settings {
+    flat::Settings { table: Some(table()), ..flat::Settings::default() }
+}
+
+/// Steps of a query in the mean.
+fn steps(queries: &[Query], table: Option<&'static StartTable>) -> f64 {
+    let settings = flat::Settings { table, ..flat::Settings::default() };
+    let all: u32 = queries.iter().map(|query| flat::forward(query, &BOUNDS, &settings).iterations).sum();
+    f64::from(all) / queries.len() as f64
 }
 
 fn choices(reversals: bool) -> Choices {
@@ -83,9 +106,12 @@ fn crabs() -> Vec<(Query, f64)> {
 }
 
 fn microseconds(queries: &[Query], reversals: bool) -> f64 {
-    let choices = choices(reversals);
+    micros_by(queries, &choices(reversals))
+}
+
+fn micros_by(queries: &[Query], choices: &Choices) -> f64 {
     let all = median_time(5, || {
-        queries.iter().map(|query| solve(query, &BOUNDS, &choices, || false).segments.len()).sum::<usize>()
+        queries.iter().map(|query| solve(query, &BOUNDS, choices, || false).segments.len()).sum::<usize>()
     });
     all / queries.len() as f64 * 1e6
 }

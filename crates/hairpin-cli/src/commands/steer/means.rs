@@ -8,10 +8,12 @@ use hairpin::feasibility::steering::shooting::flat::Cost;
 use hairpin::feasibility::steering::shooting::rough::{GroundCost, Settings};
 use hairpin::feasibility::steering::shooting::solve::Choices;
 use hairpin::feasibility::steering::shooting::{Control, Precision};
+use hairpin::robot::rover::Rover;
 use hairpin::world::terrain::KeepOuts;
 use hairpin_formats::steering::Asked;
 use hairpin_formats::terrain::read_keep_outs;
 
+use super::start_table;
 use crate::args::{KeepOutFlags, Steer, SteerCost};
 use crate::problem::Problem;
 
@@ -31,7 +33,7 @@ impl Means {
         Self { choices: Choices::default(), ground: Settings::default(), time_limit }
     }
 
-    pub(super) fn new(steer: &Steer) -> Result<Self, Problem> {
+    pub(super) fn new(steer: &Steer, rover: &Rover) -> Result<Self, Problem> {
         let mut means = Self::plain(steer.time_limit_ms.map(|ms| Duration::from_secs_f64(ms * 1e-3)));
         let Self { choices, ground, .. } = &mut means;
         (choices.reversals, choices.turns) = (steer.reversals, steer.turns);
@@ -42,6 +44,7 @@ impl Means {
             _ => Cost::Any,
         };
         let effort = &steer.effort;
+        choices.flat.table = effort.start_table.as_deref().map(|path| start_table::load(path, rover)).transpose()?;
         let usual = Precision::default();
         ground.precision = Precision {
             position: usual.position,

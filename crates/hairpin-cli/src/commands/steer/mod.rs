@@ -10,12 +10,14 @@ mod plane;
 mod question;
 mod remedy;
 mod single;
+mod start_table;
 mod told;
 mod vehicle;
 
 use crate::args::Steer;
 use crate::folder;
 use crate::problem::Problem;
+pub(crate) use start_table::make as make_table;
 pub(super) use vehicle::Vehicle;
 
 /// Runs the command: 0 when everything was answered; one question alone is 3 when it is infeasible, 5 when it is open.

@@ -41,7 +41,7 @@ impl Vehicle {
                 rover.name
             )));
         }
-        let means = Means::new(steer)?;
+        let means = Means::new(steer, &rover)?;
         let keep_outs = places(&steer.keep_out)?;
         let map = ground::map(steer, &rover)?;
         Ok(Self { rover, map, keep_outs, means, pace: Pace::new(steer) })

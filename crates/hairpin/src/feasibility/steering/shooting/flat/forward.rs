@@ -18,7 +18,7 @@ const ARC_STEPS: u32 = 8;
 const TOLERANCE: f64 = 1e-3;
 
 #[derive(Clone, Copy)]
-enum Curve {
+pub(super) enum Curve {
     Arc(Ends, Free),
     Chain(Chain),
 }
@@ -50,15 +50,15 @@ pub(super) fn search(query: &Query, bounds: &Curvatures, settings: &Settings) ->
     if miss(settings.simd, &[], query).within(&settings.precision.share(TOLERANCE)) {
         return Answer { status: Status::Ok, segments: SegmentList::EMPTY, iterations: 0 };
     }
-    let goal = &query.goal;
-    for word in words(goal.x * bounds.most, goal.y * bounds.most, goal.yaw).iter().take(settings.starts as usize) {
-        let shortest = word.length() / bounds.most;
-        if !shortest.is_finite() || matches!(search.best, Some((Grade::Good(length), _)) if length < SHORT * shortest) {
-            break;
-        }
-        search.along(word);
-    }
+    search.ways();
     search.answer()
+}
+
+/// The curve that is answered where it meets its goal within the bounds.
+pub(super) fn best(query: &Query, bounds: &Curvatures, settings: &Settings) -> Option<Curve> {
+    let mut search = Search::new(query, &tame(bounds), settings);
+    search.ways();
+    search.best.and_then(|(grade, curve)| matches!(grade, Grade::Good(_)).then_some(curve))
 }
 
 /// The answer along every way around by itself, shortest first.
@@ -81,6 +81,32 @@ impl<'a> Search<'a> {
         let Settings { step_scale, simd, .. } = *settings;
         let task = Task { bounds: *bounds, freedoms, tolerance, step_scale, simd };
         Self { query, settings, task, best: None, iterations: 0 }
+    }
+
+    /// Looks along the ways around, shortest first, until one is short enough; at first from the table's start value.
+    fn ways(&mut self) {
+        let Task { bounds, .. } = self.task;
+        if let Some((ends, start)) = self.settings.table.and_then(|table| table.start(self.query, &bounds)) {
+            // A cubic has no more shape than this.
+            let [c0, ..] = start.shape;
+            let cubic = self.task.freedoms == Freedoms::One;
+            let start = if cubic { Free { shape: [c0, 0.0, 0.0], ..start } } else { start };
+            let fit = arc::descend(&self.task, &ends, start, self.settings.iterations.min(ARC_STEPS));
+            self.iterations += fit.iterations;
+            if fit.good {
+                self.keep(Grade::Good(fit.free.length), Curve::Arc(ends, fit.free));
+            }
+        }
+        let goal = &self.query.goal;
+        let words = words(goal.x * bounds.most, goal.y * bounds.most, goal.yaw);
+        for word in words.iter().take(self.settings.starts as usize) {
+            let shortest = word.length() / bounds.most;
+            let short = matches!(self.best, Some((Grade::Good(length), _)) if length < SHORT * shortest);
+            if short || !shortest.is_finite() {
+                break;
+            }
+            self.along(word);
+        }
     }
 
     /// Looks for a curve that turns like `word`.

@@ -15,6 +15,7 @@ mod forward;
 mod mirror;
 mod miss;
 mod settings;
+pub mod start_table;
 mod task;
 
 #[cfg(test)]
@@ -22,6 +23,7 @@ mod tests;
 
 pub use controls::{crab, turn_drive_turn};
 pub use settings::{Answer, Control, Cost, Limit, Settings, Status};
+pub use start_table::StartTable;
 
 use super::query::{Curvatures, Goal, Query};
 use crate::trajectory::drive::SegmentList;

@@ -1,5 +1,6 @@
 //! What may be chosen, and what is answered.
 
+use super::start_table::StartTable;
 use crate::feasibility::steering::shooting::query::Precision;
 use crate::math::simd::Simd;
 use crate::trajectory::drive::SegmentList;
@@ -19,6 +20,8 @@ pub struct Settings {
     pub control: Control,
     /// What to minimise once goal and bounds are met.
     pub cost: Cost,
+    /// Where start values are looked up first; it stays for as long as the program runs.
+    pub table: Option<&'static StartTable>,
     /// Version of the kernels; all give the same bits.
     pub simd: Simd,
 }
@@ -33,6 +36,7 @@ impl Default for Settings {
             starts: 8,
             control: Control::default(),
             cost: Cost::default(),
+            table: None,
             simd: Simd::default(),
         }
     }

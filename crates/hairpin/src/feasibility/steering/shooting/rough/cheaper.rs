@@ -1,21 +1,24 @@
 //! Makes commands that meet their goal cheaper along the motion they lead to, without letting go of the goal or the bounds.
 //!
 //! The drive is divided into pieces as for refinement: what is added to the curvature where they meet, and the stretch, are
-//! seventeen unknowns for four end conditions. The cost's gradient g by them comes from one-sided differences of predictions;
+//! seventeen unknowns for four end conditions. Costs that the ground decides have a gradient g by one-sided differences of predictions;
 //! with T the end's derivatives a step goes along
 //!
 //! ```text
 //! d = −(M − MTᵀ(TMTᵀ)⁻¹TM) g     M⁻¹ = I + c DᵀD
 //! ```
 //! the steepest way down that leaves the end, to first order (the multipliers of Lagrange eliminated), in a metric that counts the
-//! differences D of neighbouring bends as well, so that steps are smooth and leave κ′ its room; refinement then brings the end back exactly, within the bounds. Only steps that lower the cost are kept.
+//! differences D of neighbouring bends as well, so that steps are smooth and leave κ′ its room. ∫κ² and ∫κ′² are known exactly to second
+//! order (`model`): there a step minimises the quadratic along the bounds that it meets, as steepest descent would only creep. Refinement
+//! then brings the end back exactly, within the bounds. Only steps that lower the cost are kept.
 
 use nalgebra::SMatrix;
 
 use super::cost::{Along, GroundCost};
+use super::model::Model;
 use super::predict::{Prediction, predict};
-use super::refine::{Change, Task, UNKNOWNS, changed, divided, refine, tangent};
-use crate::trajectory::drive::SegmentList;
+use super::refine::{Change, Task, UNKNOWNS, changed, divided, refine, tangent, within_bounds};
+use crate::trajectory::drive::{Segment, SegmentList};
 use crate::world::terrain::Terrain;
 
 /// Steps down, and trials of each, at most.
@@ -32,6 +35,13 @@ const GAIN: f64 = 1e-3;
 const SMOOTH: f64 = 16.0;
 /// Residual, in units of the precision, up to which an end is kept.
 const KEPT: f64 = 0.8;
+/// Costs of commands alone would have drives grow without end: lengths stay below this multiple of the first.
+const LONGEST: f64 = 1.5;
+/// Steps by a model; its damping at first, by which it grows where a step was no good, and where it ends.
+const MODEL_STEPS: u32 = 12;
+const DAMPING: f64 = 1e-3;
+const GROWTH: f64 = 8.0;
+const STIFF: f64 = 1e4;
 
 /// Commands that cost less, with their motion.
 pub(super) struct Cheaper {
@@ -46,69 +56,133 @@ pub(super) fn cheaper<T: Terrain>(
     segments: &SegmentList,
     cost: GroundCost,
 ) -> (Option<Cheaper>, u32) {
-    let mut predictions = 0;
-    let mut found = None;
-    let Some(mut here) = divided(segments) else { return (None, 0) };
-    let mut cost_of = |commands: &SegmentList| {
-        predictions += 1;
-        let mut along = Along::new(task.course, cost, commands);
-        predict(task.course, task.from, commands, |driven| along.add(driven))
-            .ok()
-            .map(|prediction| (along.total(), prediction))
-    };
-    let Some((mut value, _)) = cost_of(&here) else { return (None, predictions) };
-    let Some(metric) = smooth() else { return (None, predictions) };
-    let (mut stride, mut refined_with) = (STRIDE, 0);
-    for _ in 0..STEPS {
-        if (task.over)() {
-            break;
-        }
-        let mut gradient = Change::zeros();
-        for unknown in 0..UNKNOWNS {
-            let mut change = Change::zeros();
-            change[unknown] = DIFFERENCE;
-            let mut moved = here;
-            changed(&mut moved, &change);
-            // Where the ground does not let a neighbour pass, nothing is learned of it.
-            gradient[unknown] = cost_of(&moved).map_or(0.0, |(moved, _)| (moved - value) / DIFFERENCE);
-        }
-        let Some(down) = tangent(task, &here).and_then(|t| {
-            let (lifted, pulled) = (metric * t.transpose(), metric * gradient);
-            let inverse = (t * lifted).try_inverse()?;
-            Some(lifted * (inverse * (t * pulled)) - pulled)
-        }) else {
-            break;
+    let Some(here) = divided(segments) else { return (None, 0) };
+    let longest = LONGEST * length(&here);
+    let mut search = Search { task, cost, here, value: 0.0, longest, found: None, predictions: 0 };
+    let Some((value, _)) = search.cost_of(&here) else { return (None, search.predictions) };
+    search.value = value;
+    match cost {
+        GroundCost::Any => {}
+        GroundCost::Curvature | GroundCost::Rate => search.by_model(),
+        GroundCost::Tilt | GroundCost::Slip | GroundCost::Energy => search.by_differences(),
+    }
+    (search.found, search.predictions)
+}
+
+fn length(segments: &[Segment]) -> f64 {
+    segments.iter().map(Segment::length_m).sum()
+}
+
+/// A search under way.
+struct Search<'a, 'b, 'c, T> {
+    task: &'a Task<'b, 'c, T>,
+    cost: GroundCost,
+    /// The cheapest so far, and what it costs.
+    here: SegmentList,
+    value: f64,
+    longest: f64,
+    found: Option<Cheaper>,
+    predictions: u32,
+}
+
+impl<T: Terrain> Search<'_, '_, '_, T> {
+    /// What `commands` cost along their motion.
+    fn cost_of(&mut self, commands: &SegmentList) -> Option<(f64, Prediction)> {
+        self.predictions += 1;
+        let mut along = Along::new(self.task.course, self.cost, commands);
+        let prediction = predict(self.task.course, self.task.from, commands, |driven| along.add(driven)).ok()?;
+        Some((along.total(), prediction))
+    }
+
+    /// Goes along `change`, brings the end back, and stays there if that costs less: by how much.
+    fn gained_by(&mut self, change: &Change) -> Option<f64> {
+        let mut tried = self.here;
+        changed(&mut tried, change);
+        let (refined, taken) = refine(self.task, &tried, 0.0);
+        self.predictions += taken;
+        let refined = refined.filter(|refined| refined.residual <= KEPT && length(&refined.segments) < self.longest)?;
+        let (cost, prediction) = match self.cost {
+            GroundCost::Curvature | GroundCost::Rate => (self.cost.of_commands(&refined.segments), refined.prediction),
+            _ => self.cost_of(&refined.segments)?,
         };
-        if !(down.amax() > 0.0 && down.amax().is_finite()) {
-            break;
+        let gained = self.value - cost;
+        if gained.is_nan() || gained <= 0.0 {
+            return None;
         }
-        let mut gained = 0.0;
-        for _ in 0..TRIALS {
-            let mut tried = here;
-            changed(&mut tried, &(down * (stride / down.amax())));
-            let (refined, taken) = refine(task, &tried, 0.0);
-            refined_with += taken;
-            let better = refined.filter(|refined| refined.residual <= KEPT).and_then(|refined| {
-                let (cost, prediction) = cost_of(&refined.segments)?;
-                (cost < value).then_some((cost, refined.segments, prediction))
-            });
-            if let Some((cost, segments, prediction)) = better {
-                gained = value - cost;
-                (value, here) = (cost, segments);
-                found = Some(Cheaper { segments, prediction });
-                stride = (2.0 * stride).min(STRIDE);
-                break;
+        (self.value, self.here) = (cost, refined.segments);
+        self.found = Some(Cheaper { segments: refined.segments, prediction });
+        Some(gained)
+    }
+
+    /// Newton's steps along the ends' conditions and the bounds, damped.
+    fn by_model(&mut self) {
+        let mut damping = DAMPING;
+        for _ in 0..MODEL_STEPS {
+            if (self.task.over)() || self.value <= 0.0 {
+                return;
             }
-            stride *= 0.4;
-            if stride < LEAST || (task.over)() {
-                break;
+            self.predictions += 1;
+            let Some(tangent) = tangent(self.task, &self.here) else { return };
+            let model = Model::of(&self.here, self.cost);
+            let mut gained = 0.0;
+            while gained <= 0.0 && damping < STIFF && !(self.task.over)() {
+                let (matrix, vector) = model.damped(damping, &tangent, self.task.precision);
+                let change = within_bounds(self.task, &self.here, &matrix, &vector);
+                gained = change.and_then(|change| self.gained_by(&change)).unwrap_or(0.0);
+                damping *= if gained > 0.0 { 1.0 / GROWTH } else { GROWTH };
             }
-        }
-        if gained <= GAIN * value {
-            break;
+            damping = damping.max(1e-6);
+            if gained <= GAIN * self.value {
+                return;
+            }
         }
     }
-    (found, predictions + refined_with)
+
+    /// Steepest descent, by differences of predictions.
+    fn by_differences(&mut self) {
+        let Some(metric) = smooth() else { return };
+        let mut stride = STRIDE;
+        for _ in 0..STEPS {
+            if (self.task.over)() {
+                return;
+            }
+            let (here, value) = (self.here, self.value);
+            let mut gradient = Change::zeros();
+            for unknown in 0..UNKNOWNS {
+                let mut change = Change::zeros();
+                change[unknown] = DIFFERENCE;
+                let mut moved = here;
+                changed(&mut moved, &change);
+                // Where the ground does not let a neighbour pass, nothing is learned of it.
+                gradient[unknown] = self.cost_of(&moved).map_or(0.0, |(moved, _)| (moved - value) / DIFFERENCE);
+            }
+            let Some(down) = tangent(self.task, &here).and_then(|t| {
+                let (lifted, pulled) = (metric * t.transpose(), metric * gradient);
+                let inverse = (t * lifted).try_inverse()?;
+                Some(lifted * (inverse * (t * pulled)) - pulled)
+            }) else {
+                return;
+            };
+            if !(down.amax() > 0.0 && down.amax().is_finite()) {
+                return;
+            }
+            let mut gained = 0.0;
+            for _ in 0..TRIALS {
+                if let Some(less) = self.gained_by(&(down * (stride / down.amax()))) {
+                    gained = less;
+                    stride = (2.0 * stride).min(STRIDE);
+                    break;
+                }
+                stride *= 0.4;
+                if stride < LEAST || (self.task.over)() {
+                    break;
+                }
+            }
+            if gained <= GAIN * self.value {
+                return;
+            }
+        }
+    }
 }
 
 /// M of the metric; the stretch stands by itself.

@@ -7,6 +7,7 @@
 mod cheaper;
 mod cost;
 mod miss;
+mod model;
 mod predict;
 mod refine;
 mod solve;

@@ -2,10 +2,10 @@ use super::*;
 use crate::feasibility::steering::shooting::flat;
 use crate::feasibility::steering::shooting::query::{Curvatures, Precision, Query};
 use crate::math::random::hashed_unit;
-use crate::robot::rover::{Response, Rover, RoverDescription, Slip};
+use crate::robot::rover::{Response, Rover, RoverDescription, Slip, Unsettled};
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 use crate::world::terrain::generate::{Recipe, generate};
-use crate::world::terrain::{ElevationMap, Flat, Function, Patch};
+use crate::world::terrain::{ElevationMap, Flat, Function, Grid, HoleRule, NoGround, Patch};
 
 fn shipped(name: &str) -> Rover {
     let path = format!("{}/../../data/robots/rover/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -339,4 +339,85 @@ fn costs_fall_and_goals_and_bounds_stay() {
         assert!(asked >= 8, "{cost:?}: {asked}");
     }
     assert!(all >= 15, "{all} of 60 cheaper");
+}
+
+#[test]
+fn on_mirrored_ground_mirrored_goals_have_mirrored_drives() {
+    let (yard, rover) = (yard(), shipped("rocky8"));
+    // South and north change places about the middle row.
+    let grid = *yard.grid();
+    let heights: Vec<f32> = (0..grid.rows)
+        .flat_map(|row| (0..grid.columns).map(move |column| (row, column)))
+        .map(|(row, column)| yard.cell_height(row, column))
+        .collect();
+    let mirrored = ElevationMap::new(grid, &heights, HoleRule::Error).expect("a map");
+    let (low, high) = yard.extent();
+    let across = |place: &Planar| Planar {
+        y: low[1] + high[1] - place.y,
+        yaw: -place.yaw,
+        curvature: -place.curvature,
+        ..*place
+    };
+    let ask = |map: &ElevationMap, start: &Planar, goal: &Planar| {
+        solve(&course(&rover, map), start, goal, &bounds(&rover), &Settings::default(), &mut flat_solver(&rover))
+    };
+    let mut found = 0;
+    for seed in 0..40 {
+        let unit = |i: u64| hashed_unit(seed, &[600 + i]);
+        let drive = [random_arc(seed, 1.0 + 5.0 * unit(3))];
+        let at = Planar { x: 8.0 + 14.0 * unit(0), y: 8.0 + 14.0 * unit(1), yaw: 6.0 * unit(2), curvature: 0.0 };
+        let start = Planar { curvature: drive[0].curvature_at(0.0), ..at };
+        let Ok(driven) = predict(&fine(&rover, &yard), &start, &drive, |_| {}) else { continue };
+        let (left, right) = (ask(&yard, &start, &driven.end), ask(&mirrored, &across(&start), &across(&driven.end)));
+        if left.status != Status::Ok {
+            continue;
+        }
+        found += 1;
+        assert_eq!((left.status, left.iterations), (right.status, right.iterations), "seed {seed}");
+        assert_eq!(left.segments.len(), right.segments.len(), "seed {seed}");
+        for (a, b) in left.segments.iter().zip(right.segments.iter()) {
+            let same = (a.length_m() - b.length_m()).abs() < 1e-6
+                && (0..=10).all(|i| {
+                    let s = 0.1 * f64::from(i) * a.length_m();
+                    (a.curvature_at(s) + b.curvature_at(s)).abs() < 1e-6
+                });
+            assert!(same, "seed {seed}: {a:?} {b:?}");
+        }
+        let ends = [left.prediction, right.prediction].map(|prediction| prediction.expect("a motion").end);
+        assert!(difference(&across(&ends[0]), &ends[1]) < 1e-6, "seed {seed}: {ends:?}");
+    }
+    assert!(found >= 25, "{found}");
+}
+
+#[test]
+fn maps_are_handed_over_in_memory_with_what_is_unknown() {
+    // Rows from the north, heights in metres, a mask of unknown cells as no numbers.
+    let grid = Grid { columns: 120, rows: 80, first_center: [100.0, 50.0], cell: [0.1, 0.1] };
+    let unknown = |x: f64, y: f64| (105.0..105.6).contains(&x) && y < 54.0;
+    let heights: Vec<f32> = (0..grid.rows)
+        .rev()
+        .flat_map(|row| (0..grid.columns).map(move |column| (100.0 + 0.1 * column as f64, 50.0 + 0.1 * row as f64)))
+        .map(|(x, y)| if unknown(x, y) { f32::NAN } else { (0.05 * x + 0.1 * (1.3 * y).sin()) as f32 })
+        .collect();
+    let map = ElevationMap::new(grid, &heights, HoleRule::KeepOut).expect("a map");
+    let rover = shipped("rocky7");
+    let start = Planar { x: 102.0, y: 52.0, yaw: 0.0, curvature: 0.0 };
+    let ask = |goal: &Planar| {
+        solve(&course(&rover, &map), &start, goal, &bounds(&rover), &Settings::default(), &mut flat_solver(&rover))
+    };
+    let beside = ask(&Planar { x: 104.0, y: 52.5, yaw: 0.3, curvature: 0.0 });
+    assert_eq!(beside.status, Status::Ok, "{beside:?}");
+    let through = ask(&Planar { x: 108.0, y: 52.0, yaw: 0.0, curvature: 0.0 });
+    let Status::Blocked(Blocked { cause: Cause::Unsettled(Unsettled::NoGround(NoGround::Hole { x, .. })), .. }) =
+        through.status
+    else {
+        panic!("{:?}", through.status)
+    };
+    assert!((104.8..105.8).contains(&x), "{x}");
+    // The mask's holes are filled where that was asked for.
+    let filled = ElevationMap::new(grid, &heights, HoleRule::Fill).expect("a map");
+    let goal = Planar { x: 108.0, y: 52.0, yaw: 0.0, curvature: 0.0 };
+    let over =
+        solve(&course(&rover, &filled), &start, &goal, &bounds(&rover), &Settings::default(), &mut flat_solver(&rover));
+    assert!(over.status == Status::Ok && filled.is_filled(105.3, 52.0), "{over:?}");
 }

@@ -174,3 +174,19 @@ fn cubics_say_what_they_exceed() {
     }
     assert!(met > 100 && over > 5, "{met} met, {over} over a limit");
 }
+
+#[test]
+fn goals_of_many_radii_are_reached_by_arcs_and_chains() {
+    let (mut solved, mut single) = (0, 0);
+    for seed in 0..300 {
+        // Long curves of low order: 30 to 100 m.
+        let length = draw(seed, 0, 30.0, 100.0);
+        let (a, b) = (draw(seed, 1, -0.1, 0.1), draw(seed, 2, -0.1, 0.1) / length);
+        let query = query_of(length, |s| a + b * s);
+        let answer = forward(&query, &BOUNDS, &Settings::default());
+        solved += usize::from(answer.status == Status::Ok);
+        single += usize::from(answer.segments.len() == 1);
+        hold_to_its_word(&answer, &query, &BOUNDS, &format!("seed {seed}"));
+    }
+    assert!(solved >= 295 && single > 100, "{solved} solved, {single} by one arc");
+}

@@ -3,6 +3,7 @@
 mod answers;
 mod closed_forms;
 mod families;
+mod start_table;
 
 use std::f64::consts::TAU;
 

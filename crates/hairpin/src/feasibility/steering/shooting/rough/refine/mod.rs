@@ -19,9 +19,10 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix4, SMatrix, Vector4};
 
-pub(super) use self::pieces::{Change, UNKNOWNS, changed, divided, refinable};
+pub(super) use self::pieces::{Change, PIECES, UNKNOWNS, bend, changed, divided, refinable};
 use self::pieces::{excess, for_each_limit};
-use self::sweep::{Sweep, Tangent};
+use self::sweep::Sweep;
+pub(super) use self::sweep::Tangent;
 use super::miss::{Miss, miss, units};
 use super::predict::{Course, Prediction, predict};
 use crate::feasibility::steering::shooting::query::{Curvatures, Precision};
@@ -160,11 +161,21 @@ fn step<T>(task: &Task<'_, '_, T>, from: &Stand, learned: &Matrix4<f64>) -> Opti
     let weighted = Matrix4::from_diagonal(&weights) * learned * from.tangent;
     let normal = weighted.transpose() * weighted + SMatrix::<f64, UNKNOWNS, UNKNOWNS>::from_diagonal_element(LAZY);
     let right = weighted.transpose() * from.error.component_mul(&weights);
-    let mut change = normal.cholesky()?.solve(&right);
+    within_bounds(task, &from.segments, &normal, &right)
+}
+
+/// The change d of `segments` with `normal` d = `right`, or nearest to it, that keeps the bounds.
+pub(super) fn within_bounds<T>(
+    task: &Task<'_, '_, T>,
+    segments: &SegmentList,
+    normal: &SMatrix<f64, UNKNOWNS, UNKNOWNS>,
+    right: &Change,
+) -> Option<Change> {
+    let mut change = normal.cholesky()?.solve(right);
     for _ in 0..PASSES {
-        let (mut matrix, mut vector) = (normal, right);
+        let (mut matrix, mut vector) = (*normal, *right);
         let mut exceeded = false;
-        for_each_limit(&from.segments, task.bounds, |row, value, bound| {
+        for_each_limit(segments, task.bounds, |row, value, bound| {
             let (reached, bound) = (value + row.dot(&change), ROOM * bound);
             if reached.abs() > bound {
                 exceeded = true;

@@ -7,7 +7,7 @@ use crate::feasibility::steering::shooting::query::Curvatures;
 use crate::trajectory::drive::{Motion, Segment, SegmentList};
 
 /// Pieces of a drive.
-pub(super) const PIECES: usize = 16;
+pub(in super::super) const PIECES: usize = 16;
 /// A bend at every piece's end, and the stretch.
 pub(in super::super) const UNKNOWNS: usize = PIECES + 1;
 /// What bounds may be exceeded by, relative: rounding, as the flat solver has it.
@@ -88,7 +88,7 @@ pub(super) fn excess(segment: &Segment, bounds: &Curvatures) -> f64 {
 }
 
 /// `before` of the bend at a piece's start and `after` of that at its end.
-pub(super) fn bend(piece: usize, before: f64, after: f64) -> Change {
+pub(in super::super) fn bend(piece: usize, before: f64, after: f64) -> Change {
     let mut row = Change::zeros();
     if piece > 0 {
         row[piece - 1] = before;

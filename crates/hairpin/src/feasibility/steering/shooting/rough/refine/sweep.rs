@@ -7,7 +7,7 @@ use crate::feasibility::steering::shooting::rough::predict::Driven;
 use crate::trajectory::drive::{Planar, Segment};
 
 /// How the end, (x, y, ψ, κ), moves with a change.
-pub(super) type Tangent = SMatrix<f64, 4, UNKNOWNS>;
+pub(in super::super) type Tangent = SMatrix<f64, 4, UNKNOWNS>;
 
 /// ∫δκ, ∫x δκ, ∫y δκ along a prediction, for each unknown's δκ.
 pub(super) struct Sweep {

@@ -1,5 +1,7 @@
 //! Closed forms, plain Dubins curves as the limit, symmetry, and random families integrated by quadrature.
 
+mod reeds_shepp;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::super::query::{Curvatures, Goal, Query};
