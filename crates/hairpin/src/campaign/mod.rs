@@ -15,6 +15,7 @@ pub mod planned;
 pub mod report;
 pub mod scenario;
 pub mod setup;
+pub mod start_table;
 pub mod states;
 pub mod stop;
 mod terms;
