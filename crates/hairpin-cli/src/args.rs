@@ -1,5 +1,6 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
+mod import;
 mod max_load;
 mod numbers;
 mod requirements;
@@ -10,6 +11,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+pub(crate) use import::Import;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use requirements::Requirements;
 pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerCost, SteerFrame};
@@ -52,6 +54,8 @@ pub(crate) enum Command {
     Replay(Replay),
     /// Write a campaign's trajectories for other programs
     Export(Export),
+    /// Read a program from elsewhere and check it by line: import CELL.mod --check
+    Import(Import),
     /// Write a campaign's report.html
     Report(ReportArguments),
     /// Fly a rotor-speed profile open loop: poses in time as CSV
@@ -93,6 +97,7 @@ impl Command {
             Self::Show(Show { what: Shown::Terrain(a) }) => a.json,
             Self::New(a) => a.json,
             Self::Export(a) => a.json,
+            Self::Import(a) => a.json,
             Self::Report(a) => a.json,
             Self::Simulate(_) | Self::Schema(_) | Self::Completions(_) => false,
         }

@@ -3,7 +3,7 @@
 //! | code | meaning |
 //! | --- | --- |
 //! | 0 | within spec |
-//! | 1 | violation, or a finding of `verify` |
+//! | 1 | violation, or a finding of `verify` or `import` |
 //! | 2 | wrong input |
 //! | 3 | nothing feasible |
 //! | 4 | executor failed |
@@ -72,6 +72,7 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
         Command::Verify(verify) => commands::verify::run(&verify),
         Command::Replay(replay) => commands::replay::run(&replay),
         Command::Export(export) => commands::export::run(&export),
+        Command::Import(import) => commands::import::run(&import),
         Command::Report(report) => commands::report::run(&report),
         Command::Simulate(simulate) => commands::simulate::run(&simulate),
         Command::Steer(steer) => commands::steer::run(&steer),

@@ -6,6 +6,7 @@ pub(crate) mod demo;
 pub(crate) mod execute;
 pub(crate) mod export;
 pub(crate) mod generate;
+pub(crate) mod import;
 pub(crate) mod judge;
 pub(crate) mod max_load;
 pub(crate) mod new;

@@ -3,6 +3,7 @@
 pub mod certify;
 pub mod collision;
 pub mod limits;
+pub mod program;
 pub mod reach;
 pub mod reachability;
 pub mod steering;

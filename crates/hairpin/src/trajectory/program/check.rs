@@ -104,6 +104,21 @@ pub enum ProgramError {
     },
 }
 
+impl ProgramError {
+    /// Which move it is about; `None` of tools and work objects.
+    pub fn place(&self) -> Option<&Place> {
+        match self {
+            Self::Frame { .. } => None,
+            Self::Value { at, .. }
+            | Self::Missing { at, .. }
+            | Self::ArcFirst { at }
+            | Self::ArcShort { at, .. }
+            | Self::ArcFlat { at, .. }
+            | Self::ArcLong { at, .. } => Some(at),
+        }
+    }
+}
+
 /// Points of an arc are at least this far apart. (ABB, Technical reference manual, RAPID, `MoveC`.)
 const LEAST_CHORD_MM: f64 = 0.1;
 /// Seen from the start, point on the way and end are at least this far apart. (Ibid.)

@@ -1,0 +1,172 @@
+//! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it.
+
+use std::fs;
+
+use hairpin::feasibility::program::{Checked, FollowSettings, check};
+use hairpin::robot::arm::Arm;
+use hairpin_formats::rapid::{self, Module, Options};
+use hairpin_formats::scenario::arm_for;
+use serde_json::{Value, json};
+
+use crate::args::Import;
+use crate::console;
+use crate::problem::Problem;
+
+/// A move that cannot be executed, or an arc that no controller takes.
+const FINDINGS: u8 = 1;
+/// A line that changes motion is not understood: what comes after it is not known.
+const INCONCLUSIVE: u8 = 5;
+
+/// What is said of one move.
+struct Told {
+    line: Option<usize>,
+    kind: &'static str,
+    from: Option<String>,
+    to: Option<String>,
+    reason: String,
+    sentence: String,
+}
+
+/// Runs the command: 1 for findings, 5 where not all of the program is understood.
+pub(crate) fn run(import: &Import) -> Result<u8, Problem> {
+    let refuse = |why: String| Problem::input(format!("{}: {why}", import.file.display()));
+    let bytes = fs::read(&import.file).map_err(|error| refuse(error.to_string()))?;
+    let options = Options { procedure: import.procedure.as_deref(), ..Options::default() };
+    let module = rapid::read(&bytes, &options).map_err(|error| refuse(error.to_string()))?;
+    let arm = if import.check { Some(arm_for(&import.robot)?) } else { None };
+    let checked = arm.as_ref().map(|arm| check(arm, &module.program, module.certain, None, &FollowSettings::default()));
+    let told = findings(&module, checked.as_ref());
+    let code = match (told.is_empty(), module.unclear_line) {
+        (false, _) => FINDINGS,
+        (true, Some(_)) => INCONCLUSIVE,
+        (true, None) => 0,
+    };
+    if import.json {
+        console::say(&object(import, &module, arm.as_ref(), checked.as_ref(), &told, code).to_string());
+    } else {
+        in_words(import, &module, arm.as_ref(), checked.as_ref(), &told);
+    }
+    Ok(code)
+}
+
+/// What a controller would stop at, and what the arm cannot do, of the moves that are certain, in their order.
+fn findings(module: &Module, checked: Option<&Checked>) -> Vec<Told> {
+    let mut certain = module.program.clone();
+    certain.moves.truncate(module.certain);
+    let mut told: Vec<(usize, Told)> = Vec::new();
+    for problem in certain.problems() {
+        let place = problem.place();
+        let index = place.map_or(0, |place| place.index);
+        let from = index.checked_sub(1).and_then(|before| certain.moves.get(before));
+        let finding = Told {
+            line: place.and_then(|place| place.line),
+            kind: "program",
+            from: from.and_then(|m| m.motion.name()).map(Into::into),
+            to: place.and_then(|place| place.name.clone()),
+            reason: problem.to_string(),
+            sentence: format!("NOT EXECUTABLE {problem}"),
+        };
+        told.push((index, finding));
+    }
+    let refused: Vec<usize> = told.iter().map(|(index, _)| *index).collect();
+    for finding in checked.iter().flat_map(|checked| &checked.findings) {
+        // What is no arc has been told.
+        if finding.fault.kind() == "arc" && refused.contains(&finding.index) {
+            continue;
+        }
+        let new = Told {
+            line: finding.line,
+            kind: finding.fault.kind(),
+            from: finding.from.clone(),
+            to: finding.to.clone(),
+            reason: finding.reason(),
+            sentence: finding.to_string(),
+        };
+        told.push((finding.index, new));
+    }
+    told.sort_by_key(|(index, _)| *index);
+    told.into_iter().map(|(_, finding)| finding).collect()
+}
+
+fn object(
+    import: &Import,
+    module: &Module,
+    arm: Option<&Arm>,
+    checked: Option<&Checked>,
+    told: &[Told],
+    code: u8,
+) -> Value {
+    let findings = told.iter().map(|finding| {
+        json!({ "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to, "reason": finding.reason })
+    });
+    let unclear = module.unclear().map(|(line, why)| json!({ "line": line, "why": why.what }));
+    let mistakes = module
+        .mistakes
+        .iter()
+        .map(|found| json!({ "line": found.at.line, "column": found.at.column, "what": found.what }));
+    let mut object = json!({
+        "module": module.program.name,
+        "procedure": module.program.procedure,
+        "moves": module.program.moves.len(),
+        "certain_moves": module.certain,
+        "certain_up_to_line": module.unclear_line,
+        "robot": arm.map(|arm| &arm.name),
+        "checked": checked.map(|checked| checked.followed),
+        "ends_only": checked.map(|checked| checked.ends_only),
+        "findings": findings.collect::<Vec<_>>(),
+        "not_understood": unclear.collect::<Vec<_>>(),
+        "mistakes": mistakes.collect::<Vec<_>>(),
+        "exit_code": code,
+    });
+    if import.lines {
+        let lines = module
+            .lines
+            .iter()
+            .map(|(line, said)| json!({ "line": line, "class": said.class.words(), "why": said.what }));
+        object["lines"] = lines.collect();
+    }
+    object
+}
+
+fn in_words(import: &Import, module: &Module, arm: Option<&Arm>, checked: Option<&Checked>, told: &[Told]) {
+    let program = &module.program;
+    let moves = program.moves.len();
+    console::say(&format!(
+        "{}: module {}, procedure {}, {moves} moves",
+        import.file.display(),
+        program.name,
+        if program.procedure.is_empty() { "none" } else { &program.procedure }
+    ));
+    if let (Some(arm), Some(checked)) = (arm, checked) {
+        let caveat = if arm.caveat.is_empty() { String::new() } else { format!(" ({})", arm.caveat) };
+        console::say(&format!(
+            "{}{caveat}: {} moves followed at samples 1 mm and 0.3° apart, of {} only the end; obstacles are not looked at",
+            arm.name, checked.followed, checked.ends_only
+        ));
+    }
+    if import.lines {
+        for (line, said) in &module.lines {
+            let why = if said.what.is_empty() { String::new() } else { format!(": {}", said.what) };
+            console::say(&format!("line {line}: {}{why}", said.class.words()));
+        }
+    }
+    for finding in told {
+        console::say(&finding.sentence);
+    }
+    for (line, why) in module.unclear() {
+        console::say(&format!("line {line}: NOT UNDERSTOOD {}", why.what));
+    }
+    for found in &module.mistakes {
+        console::warn(&format!("{}: {}", found.at, found.what));
+    }
+    for procedure in module.procedures.iter().filter(|procedure| !procedure.executed) {
+        console::warn(&format!("line {}: procedure {} is not executed", procedure.line, procedure.name));
+    }
+    let word = if told.len() == 1 { "finding" } else { "findings" };
+    let what = if arm.is_some() { format!("{} {word}", told.len()) } else { "read".to_owned() };
+    console::say(&match module.unclear_line {
+        Some(line) => format!("INCONCLUSIVE: {what} in the {} of {moves} moves before line {line}", module.certain),
+        None if told.is_empty() => format!("PASS: {what} in {moves} moves"),
+        None => format!("FAIL: {} {word} in {moves} moves", told.len()),
+    });
+}

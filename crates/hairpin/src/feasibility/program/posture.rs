@@ -1,0 +1,68 @@
+//! Which postures of the arm reach a target, and which of them the target demands.
+
+use nalgebra::Isometry3;
+
+use super::finding::{Fault, Fit};
+use crate::robot::arm::{AXES, Arm, Joints};
+
+/// Quadrants of angles this near (rad) to their border are both right: targets are rounded.
+const BORDER: f64 = 1e-3;
+
+/// All postures within the limits that put the flange there, on every turn of every axis.
+pub(super) fn within_limits(arm: &Arm, flange: &Isometry3<f64>, near: &Joints) -> Vec<Joints> {
+    arm.inverse(flange, near).iter().flat_map(|q| arm.turns_of(q)).collect()
+}
+
+/// Whether `q` has the configuration, quadrants as far as rounding lets one tell.
+pub(super) fn has(arm: &Arm, q: &Joints, configuration: &[i32; 4]) -> bool {
+    let quadrant = |axis: usize, cf: i32| {
+        let from = f64::from(cf) * std::f64::consts::FRAC_PI_2;
+        (from - BORDER..=from + std::f64::consts::FRAC_PI_2 + BORDER).contains(&q[axis])
+    };
+    let [cf1, cf4, cf6, cfx] = *configuration;
+    quadrant(0, cf1) && quadrant(3, cf4) && quadrant(5, cf6) && i32::from(arm.branch(q).cfx()) == cfx
+}
+
+/// Least distance of any axis from its bounds, rad.
+pub(super) fn room(arm: &Arm, q: &Joints) -> f64 {
+    arm.limits.iter().zip(q).map(|(limit, angle)| limit.margin(*angle)).fold(f64::INFINITY, f64::min)
+}
+
+fn distance(a: &Joints, b: &Joints) -> f64 {
+    (0..AXES).map(|k| (a[k] - b[k]).abs()).sum()
+}
+
+/// The posture at a target: the demanded one, else the one nearest to `near`.
+///
+/// # Errors
+/// Why there is none, and the posture with the most room that would do instead.
+pub(super) fn choose(
+    arm: &Arm,
+    flange: &Isometry3<f64>,
+    demanded: Option<[i32; 4]>,
+    near: &Joints,
+) -> Result<Joints, (Fault, Option<Fit>)> {
+    let possible = within_limits(arm, flange, near);
+    let fitting = possible.iter().filter(|q| demanded.is_none_or(|configuration| has(arm, q, &configuration)));
+    if let Some(q) = fitting.min_by(|a, b| distance(a, near).total_cmp(&distance(b, near))) {
+        return Ok(*q);
+    }
+    let best = possible.iter().max_by(|a, b| room(arm, a).total_cmp(&room(arm, b)));
+    let fit = best.map(|q| Fit { configuration: arm.configuration(q).numbers(), margin: room(arm, q) });
+    let solutions = arm.inverse(flange, &[0.0; AXES]);
+    if solutions.is_empty() {
+        return Err((Fault::OutOfReach { at: 1.0 }, None));
+    }
+    // Of the solutions that the target means, the one that is least far beyond a bound.
+    let meant = |q: &&Joints| demanded.is_none_or(|cf| i32::from(arm.branch(q).cfx()) == cf[3]);
+    let beyond = solutions.iter().filter(meant).filter_map(|q| Some((q, arm.outside_limits(q)?)));
+    match (beyond.min_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b)), demanded) {
+        (Some((q, (axis, _))), _) => {
+            let limit = &arm.limits[axis];
+            let bound = if q[axis] > limit.upper { limit.upper } else { limit.lower };
+            Err((Fault::JointLimit { axis, angle: q[axis], bound, at: 1.0 }, fit))
+        }
+        (None, Some(demanded)) => Err((Fault::NoSuchConfiguration { demanded }, fit)),
+        (None, None) => Err((Fault::OutOfReach { at: 1.0 }, fit)),
+    }
+}

@@ -1,0 +1,159 @@
+//! A shipped arm against postures whose poses its forward kinematics gives: what is within reach passes, and each fault is found
+//! where it was put.
+
+use nalgebra::{Isometry3, Translation3};
+
+use super::{Fault, FollowSettings, check};
+use crate::robot::arm::{Arm, ArmDescription, Joints};
+use crate::trajectory::program::{
+    JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
+};
+
+fn arm() -> Arm {
+    let text = include_str!("../../../../../data/robots/arm/irb120.toml");
+    toml::from_str::<ArmDescription>(text).unwrap().build().unwrap()
+}
+
+fn rad(degrees: [f64; 6]) -> Joints {
+    degrees.map(f64::to_radians)
+}
+
+const HOME: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
+
+fn tool() -> Tool {
+    Tool { tcp: Isometry3::translation(0.02, 0.0, 0.12), ..Tool::flange() }
+}
+
+fn object() -> WorkObject {
+    WorkObject {
+        user: Isometry3::translation(0.1, -0.2, 0.05),
+        object: Isometry3::rotation(nalgebra::Vector3::z() * 0.4),
+        ..WorkObject::base()
+    }
+}
+
+/// The target of the posture, with its configuration.
+fn at(arm: &Arm, degrees: [f64; 6], name: &str) -> PoseTarget {
+    let q = rad(degrees);
+    let pose = object().base_from_object().inverse() * arm.forward(&q) * tool().tcp;
+    PoseTarget { configuration: Some(arm.configuration(&q).numbers()), ..PoseTarget::unnamed(pose).named(name) }
+}
+
+fn shifted(target: &PoseTarget, x: f64, y: f64, z: f64) -> PoseTarget {
+    PoseTarget { pose: Translation3::new(x, y, z) * target.pose, ..target.clone() }
+}
+
+fn program(motions: Vec<Motion>) -> Program {
+    let mut program = Program::new("M", "main", tool(), object());
+    let home = JointTarget { name: Some("home".into()), joints: rad(HOME), external: NO_EXTERNAL };
+    let all = std::iter::once(Motion::AbsoluteJoint(home)).chain(motions);
+    let go = |(index, motion)| Move {
+        line: Some(10 + index),
+        ..Move::new(motion, Speed::predefined("v100").unwrap(), Zone::stop())
+    };
+    program.moves = all.enumerate().map(go).collect();
+    program
+}
+
+fn faults(arm: &Arm, program: &Program) -> Vec<(usize, Fault)> {
+    let checked = check(arm, program, program.moves.len(), None, &FollowSettings::default());
+    assert_eq!(checked.followed + checked.ends_only, program.moves.len());
+    checked.findings.into_iter().map(|finding| (finding.index, finding.fault)).collect()
+}
+
+#[test]
+fn moves_within_reach_pass_by_lines_arcs_and_joints() {
+    let arm = arm();
+    let start = at(&arm, [10.0, 5.0, 10.0, 20.0, 50.0, -30.0], "p0");
+    let program = program(vec![
+        Motion::Joint(start.clone()),
+        Motion::Linear(shifted(&start, 0.0, 0.05, -0.03)),
+        Motion::Circular { via: shifted(&start, 0.03, 0.07, 0.0), to: shifted(&start, 0.0, 0.09, 0.03) },
+        Motion::Linear(start.clone()),
+    ]);
+    assert_eq!(program.problems(), []);
+    assert_eq!(faults(&arm, &program), []);
+    // The same from an arm that stands anywhere: the first move's start is not known.
+    let mut alone = program.clone();
+    alone.moves.drain(..2);
+    let checked = check(&arm, &alone, 3, None, &FollowSettings::default());
+    assert_eq!((checked.followed, checked.ends_only, checked.findings), (2, 1, vec![]));
+}
+
+#[test]
+fn limits_are_found_with_their_numbers_and_a_way_out() {
+    let arm = arm();
+    let beyond = program(vec![Motion::AbsoluteJoint(JointTarget {
+        name: Some("far".into()),
+        joints: rad([0.0, 0.0, 0.0, 163.1, 30.0, 0.0]),
+        external: NO_EXTERNAL,
+    })]);
+    let checked = check(&arm, &beyond, 2, None, &FollowSettings::default());
+    let told: Vec<String> = checked.findings.iter().map(ToString::to_string).collect();
+    assert_eq!(told, ["line 11: UNREACHABLE home→far: axis 4 at 163.1° > 160.0° at 100 % of the move"]);
+    // Axis 4 would be at 170°; with the wrist flipped it is at −10°.
+    let flipped = at(&arm, [10.0, 5.0, 10.0, 170.0, 50.0, -30.0], "p1");
+    assert_eq!(flipped.configuration, Some([0, 1, -1, 0]));
+    let checked = check(&arm, &program(vec![Motion::Joint(flipped)]), 2, None, &FollowSettings::default());
+    let finding = &checked.findings[0];
+    assert!(matches!(finding.fault, Fault::JointLimit { axis: 3, angle, bound, .. }
+        if (angle.to_degrees() - 170.0).abs() < 1e-6 && (bound.to_degrees() - 160.0).abs() < 1e-9));
+    let fit = finding.fit.unwrap();
+    assert_eq!((fit.configuration[1], fit.configuration[3]), (-1, 1));
+    assert!(
+        finding.to_string().contains("home→p1: axis 4 at 170.0° > 160.0° at 100 % of the move; with cf4 = −1"),
+        "{finding}"
+    );
+}
+
+/// A straight move along which axis 1 passes its bound: found where it does, by its closed form.
+#[test]
+fn a_limit_on_the_way_is_found_where_it_is() {
+    let arm = arm();
+    let (from, to) =
+        (at(&arm, [150.0, 0.0, 0.0, 0.0, 60.0, 0.0], "a"), at(&arm, [175.0, 0.0, 0.0, 0.0, 60.0, 0.0], "b"));
+    let found = faults(&arm, &program(vec![Motion::Joint(from), Motion::Linear(to)]));
+    let [(2, Fault::JointLimit { axis: 0, angle, bound, at })] = found[..] else { panic!("{found:?}") };
+    assert!(angle > bound && (bound.to_degrees() - 165.0).abs() < 1e-9 && angle.to_degrees() < 165.5);
+    // On the chord from 150° to 175° the ray at 165° is met at sin 15° / (sin 15° + sin 10°).
+    let [a, b] = [15.0_f64, 10.0].map(|degrees| degrees.to_radians().sin());
+    assert!((at - a / (a + b)).abs() < 0.02, "{at}");
+}
+
+#[test]
+fn reach_and_singularities_are_found() {
+    let arm = arm();
+    let start = at(&arm, [0.0, 0.0, 0.0, 0.0, 60.0, 0.0], "a");
+    let found =
+        faults(&arm, &program(vec![Motion::Joint(start.clone()), Motion::Linear(shifted(&start, 0.8, 0.0, 0.0))]));
+    assert!(
+        matches!(found[..], [(2, Fault::OutOfReach { at })] if at > 0.05 && at < 0.6)
+            || matches!(found[..], [(2, Fault::Singular { .. })]),
+        "{found:?}"
+    );
+    let far = faults(&arm, &program(vec![Motion::Joint(shifted(&start, 3.0, 0.0, 0.0))]));
+    assert_eq!(far, [(1, Fault::OutOfReach { at: 1.0 })]);
+    // Axis 5 goes from 20° through 0° to −20°.
+    let (a, b) = (at(&arm, [0.0, 0.0, 0.0, 0.0, 20.0, 0.0], "a"), at(&arm, [0.0, 0.0, 0.0, 0.0, -20.0, 0.0], "b"));
+    let found = faults(&arm, &program(vec![Motion::Joint(a), Motion::Linear(b)]));
+    let [(2, Fault::Singular { margin, least, at })] = found[..] else { panic!("{found:?}") };
+    assert!(margin.of.to_string() == "wrist" && margin.value < least && (at - 0.5).abs() < 0.1, "{margin:?} {at}");
+}
+
+#[test]
+fn demanded_configurations_are_held_to() {
+    let arm = arm();
+    let start = at(&arm, [10.0, 5.0, 10.0, 20.0, 50.0, -30.0], "a");
+    let wrong = PoseTarget { configuration: Some([2, 0, 0, 0]), ..start.clone() };
+    let mut asked = program(vec![Motion::Joint(wrong.clone())]);
+    assert_eq!(faults(&arm, &asked), [(1, Fault::NoSuchConfiguration { demanded: [2, 0, 0, 0] })]);
+    asked.moves[1].configuration_demanded = false;
+    assert_eq!(faults(&arm, &asked), []);
+    let other = PoseTarget { configuration: Some([0, 1, -1, 0]), ..shifted(&start, 0.0, 0.02, 0.0) };
+    let mut asked = program(vec![Motion::Joint(start), Motion::Linear(other)]);
+    let found = faults(&arm, &asked);
+    let arrives = [0, 0, -1, 0];
+    assert_eq!(found, [(2, Fault::ArrivesOtherwise { demanded: [0, 1, -1, 0], arrives })]);
+    asked.moves[2].configuration_demanded = false;
+    assert_eq!(faults(&arm, &asked), []);
+}
