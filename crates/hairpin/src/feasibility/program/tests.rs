@@ -1,10 +1,10 @@
 //! A shipped arm against postures whose poses its forward kinematics gives: what is within reach passes, and each fault is found
 //! where it was put.
 
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
 use super::{Fault, FollowSettings, check};
-use crate::robot::arm::{Arm, ArmDescription, Joints};
+use crate::robot::arm::{Arm, ArmDescription, Joints, Singularity};
 use crate::trajectory::program::{
     JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
 };
@@ -27,7 +27,7 @@ fn tool() -> Tool {
 fn object() -> WorkObject {
     WorkObject {
         user: Isometry3::translation(0.1, -0.2, 0.05),
-        object: Isometry3::rotation(nalgebra::Vector3::z() * 0.4),
+        object: Isometry3::rotation(Vector3::z() * 0.4),
         ..WorkObject::base()
     }
 }
@@ -126,11 +126,14 @@ fn reach_and_singularities_are_found() {
     let start = at(&arm, [0.0, 0.0, 0.0, 0.0, 60.0, 0.0], "a");
     let found =
         faults(&arm, &program(vec![Motion::Joint(start.clone()), Motion::Linear(shifted(&start, 0.8, 0.0, 0.0))]));
-    assert!(
-        matches!(found[..], [(2, Fault::OutOfReach { at })] if at > 0.05 && at < 0.6)
-            || matches!(found[..], [(2, Fault::Singular { .. })]),
-        "{found:?}"
-    );
+    let [(2, Fault::Singular { margin, at: share, .. })] = found[..] else { panic!("{found:?}") };
+    // The wrist's centre leaves the sphere of the stretched arm about the shoulder: |w + s·d|² = (c2 + √(a2² + c3²))².
+    let wrist = arm.forward(&rad([0.0, 0.0, 0.0, 0.0, 60.0, 0.0])) * Point3::new(0.0, 0.0, -0.072)
+        - Point3::new(0.0, 0.0, 0.29);
+    let way = object().base_from_object().rotation * Vector3::new(0.8, 0.0, 0.0);
+    let (half, room) = (wrist.dot(&way), wrist.norm_squared() - (0.27 + 0.07_f64.hypot(0.302)).powi(2));
+    let leaves = (-half + (half * half - way.norm_squared() * room).sqrt()) / way.norm_squared();
+    assert!(margin.of == Singularity::Elbow && share < leaves && leaves - share < 2e-3, "{margin:?} {share} {leaves}");
     let far = faults(&arm, &program(vec![Motion::Joint(shifted(&start, 3.0, 0.0, 0.0))]));
     assert_eq!(far, [(1, Fault::OutOfReach { at: 1.0 })]);
     // Axis 5 goes from 20° through 0° to −20°.
