@@ -33,7 +33,7 @@ fn findings_are_told_by_line_and_exit_code() {
             "line 8: UNREACHABLE home→far: axis 4 at 163.1° > 160.0° at 100 % of the move",
         ),
         ("ConfL\\Off;\nMoveJ p10,v100,fine,tool0;\nMoveL away,v100,fine,tool0;", 1, "line 10: UNREACHABLE p10→away: "),
-        ("MoveC p10,p10,v100,fine,tool0;", 1, "NOT EXECUTABLE line 8 (to p10): "),
+        ("MoveL p10,v100,fine,tool0;\nMoveC p10,p10,v100,fine,tool0;", 1, "NOT EXECUTABLE line 9 (to p10): "),
         (
             "VelSet 50,800;\nMoveAbsJ far,v200,fine,tool0;",
             5,
