@@ -165,7 +165,10 @@ fn in_words(import: &Import, module: &Module, arm: Option<&Arm>, checked: Option
     let word = if told.len() == 1 { "finding" } else { "findings" };
     let what = if arm.is_some() { format!("{} {word}", told.len()) } else { "read".to_owned() };
     console::say(&match module.unclear_line {
-        Some(line) => format!("INCONCLUSIVE: {what} in the {} of {moves} moves before line {line}", module.certain),
+        Some(line) => {
+            let verdict = if told.is_empty() { "INCONCLUSIVE" } else { "FAIL" };
+            format!("{verdict}: {what} in the {} of {moves} moves before line {line}", module.certain)
+        }
         None if told.is_empty() => format!("PASS: {what} in {moves} moves"),
         None => format!("FAIL: {} {word} in {moves} moves", told.len()),
     });
