@@ -163,6 +163,38 @@ fn every_family_of_controls_and_speeds_joins_legs() {
     );
 }
 
+/// Scores of straight legs have every term; an outline is kept clear of what is to be kept out of; a car stops for its cusps.
+#[test]
+fn cars_shunt_and_every_reach_set_takes_every_score() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let few = ["--set", "generate.search.cases=1", "--set", "generate.search.waypoints=20", "--set", "task.length=3"];
+    for reach in ["none", "sphere", "hull"] {
+        let reach = format!("generate.reach=\"{reach}\"");
+        let mut scores = Vec::new();
+        for score in ["slope", "roll", "slip", "speed", "curvature-change", "reversals", "random", "speed+slip+roll"] {
+            let score = format!("generate.search.score=\"{score}\"");
+            let out = format!("{reach}-{score}");
+            let map = "world.terrain={ generator = \"craters\", size_m = 60, cell_m = 0.5 }";
+            let asked =
+                ["--set", &reach, "--set", &score, "--set", "generate.step_s=60.0", "--set", map, "--out", &out];
+            let object = json(at, &[&["generate", "rover"][..], &few, &asked].concat());
+            assert_eq!(object["exit_code"], 0, "{out}: {object}");
+            scores.push(fs::read(at.join(&out).join("results.parquet")).unwrap());
+        }
+        // Nothing of straight lines changes curvature or gear: those two are equal, and all others differ.
+        let different = scores.iter().collect::<std::collections::BTreeSet<_>>().len();
+        assert!(different >= scores.len() - 1, "{reach}: {different}");
+    }
+    let both = "generate.manoeuvres=[\"forward\", \"reverse\"]";
+    let score = "generate.search.score=\"reversals\"";
+    let lax = ["--set", both, "--set", score, "--set", "spec.limits={ clearance_m = 0.0 }", "--out", "car"];
+    let object = json(at, &[&["stress", "car"][..], &few, &lax].concat());
+    assert!([0, 1].contains(&object["exit_code"].as_i64().unwrap()), "{object}");
+    let verified = json(at, &["verify", "car"]);
+    assert_eq!((&verified["checked"], &verified["failed"]), (&Value::from(1), &Value::from(0)), "{verified}");
+}
+
 /// A rover that travels at an angle to its body, with an acceleration and a lag of its own.
 #[test]
 fn a_rover_travels_crabwise_and_stops_for_its_turns() {

@@ -71,7 +71,8 @@ const TURN_STEP: f64 = 0.005;
 
 /// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on its
 /// wheels at each. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
-/// drive that begins in reverse or in place it stands, and all of them act.
+/// drive that begins in reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a
+/// turn in place, the wheels swing to what comes.
 ///
 /// # Errors
 /// [`Stopped`] where the ground ends or the body finds no rest.
@@ -105,7 +106,20 @@ pub fn replay_ground<T: Terrain>(
         [claim.start[0], claim.start[1], claim.start[2], libm::atan(claim.start_curvature * vehicle.steered_axle_m)];
     let mut rest = Rest::find(&vehicle.stand, terrain, claim.start).map_err(|no| stopped(0.0, no))?;
     let (mut driven, mut max_tilt, mut steps, mut last_curvature) = (0.0, 0.0_f64, 0, claim.start_curvature);
+    // The direction of the piece before; a turn in place leaves none.
+    let mut last: Option<Option<f64>> = None;
     for piece in &commands {
+        let own = match piece {
+            DrivePiece::Arc { direction, .. } => Some(*direction),
+            DrivePiece::Turn { .. } => None,
+        };
+        if let DrivePiece::Arc { curvature, .. } = piece
+            && last.is_some_and(|last| last != own)
+            && claim.stands_at(driven - wait)
+        {
+            state[3] = libm::atan(curvature[0] * vehicle.steered_axle_m);
+        }
+        last = Some(own);
         let (length, count) = match piece {
             DrivePiece::Arc { length_m, .. } => {
                 // What would act after the end is not driven.
@@ -176,7 +190,16 @@ struct Way<'a> {
     pace: f64,
 }
 
+/// Speeds below this are none, m/s, and places as near as this are one, m.
+const STILL: f64 = 1e-4;
+const SAME_PLACE: f64 = 1e-6;
+
 impl GroundClaim {
+    /// Whether the vehicle stands after `s` metres.
+    fn stands_at(&self, s: f64) -> bool {
+        self.speed.iter().any(|[place, speed]| (place - s).abs() < SAME_PLACE && *speed < STILL)
+    }
+
     /// Metres that the vehicle goes on for in `time` seconds before the drive, and after it.
     fn metres_of(&self, time: f64) -> [f64; 2] {
         let speed = |knot: Option<&[f64; 2]>| knot.map_or(0.0, |[_, v]| *v);

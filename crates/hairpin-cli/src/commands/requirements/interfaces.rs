@@ -1,11 +1,13 @@
 //! Vehicles and controls, switched to and fro: each does what is its own, and does it again after the others.
 
 use hairpin::campaign::drive::Site;
+use hairpin::feasibility::steering::shooting::families::{self, Parameters};
 use hairpin::feasibility::steering::shooting::flat::{self, Control, Cost};
 use hairpin::feasibility::steering::shooting::rough::{Answer, Settings, Status};
-use hairpin::feasibility::steering::shooting::solve::{Choices, solve};
-use hairpin::feasibility::steering::shooting::{Curvatures, Goal, Query};
+use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
+use hairpin::feasibility::steering::shooting::{Control as Family, Curvatures, Goal, Query, generate};
 use hairpin::robot::rover::Suspension;
+use hairpin::trajectory::SpeedProfile;
 use hairpin::trajectory::drive::{Gear, Motion, Segment, SegmentList};
 use hairpin_formats::library;
 use hairpin_formats::scenario::rover_for;
@@ -54,6 +56,15 @@ fn forward(query: &Query, settings: flat::Settings) -> SegmentList {
     flat::forward(query, &BOUNDS, &settings).segments
 }
 
+/// The answer of a family that has a search of its own, under a speed that doubles on the way; nothing if its parameters are not `own`.
+fn generated(query: &Query, family: Family, own: fn(&Parameters) -> bool) -> SegmentList {
+    let speed = SpeedProfile::Ramp { start: 0.2, end: 0.4 };
+    let problem = families::Problem { query: *query, speed, swing: 0.0, free_end: false };
+    let found = generate(&problem, family, &BOUNDS, &Choices::default(), || false, |_| {});
+    let solved = found.solution.outcome == Outcome::Solved && found.parameters.as_ref().is_some_and(own);
+    if solved { found.solution.segments } else { SegmentList::EMPTY }
+}
+
 /// a₀ … a₅ of a drive of one arc.
 fn only_arc(segments: &[Segment]) -> Option<[f64; 6]> {
     match segments {
@@ -70,7 +81,7 @@ fn linear(segments: &[Segment]) -> bool {
     segments.iter().all(|s| matches!(s.motion, Motion::Arc { curvature, .. } if curvature[2..] == [0.0; 4]))
 }
 
-const KINDS: [Kind; 7] = [
+const KINDS: [Kind; 10] = [
     Kind {
         name: "fifth order",
         answer: |query| forward(query, flat::Settings::default()),
@@ -103,6 +114,23 @@ const KINDS: [Kind; 7] = [
             solve(query, &BOUNDS, &choices, || false).segments
         },
         own: has_turn,
+    },
+    Kind {
+        name: "spline through knots",
+        answer: |query| generated(query, Family::Knots, |found| matches!(found, Parameters::Knots { .. })),
+        own: |drive| drive.len() > 1 && !linear(drive) && !has_turn(drive),
+    },
+    Kind {
+        name: "polynomial of time",
+        answer: |query| generated(query, Family::TimePolynomial, |found| matches!(found, Parameters::Time { .. })),
+        own: |drive| !drive.is_empty() && !linear(drive) && !has_turn(drive),
+    },
+    Kind {
+        name: "polynomials of velocity",
+        answer: |query| {
+            generated(query, Family::VelocityPolynomial, |found| matches!(found, Parameters::Velocity { .. }))
+        },
+        own: |drive| !drive.is_empty() && !linear(drive) && !has_turn(drive),
     },
     Kind {
         name: "reverse",

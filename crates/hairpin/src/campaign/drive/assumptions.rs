@@ -21,8 +21,8 @@ pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
     });
     if generate.reach != GroundReach::Witness {
         said.push(format!(
-            "Reach `{}` plans straight legs of {} s without commands; its scores see how steep they are, or are random; the \
-             runs are those of straight legs with turns in place.",
+            "Reach `{}` plans straight legs of {} s without commands; its scores and the runs are those of straight lines with \
+             turns in place, in which curvature and gear do not change.",
             generate.reach.word(),
             generate.step_s
         ));

@@ -1,5 +1,6 @@
 //! What drives: rovers on elevation maps, cars and differential drives.
 
+mod ask;
 mod assumptions;
 mod execute;
 mod plan;

@@ -5,16 +5,17 @@ use std::f64::consts::PI;
 use nalgebra::Point3;
 
 use super::DriveSetup;
+use super::ask::{Asked, ask};
 use super::stepwise::Stepwise;
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Outcome, Plan, Question, search};
+use crate::campaign::graph::{Outcome, Plan};
 use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
 use crate::feasibility::reach::drive::{
     DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres, sample_ground,
 };
 use crate::feasibility::steering::shooting::families;
 use crate::math::random::named_seed;
-use crate::search::{Found, OpenEnd, Score};
+use crate::search::{Found, Score};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::Terrain;
 
@@ -49,7 +50,7 @@ impl<'a> Solver<'a> {
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
         };
         match &self.stepwise {
-            Some(stepwise) => stepwise.solve(&self.search, graph, &points),
+            Some(stepwise) => stepwise.solve(&self.search, &self.settings, graph, &points),
             None => self.by_roadmap(graph, &points),
         }
     }
@@ -88,43 +89,26 @@ impl<'a> Solver<'a> {
             yaw: task.start.yaw_deg.to_radians(),
             curvature: task.start.curvature_1_m,
         };
-        let seed = |name: &str| named_seed(self.setup.scenario.seed, name, graph);
-        let settings = DriveSettings { seed: seed("roadmap"), ..self.settings.clone() };
+        let seed = named_seed(self.setup.scenario.seed, "roadmap", graph);
+        let settings = DriveSettings { seed, ..self.settings.clone() };
         let roadmap = DriveRoadmap::new(self.site(), points, &start, None, &settings);
-        let length = task.length as usize;
         let plan = |found: Found<_>| {
             let drive = roadmap.drive(&found.nodes)?;
             // With stops, which the search does not see before it knows what follows what.
             let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
             Some(Plan { leg_times, drive: Some(drive), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
-        let mut outcome = if task.end_m.is_some() {
-            let question = Question {
-                search: &self.search,
-                length,
-                points,
-                reach: &roadmap,
-                start: roadmap.start(),
-                score: Score::Ground,
-                seed: seed("uniform"),
-                lookahead: 0,
-            };
-            Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)), plan)
-        } else {
-            let open = OpenEnd::new(&roadmap, points);
-            let question = Question {
-                search: &self.search,
-                length: length + 1,
-                points: open.candidates(),
-                reach: &open,
-                start: open.task(roadmap.start()).start,
-                score: open.score(&Score::Ground, self.search.aggregate),
-                seed: seed("uniform"),
-                lookahead: 0,
-            };
-            let answer = search(&question, OpenEnd::<&DriveRoadmap>::may_arrive);
-            Outcome::of(graph, answer, |found| plan(open.closed(found)))
+        let asked = Asked {
+            scenario: self.setup.scenario,
+            search: &self.search,
+            graph,
+            points,
+            reach: &roadmap,
+            start: roadmap.start(),
+            score: Score::Ground,
+            lookahead: 0,
         };
+        let mut outcome = ask(asked, |node, steps| roadmap.may_arrive(node, steps), plan);
         if outcome.plans.is_empty() {
             outcome.reason = Some(roadmap.tally().to_string());
         }

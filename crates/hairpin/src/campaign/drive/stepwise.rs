@@ -1,17 +1,19 @@
 //! Reach sets of ground vehicles with one fixed step per leg: `none`, `sphere`, `hull`. They are for comparison: what they find
-//! has no commands, and their scores see straight legs.
+//! has no commands, and their scores see straight legs between turns in place.
 
 use nalgebra::Point3;
 
 use super::DriveSetup;
+use super::ask::{Asked, ask};
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Outcome, Plan, Question, search};
+use crate::campaign::graph::{Outcome, Plan};
 use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
+use crate::feasibility::reach::drive::{DriveSettings, DriveSite, StraightLegs};
 use crate::feasibility::reach::{
-    BodyHull, Everywhere, Filtered, Leg, PlanarVehicle, Reach, Sphere, StepNode, StepReach, StepSet, StepSettings,
+    BodyHull, Everywhere, Filtered, Leg, PlanarVehicle, Reach, Sphere, StepNode, StepReach, StepSettings,
 };
-use crate::math::random::{hashed_unit, named_seed};
-use crate::search::{Found, LegView, OpenEnd};
+use crate::math::random::named_seed;
+use crate::search::{Found, LegView};
 
 /// A step-wise reach set.
 pub(super) struct Stepwise<'a> {
@@ -47,42 +49,35 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Searches graph number `graph` over `points`.
-    pub(super) fn solve(&self, search: &SearchSection, graph: u64, points: &[Point3<f64>]) -> Outcome {
+    pub(super) fn solve(
+        &self,
+        search: &SearchSection,
+        scored: &DriveSettings,
+        graph: u64,
+        points: &[Point3<f64>],
+    ) -> Outcome {
         let settings = StepSettings {
             step: self.setup.scenario.generate.step_s,
             simd: self.setup.simd,
             ..StepSettings::default()
         };
         let start = StepNode { previous: 0, current: 0 };
+        let asked = Graph { search, scored, graph, points };
         match &self.set {
-            Set::Everywhere(set) => self.steps(search, graph, points, set, settings, start),
-            Set::Sphere(set) => self.steps(search, graph, points, set, settings, start),
+            Set::Everywhere(set) => self.ask(asked, &StepReach::new(set, points, settings), start, |node| node.current),
+            Set::Sphere(set) => self.ask(asked, &StepReach::new(set, points, settings), start, |node| node.current),
             Set::Hull(hull) => {
                 let task = &self.setup.scenario.task.start;
                 let start = hull.start(task.yaw_deg.to_radians(), [0.0, task.curvature_1_m]);
-                self.ask(search, graph, points, hull.as_ref(), start, |node| node.current)
+                self.ask(asked, hull.as_ref(), start, |node| node.current)
             }
         }
-    }
-
-    fn steps<S: StepSet>(
-        &self,
-        search: &SearchSection,
-        graph: u64,
-        points: &[Point3<f64>],
-        set: &S,
-        settings: StepSettings,
-        start: StepNode,
-    ) -> Outcome {
-        self.ask(search, graph, points, &StepReach::new(set, points, settings), start, |node| node.current)
     }
 
     /// Keeps the legs of the task's lengths that are clear of keep-outs, and searches.
     fn ask<N: Copy + Eq + Ord + std::hash::Hash, R: Reach<N>>(
         &self,
-        section: &SearchSection,
-        graph: u64,
-        points: &[Point3<f64>],
+        Graph { search, scored, graph, points }: Graph<'_>,
         reach: &R,
         start: N,
         place: impl Fn(&N) -> u32,
@@ -96,44 +91,29 @@ impl<'a> Stepwise<'a> {
             (low..=high).contains(&apart) && self.setup.keep_out.segment_distance([a.x, a.y], [b.x, b.y]) >= radius
         };
         let filtered = Filtered { inner: reach, keep };
-        let seed = |name: &str| named_seed(scenario.seed, name, graph);
-        let (random, score_seed) = (scenario.generate.search.score.contains("random"), seed("score"));
-        // Of a straight leg no more is known than how steep it is.
+        let site = DriveSite::new(self.setup.planner, self.setup.map, self.setup.keep_out);
+        let scored = DriveSettings { seed: named_seed(scenario.seed, "score", graph), ..scored.clone() };
+        let straight = StraightLegs::new(site, &scored);
         let score = |leg: &LegView| {
-            let slope = libm::atan2(leg.features.climb.abs(), leg.features.length) / self.setup.tilt().min(1.57);
-            if random { hashed_unit(score_seed, &[leg.from.into(), leg.to.into()]) } else { slope }
+            let [from, to] = [leg.from, leg.to].map(|index| (index, &points[index as usize]));
+            straight.stress(from, to, leg.features.turn)
         };
         let evidence = match self.set {
             Set::Hull(_) => Evidence::HullFeasible,
             Set::Everywhere(_) | Set::Sphere(_) => Evidence::Unchecked,
         };
         let plan = |found: Found<N>| Some(Plan::new(&found, points, evidence));
-        let length = scenario.task.length as usize;
-        if scenario.task.end_m.is_some() {
-            let question = Question {
-                search: section,
-                length,
-                points,
-                reach: &filtered,
-                start,
-                score,
-                seed: seed("uniform"),
-                lookahead: 1,
-            };
-            return Outcome::of(graph, search(&question, |_, _| true), plan);
-        }
-        let open = OpenEnd::new(&filtered, points);
-        let question = Question {
-            search: section,
-            length: length + 1,
-            points: open.candidates(),
-            reach: &open,
-            start: open.task(start).start,
-            score: open.score(&score, section.aggregate),
-            seed: seed("uniform"),
-            lookahead: 0,
-        };
-        let answer = search(&question, |node, steps| OpenEnd::<&R>::may_arrive(node, steps));
-        Outcome::of(graph, answer, |found| plan(open.closed(found)))
+        let (reach, lookahead) = (&filtered, 1);
+        let asked = Asked { scenario, search, graph, points, reach, start, score, lookahead };
+        ask(asked, |_, _| true, plan)
     }
+}
+
+/// A graph, and how it is searched and scored.
+#[derive(Clone, Copy)]
+struct Graph<'a> {
+    search: &'a SearchSection,
+    scored: &'a DriveSettings,
+    graph: u64,
+    points: &'a [Point3<f64>],
 }

@@ -4,8 +4,8 @@ use nalgebra::{Isometry3, SVector, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Named, grid, named, planar_pose, run};
-use crate::robot::rover::{Limits, Response, Rover, RoverError, within};
+use super::{Named, named, planar_pose};
+use crate::robot::rover::{Belly, Limits, Response, Rover, RoverError, within};
 use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// The `kind` of a car's file.
@@ -32,6 +32,12 @@ pub struct CarDescription {
     pub caveat: String,
     /// Distance of the axles.
     pub wheelbase_m: f64,
+    /// Length over all, its middle over that of the axles; 1.6 times the distance of the axles if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length_m: Option<f64>,
+    /// Width over all; 0.8 times the distance of the axles if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_m: Option<f64>,
     /// Speed where none is given; a quarter of the largest if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub speed_m_s: Option<f64>,
@@ -64,6 +70,10 @@ pub struct Car {
     pub source: String,
     /// Distance L of the axles, m.
     pub wheelbase: f64,
+    /// Length over all, m.
+    pub length: f64,
+    /// Width over all, m.
+    pub width: f64,
     /// Largest |δ|, rad.
     pub steering: f64,
     /// Largest |δ̇|, rad/s.
@@ -86,12 +96,16 @@ impl CarDescription {
     pub fn build(&self) -> Result<Car, RoverError> {
         let limits = &self.limits;
         let speed = within("limits.speed_m_s", limits.speed_m_s, 1e-3, 100.0)?;
-        let estimated = if self.speed_m_s.is_none() { vec!["speed_m_s"] } else { vec![] };
+        let wheelbase = within("wheelbase_m", self.wheelbase_m, 1e-3, 100.0)?;
+        let given = [("speed_m_s", self.speed_m_s), ("length_m", self.length_m), ("width_m", self.width_m)];
+        let estimated = given.iter().filter(|(_, value)| value.is_none()).map(|(key, _)| *key).collect();
         Ok(Car {
             name: named(&self.name)?,
             caveat: self.caveat.clone(),
             source: self.source.clone(),
-            wheelbase: within("wheelbase_m", self.wheelbase_m, 1e-3, 100.0)?,
+            wheelbase,
+            length: within("length_m", self.length_m.unwrap_or(1.6 * wheelbase), wheelbase, 1e3)?,
+            width: within("width_m", self.width_m.unwrap_or(0.8 * wheelbase), 1e-3, 1e3)?,
             steering: within("limits.steering_deg", limits.steering_deg, 0.1, 85.0)?.to_radians(),
             steering_rate: within("limits.steering_rate_deg_s", limits.steering_rate_deg_s, 0.1, 1e4)?.to_radians(),
             speed,
@@ -118,18 +132,10 @@ impl Car {
         let response =
             Response { steering_rate: self.steering_rate, steered_axle: self.wheelbase, ..Response::default() };
         let Self { name, caveat, source, estimated, .. } = self;
-        Named { name, caveat, source, estimated }.vehicle(limits, response, self.default_speed)
-    }
-
-    /// End points x, y (m), ψ (rad) of runs of `step` s from the origin at `speed` (m/s) and `steering` (rad), under each of
-    /// `resolution`² constant accelerations and steering rates, limits included.
-    pub fn sampled_ends(&self, step: f64, speed: f64, steering: f64, resolution: usize) -> Vec<[f64; 3]> {
-        let start = SVector::from([0.0, 0.0, 0.0, speed, steering]);
-        let rates = grid(self.steering_rate, resolution);
-        grid(self.acceleration, resolution)
-            .flat_map(|a| rates.clone().map(move |rate| Vector2::new(a, rate)))
-            .map(|control| run(self, &start, &control, step))
-            .collect()
+        let overhang = 0.5 * (self.length - self.wheelbase);
+        let outline =
+            Belly { front: self.wheelbase + overhang, rear: -overhang, half_width: 0.5 * self.width, height: 0.0 };
+        Named { name, caveat, source, estimated, outline }.vehicle(limits, response, self.default_speed)
     }
 }
 

@@ -4,9 +4,9 @@ use nalgebra::{Isometry3, SVector, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Named, grid, named, planar_pose, run};
+use super::{Named, named, planar_pose};
 use crate::math::power::square;
-use crate::robot::rover::{Limits, Response, Rover, RoverError, within};
+use crate::robot::rover::{Belly, Limits, Response, Rover, RoverError, within};
 use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// The `kind` of a differential drive's file.
@@ -33,6 +33,9 @@ pub struct DifferentialDriveDescription {
     pub caveat: String,
     /// Distance of the wheels.
     pub track_m: f64,
+    /// Radius of the circle about the axle's middle that holds the robot; 0.8 times the distance of the wheels if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_m: Option<f64>,
     /// Speed where none is given; half of the wheels' largest if not given, which leaves the other half to turning.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub speed_m_s: Option<f64>,
@@ -61,6 +64,8 @@ pub struct DifferentialDrive {
     pub source: String,
     /// Distance b of the wheels, m.
     pub track: f64,
+    /// Radius of the circle about the axle's middle that holds it, m.
+    pub radius: f64,
     /// Largest speed of a wheel's rim, m/s.
     pub wheel_speed: f64,
     /// Largest acceleration of a wheel's rim, m/s².
@@ -80,16 +85,19 @@ impl DifferentialDriveDescription {
         let limits = &self.limits;
         let wheel_speed = within("limits.wheel_speed_m_s", limits.wheel_speed_m_s, 1e-3, 100.0)?;
         let speed = self.speed_m_s.unwrap_or(0.5 * wheel_speed);
+        let track = within("track_m", self.track_m, 1e-3, 100.0)?;
+        let given = [("speed_m_s", self.speed_m_s), ("radius_m", self.radius_m)];
         Ok(DifferentialDrive {
             name: named(&self.name)?,
             caveat: self.caveat.clone(),
             source: self.source.clone(),
-            track: within("track_m", self.track_m, 1e-3, 100.0)?,
+            track,
+            radius: within("radius_m", self.radius_m.unwrap_or(0.8 * track), 0.5 * track, 1e3)?,
             wheel_speed,
             wheel_acceleration: within("limits.wheel_acceleration_m_s2", limits.wheel_acceleration_m_s2, 1e-3, 1e3)?,
             // A wheel at its limit leaves nothing to turn with.
             default_speed: within("speed_m_s", speed, 1e-3 * wheel_speed, 0.99 * wheel_speed)?,
-            estimated: if self.speed_m_s.is_none() { vec!["speed_m_s"] } else { vec![] },
+            estimated: given.iter().filter(|(_, value)| value.is_none()).map(|(key, _)| *key).collect(),
         })
     }
 }
@@ -115,20 +123,9 @@ impl DifferentialDrive {
         };
         let response = Response { steered_axle: 0.5 * self.track, ..Response::default() };
         let Self { name, caveat, source, estimated, .. } = self;
-        Named { name, caveat, source, estimated }.vehicle(limits, response, v)
-    }
-
-    /// End points x, y (m), ψ (rad) of runs of `step` s from the origin at `speed` (m/s) and `turn_rate` (rad/s), under each
-    /// of `resolution`² pairs of constant wheel accelerations, limits included.
-    pub fn sampled_ends(&self, step: f64, speed: f64, turn_rate: f64, resolution: usize) -> Vec<[f64; 3]> {
-        let start = SVector::from([0.0, 0.0, 0.0, speed, turn_rate]);
-        let wheels = grid(self.wheel_acceleration, resolution);
-        wheels
-            .clone()
-            .flat_map(|left| wheels.clone().map(move |right| (left, right)))
-            .map(|(left, right)| Vector2::new(0.5 * (left + right), (right - left) / self.track))
-            .map(|control| run(self, &start, &control, step))
-            .collect()
+        // The circle as the rectangle of no width that has its radius.
+        let outline = Belly { front: self.radius, rear: -self.radius, ..Belly::default() };
+        Named { name, caveat, source, estimated, outline }.vehicle(limits, response, v)
     }
 }
 

@@ -1,7 +1,8 @@
 use nalgebra::{SVector, Vector2};
 
 use super::*;
-use crate::robot::Vector;
+use crate::math::integrate::rk4_step;
+use crate::robot::{Dynamics, Vector};
 
 fn text(name: &str) -> String {
     let path = format!("{}/../../data/robots/ground/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -97,36 +98,16 @@ fn limits_of_state_stop_it_and_wheels_bound_together() {
 }
 
 #[test]
-fn sampled_ends_are_where_half_the_step_ends_too() {
+fn outlines_hold_what_was_given_and_estimates_are_told() {
     let (car, drive) = (car(), drive());
-    let ends = car.sampled_ends(1.0, 2.0, 0.1, 5);
-    assert_eq!(ends.len(), 25);
-    // In the middle of the grid nothing is commanded.
-    let radius = car.wheelbase / 0.1_f64.tan();
-    assert!((ends[12][0] - radius * (2.0 / radius).sin()).abs() < 1e-6);
-    let fine = |control: Vector2<f64>| {
-        let mut state = SVector::from([0.0, 0.0, 0.0, 2.0, 0.1]);
-        for _ in 0..20_000 {
-            state = rk4_step(|x| car.derivative(x, &control), &state, 1.0 / 20_000.0);
-            car.normalize(&mut state);
-        }
-        state
-    };
-    for (index, a, rate) in [(0, -1.0, -1.0), (4, -1.0, 1.0), (24, 1.0, 1.0), (21, 1.0, -0.5)] {
-        let end = fine(Vector2::new(a * car.acceleration, rate * car.steering_rate));
-        let off = (0..2).map(|i| (ends[index][i] - end[i]).abs()).fold(0.0, f64::max);
-        assert!(off < 5e-3 && (ends[index][2] - end[2]).abs() < 0.02, "{index}: {off} {}", ends[index][2] - end[2]);
-    }
-    let ends = drive.sampled_ends(1.0, 0.05, 0.2, 5);
-    assert_eq!(ends.len(), 25);
-    // Mirrored wheels end mirrored, if nothing turns at the start.
-    let level = drive.sampled_ends(1.0, 0.05, 0.0, 5);
-    for i in 0..5 {
-        for j in 0..5 {
-            let (a, b) = (level[5 * i + j], level[5 * j + i]);
-            assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] + b[1]).abs() < 1e-12 && (a[2] + b[2]).abs() < 1e-12);
-        }
-    }
+    let belly = car.vehicle().body.belly;
+    assert!((belly.front - belly.rear - 0.58).abs() < 1e-12 && (belly.half_width - 0.155).abs() < 1e-12);
+    assert!((0.5 * (belly.front + belly.rear) - 0.5 * car.wheelbase).abs() < 1e-12);
+    assert_eq!((drive.vehicle().body.belly.front, car.estimated.len()), (0.149, 0));
+    let bare = text("car").replace("length_m = 0.58\n", "").replace("width_m = 0.31\n", "");
+    let bare = toml::from_str::<CarDescription>(&bare).expect("its keys").build().expect("its numbers");
+    assert_eq!(bare.estimated, ["length_m", "width_m"]);
+    assert!(bare.length > bare.wheelbase);
 }
 
 #[test]
@@ -154,6 +135,7 @@ fn numbers_that_make_no_robot_are_refused_by_key() {
     for (from, to, key) in [
         ("wheelbase_m = 0.3302", "wheelbase_m = -1", "wheelbase_m"),
         ("steering_deg = 24.0", "steering_deg = 90", "limits.steering_deg"),
+        ("length_m = 0.58", "length_m = 0.2", "length_m"),
         ("name = \"car\"", "name = \" \"", "name"),
         ("speed_m_s = 2.0", "speed_m_s = 60", "speed_m_s"),
     ] {
@@ -165,6 +147,7 @@ fn numbers_that_make_no_robot_are_refused_by_key() {
     let text_of = text("differential-drive");
     for (from, to, key) in [
         ("track_m = 0.160", "track_m = nan", "track_m"),
+        ("radius_m = 0.149", "radius_m = 0.05", "radius_m"),
         ("wheel_speed_m_s = 0.22", "wheel_speed_m_s = 0", "limits.wheel_speed_m_s"),
         ("speed_m_s = 0.11", "speed_m_s = 0.22", "speed_m_s"),
     ] {

@@ -120,7 +120,8 @@ const ON_END: f64 = 1.396;
 /// Gaps from which Newton's last step is taken, m: what it leaves moves no end point by a tenth of a millimetre.
 const COARSE: f64 = 2e-3;
 
-/// Follows `segments` from `start`; `observe` sees every step's middle.
+/// Follows `segments` from `start`; `observe` sees every step's middle. Where the speeds come to rest, to change gear or to turn in
+/// place, the wheels swing to what comes before the vehicle goes on; at a constant speed they follow with their lag.
 ///
 /// # Errors
 /// [`Blocked`]: the ground ends, or the suspension finds no rest.
@@ -143,6 +144,7 @@ pub fn predict<T: Terrain>(
         gradient,
         looked_at: *start,
         lag: SteeringLag::new(&rover.response, start.curvature),
+        before: None,
         timing: Timing::new(&course.speed, segments),
         prediction: Prediction {
             end: *start,
@@ -170,6 +172,8 @@ struct Walk {
     /// Where the last look was.
     looked_at: Planar,
     lag: SteeringLag,
+    /// The segment before.
+    before: Option<Segment>,
     timing: Timing,
     prediction: Prediction,
 }
@@ -206,6 +210,12 @@ impl Walk {
                 self.lag = SteeringLag::new(&course.rover.response, 0.0);
             }
             Motion::Arc { length_m, .. } => {
+                let goes_on =
+                    |before: &Segment| matches!(before.motion, Motion::Arc { .. }) && before.gear == segment.gear;
+                if !self.timing.is_constant() && self.before.as_ref().is_some_and(|before| !goes_on(before)) {
+                    // Where the vehicle stands its wheels swing to what comes.
+                    self.lag = SteeringLag::new(&course.rover.response, segment.curvature_at(0.0));
+                }
                 let count = steps(length_m / course.steps.length, course.steps.least);
                 let h = length_m / f64::from(count);
                 let slip = &course.rover.slip;
@@ -239,6 +249,7 @@ impl Walk {
                 }
             }
         }
+        self.before = Some(*segment);
         Ok(())
     }
 

@@ -1,0 +1,60 @@
+//! The question that a search of drives is asked, with an end or without.
+
+use std::hash::Hash;
+
+use nalgebra::Point3;
+
+use crate::campaign::graph::{Outcome, Plan, Question, search};
+use crate::campaign::scenario::{DriveScenario, SearchSection};
+use crate::feasibility::reach::Reach;
+use crate::math::random::named_seed;
+use crate::search::{Found, Objective, OpenEnd};
+
+/// One graph and what is asked of it.
+pub(super) struct Asked<'a, N, R, O> {
+    pub(super) scenario: &'a DriveScenario,
+    pub(super) search: &'a SearchSection,
+    /// Number of the graph.
+    pub(super) graph: u64,
+    /// Its waypoints, the start first and, if there is one, the end last.
+    pub(super) points: &'a [Point3<f64>],
+    pub(super) reach: &'a R,
+    pub(super) start: N,
+    pub(super) score: O,
+    /// Steps from the end within which the beam asks the reach set itself whether the end can be reached.
+    pub(super) lookahead: usize,
+}
+
+/// Searches from the start to the task's end, or to wherever the last waypoint lies. `may_arrive(node, steps)` is necessary for the end
+/// to be reached from `node` in `steps` legs; `plan` gives `None` for what no drive can be made of.
+pub(super) fn ask<N, R, O>(
+    asked: Asked<'_, N, R, O>,
+    may_arrive: impl Fn(&N, usize) -> bool,
+    plan: impl Fn(Found<N>) -> Option<Plan>,
+) -> Outcome
+where
+    N: Copy + Eq + Ord + Hash,
+    R: Reach<N>,
+    O: Objective<Memory = ()>,
+{
+    let Asked { scenario, search: section, graph, points, reach, start, score, lookahead } = asked;
+    let seed = named_seed(scenario.seed, "uniform", graph);
+    let length = scenario.task.length as usize;
+    if scenario.task.end_m.is_some() {
+        let question = Question { search: section, length, points, reach, start, score, seed, lookahead };
+        return Outcome::of(graph, search(&question, may_arrive), plan);
+    }
+    let open = OpenEnd::new(reach, points);
+    let question = Question {
+        search: section,
+        length: length + 1,
+        points: open.candidates(),
+        reach: &open,
+        start: open.task(start).start,
+        score: open.score(&score, section.aggregate),
+        seed,
+        lookahead: 0,
+    };
+    let answer = search(&question, OpenEnd::<&R>::may_arrive);
+    Outcome::of(graph, answer, |found| plan(open.closed(found)))
+}
