@@ -39,7 +39,35 @@ pub(super) fn median_rate(times: usize, mut work: impl FnMut() -> u64) -> f64 {
     }))
 }
 
-fn median(values: impl Iterator<Item = f64>) -> f64 {
+/// Time on a processor since it was made.
+pub(super) struct Stopwatch {
+    origin: Instant,
+    begun: f64,
+}
+
+impl Stopwatch {
+    pub(super) fn start() -> Self {
+        let origin = Instant::now();
+        Self { origin, begun: now(origin) }
+    }
+
+    /// Whether more than `limit` seconds are spent. Asking often is cheap until so much has passed on the wall.
+    pub(super) fn passed(&self, limit: f64) -> bool {
+        self.origin.elapsed().as_secs_f64() > limit && now(self.origin) - self.begun > limit
+    }
+}
+
+/// Runs on this thread alone, so that its clock sees all of it.
+pub(super) fn alone<T: Send>(run: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build() {
+        Ok(pool) => pool.install(run),
+        // The thread is in a pool already, that of an earlier bench.
+        Err(_) => run(),
+    }
+}
+
+/// The middle value, the upper one of two.
+pub(super) fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]

@@ -5,6 +5,7 @@ mod arm_controller;
 mod clock;
 mod exact;
 pub(super) mod ground;
+mod max_load;
 pub(super) mod memory;
 mod reach;
 mod search;
@@ -74,6 +75,7 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
         ground::rows(),
         memory::rows(),
         arm::rows(),
+        max_load::rows(),
     ];
     let all: Vec<Row> = rooms.into_iter().flatten().collect();
     let wanted = |row: &&Row| bench.name.as_ref().is_none_or(|name| row.name.starts_with(name.as_str()));

@@ -5,7 +5,7 @@
 use hairpin::campaign::{Known, Setup, Stop, Tally, generate};
 use hairpin_formats::scenario::scenario_for;
 
-use super::clock::median_rate;
+use super::clock::{alone, median_rate};
 use super::{Row, Target};
 use crate::problem::Problem;
 
@@ -37,13 +37,7 @@ pub(super) fn scenario(length: usize, revisits: bool, cases: u64) -> Result<Setu
 
 /// Generates on this thread alone, so that its clock sees all of it.
 pub(super) fn on_one_thread(setup: &Setup, stop: &Stop) -> Tally {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
-    let run = || generate(setup, &Known::default(), stop, &mut |_, _| ());
-    match pool {
-        Ok(pool) => pool.install(run),
-        // The thread is in a pool already, that of an earlier bench.
-        Err(_) => run(),
-    }
+    alone(|| generate(setup, &Known::default(), stop, &mut |_, _| ()))
 }
 
 fn beam(length: usize, revisits: bool, items: fn(&Tally) -> u64) -> Result<f64, Problem> {

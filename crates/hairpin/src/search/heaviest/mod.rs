@@ -20,6 +20,7 @@ mod root;
 mod solve;
 mod subsets;
 mod tour;
+mod workspace;
 
 #[cfg(test)]
 mod tests;
@@ -28,3 +29,4 @@ pub use problem::{Arcs, ArcsMistake, Ends, MOST_POINTS};
 pub use record::{Next, Proof, Step};
 pub use solve::{Heaviest, HeaviestMistake, HeaviestSettings, Method, Outcome, heaviest};
 pub use subsets::{MOST_SUBSET_POINTS, subset_bytes};
+pub use workspace::Workspace;

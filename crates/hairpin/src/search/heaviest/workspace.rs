@@ -1,0 +1,117 @@
+//! Questions of the published kind: points that an arm reaches, and arcs that keep clear of its base.
+
+use nalgebra::Point3;
+
+use super::problem::{Arcs, ArcsMistake};
+use crate::math::random::{Stream, stream, unit};
+
+/// What an arm reaches: a ball around its shoulder, above the floor, without a core around the same centre.
+///
+/// Source: Collet, Gotlieb, Lazaar & Mossige, "Stress testing of single-arm robots through constraint-based generation of
+/// continuous trajectories" (2019).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Workspace {
+    /// Height of the centre above the floor, m.
+    height: f64,
+    /// Radius of the ball, m.
+    reach: f64,
+    /// Radius of the core, m; below `reach`.
+    core: f64,
+}
+
+impl Workspace {
+    /// The published one, 580 mm and 190 mm around (0, 0, 290) mm: three arcs of four are left.
+    pub const PUBLISHED: Self = Self { height: 0.29, reach: 0.58, core: 0.19 };
+    /// The same with a core of 430 mm: three arcs of ten are left.
+    pub const HOLLOW: Self = Self { core: 0.43, ..Self::PUBLISHED };
+
+    /// `count` points, uniform in the workspace, m; the same seed gives the same points.
+    pub fn points(&self, count: usize, seed: u64) -> Vec<Point3<f64>> {
+        let mut random = stream(seed);
+        let mut draws = std::iter::repeat_with(|| self.in_the_cube(&mut random));
+        draws.by_ref().filter(|point| self.contains(point)).take(count).collect()
+    }
+
+    /// The arcs between `points` in both directions, where the segment keeps clear of the core; costs are distances in
+    /// whole micrometres. Ball and half space are convex: segments between points in them need no look.
+    ///
+    /// # Errors
+    /// No point, or too many.
+    pub fn arcs(&self, points: &[Point3<f64>]) -> Result<Arcs, ArcsMistake> {
+        let cost = |from: usize, to: usize| {
+            // In one order, so that both directions have the same bits.
+            let (from, to) = (points[from.min(to)], points[from.max(to)]);
+            self.clear(&from, &to).then(|| ((to - from).norm() * 1e6).round() as i64)
+        };
+        let n = points.len();
+        let costs: Vec<Option<i64>> = (0..n * n).map(|index| cost(index / n, index % n)).collect();
+        Arcs::new(n, &costs)
+    }
+
+    fn centre(&self) -> Point3<f64> {
+        Point3::new(0.0, 0.0, self.height)
+    }
+
+    fn in_the_cube(&self, random: &mut Stream) -> Point3<f64> {
+        let [x, y, z] = [0; 3].map(|_: i32| (2.0 * unit(random) - 1.0) * self.reach);
+        Point3::new(x, y, z + self.height)
+    }
+
+    fn contains(&self, point: &Point3<f64>) -> bool {
+        let distance = (point - self.centre()).norm();
+        distance <= self.reach && distance > self.core && point.z >= 0.0
+    }
+
+    /// Whether the point of the segment that is nearest to the centre is outside the core.
+    fn clear(&self, from: &Point3<f64>, to: &Point3<f64>) -> bool {
+        let leg = to - from;
+        let squares = leg.norm_squared();
+        let along = if squares > 0.0 { (self.centre() - from).dot(&leg) / squares } else { 0.0 };
+        (from + leg * along.clamp(0.0, 1.0) - self.centre()).norm() > self.core
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arcs_are_those_whose_samples_are_all_in_the_workspace() {
+        for workspace in [Workspace::PUBLISHED, Workspace::HOLLOW] {
+            let points = workspace.points(60, 5);
+            let arcs = workspace.arcs(&points).unwrap();
+            for i in 0..60 {
+                for j in (0..60).filter(|j| *j != i) {
+                    let leg = points[j] - points[i];
+                    let mut samples = (0..=1000).map(|k| points[i] + leg * (f64::from(k) / 1000.0));
+                    let inside = samples.all(|sample| workspace.contains(&sample));
+                    // A thousand samples can miss a chord of the core of a thousandth of the leg, not more.
+                    let grazes = !workspace.clear(&points[i], &points[j]) && inside;
+                    assert!(!grazes || almost_clear(workspace, &points[i], &points[j]), "{i}→{j}");
+                    assert_eq!(arcs.cost(i, j).is_some(), inside && !grazes, "{i}→{j}");
+                    let micrometres = arcs.cost(i, j).map_or(leg.norm() * 1e6, |cost| cost as f64);
+                    assert!((micrometres - leg.norm() * 1e6).abs() <= 0.5, "{i}→{j}");
+                }
+            }
+        }
+    }
+
+    /// Clear of a core that is a micrometre smaller.
+    fn almost_clear(workspace: Workspace, from: &Point3<f64>, to: &Point3<f64>) -> bool {
+        Workspace { core: workspace.core - 1e-6, ..workspace }.clear(from, to)
+    }
+
+    #[test]
+    fn densities_are_as_told_and_points_come_again() {
+        for (workspace, density) in [(Workspace::PUBLISHED, 0.77), (Workspace::HOLLOW, 0.3)] {
+            let points = workspace.points(300, 1);
+            assert_eq!(points, workspace.points(300, 1));
+            assert_ne!(points, workspace.points(300, 2));
+            assert!(points.iter().all(|point| workspace.contains(point)));
+            let arcs = workspace.arcs(&points).unwrap();
+            assert!(arcs.symmetric());
+            assert!((arcs.density() - density).abs() < 0.04, "{}", arcs.density());
+        }
+        assert_eq!(Workspace::PUBLISHED.arcs(&[]), Err(ArcsMistake::Empty));
+    }
+}
