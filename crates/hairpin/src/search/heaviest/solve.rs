@@ -13,7 +13,7 @@ use super::subsets::{MOST_SUBSET_POINTS, best_by_subsets, subset_bytes};
 /// How a path is searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
-    /// Subsets for few points, else branch and bound.
+    /// Subsets for few points, else branch and bound; between the two, subsets where that is not proven at once.
     #[default]
     Auto,
     /// Dynamic programming over subsets.
@@ -40,7 +40,11 @@ impl Method {
 }
 
 /// Up to so many points subsets are the quicker way.
-const FEW: usize = 16;
+const FEW: usize = 14;
+/// Up to so many points subsets are the quicker way where branch and bound has to split more than [`QUICK_NODES`].
+const SOME: usize = 16;
+/// Problems that each part of branch and bound looks at before subsets take over.
+const QUICK_NODES: u64 = 4;
 
 /// What is wanted.
 #[derive(Debug, Clone)]
@@ -162,6 +166,14 @@ pub fn heaviest(
     let ends = settings.ends;
     ends.check(arcs.points())?;
     let method = choose(arcs, settings)?;
+    if settings.method == Method::Auto && method == Method::Subsets && arcs.points() > FEW {
+        let most_nodes = settings.most_nodes.map_or(QUICK_NODES, |most| most.min(QUICK_NODES));
+        let quick = HeaviestSettings { method: Method::Branch, most_nodes: Some(most_nodes), ..settings.clone() };
+        let found = heaviest(arcs, &quick, stop)?;
+        if found.proven || stop() {
+            return Ok(found);
+        }
+    }
     let answer = |paths: Vec<(i64, Vec<usize>)>, bound, proven| Heaviest {
         outcome: Outcome::Found,
         paths,
@@ -202,7 +214,7 @@ fn choose(arcs: &Arcs, settings: &HeaviestSettings) -> Result<Method, HeaviestMi
     let fits = points <= MOST_SUBSET_POINTS && bytes <= u128::from(bound);
     let several = settings.programs > 1;
     match settings.method {
-        Method::Auto if points <= FEW && fits && !several => Ok(Method::Subsets),
+        Method::Auto if points <= SOME && fits && !several => Ok(Method::Subsets),
         Method::Auto => Ok(Method::Branch),
         method @ (Method::Subsets | Method::Dfs | Method::Local) if several => {
             Err(HeaviestMistake::Programs { programs: settings.programs, method: method.name() })
