@@ -112,3 +112,19 @@ fn what_the_path_claims_is_checked() {
         claim.cost = claim.costs[claim.path[0] * 12 + claim.path[1]].unwrap();
     });
 }
+
+#[test]
+fn with_sixteen_points_both_ways_give_the_heaviest_path_and_a_claim_that_holds() {
+    let mut by_branching = 0;
+    for seed in 0..40 {
+        let arcs = table(seed, 16, [0.2, 0.4, 0.7, 1.0][seed as usize % 4], seed % 3 == 0);
+        let by = |method, proof| heaviest(&arcs, &HeaviestSettings { method, proof, ..Default::default() }, &|| false);
+        let (quick, sure) = (by(Method::Auto, true).unwrap(), by(Method::Subsets, false).unwrap());
+        assert!(quick.proven, "seed {seed}");
+        assert_eq!((quick.paths[0].0, quick.bound), (sure.paths[0].0, sure.bound), "seed {seed}");
+        assert_eq!(quick.proof.is_some(), quick.method == Method::Branch, "seed {seed}");
+        assert_eq!(verify_heaviest(&claim(&arcs, &quick)), [], "seed {seed}");
+        by_branching += usize::from(quick.method == Method::Branch);
+    }
+    assert!((1..40).contains(&by_branching), "{by_branching} of 40 by branching: one way is not tried");
+}
