@@ -303,6 +303,12 @@ pub(crate) enum Format {
     Geodetic,
     /// CASE.planned.csv and CASE-RUN.csv: poses in time, quaternions w first
     Csv,
+    /// Of arms: CASE.mod, CASE_slow.mod for the first run, and CASE.pgf, which names the module
+    Rapid,
+    /// Of arms: CASE.script for Universal Robots
+    Urscript,
+    /// Of arms: CASE.src and CASE.dat for KUKA
+    Krl,
     /// CASE.ref.tum and CASE.exec.tum: planned motion and worst run on the same stamps, not aligned
     Tum,
 }
@@ -359,6 +365,8 @@ pub(crate) enum Document {
     Scenario,
     /// Scenarios of drives
     RoverScenario,
+    /// Scenarios of arms
+    ArmScenario,
     /// Quadrotors
     Robot,
     /// Rovers

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::scenario::{DriveScenario, GroundSection};
 use hairpin::campaign::{Scenario, Setup};
 use hairpin::math::simd::Simd;
 use hairpin_formats::atomic;
@@ -149,10 +148,8 @@ fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
 fn write_scenario(folder: &CampaignFolder, scenario: &Scenario, level: &str) -> Result<(), Problem> {
     let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed: scenario.seed(), simd: level.into() };
     let text = scenario::to_toml(scenario, Some(&made_by)).map_err(Problem::input)?;
-    if let Some(DriveScenario { world: GroundSection { terrain, .. }, .. }) = scenario.drive()
-        && let (Some(file), Some(bytes)) = (&terrain.file, &terrain.bytes)
-    {
-        // First the map, then what says that there is one.
+    // First the files, then what says that there are such.
+    for (file, bytes) in scenario.files() {
         atomic::write(&folder.file(file), bytes)?;
     }
     Ok(folder.write_scenario(&text)?)

@@ -64,8 +64,7 @@ fn wrong_input_is_2_and_says_what_to_do() {
         (vec!["replay", "broken.toml"], "no repro file"),
         (vec!["export", "nowhere", "--to", "waypoints,plan9"], "plan9"),
         (vec!["bench", "no-such"], "beam-expansions"),
-        (vec!["demo", "arm"], "arm is not in this version"),
-        (vec!["new", "arm"], "arm is not in this version"),
+        (vec!["demo", "car"], "no demo of its own"),
         (vec!["simulate", "anafi", "--rotor-speeds", "none.csv"], "none.csv"),
     ] {
         let (code, out, error) = run(folder.path(), &arguments);

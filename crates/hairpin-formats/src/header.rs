@@ -19,7 +19,8 @@ pub struct Header {
     /// What positions and z are relative to: `cage origin` or `map origin`, never a vehicle's local origin or home.
     pub relative_to: &'static str,
     /// Waypoints of a trajectory.
-    pub length: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<u64>,
     /// Always `waypoints`, both ends included.
     pub length_counts: &'static str,
     /// Always false: tracks are compared as they are.
@@ -27,6 +28,9 @@ pub struct Header {
     /// From where the leg being flown is known.
     pub leg_source: LegSources,
 }
+
+/// What places of an arm's campaign are relative to.
+const ARM: &str = "arm's base";
 
 /// Judged cases by where the leg being flown is known from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -50,6 +54,7 @@ impl Header {
             relative_to: match scenario {
                 Scenario::Flight(_) => "cage origin",
                 Scenario::Drive(_) => "map origin",
+                Scenario::Arm(_) => ARM,
             },
             length: scenario.length(),
             length_counts: "waypoints",
@@ -62,6 +67,11 @@ impl Header {
     pub fn lines(&self) -> Vec<[String; 2]> {
         let line = |label: &str, value: String| [label.to_owned(), value];
         let mut lines = Vec::new();
+        if self.relative_to == ARM {
+            lines.push(line("frame", "the arm's base: z up, m; programs are in their work object, mm".into()));
+            self.told_for_all(&mut lines);
+            return lines;
+        }
         let ground = self.relative_to == "map origin";
         let world = if ground { "map" } else { "cage" };
         match (&self.origin, &self.start) {
@@ -99,7 +109,16 @@ impl Header {
                 self.relative_to
             ),
         ));
-        lines.push(line("length", format!("{} counts waypoints, both ends included", self.length)));
+        self.told_for_all(&mut lines);
+        lines
+    }
+
+    /// What counts, whatever the robot.
+    fn told_for_all(&self, lines: &mut Vec<[String; 2]>) {
+        let line = |label: &str, value: String| [label.to_owned(), value];
+        if let Some(length) = self.length {
+            lines.push(line("length", format!("{length} counts waypoints, both ends included")));
+        }
         lines.push(line("alignment", "not aligned".into()));
         let LegSources { executor, assigned } = self.leg_source;
         lines.push(line(
@@ -110,7 +129,6 @@ impl Header {
                 _ => format!("told by the executor in {executor} cases, by monotone assignment in {assigned}"),
             },
         ));
-        lines
     }
 }
 
@@ -123,5 +141,7 @@ fn start(setup: &Setup) -> Point3<f64> {
             let height = setup.map.patch(start.x_m, start.y_m).map_or(0.0, |patch| patch.height);
             Point3::new(start.x_m, start.y_m, height)
         }
+        // Arms stand where they stand: their scenarios have no place on Earth.
+        Kind::Arm(_) => Point3::origin(),
     }
 }

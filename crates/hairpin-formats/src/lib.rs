@@ -4,6 +4,7 @@ pub mod atomic;
 pub mod banner;
 pub mod checksum;
 pub mod cloud;
+pub mod controller_log;
 pub mod costs;
 pub mod csv;
 pub mod decimal;

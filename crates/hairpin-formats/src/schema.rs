@@ -1,6 +1,6 @@
 //! The JSON Schema of scenario and robot files, made from the types that read them.
 
-use hairpin::campaign::scenario::{DriveScenario, FlightScenario};
+use hairpin::campaign::scenario::{ArmScenario, DriveScenario, FlightScenario, RobotKind};
 use hairpin::robot::arm::ArmDescription;
 use hairpin::robot::ground::{CarDescription, DifferentialDriveDescription};
 use hairpin::robot::quadrotor::QuadrotorDescription;
@@ -17,6 +17,20 @@ pub fn drive_scenario_schema() -> Value {
     with_made_by(schemars::schema_for!(DriveScenario).to_value())
 }
 
+/// The schema of a scenario file of an arm.
+pub fn arm_scenario_schema() -> Value {
+    with_made_by(schemars::schema_for!(ArmScenario).to_value())
+}
+
+/// The schema of the scenario files of a kind of robots.
+pub fn scenario_schema_of(kind: RobotKind) -> Value {
+    match kind {
+        RobotKind::Flyer => scenario_schema(),
+        RobotKind::Ground => drive_scenario_schema(),
+        RobotKind::Arm => arm_scenario_schema(),
+    }
+}
+
 fn with_made_by(mut schema: Value) -> Value {
     let made_by =
         json!({ "type": "object", "description": "Written by hairpin into a campaign's scenario; not read." });
@@ -31,11 +45,6 @@ pub fn rover_schema() -> Value {
     schemars::schema_for!(RoverDescription).to_value()
 }
 
-/// The schema of an arm's file.
-pub fn arm_schema() -> Value {
-    schemars::schema_for!(ArmDescription).to_value()
-}
-
 /// The schema of a car's file.
 pub fn car_schema() -> Value {
     schemars::schema_for!(CarDescription).to_value()
@@ -44,6 +53,11 @@ pub fn car_schema() -> Value {
 /// The schema of a differential drive's file.
 pub fn differential_drive_schema() -> Value {
     schemars::schema_for!(DifferentialDriveDescription).to_value()
+}
+
+/// The schema of an arm's file.
+pub fn arm_schema() -> Value {
+    schemars::schema_for!(ArmDescription).to_value()
 }
 
 /// The schema of a quadrotor's file.

@@ -27,7 +27,7 @@ fn lines(report: &Report) -> String {
 #[test]
 fn the_fixture_is_fine() {
     let scenario = read(FINE, &[]).unwrap_or_else(|report| panic!("{report}"));
-    assert_eq!(scenario.length(), 10);
+    assert_eq!(scenario.length(), Some(10));
     assert_eq!(scenario.search().cases, 200);
 }
 

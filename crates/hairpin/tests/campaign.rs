@@ -14,7 +14,7 @@ use serde_json::json;
 /// What holds for every case of every reach set.
 fn check_common(setup: &Setup, case: &Case, what: &str) {
     let w = &case.waypoints;
-    assert_eq!(w.len() as u64, setup.scenario.length(), "{what}");
+    assert_eq!(w.len() as u64, setup.scenario.length().expect("a length"), "{what}");
     assert_eq!((w[0], w[w.len() - 1]), (Point3::new(3.0, 3.0, 3.0), Point3::new(12.0, 12.0, 12.0)), "{what}");
     assert_eq!(case.leg_times.len(), w.len() - 1, "{what}");
     assert!(case.leg_times.iter().sum::<f64>() <= 60.0, "{what}");

@@ -79,5 +79,6 @@ pub(crate) fn bare_case(number: usize, seed: u64, waypoints: Vec<Point3<f64>>) -
         certified: None,
         profile: None,
         drive: None,
+        program: None,
     }
 }

@@ -1,5 +1,7 @@
 //! `hairpin export`: a campaign's trajectories as files that other programs open.
 
+mod programs;
+
 use std::path::PathBuf;
 
 use hairpin::campaign::{Case, Evidence};
@@ -44,6 +46,7 @@ pub(crate) fn run(export: &Export) -> Result<u8, Problem> {
             Format::Geodetic => write_geodetic(&work, &cases)?,
             Format::Csv => write_csv(&work, &cases)?,
             Format::Tum => write_tum(&work, &cases)?,
+            Format::Rapid | Format::Urscript | Format::Krl => programs::write(&work, &cases, *format)?,
         };
         let (count, (word, programs)) = (written.files.len(), of_format(*format));
         formats.push(json!({ "format": word, "files": count, "opened_by": programs }));
@@ -79,6 +82,9 @@ fn of_format(format: Format) -> (&'static str, &'static str) {
     match format {
         Format::Waypoints => ("waypoints", "`hairpin execute OUT --missions DIR` and spreadsheets"),
         Format::Geodetic => ("geodetic", "spreadsheets and geographic information systems"),
+        Format::Rapid => ("rapid", "RobotStudio and ABB controllers: load CASE.pgf or CASE.mod, run CASE_slow first"),
+        Format::Urscript => ("urscript", "Universal Robots controllers and URSim"),
+        Format::Krl => ("krl", "KUKA controllers and OfficeLite"),
         Format::Csv => ("csv", "spreadsheets, pandas, PlotJuggler"),
         Format::Tum => ("tum", "evo: `evo_ape tum CASE.ref.tum CASE.exec.tum`, never with --align"),
     }

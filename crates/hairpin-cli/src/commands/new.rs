@@ -12,7 +12,7 @@ use crate::problem::Problem;
 /// Runs the command.
 pub(crate) fn run(new: &New) -> Result<u8, Problem> {
     let name = word(new.kind);
-    let text = template::template(name).ok_or_else(|| unsupported(new.kind))?;
+    let text = template::template(name).ok_or_else(|| Problem::input(format!("no scenario of {name} is shipped")))?;
     let file = format!("{name}.toml");
     let path = Path::new(&file);
     if path.exists() && !new.force {
@@ -36,12 +36,4 @@ pub(crate) fn word(kind: Kind) -> &'static str {
         Kind::Car => "car",
         Kind::DifferentialDrive => "differential-drive",
     }
-}
-
-/// This version has no robots of that kind.
-pub(crate) fn unsupported(kind: Kind) -> Problem {
-    Problem::input(format!(
-        "{} is not in this version of hairpin: quadrotor, rover, car and differential-drive are",
-        word(kind)
-    ))
 }

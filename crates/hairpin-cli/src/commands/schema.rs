@@ -1,8 +1,8 @@
 //! `hairpin schema`: JSON Schema from the types that read the files.
 
 use hairpin_formats::schema::{
-    arm_schema, car_schema, differential_drive_schema, drive_scenario_schema, robot_schema, rover_schema,
-    scenario_schema,
+    arm_scenario_schema, arm_schema, car_schema, differential_drive_schema, drive_scenario_schema, robot_schema,
+    rover_schema, scenario_schema,
 };
 
 use crate::args::{Document, Schema};
@@ -14,6 +14,7 @@ pub(crate) fn run(schema: &Schema) -> Result<u8, Problem> {
     let schema = match schema.document {
         Document::Scenario => scenario_schema(),
         Document::RoverScenario => drive_scenario_schema(),
+        Document::ArmScenario => arm_scenario_schema(),
         Document::Robot => robot_schema(),
         Document::Rover => rover_schema(),
         Document::Arm => arm_schema(),

@@ -71,7 +71,8 @@ fn check(work: &Work, case: &Case) -> Answer {
     if let Err(error) = work.folder.read_witness(&mut case) {
         return finding(error.to_string());
     }
-    if case.profile.is_none() && case.drive.is_none() && case.evidence != Evidence::Witnessed {
+    let claims = matches!(case.evidence, Evidence::Witnessed | Evidence::ClearAllLinks | Evidence::ClearToolSphere);
+    if case.profile.is_none() && case.drive.is_none() && case.program.is_none() && !claims {
         return Answer::NothingClaimed;
     }
     let verified = campaign::verify(&work.setup, &case);

@@ -1,7 +1,8 @@
 //! The messages of the protocol as types; their field names are the protocol's.
 
-use hairpin::campaign::scenario::{GroundDescription, GroundSection, RobotSource, WorldSection};
+use hairpin::campaign::scenario::{CellSection, GroundDescription, GroundSection, RobotSource, WorldSection};
 use hairpin::campaign::{Kind, Mission};
+use hairpin::robot::arm::ArmDescription;
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
 use serde::{Deserialize, Serialize};
 
@@ -40,6 +41,7 @@ pub struct MissionMessage {
 enum Robot {
     Flyer(Box<QuadrotorDescription>),
     Driver(RobotSource<GroundDescription>),
+    Arm(RobotSource<ArmDescription>),
 }
 
 /// The robot's world.
@@ -48,6 +50,7 @@ enum Robot {
 enum World {
     Cage(WorldSection),
     Ground(GroundSection),
+    Cell(CellSection),
 }
 
 /// One sample of the planned motion.
@@ -76,6 +79,7 @@ pub fn mission_message(mission: &Mission) -> ToExecutor {
         Kind::Drive(setup) => {
             (Robot::Driver(setup.scenario.robot.clone()), World::Ground(setup.scenario.world.clone()))
         }
+        Kind::Arm(setup) => (Robot::Arm(setup.scenario.robot.clone()), World::Cell(setup.scenario.world.clone())),
     };
     ToExecutor::Mission(Box::new(MissionMessage {
         case: mission.case.clone(),

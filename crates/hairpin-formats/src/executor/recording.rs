@@ -141,6 +141,7 @@ impl<'a> Recording<'a> {
             match self.mission.setup.kind() {
                 Kind::Flight(setup) => setup.world.wall_distance(&place) < 0.0,
                 Kind::Drive(setup) => setup.map.patch(place.x, place.y).is_err(),
+                Kind::Arm(_) => false,
             }
         };
         let left_world = self.poses.iter().position(outside).map(|index| self.times[index]);

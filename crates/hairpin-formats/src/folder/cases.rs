@@ -1,13 +1,15 @@
 //! The cases of a campaign folder: what `generate` writes, and every later part reads.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::Case;
 use hairpin::trajectory::Track;
+use hairpin::trajectory::program::Program;
 
 use super::{CampaignFolder, FolderError, RESULTS, WAYPOINTS};
 use crate::parquet::results::Row;
 use crate::parquet::{cases, drive, profile, track};
+use crate::rapid;
 
 impl CampaignFolder {
     /// Writes generated cases; `results.parquet` has them with status `generated`.
@@ -29,6 +31,9 @@ impl CampaignFolder {
             }
             if let Some(witness) = &case.drive {
                 drive::write(&self.profile_path(case.number), witness)?;
+            }
+            if let Some(program) = &case.program {
+                self.write_program(case, program)?;
             }
         }
         cases::write(&self.file(WAYPOINTS), all)?;
@@ -85,6 +90,10 @@ impl CampaignFolder {
     /// # Errors
     /// The file is broken.
     pub fn read_witness(&self, case: &mut Case) -> Result<(), FolderError> {
+        let path = self.program_path(case.number);
+        if path.exists() {
+            case.program = Some(self.read_program(&path, case.number)?);
+        }
         let path = self.profile_path(case.number);
         if path.exists() {
             if drive::is_drive(&path)? {
@@ -94,6 +103,32 @@ impl CampaignFolder {
             }
         }
         Ok(())
+    }
+
+    /// Writes `programs/CASE.mod`: the program as RAPID, which is what a campaign keeps of it.
+    fn write_program(&self, case: &Case, program: &Program) -> Result<(), FolderError> {
+        let path = self.program_path(case.number);
+        let header = [format!("Evidence: {}", case.claim())];
+        let text = rapid::module(program, &header)
+            .map_err(|error| FolderError::Program { path: path.clone(), what: error.to_string() })?;
+        Ok(rapid::write(&path, &text)?)
+    }
+
+    fn read_program(&self, path: &Path, case: usize) -> Result<Program, FolderError> {
+        let refuse = |what: String| FolderError::Program { path: path.into(), what };
+        let bytes = std::fs::read(path).map_err(|cause| FolderError::Unreadable { path: path.into(), cause })?;
+        let module = rapid::read(&bytes, &rapid::Options::default()).map_err(|error| refuse(error.to_string()))?;
+        let unclear = module.unclear_line.map(|line| format!("line {line} is not understood"));
+        let mistake = module.mistakes.first().map(|found| format!("line {}: {}", found.at.line, found.what));
+        match unclear.or(mistake) {
+            Some(what) => Err(refuse(format!("case {case:04}: {what}"))),
+            None => module.program.checked().map_err(|error| refuse(error.to_string())),
+        }
+    }
+
+    /// `programs/CASE.mod`.
+    pub fn program_path(&self, case: usize) -> PathBuf {
+        self.path.join("programs").join(format!("{case:04}.mod"))
     }
 
     /// Writes the planned motion of a case, sampled.

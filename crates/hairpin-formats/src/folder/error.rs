@@ -26,6 +26,14 @@ pub enum FolderError {
         /// The system's answer.
         cause: io::Error,
     },
+    /// A program cannot be written, or is none.
+    #[error("{}: {what}", path.display())]
+    Program {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
     /// Not ours: writing into it could destroy something.
     #[error("{} is not empty and not a campaign folder (no {SCENARIO} in it): choose another --out", path.display())]
     Foreign {

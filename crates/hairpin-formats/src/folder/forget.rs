@@ -29,7 +29,7 @@ impl CampaignFolder {
     /// A file cannot be removed.
     pub fn forget_cases(&self) -> Result<(), FolderError> {
         let names = [RESULTS, RUNS, INFLUENCE, WAYPOINTS, GENERATION, "junit.xml", "report.html"];
-        self.remove(&names, &["trajectories", "profiles", "executions"])
+        self.remove(&names, &["trajectories", "profiles", "programs", "executions"])
     }
 
     /// Removes `names`, the tables in `folders`, what was exported, and the executors' logs, which are of runs that go.
@@ -50,7 +50,7 @@ impl CampaignFolder {
         }
         for name in folders {
             for path in entries(&self.path.join(name))? {
-                if path.extension().is_some_and(|extension| extension == "parquet") {
+                if path.extension().is_some_and(|extension| extension == "parquet" || extension == "mod") {
                     remove(path)?;
                 }
             }
@@ -65,7 +65,8 @@ fn is_export(name: &str) -> bool {
     let number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let case = |text: &str| text.len() >= 4 && number(text);
     match name.split_once('.') {
-        Some((stem, "ref.tum" | "exec.tum" | "planned.csv")) => case(stem),
+        Some((stem, "ref.tum" | "exec.tum" | "planned.csv" | "pgf" | "script" | "src" | "dat")) => case(stem),
+        Some((stem, "mod")) => case(stem.strip_suffix("_slow").unwrap_or(stem)),
         Some((stem, "csv")) => stem.split_once('-').is_some_and(|(name, run)| case(name) && number(run)),
         _ => false,
     }
@@ -77,7 +78,15 @@ mod tests {
 
     #[test]
     fn only_our_own_exports_go() {
-        for name in ["0000.ref.tum", "0012.exec.tum", "10000.planned.csv", "0000-0.csv", "0117-12.csv"] {
+        for name in [
+            "0000.ref.tum",
+            "0012.exec.tum",
+            "10000.planned.csv",
+            "0000-0.csv",
+            "0117-12.csv",
+            "0003.mod",
+            "0003_slow.mod",
+        ] {
             assert!(is_export(name), "{name}");
         }
         for name in ["mine.csv", "0000.csv", "000-0.csv", "0000-.csv", "0000-a.csv", "a0000.ref.tum", "0000.tum", ""] {

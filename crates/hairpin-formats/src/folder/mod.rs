@@ -8,6 +8,7 @@
 //! | `results.parquet` | one row per case: seed, score, evidence; once judged, its worst run |
 //! | `waypoints.parquet` | one row per waypoint of every case, with the planned leg times |
 //! | `profiles/CASE.parquet` | the control witness, polynomials |
+//! | `programs/CASE.mod` | what an arm runs, as RAPID |
 //! | `trajectories/CASE.parquet` | the planned motion, sampled |
 //! | `executions/CASE-RUN.parquet` | one flight: poses, velocities, rotor speeds |
 //! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
@@ -41,7 +42,7 @@ const WAYPOINTS: &str = "waypoints.parquet";
 const RUNS: &str = "runs.parquet";
 const INFLUENCE: &str = "influence.json";
 const LOCK: &str = ".lock";
-const FOLDERS: [&str; 5] = ["trajectories", "profiles", "executions", "missions", "repro"];
+const FOLDERS: [&str; 6] = ["trajectories", "profiles", "programs", "executions", "missions", "repro"];
 
 /// What [`CampaignFolder::create`] does about a campaign that already stands there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -106,7 +106,9 @@ fn flown(shown: &Shown, track: &Track) -> Value {
     let take = |values: &[f64], digits| kept.iter().map(|&i| round(values[i], digits)).collect::<Vec<_>>();
     let mut value = positions(track, &kept);
     value["t"] = json!(take(track.times(), 3));
-    value["d"] = json!(take(&shown.distances, 3));
+    // Arms are measured in hundredths of a millimetre.
+    let fine = shown.distances.iter().all(|distance| *distance < 0.1);
+    value["d"] = json!(take(&shown.distances, if fine { 6 } else { 3 }));
     value["judged"] = json!(kept.iter().map(|&i| u8::from(shown.judged[i])).collect::<Vec<_>>());
     value["v"] = json!(take(&speeds(track), 2));
     value["leg"] = json!(track.channel("leg").map(|legs| take(legs, 0)));

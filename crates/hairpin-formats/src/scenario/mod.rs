@@ -1,6 +1,7 @@
 //! Scenario files in and out. Reading resolves: what comes out holds robot, world and meshes, and is checked.
 
 mod arm;
+mod cell;
 mod report;
 mod resolve;
 mod rover;
@@ -13,13 +14,12 @@ mod write;
 use std::path::Path;
 
 use hairpin::campaign::Scenario;
-use hairpin::campaign::scenario::{GroundDescription, KeyPath};
+use hairpin::campaign::scenario::{KeyPath, RobotKind};
 use toml::Table;
 
 pub use arm::arm_for;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
-pub use terrain::attach_terrain;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
 use crate::{library, schema};
@@ -64,13 +64,57 @@ pub fn scenario_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Sce
     let Some(kind) = table.get("kind").and_then(|kind| kind.as_str()).filter(|_| !table.contains_key("hairpin")) else {
         return read_scenario(&text, name_or_path, path.parent().unwrap_or(Path::new("")), sets);
     };
-    let around = if GroundDescription::KINDS.contains(&kind) { kind } else { "quadrotor" };
+    let around = match RobotKind::of_word(Some(kind)) {
+        RobotKind::Ground | RobotKind::Arm => kind,
+        RobotKind::Flyer => "quadrotor",
+    };
     let Some(around) = library::scenarios().find(|shipped| shipped.name == around) else {
         unreachable!("a scenario of every kind is shipped")
     };
     let robot = ("robot".to_owned(), toml::Value::String(name_or_path.to_owned()).to_string());
     let sets: Vec<_> = std::iter::once(robot).chain(sets.iter().cloned()).collect();
     read_scenario(around.text, around.path, Path::new(""), &sets)
+}
+
+/// The scenario of an arm for the points of a file: that of a shipped name or a file, or a bare cell around a robot's name or file.
+///
+/// # Errors
+/// As [`read_scenario`]; nothing of that name.
+pub fn arm_scenario_for(cell: &str, points: &Path, sets: &[(String, String)]) -> Result<Scenario, Report> {
+    let text = |path: &str| std::fs::read_to_string(path).ok().and_then(|text| text.parse::<Table>().ok());
+    let is_scenario = library::scenarios().any(|shipped| shipped.name == cell)
+        || text(cell).is_some_and(|table| table.contains_key("hairpin"));
+    // The points' file is given from where the command runs, the scenario's other files from where it lies.
+    let points = std::path::absolute(points).unwrap_or_else(|_| points.to_owned());
+    let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
+    let given = ("task.points".to_owned(), quoted(&points.to_string_lossy()));
+    let sets: Vec<_> = std::iter::once(given).chain(sets.iter().cloned()).collect();
+    if is_scenario {
+        return scenario_for(cell, &sets);
+    }
+    let shipped = library::robots().find(|robot| robot.name == cell).and_then(|robot| robot.text.parse::<Table>().ok());
+    let robot = text(cell).or(shipped).ok_or_else(|| unknown(cell))?;
+    let kind = robot.get("kind").and_then(|kind| kind.as_str());
+    if RobotKind::of_word(kind) != RobotKind::Arm {
+        let mut report = Report::default();
+        let message = format!("`{cell}` is no arm: its kind is {}", kind.unwrap_or("not given"));
+        report.complain_of_file(cell, &message);
+        return Err(report);
+    }
+    let bare = format!("hairpin = 1\nrobot = {}\n[task]\npoints = \"cloud.csv\"\n", quoted(cell));
+    read_scenario(&bare, cell, Path::new(""), &sets)
+}
+
+/// Reads what a resolved scenario names in `folder`, as beside a repro file, or in the folder above: its map, its cloud.
+///
+/// # Errors
+/// A file cannot be read, or is another one.
+pub fn attach(scenario: &mut Scenario, folder: &Path) -> Result<(), Report> {
+    match scenario {
+        Scenario::Flight(_) => Ok(()),
+        Scenario::Drive(drive) => terrain::attach(drive, folder),
+        Scenario::Arm(arm) => cell::attach(arm, folder),
+    }
 }
 
 fn unreadable(file: &str, why: &str) -> Report {
@@ -99,8 +143,7 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
     apply_sets(&mut root, sets, &mut resolver);
     resolver.robot(&mut root);
     resolver.world(&mut root);
-    let drives = kind_of(&root).is_some_and(|kind| GroundDescription::KINDS.contains(&kind));
-    let schema = if drives { schema::drive_scenario_schema() } else { schema::scenario_schema() };
+    let schema = schema::scenario_schema_of(RobotKind::of_word(kind_of(&root)));
     shape::check(&schema, &root, "", report);
     if !report.is_empty() {
         return None;
@@ -124,6 +167,7 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
             terrain::resolve(drive, base, &root, report);
             drive.execute.controller = drive.execute.controller_in_force();
         }
+        Scenario::Arm(arm) => cell::resolve(arm, base, &root, report),
     }
     if !report.is_empty() {
         return None;

@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use hairpin::campaign::Scenario;
 use hairpin::campaign::scenario::{DriveScenario, Frame, TerrainSection};
 use sha2::{Digest, Sha256};
 
@@ -34,8 +33,7 @@ pub(super) fn resolve(scenario: &mut DriveScenario, base: &Path, root: &Node, re
 ///
 /// # Errors
 /// The map cannot be read, or is another one.
-pub fn attach_terrain(scenario: &mut Scenario, folder: &Path) -> Result<(), Report> {
-    let Scenario::Drive(drive) = scenario else { return Ok(()) };
+pub(super) fn attach(drive: &mut DriveScenario, folder: &Path) -> Result<(), Report> {
     let terrain = &mut drive.world.terrain;
     let Some(file) = terrain.file.clone() else { return Ok(()) };
     let above = folder.join("..");

@@ -69,6 +69,7 @@ fn case(number: usize, evidence: Evidence) -> Case {
         certified: (number == 1).then_some("unknown"),
         profile,
         drive: None,
+        program: None,
     }
 }
 

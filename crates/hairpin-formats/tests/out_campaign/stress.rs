@@ -88,6 +88,7 @@ fn case(number: usize) -> Case {
         certified: None,
         profile: None,
         drive: None,
+        program: None,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::scenario::SearchMethod;
 use super::setup::Kind;
-use super::{Case, Setup, Tally, drive, flight};
+use super::{Case, Setup, Tally, arm, drive, flight};
 
 /// The sentences of the section, in the order of the pipeline: robot, claim, search, act, verdict.
 pub fn assumptions(setup: &Setup, cases: &[Case], tally: &Tally) -> Vec<String> {
@@ -11,16 +11,22 @@ pub fn assumptions(setup: &Setup, cases: &[Case], tally: &Tally) -> Vec<String> 
     match setup.kind() {
         Kind::Flight(setup) => flight::claim(&setup, cases, &mut said),
         Kind::Drive(setup) => drive::claim(&setup, &mut said),
+        Kind::Arm(setup) => arm::claim(&setup, &mut said),
     }
-    search(setup, cases, tally, &mut said);
+    match setup.kind() {
+        Kind::Arm(setup) => arm::search(&setup, cases, tally, &mut said),
+        Kind::Flight(_) | Kind::Drive(_) => search(setup, cases, tally, &mut said),
+    }
     match setup.kind() {
         Kind::Flight(setup) => flight::act(&setup, &mut said),
         Kind::Drive(setup) => drive::act(&setup, &mut said),
+        Kind::Arm(setup) => arm::act(&setup, &mut said),
     }
     runs(setup, &mut said);
     match setup.kind() {
         Kind::Flight(setup) => flight::verdict(&setup, &mut said),
         Kind::Drive(setup) => drive::verdict(&setup, &mut said),
+        Kind::Arm(setup) => arm::verdict(&setup, &mut said),
     }
     said.push("Leaving the world and a crash are violations whatever the spec says.".into());
     said.push("This is a test generator: what it writes is stressful by design and is no safety certificate.".into());
@@ -62,10 +68,11 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) 
             tally.dropped
         ));
     }
-    said.push(format!(
-        "Length counts waypoints, start and end included: {}. Waypoints are numbered from 0 = start.",
-        setup.scenario.length()
-    ));
+    if let Some(length) = setup.scenario.length() {
+        said.push(format!(
+            "Length counts waypoints, start and end included: {length}. Waypoints are numbered from 0 = start."
+        ));
+    }
 }
 
 fn runs(setup: &Setup, said: &mut Vec<String>) {
@@ -83,5 +90,7 @@ fn runs(setup: &Setup, said: &mut Vec<String>) {
             repeat - 1
         )),
     }
-    said.push(format!("A waypoint counts as reached within {} m.", execute.accept));
+    if setup.arm().is_none() {
+        said.push(format!("A waypoint counts as reached within {} m.", execute.accept));
+    }
 }

@@ -5,6 +5,7 @@ use nalgebra::{Point3, Vector3};
 use crate::judgement::Measures;
 pub use crate::judgement::Violation;
 use crate::trajectory::Drive;
+use crate::trajectory::program::Program;
 use crate::trajectory::{Flight, Profile};
 
 /// What stands behind a case: the evidence words of files, JSON and reports.
@@ -16,11 +17,21 @@ pub enum Evidence {
     HullFeasible,
     /// A control profile integrates through it, for the model.
     Witnessed,
+    /// The tool's sphere touches nothing along an arm's segments; the links were not looked at.
+    ClearToolSphere,
+    /// No link and no tool of an arm touches anything along its moves, and its joints keep their limits.
+    ClearAllLinks,
 }
 
 impl Evidence {
     /// Every kind, the strongest first.
-    pub const ALL: [Evidence; 3] = [Evidence::Witnessed, Evidence::HullFeasible, Evidence::Unchecked];
+    pub const ALL: [Evidence; 5] = [
+        Evidence::ClearAllLinks,
+        Evidence::ClearToolSphere,
+        Evidence::Witnessed,
+        Evidence::HullFeasible,
+        Evidence::Unchecked,
+    ];
 
     /// The word in files.
     pub fn word(self) -> &'static str {
@@ -28,6 +39,8 @@ impl Evidence {
             Evidence::Unchecked => "unchecked",
             Evidence::HullFeasible => "hull-feasible",
             Evidence::Witnessed => "witnessed",
+            Evidence::ClearToolSphere => "clear: tool sphere",
+            Evidence::ClearAllLinks => "clear: all links",
         }
     }
 
@@ -62,6 +75,8 @@ pub struct Case {
     pub profile: Option<Profile>,
     /// The control witness of a drive.
     pub drive: Option<Drive>,
+    /// What an arm runs.
+    pub program: Option<Program>,
 }
 
 impl Case {
@@ -188,6 +203,7 @@ mod tests {
             certified: None,
             profile: None,
             drive: None,
+            program: None,
         };
         assert_eq!(case(2.0, None).claim(), "hull-feasible");
         assert_eq!(case(2.0, Some(2.0)).claim(), "hull-feasible, optimal");

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::setup::Kind;
-use super::{Case, Mission, Run, Setup, Stop, drive, flight, mission};
+use super::{Case, Mission, Run, Setup, Stop, arm, drive, flight, mission};
 use crate::simulation::SimulationError;
 use crate::trajectory::Flight;
 
@@ -51,8 +51,9 @@ pub fn execute_run(setup: &Setup, case: &Case, run: usize) -> Run {
 fn carry_out(setup: &Setup, mission: &Mission, case: &Case) -> Result<Flight, SimulationError> {
     match (setup.kind(), mission.setup.kind()) {
         (Kind::Drive(nominal), Kind::Drive(setup)) => drive::drive(&nominal, &setup, case, &drive_order(mission)),
+        (Kind::Arm(nominal), Kind::Arm(setup)) => arm::run(&nominal, &setup, case, mission.seed),
         (_, Kind::Flight(setup)) => flight::fly(&setup, &flight_order(mission, case)),
-        (Kind::Flight(_), Kind::Drive(_)) => unreachable!("draws change no robot's kind"),
+        (_, Kind::Drive(_) | Kind::Arm(_)) => unreachable!("draws change no robot's kind"),
     }
 }
 

@@ -9,7 +9,7 @@ use super::influence::RunDeviation;
 use super::scenario::DeviationFrom;
 use super::setup::Kind;
 use super::terms::Terms;
-use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, planned, vary};
+use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, arm, planned, vary};
 use crate::judgement::{
     self, Claim, Clearance, Judged, JudgementError, Measures, Reference, Settings, Verdict, Violation, Worst,
 };
@@ -136,7 +136,7 @@ fn judge_run(
     };
     let terms = Terms::of(&own.scenario);
     let path = match terms.from {
-        DeviationFrom::Path => path.get_or_init(|| planned(setup, case).ok()).as_ref(),
+        DeviationFrom::Path => path.get_or_init(|| reference(setup, case)).as_ref(),
         DeviationFrom::Leg | DeviationFrom::NearestLeg => None,
     };
     let clearance = clearance_of(own);
@@ -149,12 +149,20 @@ fn judge_run(
         corner: terms.corner,
         clearance: clearance.as_deref(),
     };
-    Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|measures| JudgedRun {
-        violations: judgement::violations(&measures, flight, &terms.limits),
-        ended: flight.ended.word().into(),
-        left_world: flight.left_world,
-        crashed: flight.ended.is_crash(),
-        measures,
+    Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|mut measures| {
+        let arm = setup.arm();
+        measures.latest = arm.and_then(|arm| arm::latest(&arm.measured(case, &flight.track)?));
+        let mut violations = judgement::violations(&measures, flight, &terms.limits);
+        if arm.is_some() {
+            violations = violations.into_iter().map(arm::in_small_units).collect();
+        }
+        JudgedRun {
+            violations,
+            ended: flight.ended.word().into(),
+            left_world: flight.left_world,
+            crashed: flight.ended.is_crash(),
+            measures,
+        }
     }))
 }
 
@@ -171,6 +179,16 @@ fn clearance_of(setup: &Setup) -> Option<Box<Clearance<'_>>> {
             (!setup.scenario.world.keep_out.is_empty())
                 .then(|| Box::new(move |p: &Point3<f64>| places.distance(p.x, p.y) - radius) as Box<Clearance<'_>>)
         }
+        // What is proven clear of an arm's plan is not measured again along its recordings.
+        Kind::Arm(_) => None,
+    }
+}
+
+/// The planned motion that deviations are measured from.
+fn reference(setup: &Setup, case: &Case) -> Option<Track> {
+    match setup.arm() {
+        Some(arm) => arm.reference(case).map(|path| path.track().clone()),
+        None => planned(setup, case).ok(),
     }
 }
 
@@ -248,7 +266,8 @@ fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation,
             leg: measures.leg_worst,
         })
     };
-    let value = result.violations.first().cloned().or_else(nearest)?;
+    let told = |violation| if setup.arm().is_some() { arm::in_small_units(violation) } else { violation };
+    let value = result.violations.first().cloned().or_else(|| nearest().map(told))?;
     let saturation = measures.legs.get(value.leg).and_then(|leg| leg.saturation_share).or(measures.saturation_share);
     Some((format!("{:04}", result.case), value, saturation))
 }
@@ -268,7 +287,10 @@ fn nothing_feasible(setup: &Setup, tally: &Tally) -> Verdict {
     };
     let open = setup.scenario.drive().is_some_and(|scenario| scenario.task.end_m.is_none());
     let ends = if open { "from the start" } else { "from start to end" };
-    let chain = format!("no chain of {} waypoints {ends}", setup.scenario.length());
+    let chain = match setup.scenario.length() {
+        Some(length) => format!("no chain of {length} waypoints {ends}"),
+        None => "no program from home to home".into(),
+    };
     let what = match &tally.nothing {
         Some(reason) => format!("{chain}: {reason}"),
         None => chain,

@@ -54,6 +54,8 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
             let planned = timed.last().map_or(0.0, |last| last.t);
             setup.scenario.execute.time_limit_s.unwrap_or(SLOWNESS * planned + SPARE_SECONDS)
         }
+        // The virtual controller's runs end with their program.
+        Kind::Arm(_) => f64::INFINITY,
     };
     let accept = varied.scenario.executor().accept;
     Ok(Mission {

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::setup::Kind;
-use super::{Case, Setup, Timed, drive, flight};
+use super::{Case, Setup, Timed, arm, drive, flight};
 use crate::simulation::SimulationError;
 use crate::trajectory::{Track, TrackError};
 
@@ -30,6 +30,7 @@ pub fn planned(setup: &Setup, case: &Case) -> Result<Track, PlanError> {
     match setup.kind() {
         Kind::Flight(setup) => Ok(flight::track(setup.robot, case)?),
         Kind::Drive(setup) => drive::track(&setup, case),
+        Kind::Arm(setup) => arm::track(&setup, case),
     }
 }
 
@@ -41,5 +42,7 @@ pub(super) fn timed(setup: &Setup, case: &Case) -> Vec<Timed> {
     match setup.kind() {
         Kind::Flight(_) => flight::timed(case, REFERENCE_RATES.0),
         Kind::Drive(setup) => drive::timed(&setup, case, REFERENCE_RATES.1),
+        // Arms get their program instead.
+        Kind::Arm(_) => Vec::new(),
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::arm::{self, ArmSetup, Station};
 use super::drive::{self, DriveSetup};
 use super::flight::{self, FlightSetup};
 use super::scenario::{Mistake, Scenario};
@@ -26,6 +27,7 @@ pub struct Setup {
 enum Machine {
     Flyer { robot: Box<Quadrotor>, world: World },
     Driver { rover: Box<Rover>, planner: Box<Rover>, map: Arc<ElevationMap>, keep_out: Arc<KeepOuts> },
+    Arm(Arc<Station>),
 }
 
 /// A setup, by what its robot does.
@@ -35,6 +37,8 @@ pub enum Kind<'a> {
     Flight(FlightSetup<'a>),
     /// It drives.
     Drive(DriveSetup<'a>),
+    /// It is an arm.
+    Arm(ArmSetup<'a>),
 }
 
 impl Setup {
@@ -73,6 +77,7 @@ impl Setup {
                 let keep_out = Arc::new(scenario.world.keep_outs()?);
                 Machine::Driver { rover, planner, map, keep_out }
             }
+            Scenario::Arm(scenario) => Machine::Arm(Arc::new(arm::station_of(scenario)?)),
         };
         Ok(Self { scenario, simd, machine })
     }
@@ -87,6 +92,7 @@ impl Setup {
             (Scenario::Drive(scenario), Machine::Driver { rover, planner, map, keep_out }) => {
                 Kind::Drive(DriveSetup { scenario, rover, planner, map, keep_out, simd })
             }
+            (Scenario::Arm(scenario), Machine::Arm(station)) => Kind::Arm(ArmSetup { scenario, station, simd }),
             _ => unreachable!("a setup's machine is built from its scenario"),
         }
     }
@@ -95,15 +101,23 @@ impl Setup {
     pub fn flight(&self) -> Option<FlightSetup<'_>> {
         match self.kind() {
             Kind::Flight(setup) => Some(setup),
-            Kind::Drive(_) => None,
+            Kind::Drive(_) | Kind::Arm(_) => None,
         }
     }
 
     /// The setup of drives.
     pub fn drive(&self) -> Option<DriveSetup<'_>> {
         match self.kind() {
-            Kind::Flight(_) => None,
             Kind::Drive(setup) => Some(setup),
+            Kind::Flight(_) | Kind::Arm(_) => None,
+        }
+    }
+
+    /// The setup of an arm.
+    pub fn arm(&self) -> Option<ArmSetup<'_>> {
+        match self.kind() {
+            Kind::Arm(setup) => Some(setup),
+            Kind::Flight(_) | Kind::Drive(_) => None,
         }
     }
 
@@ -112,6 +126,7 @@ impl Setup {
         match &self.machine {
             Machine::Flyer { robot, .. } => &robot.name,
             Machine::Driver { rover, .. } => &rover.name,
+            Machine::Arm(station) => &station.arm.name,
         }
     }
 
@@ -120,6 +135,7 @@ impl Setup {
         match &self.machine {
             Machine::Flyer { robot, .. } => &robot.caveat,
             Machine::Driver { rover, .. } => &rover.caveat,
+            Machine::Arm(station) => &station.arm.caveat,
         }
     }
 
@@ -128,6 +144,7 @@ impl Setup {
         match &self.machine {
             Machine::Flyer { robot, .. } => robot.estimated.iter().map(String::as_str).collect(),
             Machine::Driver { rover, .. } => rover.estimated.clone(),
+            Machine::Arm(station) => station.arm.estimated.clone(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a run is judged by: the reference of its deviation, and the limits.
 
-use super::scenario::{DeviationFrom, DriveScenario, FlightScenario, Scenario};
+use super::scenario::{ArmScenario, DeviationFrom, DriveScenario, FlightScenario, Scenario};
 use crate::judgement::Limits;
 
 /// The terms of a scenario's spec.
@@ -19,6 +19,7 @@ impl Terms {
         match scenario {
             Scenario::Flight(scenario) => Self::of_flight(scenario),
             Scenario::Drive(scenario) => Self::of_drive(scenario),
+            Scenario::Arm(scenario) => Self::of_arm(scenario),
         }
     }
 
@@ -49,6 +50,20 @@ impl Terms {
                 clearance: spec.clearance_m,
                 tip_over_margin: spec.tip_over_margin_deg,
                 total_time: spec.total_time_s,
+                ..Limits::default()
+            },
+        }
+    }
+
+    /// Arms are held to the path that was programmed, and to their times at its points.
+    fn of_arm(scenario: &ArmScenario) -> Self {
+        let spec = &scenario.spec;
+        Self {
+            from: DeviationFrom::Path,
+            corner: 0.0,
+            limits: Limits {
+                deviation: spec.path.map(|limit| limit.max_mm * 1e-3),
+                late: spec.arrival.map(|limit| limit.max_late_ms * 1e-3),
                 ..Limits::default()
             },
         }

@@ -149,7 +149,7 @@ mod tests {
         let (mut lengths, mut masses, mut winds) = (Vec::new(), Vec::new(), Vec::new());
         for seed in 0..2000 {
             let planned = apply(&scenario, &draw_for_case(&scenario, seed, 1)).unwrap();
-            lengths.push(planned.length());
+            lengths.push(planned.length().unwrap());
             let drawn = apply(&scenario, &draw(&scenario, seed, 1)).unwrap();
             let drawn = drawn.flight().unwrap();
             let super::super::scenario::RobotSource::Inline(robot) = &drawn.robot else { panic!("robot lost") };

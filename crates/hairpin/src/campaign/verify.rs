@@ -1,7 +1,7 @@
 //! Hands the written witnesses to the verification room.
 
 use super::setup::Kind;
-use super::{Case, Setup, drive, flight};
+use super::{Case, Setup, arm, drive, flight};
 use crate::verification::{EndError, Proof};
 
 /// What verification says of one case.
@@ -22,6 +22,7 @@ pub fn verify(setup: &Setup, case: &Case) -> Verified {
             flight::verify(setup.robot, case).map_or((None, None), |(proof, lag)| (Some(proof), lag))
         }
         Kind::Drive(setup) => (drive::verify(&setup, case), None),
+        Kind::Arm(setup) => (arm::verify(&setup, case), None),
     };
     Verified { case: case.number, proof, with_lag }
 }

@@ -42,6 +42,17 @@ pub struct LegMeasures {
     pub saturation_share: Option<f64>,
 }
 
+/// The latest arrival at a waypoint, by its planned time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Late {
+    /// How late, s; negative where every arrival was early.
+    pub by: f64,
+    /// When it arrived, s.
+    pub at: f64,
+    /// The leg that led there.
+    pub leg: usize,
+}
+
 /// Metrics of one run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measures {
@@ -75,6 +86,8 @@ pub struct Measures {
     pub t_tip_over_margin: f64,
     /// Share of rotor-time spent at a rotor limit, 0 … 1; `None` where the executor did not tell.
     pub saturation_share: Option<f64>,
+    /// The latest arrival at a waypoint; `None` where arrivals have no planned times.
+    pub latest: Option<Late>,
     /// Where the leg being flown is known from.
     pub leg_source: LegSource,
     /// What the accelerations are differences of.

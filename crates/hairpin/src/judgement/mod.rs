@@ -15,7 +15,7 @@ pub mod verdict;
 mod tests;
 
 pub use measure::{deviation_of_samples, measure};
-pub use measures::{AccelerationSource, LegMeasures, LegSource, Measures};
+pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
 pub use statistics::{Share, Statistics, rank_correlation, rule_of_three, share, skewness};

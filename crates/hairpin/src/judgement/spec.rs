@@ -19,6 +19,8 @@ pub struct Limits {
     pub acceleration: Option<f64>,
     /// Longest duration of a run, s.
     pub total_time: Option<f64>,
+    /// Latest arrival at a waypoint after its planned time, s.
+    pub late: Option<f64>,
     /// Whether a run violates that is stopped by its time limit before the last waypoint, or that claims to be done
     /// without having been there: it has not flown the mission, and what it did not fly cannot be judged.
     pub unfinished: bool,
@@ -33,6 +35,7 @@ impl Default for Limits {
             tip_over_margin: None,
             acceleration: None,
             total_time: None,
+            late: None,
             unfinished: true,
         }
     }
@@ -41,8 +44,8 @@ impl Default for Limits {
 /// One violated limit of a run, in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
-    /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`; or an
-    /// event: `crash`, of a ground vehicle `tip-over`, `belly-contact`, `stuck` or `off-map`, `left-world`, `unfinished`.
+    /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`, `late`; or an
+    /// event: `crash`, of a ground vehicle `tip-over`, `belly-contact`, `stuck` or `off-map`, of an arm `halted`, `left-world`, `unfinished`.
     pub what: String,
     /// The measured value in `unit`; of a crash of any kind and of leaving the world the time, s; of an unfinished run
     /// the number of waypoints reached.
@@ -65,7 +68,7 @@ impl Violation {
 
     /// Whether the run came to a bad end, of whatever kind.
     pub fn is_crash(&self) -> bool {
-        matches!(self.what.as_str(), "crash" | "tip-over" | "belly-contact" | "stuck" | "off-map")
+        matches!(self.what.as_str(), "crash" | "tip-over" | "belly-contact" | "stuck" | "halted" | "off-map")
     }
 
     /// What happened, in words, where no measured limit is violated.
@@ -75,6 +78,7 @@ impl Violation {
             "tip-over" => "tipped over".into(),
             "belly-contact" => "set its underside on the ground".into(),
             "stuck" => "got stuck".into(),
+            "halted" => "halted".into(),
             "off-map" => "left the map".into(),
             "left-world" => "left the world".into(),
             "unfinished" => format!("stopped at {} of {} waypoints", self.value, self.limit),
@@ -128,6 +132,9 @@ pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<
     exceed("acceleration", measures.max_acceleration, limits.acceleration, "m/s²", measures.t_acceleration, leg);
     let (end, last) = (flight.track.times().last().copied().unwrap_or(0.0), last_leg(measures, flight));
     exceed("total-time", measures.total_time, limits.total_time, "s", end, last);
+    if let Some(late) = &measures.latest {
+        exceed("late", late.by, limits.late, "s", late.at, late.leg);
+    }
     let mut fall_short = |what: &str, value: Option<f64>, limit: Option<f64>, unit: &str, at: f64, leg: usize| {
         if let (Some(value), Some(limit)) = (value, limit)
             && value < limit
@@ -162,7 +169,7 @@ fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violatio
     let mut found = Vec::new();
     if flight.ended.is_crash() {
         let what = match flight.ended {
-            Ended::TipOver | Ended::BellyContact | Ended::Stuck | Ended::OffMap => flight.ended.word(),
+            Ended::TipOver | Ended::BellyContact | Ended::Stuck | Ended::Halted | Ended::OffMap => flight.ended.word(),
             _ => "crash",
         };
         found.push(event(what, end, 0.0, "s", end, last));

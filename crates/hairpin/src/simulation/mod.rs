@@ -42,7 +42,8 @@ pub struct SimulationError {
 }
 
 impl SimulationError {
-    fn new(field: &'static str, value: String, bound: &'static str) -> Self {
+    /// A mistake in `field`.
+    pub(crate) fn new(field: &'static str, value: String, bound: &'static str) -> Self {
         Self { field, value, bound }
     }
 }

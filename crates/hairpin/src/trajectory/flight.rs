@@ -23,6 +23,8 @@ pub enum Ended {
     BellyContact,
     /// Came no further, or its wheels found no rest.
     Stuck,
+    /// An arm that could not go on: out of reach, at a joint's bound, in a singularity.
+    Halted,
     /// Had no ground below it any more: the map's edge, or cells without data.
     OffMap,
     /// An executor of the user's reported a crash without saying which.
@@ -30,7 +32,7 @@ pub enum Ended {
 }
 
 impl Ended {
-    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `tip-over`, `belly-contact`, `stuck`, `off-map`, `crash`.
+    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `tip-over`, `belly-contact`, `stuck`, `halted`, `off-map`, `crash`.
     pub fn word(self) -> &'static str {
         match self {
             Ended::Done => "done",
@@ -42,6 +44,7 @@ impl Ended {
             Ended::TipOver => "tip-over",
             Ended::BellyContact => "belly-contact",
             Ended::Stuck => "stuck",
+            Ended::Halted => "halted",
             Ended::OffMap => "off-map",
             Ended::Crash => "crash",
         }
@@ -49,8 +52,8 @@ impl Ended {
 
     /// The reason whose word in files is `word`.
     pub fn from_word(word: &str) -> Option<Self> {
-        use Ended::{BellyContact, Crash, Done, Ground, Obstacle, OffMap, Stuck, Time, TipOver, Tumble, Wall};
-        [Done, Time, Ground, Obstacle, Wall, Tumble, TipOver, BellyContact, Stuck, OffMap, Crash]
+        use Ended::{BellyContact, Crash, Done, Ground, Halted, Obstacle, OffMap, Stuck, Time, TipOver, Tumble, Wall};
+        [Done, Time, Ground, Obstacle, Wall, Tumble, TipOver, BellyContact, Stuck, Halted, OffMap, Crash]
             .into_iter()
             .find(|ended| ended.word() == word)
     }

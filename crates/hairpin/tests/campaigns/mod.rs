@@ -38,7 +38,7 @@ pub(crate) fn asked(reach: &str, method: &str, cases: usize) -> Value {
     json!({ "reach": reach, "resolution": 3, "velocities": 4, "search": search, "limits": limits })
 }
 
-pub(crate) const ENDLESS: Stop = Stop { cancelled: &|| false, progress: &|_, _| {} };
+pub(crate) const ENDLESS: Stop = Stop { cancelled: &|| false, progress: &|_, _| {}, clock: &|| 0.0 };
 
 pub(crate) fn run(setup: &Setup, known: &Known) -> (Vec<Case>, Tally) {
     let mut cases = known.cases.clone();

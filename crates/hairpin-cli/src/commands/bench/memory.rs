@@ -32,7 +32,7 @@ fn campaign(bench: &Bench) -> Result<[f64; 3], Problem> {
         }
         begun.elapsed() > whole
     };
-    on_one_thread(&setup, &Stop { cancelled: &cancelled, progress: &|_, _| () });
+    on_one_thread(&setup, &Stop { cancelled: &cancelled, progress: &|_, _| (), clock: &|| 0.0 });
     Ok([half.get().copied().unwrap_or(f64::NAN), resident("VmRSS:"), resident("VmHWM:")])
 }
 

@@ -1,7 +1,8 @@
-//! `hairpin max-load`: the heaviest path through a graph.
+//! `hairpin max-load`: the heaviest path through a graph, or through a cloud of an arm's points.
 
 mod answer;
 mod certificate;
+mod cloud;
 mod graph;
 
 use std::time::Instant;
@@ -17,7 +18,16 @@ use graph::Graph;
 /// Runs the command: 3 if there is no path, 5 if none was found in time.
 pub(crate) fn run(asked: &MaxLoad) -> Result<u8, Problem> {
     folder::take_threads(&asked.threads);
-    let graph = Graph::read(&asked.graph)?;
+    let path = match (&asked.graph, &asked.cloud, &asked.cell) {
+        (_, Some(points), Some(cell)) => return cloud::run(asked, points, cell),
+        (Some(path), ..) => path,
+        _ => {
+            return Err(Problem::input(
+                "give the costs of a graph, --graph COSTS.csv, or an arm's points, --cloud POINTS.csv CELL",
+            ));
+        }
+    };
+    let graph = Graph::read(path)?;
     if let Some(path) = &asked.verify {
         return certificate::verify(asked, path, &graph);
     }

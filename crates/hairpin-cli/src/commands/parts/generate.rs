@@ -2,10 +2,12 @@
 
 use std::time::{Duration, Instant};
 
+use hairpin::campaign::arm::graph_of;
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Kind, Stop, Tally, planned};
 use hairpin::world::terrain::Terrain;
 
+use super::programs::keep_graph;
 use crate::folder::Work;
 use crate::interrupt::{self, Deadline};
 use crate::problem::Problem;
@@ -25,6 +27,7 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
     let bar = console::progress("generate", 0);
+    let begun = Instant::now();
     let tally = hairpin::campaign::generate(
         &work.setup,
         &known,
@@ -34,6 +37,7 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
                 bar.set_length(of as u64);
                 bar.set_position(done as u64);
             },
+            clock: &|| begun.elapsed().as_secs_f64(),
         },
         &mut |new, tally| {
             cases.extend_from_slice(new);
@@ -48,6 +52,13 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
         return Err(problem);
     }
     save(work, &cases, saved, &tally)?;
+    if let Some(arm) = work.setup.arm()
+        && let Ok(graph) = graph_of(&arm)
+    {
+        keep_graph(work, &arm, &graph)?;
+        // What a controller reads is what is executed and judged: numbers as the module has them.
+        cases = work.folder.read_cases()?;
+    }
     if interrupt::asked() {
         return Err(Problem::Interrupted(format!("stopped after {} cases; --resume goes on", cases.len())));
     }
@@ -74,7 +85,7 @@ fn known(work: &Work) -> Result<Known, Problem> {
 
 /// Writes the cases from number `from` of the list on, the tables of all, and the tally that belongs to them. Each file
 /// says no more than those before it: a kill in between leaves cases too many, never too few.
-fn save(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {
+pub(super) fn save(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {
     for case in &cases[from..] {
         let planned = planned(&work.setup, case);
         let planned = planned.map_err(|error| Problem::input(format!("case {}: {error}", case.id())))?;
@@ -92,6 +103,7 @@ pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>
     let outside = |p: &nalgebra::Point3<f64>| match work.setup.kind() {
         Kind::Flight(setup) => setup.world.wall_distance(p) < 0.0,
         Kind::Drive(setup) => setup.map.patch(p.x, p.y).is_err(),
+        Kind::Arm(_) => false,
     };
     for (number, (name, waypoints)) in missions.iter().enumerate() {
         if waypoints.len() < 2 {

@@ -4,10 +4,12 @@ mod answer;
 mod execute;
 mod generate;
 mod judge;
+mod programs;
 mod repro;
 
 pub(crate) use answer::Answer;
 pub(crate) use execute::{Flown, attitude_unknown, execute, fly_one};
 pub(crate) use generate::{adopt, generate};
 pub(crate) use judge::{Judgement, judge, report};
+pub(crate) use programs::keep_programs;
 pub(crate) use repro::Repro;

@@ -5,7 +5,7 @@ use std::path::Path;
 use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup};
 use hairpin::trajectory::Drive;
 use hairpin::trajectory::{Profile, ProfileLeg};
-use hairpin_formats::atomic;
+use hairpin_formats::{atomic, rapid};
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +46,9 @@ pub(crate) struct Repro {
     /// The control witness of a drive, SI.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) drive: Option<Drive>,
+    /// What an arm runs, as RAPID.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) program: Option<String>,
     /// The resolved scenario.
     pub(crate) scenario: Scenario,
 }
@@ -94,6 +97,7 @@ impl Repro {
             evidence: case.evidence.word().into(),
             profile: case.profile.as_ref().map(|profile| profile.legs.iter().map(leg).collect()),
             drive: case.drive.clone(),
+            program: case.program.as_ref().and_then(|program| rapid::module(program, &[]).ok()),
             scenario: setup.scenario.clone(),
         }
     }
@@ -165,6 +169,11 @@ impl Repro {
         let evidence = Evidence::from_word(&self.evidence)
             .ok_or_else(|| format!("evidence = {:?}: must be witnessed, hull-feasible or unchecked", self.evidence))?;
         let leg = |leg: &Leg| ProfileLeg { duration: leg.duration_s, coefficients: leg.coefficients };
+        let program = self.program.as_ref().map(|text| {
+            let module = rapid::read(text.as_bytes(), &rapid::Options::default()).map_err(|error| error.to_string());
+            module.and_then(|module| module.program.checked().map_err(|error| error.to_string()))
+        });
+        let program = program.transpose().map_err(|error| format!("program: {error}"))?;
         Ok(Case {
             number,
             seed: self.seed,
@@ -176,6 +185,7 @@ impl Repro {
             evidence,
             certified: None,
             drive: self.drive.clone(),
+            program,
             profile: self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() }),
         })
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use hairpin::campaign::case::Violation;
 use hairpin::campaign::{Case, CaseResult, Evidence, Status};
 use hairpin::judgement::measures::{AccelerationSource, LegSource};
-use hairpin::judgement::{LegMeasures, Measures};
+use hairpin::judgement::{Late, LegMeasures, Measures};
 
 use super::super::drawn;
 use super::super::table::{Table, TableError};
@@ -58,6 +58,7 @@ fn read_cases(table: &Table) -> Result<Vec<Case>, TableError> {
                 certified: certified[row].as_ref().map(known).transpose()?,
                 profile: None,
                 drive: None,
+                program: None,
             })
         })
         .collect()
@@ -108,6 +109,8 @@ fn read_measures(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let margin = table.optional_numbers("min_tip_over_margin_deg")?;
     let t_margin = table.optional_numbers("t_tip_over_margin_s")?;
     let saturation = table.optional_numbers("saturation_share")?;
+    let late = [table.optional_numbers("max_late_s")?, table.optional_numbers("t_late_s")?];
+    let leg_late = table.optional_counts("leg_late")?;
     let leg_source = words(table, "leg_source", [LegSource::Executor, LegSource::Assigned], leg_source_word)?;
     let sources = [AccelerationSource::Velocity, AccelerationSource::Position];
     let acceleration_source = words(table, "acceleration_source", sources, acceleration_source_word)?;
@@ -141,6 +144,11 @@ fn read_measures(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 min_tip_over_margin: margin[row],
                 t_tip_over_margin: t_margin[row].unwrap_or_default(),
                 saturation_share: saturation[row],
+                latest: late[0][row].map(|by| Late {
+                    by,
+                    at: late[1][row].unwrap_or_default(),
+                    leg: leg_late[row].unwrap_or_default(),
+                }),
                 leg_source: leg_source[row].unwrap_or_default(),
                 acceleration_source: acceleration_source[row].unwrap_or_default(),
                 legs: legs[row].clone(),

@@ -71,6 +71,10 @@ fn push_rest(columns: &mut Columns, rows: &Rows) {
     columns.push("min_tip_over_margin_deg", measured(rows, &|m| m.min_tip_over_margin));
     let when = |m: &Measures| m.min_tip_over_margin.map(|_| m.t_tip_over_margin);
     columns.push("t_tip_over_margin_s", measured(rows, &when));
+    columns.push("max_late_s", measured(rows, &|m| m.latest.map(|late| late.by)));
+    columns.push("t_late_s", measured(rows, &|m| m.latest.map(|late| late.at)));
+    let leg_late = rows.iter().map(|(_, result)| Some(result.as_ref()?.measures.as_ref()?.latest?.leg));
+    columns.push("leg_late", integers(leg_late));
     let measures = |result: Option<&CaseResult>| result.and_then(|r| r.measures.clone());
     let words = |word: fn(&Measures) -> &'static str| {
         texts(rows.iter().map(|(_, result)| measures(*result).map(|m| word(&m).into())))

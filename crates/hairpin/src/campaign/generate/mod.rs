@@ -11,9 +11,9 @@ use std::collections::HashSet;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::graph::{Outcome, Plan};
+use super::graph::Outcome;
 use super::setup::Kind;
-use super::{Case, Scenario, Setup, Stop, drive, flight, vary};
+use super::{Case, Scenario, Setup, Stop, arm, drive, flight, vary};
 use crate::math::random::case_seed;
 pub use tally::Tally;
 
@@ -72,7 +72,8 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
         let outcomes: Vec<Option<Outcome>> = (first..last)
             .into_par_iter()
             .map(|unit| {
-                (!(stop.cancelled)()).then(|| if varied { drawn_case(setup, unit) } else { solver.solve(unit) })
+                (!(stop.cancelled)())
+                    .then(|| if varied { drawn_case(setup, unit, stop) } else { solver.solve(unit, stop) })
             })
             .collect();
         for outcome in outcomes {
@@ -96,7 +97,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
 }
 
 /// Case number `case` of a scenario whose plan varies: its own scenario, its own graphs.
-fn drawn_case(setup: &Setup, case: u64) -> Outcome {
+fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
     let seed = case_seed(setup.scenario.seed(), case);
     let draws = vary::draw_for_case(&setup.scenario, seed, case as usize);
     let drawn = vary::apply(&setup.scenario, &draws).and_then(|scenario| setup.of_draw(scenario));
@@ -107,7 +108,7 @@ fn drawn_case(setup: &Setup, case: u64) -> Outcome {
     };
     let mut total = Outcome::default();
     for attempt in 0..GRAPHS_PER_CASE {
-        let outcome = solver.solve(case * GRAPHS_PER_CASE + attempt);
+        let outcome = solver.solve(case * GRAPHS_PER_CASE + attempt, stop);
         let done = !outcome.plans.is_empty();
         total.add(outcome);
         if done {
@@ -121,6 +122,7 @@ fn drawn_case(setup: &Setup, case: u64) -> Outcome {
 enum Solver<'a> {
     Flight(Box<flight::Solver<'a>>),
     Drive(Box<drive::Solver<'a>>),
+    Arm(Box<arm::Solver<'a>>),
 }
 
 impl<'a> Solver<'a> {
@@ -130,14 +132,16 @@ impl<'a> Solver<'a> {
         Ok(match setup.kind() {
             Kind::Flight(setup) => Self::Flight(Box::new(flight::Solver::new(setup)?)),
             Kind::Drive(setup) => Self::Drive(Box::new(drive::Solver::new(setup)?)),
+            Kind::Arm(setup) => Self::Arm(Box::new(arm::Solver::new(setup))),
         })
     }
 
-    /// Searches graph number `graph`.
-    fn solve(&self, graph: u64) -> Outcome {
+    /// Searches graph number `graph`; `stop` ends what has no bound in counts.
+    fn solve(&self, graph: u64, stop: &Stop) -> Outcome {
         match self {
             Self::Flight(solver) => solver.solve(graph),
             Self::Drive(solver) => solver.solve(graph),
+            Self::Arm(solver) => solver.solve(stop),
         }
     }
 }
@@ -179,26 +183,10 @@ impl<'a> Collector<'a> {
                 self.tally.duplicates += 1;
                 continue;
             }
-            new.push(self.case(graph, plan, number.unwrap_or(self.cases)));
+            new.push(plan.case(self.setup.scenario.seed(), graph, number.unwrap_or(self.cases)));
             self.cases += 1;
         }
         new
-    }
-
-    fn case(&self, graph: u64, plan: Plan, number: usize) -> Case {
-        Case {
-            number,
-            seed: case_seed(self.setup.scenario.seed(), number as u64),
-            graph,
-            waypoints: plan.waypoints,
-            leg_times: plan.leg_times,
-            score: plan.score,
-            bound: plan.bound,
-            evidence: plan.evidence,
-            certified: plan.certified,
-            profile: plan.profile,
-            drive: plan.drive,
-        }
     }
 
     fn finish(&mut self, wanted: u64) {

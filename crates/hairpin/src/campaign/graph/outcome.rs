@@ -3,10 +3,12 @@
 use nalgebra::Point3;
 
 use super::search::Answer;
-use crate::campaign::Evidence;
+use crate::campaign::{Case, Evidence};
+use crate::math::random::case_seed;
 use crate::search::Found;
 use crate::trajectory::Drive;
 use crate::trajectory::Profile;
+use crate::trajectory::program::Program;
 
 /// A trajectory that a graph gave.
 #[derive(Debug, Clone)]
@@ -19,6 +21,7 @@ pub(in crate::campaign) struct Plan {
     pub(in crate::campaign) certified: Option<&'static str>,
     pub(in crate::campaign) profile: Option<Profile>,
     pub(in crate::campaign) drive: Option<Drive>,
+    pub(in crate::campaign) program: Option<Program>,
 }
 
 impl Plan {
@@ -33,6 +36,27 @@ impl Plan {
             certified: None,
             profile: None,
             drive: None,
+            program: None,
+        }
+    }
+}
+
+impl Plan {
+    /// Case `number` of a campaign under the root seed, found in graph number `graph`.
+    pub(in crate::campaign) fn case(self, root: u64, graph: u64, number: usize) -> Case {
+        Case {
+            number,
+            seed: case_seed(root, number as u64),
+            graph,
+            waypoints: self.waypoints,
+            leg_times: self.leg_times,
+            score: self.score,
+            bound: self.bound,
+            evidence: self.evidence,
+            certified: self.certified,
+            profile: self.profile,
+            drive: self.drive,
+            program: self.program,
         }
     }
 }

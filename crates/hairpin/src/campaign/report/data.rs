@@ -93,7 +93,7 @@ pub struct ReportData {
     pub influences: Vec<Influence>,
 }
 
-/// What [`assemble`] is given.
+/// What [`super::assemble`] is given.
 #[derive(Debug, Clone)]
 pub struct Pieces<'a> {
     /// The scenario and what it describes.

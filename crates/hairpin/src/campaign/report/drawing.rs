@@ -5,10 +5,13 @@ use std::f64::consts::TAU;
 use nalgebra::{Point3, Vector3};
 
 use super::solid::{Surface, surface};
+use crate::campaign::arm::ArmSetup;
 use crate::campaign::drive::DriveSetup;
 use crate::campaign::flight::FlightSetup;
 use crate::campaign::setup::{Kind, Setup};
+use crate::world::cell::Region;
 use crate::world::terrain::{KeepOutShape, Terrain};
+use crate::world::{Obstacle, Shape};
 
 /// A rotor, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,6 +66,7 @@ pub(super) fn drawing(setup: &Setup, places: impl Iterator<Item = Point3<f64>>) 
     match setup.kind() {
         Kind::Flight(setup) => cage(&setup),
         Kind::Drive(setup) => ground(&setup, places),
+        Kind::Arm(setup) => cell(&setup, places),
     }
 }
 
@@ -75,6 +79,37 @@ fn cage(setup: &FlightSetup) -> Drawing {
         rotors: robot.rotors.iter().map(|r| Rotor { x: r.x, y: r.y, clockwise: r.spin > 0.0 }).collect(),
         wheels: Vec::new(),
         radius: robot.clearance_radius,
+        relief: None,
+    }
+}
+
+/// The cell around what is drawn: half-spaces, keep-outs in words and what has no surface of its own are left to the words.
+fn cell(setup: &ArmSetup, places: impl Iterator<Item = Point3<f64>>) -> Drawing {
+    let (mut low, mut high) = (Point3::origin(), Point3::origin());
+    for place in places {
+        (low, high) = (low.inf(&place), high.sup(&place));
+    }
+    let mut obstacles = Vec::new();
+    for part in &setup.station.cell.parts {
+        if let Some(bounds) = part.region.bounds() {
+            (low, high) = (low.inf(&bounds.min), high.sup(&bounds.max));
+        }
+        let shape = match &part.region {
+            Region::Shape(shape) => Some(shape.clone()),
+            // Drawn as the capsule around it: a picture, not a proof.
+            Region::Cylinder { a, b, radius } => Some(Shape::Capsule { a: *a, b: *b, radius: *radius }),
+            Region::HalfSpace { .. } | Region::Beyond { .. } | Region::Words(_) => None,
+        };
+        obstacles.extend(shape.map(|shape| surface(&Obstacle { name: part.name.clone(), shape })));
+    }
+    let margin = Vector3::repeat(0.1);
+    Drawing {
+        low: low - margin,
+        size: high - low + 2.0 * margin,
+        obstacles,
+        rotors: Vec::new(),
+        wheels: Vec::new(),
+        radius: setup.station.tool.radius,
         relief: None,
     }
 }

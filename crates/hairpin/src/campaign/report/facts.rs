@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::data::{Metric, Pieces};
 use super::text::{cells, leg, number};
+use crate::campaign::arm::ArmSetup;
 use crate::campaign::drive::DriveSetup;
 use crate::campaign::flight::FlightSetup;
 use crate::campaign::setup::Kind;
@@ -56,6 +57,7 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
     let (world, task) = match setup.kind() {
         Kind::Flight(setup) => (cage(&setup), flight_task(&setup)),
         Kind::Drive(setup) => (ground(&setup), drive_task(&setup)),
+        Kind::Arm(setup) => (cell(&setup), arm_task(&setup)),
     };
     let search = scenario.search();
     let search = format!(
@@ -110,6 +112,26 @@ fn drive_task(setup: &DriveSetup) -> String {
     let [low, high] = task.leg_m;
     let start = &task.start;
     format!("{} waypoints from ({}, {}) m to {end}, legs of {low} … {high} m", task.length, start.x_m, start.y_m)
+}
+
+fn cell(setup: &ArmSetup) -> String {
+    let tool = &setup.station.tool;
+    format!(
+        "{} obstacles and keep-outs, tool `{}` of radius {} mm",
+        setup.station.cell.parts.len(),
+        tool.name,
+        number(Some(1e3 * tool.radius))
+    )
+}
+
+fn arm_task(setup: &ArmSetup) -> String {
+    let moves = &setup.scenario.generate.moves;
+    format!(
+        "{} points, speeds {}, zones {}",
+        setup.station.points.len(),
+        moves.speeds.join(", "),
+        moves.zones.join(", ")
+    )
 }
 
 /// A key's word, as it stands in scenario files.

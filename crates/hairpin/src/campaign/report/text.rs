@@ -5,10 +5,11 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::campaign::CaseResult;
 use crate::judgement::Violation;
 
-/// `value` with two decimals below 100, one below 1000, none above; `–` for nothing.
+/// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing.
 pub fn number(value: Option<f64>) -> String {
     match value {
         None => "–".into(),
+        Some(v) if v != 0.0 && v.abs() < 0.00995 => format!("{v:.5}"),
         Some(v) if v.abs() < 99.995 => format!("{v:.2}"),
         Some(v) if v.abs() < 999.95 => format!("{v:.1}"),
         Some(v) => format!("{v:.0}"),

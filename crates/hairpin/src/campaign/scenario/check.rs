@@ -28,6 +28,7 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => scenario.check(),
             Self::Drive(scenario) => scenario.check(),
+            Self::Arm(scenario) => scenario.check(),
         }
     }
 

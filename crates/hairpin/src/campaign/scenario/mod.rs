@@ -1,7 +1,8 @@
 //! The scenario: every key of a scenario file, with its default. These types are the contract: the parser,
 //! the JSON Schema and the commented files of `hairpin new` all come from them. Units are in the names.
 //!
-//! What the robot is decides which keys there are: [`FlightScenario`] for what flies, [`DriveScenario`] for what drives.
+//! What the robot is decides which keys there are: [`FlightScenario`] for what flies, [`DriveScenario`] for what drives,
+//! [`ArmScenario`] for arms.
 
 use std::collections::BTreeMap;
 
@@ -9,6 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+mod arm;
 mod check;
 pub(crate) mod distribution;
 mod drive;
@@ -18,6 +20,7 @@ mod path;
 mod search;
 mod vary;
 
+pub use arm::*;
 pub use distribution::Distribution;
 pub use drive::*;
 pub use flight::*;
@@ -44,6 +47,8 @@ pub enum Scenario {
     Flight(Box<FlightScenario>),
     /// Of what drives.
     Drive(Box<DriveScenario>),
+    /// Of an arm.
+    Arm(Box<ArmScenario>),
 }
 
 impl<'de> Deserialize<'de> for Scenario {
@@ -51,13 +56,39 @@ impl<'de> Deserialize<'de> for Scenario {
         use serde::de::Error;
         let value = serde_json::Value::deserialize(deserializer)?;
         let kind = value.get("robot").and_then(|robot| robot.get("kind")).and_then(|kind| kind.as_str());
-        if kind.is_some_and(|kind| GroundDescription::KINDS.contains(&kind)) {
-            serde_json::from_value(value).map(Self::Drive).map_err(D::Error::custom)
-        } else {
-            serde_json::from_value(value).map(Self::Flight).map_err(D::Error::custom)
+        match RobotKind::of_word(kind) {
+            RobotKind::Ground => serde_json::from_value(value).map(Self::Drive),
+            RobotKind::Arm => serde_json::from_value(value).map(Self::Arm),
+            RobotKind::Flyer => serde_json::from_value(value).map(Self::Flight),
+        }
+        .map_err(D::Error::custom)
+    }
+}
+
+/// What `robot.kind` says of a scenario's keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RobotKind {
+    /// It flies, or does not say.
+    Flyer,
+    /// It drives.
+    Ground,
+    /// It stands and reaches.
+    Arm,
+}
+
+impl RobotKind {
+    /// The kind of robot files whose `kind` is `word`.
+    pub fn of_word(word: Option<&str>) -> Self {
+        match word {
+            Some(kind) if GroundDescription::KINDS.contains(&kind) => Self::Ground,
+            Some("arm") => Self::Arm,
+            _ => Self::Flyer,
         }
     }
 }
+
+/// A point counts as reached within this distance of an arm's tool, m.
+const ARRIVED: f64 = 1e-3;
 
 /// Who executes a campaign's trajectories, and how often: what flights and drives have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,16 +110,47 @@ impl Scenario {
     pub fn flight(&self) -> Option<&FlightScenario> {
         match self {
             Self::Flight(scenario) => Some(scenario),
-            Self::Drive(_) => None,
+            Self::Drive(_) | Self::Arm(_) => None,
         }
     }
 
     /// The scenario of a drive.
     pub fn drive(&self) -> Option<&DriveScenario> {
         match self {
-            Self::Flight(_) => None,
             Self::Drive(scenario) => Some(scenario),
+            Self::Flight(_) | Self::Arm(_) => None,
         }
+    }
+
+    /// The scenario of an arm.
+    pub fn arm(&self) -> Option<&ArmScenario> {
+        match self {
+            Self::Arm(scenario) => Some(scenario),
+            Self::Flight(_) | Self::Drive(_) => None,
+        }
+    }
+
+    /// Names and contents of the files that a resolved scenario keeps in its campaign's folder: its map, its cloud, its costs.
+    pub fn files(&self) -> Vec<(&str, &[u8])> {
+        let kept = match self {
+            Self::Flight(_) => Vec::new(),
+            Self::Drive(scenario) => {
+                let terrain = &scenario.world.terrain;
+                vec![(terrain.file.as_deref(), terrain.bytes.as_deref())]
+            }
+            Self::Arm(scenario) => {
+                let points = match &scenario.task.points {
+                    PointsSource::File(file) => Some(file.as_str()),
+                    PointsSource::List(_) | PointsSource::Drawn(_) => None,
+                };
+                let table = match &scenario.generate.cost {
+                    CostSection::Table(table) => (Some(table.table.as_str()), table.bytes.as_deref()),
+                    CostSection::Named(_) | CostSection::Weighted(_) => (None, None),
+                };
+                vec![(points, scenario.task.bytes.as_deref()), table]
+            }
+        };
+        kept.into_iter().filter_map(|(file, bytes)| file.zip(bytes)).collect()
     }
 
     /// Root seed of the campaign.
@@ -96,14 +158,16 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => scenario.seed,
             Self::Drive(scenario) => scenario.seed,
+            Self::Arm(scenario) => scenario.seed,
         }
     }
 
-    /// Waypoints of a trajectory, both ends included.
-    pub fn length(&self) -> u64 {
+    /// Waypoints of a trajectory, both ends included; `None` where they are as many as load the robot most.
+    pub fn length(&self) -> Option<u64> {
         match self {
-            Self::Flight(scenario) => scenario.task.length,
-            Self::Drive(scenario) => scenario.task.length,
+            Self::Flight(scenario) => Some(scenario.task.length),
+            Self::Drive(scenario) => Some(scenario.task.length),
+            Self::Arm(_) => None,
         }
     }
 
@@ -112,6 +176,7 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => scenario.generate.search.clone(),
             Self::Drive(scenario) => scenario.generate.search.section(),
+            Self::Arm(scenario) => scenario.generate.search.section(scenario.task.count()),
         }
     }
 
@@ -120,14 +185,16 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => &scenario.generate.score,
             Self::Drive(scenario) => &scenario.generate.search.score,
+            Self::Arm(scenario) => scenario.generate.cost.word(),
         }
     }
 
-    /// The reach set's word.
+    /// The word of the reach set, or of what is proven clear.
     pub fn reach(&self) -> &'static str {
         match self {
             Self::Flight(scenario) => scenario.generate.reach.word(),
             Self::Drive(scenario) => scenario.generate.reach.word(),
+            Self::Arm(scenario) => scenario.generate.mode.word(),
         }
     }
 
@@ -145,6 +212,10 @@ impl Scenario {
                 let repeat = repeat.unwrap_or(if scenario.vary.is_empty() { 1 } else { 2 });
                 Executor { command, repeat, timeout: *timeout_s, workers: *workers, accept: *accept_m }
             }
+            Self::Arm(scenario) => {
+                let repeat = scenario.execute.repeat;
+                Executor { command: None, repeat, timeout: f64::INFINITY, workers: None, accept: ARRIVED }
+            }
         }
     }
 
@@ -153,6 +224,7 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => scenario.execute.controller_in_force().map(|controller| controller.word()),
             Self::Drive(scenario) => scenario.execute.controller_in_force().map(|controller| controller.word()),
+            Self::Arm(scenario) => scenario.execute.logs.is_none().then_some("virtual controller"),
         }
     }
 
@@ -161,6 +233,7 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => scenario.world.origin,
             Self::Drive(scenario) => scenario.world.origin,
+            Self::Arm(_) => None,
         }
     }
 
@@ -169,6 +242,7 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => &scenario.vary,
             Self::Drive(scenario) => &scenario.vary,
+            Self::Arm(scenario) => &scenario.vary,
         }
     }
 
@@ -177,6 +251,7 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => &mut scenario.vary,
             Self::Drive(scenario) => &mut scenario.vary,
+            Self::Arm(scenario) => &mut scenario.vary,
         }
     }
 
@@ -185,6 +260,7 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => scenario.spec.violation_share,
             Self::Drive(scenario) => scenario.spec.limits.violation_share,
+            Self::Arm(scenario) => scenario.spec.violation_share,
         }
     }
 
@@ -193,6 +269,7 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => scenario.spec.confidence,
             Self::Drive(scenario) => scenario.spec.limits.confidence,
+            Self::Arm(scenario) => scenario.spec.confidence,
         }
     }
 
@@ -201,6 +278,7 @@ impl Scenario {
         match self {
             Self::Flight(scenario) => scenario.spec.deviation.map(|limit| limit.max_m),
             Self::Drive(scenario) => scenario.spec.limits.path_deviation_m,
+            Self::Arm(scenario) => scenario.spec.path.map(|limit| limit.max_mm * 1e-3),
         }
     }
 }

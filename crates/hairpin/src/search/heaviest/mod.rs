@@ -17,6 +17,7 @@ mod problem;
 mod record;
 mod relaxation;
 mod root;
+mod several;
 mod solve;
 mod subsets;
 mod tour;

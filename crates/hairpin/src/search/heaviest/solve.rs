@@ -8,6 +8,7 @@ use super::forest::{Forest, ID_BITS};
 use super::problem::{Arcs, ArcsMistake, Ends};
 use super::record::{Proof, Recorder};
 use super::root::{prove, scale_of};
+use super::several::several;
 use super::subsets::{MOST_SUBSET_POINTS, best_by_subsets, subset_bytes};
 
 /// How a path is searched.
@@ -165,6 +166,10 @@ pub fn heaviest(
 ) -> Result<Heaviest, HeaviestMistake> {
     let ends = settings.ends;
     ends.check(arcs.points())?;
+    if settings.programs > 1 && settings.method == Method::Auto {
+        let first = heaviest(arcs, &HeaviestSettings { programs: 1, ..settings.clone() }, stop)?;
+        return Ok(wanted(several(arcs, settings, first, stop)?, settings));
+    }
     let method = choose(arcs, settings)?;
     if settings.method == Method::Auto && method == Method::Subsets && arcs.points() > FEW {
         let most_nodes = settings.most_nodes.map_or(QUICK_NODES, |most| most.min(QUICK_NODES));
@@ -214,7 +219,7 @@ fn choose(arcs: &Arcs, settings: &HeaviestSettings) -> Result<Method, HeaviestMi
     let fits = points <= MOST_SUBSET_POINTS && bytes <= u128::from(bound);
     let several = settings.programs > 1;
     match settings.method {
-        Method::Auto if points <= SOME && fits && !several => Ok(Method::Subsets),
+        Method::Auto if points <= SOME && fits => Ok(Method::Subsets),
         Method::Auto => Ok(Method::Branch),
         method @ (Method::Subsets | Method::Dfs | Method::Local) if several => {
             Err(HeaviestMistake::Programs { programs: settings.programs, method: method.name() })

@@ -44,12 +44,10 @@ impl<'a> Bodies<'a> {
         let links = arm.links.iter().enumerate();
         let mut capsules: Vec<(usize, Capsule)> =
             links.flat_map(|(link, body)| body.capsules.iter().map(move |capsule| (link, *capsule))).collect();
-        if tool.radius > 0.0 || tool.tcp.translation.vector.norm() > 0.0 {
-            let in_link = |p: Point3<f64>| arm.chain.flange * p;
-            let tip = in_link(tool.tcp.translation.vector.into());
-            // A tool thinner than nothing is a line; a ball of no size is harmless.
-            capsules.push((TOOL, Capsule { a: in_link(Point3::origin()), b: tip, radius: tool.radius }));
-        }
+        // Without a tool the flange's centre is one: what users say in words holds for it.
+        let in_link = |p: Point3<f64>| arm.chain.flange * p;
+        let tip = in_link(tool.tcp.translation.vector.into());
+        capsules.push((TOOL, Capsule { a: in_link(Point3::origin()), b: tip, radius: tool.radius }));
         let apart = |a: usize, b: usize| b.min(AXES) >= a + APART;
         let count = capsules.len();
         let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
@@ -72,7 +70,12 @@ impl<'a> Bodies<'a> {
             let own = Bounds { min: a.inf(&b), max: a.sup(&b) };
             for (part, (named, bounds)) in self.cell.parts.iter().zip(&self.bounds).enumerate() {
                 // The base does not move: where it stands is the user's choice, unless nothing else stands there.
-                if body == 0 || bounds.is_some_and(|bounds| own.distance_to(&bounds) > room) {
+                // Users' words are about where the tool may be: around the base they would forbid the arm itself.
+                let of_tool = matches!(named.region, Region::Words(_));
+                if body == 0
+                    || (of_tool && body != TOOL)
+                    || bounds.is_some_and(|bounds| own.distance_to(&bounds) > room)
+                {
                     continue;
                 }
                 *queries += 1;

@@ -1,0 +1,127 @@
+//! The heaviest programs of an arm through a cloud of points.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use hairpin::campaign::arm::{ArmGraph, graph_of};
+use hairpin::campaign::{Setup, Stop};
+use hairpin::search::heaviest::{Heaviest, Outcome};
+use hairpin_formats::scenario::arm_scenario_for;
+use serde_json::{Value, json};
+
+use super::code;
+use crate::args::MaxLoad;
+use crate::commands::parts;
+use crate::console;
+use crate::folder::{self, Work};
+use crate::interrupt::{self, Deadline};
+use crate::problem::Problem;
+
+/// Runs the command on `points` in `cell`.
+pub(super) fn run(asked: &MaxLoad, points: &Path, cell: &str) -> Result<u8, Problem> {
+    let setup = Setup::new(arm_scenario_for(cell, points, &sets(asked)?)?)?;
+    let Some(arm) = setup.arm() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
+    let (begun, deadline) = (Instant::now(), Deadline::after(asked.time_limit));
+    let stop = Stop {
+        cancelled: &|| interrupt::asked() || deadline.passed(),
+        progress: &|_, _| {},
+        clock: &|| begun.elapsed().as_secs_f64(),
+    };
+    let graph = graph_of(&arm);
+    let found =
+        graph.as_ref().map_err(Clone::clone).and_then(|graph| arm.heaviest(graph, &stop).map(|found| (graph, found)));
+    let (graph, found) = match found {
+        Ok(found) => found,
+        Err(reason) => return Ok(nothing(asked, &reason, begun.elapsed())),
+    };
+    tell(asked, &setup, graph, &found, begun.elapsed());
+    if let Some(out) = &asked.out {
+        let folder = folder::make(out, &setup, false, asked.force)?;
+        let work = Work { folder, setup: setup.clone() };
+        let cases = arm.cases(graph, &found);
+        parts::keep_programs(&work, &arm, graph, &cases)?;
+    }
+    Ok(code(&found))
+}
+
+/// The flags as keys of the scenario.
+fn sets(asked: &MaxLoad) -> Result<Vec<(String, String)>, Problem> {
+    let mut sets = folder::split(&asked.sets)?;
+    let mut set = |key: &str, value: Option<String>| sets.extend(value.map(|value| (key.to_owned(), value)));
+    set("generate.search.start", asked.start.map(|row| row.to_string()));
+    set("generate.search.end", asked.end.map(|row| row.to_string()));
+    set("generate.search.min_cost", asked.min_cost.clone());
+    set("generate.search.programs", Some(asked.programs.to_string()));
+    set("seed", (asked.seed > 0).then(|| asked.seed.to_string()));
+    Ok(sets)
+}
+
+fn tell(asked: &MaxLoad, setup: &Setup, graph: &ArmGraph, found: &Heaviest, time: Duration) {
+    let value = |cost: i64| cost as f64 * graph.unit;
+    let best = found.paths.first();
+    if asked.json {
+        let mut object = json!({
+            "path": best.map(|(_, path)| path),
+            "cost": best.map(|(cost, _)| value(*cost)),
+            "bound": found.bound.filter(|_| best.is_some()).map(value),
+            "gap_percent": found.gap_percent().filter(|gap| gap.is_finite()),
+            "proven": found.proven,
+            "time_s": time.as_secs_f64(),
+            "method": found.method.name(),
+            "unit": graph.unit_name,
+            "points": graph.points(),
+            "density": graph.reachability.density(),
+            "queries_per_pair": graph.reachability.queries_per_pair(),
+            "mode": setup.scenario.reach(),
+            "exit_code": code(found),
+        });
+        if asked.programs > 1 {
+            let paths = found.paths.iter().map(|(cost, path)| json!({ "path": path, "cost": value(*cost) }));
+            object["paths"] = paths.collect();
+        }
+        if let Some(out) = asked.out.as_ref().filter(|_| best.is_some()) {
+            object["folder"] = json!(out);
+        }
+        return console::say(&object.to_string());
+    }
+    let Some((cost, path)) = best else {
+        let why = match found.outcome {
+            Outcome::BelowMinCost => "no program costs as much as was asked for",
+            Outcome::NotFound => "none of the wanted cost was found in time",
+            Outcome::Infeasible | Outcome::Found => "no program leads from home through the points and back",
+        };
+        return console::say(&format!("NOTHING FEASIBLE: {why}"));
+    };
+    let evidence = if found.proven {
+        "optimal: proven over all loop-free paths".to_owned()
+    } else {
+        found.gap_percent().map_or_else(String::new, |gap| format!("gap {gap:.4} %"))
+    };
+    let rows: Vec<String> = path.iter().map(usize::to_string).collect();
+    console::say(&format!(
+        "cost {:.3} {}, {evidence}; {:.3} s by {}, {} points, density {:.2} ({} mode)",
+        value(*cost),
+        graph.unit_name,
+        time.as_secs_f64(),
+        found.method.name(),
+        graph.points(),
+        graph.reachability.density(),
+        setup.scenario.reach()
+    ));
+    console::say(&rows.join(" → "));
+}
+
+/// No program, because no point or no move is possible.
+fn nothing(asked: &MaxLoad, reason: &str, time: Duration) -> u8 {
+    const NOTHING: u8 = 3;
+    if asked.json {
+        let object = json!({
+            "path": Value::Null, "cost": Value::Null, "bound": Value::Null, "gap_percent": Value::Null, "proven": true,
+            "time_s": time.as_secs_f64(), "method": "graph", "reason": reason, "exit_code": NOTHING,
+        });
+        console::say(&object.to_string());
+    } else {
+        console::say(&format!("NOTHING FEASIBLE: {reason}"));
+    }
+    NOTHING
+}

@@ -1,0 +1,150 @@
+//! Arms from a scenario file to a verdict, and from a cloud of points to a RAPID module.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn hairpin(folder: &Path, arguments: &[&str]) -> Output {
+    Command::cargo_bin("hairpin").unwrap().current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&output.stderr)))
+}
+
+fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|error| {
+        panic!("{error}: {} {}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
+    })
+}
+
+const SMALL: [&str; 6] =
+    ["--set", "task.points.count=8", "--set", "generate.search.programs=2", "--set", "execute.repeat=2"];
+
+#[test]
+fn what_new_writes_runs_and_can_be_verified_and_exported() {
+    let place = TempDir::new().unwrap();
+    assert_eq!(code(&hairpin(place.path(), &["new", "arm"])), 0);
+    let mut arguments = vec!["stress", "arm.toml", "--json"];
+    arguments.extend(SMALL);
+    let stress = hairpin(place.path(), &arguments);
+    assert_eq!(code(&stress), 0, "{}", String::from_utf8_lossy(&stress.stderr));
+    let verdict = json(&stress)["verdict"].as_str().unwrap().to_owned();
+    assert!(verdict.starts_with("PASS 2/2 (simulated, irb120 stand-in, virtual controller, 2 runs each)"), "{verdict}");
+    assert!(verdict.contains(" mm ≤ 15.00 mm") && verdict.ends_with("all 2 clear: all links"), "{verdict}");
+    let verified = hairpin(place.path(), &["verify", "out/arm", "--json"]);
+    assert_eq!((code(&verified), json(&verified)["checked"].as_u64()), (0, Some(2)));
+    let exported = hairpin(place.path(), &["export", "out/arm", "--to", "rapid,urscript,krl,csv", "--json"]);
+    assert_eq!(code(&exported), 0, "{}", String::from_utf8_lossy(&exported.stderr));
+    for name in ["0000.mod", "0000_slow.mod", "0001.pgf", "0000.script", "0001.src", "0001.dat", "0000-1.csv"] {
+        assert!(place.path().join("out/arm").join(name).is_file(), "{name}");
+    }
+    // The module that was written is one that the check of modules has nothing against.
+    let module = place.path().join("out/arm/0000.mod");
+    assert!(fs::read_to_string(&module).unwrap().contains("PROC stress()"));
+    let check = hairpin(place.path(), &["import", "out/arm/0000.mod", "--check", "--robot", "irb120"]);
+    assert_eq!(code(&check), 0, "{}", String::from_utf8_lossy(&check.stdout));
+}
+
+#[test]
+fn a_program_that_was_changed_is_found() {
+    let place = TempDir::new().unwrap();
+    let mut arguments = vec!["generate", "arm", "--out", "arm"];
+    arguments.extend(SMALL);
+    assert_eq!(code(&hairpin(place.path(), &arguments)), 0);
+    let path = place.path().join("arm/programs/0000.mod");
+    let text = fs::read_to_string(&path).unwrap();
+    let target = text.lines().find(|line| line.contains("robtarget")).unwrap();
+    let (before, after) = target.split_once(":= [[").unwrap();
+    fs::write(&path, text.replace(target, &format!("{before}:= [[1{after}"))).unwrap();
+    let verified = hairpin(place.path(), &["verify", "arm"]);
+    assert_eq!(code(&verified), 1, "{}", String::from_utf8_lossy(&verified.stdout));
+}
+
+#[test]
+fn faults_are_seen_by_the_judge() {
+    let place = TempDir::new().unwrap();
+    for (fault, limit) in [
+        ("execute.faults={ tool_offset_mm = [0, 0, 20] }", "spec.path.max_mm=5.0"),
+        ("execute.faults={ start_delay_s = 0.5 }", "spec.arrival.max_late_ms=100"),
+    ] {
+        let mut arguments = vec!["stress", "arm", "--force", "--set", fault, "--set", limit];
+        arguments.extend(SMALL);
+        let stress = hairpin(place.path(), &arguments);
+        let told = String::from_utf8_lossy(&stress.stdout).into_owned();
+        assert_eq!(code(&stress), 1, "{fault}: {told}");
+        assert!(told.contains("FAIL 2/2") && (told.contains(" mm > ") || told.contains(" ms > ")), "{told}");
+    }
+}
+
+#[test]
+fn clouds_need_nothing_but_an_arm() {
+    let place = TempDir::new().unwrap();
+    let points = "x_mm,y_mm,z_mm\n300,100,400\n350,-100,300\n400,50,350\n250,200,450\n300,-200,500\n320,0,250\n";
+    fs::write(place.path().join("p.csv"), points).unwrap();
+    let found = hairpin(place.path(), &["max-load", "--cloud", "p.csv", "irb120", "--out", "ml", "--json"]);
+    assert_eq!(code(&found), 0, "{}", String::from_utf8_lossy(&found.stderr));
+    let answer = json(&found);
+    let path: Vec<u64> = answer["path"].as_array().unwrap().iter().map(|row| row.as_u64().unwrap()).collect();
+    let mut sorted = path.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, [0, 1, 2, 3, 4, 5]);
+    assert_eq!((answer["proven"].as_bool(), answer["gap_percent"].as_f64()), (Some(true), Some(0.0)));
+    // The cost is the way between the rows of the file, mm.
+    let rows: Vec<[f64; 3]> = points.lines().skip(1).map(row).collect();
+    let way: f64 = path.windows(2).map(|pair| distance(&rows[pair[0] as usize], &rows[pair[1] as usize])).sum();
+    assert!((answer["cost"].as_f64().unwrap() - way).abs() < 0.01, "{answer} {way}");
+    assert_eq!(code(&hairpin(place.path(), &["export", "ml", "--to", "rapid"])), 0);
+    let module = fs::read_to_string(place.path().join("ml/0000.mod")).unwrap();
+    assert!(module.contains(&format!("MoveJ p{:02}", path[0])) && module.contains(&format!("MoveL p{:02}", path[5])));
+    // The graph that was searched is one that can be searched again.
+    let again = hairpin(place.path(), &["max-load", "--graph", "ml/graph.csv", "--json"]);
+    assert_eq!(json(&again)["cost"], answer["cost"]);
+    for (arguments, wanted) in [
+        (&["max-load", "--cloud", "p.csv", "irb121"][..], "irb120"),
+        (&["max-load", "--cloud", "p.csv", "generic"][..], "arm"),
+        (&["max-load", "--cloud", "none.csv", "irb120"][..], "none.csv"),
+        (&["max-load", "--cloud", "p.csv"][..], "CELL"),
+        (&["max-load"][..], "--graph"),
+    ] {
+        let refused = hairpin(place.path(), arguments);
+        let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(code(&refused) == 2 && told.contains(wanted), "{arguments:?}: {told}");
+    }
+    fs::write(place.path().join("far.csv"), "x_mm,y_mm,z_mm\n3000,100,400\n3500,-100,300\n").unwrap();
+    let nothing = hairpin(place.path(), &["max-load", "--cloud", "far.csv", "irb120", "--json"]);
+    assert_eq!((code(&nothing), &json(&nothing)["path"]), (3, &Value::Null));
+}
+
+fn row(line: &str) -> [f64; 3] {
+    let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+    [numbers[0], numbers[1], numbers[2]]
+}
+
+fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+}
+
+#[test]
+fn what_is_not_there_is_refused_by_name() {
+    let place = TempDir::new().unwrap();
+    for (set, wanted) in [
+        ("generate.moves.speeds=[\"v123\"]", "generate.moves.speeds[0]"),
+        ("generate.moves.zones=[\"z11\"]", "generate.moves.zones[0]"),
+        ("generate.search.visits=2", "generate.search.visits"),
+        ("world.keep_out_mm=[\"x^2 <\"]", "world.keep_out_mm[0]"),
+        ("world.tool.q1_q4=[1, 1, 0, 0]", "world.tool.q1_q4"),
+        ("task.home_deg=[0, 0, 0, 0, 300, 0]", "task.home_deg"),
+        ("spec.regression={ baseline = \"7.14\" }", "spec.regression"),
+        ("execute.logs=\"*.csv\"", "execute.logs"),
+        ("generate.moves.speed=[]", "speeds"),
+    ] {
+        let refused = hairpin(place.path(), &["generate", "arm", "--set", set]);
+        let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(code(&refused) == 2 && told.contains(wanted), "{set}: {told}");
+    }
+}

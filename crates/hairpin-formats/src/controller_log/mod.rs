@@ -1,0 +1,370 @@
+//! Recordings of arms as CSV, whoever wrote them: columns by name, units by name, decimal points or commas.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use hairpin::math::rotation::{quaternion_from_euler, unit_quaternion};
+use hairpin::robot::arm::{AXES, Arm, Joints};
+use hairpin::trajectory::{Channel, Track, TrackError};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use thiserror::Error;
+
+/// Farther from the base no arm's tool is, m.
+const FARTHEST_M: f64 = 100.0;
+/// More than a hundred turns is another unit, rad.
+const MOST_RAD: f64 = 700.0;
+/// How far from 1 the length of a quaternion may be: logs round to three decimals.
+const QUATERNION: f64 = 1e-2;
+
+/// A recording as it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ControllerLog {
+    /// `base_from_tcp` over time, with `move` and `q1_rad` … `q6_rad` where the file has them.
+    pub track: Track,
+    /// Whether the file tells orientations; where not, they are the identity and nothing is to be made of them.
+    pub orientation_known: bool,
+    /// Whether poses were computed from joint angles.
+    pub from_joints: bool,
+}
+
+/// Why a file is no recording. Lines count from 1.
+#[derive(Debug, Error)]
+pub enum ControllerLogError {
+    /// The file cannot be read.
+    #[error("cannot read {}: {cause}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The system's answer.
+        cause: io::Error,
+    },
+    /// The header lacks what is needed.
+    #[error("{}, line 1: {what}; the header is `{header}`", path.display())]
+    Header {
+        /// The file.
+        path: PathBuf,
+        /// What is missing or given twice.
+        what: String,
+        /// The header.
+        header: String,
+    },
+    /// A cell is not the number it must be.
+    #[error("{}, line {line}, column `{column}`: `{value}`: must be {bound}", path.display())]
+    Value {
+        /// The file.
+        path: PathBuf,
+        /// Line.
+        line: usize,
+        /// Column.
+        column: String,
+        /// The text found.
+        value: String,
+        /// What it must be.
+        bound: String,
+    },
+    /// A row is longer or shorter than the header.
+    #[error("{}, line {line}: {found} values, the header has {expected}", path.display())]
+    Width {
+        /// The file.
+        path: PathBuf,
+        /// Line.
+        line: usize,
+        /// Values in the row.
+        found: usize,
+        /// Columns of the header.
+        expected: usize,
+    },
+    /// Fewer than two samples.
+    #[error("{}: {found} samples, must be at least 2", path.display())]
+    Short {
+        /// The file.
+        path: PathBuf,
+        /// Samples found.
+        found: usize,
+    },
+    /// What a track refuses.
+    #[error("{}: {cause}", path.display())]
+    Track {
+        /// The file.
+        path: PathBuf,
+        /// Its reason.
+        cause: TrackError,
+    },
+}
+
+/// A column that is read: where it is, its name, and what its numbers are multiplied by.
+#[derive(Debug, Clone)]
+struct Column {
+    index: usize,
+    name: String,
+    scale: f64,
+}
+
+#[derive(Debug, Clone)]
+enum Turn {
+    /// w, x, y, z.
+    Quaternion([Column; 4]),
+    /// About x, y, z: R = Rz Ry Rx.
+    Euler([Column; 3]),
+    Unknown,
+}
+
+struct Layout {
+    time: Column,
+    /// Without it poses come from joints.
+    position: Option<[Column; 3]>,
+    turn: Turn,
+    joints: Option<[Column; AXES]>,
+    order: Option<Column>,
+    width: usize,
+    separator: char,
+}
+
+const SECONDS: &[(&str, f64)] = &[("_s", 1.0), ("_ms", 1e-3), ("_us", 1e-6), ("_ns", 1e-9)];
+const METRES: &[(&str, f64)] = &[("_m", 1.0), ("_mm", 1e-3)];
+const RADIANS: &[(&str, f64)] = &[("_rad", 1.0), ("_deg", std::f64::consts::PI / 180.0)];
+
+/// Reads a recording. Columns stand in any order, others beside them; names in any case:
+///
+/// | what | names |
+/// | --- | --- |
+/// | time | `t` (s), `t_s`, `time_s`, `…_ms`, `…_us`, `…_ns` |
+/// | position | `x_m`, `y_m`, `z_m`, or `x_mm`, `y_mm`, `z_mm` |
+/// | orientation | `qw`, `qx`, `qy`, `qz`; `q1` … `q4` (w first); or `rx_deg`, `ry_deg`, `rz_deg` (or `_rad`; R = Rz Ry Rx) |
+/// | joints | `q1_rad` … `q6_rad`, or `j`, `joint`, `joint_`, `axis` for `q`, or `_deg` |
+/// | move | `move`, from 0 |
+///
+/// Cells are separated by commas, tabs, or semicolons, and with the latter two a decimal comma is understood. Without positions the
+/// joints go through `arm`: base_from_tcp = base_from_flange(q) · flange_from_tcp. Stamps are taken as they are, however far apart.
+///
+/// # Errors
+/// The first thing wrong, with line, column and value; stamps that do not rise; fewer than two samples.
+pub fn read(path: &Path, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<ControllerLog, ControllerLogError> {
+    let bytes = fs::read(path).map_err(|cause| ControllerLogError::Unreadable { path: path.into(), cause })?;
+    // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
+    parse(path, &String::from_utf8_lossy(&bytes), arm)
+}
+
+fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<ControllerLog, ControllerLogError> {
+    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate();
+    let header = lines.next().map_or("", |(_, line)| line);
+    let layout = Layout::of(header, arm.is_some()).map_err(|what| ControllerLogError::Header {
+        path: path.into(),
+        what,
+        header: header.into(),
+    })?;
+    let mut rows =
+        Rows { path, layout: &layout, times: Vec::new(), poses: Vec::new(), joints: Vec::new(), moves: Vec::new() };
+    for (index, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
+        rows.push(index + 1, line, arm)?;
+    }
+    let Rows { times, poses, joints, moves, .. } = rows;
+    if times.len() < 2 {
+        return Err(ControllerLogError::Short { path: path.into(), found: times.len() });
+    }
+    let mut channels = Vec::new();
+    if layout.order.is_some() {
+        channels.push(Channel { name: "move".into(), values: moves });
+    }
+    if layout.joints.is_some() {
+        channels.extend(
+            (0..AXES)
+                .map(|k| Channel { name: format!("q{}_rad", k + 1), values: joints.iter().map(|q| q[k]).collect() }),
+        );
+    }
+    let track = Track::new(times, poses, channels);
+    let track = track.map_err(|cause| ControllerLogError::Track { path: path.into(), cause })?;
+    let from_joints = layout.position.is_none();
+    let orientation_known = from_joints || !matches!(layout.turn, Turn::Unknown);
+    Ok(ControllerLog { track, orientation_known, from_joints })
+}
+
+impl Layout {
+    fn of(header: &str, arm: bool) -> Result<Self, String> {
+        let separator = [';', '\t'].into_iter().find(|separator| header.contains(*separator)).unwrap_or(',');
+        let names: Vec<String> =
+            header.split(separator).map(|name| name.trim().trim_matches('"').to_ascii_lowercase()).collect();
+        for (index, name) in names.iter().enumerate() {
+            if !name.is_empty() && names[..index].contains(name) {
+                return Err(format!("column `{name}` twice"));
+            }
+        }
+        let exactly = |name: &str, scale: f64| {
+            let index = names.iter().position(|found| found == name)?;
+            Some(Column { index, name: name.into(), scale })
+        };
+        let one = |stems: &[String], units: &[(&str, f64)]| {
+            let all =
+                stems.iter().flat_map(|stem| units.iter().map(move |(unit, scale)| (format!("{stem}{unit}"), *scale)));
+            let mut found: Vec<Column> = all.filter_map(|(name, scale)| exactly(&name, scale)).collect();
+            if found.len() > 1 {
+                return Err(format!("`{}` and `{}` say the same", found[0].name, found[1].name));
+            }
+            Ok(found.pop())
+        };
+        let stems = |names: &[&str]| -> Vec<String> { names.iter().map(|name| (*name).to_owned()).collect() };
+        let time = one(&stems(&["t", "time"]), SECONDS)?.or_else(|| exactly("t", 1.0));
+        let time = time.ok_or("no column of times, such as `t_s` or `time_ms`")?;
+        let position = triple(|axis| one(&stems(&[axis]), METRES))?;
+        let axis = |k: usize| {
+            let stems: Vec<String> =
+                ["q", "j", "joint", "joint_", "axis", "axis_"].iter().map(|stem| format!("{stem}{k}")).collect();
+            one(&stems, RADIANS)
+        };
+        let joints: Vec<Column> = (1..=AXES).map(axis).filter_map(Result::transpose).collect::<Result<_, _>>()?;
+        let joints = match joints.len() {
+            0 => None,
+            AXES => joints.try_into().ok(),
+            some => return Err(format!("{some} joints: six or none")),
+        };
+        let quaternion = [["qw", "qx", "qy", "qz"], ["q1", "q2", "q3", "q4"]].into_iter().find_map(|names| {
+            let found: Vec<Column> = names.into_iter().filter_map(|name| exactly(name, 1.0)).collect();
+            found.try_into().ok()
+        });
+        let turn = match quaternion {
+            Some(quaternion) => Turn::Quaternion(quaternion),
+            None => triple(|axis| one(&stems(&[&format!("r{axis}")]), RADIANS))?.map_or(Turn::Unknown, Turn::Euler),
+        };
+        match (&position, &joints) {
+            (Some(_), _) => {}
+            (None, Some(_)) if arm => {}
+            (None, Some(_)) => return Err("joints without positions need an arm".into()),
+            (None, None) => return Err("no `x_m`, `y_m`, `z_m` (or `_mm`), and no six joints such as `q1_deg`".into()),
+        }
+        Ok(Self { time, position, turn, joints, order: exactly("move", 1.0), width: names.len(), separator })
+    }
+}
+
+/// Columns of x, y and z: all three or none.
+fn triple(one: impl Fn(&str) -> Result<Option<Column>, String>) -> Result<Option<[Column; 3]>, String> {
+    match (one("x")?, one("y")?, one("z")?) {
+        (Some(x), Some(y), Some(z)) => Ok(Some([x, y, z])),
+        (None, None, None) => Ok(None),
+        (x, y, z) => {
+            let found: Vec<String> = [x, y, z].into_iter().flatten().map(|column| column.name).collect();
+            Err(format!("only `{}` of three coordinates", found.join("`, `")))
+        }
+    }
+}
+
+struct Rows<'a> {
+    path: &'a Path,
+    layout: &'a Layout,
+    times: Vec<f64>,
+    poses: Vec<Isometry3<f64>>,
+    joints: Vec<Joints>,
+    moves: Vec<f64>,
+}
+
+impl Rows<'_> {
+    fn push(
+        &mut self,
+        line: usize,
+        text: &str,
+        arm: Option<(&Arm, &Isometry3<f64>)>,
+    ) -> Result<(), ControllerLogError> {
+        let layout = self.layout;
+        let cells: Vec<&str> = text.split(layout.separator).map(|cell| cell.trim().trim_matches('"')).collect();
+        if cells.len() != layout.width {
+            return Err(ControllerLogError::Width {
+                path: self.path.into(),
+                line,
+                found: cells.len(),
+                expected: layout.width,
+            });
+        }
+        let row = Row { path: self.path, line, cells: &cells, comma: layout.separator != ',' };
+        let time = row.number(&layout.time, f64::INFINITY, "finite")?;
+        if let Some(before) = self.times.last()
+            && time <= *before
+        {
+            return Err(row.error(&layout.time, format!("later than {before} s, the row before")));
+        }
+        let joints = match &layout.joints {
+            Some(columns) => Some(row.numbers(columns, MOST_RAD, "an angle within a hundred turns")?),
+            None => None,
+        };
+        let pose = match (&layout.position, &joints, arm) {
+            (Some(position), ..) => {
+                let place = row.numbers(position, FARTHEST_M, "a finite number, within 100 m")?;
+                Isometry3::from_parts(Translation3::from(Vector3::from(place)), row.rotation(&layout.turn)?)
+            }
+            (None, Some(joints), Some((arm, tcp))) => arm.forward(joints) * tcp,
+            (None, ..) => unreachable!("a layout without positions has joints and an arm"),
+        };
+        if let Some(column) = &layout.order {
+            let order = row.number(column, 1e9, "a move's number, from 0")?;
+            if order < 0.0 || order.fract() != 0.0 {
+                return Err(row.error(column, "a move's number, from 0".into()));
+            }
+            self.moves.push(order);
+        }
+        self.times.push(time);
+        self.poses.push(pose);
+        self.joints.extend(joints);
+        Ok(())
+    }
+}
+
+struct Row<'a> {
+    path: &'a Path,
+    line: usize,
+    cells: &'a [&'a str],
+    /// Whether a comma is a decimal point.
+    comma: bool,
+}
+
+impl Row<'_> {
+    fn error(&self, column: &Column, bound: String) -> ControllerLogError {
+        ControllerLogError::Value {
+            path: self.path.into(),
+            line: self.line,
+            column: column.name.clone(),
+            value: self.cells[column.index].into(),
+            bound,
+        }
+    }
+
+    fn number(&self, column: &Column, most: f64, bound: &str) -> Result<f64, ControllerLogError> {
+        let cell = self.cells[column.index];
+        let parsed = if self.comma && !cell.contains('.') { cell.replacen(',', ".", 1).parse() } else { cell.parse() };
+        let number = parsed.ok().map(|number: f64| number * column.scale);
+        let number = number.filter(|number| number.is_finite() && number.abs() <= most);
+        number.ok_or_else(|| self.error(column, bound.into()))
+    }
+
+    fn numbers<const N: usize>(
+        &self,
+        columns: &[Column; N],
+        most: f64,
+        bound: &str,
+    ) -> Result<[f64; N], ControllerLogError> {
+        let mut numbers = [0.0; N];
+        for (number, column) in numbers.iter_mut().zip(columns) {
+            *number = self.number(column, most, bound)?;
+        }
+        Ok(numbers)
+    }
+
+    fn rotation(&self, turn: &Turn) -> Result<UnitQuaternion<f64>, ControllerLogError> {
+        match turn {
+            Turn::Unknown => Ok(UnitQuaternion::identity()),
+            Turn::Quaternion(columns) => {
+                let wxyz = self.numbers(columns, 2.0, "a component of a unit quaternion")?;
+                let length = wxyz.iter().map(|c| c * c).sum::<f64>().sqrt();
+                if (length - 1.0).abs() > QUATERNION {
+                    return Err(self.error(&columns[0], format!("of a quaternion of length 1, not {length:.4}")));
+                }
+                Ok(unit_quaternion(&wxyz))
+            }
+            Turn::Euler(columns) => {
+                let [x, y, z] = self.numbers(columns, MOST_RAD, "an angle within a hundred turns")?;
+                Ok(unit_quaternion(&quaternion_from_euler(x, y, z)))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,106 @@
+//! What an arm's claim, search, execution and limits rest on, said from the run's own settings.
+
+use super::ArmSetup;
+use crate::campaign::scenario::{ArmMode, PathFrom};
+use crate::campaign::{Case, Tally};
+
+/// What stands behind the moves.
+pub(in crate::campaign) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
+    let generate = &setup.scenario.generate;
+    let clearance = generate.moves.clearance_mm;
+    said.push(match generate.mode {
+        ArmMode::Joint => format!(
+            "Mode `joint`: `clear: all links` means that along every move, joints within their bounds and away from \
+             singularities, no link and no tool comes nearer than {clearance} mm to an obstacle, nor links to each other, between \
+             samples as well; the links are the capsules of the robot's file."
+        ),
+        ArmMode::Cartesian => format!(
+            "Mode `cartesian`: `clear: tool sphere` means that a ball of the tool's radius and {clearance} mm more touches nothing \
+             along the straight segments between the points, rounding errors included; the arm behind it, its joints and the moves \
+             from and to home were not looked at."
+        ),
+    });
+    if !setup.scenario.world.keep_out_mm.is_empty() {
+        said.push("Keep-outs in words hold for the tool; the arm's own links may be in them.".into());
+    }
+    let declared = |declare: bool| if declare { "declared in every program" } else { "expected on the controller" };
+    said.push(format!(
+        "Programs are in work object `{}` ({}) with tool `{}` ({}).",
+        setup.station.work_object.name,
+        declared(setup.scenario.world.wobj.declare),
+        setup.station.tool.name,
+        declared(setup.scenario.world.tool.declare)
+    ));
+    if let Some(first) = setup.station.points.first() {
+        let p = first.pose.translation.vector * 1e3;
+        said.push(format!(
+            "The first point of the cloud, {}, is at ({:.1}, {:.1}, {:.1}) mm in the base frame: check it at the pendant.",
+            setup.point_name(0),
+            p.x,
+            p.y,
+            p.z
+        ));
+    }
+}
+
+/// How programs were found.
+pub(in crate::campaign) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) {
+    let search = &setup.scenario.generate.search;
+    if !tally.missions.is_empty() {
+        said.push(format!("Missions: {} waypoint files made elsewhere; nothing was searched.", tally.missions.len()));
+        return;
+    }
+    let often = if search.visits == 1 { "once" } else { "as often as `visits` allows" };
+    said.push(format!(
+        "Search: paths of largest total cost `{}` among {} points, each at most {often}, points may be left out; {} of {} programs \
+         asked for, pairwise different. `optimal` means proven over all such paths.",
+        setup.scenario.generate.cost.word(),
+        setup.station.points.len(),
+        cases.len(),
+        search.programs,
+    ));
+    if let Some(limit) = search.time_limit_s {
+        said.push(format!(
+            "Each search had {limit} s: where that did not suffice for the proof the gap to the bound is told."
+        ));
+    }
+}
+
+/// Who ran them.
+pub(in crate::campaign) fn act(setup: &ArmSetup, said: &mut Vec<String>) {
+    let execute = &setup.scenario.execute;
+    said.push(match &execute.logs {
+        Some(logs) => format!("Recorded elsewhere: `{logs}`, on the stamps of its own clock."),
+        None => format!(
+            "Simulated: hairpin's virtual controller, a stand-in for one whose numbers are not public: profile {}, servo lag of {} s \
+             on every axis, samples every 10 ms, measured positions with a standard deviation of {} mm.",
+            serde_json::to_value(execute.profile).ok().and_then(|word| word.as_str().map(str::to_owned)).unwrap_or_default(),
+            execute.servo_lag_s,
+            execute.noise_mm
+        ),
+    });
+    if !execute.faults.is_none() {
+        said.push("The virtual arm has faults injected (`execute.faults`).".into());
+    }
+}
+
+/// What deviation is.
+pub(in crate::campaign) fn verdict(setup: &ArmSetup, said: &mut Vec<String>) {
+    let spec = &setup.scenario.spec;
+    said.push(match spec.path.map(|limit| limit.from) {
+        Some(PathFrom::Blended) => {
+            "Deviation is the distance of the tool's point from the programmed path with its zones. Tracks are not aligned.".into()
+        }
+        Some(PathFrom::Sharp) => {
+            "Deviation is the distance of the tool's point from the path through the points, zones left out. Tracks are not aligned."
+                .into()
+        }
+        None => "No deviation limit is given: deviations from the programmed path are told, not judged.".into(),
+    });
+    if spec.arrival.is_some() {
+        said.push(
+            "A point's arrival is late by as much as it comes after the time that the virtual controller plans for it."
+                .into(),
+        );
+    }
+}

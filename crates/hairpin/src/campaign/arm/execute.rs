@@ -1,0 +1,121 @@
+//! Runs a program on the virtual controller.
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use super::ArmSetup;
+use crate::campaign::Case;
+use crate::campaign::scenario::TimeLawName;
+use crate::simulation::SimulationError;
+use crate::simulation::arm::{Fault, Noise, Plan, PlanSettings, RunSettings, Shape};
+use crate::trajectory::program::Program;
+use crate::trajectory::{Channel, Ended, Flight, Track};
+
+/// Time over which an s-curve averages the progress of a trapezoid, s: a usual one of controllers of this size.
+const S_CURVE: f64 = 0.04;
+/// Jitter of fine points beside that of positions, s per mm of noise.
+const PAUSE_PER_MM: f64 = 0.05;
+
+impl ArmSetup<'_> {
+    /// How the virtual controller plans.
+    pub(super) fn plan_settings(&self) -> PlanSettings {
+        let shape = match self.scenario.execute.profile {
+            TimeLawName::Trapezoid => Shape::Trapezoid,
+            TimeLawName::SCurve => Shape::SCurve(S_CURVE),
+        };
+        PlanSettings { shape, ..PlanSettings::default() }
+    }
+
+    /// How its servos follow.
+    fn run_settings(&self) -> RunSettings {
+        let execute = &self.scenario.execute;
+        let noise =
+            Noise { position: execute.noise_mm * 1e-3, pause: execute.noise_mm * PAUSE_PER_MM, ..Noise::default() };
+        RunSettings { lag: execute.servo_lag_s, noise, ..RunSettings::default() }
+    }
+
+    /// What is wrong with the arm.
+    fn faults(&self) -> Vec<Fault> {
+        let faults = &self.scenario.execute.faults;
+        let mut all = Vec::new();
+        if let Some(axis) = faults.axis {
+            let axis = axis as usize;
+            if faults.backlash_deg > 0.0 {
+                all.push(Fault::Backlash { axis, width: faults.backlash_deg.to_radians() });
+            }
+            if faults.slower > 0.0 {
+                all.push(Fault::SlowAxis { axis, share: 1.0 - faults.slower });
+            }
+        }
+        let offset = Vector3::from(faults.tool_offset_mm) * 1e-3;
+        if offset != Vector3::zeros() {
+            all.push(Fault::ToolOffset(Isometry3::from_parts(Translation3::from(offset), UnitQuaternion::identity())));
+        }
+        if faults.start_delay_s > 0.0 {
+            all.push(Fault::DelayedStart { order: 0, delay: faults.start_delay_s });
+        }
+        all
+    }
+}
+
+/// Runs the program of `case`, which was made with `nominal`, as `own` has it.
+///
+/// # Errors
+/// A case without a program; settings, orders or faults out of bounds.
+pub(in crate::campaign) fn run(
+    nominal: &ArmSetup,
+    own: &ArmSetup,
+    case: &Case,
+    seed: u64,
+) -> Result<Flight, SimulationError> {
+    let program = program_of(case)?;
+    let orders = nominal.orders(program);
+    let plan = Plan::new(&own.station.arm, &nominal.station.home, &orders, &own.plan_settings())?;
+    let run = plan.execute(&own.run_settings(), &own.faults(), seed)?;
+    let ended = if run.stop.is_some() { Ended::Halted } else { Ended::Done };
+    let track = legs_of(&run.recording)?;
+    let reached = reached(&track, case.waypoints.len(), ended);
+    Ok(Flight { track, ended, left_world: None, reached })
+}
+
+/// The program of a case.
+///
+/// # Errors
+/// There is none, as in a folder that was edited.
+pub(super) fn program_of(case: &Case) -> Result<&Program, SimulationError> {
+    case.program.as_ref().ok_or_else(|| SimulationError::new("program", "none".into(), "the program of the case"))
+}
+
+/// The recording with the leg that is being driven, the velocity, and the joints in degrees.
+fn legs_of(recording: &Track) -> Result<Track, SimulationError> {
+    let last = recording.len().saturating_sub(1);
+    let mut velocity: [Vec<f64>; 3] = Default::default();
+    for i in 0..recording.len() {
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+        let elapsed = recording.times()[after] - recording.times()[before];
+        let moved = recording.position(after) - recording.position(before);
+        let rate = if elapsed > 0.0 { moved / elapsed } else { Vector3::zeros() };
+        velocity.iter_mut().zip(rate.iter()).for_each(|(column, rate)| column.push(*rate));
+    }
+    let renamed = recording.channels().iter().map(|channel| match channel.name.as_str() {
+        "move" => Channel { name: "leg".into(), values: channel.values.clone() },
+        _ => channel.clone(),
+    });
+    let rates = ["vx_m_s", "vy_m_s", "vz_m_s"].into_iter().zip(velocity);
+    let rates = rates.map(|(name, values)| Channel { name: name.into(), values });
+    let channels = renamed.chain(rates).collect();
+    Track::new(recording.times().to_vec(), recording.poses().to_vec(), channels)
+        .map_err(|error| SimulationError::new("recording", error.to_string(), "a track"))
+}
+
+/// When each waypoint was reached: when the next move began, and the last at the end.
+fn reached(track: &Track, waypoints: usize, ended: Ended) -> Vec<Option<f64>> {
+    let legs = track.channel("leg").unwrap_or_default();
+    let begins = |leg: usize| legs.iter().position(|at| *at >= leg as f64).map(|i| track.times()[i]);
+    (0..waypoints)
+        .map(|waypoint| match waypoint {
+            0 => Some(0.0),
+            last if last + 1 == waypoints => (ended == Ended::Done).then(|| track.times().last().copied()).flatten(),
+            other => begins(other),
+        })
+        .collect()
+}

@@ -1,0 +1,252 @@
+//! The reachability graph of a scenario: which moves are possible, in which posture each point is met, and what moves cost.
+
+use nalgebra::{Isometry3, Point3};
+
+use super::{ArmSetup, Station};
+use crate::campaign::scenario::{ArmMode, ArmScenario, CostName, CostSection, MoveName};
+use crate::feasibility::reachability::joint::{
+    Bodies, Cost, FollowSettings, JointSettings, MoveKind, Station as Stand, joint,
+};
+use crate::feasibility::reachability::{
+    CartesianSettings, Level, Obstacle, ReachabilityGraph, Refusal, Verdict, cartesian,
+};
+use crate::robot::arm::{Branch, Configuration, Joints};
+
+/// The graph of a scenario, ready to be searched.
+#[derive(Debug, Clone)]
+pub struct ArmGraph {
+    /// Which moves are possible, and why the others are not.
+    pub reachability: ReachabilityGraph,
+    /// Joint angles at every point, rad, or why it has none; in Cartesian mode nobody asked.
+    pub postures: Option<Vec<Result<Joints, Refusal>>>,
+    /// Costs in whole units, row = from.
+    pub costs: Vec<Option<i64>>,
+    /// Whether the move from home to each point is possible.
+    pub from_home: Vec<bool>,
+    /// Whether the move from each point to home is.
+    pub to_home: Vec<bool>,
+    /// What one unit is, in `unit_name`.
+    pub unit: f64,
+    /// The unit that users are told: `m`, `s`, `steps`, `rad²/s³`, that of their table.
+    pub unit_name: String,
+}
+
+impl ArmGraph {
+    /// Points of the cloud.
+    pub fn points(&self) -> usize {
+        self.reachability.points()
+    }
+
+    /// In which configuration a point is met: the proven one; in Cartesian mode the cloud's, or one in which the arm can stand there.
+    pub(super) fn configuration(&self, setup: &ArmSetup, row: usize) -> Option<Configuration> {
+        let station = setup.station;
+        match &self.postures {
+            Some(postures) => postures[row].as_ref().ok().map(|q| station.arm.configuration(q)),
+            None => {
+                let point = &station.points[row];
+                let given = point.configuration.and_then(configuration);
+                let near = || standing(station, &point.pose).map(|q| station.arm.configuration(&q));
+                given.or_else(near)
+            }
+        }
+    }
+
+    /// Whether the corner at the `k`-th of `rows` may be cut by a zone of `zone` m: the triangle that a blend stays in is proven clear of the
+    /// cell, grown by the tool and by what the spec allows. Joint moves stop everywhere: their blends lie in no such triangle.
+    pub(super) fn blends(&self, setup: &ArmSetup, rows: &[usize], k: usize, zone: f64) -> bool {
+        let (station, scenario) = (setup.station, setup.scenario);
+        if scenario.generate.moves.kind == MoveName::Joint {
+            return false;
+        }
+        let place = |k: usize| station.points[rows[k]].pose.translation.vector;
+        let corner = place(k);
+        let towards = |other: usize| {
+            let way = place(other) - corner;
+            let length = way.norm();
+            corner + way * (zone.min(0.5 * length) / length.max(f64::MIN_POSITIVE))
+        };
+        let clearance = scenario.generate.moves.clearance_mm * 1e-3;
+        let bodies = Bodies::new(&station.arm, &station.tool, &station.cell, clearance);
+        bodies.corner(&[towards(k - 1), corner, towards(k + 1)], station.tool.radius, allowed(scenario)).is_none()
+    }
+}
+
+/// The deviation that the spec allows, m: moves are proven clear for whatever is within spec.
+fn allowed(scenario: &ArmScenario) -> f64 {
+    scenario.spec.path.map_or(0.0, |limit| limit.max_mm * 1e-3)
+}
+
+/// The graph of `setup`.
+///
+/// # Errors
+/// No point can be met, or a table of costs of another size, in a sentence's part.
+pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
+    let (station, scenario) = (setup.station, setup.scenario);
+    let cost = cost_of(scenario, station.points.len())?;
+    if scenario.generate.mode == ArmMode::Cartesian && !matches!(cost, Cost::Distance | Cost::Table(_)) {
+        return Err(format!("cost `{}` needs joints: mode = \"joint\"", scenario.generate.cost.word()));
+    }
+    let graph = match scenario.generate.mode {
+        ArmMode::Cartesian => in_space(setup, &cost),
+        ArmMode::Joint => in_joints(setup, &cost),
+    };
+    let met = graph.postures.as_ref().is_none_or(|postures| postures.iter().any(Result::is_ok));
+    let joined = graph.from_home.contains(&true) && graph.to_home.contains(&true);
+    match (met, joined) {
+        (false, _) => Err(format!("no point of the cloud can be met: {}", setup.first_reason(&graph))),
+        (true, false) => Err("no move from home to a point of the cloud, or back, is possible".into()),
+        (true, true) => Ok(graph),
+    }
+}
+
+impl ArmSetup<'_> {
+    /// Names of the cell's parts, as refusals count them.
+    pub fn part_names(&self) -> Vec<String> {
+        self.station.cell.parts.iter().map(|part| part.name.clone()).collect()
+    }
+
+    fn first_reason(&self, graph: &ArmGraph) -> String {
+        let names = self.part_names();
+        let postures = graph.postures.iter().flatten().enumerate();
+        let mut refused = postures.filter_map(|(row, posture)| posture.as_ref().err().map(|refusal| (row, refusal)));
+        refused
+            .next()
+            .map_or_else(String::new, |(row, refusal)| format!("{}: {}", self.point_name(row), refusal.told(&names)))
+    }
+}
+
+fn in_space(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
+    let (station, scenario) = (setup.station, setup.scenario);
+    let points: Vec<Point3<f64>> = station.points.iter().map(|point| point.pose.translation.vector.into()).collect();
+    let settings = CartesianSettings { radius: sphere(station, scenario), level: Level::Certified, simd: setup.simd };
+    let reachability = cartesian(&points, &station.cell_within_reach(), &settings);
+    let costs = masked(reachability.matrix(), scenario);
+    let (unit, unit_name) = unit_of(cost, scenario);
+    let anywhere = vec![true; points.len()];
+    ArmGraph { reachability, postures: None, costs, from_home: anywhere.clone(), to_home: anywhere, unit, unit_name }
+}
+
+fn in_joints(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
+    let (station, scenario) = (setup.station, setup.scenario);
+    let stands: Vec<Stand> = (station.points.iter())
+        .map(|point| Stand { pose: point.pose, configuration: point.configuration.and_then(configuration) })
+        .collect();
+    let graph = joint(&station.arm, &station.tool, &station.cell, &stands, &joint_settings(station, scenario), cost);
+    let costs = masked(graph.graph.matrix(), scenario);
+    let free = |refusals: &[Option<Refusal>]| refusals.iter().map(Option::is_none).collect();
+    let (from_home, to_home) = (free(&graph.from_home), free(&graph.to_home));
+    let (unit, unit_name) = unit_of(cost, scenario);
+    ArmGraph { reachability: graph.graph, postures: Some(graph.joints), costs, from_home, to_home, unit, unit_name }
+}
+
+fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
+    let moves = &scenario.generate.moves;
+    JointSettings {
+        moves: match moves.kind {
+            MoveName::Linear => MoveKind::Linear,
+            MoveName::Joint => MoveKind::Joint,
+        },
+        clearance: moves.clearance_mm * 1e-3 + allowed(scenario),
+        follow: FollowSettings {
+            margin: libm::sin(moves.singularity_margin_deg.to_radians()),
+            ..FollowSettings::default()
+        },
+        home: station.home,
+    }
+}
+
+/// Radius of the tool's sphere with all that it is grown by, m.
+fn sphere(station: &Station, scenario: &ArmScenario) -> f64 {
+    station.tool.radius + scenario.generate.moves.clearance_mm * 1e-3 + allowed(scenario)
+}
+
+/// Whether the arm can stand with its tool at `pose`, as far as the scenario's mode looks.
+pub(super) fn stands(station: &Station, scenario: &ArmScenario, pose: &Isometry3<f64>) -> bool {
+    match scenario.generate.mode {
+        ArmMode::Cartesian => {
+            let place: Point3<f64> = pose.translation.vector.into();
+            let radius = sphere(station, scenario);
+            let clear = |region| matches!(Obstacle::new(region).certify(&place, &place, radius), Verdict::Clear);
+            standing(station, pose).is_some() && station.cell.parts.iter().all(|part| clear(part.region.clone()))
+        }
+        ArmMode::Joint => {
+            let stand = Stand { pose: *pose, configuration: None };
+            let settings = joint_settings(station, scenario);
+            let graph = joint(&station.arm, &station.tool, &station.cell, &[stand], &settings, &Cost::Distance);
+            graph.joints[0].is_ok() && graph.from_home[0].is_none() && graph.to_home[0].is_none()
+        }
+    }
+}
+
+/// Joint angles within their bounds with the tool at `pose`, those nearest to home.
+fn standing(station: &Station, pose: &Isometry3<f64>) -> Option<Joints> {
+    let distance = |q: &Joints| -> f64 { q.iter().zip(&station.home).map(|(a, b)| (a - b).abs()).sum() };
+    let solutions = station.arm.inverse(&station.flange(pose), &station.home).into_iter();
+    let turned = solutions.flat_map(|q| station.arm.turns_of(&q));
+    turned.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+}
+
+/// cf1, cf4, cf6, cfx as a configuration, if cfx is one.
+fn configuration([cf1, cf4, cf6, cfx]: [i32; 4]) -> Option<Configuration> {
+    let cfx = u8::try_from(cfx).ok().filter(|cfx| *cfx < 8)?;
+    Some(Configuration { cf1, cf4, cf6, cfx: Branch::from_cfx(cfx).cfx() })
+}
+
+/// What the scenario asks to count.
+///
+/// # Errors
+/// A table of another size than the cloud, in a sentence's part.
+fn cost_of(scenario: &ArmScenario, points: usize) -> Result<Cost, String> {
+    match &scenario.generate.cost {
+        CostSection::Named(name) => Ok(by_name(*name)),
+        CostSection::Table(table) => {
+            let matrix = table.costs.as_ref().ok_or_else(|| format!("`{}` was not read", table.table))?;
+            if matrix.points != points {
+                return Err(format!("the table of costs is for {} points, the cloud has {points}", matrix.points));
+            }
+            Ok(Cost::Table(matrix.costs.iter().map(|cost| cost.unwrap_or(0)).collect()))
+        }
+        CostSection::Weighted(weights) => {
+            // Ways and times are in millionths of the weights' units, so all of the sum is.
+            let terms = [
+                (weights.distance, Cost::Distance),
+                (weights.time, Cost::Time),
+                (1e6 * weights.controller_load, Cost::ControllerLoad),
+                (1e6 * weights.joint_effort, Cost::JointEffort),
+            ];
+            Ok(Cost::Sum(terms.into_iter().filter(|(weight, _)| *weight > 0.0).collect()))
+        }
+    }
+}
+
+fn by_name(name: CostName) -> Cost {
+    match name {
+        CostName::Distance => Cost::Distance,
+        CostName::Time => Cost::Time,
+        CostName::ControllerLoad => Cost::ControllerLoad,
+        CostName::JointEffort => Cost::JointEffort,
+    }
+}
+
+/// What one unit of a cost is, and in which unit users are told.
+fn unit_of(cost: &Cost, scenario: &ArmScenario) -> (f64, String) {
+    match cost {
+        Cost::Distance => (1e-3, "mm".into()),
+        Cost::Time => (1e-6, "s".into()),
+        Cost::ControllerLoad | Cost::JointEffort => (1.0, cost.unit().into()),
+        Cost::Sum(_) => (1e-6, "weighted".into()),
+        Cost::Table(_) => match &scenario.generate.cost {
+            CostSection::Table(table) => {
+                (table.costs.as_ref().map_or(1.0, |matrix| matrix.unit), "the table's unit".into())
+            }
+            _ => (1.0, String::new()),
+        },
+    }
+}
+
+/// The costs of a graph's moves as a table has them, and without those that it leaves out.
+fn masked(costs: Vec<Option<i64>>, scenario: &ArmScenario) -> Vec<Option<i64>> {
+    let CostSection::Table(table) = &scenario.generate.cost else { return costs };
+    let Some(matrix) = &table.costs else { return costs };
+    costs.into_iter().zip(&matrix.costs).map(|(cost, given)| cost.and(*given)).collect()
+}

@@ -1,0 +1,24 @@
+//! Arms: a cell and a cloud of points, the reachability graph between them, and the programs that load the arm most.
+
+mod assumptions;
+mod cell;
+mod execute;
+mod graph;
+mod judge;
+mod plan;
+mod points;
+mod program;
+mod solve;
+mod station;
+mod verify;
+
+pub(super) use assumptions::{act, claim, search, verdict};
+pub(super) use execute::run;
+pub use graph::{ArmGraph, graph_of};
+pub(super) use judge::{in_small_units, latest};
+pub(super) use plan::track;
+pub use points::CellPoint;
+pub(super) use solve::Solver;
+pub(super) use station::station_of;
+pub use station::{ArmSetup, Station};
+pub(super) use verify::verify;

@@ -1,0 +1,118 @@
+//! The cloud: poses of the tool in the base frame, read, listed or drawn.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use super::station::frame_of;
+use crate::campaign::scenario::{ArmScenario, CloudPoint, DrawnPoints, Mistake, PointsFrame, PointsSource};
+use crate::math::random::{Stream, named_seed, stream, unit};
+use crate::robot::arm::{WorkObject, unit_quaternion_of};
+
+/// A point of the cloud.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellPoint {
+    /// `base_from_tcp`.
+    pub pose: Isometry3<f64>,
+    /// cf1, cf4, cf6, cfx, where the cloud says them.
+    pub configuration: Option<[i32; 4]>,
+}
+
+/// Draws per point that is asked for: in a cell where fewer than one in so many fits, the cell is at fault.
+const DRAWS: usize = 20_000;
+
+/// The points of a resolved scenario. `fits` says whether the arm can stand at a drawn pose, and `reach` is the ball (centre and
+/// radius, m, base frame) that it can stand in.
+///
+/// # Errors
+/// The key of a point that is no point, or no place left for drawn ones.
+pub(super) fn points_of(
+    scenario: &ArmScenario,
+    work_object: &WorkObject,
+    reach: (Vector3<f64>, f64),
+    fits: impl Fn(&Isometry3<f64>) -> bool,
+) -> Result<Vec<CellPoint>, Mistake> {
+    let task = &scenario.task;
+    let wrong = |key: &str, error: crate::robot::arm::ArmError| Mistake {
+        key: key.into(),
+        value: error.value,
+        bound: error.bound,
+    };
+    let usual = unit_quaternion_of("q1_q4_default", task.points_in.q1_q4_default)
+        .map_err(|error| wrong("task.points_in.q1_q4_default", error))?;
+    let base_from_points = match task.points_in.frame {
+        PointsFrame::Base => Isometry3::identity(),
+        PointsFrame::Wobj => work_object.base_from_object(),
+        PointsFrame::World => frame_of("world.base_frame", &scenario.world.base_frame)?.inverse(),
+    };
+    let point = |index: usize, given: &CloudPoint| {
+        let key = format!("task.points[{index}]");
+        let finite = given.mm.iter().all(|mm| mm.is_finite() && mm.abs() <= FARTHEST_MM);
+        if !finite {
+            let bound = format!("three numbers of mm, at most {FARTHEST_MM} from the origin");
+            return Err(Mistake { key, value: format!("{:?}", given.mm), bound });
+        }
+        let turn = given.q1_q4.map_or(Ok(usual), |q| unit_quaternion_of("q1_q4", q)).map_err(|e| wrong(&key, e))?;
+        let pose = base_from_points * at(Vector3::from(given.mm) * 1e-3, turn);
+        Ok(CellPoint { pose, configuration: given.configuration })
+    };
+    match &task.points {
+        PointsSource::File(_) => {
+            let cloud = task.cloud.as_deref().unwrap_or_default();
+            cloud.iter().enumerate().map(|(index, given)| point(index, given)).collect()
+        }
+        PointsSource::List(list) => {
+            let bare = |mm: &[f64; 3]| CloudPoint { mm: *mm, q1_q4: None, configuration: None };
+            list.iter().enumerate().map(|(index, mm)| point(index, &bare(mm))).collect()
+        }
+        PointsSource::Drawn(drawn) => draw(scenario.seed, drawn, base_from_points.rotation * usual, reach, fits),
+    }
+}
+
+/// Beyond this no arm reaches, and numbers are likely to be of another unit.
+const FARTHEST_MM: f64 = 50_000.0;
+
+fn at(place: Vector3<f64>, turn: UnitQuaternion<f64>) -> Isometry3<f64> {
+    Isometry3::from_parts(Translation3::from(place), turn)
+}
+
+/// Uniform in the ball, those that fit.
+fn draw(
+    seed: u64,
+    drawn: &DrawnPoints,
+    turn: UnitQuaternion<f64>,
+    (centre, radius): (Vector3<f64>, f64),
+    fits: impl Fn(&Isometry3<f64>) -> bool,
+) -> Result<Vec<CellPoint>, Mistake> {
+    let mut random = stream(named_seed(drawn.seed.unwrap_or(seed), "points", 0));
+    let mut points = Vec::with_capacity(drawn.count as usize);
+    let mut left = DRAWS;
+    while (points.len() as u64) < drawn.count {
+        let pose = at(centre + in_ball(&mut random) * radius, turn);
+        if fits(&pose) {
+            points.push(CellPoint { pose, configuration: None });
+            left = DRAWS;
+        } else if left == 0 {
+            return Err(Mistake {
+                key: "task.points.count".into(),
+                value: drawn.count.to_string(),
+                bound: format!(
+                    "{} at most: {DRAWS} further draws found no place where the arm can stand",
+                    points.len()
+                ),
+            });
+        } else {
+            left -= 1;
+        }
+    }
+    Ok(points)
+}
+
+/// Uniform in the unit ball: r³ and cos θ are uniform.
+fn in_ball(random: &mut Stream) -> Vector3<f64> {
+    let radius = libm::cbrt(unit(random));
+    let height = 2.0 * unit(random) - 1.0;
+    let (sin, cos) = libm::sincos(TAU * unit(random));
+    let across = (1.0 - height * height).max(0.0).sqrt();
+    Vector3::new(across * cos, across * sin, height) * radius
+}

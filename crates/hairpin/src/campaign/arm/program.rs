@@ -1,0 +1,133 @@
+//! From a path through the cloud to the program that an arm runs, and from a program to what the virtual controller is told.
+
+use super::ArmSetup;
+use crate::campaign::scenario::MoveName;
+use crate::math::random::{named_seed, stream, unit};
+use crate::robot::arm::Configuration;
+use crate::simulation::arm as controller;
+use crate::trajectory::program::{
+    JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
+};
+
+/// A way through the cloud.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Way {
+    /// Rows of the cloud, in order.
+    pub(super) rows: Vec<usize>,
+    /// Configuration at each of them; `None` in Cartesian mode, which knows no joints.
+    pub(super) configurations: Vec<Option<Configuration>>,
+}
+
+/// Name of the home posture in programs.
+const HOME: &str = "pHome";
+
+impl ArmSetup<'_> {
+    /// Name of the point of row `row`: digits enough that names sort like rows.
+    pub fn point_name(&self, row: usize) -> String {
+        let digits = self.station.points.len().saturating_sub(1).to_string().len().max(2);
+        format!("p{row:0digits$}")
+    }
+
+    /// The program along `way`: home, joints to the first point, on through the others, home. Speeds and zones are drawn from the scenario's
+    /// lists; `blends(k)` says whether the corner at the way's k-th point may be cut by a zone (m).
+    pub(super) fn program(&self, way: &Way, number: usize, blends: impl Fn(usize, f64) -> bool) -> Program {
+        let station = self.station;
+        let tool = Tool {
+            name: station.tool.name.clone(),
+            declare: self.scenario.world.tool.declare,
+            tcp: station.tool.tcp,
+            // A controller refuses a load without mass.
+            mass: if station.tool.mass > 0.0 { station.tool.mass } else { Tool::flange().mass },
+            centre_of_gravity: if station.tool.mass > 0.0 {
+                station.tool.centre_of_mass.coords
+            } else {
+                Tool::flange().centre_of_gravity
+            },
+            ..Tool::flange()
+        };
+        let object = WorkObject {
+            name: station.work_object.name.clone(),
+            declare: self.scenario.world.wobj.declare,
+            user: station.work_object.user,
+            object: station.work_object.object,
+            ..WorkObject::base()
+        };
+        let object_from_base = object.base_from_object().inverse();
+        let procedure = &self.scenario.generate.moves.procedure;
+        let mut program = Program::new(&format!("hairpin_{number:04}"), procedure, tool, object);
+        let moves = &self.scenario.generate.moves;
+        let mut random = stream(named_seed(self.scenario.seed, "moves", number as u64));
+        let mut pick = |names: &[String]| names[(unit(&mut random) * names.len() as f64) as usize].clone();
+        let home = || {
+            let target = JointTarget { name: Some(HOME.into()), joints: station.home, external: NO_EXTERNAL };
+            Move::new(Motion::AbsoluteJoint(target), slow(), Zone::stop())
+        };
+        program.moves.push(home());
+        for (k, (row, configuration)) in way.rows.iter().zip(&way.configurations).enumerate() {
+            let pose = object_from_base * station.points[*row].pose;
+            let target = PoseTarget {
+                configuration: configuration.map(|configuration| configuration.numbers()),
+                ..PoseTarget::unnamed(pose).named(&self.point_name(*row))
+            };
+            let (speed, zone) = (pick(&moves.speeds), pick(&moves.zones));
+            let speed = Speed::predefined(&speed).unwrap_or_else(slow);
+            let zone = Zone::predefined(&zone)
+                .filter(|zone| k > 0 && k + 1 < way.rows.len() && !zone.fine && blends(k, zone.tcp));
+            let motion = match moves.kind {
+                MoveName::Linear if k > 0 => Motion::Linear(target),
+                MoveName::Linear | MoveName::Joint => Motion::Joint(target),
+            };
+            program.moves.push(Move::new(motion, speed, zone.unwrap_or_else(Zone::stop)));
+        }
+        program.moves.push(home());
+        program
+    }
+
+    /// What the virtual controller is told of `program`: its moves after the first, which starts at home, in base coordinates.
+    pub(super) fn orders(&self, program: &Program) -> Vec<controller::Order> {
+        let name = |m: &Move| m.motion.name().unwrap_or("?").to_owned();
+        let pairs = program.moves.windows(2);
+        pairs
+            .map(|pair| controller::Order {
+                name: format!("{}→{}", name(&pair[0]), name(&pair[1])),
+                ..order(program, &pair[1])
+            })
+            .collect()
+    }
+}
+
+/// Moves from and to home.
+fn slow() -> Speed {
+    Speed::predefined("v200").unwrap_or(Speed {
+        name: None,
+        tcp: 0.2,
+        orientation: 1.0,
+        linear_external: 0.0,
+        rotating_external: 0.0,
+    })
+}
+
+fn order(program: &Program, m: &Move) -> controller::Order {
+    let base_from_object = program.work_objects[m.work_object].base_from_object();
+    let place = |target: &PoseTarget| base_from_object * target.pose;
+    let configuration = |target: &PoseTarget| {
+        let [cf1, cf4, cf6, cfx] = target.configuration.filter(|_| m.configuration_demanded)?;
+        Some(Configuration { cf1, cf4, cf6, cfx: u8::try_from(cfx).ok()? })
+    };
+    let target = match &m.motion {
+        Motion::AbsoluteJoint(to) => controller::Target::Joints(to.joints),
+        Motion::Joint(to) => controller::Target::Joint(place(to), configuration(to)),
+        Motion::Linear(to) => controller::Target::Line(place(to), configuration(to)),
+        Motion::Circular { via, to } => {
+            controller::Target::Arc(place(via).translation.vector.into(), place(to), configuration(to))
+        }
+    };
+    controller::Order {
+        name: String::new(),
+        target,
+        speed: controller::Speed { tcp: m.speed.tcp, turn: m.speed.orientation },
+        duration: m.duration,
+        zone: if m.zone.fine { controller::Zone::Fine } else { controller::Zone::Radius(m.zone.tcp) },
+        tool: program.tools[m.tool].tcp,
+    }
+}

@@ -1,0 +1,133 @@
+//! The bounds of every key of an arm's scenario.
+
+use super::{ArmExecute, ArmGenerate, ArmScenario, ArmSpec, CostSection, PointsSource};
+use crate::campaign::arm::station_of;
+use crate::campaign::scenario::Mistake;
+use crate::campaign::scenario::findings::Findings;
+use crate::trajectory::program::{Speed, Zone};
+
+/// More points take graphs of more than a hundred million arcs.
+const MOST_POINTS: u64 = 10_000;
+
+impl ArmScenario {
+    /// Every nominal value that is out of bounds, in the order of the file.
+    pub(in crate::campaign::scenario) fn check(&self) -> Vec<Mistake> {
+        let mut found = Findings::default();
+        found.head(self.hairpin, self.seed);
+        self.check_task(&mut found);
+        check_generate(&self.generate, self.task.count(), &mut found);
+        check_execute(&self.execute, &mut found);
+        check_spec(&self.spec, &mut found);
+        if found.0.is_empty()
+            && let Err(mistake) = station_of(self)
+        {
+            found.add(mistake);
+        }
+        found.0
+    }
+
+    fn check_task(&self, found: &mut Findings) {
+        let count = self.task.count();
+        let key = match &self.task.points {
+            PointsSource::Drawn(_) => "task.points.count",
+            PointsSource::File(_) | PointsSource::List(_) => "task.points",
+        };
+        found.count(key, count, 1, MOST_POINTS);
+        for (axis, angle) in self.task.home_deg.iter().enumerate() {
+            found.from(&format!("task.home_deg[{axis}]"), *angle, -3600.0, 3600.0, "°");
+        }
+    }
+}
+
+fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
+    if let CostSection::Weighted(weights) = &generate.cost {
+        let all = [
+            ("distance", weights.distance),
+            ("time", weights.time),
+            ("controller-load", weights.controller_load),
+            ("joint-effort", weights.joint_effort),
+        ];
+        for (name, weight) in all {
+            found.from(&format!("generate.cost.{name}"), weight, 0.0, 1e9, "");
+        }
+        let some = all.iter().any(|(_, weight)| *weight > 0.0);
+        found.require(some, "generate.cost", "no weight", "one weight > 0 at least");
+    }
+    let moves = &generate.moves;
+    found.require(!moves.speeds.is_empty(), "generate.moves.speeds", "[]", "one name at least, such as v1000");
+    for (index, name) in moves.speeds.iter().enumerate() {
+        let known = Speed::predefined(name).is_some();
+        let bound = "one of the predefined speeds v5 … v7000, vmax";
+        found.require(known, &format!("generate.moves.speeds[{index}]"), format!("\"{name}\""), bound);
+    }
+    found.require(!moves.zones.is_empty(), "generate.moves.zones", "[]", "one name at least, such as fine");
+    for (index, name) in moves.zones.iter().enumerate() {
+        let known = Zone::predefined(name).is_some();
+        let bound = "one of the predefined zones fine, z0 … z200";
+        found.require(known, &format!("generate.moves.zones[{index}]"), format!("\"{name}\""), bound);
+    }
+    found.from("generate.moves.clearance_mm", moves.clearance_mm, 0.0, 1e4, " mm");
+    found.from("generate.moves.singularity_margin_deg", moves.singularity_margin_deg, 0.0, 45.0, "°");
+    let search = &generate.search;
+    found.count("generate.search.programs", search.programs, 1, 1_000);
+    let once = "1: paths that come back to a point are not searched for";
+    found.require(search.visits == 1, "generate.search.visits", search.visits, once);
+    if let Some(limit) = search.time_limit_s {
+        found.above("generate.search.time_limit_s", limit, 0.0, 1e6, " s");
+    }
+    if let Some(least) = search.min_cost {
+        found.from("generate.search.min_cost", least, 0.0, 1e15, "");
+    }
+    for (key, row) in [("start", search.start), ("end", search.end)] {
+        if let Some(row) = row {
+            let bound = format!("a row of the cloud, 0 … {}", points.saturating_sub(1));
+            found.require(row < points, &format!("generate.search.{key}"), row, &bound);
+        }
+    }
+}
+
+fn check_execute(execute: &ArmExecute, found: &mut Findings) {
+    let given = format!("\"{}\"", execute.logs.as_deref().unwrap_or_default());
+    let bound = "left out: this version judges runs of the virtual controller only";
+    found.require(execute.logs.is_none(), "execute.logs", given, bound);
+    found.count("execute.repeat", execute.repeat, 1, 100_000);
+    found.from("execute.servo_lag_s", execute.servo_lag_s, 0.0, 10.0, " s");
+    found.from("execute.noise_mm", execute.noise_mm, 0.0, 100.0, " mm");
+    let faults = &execute.faults;
+    if let Some(axis) = faults.axis {
+        found.count("execute.faults.axis", axis, 1, 6);
+    }
+    let of_axis = faults.backlash_deg != 0.0 || faults.slower != 0.0;
+    found.require(
+        !of_axis || faults.axis.is_some(),
+        "execute.faults.axis",
+        "not given",
+        "the axis that is at fault, 1 … 6",
+    );
+    found.from("execute.faults.backlash_deg", faults.backlash_deg, 0.0, 90.0, "°");
+    found.from("execute.faults.slower", faults.slower, 0.0, 0.99, "");
+    for (axis, offset) in faults.tool_offset_mm.iter().enumerate() {
+        found.from(&format!("execute.faults.tool_offset_mm[{axis}]"), *offset, -1e4, 1e4, " mm");
+    }
+    found.from("execute.faults.start_delay_s", faults.start_delay_s, 0.0, 3600.0, " s");
+}
+
+fn check_spec(spec: &ArmSpec, found: &mut Findings) {
+    if let Some(path) = &spec.path {
+        found.above("spec.path.max_mm", path.max_mm, 0.0, 1e6, " mm");
+    }
+    if let Some(arrival) = &spec.arrival {
+        found.above("spec.arrival.max_late_ms", arrival.max_late_ms, 0.0, 1e9, " ms");
+    }
+    if let Some(regression) = &spec.regression {
+        let bound = "left out: this version does not judge against a baseline";
+        found.require(false, "spec.regression", format!("\"{}\"", regression.baseline), bound);
+    }
+    if let Some(share) = spec.violation_share {
+        found.require((0.0..1.0).contains(&share), "spec.violation_share", share, "≥ 0 and < 1");
+    }
+    if let Some(confidence) = spec.confidence {
+        let fine = (0.5..1.0).contains(&confidence);
+        found.require(fine, "spec.confidence", confidence, "≥ 0.5 and < 1, such as 0.95");
+    }
+}

@@ -1,0 +1,83 @@
+//! `[execute]`: who runs the programs, and how often.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `[execute]`: our virtual controller, or logs of a real one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ArmExecute {
+    /// virtual.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub controller: Option<ArmControllerKind>,
+    /// CSV logs of a real controller, `*` for the part that tells cases and runs apart: `nightly/*.csv`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub logs: Option<String>,
+    /// Runs per program; the noise band comes from the repeats.
+    pub repeat: u64,
+    /// trapezoid | s-curve.
+    pub profile: TimeLawName,
+    /// Time constant of the axes' servo lag.
+    pub servo_lag_s: f64,
+    /// Jitter of the virtual controller: standard deviation of measured positions.
+    pub noise_mm: f64,
+    /// What is wrong with the virtual arm.
+    #[serde(skip_serializing_if = "FaultSection::is_none")]
+    pub faults: FaultSection,
+}
+
+impl Default for ArmExecute {
+    fn default() -> Self {
+        Self {
+            controller: None,
+            logs: None,
+            repeat: 1,
+            profile: TimeLawName::SCurve,
+            servo_lag_s: 0.005,
+            noise_mm: 0.01,
+            faults: FaultSection::default(),
+        }
+    }
+}
+
+/// Controllers of ours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ArmControllerKind {
+    /// The virtual one.
+    Virtual,
+}
+
+/// Speed profiles of moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TimeLawName {
+    /// Constant acceleration.
+    Trapezoid,
+    /// Bounded jerk.
+    SCurve,
+}
+
+/// `faults = { … }`: none unless given.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct FaultSection {
+    /// Axis, from 1, that has backlash or is slow.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<u64>,
+    /// Backlash of that axis.
+    pub backlash_deg: f64,
+    /// Share of its speed that the axis lacks, 0 to 1.
+    pub slower: f64,
+    /// By how much the real tool's point is off the declared one.
+    pub tool_offset_mm: [f64; 3],
+    /// By how much the program starts late.
+    pub start_delay_s: f64,
+}
+
+impl FaultSection {
+    /// Whether nothing is wrong.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+}
