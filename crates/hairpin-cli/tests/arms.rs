@@ -148,3 +148,37 @@ fn what_is_not_there_is_refused_by_name() {
         assert!(code(&refused) == 2 && told.contains(wanted), "{set}: {told}");
     }
 }
+
+#[test]
+fn an_arm_may_come_as_urdf() {
+    let place = TempDir::new().unwrap();
+    let joints = [
+        ("0 0 0.29", "0 0 1"),
+        ("0 0 0", "0 1 0"),
+        ("0 0 0.27", "0 1 0"),
+        ("0 0 0.07", "1 0 0"),
+        ("0.302 0 0", "0 1 0"),
+        ("0 0 0", "1 0 0"),
+    ];
+    let mut urdf = String::from("<robot name=\"own\">\n<link name=\"l0\"/>\n");
+    for (i, (origin, axis)) in joints.iter().enumerate() {
+        urdf += &format!(
+            "<link name=\"l{0}\"/><joint name=\"j{0}\" type=\"revolute\"><parent link=\"l{i}\"/><child link=\"l{0}\"/>\
+             <origin xyz=\"{origin}\"/><axis xyz=\"{axis}\"/><limit lower=\"-2.5\" upper=\"2.5\" velocity=\"3\" effort=\"1\"/></joint>\n",
+            i + 1
+        );
+    }
+    fs::write(place.path().join("own.urdf"), urdf + "</robot>\n").unwrap();
+    fs::write(place.path().join("p.csv"), "x_mm,y_mm,z_mm\n300,100,400\n350,-100,300\n300,50,350\n").unwrap();
+    let found = hairpin(place.path(), &["max-load", "--cloud", "p.csv", "own.urdf", "--json"]);
+    assert_eq!(
+        code(&found),
+        0,
+        "{} {}",
+        String::from_utf8_lossy(&found.stdout),
+        String::from_utf8_lossy(&found.stderr)
+    );
+    fs::write(place.path().join("bad.urdf"), "<robot name=\"own\"/>").unwrap();
+    let refused = hairpin(place.path(), &["max-load", "--cloud", "p.csv", "bad.urdf", "--json"]);
+    assert_eq!(code(&refused), 2, "{}", String::from_utf8_lossy(&refused.stdout));
+}

@@ -302,7 +302,13 @@ fn setup(data: &ReportData) -> String {
             number(Some(data.drawing.radius))
         )
     };
-    let robot = format!("<figure>{}<figcaption>{caption}</figcaption></figure>", svg::robot(&data.drawing));
+    // Of an arm the 3D view shows all there is.
+    let drawn = !data.drawing.rotors.is_empty() || !data.drawing.wheels.is_empty() || data.drawing.relief.is_some();
+    let robot = if drawn {
+        format!("<figure>{}<figcaption>{caption}</figcaption></figure>", svg::robot(&data.drawing))
+    } else {
+        String::new()
+    };
     format!(
         "<section class=\"panel\" id=\"setup\"><h2>How it was tested</h2><div class=\"columns\"><dl>{facts}</dl>{robot}</div></section>\n{assumptions}"
     )

@@ -93,9 +93,14 @@ pub fn arm_scenario_for(cell: &str, points: &Path, sets: &[(String, String)]) ->
         return scenario_for(cell, &sets);
     }
     let shipped = library::robots().find(|robot| robot.name == cell).and_then(|robot| robot.text.parse::<Table>().ok());
-    let robot = text(cell).or(shipped).ok_or_else(|| unknown(cell))?;
+    let urdf =
+        Path::new(cell).is_file() && [".urdf", ".xml"].iter().any(|ending| cell.to_ascii_lowercase().ends_with(ending));
+    let robot = text(cell).or(shipped).unwrap_or_default();
+    if robot.is_empty() && !urdf {
+        return Err(unknown(cell));
+    }
     let kind = robot.get("kind").and_then(|kind| kind.as_str());
-    if RobotKind::of_word(kind) != RobotKind::Arm {
+    if RobotKind::of_word(kind) != RobotKind::Arm && !urdf {
         let mut report = Report::default();
         let message = format!("`{cell}` is no arm: its kind is {}", kind.unwrap_or("not given"));
         report.complain_of_file(cell, &message);

@@ -9,6 +9,7 @@ use super::shape::nearest;
 use super::tree::{self, Kind, Node};
 use crate::library::{self, Shipped};
 use crate::mesh::read_mesh;
+use crate::urdf::read_urdf;
 
 /// A robot or world file is a page of numbers; a mesh file of 100 MB has two million triangles.
 const LARGEST_FILE: u64 = 100_000_000;
@@ -78,7 +79,8 @@ impl Resolver<'_> {
             return tree::parse(source, self.report);
         }
         let path = self.base.join(name);
-        let is_path = name.contains(['/', '\\']) || name.ends_with(".toml") || path.is_file();
+        let urdf = key == "robot" && [".urdf", ".xml"].iter().any(|ending| name.to_ascii_lowercase().ends_with(ending));
+        let is_path = name.contains(['/', '\\']) || name.ends_with(".toml") || urdf || path.is_file();
         if !is_path {
             let names: Vec<&str> = shipped.iter().map(|shipped| shipped.name).collect();
             let hint = nearest(name, names.iter().copied());
@@ -90,6 +92,7 @@ impl Resolver<'_> {
         }
         let text =
             read_file(&path).and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no UTF-8 text".into()));
+        let text = if urdf { text.and_then(|text| as_robot_file(&text)) } else { text };
         match text {
             Ok(text) => {
                 let source = self.report.add_source(path.display().to_string(), text);
@@ -102,6 +105,12 @@ impl Resolver<'_> {
             }
         }
     }
+}
+
+/// The robot file of an arm that URDF describes.
+fn as_robot_file(urdf: &str) -> Result<String, String> {
+    let description = read_urdf(urdf).map_err(|error| error.to_string())?;
+    toml::to_string(&description).map_err(|error| error.to_string())
 }
 
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, String> {

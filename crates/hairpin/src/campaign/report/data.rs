@@ -170,7 +170,10 @@ pub fn shown(
         result: result.clone(),
         waypoints: case.waypoints.clone(),
         claim: case.claim(),
-        attitude: flown.as_ref().zip(result.measures.as_ref()).map(|(track, measures)| worst_attitude(track, measures)),
+        // A tool has no nose and no left side.
+        attitude: (flown.as_ref().zip(result.measures.as_ref()))
+            .filter(|_| setup.arm().is_none())
+            .map(|(track, measures)| worst_attitude(track, measures)),
         score: case.score,
         planned,
         flown,

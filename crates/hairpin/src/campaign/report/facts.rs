@@ -60,19 +60,23 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
         Kind::Arm(setup) => (cell(&setup), arm_task(&setup)),
     };
     let search = scenario.search();
-    let search = format!(
-        "{}, width {}, {} waypoints per graph, score {}",
-        word(&search.method),
-        search.width,
-        search.waypoints,
-        scenario.score()
-    );
+    let search = if setup.arm().is_some() {
+        format!("heaviest path through {} points, cost {}", search.waypoints, scenario.score())
+    } else {
+        format!(
+            "{}, width {}, {} waypoints per graph, score {}",
+            word(&search.method),
+            search.width,
+            search.waypoints,
+            scenario.score()
+        )
+    };
     let fact = |label: &str, value: String| [label.to_owned(), value];
     vec![
         fact("robot", format!("{}{caveat}", setup.robot_name())),
         fact("world", world),
         fact("task", task),
-        fact("reach set", scenario.reach().into()),
+        fact(if setup.arm().is_some() { "proven clear" } else { "reach set" }, scenario.reach().into()),
         fact("search", search),
         fact("executor", executor),
         fact("runs", format!("{} per case, the worst counts", scenario.executor().repeat)),
@@ -156,6 +160,7 @@ pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {
         metric("total time", "s", limits.total_time, |m| Some(m.total_time)),
         metric("clearance", "m", limits.clearance, |m| m.min_clearance),
         metric("tip-over margin", "°", limits.tip_over_margin, |m| m.min_tip_over_margin),
+        metric("latest arrival", "ms", limits.late.map(|late| 1e3 * late), |m| m.latest.map(|late| 1e3 * late.by)),
         metric("saturation", "%", None, |m| m.saturation_share.map(|share| 100.0 * share)),
     ];
     all.into_iter().filter(|metric| !metric.values.is_empty()).collect()
