@@ -4,6 +4,7 @@ mod arm;
 mod cell;
 mod report;
 mod resolve;
+mod robot;
 mod rover;
 mod set;
 mod shape;
@@ -23,7 +24,7 @@ pub use rover::rover_for;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
 use crate::{library, schema};
-use resolve::Resolver;
+use resolve::{Resolver, is_urdf};
 use tree::{Kind, Node};
 
 /// Reads, resolves and checks a scenario.
@@ -93,8 +94,7 @@ pub fn arm_scenario_for(cell: &str, points: &Path, sets: &[(String, String)]) ->
         return scenario_for(cell, &sets);
     }
     let shipped = library::robots().find(|robot| robot.name == cell).and_then(|robot| robot.text.parse::<Table>().ok());
-    let urdf =
-        Path::new(cell).is_file() && [".urdf", ".xml"].iter().any(|ending| cell.to_ascii_lowercase().ends_with(ending));
+    let urdf = Path::new(cell).is_file() && is_urdf(cell);
     let robot = text(cell).or(shipped).unwrap_or_default();
     if robot.is_empty() && !urdf {
         return Err(unknown(cell));

@@ -79,7 +79,7 @@ impl Resolver<'_> {
             return tree::parse(source, self.report);
         }
         let path = self.base.join(name);
-        let urdf = key == "robot" && [".urdf", ".xml"].iter().any(|ending| name.to_ascii_lowercase().ends_with(ending));
+        let urdf = key == "robot" && is_urdf(name);
         let is_path = name.contains(['/', '\\']) || name.ends_with(".toml") || urdf || path.is_file();
         if !is_path {
             let names: Vec<&str> = shipped.iter().map(|shipped| shipped.name).collect();
@@ -105,6 +105,12 @@ impl Resolver<'_> {
             }
         }
     }
+}
+
+/// Whether a file's name is one of URDF.
+pub(super) fn is_urdf(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    name.ends_with(".urdf") || name.ends_with(".xml")
 }
 
 /// The robot file of an arm that URDF describes.

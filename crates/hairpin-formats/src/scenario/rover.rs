@@ -1,13 +1,10 @@
 //! Rover files by name or path, with their mistakes told as those of scenarios.
 
-use std::path::Path;
-
+use hairpin::campaign::Mistake;
 use hairpin::robot::rover::{Rover, RoverDescription};
 
-use super::report::{Place, Report};
-use super::resolve::Resolver;
-use super::tree::{Kind, Node};
-use super::{place_of, shape};
+use super::report::Report;
+use super::robot::robot_for;
 use crate::library;
 
 /// The rover that `name_or_path` means: a shipped robot's name, or a robot file.
@@ -15,52 +12,9 @@ use crate::library;
 /// # Errors
 /// Nothing of that name, no TOML, another kind of robot, wrong keys and types, values out of bounds.
 pub fn rover_for(name_or_path: &str) -> Result<Rover, Report> {
-    let mut report = Report::default();
-    match read(name_or_path, &mut report) {
-        Some(rover) if report.is_empty() => Ok(rover),
-        _ => Err(report),
-    }
-}
-
-fn read(name_or_path: &str, report: &mut Report) -> Option<Rover> {
-    if !Path::new(name_or_path).is_file() && library::robots().all(|robot| robot.name != name_or_path) {
-        let known: Vec<&str> = library::rovers().map(|robot| robot.name).collect();
-        let near = shape::nearest(name_or_path, known.iter().copied());
-        let hint = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
-        let message =
-            format!("`{name_or_path}` is no file and no shipped name: {hint}shipped rovers are {}", known.join(", "));
-        report.complain_of_file(name_or_path, &message);
-        return None;
-    }
-    let source = report.add_source(name_or_path, "");
-    let asked = Place { source, span: 0..0 };
-    let root = Resolver { base: Path::new(""), report }.robot_file(name_or_path, &asked)?;
-    if let Some(Node { kind: Kind::Text(kind), place, .. }) = root.get("kind")
-        && kind != "rover"
-    {
-        let message = format!("`kind` = \"{kind}\": this robot is no rover");
-        report.complain(place, "kind", kind, "must be \"rover\"", message);
-        return None;
-    }
-    shape::check(&schemars::schema_for!(RoverDescription).to_value(), &root, "", report);
-    if !report.is_empty() {
-        return None;
-    }
-    let description: RoverDescription = match serde_json::from_value(root.to_value()) {
-        Ok(description) => description,
-        Err(error) => {
-            report.complain(&root.place, "", "", "", format!("this is no rover: {error}"));
-            return None;
-        }
-    };
-    match description.build() {
-        Ok(rover) => Some(rover),
-        Err(error) => {
-            let place = place_of(&root, &error.field);
-            report.complain(&place, &error.field, &error.value, &format!("must be {}", error.bound), error.to_string());
-            None
-        }
-    }
+    robot_for(name_or_path, "rover", library::rovers(), |description: &RoverDescription| {
+        description.build().map_err(|error| Mistake { key: error.field, value: error.value, bound: error.bound })
+    })
 }
 
 #[cfg(test)]

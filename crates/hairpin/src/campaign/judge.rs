@@ -13,7 +13,7 @@ use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, arm, planned, 
 use crate::judgement::{
     self, Claim, Clearance, Judged, JudgementError, Measures, Reference, Settings, Verdict, Violation, Worst,
 };
-use crate::trajectory::{Flight, Track};
+use crate::trajectory::{Flight, PlannedPath, Track};
 
 /// Confidence of intervals where the spec names none.
 const CONFIDENCE: f64 = 0.95;
@@ -35,7 +35,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
     let mut worst: Option<(JudgedRun, &Run)> = None;
     let mut deviations = Vec::with_capacity(runs.len());
     let (mut failed, mut unflown) = (None, None);
-    let path = OnceCell::new();
+    let plan = Planned::default();
     for run in runs {
         let flight = match &run.outcome {
             Ok(flight) => flight,
@@ -44,7 +44,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
                 continue;
             }
         };
-        match judge_run(setup, case, &path, run, flight)? {
+        match judge_run(setup, case, &plan, run, flight)? {
             Ok(judged) => {
                 deviations.push(RunDeviation {
                     case: case.number,
@@ -119,11 +119,20 @@ impl PartialOrd for TotalOrder {
     }
 }
 
-/// Measures one run in the world that was drawn for it; `path` keeps the case's planned motion once a run asked for it.
+/// A case's planned motion, once a run asked for it.
+#[derive(Default)]
+struct Planned {
+    /// What deviations are measured from.
+    reference: OnceCell<Option<Track>>,
+    /// Of arms: the path with its zones and where its moves end.
+    programmed: OnceCell<Option<PlannedPath>>,
+}
+
+/// Measures one run in the world that was drawn for it.
 fn judge_run(
     setup: &Setup,
     case: &Case,
-    path: &OnceCell<Option<Track>>,
+    plan: &Planned,
     run: &Run,
     flight: &Flight,
 ) -> Result<Result<JudgedRun, JudgementError>, Mistake> {
@@ -136,7 +145,7 @@ fn judge_run(
     };
     let terms = Terms::of(&own.scenario);
     let path = match terms.from {
-        DeviationFrom::Path => path.get_or_init(|| reference(setup, case)).as_ref(),
+        DeviationFrom::Path => plan.reference.get_or_init(|| reference(setup, case)).as_ref(),
         DeviationFrom::Leg | DeviationFrom::NearestLeg => None,
     };
     let clearance = clearance_of(own);
@@ -151,7 +160,10 @@ fn judge_run(
     };
     Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|mut measures| {
         let arm = setup.arm();
-        measures.latest = arm.and_then(|arm| arm::latest(&arm.measured(case, &flight.track)?));
+        measures.latest = arm.and_then(|arm| {
+            let programmed = plan.programmed.get_or_init(|| arm.planned(case).ok()).as_ref();
+            arm::latest(programmed?, &flight.track)
+        });
         let mut violations = judgement::violations(&measures, flight, &terms.limits);
         if arm.is_some() {
             violations = violations.into_iter().map(arm::in_small_units).collect();

@@ -106,6 +106,22 @@ impl Track {
         Point3::from(self.poses[index].translation.vector)
     }
 
+    /// The same track with the channels `vx_m_s`, `vy_m_s`, `vz_m_s`: the way from the stamp before to the stamp after by the time between
+    /// them, at both ends to the only neighbour; 0 of a single stamp.
+    pub fn with_velocities(mut self) -> Self {
+        let last = self.len().saturating_sub(1);
+        let mut velocity: [Vec<f64>; 3] = Default::default();
+        for i in 0..self.len() {
+            let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+            let moved = self.position(after) - self.position(before);
+            let rate = if after > before { moved / (self.times[after] - self.times[before]) } else { moved };
+            velocity.iter_mut().zip(rate.iter()).for_each(|(column, rate)| column.push(*rate));
+        }
+        let rates = ["vx_m_s", "vy_m_s", "vz_m_s"].into_iter().zip(velocity);
+        self.channels.extend(rates.map(|(name, values)| Channel { name: name.into(), values }));
+        self
+    }
+
     /// Number of stamps.
     pub fn len(&self) -> usize {
         self.times.len()

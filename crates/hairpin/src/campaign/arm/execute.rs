@@ -68,7 +68,7 @@ pub(in crate::campaign) fn run(
     seed: u64,
 ) -> Result<Flight, SimulationError> {
     let program = program_of(case)?;
-    let orders = nominal.orders(program);
+    let orders = nominal.orders(program)?;
     let plan = Plan::new(&own.station.arm, &nominal.station.home, &orders, &own.plan_settings())?;
     let run = plan.execute(&own.run_settings(), &own.faults(), seed)?;
     let ended = if run.stop.is_some() { Ended::Halted } else { Ended::Done };
@@ -87,23 +87,12 @@ pub(super) fn program_of(case: &Case) -> Result<&Program, SimulationError> {
 
 /// The recording with the leg that is being driven, the velocity, and the joints in degrees.
 fn legs_of(recording: &Track) -> Result<Track, SimulationError> {
-    let last = recording.len().saturating_sub(1);
-    let mut velocity: [Vec<f64>; 3] = Default::default();
-    for i in 0..recording.len() {
-        let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
-        let elapsed = recording.times()[after] - recording.times()[before];
-        let moved = recording.position(after) - recording.position(before);
-        let rate = if elapsed > 0.0 { moved / elapsed } else { Vector3::zeros() };
-        velocity.iter_mut().zip(rate.iter()).for_each(|(column, rate)| column.push(*rate));
-    }
     let renamed = recording.channels().iter().map(|channel| match channel.name.as_str() {
         "move" => Channel { name: "leg".into(), values: channel.values.clone() },
         _ => channel.clone(),
     });
-    let rates = ["vx_m_s", "vy_m_s", "vz_m_s"].into_iter().zip(velocity);
-    let rates = rates.map(|(name, values)| Channel { name: name.into(), values });
-    let channels = renamed.chain(rates).collect();
-    Track::new(recording.times().to_vec(), recording.poses().to_vec(), channels)
+    Track::new(recording.times().to_vec(), recording.poses().to_vec(), renamed.collect())
+        .map(Track::with_velocities)
         .map_err(|error| SimulationError::new("recording", error.to_string(), "a track"))
 }
 

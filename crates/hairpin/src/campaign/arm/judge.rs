@@ -4,7 +4,7 @@ use super::ArmSetup;
 use super::execute::program_of;
 use crate::campaign::Case;
 use crate::campaign::scenario::PathFrom;
-use crate::judgement::moves::{MeasureSettings, Measured, measure_moves};
+use crate::judgement::moves::{MeasureSettings, measure_moves};
 use crate::judgement::{Late, Violation};
 use crate::simulation::arm::Plan;
 use crate::trajectory::{PlannedPath, Track};
@@ -14,22 +14,18 @@ impl ArmSetup<'_> {
     pub(in crate::campaign) fn reference(&self, case: &Case) -> Option<PlannedPath> {
         match self.scenario.spec.path.map(|limit| limit.from) {
             Some(PathFrom::Sharp) => {
-                let orders = self.orders(program_of(case).ok()?);
+                let orders = self.orders(program_of(case).ok()?).ok()?;
                 let plan = Plan::new(&self.station.arm, &self.station.home, &orders, &self.plan_settings()).ok()?;
                 plan.sharp_path().ok()
             }
             Some(PathFrom::Blended) | None => self.planned(case).ok(),
         }
     }
-
-    /// A recording of `case`, measured move by move; `None` where the case cannot be planned or the recording is too short.
-    pub fn measured(&self, case: &Case, recording: &Track) -> Option<Measured> {
-        measure_moves(&self.planned(case).ok()?, recording, &MeasureSettings::default()).ok()
-    }
 }
 
-/// The latest of all arrivals.
-pub(in crate::campaign) fn latest(measured: &Measured) -> Option<Late> {
+/// The latest of all arrivals of `recording` at the points of the programmed path; `None` where it is too short, or arrived nowhere.
+pub(in crate::campaign) fn latest(programmed: &PlannedPath, recording: &Track) -> Option<Late> {
+    let measured = measure_moves(programmed, recording, &MeasureSettings::default()).ok()?;
     let arrivals = measured.moves.iter().enumerate();
     let late = arrivals.filter_map(|(leg, m)| Some(Late { by: m.late()?, at: m.arrived?, leg }));
     late.max_by(|a, b| a.by.total_cmp(&b.by))

@@ -13,7 +13,7 @@ impl ArmSetup<'_> {
     /// # Errors
     /// A program that cannot be planned.
     pub(in crate::campaign) fn planned(&self, case: &Case) -> Result<PlannedPath, SimulationError> {
-        let orders = self.orders(program_of(case)?);
+        let orders = self.orders(program_of(case)?)?;
         let plan = Plan::new(&self.station.arm, &self.station.home, &orders, &self.plan_settings())?;
         match plan.stop() {
             Some(stop) => Err(SimulationError::new(
@@ -33,18 +33,7 @@ impl ArmSetup<'_> {
 pub(in crate::campaign) fn track(setup: &ArmSetup, case: &Case) -> Result<Track, PlanError> {
     let planned = setup.planned(case)?;
     let path = planned.track();
-    let last = path.len().saturating_sub(1);
-    let mut velocity: [Vec<f64>; 3] = Default::default();
-    for i in 0..path.len() {
-        let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
-        let elapsed = path.times()[after] - path.times()[before];
-        let rate = (path.position(after) - path.position(before)) / elapsed.max(f64::MIN_POSITIVE);
-        velocity.iter_mut().zip(rate.iter()).for_each(|(column, rate)| column.push(*rate));
-    }
     let leg = |i: usize| planned.moves().partition_point(|m| m.end < i).min(planned.moves().len().saturating_sub(1));
     let legs = Channel { name: "leg".into(), values: (0..path.len()).map(|i| leg(i) as f64).collect() };
-    let rates = ["vx_m_s", "vy_m_s", "vz_m_s"].into_iter().zip(velocity);
-    let rates = rates.map(|(name, values)| Channel { name: name.into(), values });
-    let channels = std::iter::once(legs).chain(rates).collect();
-    Ok(Track::new(path.times().to_vec(), path.poses().to_vec(), channels)?)
+    Ok(Track::new(path.times().to_vec(), path.poses().to_vec(), vec![legs])?.with_velocities())
 }

@@ -4,7 +4,8 @@ use super::ArmSetup;
 use crate::campaign::scenario::MoveName;
 use crate::math::random::{named_seed, stream, unit};
 use crate::robot::arm::Configuration;
-use crate::simulation::arm as controller;
+use crate::simulation::SimulationError;
+use crate::simulation::arm::Order;
 use crate::trajectory::program::{
     JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
 };
@@ -84,15 +85,11 @@ impl ArmSetup<'_> {
     }
 
     /// What the virtual controller is told of `program`: its moves after the first, which starts at home, in base coordinates.
-    pub(super) fn orders(&self, program: &Program) -> Vec<controller::Order> {
-        let name = |m: &Move| m.motion.name().unwrap_or("?").to_owned();
-        let pairs = program.moves.windows(2);
-        pairs
-            .map(|pair| controller::Order {
-                name: format!("{}→{}", name(&pair[0]), name(&pair[1])),
-                ..order(program, &pair[1])
-            })
-            .collect()
+    ///
+    /// # Errors
+    /// As [`Order::all_of`].
+    pub(super) fn orders(&self, program: &Program) -> Result<Vec<Order>, SimulationError> {
+        Ok(Order::all_of(program)?.split_off(program.moves.len().min(1)))
     }
 }
 
@@ -105,29 +102,4 @@ fn slow() -> Speed {
         linear_external: 0.0,
         rotating_external: 0.0,
     })
-}
-
-fn order(program: &Program, m: &Move) -> controller::Order {
-    let base_from_object = program.work_objects[m.work_object].base_from_object();
-    let place = |target: &PoseTarget| base_from_object * target.pose;
-    let configuration = |target: &PoseTarget| {
-        let [cf1, cf4, cf6, cfx] = target.configuration.filter(|_| m.configuration_demanded)?;
-        Some(Configuration { cf1, cf4, cf6, cfx: u8::try_from(cfx).ok()? })
-    };
-    let target = match &m.motion {
-        Motion::AbsoluteJoint(to) => controller::Target::Joints(to.joints),
-        Motion::Joint(to) => controller::Target::Joint(place(to), configuration(to)),
-        Motion::Linear(to) => controller::Target::Line(place(to), configuration(to)),
-        Motion::Circular { via, to } => {
-            controller::Target::Arc(place(via).translation.vector.into(), place(to), configuration(to))
-        }
-    };
-    controller::Order {
-        name: String::new(),
-        target,
-        speed: controller::Speed { tcp: m.speed.tcp, turn: m.speed.orientation },
-        duration: m.duration,
-        zone: if m.zone.fine { controller::Zone::Fine } else { controller::Zone::Radius(m.zone.tcp) },
-        tool: program.tools[m.tool].tcp,
-    }
 }

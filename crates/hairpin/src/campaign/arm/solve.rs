@@ -119,12 +119,13 @@ impl ArmSetup<'_> {
         let home = station.tool_at(&station.home);
         let places = rows.iter().map(|row| station.points[*row].pose);
         let poses = std::iter::once(home).chain(places).chain(std::iter::once(home));
-        let orders = self.orders(&program);
-        let planned = controller::Plan::new(&station.arm, &station.home, &orders, &self.plan_settings());
-        let leg_times = planned.map_or_else(|_| Vec::new(), |plan| times(plan.passed(), orders.len()));
+        let leg_times = self.orders(&program).and_then(|orders| {
+            let plan = controller::Plan::new(&station.arm, &station.home, &orders, &self.plan_settings())?;
+            Ok(times(plan.passed(), orders.len()))
+        });
         Plan {
             waypoints: poses.map(|pose| pose.translation.vector.into()).collect(),
-            leg_times,
+            leg_times: leg_times.unwrap_or_default(),
             score: cost as f64 * graph.unit,
             // The bound of the heaviest holds for all that come after it.
             bound: found.bound.map(|bound| bound as f64 * graph.unit).filter(|_| number == 0),

@@ -23,7 +23,7 @@ pub(in crate::campaign) fn verify(setup: &ArmSetup, case: &Case) -> Option<Proof
     let mut proof = Proof::default();
     let refuse = |what: String| Finding { field: what, value: f64::NAN, bound: 0.0, unit: "", leg: 0, at: 0.0 };
     let followed = program_of(case).and_then(|program| {
-        let orders = setup.orders(program);
+        let orders = setup.orders(program)?;
         let plan = Plan::new(&setup.station.arm, &setup.station.home, &orders, &setup.plan_settings())?;
         let stop = plan.stop().map(|stop| (stop.order, stop.reason.to_string()));
         let settings = RunSettings { sample: SAMPLE, interpolation: SAMPLE, lag: 0.0, ..RunSettings::default() };

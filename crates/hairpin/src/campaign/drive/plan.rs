@@ -6,7 +6,7 @@ use super::DriveSetup;
 use crate::campaign::{Case, PlanError, Timed};
 use crate::simulation::ground::planned_track;
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment};
-use crate::trajectory::{Channel, Drive, DriveLeg, Track};
+use crate::trajectory::{Drive, DriveLeg, Track};
 
 /// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. A case without a drive is drawn along its straight
 /// legs, turning in place at each waypoint.
@@ -15,19 +15,7 @@ use crate::trajectory::{Channel, Drive, DriveLeg, Track};
 /// A drive that the ground does not carry, as a folder that was edited may hold.
 pub(in crate::campaign) fn track(setup: &DriveSetup, case: &Case) -> Result<Track, PlanError> {
     let drive = drive_of(setup, case);
-    let path = planned_track(setup.planner, setup.map, &drive)?;
-    let mut velocity: [Vec<f64>; 3] = Default::default();
-    let last = path.len() - 1;
-    for i in 0..=last {
-        let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
-        let elapsed = path.times()[after] - path.times()[before];
-        let rate = (path.position(after) - path.position(before)) / elapsed;
-        velocity.iter_mut().zip(rate.iter()).for_each(|(column, rate)| column.push(*rate));
-    }
-    let names = ["vx_m_s", "vy_m_s", "vz_m_s"];
-    let rates = names.into_iter().zip(velocity).map(|(name, values)| Channel { name: name.into(), values });
-    let channels = path.channels().iter().cloned().chain(rates).collect();
-    Ok(Track::new(path.times().to_vec(), path.poses().to_vec(), channels)?)
+    Ok(planned_track(setup.planner, setup.map, &drive)?.with_velocities())
 }
 
 /// The commands of `case`, or the straight way where it has none.

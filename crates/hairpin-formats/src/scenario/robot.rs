@@ -1,0 +1,78 @@
+//! Robots of one kind by name or path, outside scenarios.
+
+use std::path::Path;
+
+use hairpin::campaign::Mistake;
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+
+use super::report::{Place, Report};
+use super::resolve::Resolver;
+use super::tree::{Kind, Node};
+use super::{place_of, shape};
+use crate::library::{self, Shipped};
+
+/// The robot of `kind` that `name_or_path` means, built from its description; `shipped` are those that are told of.
+///
+/// # Errors
+/// Nothing of that name, no robot's file, another kind of robot, wrong keys and types, values out of bounds.
+pub(super) fn robot_for<D: DeserializeOwned + JsonSchema, R>(
+    name_or_path: &str,
+    kind: &str,
+    shipped: impl Iterator<Item = Shipped>,
+    build: impl Fn(&D) -> Result<R, Mistake>,
+) -> Result<R, Report> {
+    let mut report = Report::default();
+    match read(name_or_path, kind, shipped, build, &mut report) {
+        Some(robot) if report.is_empty() => Ok(robot),
+        _ => Err(report),
+    }
+}
+
+fn read<D: DeserializeOwned + JsonSchema, R>(
+    name_or_path: &str,
+    kind: &str,
+    shipped: impl Iterator<Item = Shipped>,
+    build: impl Fn(&D) -> Result<R, Mistake>,
+    report: &mut Report,
+) -> Option<R> {
+    if !Path::new(name_or_path).is_file() && library::robots().all(|robot| robot.name != name_or_path) {
+        let known: Vec<&str> = shipped.map(|robot| robot.name).collect();
+        let near = shape::nearest(name_or_path, known.iter().copied());
+        let hint = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+        let known = known.join(", ");
+        let message = format!("`{name_or_path}` is no file and no shipped name: {hint}shipped {kind}s are {known}");
+        report.complain_of_file(name_or_path, &message);
+        return None;
+    }
+    let source = report.add_source(name_or_path, "");
+    let asked = Place { source, span: 0..0 };
+    let root = Resolver { base: Path::new(""), report }.robot_file(name_or_path, &asked)?;
+    if let Some(Node { kind: Kind::Text(found), place, .. }) = root.get("kind")
+        && found != kind
+    {
+        let message = format!("`kind` = \"{found}\": this robot is no {kind}");
+        report.complain(place, "kind", found, &format!("must be \"{kind}\""), message);
+        return None;
+    }
+    shape::check(&schemars::schema_for!(D).to_value(), &root, "", report);
+    if !report.is_empty() {
+        return None;
+    }
+    let description: D = match serde_json::from_value(root.to_value()) {
+        Ok(description) => description,
+        Err(error) => {
+            report.complain(&root.place, "", "", "", format!("this is no {kind}: {error}"));
+            return None;
+        }
+    };
+    match build(&description) {
+        Ok(robot) => Some(robot),
+        Err(mistake) => {
+            let place = place_of(&root, &mistake.key);
+            let bound = format!("must be {}", mistake.bound);
+            report.complain(&place, &mistake.key, &mistake.value, &bound, mistake.to_string());
+            None
+        }
+    }
+}
