@@ -1,5 +1,6 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
+mod experiment;
 mod import;
 mod max_load;
 mod numbers;
@@ -11,6 +12,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+pub(crate) use experiment::{Experiment, ExperimentName};
 pub(crate) use import::Import;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use requirements::Requirements;
@@ -68,6 +70,8 @@ pub(crate) enum Command {
     StartTable(StartTable),
     /// Measure what hairpin promises of its speed, on one core
     Bench(Bench),
+    /// Run an experiment of the papers, or one that they left open: table as CSV, figure as SVG
+    Experiment(Experiment),
     /// Check the requirements of a generator one by one: requirements rover
     Requirements(Requirements),
     /// Tell what a file holds: show terrain FILE
@@ -93,6 +97,7 @@ impl Command {
             Self::Steer(a) => a.json,
             Self::MaxLoad(a) => a.json,
             Self::StartTable(a) => a.json,
+            Self::Experiment(a) => a.json,
             Self::Requirements(a) => a.json,
             Self::Show(Show { what: Shown::Terrain(a) }) => a.json,
             Self::New(a) => a.json,

@@ -79,6 +79,7 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
         Command::MaxLoad(asked) => commands::max_load::run(&asked),
         Command::StartTable(table) => commands::steer::make_table(&table),
         Command::Bench(bench) => commands::bench::run(&bench),
+        Command::Experiment(experiment) => commands::experiment::run(&experiment),
         Command::Requirements(requirements) => commands::requirements::run(&requirements),
         Command::Show(show) => commands::show::run(&show),
         Command::Schema(schema) => commands::schema::run(&schema),

@@ -9,6 +9,8 @@ pub mod costs;
 pub mod csv;
 pub mod decimal;
 pub mod executor;
+pub mod experiment;
+pub mod figure;
 pub mod folder;
 pub mod frames;
 pub mod geodetic;

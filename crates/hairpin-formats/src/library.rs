@@ -1,11 +1,11 @@
-//! The shipped robots, worlds and scenarios, embedded in the binary and found by name.
+//! The shipped robots, worlds, scenarios and sheets of experiments, embedded in the binary and found by name.
 
 /// A shipped file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shipped {
     /// Name without folder and ending: `anafi`.
     pub name: &'static str,
-    /// Path below `data`: `robots/quadrotor/anafi.toml`.
+    /// Path below `data`: `robots/quadrotor/anafi.toml`; of a sheet below the root.
     pub path: &'static str,
     /// What it says.
     pub text: &'static str,
@@ -61,6 +61,11 @@ pub fn worlds() -> impl Iterator<Item = Shipped> {
 /// All shipped scenarios, sorted by path.
 pub fn scenarios() -> impl Iterator<Item = Shipped> {
     of_kind("scenarios")
+}
+
+/// The sheets of all experiments, sorted by path.
+pub fn experiments() -> impl Iterator<Item = Shipped> {
+    of_kind("experiments")
 }
 
 fn of_kind(wanted: &'static str) -> impl Iterator<Item = Shipped> {

@@ -4,6 +4,7 @@ pub(crate) mod bench;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod execute;
+pub(crate) mod experiment;
 pub(crate) mod export;
 pub(crate) mod generate;
 pub(crate) mod import;

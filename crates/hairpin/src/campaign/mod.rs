@@ -5,6 +5,7 @@ pub mod assumptions;
 pub mod case;
 pub mod drive;
 pub mod execute;
+pub mod experiment;
 pub mod flight;
 pub mod generate;
 pub mod goals;

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 /// What is told, for the table.
-pub(super) const NAME: &str = if cfg!(target_os = "linux") { "processor time" } else { "wall-clock time" };
+pub(in crate::commands) const NAME: &str = if cfg!(target_os = "linux") { "processor time" } else { "wall-clock time" };
 
 /// Seconds on a processor since the thread began; where the system does not tell, since `origin`.
 fn now(origin: Instant) -> f64 {
@@ -17,7 +17,7 @@ fn now(origin: Instant) -> f64 {
 const SHORTEST_RUN: f64 = 0.1;
 
 /// Median over `times` runs of `work` of its time, s.
-pub(super) fn median_time<T>(times: usize, mut work: impl FnMut() -> T) -> f64 {
+pub(in crate::commands) fn median_time<T>(times: usize, mut work: impl FnMut() -> T) -> f64 {
     1.0 / median_rate(times, || {
         black_box(work());
         1
@@ -25,7 +25,7 @@ pub(super) fn median_time<T>(times: usize, mut work: impl FnMut() -> T) -> f64 {
 }
 
 /// Median over `times` runs of `work`, which returns how many items it made, of items per second.
-pub(super) fn median_rate(times: usize, mut work: impl FnMut() -> u64) -> f64 {
+pub(in crate::commands) fn median_rate(times: usize, mut work: impl FnMut() -> u64) -> f64 {
     let origin = Instant::now();
     median((0..times).map(|_| {
         let (begun, mut items) = (now(origin), 0);
@@ -40,25 +40,30 @@ pub(super) fn median_rate(times: usize, mut work: impl FnMut() -> u64) -> f64 {
 }
 
 /// Time on a processor since it was made.
-pub(super) struct Stopwatch {
+pub(in crate::commands) struct Stopwatch {
     origin: Instant,
     begun: f64,
 }
 
 impl Stopwatch {
-    pub(super) fn start() -> Self {
+    pub(in crate::commands) fn start() -> Self {
         let origin = Instant::now();
         Self { origin, begun: now(origin) }
     }
 
+    /// Seconds that are spent.
+    pub(in crate::commands) fn spent(&self) -> f64 {
+        now(self.origin) - self.begun
+    }
+
     /// Whether more than `limit` seconds are spent. Asking often is cheap until so much has passed on the wall.
-    pub(super) fn passed(&self, limit: f64) -> bool {
+    pub(in crate::commands) fn passed(&self, limit: f64) -> bool {
         self.origin.elapsed().as_secs_f64() > limit && now(self.origin) - self.begun > limit
     }
 }
 
 /// Runs on this thread alone, so that its clock sees all of it.
-pub(super) fn alone<T: Send>(run: impl FnOnce() -> T + Send) -> T {
+pub(in crate::commands) fn alone<T: Send>(run: impl FnOnce() -> T + Send) -> T {
     match rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build() {
         Ok(pool) => pool.install(run),
         // The thread is in a pool already, that of an earlier bench.
@@ -67,7 +72,7 @@ pub(super) fn alone<T: Send>(run: impl FnOnce() -> T + Send) -> T {
 }
 
 /// The middle value, the upper one of two.
-pub(super) fn median(values: impl Iterator<Item = f64>) -> f64 {
+pub(in crate::commands) fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]

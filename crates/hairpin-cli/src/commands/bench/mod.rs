@@ -2,7 +2,7 @@
 
 mod arm;
 mod arm_controller;
-mod clock;
+pub(super) mod clock;
 mod exact;
 pub(super) mod ground;
 mod max_load;

@@ -48,8 +48,14 @@ impl Workspace {
         Arcs::new(n, &costs)
     }
 
-    fn centre(&self) -> Point3<f64> {
+    /// Where ball and core have their centre, m.
+    pub fn centre(&self) -> Point3<f64> {
         Point3::new(0.0, 0.0, self.height)
+    }
+
+    /// Radii of the ball and of the core, m.
+    pub fn radii(&self) -> [f64; 2] {
+        [self.reach, self.core]
     }
 
     fn in_the_cube(&self, random: &mut Stream) -> Point3<f64> {
@@ -57,7 +63,8 @@ impl Workspace {
         Point3::new(x, y, z + self.height)
     }
 
-    fn contains(&self, point: &Point3<f64>) -> bool {
+    /// Whether the point is in the ball, above the floor, and outside the core.
+    pub fn contains(&self, point: &Point3<f64>) -> bool {
         let distance = (point - self.centre()).norm();
         distance <= self.reach && distance > self.core && point.z >= 0.0
     }

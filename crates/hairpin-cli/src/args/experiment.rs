@@ -1,0 +1,33 @@
+//! What can be typed after `hairpin experiment`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+/// Each prints its table beside what the paper printed, and writes tables as CSV and figures as SVG. EXPERIMENTS.md shows them.
+#[derive(Debug, Args)]
+pub(crate) struct Experiment {
+    /// Which one
+    #[arg(value_enum)]
+    pub(crate) name: ExperimentName,
+    /// At full size (hours) instead of minutes
+    #[arg(long)]
+    pub(crate) full: bool,
+    /// Where tables and figures go; out/NAME if not given. What is there under their names is replaced
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Override one size of the experiment's sheet (experiments/NAME.toml), such as points=[10,12]; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// One JSON object on stdout: tables and files
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// All experiments; each has a sheet of the same name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ExperimentName {
+    /// RobTest, table I: seconds for the graph, depth-first search and the proof of the optimum
+    #[value(name = "robtest-table-1")]
+    RobtestTable1,
+}

@@ -1,0 +1,172 @@
+//! RobTest: table I, figure 7, and the threats that its authors named.
+//!
+//! Source: Collet, Gotlieb, Lazaar & Mossige, "Stress testing of single-arm robots through constraint-based generation of
+//! continuous trajectories" (2019).
+
+use hairpin::campaign::experiment::robtest::{Costs, Question};
+use hairpin::judgement::Statistics;
+use hairpin::math::random::named_seed;
+use hairpin::search::heaviest::{Arcs, Heaviest, HeaviestSettings, Method, heaviest};
+use hairpin_formats::experiment::Sheet;
+use hairpin_formats::figure::{Axis, Cell, Figure, Marks, Point, Scale, Series, Table};
+use serde::Deserialize;
+
+use super::{Outcome, go_on};
+use crate::commands::bench::clock::{Stopwatch, alone, median_time};
+use crate::interrupt;
+use crate::problem::Problem;
+
+/// Sizes of table I.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TableSize {
+    points: Vec<usize>,
+    instances: u64,
+    seed: u64,
+    /// Processor seconds that depth-first search gets on an instance.
+    dfs_limit_s: f64,
+    /// The same for the proof.
+    proof_limit_s: f64,
+}
+
+/// Table I as it was printed: mean and deviation, s.
+#[derive(Debug, Deserialize)]
+struct PrintedTable {
+    limit_s: f64,
+    rows: Vec<PrintedRow>,
+}
+
+#[derive(Debug, Deserialize)]
+struct PrintedRow {
+    points: usize,
+    graph_s: [f64; 2],
+    density: [f64; 2],
+    dfs_s: Option<[f64; 2]>,
+    proof_s: Option<[f64; 2]>,
+}
+
+/// What is measured of all instances of one size.
+#[derive(Default)]
+struct Measured {
+    graph: Vec<f64>,
+    density: Vec<f64>,
+    dfs: Vec<f64>,
+    proof: Vec<f64>,
+}
+
+/// Seconds for the graph, depth-first search and the proof of the optimum, mean ± deviation, beside the paper's.
+pub(super) fn table_1(sheet: &Sheet) -> Result<Outcome, Problem> {
+    let (size, printed): (TableSize, PrintedTable) = (sheet.size()?, sheet.printed()?);
+    let mut table = Table::new(&[
+        "points",
+        "density",
+        "density_dev",
+        "graph_s",
+        "graph_s_dev",
+        "dfs_s",
+        "dfs_s_dev",
+        "dfs_ended",
+        "proof_s",
+        "proof_s_dev",
+        "proven",
+        "paper_density",
+        "paper_graph_s",
+        "paper_dfs_s",
+        "paper_proof_s",
+    ]);
+    let mut curves: [Vec<Point>; 3] = Default::default();
+    for &points in &size.points {
+        let mut measured = Measured::default();
+        for index in 0..size.instances {
+            go_on()?;
+            measure(points, named_seed(size.seed, "robtest", 1000 * points as u64 + index), &size, &mut measured)?;
+        }
+        let paper = printed.rows.iter().find(|row| row.points == points);
+        let all = size.instances as usize;
+        // A mean over those that ended would call the slow ones fast.
+        let whole =
+            |times: &[f64]| (times.len() == all).then(|| Statistics::of(times)).flatten().map(|s| [s.mean, s.std]);
+        let [graph, density] = [whole(&measured.graph), whole(&measured.density)];
+        let [dfs, proof] = [whole(&measured.dfs), whole(&measured.proof)];
+        let both = |value: Option<[f64; 2]>| [Cell::from(value.map(|v| v[0])), Cell::from(value.map(|v| v[1]))];
+        let mut row = vec![points.into()];
+        row.extend([both(density), both(graph), both(dfs)].concat());
+        row.push(measured.dfs.len().into());
+        row.extend(both(proof));
+        row.push(measured.proof.len().into());
+        row.extend([
+            paper.map(|row| row.density[0]).into(),
+            paper.map(|row| row.graph_s[0]).into(),
+            paper.and_then(|row| row.dfs_s).map(|v| v[0]).into(),
+            paper.and_then(|row| row.proof_s).map(|v| v[0]).into(),
+        ]);
+        table.push(row);
+        for (curve, value) in curves.iter_mut().zip([graph, dfs, proof]) {
+            curve.extend(value.map(|[mean, dev]| Point::between(points as f64, mean, mean - dev, mean + dev)));
+        }
+    }
+    let [graph, dfs, proof] = curves;
+    let of_paper = |value: fn(&PrintedRow) -> Option<[f64; 2]>| -> Vec<Point> {
+        printed.rows.iter().filter_map(|row| Some(Point::new(row.points as f64, value(row)?[0]))).collect()
+    };
+    let series = [
+        ("graph (CCBG)", graph),
+        ("depth-first search", dfs),
+        ("proven optimum (TCO)", proof),
+        ("paper: CCBG", of_paper(|row| Some(row.graph_s))),
+        ("paper: DFS", of_paper(|row| row.dfs_s)),
+        ("paper: TCO", of_paper(|row| row.proof_s)),
+    ];
+    let figure = Figure {
+        title: "RobTest, table I: mean and deviation over the instances of a size".into(),
+        x: Axis { label: "points".into(), scale: Scale::Linear },
+        y: Axis { label: "processor time, s".into(), scale: Scale::Logarithmic },
+        series: series.map(|(name, points)| Series { name: name.into(), marks: Marks::Line(points) }).into(),
+    };
+    let notes = vec![
+        format!(
+            "{} instances a row, one thread, processor time; depth-first search got {} s an instance, the proof {} s; a mean is \
+             given where all ended.",
+            size.instances, size.dfs_limit_s, size.proof_limit_s
+        ),
+        format!("The paper's numbers are from an Intel i7 at 2.6 GHz, a limit of {} s.", printed.limit_s),
+    ];
+    Ok(Outcome { tables: vec![("table-1", table)], figures: vec![("table-1", figure)], notes })
+}
+
+/// Adds one instance.
+fn measure(points: usize, seed: u64, size: &TableSize, measured: &mut Measured) -> Result<(), Problem> {
+    let question = Question::published(points, seed).map_err(Problem::input)?;
+    let graph = question.graph();
+    measured.density.push(graph.density());
+    measured.graph.push(alone(|| median_time(1, || question.graph())));
+    let arcs = Costs::Distance.of(&graph, seed).map_err(Problem::input)?;
+    let search = |method, limit| timed(&arcs, &HeaviestSettings { method, ..HeaviestSettings::default() }, limit);
+    let (proof, found) = search(Method::Auto, size.proof_limit_s)?;
+    measured.proof.extend(found.proven.then_some(proof));
+    let (dfs, walked) = search(Method::Dfs, size.dfs_limit_s)?;
+    measured.dfs.extend(walked.proven.then_some(dfs));
+    let cost = |found: &Heaviest| found.paths.first().map(|path| path.0);
+    assert!(
+        !(found.proven && walked.proven) || cost(&found) == cost(&walked),
+        "two proven searches of {points} points, seed {seed}, differ"
+    );
+    Ok(())
+}
+
+/// Processor seconds of one search on one thread, and what it found within `limit` of them.
+fn timed(arcs: &Arcs, settings: &HeaviestSettings, limit: f64) -> Result<(f64, Heaviest), Problem> {
+    let watch = Stopwatch::start();
+    let stop = || interrupt::asked() || watch.passed(limit);
+    let found = alone(|| heaviest(arcs, settings, &stop)).map_err(Problem::input)?;
+    go_on()?;
+    let spent = watch.spent();
+    if spent > REPEATED || !found.proven {
+        return Ok((spent, found));
+    }
+    // Too short for one look at the clock.
+    Ok((alone(|| median_time(1, || heaviest(arcs, settings, &|| false))), found))
+}
+
+/// Searches shorter than this many seconds are repeated for their time.
+const REPEATED: f64 = 0.05;

@@ -1,0 +1,3 @@
+//! What experiments are made of that is no scenario: families of questions, drawn by seed.
+
+pub mod robtest;
