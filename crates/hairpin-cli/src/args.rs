@@ -1,10 +1,12 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
+mod compare;
 mod experiment;
 mod import;
 mod max_load;
 mod numbers;
 mod requirements;
+mod shrink;
 mod steer;
 mod terrain;
 
@@ -12,10 +14,12 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::{Experiment, ExperimentName};
 pub(crate) use import::Import;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use requirements::Requirements;
+pub(crate) use shrink::Shrink;
 pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerCost, SteerFrame};
 pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
 
@@ -54,6 +58,10 @@ pub(crate) enum Command {
     Verify(Verify),
     /// Fly a violating case again, from its repro file
     Replay(Replay),
+    /// Reduce a violating case to the shortest feasible one that still violates
+    Shrink(Shrink),
+    /// Compare two judged campaigns over the same cases: better, worse, newly failing
+    Compare(Compare),
     /// Write a campaign's trajectories for other programs
     Export(Export),
     /// Read a program from elsewhere and check it by line: import CELL.mod --check
@@ -93,6 +101,8 @@ impl Command {
             Self::Judge(a) => a.json,
             Self::Verify(a) => a.json,
             Self::Replay(a) => a.json,
+            Self::Compare(a) => a.json,
+            Self::Shrink(a) => a.json,
             Self::Bench(a) => a.json,
             Self::Steer(a) => a.json,
             Self::MaxLoad(a) => a.json,
@@ -213,6 +223,17 @@ pub(crate) struct Stress {
     /// Program that flies the missions (sets execute.command); see examples/executors
     #[arg(long, value_name = "COMMAND")]
     pub(crate) executor: Option<String>,
+    #[command(flatten)]
+    pub(crate) saved: Saved,
+}
+
+/// Saved violations that are run first.
+#[derive(Debug, Args)]
+pub(crate) struct Saved {
+    /// Run the repro files of this folder first, by this campaign's robot, execute and spec; without it those that the
+    /// campaign folder has
+    #[arg(long, value_name = "DIR")]
+    pub(crate) repro: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -232,6 +253,8 @@ pub(crate) struct Execute {
     /// Program that flies the missions (sets execute.command); see examples/executors
     #[arg(long, value_name = "COMMAND")]
     pub(crate) executor: Option<String>,
+    #[command(flatten)]
+    pub(crate) saved: Saved,
     /// Override one key of execute, vary or spec; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,

@@ -183,20 +183,28 @@ fn default_folder(scenario: &str) -> PathBuf {
 
 /// The first key in which two scenarios differ.
 fn first_difference(a: &Scenario, b: &Scenario) -> Option<String> {
-    fn differ(key: &str, a: &serde_json::Value, b: &serde_json::Value) -> Option<String> {
+    differences(a, b).into_iter().next()
+}
+
+/// The keys in which two scenarios differ.
+pub(crate) fn differences(a: &Scenario, b: &Scenario) -> Vec<String> {
+    fn differ(key: &str, a: &serde_json::Value, b: &serde_json::Value, found: &mut Vec<String>) {
         match (a.as_object(), b.as_object()) {
             (Some(a), Some(b)) => {
                 let null = serde_json::Value::Null;
-                let keys = a.keys().chain(b.keys().filter(|key| !a.contains_key(*key)));
-                let dotted = |name: &str| if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") };
-                keys.into_iter()
-                    .find_map(|name| differ(&dotted(name), a.get(name).unwrap_or(&null), b.get(name).unwrap_or(&null)))
+                for name in a.keys().chain(b.keys().filter(|key| !a.contains_key(*key))) {
+                    let dotted = if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") };
+                    differ(&dotted, a.get(name).unwrap_or(&null), b.get(name).unwrap_or(&null), found);
+                }
             }
-            _ => (a != b).then(|| key.to_owned()),
+            _ if a != b => found.push(key.to_owned()),
+            _ => {}
         }
     }
     let value = |scenario| serde_json::to_value(scenario).unwrap_or_default();
-    differ("", &value(a), &value(b))
+    let mut found = Vec::new();
+    differ("", &value(a), &value(b), &mut found);
+    found
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! | code | meaning |
 //! | --- | --- |
 //! | 0 | within spec |
-//! | 1 | violation, or a finding of `verify` or `import` |
+//! | 1 | violation, a finding of `verify` or `import`, or what `compare` fails on |
 //! | 2 | wrong input |
 //! | 3 | nothing feasible |
 //! | 4 | executor failed |
@@ -71,6 +71,8 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
         Command::Judge(judge) => commands::judge::run(&judge),
         Command::Verify(verify) => commands::verify::run(&verify),
         Command::Replay(replay) => commands::replay::run(&replay),
+        Command::Compare(compare) => commands::compare::run(&compare),
+        Command::Shrink(shrink) => commands::shrink::run(&shrink),
         Command::Export(export) => commands::export::run(&export),
         Command::Import(import) => commands::import::run(&import),
         Command::Report(report) => commands::report::run(&report),

@@ -28,5 +28,5 @@ pub(crate) fn run(demo: &Demo) -> Result<u8, Problem> {
     let setup = Setup::new(scenario_for(scenario, &[])?)?.with_simd(folder::simd(&demo.kernels));
     let replaceable = demo.force || demo.out == Path::new("hairpin-demo");
     let work = Work { folder: folder::make(&demo.out, &setup, false, replaceable)?, setup };
-    stress::campaign(&work, Deadline::after(None), demo.json)
+    stress::campaign(&work, Deadline::after(None), &[], demo.json)
 }

@@ -5,7 +5,7 @@ use hairpin_formats::{folder::CampaignFolder, waypoints};
 use nalgebra::Point3;
 use serde_json::json;
 
-use super::parts::{self, Flown};
+use super::parts::{self, Flown, Replayed};
 use crate::args::Execute;
 use crate::problem::Problem;
 use crate::{console, folder};
@@ -32,6 +32,7 @@ pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
     if !execute.resume {
         work.folder.forget_runs()?;
     }
+    let replayed = parts::replay_saved(&work, execute.saved.repro.as_deref())?;
     let Flown { runs, failed, attitude_unknown } = parts::execute(&work, &cases)?;
     let (sentence, code) = if failed == 0 {
         (format!("EXECUTED {runs} runs of {} cases", cases.len()), 0)
@@ -39,6 +40,7 @@ pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
         (format!("EXECUTOR FAILED {failed}/{runs} runs (stderr kept in executor-CASE-RUN.log)"), 4)
     };
     if execute.json {
+        let replayed: Vec<_> = replayed.iter().map(Replayed::object).collect();
         let counts = json!({
             "cases": cases.len(), "runs": runs, "executor_failed": failed, "attitude_unknown": attitude_unknown,
         });
@@ -46,6 +48,7 @@ pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
         let paths = json!({ "folder": work.folder.path(), "executions": work.folder.file("executions") });
         let object = json!({
             "verdict": sentence, "exit_code": code, "counts": counts, "missions": missions, "paths": paths,
+            "replayed": replayed,
         });
         console::say(&object.to_string());
     } else {

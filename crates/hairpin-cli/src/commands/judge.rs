@@ -13,6 +13,6 @@ pub(crate) fn run(judge: &Judge) -> Result<u8, Problem> {
     let tally = work.folder.read_tally()?;
     let judgement = parts::judge(&work, &cases, &tally)?;
     let asked = tally.asked(work.setup.scenario.search().cases);
-    let answer = Answer { work: &work, asked, cases: &cases, judgement: &judgement };
+    let answer = Answer { work: &work, asked, cases: &cases, judgement: &judgement, replayed: &[] };
     Ok(answer.say(judge.json))
 }

@@ -1,6 +1,7 @@
 //! What each command means; one file each. `parts` are the four parts of `stress`, on an open campaign folder.
 
 pub(crate) mod bench;
+pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod execute;
@@ -17,6 +18,7 @@ pub(crate) mod report;
 pub(crate) mod requirements;
 pub(crate) mod schema;
 pub(crate) mod show;
+pub(crate) mod shrink;
 pub(crate) mod simulate;
 pub(crate) mod steer;
 pub(crate) mod stress;

@@ -1,6 +1,6 @@
 //! `hairpin stress`: generate, execute, judge, report.
 
-use super::parts::{self, Answer};
+use super::parts::{self, Answer, Replayed};
 use crate::args::Stress;
 use crate::folder::{self, Work};
 use crate::interrupt::Deadline;
@@ -9,16 +9,18 @@ use crate::problem::Problem;
 /// Runs the command.
 pub(crate) fn run(stress: &Stress) -> Result<u8, Problem> {
     let work = folder::begin(&stress.campaign, stress.executor.as_deref())?;
-    campaign(&work, Deadline::after(stress.campaign.time_limit), stress.campaign.json)
+    let deadline = Deadline::after(stress.campaign.time_limit);
+    let replayed = parts::replay_saved(&work, stress.saved.repro.as_deref())?;
+    campaign(&work, deadline, &replayed, stress.campaign.json)
 }
 
-/// The whole campaign in an open folder.
-pub(crate) fn campaign(work: &Work, deadline: Deadline, json: bool) -> Result<u8, Problem> {
+/// The whole campaign in an open folder, after what was `replayed`.
+pub(crate) fn campaign(work: &Work, deadline: Deadline, replayed: &[Replayed], json: bool) -> Result<u8, Problem> {
     let (cases, tally) = parts::generate(work, deadline)?;
     parts::execute(work, &cases)?;
     let judgement = parts::judge(work, &cases, &tally)?;
     parts::report(work, &cases, &tally, &judgement.verdict)?;
     let asked = tally.asked(work.setup.scenario.search().cases);
-    let answer = Answer { work, asked, cases: &cases, judgement: &judgement };
+    let answer = Answer { work, asked, cases: &cases, judgement: &judgement, replayed };
     Ok(answer.say(json))
 }

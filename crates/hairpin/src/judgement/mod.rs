@@ -6,6 +6,7 @@ mod deviation;
 pub mod measure;
 pub mod measures;
 pub mod moves;
+pub mod paired;
 pub mod settings;
 pub mod spec;
 pub mod statistics;
@@ -16,6 +17,7 @@ mod tests;
 
 pub use measure::{deviation_of_samples, measure};
 pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures};
+pub use paired::{Median, SignedRank, holm, median, signed_rank};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
 pub use statistics::{Share, Statistics, rank_correlation, rule_of_three, share, skewness};

@@ -114,6 +114,11 @@ pub fn share(k: usize, n: usize, confidence: f64) -> Option<Share> {
     Some(Share { value: successes / n as f64, low, high })
 }
 
+/// P(B ≤ `k`) of a binomial B(`n`, ½), k < n: I_½(n − k, k + 1).
+pub(super) fn binomial_share_half(n: usize, k: usize) -> f64 {
+    beta_share((n - k) as f64, (k + 1) as f64, 0.5)
+}
+
 /// Upper bound of a share at 95 % when none of `n` violated: the rule of three, 3/n, at most 1.
 pub fn rule_of_three(n: usize) -> f64 {
     if n == 0 { 1.0 } else { (3.0 / n as f64).min(1.0) }

@@ -2,9 +2,10 @@
 //!
 //! [`beam()`] is algorithms 1 and 2 of the paper on one graph; [`exact()`] is dynamic programming over the legs of a
 //! [`graph`]: best, k best, counts, the proof that none exists; [`uniform()`] draws evenly from all that is feasible. [`heaviest`] is the
-//! path of maximal cost through a graph of arcs that visits no point twice.
+//! path of maximal cost through a graph of arcs that visits no point twice. [`ddmin()`] finds the part of a list that it takes to fail.
 
 pub mod beam;
+pub mod ddmin;
 pub mod exact;
 mod frontier;
 pub mod graph;
@@ -17,6 +18,7 @@ pub mod task;
 pub mod uniform;
 
 pub use beam::{BeamOutcome, BeamSettings, beam};
+pub use ddmin::ddmin;
 pub use exact::{ExactOutcome, ExactSettings, exact};
 pub use graph::{Count, LegGraph};
 pub use objective::{Aggregate, LegView, Objective, Score, ScoreMistake};

@@ -5,7 +5,7 @@ use hairpin::campaign::{Case, CaseResult, Status};
 use hairpin_formats::header::Header;
 use serde_json::{Value, json};
 
-use super::Judgement;
+use super::{Judgement, Replayed, with_saved};
 use crate::console;
 use crate::folder::Work;
 
@@ -18,6 +18,8 @@ pub(crate) struct Answer<'a> {
     pub(crate) asked: usize,
     pub(crate) cases: &'a [Case],
     pub(crate) judgement: &'a Judgement,
+    /// Saved cases that were run first.
+    pub(crate) replayed: &'a [Replayed],
 }
 
 impl Answer<'_> {
@@ -45,7 +47,11 @@ impl Answer<'_> {
                 console::warn(&format!("report: {}", report.display()));
             }
         }
-        self.judgement.verdict.exit_code
+        self.exit_code()
+    }
+
+    fn exit_code(&self) -> u8 {
+        with_saved(self.judgement.verdict.exit_code, self.replayed)
     }
 
     fn header(&self) -> Header {
@@ -74,7 +80,7 @@ impl Answer<'_> {
         };
         json!({
             "verdict": self.judgement.verdict.sentence,
-            "exit_code": self.judgement.verdict.exit_code,
+            "exit_code": self.exit_code(),
             "counts": {
                 "asked": self.asked,
                 "cases": self.cases.len(),
@@ -90,6 +96,7 @@ impl Answer<'_> {
                 object["evidence"] = json!(self.claim(result));
                 object
             }),
+            "replayed": self.replayed.iter().map(Replayed::object).collect::<Vec<_>>(),
             "influences": self.judgement.influences,
             "paths": {
                 "folder": self.work.folder.path(),

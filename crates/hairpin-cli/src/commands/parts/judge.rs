@@ -74,11 +74,14 @@ fn suite(work: &Work, tally: &Tally, verdict: &Verdict, results: &[CaseResult]) 
 
 fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(), Problem> {
     let folder = work.folder.file("repro");
-    for old in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
-        if old.path().extension().is_some_and(|ending| ending == "json") {
-            std::fs::remove_file(old.path())
-                .map_err(|error| Problem::input(format!("cannot remove {}: {error}", old.path().display())))?;
-        }
+    // Only what a judgement wrote goes: shrunk cases, and files of the users' own, are there to be run again.
+    let judged = |path: &std::path::Path| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        path.extension().is_some_and(|ending| ending == "json") && name.bytes().all(|byte| byte.is_ascii_digit())
+    };
+    for old in std::fs::read_dir(&folder).into_iter().flatten().flatten().filter(|old| judged(&old.path())) {
+        std::fs::remove_file(old.path())
+            .map_err(|error| Problem::input(format!("cannot remove {}: {error}", old.path().display())))?;
     }
     let violating = worst_first(results).into_iter().filter(|result| result.status == Status::Fail);
     for result in violating.take(REPROS) {

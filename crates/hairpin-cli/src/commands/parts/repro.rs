@@ -49,8 +49,27 @@ pub(crate) struct Repro {
     /// What an arm runs, as RAPID.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) program: Option<String>,
+    /// What it was made of, where it is smaller than the case was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) shrunk: Option<ShrunkFrom>,
     /// The resolved scenario.
     pub(crate) scenario: Scenario,
+}
+
+/// What a shrunk case was made of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ShrunkFrom {
+    /// Waypoints of the case.
+    pub(crate) waypoints: usize,
+    /// Its violations, in words.
+    pub(crate) violations: Vec<String>,
+    /// What was left out of the scenario.
+    pub(crate) simplified: Vec<String>,
+    /// Whether nothing smaller was found; else the search was stopped.
+    pub(crate) finished: bool,
+    /// Executions that it took.
+    pub(crate) runs: u64,
 }
 
 /// What was seen.
@@ -98,6 +117,7 @@ impl Repro {
             profile: case.profile.as_ref().map(|profile| profile.legs.iter().map(leg).collect()),
             drive: case.drive.clone(),
             program: case.program.as_ref().and_then(|program| rapid::module(program, &[]).ok()),
+            shrunk: None,
             scenario: setup.scenario.clone(),
         }
     }

@@ -8,6 +8,7 @@ use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, Evidence, Stop};
 use crate::search::heaviest::{Arcs, Ends, Heaviest, HeaviestSettings, Outcome as Found, heaviest};
 use crate::simulation::arm as controller;
+use crate::trajectory::program::Program;
 
 /// The search for an arm's programs.
 pub(in crate::campaign) struct Solver<'a> {
@@ -119,13 +120,10 @@ impl ArmSetup<'_> {
         let home = station.tool_at(&station.home);
         let places = rows.iter().map(|row| station.points[*row].pose);
         let poses = std::iter::once(home).chain(places).chain(std::iter::once(home));
-        let leg_times = self.orders(&program).and_then(|orders| {
-            let plan = controller::Plan::new(&station.arm, &station.home, &orders, &self.plan_settings())?;
-            Ok(times(plan.passed(), orders.len()))
-        });
+        let leg_times = self.leg_times(&program);
         Plan {
             waypoints: poses.map(|pose| pose.translation.vector.into()).collect(),
-            leg_times: leg_times.unwrap_or_default(),
+            leg_times,
             score: cost as f64 * graph.unit,
             // The bound of the heaviest holds for all that come after it.
             bound: found.bound.map(|bound| bound as f64 * graph.unit).filter(|_| number == 0),
@@ -138,6 +136,18 @@ impl ArmSetup<'_> {
             drive: None,
             program: Some(program),
         }
+    }
+}
+
+impl ArmSetup<'_> {
+    /// Durations that the virtual controller plans for the moves of `program`; none where it cannot.
+    pub(super) fn leg_times(&self, program: &Program) -> Vec<f64> {
+        let station = self.station;
+        let planned = self.orders(program).and_then(|orders| {
+            let plan = controller::Plan::new(&station.arm, &station.home, &orders, &self.plan_settings())?;
+            Ok(times(plan.passed(), orders.len()))
+        });
+        planned.unwrap_or_default()
     }
 }
 

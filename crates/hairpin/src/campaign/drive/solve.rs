@@ -16,6 +16,7 @@ use crate::feasibility::reach::drive::{
 use crate::feasibility::steering::shooting::families;
 use crate::math::random::named_seed;
 use crate::search::{Found, Score};
+use crate::trajectory::Drive;
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::Terrain;
 
@@ -53,6 +54,12 @@ impl<'a> Solver<'a> {
             Some(stepwise) => stepwise.solve(&self.search, &self.settings, graph, &points),
             None => self.by_roadmap(graph, &points),
         }
+    }
+
+    /// The drive over `poses` in order, solved as one of graph number `graph` is.
+    pub(super) fn through(&self, graph: u64, poses: &[Planar]) -> Option<Drive> {
+        let seed = named_seed(self.setup.scenario.seed, "roadmap", graph);
+        DriveRoadmap::through(self.site(), poses, &DriveSettings { seed, ..self.settings.clone() })
     }
 
     /// Start, free waypoints and, if there is one, the end.

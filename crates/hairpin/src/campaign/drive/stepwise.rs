@@ -6,11 +6,11 @@ use nalgebra::Point3;
 use super::DriveSetup;
 use super::ask::{Asked, ask};
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Outcome, Plan};
+use crate::campaign::graph::{Outcome, Plan, in_order};
 use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
 use crate::feasibility::reach::drive::{DriveSettings, DriveSite, StraightLegs};
 use crate::feasibility::reach::{
-    BodyHull, Everywhere, Filtered, Leg, PlanarVehicle, Reach, Sphere, StepNode, StepReach, StepSettings,
+    BodyHull, BodyNode, Everywhere, Filtered, Leg, PlanarVehicle, Reach, Sphere, StepNode, StepReach, StepSettings,
 };
 use crate::math::random::named_seed;
 use crate::search::{Found, LegView};
@@ -56,22 +56,50 @@ impl<'a> Stepwise<'a> {
         graph: u64,
         points: &[Point3<f64>],
     ) -> Outcome {
-        let settings = StepSettings {
-            step: self.setup.scenario.generate.step_s,
-            simd: self.setup.simd,
-            ..StepSettings::default()
-        };
+        let settings = self.settings();
         let start = StepNode { previous: 0, current: 0 };
         let asked = Graph { search, scored, graph, points };
         match &self.set {
             Set::Everywhere(set) => self.ask(asked, &StepReach::new(set, points, settings), start, |node| node.current),
             Set::Sphere(set) => self.ask(asked, &StepReach::new(set, points, settings), start, |node| node.current),
-            Set::Hull(hull) => {
-                let task = &self.setup.scenario.task.start;
-                let start = hull.start(task.yaw_deg.to_radians(), [0.0, task.curvature_1_m]);
-                self.ask(asked, hull.as_ref(), start, |node| node.current)
-            }
+            Set::Hull(hull) => self.ask(asked, hull.as_ref(), self.headed(hull), |node| node.current),
         }
+    }
+
+    /// Whether each of `points` is a feasible leg from the one before, in order, the first from the task's start.
+    pub(super) fn follows(&self, points: &[Point3<f64>]) -> bool {
+        let settings = self.settings();
+        let start = StepNode { previous: 0, current: 0 };
+        let allowed = points.windows(2).all(|leg| self.allows(&leg[0], &leg[1]));
+        allowed
+            && match &self.set {
+                Set::Everywhere(set) => in_order(StepReach::new(set, points, settings), start, points),
+                Set::Sphere(set) => in_order(StepReach::new(set, points, settings), start, points),
+                Set::Hull(hull) => in_order(hull.as_ref(), self.headed(hull), points),
+            }
+    }
+
+    fn settings(&self) -> StepSettings {
+        StepSettings { step: self.step(), simd: self.setup.simd, ..StepSettings::default() }
+    }
+
+    /// Duration of every leg, s.
+    pub(super) fn step(&self) -> f64 {
+        self.setup.scenario.generate.step_s
+    }
+
+    /// The hull's node at the task's start.
+    fn headed(&self, hull: &BodyHull) -> BodyNode {
+        let start = &self.setup.scenario.task.start;
+        hull.start(start.yaw_deg.to_radians(), [0.0, start.curvature_1_m])
+    }
+
+    /// Whether a leg has one of the task's lengths and is clear of keep-outs.
+    fn allows(&self, a: &Point3<f64>, b: &Point3<f64>) -> bool {
+        let [low, high] = self.setup.scenario.task.leg_m;
+        let apart = libm::hypot(b.x - a.x, b.y - a.y);
+        let keep_out = self.setup.keep_out;
+        (low..=high).contains(&apart) && keep_out.segment_distance([a.x, a.y], [b.x, b.y]) >= self.setup.radius()
     }
 
     /// Keeps the legs of the task's lengths that are clear of keep-outs, and searches.
@@ -83,13 +111,7 @@ impl<'a> Stepwise<'a> {
         place: impl Fn(&N) -> u32,
     ) -> Outcome {
         let scenario = self.setup.scenario;
-        let [low, high] = scenario.task.leg_m;
-        let radius = self.setup.radius();
-        let keep = |from: &N, leg: &Leg<N>| {
-            let (a, b) = (&points[place(from) as usize], &points[leg.waypoint as usize]);
-            let apart = libm::hypot(b.x - a.x, b.y - a.y);
-            (low..=high).contains(&apart) && self.setup.keep_out.segment_distance([a.x, a.y], [b.x, b.y]) >= radius
-        };
+        let keep = |from: &N, leg: &Leg<N>| self.allows(&points[place(from) as usize], &points[leg.waypoint as usize]);
         let filtered = Filtered { inner: reach, keep };
         let site = DriveSite::new(self.setup.planner, self.setup.map, self.setup.keep_out);
         let scored = DriveSettings { seed: named_seed(scenario.seed, "score", graph), ..scored.clone() };

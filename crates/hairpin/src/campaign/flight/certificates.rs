@@ -1,5 +1,7 @@
 //! Witnesses searched afterwards for what another reach set found.
 
+use nalgebra::Point3;
+
 use super::FlightSetup;
 use super::legs::judge;
 use crate::campaign::Evidence;
@@ -28,9 +30,14 @@ impl Certifier {
         Ok(Self { judge: judge(setup)?, timing: LegTiming::ladder(QUICKEST * step, SLOWEST * step), longest_flight })
     }
 
+    /// The answer for `waypoints`.
+    pub(super) fn answer(&self, waypoints: &[Point3<f64>]) -> Certificate {
+        certify(&self.judge, waypoints, &self.timing, self.longest_flight)
+    }
+
     /// Notes the answer in the plan; a `yes` brings its witness, with leg times of its own.
     pub(super) fn certify(&self, plan: &mut Plan) {
-        match certify(&self.judge, &plan.waypoints, &self.timing, self.longest_flight) {
+        match self.answer(&plan.waypoints) {
             Certificate::Yes(profile) => {
                 plan.certified = Some("yes");
                 plan.evidence = Evidence::Witnessed;

@@ -9,7 +9,7 @@ use nalgebra::Point3;
 use super::FlightSetup;
 use super::legs::score;
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Outcome, Plan, Question, search};
+use crate::campaign::graph::{Outcome, Plan, Question, in_order, search};
 use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
 use crate::feasibility::reach::{
     BruteForce, BruteForceSettings, CarriedNode, Everywhere, Filtered, Hull, HullSettings, Leg, PairMask, Reach,
@@ -99,6 +99,19 @@ impl<'a> Stepwise<'a> {
             Set::Carried(reach, _) => {
                 let start = CarriedNode { previous: 0, current: 0, carried: [0; 6] };
                 self.clear_of_obstacles(graph, points, reach.as_ref(), start, |node| node.current, |_, _| true)
+            }
+        }
+    }
+
+    /// Whether each of `points` is a feasible leg from the one before, in order, the first from rest.
+    pub(super) fn follows(&self, points: &[Point3<f64>]) -> bool {
+        let start = StepNode { previous: 0, current: 0 };
+        match &self.set {
+            Set::Everywhere(set) => in_order(StepReach::new(set, points, self.settings), start, points),
+            Set::Sphere(set) => in_order(StepReach::new(set, points, self.settings), start, points),
+            Set::Hull(hull) => in_order(StepReach::new(hull.as_ref(), points, self.settings), start, points),
+            Set::Carried(reach, _) => {
+                in_order(reach.as_ref(), CarriedNode { previous: 0, current: 0, carried: [0; 6] }, points)
             }
         }
     }

@@ -7,6 +7,7 @@ use super::legs::{judge, score};
 use crate::campaign::Evidence;
 use crate::campaign::graph::{Outcome, Plan, Question, search};
 use crate::campaign::scenario::Timing;
+use crate::feasibility::certify::{Certificate, certify};
 use crate::feasibility::reach::{Roadmap, RoadmapSettings};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::math::random::named_seed;
@@ -33,6 +34,12 @@ impl<'a> Witness<'a> {
     /// The shortest leg time tried, s.
     pub(super) fn shortest_leg(&self) -> f64 {
         self.timing.range().0
+    }
+
+    /// The witness of `waypoints` flown in order, if one is found for them alone.
+    pub(super) fn through(&self, waypoints: &[Point3<f64>]) -> Certificate {
+        let longest = self.setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
+        certify(&self.judge, waypoints, &self.timing, longest)
     }
 
     /// Searches graph number `graph` over `points`.

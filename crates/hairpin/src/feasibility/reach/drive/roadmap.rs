@@ -128,6 +128,34 @@ impl<'a> DriveRoadmap<'a> {
             let leg = kept.iter().find(|leg| leg.state as usize == pair[1])?;
             legs.push((self.ends(pair[0], pair[1]), leg.solved.way, leg.solved.segments.clone()));
         }
+        self.joined(legs)
+    }
+
+    /// The drive over `poses` in order, passed with their curvatures, each leg solved as those of a roadmap are; `None` where one of
+    /// them is no leg, or as [`Self::drive`].
+    pub fn through(site: DriveSite<'a>, poses: &[Planar], settings: &DriveSettings) -> Option<Drive> {
+        let points = poses.iter().map(|pose| Point3::new(pose.x, pose.y, 0.0)).collect();
+        let (first, kept) = ((0..=poses.len() as u32).collect(), RefCell::default());
+        let roadmap = Self {
+            site,
+            settings: settings.clone(),
+            points,
+            states: poses.to_vec(),
+            first,
+            kept,
+            tally: Cell::default(),
+        };
+        let leg = |from: usize| {
+            let ends = roadmap.ends(from, from + 1);
+            let solved = at_a_leg(settings, ends.distance).then(|| judge(&site, settings, &ends, &mut 0).ok())??;
+            Some((ends, solved.way, solved.segments))
+        };
+        let legs: Option<Vec<_>> = (0..poses.len().saturating_sub(1)).map(leg).collect();
+        roadmap.joined(legs?)
+    }
+
+    /// The drive over solved `legs`, with its speeds.
+    fn joined(&self, mut legs: Vec<(Ends, Way, Box<[Segment]>)>) -> Option<Drive> {
         let profiles = self.settled(&mut legs)?;
         let DriveSettings { speed, turn_rate, direction, .. } = self.settings;
         let leg = |((ends, _, segments), speed): ((Ends, Way, Box<[Segment]>), _)| DriveLeg {

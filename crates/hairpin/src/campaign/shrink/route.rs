@@ -1,0 +1,93 @@
+//! What candidates are: stops of the case, moved perhaps; and how they are planned anew.
+
+use nalgebra::Point3;
+
+use crate::campaign::setup::Kind;
+use crate::campaign::{Case, Setup, arm, drive, flight};
+
+/// One waypoint of a candidate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stop {
+    /// Which waypoint of the case it was.
+    pub(super) index: usize,
+    /// Where it is, m.
+    pub(super) at: Point3<f64>,
+}
+
+/// The waypoints of a candidate, in order.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Route {
+    pub(super) stops: Vec<Stop>,
+    /// Waypoints at both ends that stay, as an arm's home.
+    ends: usize,
+}
+
+impl Route {
+    /// That of `case` as it is.
+    pub(super) fn of(case: &Case) -> Self {
+        let stop = |(index, at): (usize, &Point3<f64>)| Stop { index, at: *at };
+        Self { stops: case.waypoints.iter().enumerate().map(stop).collect(), ends: usize::from(case.program.is_some()) }
+    }
+
+    /// Places among the stops that may go.
+    pub(super) fn free(&self) -> Vec<usize> {
+        (self.ends..self.stops.len() - self.ends).collect()
+    }
+
+    /// The route over the stops at `places` and those that stay.
+    pub(super) fn keep(&self, places: &[usize]) -> Self {
+        let last = self.stops.len() - self.ends;
+        let stays = |place: usize| place < self.ends || place >= last || places.contains(&place);
+        let stops = self.stops.iter().enumerate().filter(|(place, _)| stays(*place)).map(|(_, stop)| *stop);
+        Self { stops: stops.collect(), ends: self.ends }
+    }
+
+    /// Whether it leads anywhere: two waypoints, and one beside those that stay.
+    pub(super) fn is_way(&self) -> bool {
+        self.stops.len() >= 2 && self.stops.len() > 2 * self.ends
+    }
+
+    /// Whether legs may be made shorter: where waypoints are not the points of a cloud.
+    pub(super) fn moves(&self) -> bool {
+        self.ends == 0
+    }
+
+    fn points(&self) -> Vec<Point3<f64>> {
+        self.stops.iter().map(|stop| stop.at).collect()
+    }
+}
+
+/// Plans candidates by the claim that the case stands on.
+pub(super) enum Replanner {
+    Flight(Case),
+    Drive(Case),
+    Arm(Box<arm::Replanner>),
+}
+
+impl Replanner {
+    /// # Errors
+    /// Why nothing can be planned, in a sentence's part.
+    pub(super) fn new(setup: &Setup, case: &Case) -> Result<Self, String> {
+        Ok(match setup.kind() {
+            Kind::Flight(_) => Self::Flight(case.clone()),
+            Kind::Drive(_) => Self::Drive(case.clone()),
+            Kind::Arm(setup) => Self::Arm(Box::new(arm::Replanner::new(&setup, case)?)),
+        })
+    }
+
+    /// The case along `route`, if that is feasible; `last` is the smallest so far, which needs no plan of its own.
+    pub(super) fn plan(&self, setup: &Setup, last: &Case, route: &Route) -> Option<Case> {
+        let points = route.points();
+        // What is left out of a scenario only makes a plan easier: it stands as it is.
+        if points == last.waypoints {
+            return Some(last.clone());
+        }
+        let indices: Vec<usize> = route.stops.iter().map(|stop| stop.index).collect();
+        match (self, setup.kind()) {
+            (Self::Flight(case), Kind::Flight(setup)) => flight::replan(&setup, case, &points),
+            (Self::Drive(case), Kind::Drive(setup)) => drive::replan(&setup, case, &indices, &points),
+            (Self::Arm(replanner), Kind::Arm(setup)) => replanner.plan(&setup, &indices),
+            _ => unreachable!("shrinking changes no robot's kind"),
+        }
+    }
+}
