@@ -95,3 +95,33 @@ fn a_certificate_holds_until_it_is_changed() {
         &["other.json", "certificate"],
     );
 }
+
+#[test]
+fn points_may_come_several_times() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("ring.csv"), RING).unwrap();
+    let graph = ["max-load", "--graph", "ring.csv", "--visits", "2"];
+    let answer = json(folder.path(), &[&graph[..], &["--certificate", "walk.json"]].concat());
+    let path: Vec<usize> = answer["path"].as_array().unwrap().iter().map(|p| p.as_u64().unwrap() as usize).collect();
+    assert!((0..4).all(|point| path.iter().filter(|p| **p == point).count() <= 2), "{answer}");
+    let moves: std::collections::BTreeSet<&[usize]> = path.windows(2).collect();
+    assert!(
+        moves.len() == path.len() - 1 && answer["cost"].as_f64().unwrap() > 9.25 && answer["proven"] == true,
+        "{answer}"
+    );
+    // Every move of the ring once, both ways.
+    let often = json(folder.path(), &["max-load", "--graph", "ring.csv", "--visits", "16"]);
+    assert_eq!(often["cost"], object!(21.5), "{often}");
+    let verify = ["max-load", "--graph", "ring.csv", "--verify", "walk.json"];
+    let (code, out, _) = run(folder.path(), &verify);
+    assert!(code == 0 && out.contains("VERIFIED: no path that comes to no point more than 2 times"), "{out}");
+    let text = fs::read_to_string(folder.path().join("walk.json")).unwrap();
+    fs::write(folder.path().join("walk.json"), text.replace("\"visits\":2", "\"visits\":3")).unwrap();
+    let (code, out, _) = run(folder.path(), &verify);
+    assert!(code == 1 && out.contains("NOT VERIFIED"), "{out}");
+    let (code, out, _) = run(folder.path(), &graph);
+    assert!(code == 0 && out.contains("use no move twice"), "{out}");
+    let several = json(folder.path(), &[&graph[..], &["--programs", "3"]].concat());
+    assert_eq!(several["paths"].as_array().unwrap().len(), 3);
+    refused(folder.path(), &[&graph[..], &["--method", "subsets"]].concat(), &["--visits"]);
+}

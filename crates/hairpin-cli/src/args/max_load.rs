@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::{LARGEST_SEED, Threads, seconds};
 
-/// The path through a graph that costs most, in which no point comes twice. Points may be left out; ends are free unless fixed.
+/// The path through a graph that costs most, in which no point comes twice (or --visits). Points may be left out; ends are free unless fixed.
 ///
 /// The answer tells cost, upper bound, gap, and whether it is proven. A time limit or Ctrl-C gives the best so far. Exit code 3:
 /// there is no such path, 5: none was found yet.
@@ -39,6 +39,9 @@ pub(crate) struct MaxLoad {
     /// Paths below this cost are not wanted
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub(crate) min_cost: Option<String>,
+    /// How often a point may come; with more than once no move is used twice, there and back being two
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=16))]
+    pub(crate) visits: u16,
     /// How many pairwise different paths, the heaviest first
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) programs: u16,

@@ -6,7 +6,7 @@
 //! (`body`), implicit Gauss collocation of order 12 (`gauss`). Nothing is shared with feasibility, search,
 //! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have replays of their
 //! own, in the plane (`drive`) and on the ground (`ground`). That no path through a graph is heavier is checked bound by
-//! bound ([`verify_heaviest`]).
+//! bound ([`verify_heaviest`]; [`verify_walk`] where points may come several times).
 
 mod body;
 mod claim;
@@ -26,6 +26,7 @@ mod proof;
 mod replay;
 mod rotors;
 mod stand;
+mod walk;
 
 #[cfg(test)]
 mod tests;
@@ -39,3 +40,4 @@ pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Stopped, replay_groun
 pub use heaviest::{HeaviestClaim, MOST_SEARCHED_AGAIN, NextClaim, PathFinding, StepClaim, TreeClaim, verify_heaviest};
 pub use proof::{open_loop_with_lag, verify};
 pub use stand::Stand;
+pub use walk::{SplitClaim, WalkClaim, WalkStepClaim, verify_walk};

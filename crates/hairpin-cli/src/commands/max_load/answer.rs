@@ -25,7 +25,7 @@ pub(super) fn tell(asked: &MaxLoad, graph: &Graph, found: &Heaviest, time: Durat
     };
     let bound = found.bound.map_or_else(|| "unknown".to_owned(), |bound| graph.text(bound));
     let evidence = match found.gap_percent() {
-        _ if found.proven => "optimal: proven over all loop-free paths".to_owned(),
+        _ if found.proven => format!("optimal: {}", proven_over(asked.visits)),
         Some(gap) => format!("gap {gap:.4} % below the bound {bound}"),
         None => format!("bound {bound}"),
     };
@@ -39,9 +39,17 @@ pub(super) fn tell(asked: &MaxLoad, graph: &Graph, found: &Heaviest, time: Durat
     for (number, (cost, path)) in found.paths.iter().enumerate() {
         let before =
             if found.paths.len() > 1 { format!("{}. {}: ", number + 1, graph.text(*cost)) } else { String::new() };
-        let left_out = points - path.len();
+        let left_out = (0..points).filter(|point| !path.contains(point)).count();
         let after = if left_out > 0 { format!("   ({left_out} of {points} points left out)") } else { String::new() };
         console::say(&format!("{before}{}{after}", words(path)));
+    }
+}
+
+/// Over what an answer is proven.
+pub(super) fn proven_over(visits: u16) -> String {
+    match visits {
+        1 => "proven over all loop-free paths".into(),
+        _ => format!("proven over all paths that come to no point more than {visits} times and use no move twice"),
     }
 }
 

@@ -52,6 +52,7 @@ fn sets(asked: &MaxLoad) -> Result<Vec<(String, String)>, Problem> {
     set("generate.search.end", asked.end.map(|row| row.to_string()));
     set("generate.search.min_cost", asked.min_cost.clone());
     set("generate.search.programs", Some(asked.programs.to_string()));
+    set("generate.search.visits", (asked.visits > 1).then(|| asked.visits.to_string()));
     set("seed", (asked.seed > 0).then(|| asked.seed.to_string()));
     Ok(sets)
 }
@@ -93,7 +94,7 @@ fn tell(asked: &MaxLoad, setup: &Setup, graph: &ArmGraph, found: &Heaviest, time
         return console::say(&format!("NOTHING FEASIBLE: {why}"));
     };
     let evidence = if found.proven {
-        "optimal: proven over all loop-free paths".to_owned()
+        format!("optimal: {}", super::answer::proven_over(asked.visits))
     } else {
         found.gap_percent().map_or_else(String::new, |gap| format!("gap {gap:.4} %"))
     };

@@ -4,6 +4,7 @@ mod answer;
 mod certificate;
 mod cloud;
 mod graph;
+mod walk;
 
 use std::time::Instant;
 
@@ -30,6 +31,9 @@ pub(crate) fn run(asked: &MaxLoad) -> Result<u8, Problem> {
     let graph = Graph::read(path)?;
     if let Some(path) = &asked.verify {
         return certificate::verify(asked, path, &graph);
+    }
+    if asked.visits > 1 {
+        return walk::run(asked, &graph);
     }
     let settings = settings(asked, &graph)?;
     let (begun, deadline) = (Instant::now(), Deadline::after(asked.time_limit));

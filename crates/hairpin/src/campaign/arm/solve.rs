@@ -6,7 +6,9 @@ use super::program::Way;
 use crate::campaign::graph::{Outcome, Plan};
 use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, Evidence, Stop};
-use crate::search::heaviest::{Arcs, Ends, Heaviest, HeaviestSettings, Outcome as Found, heaviest};
+use crate::search::heaviest::{
+    Arcs, Ends, Heaviest, HeaviestSettings, Outcome as Found, WalkSettings, heaviest, heaviest_walk,
+};
 use crate::simulation::arm as controller;
 use crate::trajectory::program::Program;
 
@@ -89,7 +91,14 @@ impl ArmSetup<'_> {
             seed: self.scenario.seed,
             ..HeaviestSettings::default()
         };
-        let mut found = heaviest(&arcs, &settings, &over).map_err(|error| error.to_string())?;
+        let mut found = if search.visits == 1 {
+            heaviest(&arcs, &settings, &over).map_err(|error| error.to_string())?
+        } else {
+            let HeaviestSettings { ends, min_cost, programs, most_nodes, .. } = settings;
+            let settings =
+                WalkSettings { ends, visits: search.visits as usize, min_cost, programs, most_nodes, proof: false };
+            heaviest_walk(&arcs, &settings, &over).map_err(|error| error.to_string())?.0
+        };
         for (_, path) in &mut found.paths {
             path.retain(|row| *row < n);
         }

@@ -1,7 +1,7 @@
 //! The path of maximal total cost through a graph in which no point comes twice; points may be left out, ends be fixed.
 //!
 //! [`heaviest`] proves it: by dynamic programming over subsets of few points, else by branch and bound on Lagrangian
-//! bounds that hold where points may be left out, under a path from local search. `docs/heaviest-paths.md` has the
+//! bounds that hold where points may be left out, under a path from local search. [`heaviest_walk`] lets points come several times. `docs/heaviest-paths.md` has the
 //! equations.
 
 mod arborescence;
@@ -9,6 +9,7 @@ mod ascent;
 mod best;
 mod branch;
 mod choices;
+mod circulation;
 mod dfs;
 mod first_multipliers;
 mod forest;
@@ -21,6 +22,8 @@ mod several;
 mod solve;
 mod subsets;
 mod tour;
+mod walk;
+mod walks;
 mod workspace;
 
 #[cfg(test)]
@@ -30,4 +33,6 @@ pub use problem::{Arcs, ArcsMistake, Ends, MOST_POINTS};
 pub use record::{Next, Proof, Step};
 pub use solve::{Heaviest, HeaviestMistake, HeaviestSettings, Method, Outcome, heaviest};
 pub use subsets::{MOST_SUBSET_POINTS, subset_bytes};
+pub use walk::{Split, WalkProof, WalkStep};
+pub use walks::{MOST_VISITS, WalkMistake, WalkSettings, heaviest_walk};
 pub use workspace::Workspace;
