@@ -255,6 +255,9 @@ pub(crate) struct Execute {
     pub(crate) executor: Option<String>,
     #[command(flatten)]
     pub(crate) saved: Saved,
+    /// Of arms: logs of a real controller instead of runs of ours, `*` for CASE-RUN (sets execute.logs): 'nightly/*.csv'
+    #[arg(long, value_name = "PATTERN", conflicts_with_all = ["missions", "executor"])]
+    pub(crate) logs: Option<String>,
     /// Override one key of execute, vary or spec; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,

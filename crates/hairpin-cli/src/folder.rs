@@ -6,6 +6,7 @@ use hairpin::campaign::{Scenario, Setup};
 use hairpin::math::simd::Simd;
 use hairpin_formats::atomic;
 use hairpin_formats::folder::{CampaignFolder, Existing};
+use hairpin_formats::recordings;
 use hairpin_formats::scenario::{self, MadeBy, read_made_by, read_scenario, scenario_for};
 
 use crate::args::{Campaign, Kernels, Threads};
@@ -36,12 +37,28 @@ pub(crate) fn begin(campaign: &Campaign, executor: Option<&str>) -> Result<Work,
     let mut sets = split(&campaign.sets)?;
     sets.extend(campaign.seed.map(|seed| ("seed".to_owned(), seed.to_string())));
     sets.extend(executor.map(as_command));
-    let setup = Setup::new(scenario_for(&campaign.scenario, &sets)?)?.with_simd(simd(&campaign.kernels));
-    check_command(&setup.scenario)?;
     let path = campaign.out.clone().unwrap_or_else(|| default_folder(&campaign.scenario));
+    let mut scenario = scenario_for(&campaign.scenario, &sets)?;
+    tell_logs_from(&mut scenario, &path, Path::new(&campaign.scenario));
+    let setup = Setup::new(scenario)?.with_simd(simd(&campaign.kernels));
+    check_command(&setup.scenario)?;
     let work = Work { folder: make(&path, &setup, campaign.resume, campaign.force)?, setup };
     tracing::info!("campaign folder {}", work.folder.path().display());
     Ok(work)
+}
+
+/// Logs are named relative to the scenario file: the campaign's own lies in `folder`.
+fn tell_logs_from(scenario: &mut Scenario, folder: &Path, file: &Path) {
+    let Scenario::Arm(arm) = scenario else { return };
+    let Some(logs) = &mut arm.execute.logs else { return };
+    let base = if file.is_file() { file.parent().unwrap_or(Path::new("")) } else { Path::new("") };
+    *logs = recordings::relative_to(folder, base, logs);
+}
+
+/// `--logs PATTERN`, relative to where the command runs, as the key that it sets in the scenario of `folder`. JSON's strings are TOML's.
+pub(crate) fn as_logs(folder: &Path, pattern: &str) -> (String, String) {
+    let logs = recordings::relative_to(folder, Path::new(""), pattern);
+    ("execute.logs".to_owned(), serde_json::Value::from(logs).to_string())
 }
 
 /// Makes `path` the folder of a campaign, or takes it up again.

@@ -101,6 +101,13 @@ fn clouds_need_nothing_but_an_arm() {
     assert_eq!(code(&hairpin(place.path(), &["export", "ml", "--to", "rapid"])), 0);
     let module = fs::read_to_string(place.path().join("ml/0000.mod")).unwrap();
     assert!(module.contains(&format!("MoveJ p{:02}", path[0])) && module.contains(&format!("MoveL p{:02}", path[5])));
+    // Where points may come twice, programs come back to them and load the arm more.
+    let twice = ["max-load", "--cloud", "p.csv", "irb120", "--visits", "2", "--out", "twice", "--json"];
+    let twice = json(&hairpin(place.path(), &twice));
+    let often = twice["path"].as_array().unwrap();
+    assert!(often.len() > 6 && twice["proven"] == true && twice["cost"].as_f64() > answer["cost"].as_f64(), "{twice}");
+    assert_eq!(code(&hairpin(place.path(), &["execute", "twice"])), 0);
+    assert_eq!(code(&hairpin(place.path(), &["verify", "twice"])), 0);
     // The graph that was searched is one that can be searched again.
     let again = hairpin(place.path(), &["max-load", "--graph", "ml/graph.csv", "--json"]);
     assert_eq!(json(&again)["cost"], answer["cost"]);
@@ -135,12 +142,13 @@ fn what_is_not_there_is_refused_by_name() {
     for (set, wanted) in [
         ("generate.moves.speeds=[\"v123\"]", "generate.moves.speeds[0]"),
         ("generate.moves.zones=[\"z11\"]", "generate.moves.zones[0]"),
-        ("generate.search.visits=2", "generate.search.visits"),
+        ("generate.search.visits=17", "generate.search.visits"),
         ("world.keep_out_mm=[\"x^2 <\"]", "world.keep_out_mm[0]"),
         ("world.tool.q1_q4=[1, 1, 0, 0]", "world.tool.q1_q4"),
         ("task.home_deg=[0, 0, 0, 0, 300, 0]", "task.home_deg"),
-        ("spec.regression={ baseline = \"7.14\" }", "spec.regression"),
-        ("execute.logs=\"*.csv\"", "execute.logs"),
+        ("spec.regression={ baseline = \"7.14\" }", "there is no such folder"),
+        ("execute.logs=\"nightly\"", "execute.logs"),
+        ("execute.log_clock=\"offset-removed\"", "execute.log_clock"),
         ("generate.moves.speed=[]", "speeds"),
     ] {
         let refused = hairpin(place.path(), &["generate", "arm", "--set", set]);

@@ -1,7 +1,7 @@
 //! `junit.xml` for build servers, in the subset that Jenkins' xUnit schema takes: it drops the whole file for one
 //! attribute too many. A `testcase` has a name, a classname and a time, and nothing else; properties stand on the suite.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::Duration;
 
@@ -23,6 +23,8 @@ pub struct Suite {
     pub inconclusive: Option<String>,
     /// Name and value.
     pub properties: Vec<(String, String)>,
+    /// What is worse than a baseline, in sentences, by case: a failure even within spec.
+    pub regressions: BTreeMap<usize, Vec<String>>,
 }
 
 /// The file's text: one test case per case asked for, in the order of their numbers.
@@ -56,8 +58,13 @@ pub fn write(path: &Path, suite: &Suite, results: &[CaseResult]) -> Result<(), W
 }
 
 fn test_case(suite: &Suite, result: &CaseResult) -> TestCase {
-    let violations: Vec<String> = result.violations.iter().map(report::violation).collect();
+    let worse = suite.regressions.get(&result.case).map_or(&[][..], Vec::as_slice);
+    let violations: Vec<String> =
+        result.violations.iter().map(report::violation).chain(worse.iter().cloned()).collect();
     let status = match result.status {
+        Status::Pass if !worse.is_empty() => {
+            not_passed(NonSuccessKind::Failure, "Regression", &worse[0], worse.get(1..).unwrap_or_default())
+        }
         Status::Pass => match &suite.inconclusive {
             None => TestCaseStatus::success(),
             Some(why) => not_passed(NonSuccessKind::Error, "Inconclusive", why, &[]),

@@ -22,6 +22,7 @@ pub mod library;
 pub mod mesh;
 pub mod parquet;
 pub mod rapid;
+pub mod recordings;
 pub mod report;
 pub mod scenario;
 pub mod schema;

@@ -15,7 +15,16 @@ fn suite() -> junit::Suite {
         missing: "not found in 40 graphs".into(),
         inconclusive: None,
         properties: vec![("seed".into(), "10".into()), ("verdict".into(), "FAIL 1/5: worst 0.65 m > 0.50 m".into())],
+        regressions: Default::default(),
     }
+}
+
+#[test]
+fn what_is_worse_than_a_baseline_fails_within_spec() {
+    let worse = vec!["p1→p2 +41 ms (band ±6 ms) against 7.14".to_owned()];
+    let suite = junit::Suite { regressions: [(passed().case, worse)].into(), ..suite() };
+    let text = junit::text(&suite, &[passed()]);
+    assert!(text.contains("<failure message=\"p1→p2 +41 ms (band ±6 ms) against 7.14\" type=\"Regression\""), "{text}");
 }
 
 #[test]

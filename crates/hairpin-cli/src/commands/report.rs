@@ -18,7 +18,9 @@ pub(crate) fn run(report: &ReportArguments) -> Result<u8, Problem> {
         return Err(Problem::input(format!("not judged yet: hairpin judge {}", report.folder.display())));
     }
     let verdict = campaign::verdict(&work.setup, &cases, &results, &tally);
-    parts::report(&work, &cases, &tally, &verdict)?;
+    let moves = work.folder.read_moves()?;
+    let (verdict, regression) = parts::with_moves(&work, &moves, verdict)?;
+    parts::report(&work, &cases, &tally, &verdict, (&moves, regression.as_ref()))?;
     let path = work.folder.file("report.html");
     if report.json {
         console::say(&json!({ "verdict": verdict.sentence, "exit_code": 0, "report": path }).to_string());

@@ -19,7 +19,7 @@ pub(crate) fn campaign(work: &Work, deadline: Deadline, replayed: &[Replayed], j
     let (cases, tally) = parts::generate(work, deadline)?;
     parts::execute(work, &cases)?;
     let judgement = parts::judge(work, &cases, &tally)?;
-    parts::report(work, &cases, &tally, &judgement.verdict)?;
+    parts::report(work, &cases, &tally, &judgement.verdict, (&judgement.moves, judgement.regression.as_ref()))?;
     let asked = tally.asked(work.setup.scenario.search().cases);
     let answer = Answer { work, asked, cases: &cases, judgement: &judgement, replayed };
     Ok(answer.say(json))

@@ -26,6 +26,8 @@ pub struct ControllerLog {
     pub orientation_known: bool,
     /// Whether poses were computed from joint angles.
     pub from_joints: bool,
+    /// The line of the last sample.
+    pub last_line: usize,
 }
 
 /// Why a file is no recording. Lines count from 1.
@@ -156,8 +158,10 @@ fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Resul
     })?;
     let mut rows =
         Rows { path, layout: &layout, times: Vec::new(), poses: Vec::new(), joints: Vec::new(), moves: Vec::new() };
+    let mut last_line = 1;
     for (index, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
-        rows.push(index + 1, line, arm)?;
+        last_line = index + 1;
+        rows.push(last_line, line, arm)?;
     }
     let Rows { times, poses, joints, moves, .. } = rows;
     if times.len() < 2 {
@@ -177,7 +181,7 @@ fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Resul
     let track = track.map_err(|cause| ControllerLogError::Track { path: path.into(), cause })?;
     let from_joints = layout.position.is_none();
     let orientation_known = from_joints || !matches!(layout.turn, Turn::Unknown);
-    Ok(ControllerLog { track, orientation_known, from_joints })
+    Ok(ControllerLog { track, orientation_known, from_joints, last_line })
 }
 
 impl Layout {

@@ -9,8 +9,7 @@ use thiserror::Error;
 
 use super::message::{EndReason, PoseMessage};
 
-/// Channel, 1 throughout, of a flight whose executor did not send every attitude: its rotations mean nothing.
-pub const ATTITUDE_UNKNOWN: &str = "attitude_unknown";
+pub use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
 /// How far from 1 the length of a quaternion may be: what six printed digits leave.
 const QUATERNION_TOLERANCE: f64 = 1e-3;

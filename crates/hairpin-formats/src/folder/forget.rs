@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::PathBuf;
 
-use super::{CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, RESULTS, RUNS, WAYPOINTS, entries};
+use super::{CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, RESULTS, RUNS, WAYPOINTS, entries};
 use crate::atomic::{self, WriteError};
 
 impl CampaignFolder {
@@ -20,7 +20,7 @@ impl CampaignFolder {
     /// # Errors
     /// A file cannot be removed.
     pub fn forget_runs(&self) -> Result<(), FolderError> {
-        self.remove(&[RUNS, INFLUENCE, "junit.xml", "report.html"], &["executions"])
+        self.remove(&[RUNS, INFLUENCE, MOVES, "junit.xml", "report.html"], &["executions"])
     }
 
     /// Removes the campaign's products, the ones first whose presence says that others are complete.
@@ -28,7 +28,7 @@ impl CampaignFolder {
     /// # Errors
     /// A file cannot be removed.
     pub fn forget_cases(&self) -> Result<(), FolderError> {
-        let names = [RESULTS, RUNS, INFLUENCE, WAYPOINTS, GENERATION, "junit.xml", "report.html"];
+        let names = [RESULTS, RUNS, INFLUENCE, MOVES, WAYPOINTS, GENERATION, "junit.xml", "report.html"];
         self.remove(&names, &["trajectories", "profiles", "programs", "executions"])
     }
 

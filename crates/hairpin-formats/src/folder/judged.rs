@@ -3,9 +3,10 @@
 use std::fs;
 use std::io;
 
+use hairpin::campaign::arm::Moves;
 use hairpin::campaign::{Case, CaseResult, Influence};
 
-use super::{CampaignFolder, FolderError, INFLUENCE, RESULTS};
+use super::{CampaignFolder, FolderError, INFLUENCE, MOVES, RESULTS};
 use crate::atomic::{self, WriteError};
 use crate::parquet::results::{self, Row};
 
@@ -49,6 +50,31 @@ impl CampaignFolder {
         let mut text = serde_json::to_string_pretty(found).expect("influences are plain data");
         text.push('\n');
         Ok(atomic::write(&self.file(INFLUENCE), text.as_bytes())?)
+    }
+
+    /// Writes what every run of an arm did on every move.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_moves(&self, moves: &Moves) -> Result<(), FolderError> {
+        let mut text = serde_json::to_string_pretty(moves).expect("numbers and names are plain data");
+        text.push('\n');
+        Ok(atomic::write(&self.file(MOVES), text.as_bytes())?)
+    }
+
+    /// Reads it; nothing where no arm was judged.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_moves(&self) -> Result<Moves, FolderError> {
+        let path = self.file(MOVES);
+        match fs::read_to_string(&path) {
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(Moves::default()),
+            text => {
+                let found = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
+                found.map_err(|cause| FolderError::Unreadable { path, cause })
+            }
+        }
     }
 
     /// Which parameter did it; nothing where nothing was varied or judged.

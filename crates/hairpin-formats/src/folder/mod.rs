@@ -13,6 +13,8 @@
 //! | `executions/CASE-RUN.parquet` | one flight: poses, velocities, rotor speeds |
 //! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
+//! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move; what a later campaign is held against |
+//! | `baseline.json` | of arms with `spec.regression`: the same of earlier releases |
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
 //! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
 //!
@@ -41,6 +43,10 @@ const RESULTS: &str = "results.parquet";
 const WAYPOINTS: &str = "waypoints.parquet";
 const RUNS: &str = "runs.parquet";
 const INFLUENCE: &str = "influence.json";
+/// What every run of an arm did on every move.
+pub const MOVES: &str = "moves.json";
+/// The same of earlier releases, which this campaign is held against.
+pub const BASELINE: &str = "baseline.json";
 const LOCK: &str = ".lock";
 const FOLDERS: [&str; 6] = ["trajectories", "profiles", "programs", "executions", "missions", "repro"];
 

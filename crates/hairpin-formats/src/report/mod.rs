@@ -3,6 +3,7 @@
 
 mod data;
 mod page;
+mod regression;
 mod relief;
 mod svg;
 

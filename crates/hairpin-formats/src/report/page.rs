@@ -7,7 +7,7 @@ use hairpin::campaign::{CaseResult, Influence};
 use hairpin::judgement::Statistics;
 use sha2::{Digest, Sha256};
 
-use super::{data, svg};
+use super::{data, regression, svg};
 use crate::executor::ATTITUDE_UNKNOWN;
 
 const STYLE: &str = include_str!("page.css");
@@ -72,6 +72,7 @@ fn body(data: &ReportData) -> String {
         table(data),
         distributions(data),
         influences(data),
+        regression::section(data),
         setup(data),
         "</main>\n<footer><p>hairpin is a test generator. What it writes is stressful by design and is no safety \
          certificate.</p></footer>"
@@ -314,7 +315,7 @@ fn setup(data: &ReportData) -> String {
     )
 }
 
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -6,10 +6,12 @@ use std::sync::Arc;
 use hairpin::campaign::scenario::{ArmControllerKind, ArmScenario, CloudPoint, CostMatrix, CostSection, PointsSource};
 use sha2::{Digest, Sha256};
 
+use super::baseline;
 use super::place_of;
 use super::report::Report;
 use super::resolve::read_file;
 use super::tree::Node;
+use crate::folder::BASELINE;
 use crate::mesh::read_mesh;
 use crate::{cloud, costs, rapid};
 
@@ -33,11 +35,16 @@ pub(super) fn resolve(scenario: &mut ArmScenario, base: &Path, root: &Node, repo
 /// A file cannot be read, or is another one.
 pub(super) fn attach(scenario: &mut ArmScenario, folder: &Path) -> Result<(), Report> {
     let above = folder.join("..");
-    let named = match &scenario.task.points {
-        PointsSource::File(file) => Some(file.clone()),
+    let points = match &scenario.task.points {
+        PointsSource::File(file) => Some(file.as_str()),
         PointsSource::List(_) | PointsSource::Drawn(_) => None,
     };
-    let here = named.is_none_or(|file| folder.join(file).is_file());
+    let table = match &scenario.generate.cost {
+        CostSection::Table(table) => Some(table.table.as_str()),
+        CostSection::Named(_) | CostSection::Weighted(_) => None,
+    };
+    let baseline = scenario.spec.regression.as_ref().map(|limit| limit.baseline.as_str());
+    let here = [points, table, baseline].into_iter().flatten().all(|file| folder.join(file).is_file());
     match read_files(scenario, if here { folder } else { &above }).into_iter().next() {
         None => Ok(()),
         Some((key, value, bound)) => {
@@ -49,7 +56,7 @@ pub(super) fn attach(scenario: &mut ArmScenario, folder: &Path) -> Result<(), Re
 }
 
 fn read_files(scenario: &mut ArmScenario, base: &Path) -> Vec<Wrong> {
-    let results = [points(scenario, base), table(scenario, base), meshes(scenario, base)];
+    let results = [points(scenario, base), table(scenario, base), meshes(scenario, base), regression(scenario, base)];
     results.into_iter().filter_map(Result::err).collect()
 }
 
@@ -123,6 +130,24 @@ fn meshes(scenario: &mut ArmScenario, base: &Path) -> Result<(), Wrong> {
         mesh.vertices_mm = read.vertices.iter().map(|vertex| vertex.map(|part| part * scale)).collect();
         mesh.triangles = read.triangles;
     }
+    Ok(())
+}
+
+/// Reads the baseline. A resolved scenario's is `baseline.json`, which a campaign folder holds.
+fn regression(scenario: &mut ArmScenario, base: &Path) -> Result<(), Wrong> {
+    let Some(limit) = &mut scenario.spec.regression else { return Ok(()) };
+    let given = limit.baseline.clone();
+    let wrong = |bound: String| ("spec.regression.baseline".to_owned(), given.clone(), bound);
+    let (read, bytes) = baseline::read(&base.join(&given)).map_err(wrong)?;
+    let checksum = hex(&bytes);
+    if let Some(other) = limit.checksum.as_ref().filter(|other| **other != checksum) {
+        let bound = format!("the checksum of `{given}`, which is {checksum}: it is another baseline");
+        return Err(("spec.regression.checksum".into(), other.clone(), bound));
+    }
+    limit.baseline = BASELINE.into();
+    limit.checksum = Some(checksum);
+    limit.read = Some(Arc::new(read));
+    limit.bytes = Some(bytes.into());
     Ok(())
 }
 

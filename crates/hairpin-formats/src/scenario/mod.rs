@@ -1,6 +1,7 @@
 //! Scenario files in and out. Reading resolves: what comes out holds robot, world and meshes, and is checked.
 
 mod arm;
+mod baseline;
 mod cell;
 mod report;
 mod resolve;

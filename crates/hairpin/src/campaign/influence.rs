@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::scenario::{KeyPath, Scenario};
 use super::vary;
+use crate::judgement::moves::Measured;
 use crate::judgement::rank_correlation;
 
 /// What one run came to under the values drawn for it.
@@ -18,6 +19,8 @@ pub struct RunDeviation {
     pub max_deviation: f64,
     /// Values drawn for `[vary]`, by key; none for run 0.
     pub drawn: Vec<(String, Value)>,
+    /// Of arms: what it did on each move.
+    pub moves: Option<Measured>,
 }
 
 /// A varied number and its rank correlation with the deviation.
@@ -104,6 +107,7 @@ mod tests {
                 run,
                 max_deviation: (run * run) as f64,
                 drawn: if run == 0 { vec![] } else { drawn },
+                moves: None,
             }
         };
         let found = influences(&scenario, &(0..9).map(run).collect::<Vec<_>>());

@@ -10,6 +10,7 @@ use super::scenario::DeviationFrom;
 use super::setup::Kind;
 use super::terms::Terms;
 use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, arm, planned, vary};
+use crate::judgement::moves::Measured;
 use crate::judgement::{
     self, Claim, Clearance, Judged, JudgementError, Measures, Reference, Settings, Verdict, Violation, Worst,
 };
@@ -51,6 +52,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
                     run: run.run,
                     max_deviation: judged.measures.max_deviation,
                     drawn: run.drawn.clone(),
+                    moves: judged.moves.clone(),
                 });
                 if worst.as_ref().is_none_or(|(so_far, _)| judged.rank() > so_far.rank()) {
                     worst = Some((judged, run));
@@ -101,6 +103,7 @@ struct JudgedRun {
     ended: String,
     left_world: Option<f64>,
     crashed: bool,
+    moves: Option<Measured>,
 }
 
 impl JudgedRun {
@@ -160,10 +163,11 @@ fn judge_run(
     };
     Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|mut measures| {
         let arm = setup.arm();
-        measures.latest = arm.and_then(|arm| {
+        let moves = arm.and_then(|arm| {
             let programmed = plan.programmed.get_or_init(|| arm.planned(case).ok()).as_ref();
-            arm::latest(programmed?, &flight.track)
+            arm::measured(&arm, programmed?, &flight.track)
         });
+        measures.latest = moves.as_ref().and_then(arm::latest);
         let mut violations = judgement::violations(&measures, flight, &terms.limits);
         if arm.is_some() {
             violations = violations.into_iter().map(arm::in_small_units).collect();
@@ -174,6 +178,7 @@ fn judge_run(
             left_world: flight.left_world,
             crashed: flight.ended.is_crash(),
             measures,
+            moves,
         }
     }))
 }
@@ -242,8 +247,13 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
     })
 }
 
-/// `simulated, anafi stand-in, minimum-snap`, or the executor's command.
+/// `simulated, anafi stand-in, minimum-snap`, or the executor's command; of logs `hardware, irb120, nightly/*.csv`.
 pub fn how_obtained(setup: &Setup) -> Vec<String> {
+    if let Some(logs) = setup.arm().and_then(|arm| arm.scenario.execute.logs.as_deref()) {
+        // What was recorded was no stand-in, only what it is held against is computed with one.
+        let logs = logs.trim_start_matches("../");
+        return vec!["hardware".into(), setup.robot_name().into(), logs.into()];
+    }
     let name = setup.robot_name();
     let stand_in = if setup.caveat().is_empty() { name.to_owned() } else { format!("{name} stand-in") };
     let who = match (setup.scenario.executor().command, setup.scenario.controller()) {

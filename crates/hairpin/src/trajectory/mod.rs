@@ -17,4 +17,4 @@ pub use legs::{Drive, DriveLeg};
 pub use planned_path::{PlannedMove, PlannedPath};
 pub use profile::{Profile, ProfileLeg};
 pub use speed::{SpeedError, SpeedProfile, Speeds, Timing};
-pub use track::{Channel, Track, TrackError};
+pub use track::{ATTITUDE_UNKNOWN, Channel, Track, TrackError};

@@ -3,6 +3,9 @@
 use nalgebra::{Isometry3, Point3};
 use thiserror::Error;
 
+/// Channel, 1 throughout, of tracks whose attitudes nobody told: their rotations mean nothing.
+pub const ATTITUDE_UNKNOWN: &str = "attitude_unknown";
+
 /// A named column beside the poses, one value per stamp.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {

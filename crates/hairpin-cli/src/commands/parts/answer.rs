@@ -2,6 +2,7 @@
 
 use hairpin::campaign::report::{COLUMNS, cells, violation, worst_first};
 use hairpin::campaign::{Case, CaseResult, Status};
+use hairpin::judgement::moves::{Metric, Outcome, Regression};
 use hairpin_formats::header::Header;
 use serde_json::{Value, json};
 
@@ -62,6 +63,19 @@ impl Answer<'_> {
         self.cases.iter().find(|case| case.number == result.case).map(Case::claim)
     }
 
+    /// By how much the clocks of arms' recordings differ from the plan's.
+    fn offsets(&self) -> Vec<Value> {
+        let cases = self.judgement.moves.cases.iter();
+        let runs = cases.flat_map(|case| case.runs.iter().map(move |run| (case, run)));
+        runs.map(|(case, run)| {
+            json!({
+                "case": format!("{:04}", case.case), "run": run.run, "offset_s": run.offset_s,
+                "spread_s": run.offset_spread_s, "removed": run.offset_removed,
+            })
+        })
+        .collect()
+    }
+
     fn table(&self) -> String {
         let header = COLUMNS.iter().chain(&["evidence"]).map(|name| (*name).to_owned()).collect();
         let worst = worst_first(&self.judgement.results).into_iter().take(WORST);
@@ -98,6 +112,8 @@ impl Answer<'_> {
             }),
             "replayed": self.replayed.iter().map(Replayed::object).collect::<Vec<_>>(),
             "influences": self.judgement.influences,
+            "offsets": self.offsets(),
+            "regression": self.judgement.regression.as_ref().map(regression),
             "paths": {
                 "folder": self.work.folder.path(),
                 "scenario": file("scenario.toml"),
@@ -107,6 +123,40 @@ impl Answer<'_> {
             },
         })
     }
+}
+
+/// A comparison with a baseline: what is outside its band, and how moves went from release to release.
+fn regression(found: &Regression) -> Value {
+    let name = |metric: Metric| match metric {
+        Metric::Duration => "duration_s",
+        Metric::Deviation => "deviation_m",
+    };
+    let outside = |wanted: Outcome| -> Vec<Value> {
+        let programs = found.programs.iter();
+        let all = programs.flat_map(|one| one.comparison.compared.iter().map(move |compared| (one, compared)));
+        all.filter(|(_, compared)| compared.outcome == wanted)
+            .map(|(one, compared)| {
+                json!({
+                    "case": one.program, "move": compared.name, "index": compared.index, "what": name(compared.metric),
+                    "baseline": compared.baseline, "new": compared.new, "band": compared.band,
+                })
+            })
+            .collect()
+    };
+    let trends = found.programs.iter().flat_map(|one| one.trends.iter().map(move |trend| (one, trend)));
+    let trends = trends.map(|(one, trend)| {
+        json!({
+            "case": one.program, "move": trend.name, "index": trend.index, "what": name(trend.metric),
+            "means": trend.means, "slope": trend.slope, "rank_correlation": trend.correlation,
+        })
+    });
+    json!({
+        "releases": found.releases,
+        "moves": found.moves(),
+        "worse": outside(Outcome::Worse),
+        "better": outside(Outcome::Better),
+        "trends": trends.collect::<Vec<_>>(),
+    })
 }
 
 /// The worst run of a case.

@@ -28,6 +28,11 @@ pub(crate) struct Flown {
 /// Flies all runs of `cases` that are not in the folder yet.
 pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
+    let logs = work.setup.arm().and_then(|arm| Some((arm, arm.scenario.execute.logs.clone()?)));
+    if let Some((arm, pattern)) = logs {
+        super::recorded::take_in(work, &arm, &pattern, cases)?;
+        return write_table(&work.folder, cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run))));
+    }
     let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));
     let missing: Vec<(&Case, usize)> =
         all().filter(|(case, run)| !work.folder.has_valid_run(case.number, *run)).collect();

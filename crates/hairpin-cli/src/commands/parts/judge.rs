@@ -1,10 +1,12 @@
 //! Parts three and four: the verdict on the flights in the folder, and the report.
 
+use hairpin::campaign::arm::Moves;
 use hairpin::campaign::{
     self, Case, CaseResult, Influence, RunDeviation, Status, Tally,
     report::{Shown, worst_first},
 };
 use hairpin::judgement::Verdict;
+use hairpin::judgement::moves::{Outcome, Regression};
 use hairpin_formats::executor::ATTITUDE_UNKNOWN;
 use hairpin_formats::junit::{self, Suite};
 use rayon::prelude::*;
@@ -24,6 +26,10 @@ pub(crate) struct Judgement {
     pub(crate) influences: Vec<Influence>,
     /// Cases of which a flight came without attitudes.
     pub(crate) attitude_unknown: usize,
+    /// Of arms: what every run did on every move.
+    pub(crate) moves: Moves,
+    /// Of arms with a baseline.
+    pub(crate) regression: Option<Regression>,
 }
 
 /// Judges every case and writes results, JUnit, repro files, and which parameter did it.
@@ -46,16 +52,51 @@ pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgem
         })
         .collect();
     let (results, deviations): (Vec<_>, Vec<_>) = judged?.into_iter().unzip();
-    let influences = campaign::influences(&work.setup.scenario, &deviations.concat());
+    let deviations = deviations.concat();
+    let influences = campaign::influences(&work.setup.scenario, &deviations);
+    let moves = work.setup.arm().map(|arm| arm.moves(cases, &deviations)).unwrap_or_default();
     let verdict = campaign::verdict(&work.setup, cases, &results, tally);
+    let (verdict, regression) = with_moves(work, &moves, verdict)?;
     work.folder.write_results(cases, &results)?;
-    junit::write(&work.folder.file("junit.xml"), &suite(work, tally, &verdict, &results), &results)?;
+    if work.setup.arm().is_some() {
+        work.folder.write_moves(&moves)?;
+    }
+    let suite = suite(work, tally, &verdict, &results, regression.as_ref());
+    junit::write(&work.folder.file("junit.xml"), &suite, &results)?;
     write_repros(work, cases, &results)?;
     work.folder.write_influences(&influences)?;
-    Ok(Judgement { results, verdict, influences, attitude_unknown: attitude_unknown.into_inner() })
+    Ok(Judgement { results, verdict, influences, attitude_unknown: attitude_unknown.into_inner(), moves, regression })
 }
 
-fn suite(work: &Work, tally: &Tally, verdict: &Verdict, results: &[CaseResult]) -> Suite {
+/// The verdict by the limits, with what an arm's baseline and the recordings' clocks say. The new release is called after the campaign's folder.
+pub(crate) fn with_moves(
+    work: &Work,
+    moves: &Moves,
+    verdict: Verdict,
+) -> Result<(Verdict, Option<Regression>), Problem> {
+    let Some(arm) = work.setup.arm().filter(|_| !moves.cases.is_empty()) else { return Ok((verdict, None)) };
+    let path = std::fs::canonicalize(work.folder.path()).unwrap_or_else(|_| work.folder.path().to_owned());
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let regression = arm.regression(moves, &name);
+    let regression = regression.map_err(|error| Problem::input(format!("`spec.regression`: {error}")))?;
+    Ok((arm.verdict_with(verdict, moves, regression.as_ref()), regression))
+}
+
+fn suite(
+    work: &Work,
+    tally: &Tally,
+    verdict: &Verdict,
+    results: &[CaseResult],
+    regression: Option<&Regression>,
+) -> Suite {
+    let programs = regression.iter().flat_map(|regression| &regression.programs).zip(results);
+    let worse = programs.map(|(one, result)| {
+        let against = &one.comparison.baseline;
+        let worse = one.comparison.compared.iter().filter(|one| one.outcome == Outcome::Worse);
+        let lost =
+            one.comparison.lost.iter().map(|index| format!("move {index} no longer completed, against {against}"));
+        (result.case, worse.map(|one| format!("{} against {against}", one.told())).chain(lost).collect())
+    });
     let scenario = &work.setup.scenario;
     let by_a_case = results.iter().any(|result| result.status == Status::Inconclusive);
     let property = |name: &str, value: String| (name.to_owned(), value);
@@ -69,6 +110,7 @@ fn suite(work: &Work, tally: &Tally, verdict: &Verdict, results: &[CaseResult]) 
             property("seed", scenario.seed().to_string()),
             property("version", env!("CARGO_PKG_VERSION").into()),
         ],
+        regressions: worse.collect(),
     }
 }
 
@@ -93,10 +135,20 @@ fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(
 }
 
 /// Writes `report.html`.
-pub(crate) fn report(work: &Work, cases: &[Case], tally: &Tally, verdict: &Verdict) -> Result<(), Problem> {
-    let assumptions = campaign::assumptions(&work.setup, cases, tally);
+pub(crate) fn report(
+    work: &Work,
+    cases: &[Case],
+    tally: &Tally,
+    verdict: &Verdict,
+    (moves, regression): (&Moves, Option<&Regression>),
+) -> Result<(), Problem> {
+    let mut assumptions = campaign::assumptions(&work.setup, cases, tally);
+    if let Some(arm) = work.setup.arm() {
+        assumptions.extend(arm.said_of_moves(moves, regression));
+    }
     let mut data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions)
         .map_err(Problem::input)?;
+    data.regression = regression.cloned();
     let level = |shown: &Shown| shown.flown.as_ref().is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some());
     if data.shown.iter().any(level) {
         data.assumptions.push("The executor sent no attitudes: they are unknown, and drawn level.".into());

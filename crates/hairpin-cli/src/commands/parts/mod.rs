@@ -5,13 +5,14 @@ mod execute;
 mod generate;
 mod judge;
 mod programs;
+mod recorded;
 mod repro;
 mod saved;
 
 pub(crate) use answer::Answer;
 pub(crate) use execute::{Flown, attitude_unknown, execute, fly_one};
 pub(crate) use generate::{adopt, generate};
-pub(crate) use judge::{Judgement, judge, report};
+pub(crate) use judge::{Judgement, judge, report, with_moves};
 pub(crate) use programs::keep_programs;
 pub(crate) use repro::{Repro, ShrunkFrom};
 pub(crate) use saved::{Replayed, replay_saved, with_saved};

@@ -50,9 +50,12 @@ pub(in crate::campaign) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tall
         said.push(format!("Missions: {} waypoint files made elsewhere; nothing was searched.", tally.missions.len()));
         return;
     }
-    let often = if search.visits == 1 { "once" } else { "as often as `visits` allows" };
+    let often = match search.visits {
+        1 => "once".to_owned(),
+        visits => format!("{visits} times and no move twice"),
+    };
     said.push(format!(
-        "Search: paths of largest total cost `{}` among {} points, each at most {often}, points may be left out; {} of {} programs \
+        "Search: paths of largest total cost `{}` among {} points, each at most {often}; points may be left out; {} of {} programs \
          asked for, pairwise different. `optimal` means proven over all such paths.",
         setup.scenario.generate.cost.word(),
         setup.station.points.len(),
@@ -70,7 +73,10 @@ pub(in crate::campaign) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tall
 pub(in crate::campaign) fn act(setup: &ArmSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
     said.push(match &execute.logs {
-        Some(logs) => format!("Recorded elsewhere: `{logs}`, on the stamps of its own clock."),
+        Some(logs) => format!(
+            "Recorded on a real controller (hardware): `{logs}`. Places are taken for those of the tool's point in the arm's base frame; what \
+             they are held against is the path and the time that hairpin's virtual controller plans for the program."
+        ),
         None => format!(
             "Simulated: hairpin's virtual controller, a stand-in for one whose numbers are not public: profile {}, servo lag of {} s \
              on every axis, samples every 10 ms, measured positions with a standard deviation of {} mm.",

@@ -67,6 +67,13 @@ pub(in crate::campaign) fn run(
     case: &Case,
     seed: u64,
 ) -> Result<Flight, SimulationError> {
+    if let Some(logs) = &nominal.scenario.execute.logs {
+        return Err(SimulationError::new(
+            "execute.logs",
+            logs.clone(),
+            "left out where the virtual controller is to run the program",
+        ));
+    }
     let program = program_of(case)?;
     let orders = nominal.orders(program)?;
     let plan = Plan::new(&own.station.arm, &nominal.station.home, &orders, &own.plan_settings())?;
@@ -86,7 +93,7 @@ pub(super) fn program_of(case: &Case) -> Result<&Program, SimulationError> {
 }
 
 /// The recording with the leg that is being driven, the velocity, and the joints in degrees.
-fn legs_of(recording: &Track) -> Result<Track, SimulationError> {
+pub(super) fn legs_of(recording: &Track) -> Result<Track, SimulationError> {
     let renamed = recording.channels().iter().map(|channel| match channel.name.as_str() {
         "move" => Channel { name: "leg".into(), values: channel.values.clone() },
         _ => channel.clone(),

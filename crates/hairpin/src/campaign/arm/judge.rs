@@ -3,11 +3,11 @@
 use super::ArmSetup;
 use super::execute::program_of;
 use crate::campaign::Case;
-use crate::campaign::scenario::PathFrom;
-use crate::judgement::moves::{MeasureSettings, measure_moves};
+use crate::campaign::scenario::{LogClock, PathFrom};
+use crate::judgement::moves::{Clock, MeasureSettings, Measured, measure_moves};
 use crate::judgement::{Late, Violation};
 use crate::simulation::arm::Plan;
-use crate::trajectory::{PlannedPath, Track};
+use crate::trajectory::{ATTITUDE_UNKNOWN, PlannedPath, Track};
 
 impl ArmSetup<'_> {
     /// The path that deviations are measured from: with the program's zones, or through its points.
@@ -23,9 +23,22 @@ impl ArmSetup<'_> {
     }
 }
 
-/// The latest of all arrivals of `recording` at the points of the programmed path; `None` where it is too short, or arrived nowhere.
-pub(in crate::campaign) fn latest(programmed: &PlannedPath, recording: &Track) -> Option<Late> {
-    let measured = measure_moves(programmed, recording, &MeasureSettings::default()).ok()?;
+/// What `recording` did on each move of the programmed path; `None` where it is too short. Distances of samples are left out.
+pub(in crate::campaign) fn measured(setup: &ArmSetup, programmed: &PlannedPath, recording: &Track) -> Option<Measured> {
+    let turn_weight =
+        if recording.channel(ATTITUDE_UNKNOWN).is_some() { 0.0 } else { MeasureSettings::default().turn_weight };
+    let clock = match setup.scenario.execute.log_clock {
+        LogClock::AsRecorded => Clock::AsRecorded,
+        LogClock::OffsetRemoved => Clock::OffsetRemoved,
+    };
+    let measured =
+        measure_moves(programmed, recording, &MeasureSettings { turn_weight, clock, ..MeasureSettings::default() })
+            .ok()?;
+    Some(Measured { deviations: Vec::new(), ..measured })
+}
+
+/// The latest of all arrivals at points; `None` where it arrived nowhere.
+pub(in crate::campaign) fn latest(measured: &Measured) -> Option<Late> {
     let arrivals = measured.moves.iter().enumerate();
     let late = arrivals.filter_map(|(leg, m)| Some(Late { by: m.late()?, at: m.arrived?, leg }));
     late.max_by(|a, b| a.by.total_cmp(&b.by))

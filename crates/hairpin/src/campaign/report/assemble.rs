@@ -26,5 +26,6 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         frame: pieces.frame,
         claims: pieces.cases.iter().map(|case| (case.number, case.claim())).collect(),
         influences: pieces.influences,
+        regression: None,
     }
 }

@@ -9,6 +9,7 @@ use super::text::attitude;
 use crate::campaign::scenario::DeviationFrom;
 use crate::campaign::terms::Terms;
 use crate::campaign::{Case, CaseResult, Influence, Run, Setup, Status, Tally, vary};
+use crate::judgement::moves::Regression;
 use crate::judgement::{
     JudgementError, Measures, Reference, Settings, Statistics, Verdict, Violation, deviation_of_samples,
 };
@@ -91,6 +92,8 @@ pub struct ReportData {
     pub claims: BTreeMap<usize, String>,
     /// Which parameter did it.
     pub influences: Vec<Influence>,
+    /// Of arms with a baseline: its moves against this campaign's.
+    pub regression: Option<Regression>,
 }
 
 /// What [`super::assemble`] is given.

@@ -130,7 +130,7 @@ impl Scenario {
         }
     }
 
-    /// Names and contents of the files that a resolved scenario keeps in its campaign's folder: its map, its cloud, its costs.
+    /// Names and contents of the files that a resolved scenario keeps in its campaign's folder: its map, its cloud, its costs, its baseline.
     pub fn files(&self) -> Vec<(&str, &[u8])> {
         let kept = match self {
             Self::Flight(_) => Vec::new(),
@@ -147,7 +147,12 @@ impl Scenario {
                     CostSection::Table(table) => (Some(table.table.as_str()), table.bytes.as_deref()),
                     CostSection::Named(_) | CostSection::Weighted(_) => (None, None),
                 };
-                vec![(points, scenario.task.bytes.as_deref()), table]
+                let regression = scenario.spec.regression.as_ref();
+                let baseline = (
+                    regression.map(|limit| limit.baseline.as_str()),
+                    regression.and_then(|limit| limit.bytes.as_deref()),
+                );
+                vec![(points, scenario.task.bytes.as_deref()), table, baseline]
             }
         };
         kept.into_iter().filter_map(|(file, bytes)| file.zip(bytes)).collect()

@@ -18,6 +18,8 @@ const FIXED: &[(&str, &str)] = &[
     ("generate.search.per_graph", "it is the number of cases of a graph"),
     ("execute.command", "one program flies all runs"),
     ("execute.logs", "it belongs to the whole campaign"),
+    ("execute.log_clock", "it belongs to the whole campaign"),
+    ("spec.regression", "it judges all cases together"),
     ("execute.repeat", "it is the number of runs"),
     ("execute.timeout_s", "one program flies all runs"),
     ("execute.workers", "one program flies all runs"),

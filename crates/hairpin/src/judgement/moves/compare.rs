@@ -96,10 +96,13 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Moves (each once) with an outcome.
+    /// Moves (each once) with an outcome. A move that is worse in anything is not counted as better.
     pub fn count(&self, outcome: Outcome) -> usize {
-        let mut moves: Vec<usize> =
-            self.compared.iter().filter(|one| one.outcome == outcome).map(|one| one.index).collect();
+        let with = |outcome| self.compared.iter().filter(move |one| one.outcome == outcome).map(|one| one.index);
+        let mut moves: Vec<usize> = with(outcome).collect();
+        if outcome == Outcome::Better {
+            moves.retain(|index| with(Outcome::Worse).chain(self.lost.iter().copied()).all(|worse| worse != *index));
+        }
         if outcome == Outcome::Worse {
             moves.extend(&self.lost);
             moves.sort_unstable();

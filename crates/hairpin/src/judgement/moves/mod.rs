@@ -4,6 +4,7 @@
 mod align;
 mod compare;
 mod measure;
+mod regression;
 mod spec;
 mod trend;
 mod verdict;
@@ -15,9 +16,10 @@ use thiserror::Error;
 
 pub use compare::{Band, Comparison, Metric, MoveComparison, Outcome, Release, compare};
 pub use measure::{Clock, MeasureSettings, Measured, MoveMeasures, Offset, measure_moves};
+pub use regression::{ProgramComparison, Regression};
 pub use spec::{MoveLimits, move_violations, worst_of};
 pub use trend::{Trend, trend};
-pub use verdict::{JudgedMoves, moves_verdict};
+pub use verdict::{JudgedMoves, moves_verdict, offset_told};
 
 /// Why recordings cannot be judged.
 #[derive(Debug, Clone, PartialEq, Error)]

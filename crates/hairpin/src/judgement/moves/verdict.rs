@@ -1,7 +1,8 @@
 //! The verdict on a program's runs: a sentence and an exit code.
 
-use super::compare::{Comparison, Metric, MoveComparison, Outcome};
-use super::measure::Measured;
+use super::compare::Comparison;
+use super::measure::{Measured, Offset};
+use super::regression::{ProgramComparison, Regression};
 use super::spec::{MoveLimits, move_violations, worst_of};
 use crate::judgement::{Verdict, Violation};
 
@@ -29,74 +30,33 @@ pub fn moves_verdict(judged: &JudgedMoves) -> Verdict {
     }
     failed.sort_unstable();
     failed.dedup();
-    let worse = judged.comparison.map_or(0, |comparison| comparison.count(Outcome::Worse));
     let limited = judged.limits.path.is_some() || judged.limits.late.is_some();
-    let mut parts = Vec::new();
-    let worst = worst_of(judged.runs, judged.limits);
-    parts.extend(worst.as_ref().map(|(run, violation)| worst_and_where(judged, *run, violation)));
-    let (start, exit_code) = match judged.comparison {
-        _ if !failed.is_empty() => (format!("FAIL {}/{moves} moves {}", failed.len(), how(judged)), 1),
-        Some(comparison) if worse > 0 => {
-            let spec = if limited { "all still within spec" } else { "no spec was given" };
-            parts = vec![outside(comparison), spec.into()];
-            (regression(comparison), 1)
-        }
-        _ if judged.runs.is_empty() || !(limited || judged.comparison.is_some()) => {
-            parts.push("nothing to judge by: neither a limit nor a baseline".into());
-            (format!("INCONCLUSIVE {moves} moves {}", how(judged)), 5)
-        }
-        _ => (format!("PASS {moves}/{moves} moves {}", how(judged)), 0),
+    let (word, exit_code) = match judged.comparison {
+        _ if !failed.is_empty() => (format!("FAIL {}/{moves}", failed.len()), 1),
+        None if judged.runs.is_empty() || !limited => (format!("INCONCLUSIVE {moves}"), 5),
+        _ => (format!("PASS {moves}/{moves}"), 0),
     };
+    let worst = worst_of(judged.runs, judged.limits);
+    let worst = worst.map(|(run, violation)| worst_and_where(judged, run, &violation));
+    let nothing = || "nothing to judge by: neither a limit nor a baseline".to_owned();
+    let said = worst.unwrap_or_else(|| if exit_code == 5 { nothing() } else { "nothing is limited".into() });
+    let mut verdict = Verdict { sentence: format!("{word} moves {}: {said}", how(judged)), exit_code };
     if let Some(comparison) = judged.comparison {
-        let (baseline, better) = (&comparison.baseline, comparison.count(Outcome::Better));
-        if !failed.is_empty() && worse > 0 {
-            parts.push(format!("against {baseline}: {}", outside(comparison)));
-        } else if worse == 0 {
-            parts.push(format!("against {baseline}: no move outside the baseline's band"));
-        }
-        if better > 0 {
-            parts.push(format!("{better} better than the band"));
-        }
+        let program = ProgramComparison { program: String::new(), comparison: comparison.clone(), trends: Vec::new() };
+        let releases = vec![comparison.baseline.clone(), comparison.new.clone()];
+        verdict = Regression { releases, programs: vec![program] }.join(verdict, limited);
     }
-    parts.extend(offsets(judged.runs));
-    parts.extend(judged.evidence.iter().map(|evidence| (*evidence).to_owned()));
-    Verdict { sentence: format!("{start}: {}", parts.join("; ")), exit_code }
+    let offset = offset_told(judged.runs.iter().filter_map(|run| Some((run.offset?, run.sample))));
+    for said in offset.iter().map(String::as_str).chain(judged.evidence.iter().copied()) {
+        verdict.sentence += &format!("; {said}");
+    }
+    verdict
 }
 
 fn how(judged: &JudgedMoves) -> String {
     let runs = if judged.runs.len() == 1 { "1 run".into() } else { format!("{} runs", judged.runs.len()) };
     let parts: Vec<&str> = judged.how.iter().copied().chain([runs.as_str()]).collect();
     format!("({})", parts.join(", "))
-}
-
-fn regression(comparison: &Comparison) -> String {
-    let [before, now] = comparison.runs;
-    format!("REGRESSION {} against {} ({now} + {before} runs)", comparison.new, comparison.baseline)
-}
-
-/// `3/48 moves outside the baseline's band, worst p17→p09 +41 ms (band ±6 ms)`.
-fn outside(comparison: &Comparison) -> String {
-    let count = format!("{}/{} moves outside the baseline's band", comparison.count(Outcome::Worse), comparison.moves);
-    match (comparison.lost.first(), comparison.worst()) {
-        (Some(lost), _) => format!("{count}, move {lost} no longer completed in every run"),
-        (None, Some(worst)) => format!("{count}, worst {}", beyond(worst)),
-        (None, None) => count,
-    }
-}
-
-fn beyond(one: &MoveComparison) -> String {
-    let (difference, band, unit) = match one.metric {
-        Metric::Duration => (1e3 * one.difference(), 1e3 * one.band, "ms"),
-        Metric::Deviation => (1e3 * one.difference(), 1e3 * one.band, "mm"),
-    };
-    let decimals = match one.metric {
-        Metric::Duration if difference >= 10.0 => 0,
-        Metric::Duration => 1,
-        Metric::Deviation => 2,
-    };
-    // A band is never printed as wide as what lies outside it.
-    let decimals = (decimals..12).find(|d| format!("{difference:.d$}") != format!("{band:.d$}")).unwrap_or(12);
-    format!("{} +{difference:.decimals$} {unit} (band ±{band:.decimals$} {unit})", one.name)
 }
 
 fn worst_and_where(judged: &JudgedMoves, run: usize, violation: &Violation) -> String {
@@ -111,10 +71,10 @@ fn worst_and_where(judged: &JudgedMoves, run: usize, violation: &Violation) -> S
     format!("worst {value}{late} {relation} {limit}, {name}, t = {:.2} s{of_run}", violation.at)
 }
 
-/// An offset that was taken off, or one that every arrival shares and that is told because it was not.
-fn offsets(runs: &[Measured]) -> Option<String> {
-    let largest = runs.iter().filter_map(|run| run.offset.map(|offset| (offset, run.sample)));
-    let (offset, sample) = largest.max_by(|a, b| a.0.seconds.abs().total_cmp(&b.0.seconds.abs()))?;
+/// The largest of runs' offsets, each with the time between samples (s): one that was taken off, or one that every arrival of its run shares
+/// and that is told because it was not.
+pub fn offset_told(offsets: impl Iterator<Item = (Offset, f64)>) -> Option<String> {
+    let (offset, sample) = offsets.max_by(|a, b| a.0.seconds.abs().total_cmp(&b.0.seconds.abs()))?;
     let milliseconds = 1e3 * offset.seconds;
     if offset.removed {
         Some(format!("time offset of {milliseconds:+.1} ms removed as asked"))

@@ -1,9 +1,10 @@
 //! The bounds of every key of an arm's scenario.
 
-use super::{ArmExecute, ArmGenerate, ArmScenario, ArmSpec, CostSection, PointsSource};
+use super::{ArmExecute, ArmGenerate, ArmScenario, ArmSpec, CostSection, LogClock, PointsSource};
 use crate::campaign::arm::station_of;
 use crate::campaign::scenario::Mistake;
 use crate::campaign::scenario::findings::Findings;
+use crate::search::heaviest::MOST_VISITS;
 use crate::trajectory::program::{Speed, Zone};
 
 /// More points take graphs of more than a hundred million arcs.
@@ -17,6 +18,13 @@ impl ArmScenario {
         self.check_task(&mut found);
         check_generate(&self.generate, self.task.count(), &mut found);
         check_execute(&self.execute, &mut found);
+        let drawn = self.execute.logs.is_some() && !self.vary.is_empty();
+        found.require(
+            !drawn,
+            "vary",
+            "given",
+            "left out where runs are recorded elsewhere: nothing can be drawn for them",
+        );
         check_spec(&self.spec, &mut found);
         if found.0.is_empty()
             && let Err(mistake) = station_of(self)
@@ -70,8 +78,7 @@ fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
     found.from("generate.moves.singularity_margin_deg", moves.singularity_margin_deg, 0.0, 45.0, "°");
     let search = &generate.search;
     found.count("generate.search.programs", search.programs, 1, 1_000);
-    let once = "1: paths that come back to a point are not searched for";
-    found.require(search.visits == 1, "generate.search.visits", search.visits, once);
+    found.count("generate.search.visits", search.visits, 1, MOST_VISITS as u64);
     if let Some(limit) = search.time_limit_s {
         found.above("generate.search.time_limit_s", limit, 0.0, 1e6, " s");
     }
@@ -87,9 +94,18 @@ fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
 }
 
 fn check_execute(execute: &ArmExecute, found: &mut Findings) {
-    let given = format!("\"{}\"", execute.logs.as_deref().unwrap_or_default());
-    let bound = "left out: this version judges runs of the virtual controller only";
-    found.require(execute.logs.is_none(), "execute.logs", given, bound);
+    if let Some(logs) = &execute.logs {
+        let name = logs.rsplit('/').next().unwrap_or_default();
+        let bound = "files named by one `*` that stands for CASE-RUN or CASE, such as nightly/*.csv";
+        let fine = name.matches('*').count() == 1 && logs.matches('*').count() == 1;
+        found.require(fine, "execute.logs", format!("\"{logs}\""), bound);
+        let both = "left out where there are logs: runs come from one of the two";
+        found.require(execute.controller.is_none(), "execute.controller", "\"virtual\"", both);
+        found.require(execute.faults.is_none(), "execute.faults", "given", both);
+    }
+    let bound = "left out: the virtual controller's clock is the program's";
+    let shared = execute.logs.is_some() || execute.log_clock == LogClock::AsRecorded;
+    found.require(shared, "execute.log_clock", "\"offset-removed\"", bound);
     found.count("execute.repeat", execute.repeat, 1, 100_000);
     found.from("execute.servo_lag_s", execute.servo_lag_s, 0.0, 10.0, " s");
     found.from("execute.noise_mm", execute.noise_mm, 0.0, 100.0, " mm");
@@ -120,8 +136,7 @@ fn check_spec(spec: &ArmSpec, found: &mut Findings) {
         found.above("spec.arrival.max_late_ms", arrival.max_late_ms, 0.0, 1e9, " ms");
     }
     if let Some(regression) = &spec.regression {
-        let bound = "left out: this version does not judge against a baseline";
-        found.require(false, "spec.regression", format!("\"{}\"", regression.baseline), bound);
+        found.above("spec.regression.band_sigma", regression.band_sigma, 0.0, 100.0, "");
     }
     if let Some(share) = spec.violation_share {
         found.require((0.0..1.0).contains(&share), "spec.violation_share", share, "≥ 0 and < 1");

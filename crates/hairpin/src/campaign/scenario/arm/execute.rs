@@ -10,9 +10,13 @@ pub struct ArmExecute {
     /// virtual.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<ArmControllerKind>,
-    /// CSV logs of a real controller, `*` for the part that tells cases and runs apart: `nightly/*.csv`.
+    /// CSV logs of a real controller, relative to the scenario file; `*` stands for CASE-RUN or, where there is one run, CASE:
+    /// `nightly/*.csv`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub logs: Option<String>,
+    /// as-recorded | offset-removed: whether logs' clocks and the program's are one, or differ by what is estimated.
+    #[serde(skip_serializing_if = "LogClock::is_shared")]
+    pub log_clock: LogClock,
     /// Runs per program; the noise band comes from the repeats.
     pub repeat: u64,
     /// trapezoid | s-curve.
@@ -31,6 +35,7 @@ impl Default for ArmExecute {
         Self {
             controller: None,
             logs: None,
+            log_clock: LogClock::AsRecorded,
             repeat: 1,
             profile: TimeLawName::SCurve,
             servo_lag_s: 0.005,
@@ -46,6 +51,23 @@ impl Default for ArmExecute {
 pub enum ArmControllerKind {
     /// The virtual one.
     Virtual,
+}
+
+/// Whose clock logs are on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LogClock {
+    /// The program's: it began at 0, and a late start is late. An offset is estimated and told.
+    #[default]
+    AsRecorded,
+    /// Another one: the estimated offset is taken off the times, and that is told.
+    OffsetRemoved,
+}
+
+impl LogClock {
+    fn is_shared(&self) -> bool {
+        *self == Self::AsRecorded
+    }
 }
 
 /// Speed profiles of moves.

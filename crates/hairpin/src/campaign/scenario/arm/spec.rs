@@ -1,7 +1,11 @@
 //! `[spec]`: what is within spec.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::campaign::arm::Baseline;
 
 /// `[spec]`: what is not given is not judged.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -58,11 +62,21 @@ pub struct ArrivalLimit {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegressionLimit {
-    /// A campaign folder, or a folder of its kind, relative to the scenario file.
+    /// The folder of an earlier release's campaign, which was judged, or its `moves.json` or `baseline.json`; relative to the scenario file. The
+    /// folder's name is the release's.
     pub baseline: String,
     /// Half the width of the band, in the baseline's own standard deviations.
     #[serde(default = "three")]
     pub band_sigma: f64,
+    /// SHA-256 of the copy in the campaign's folder, as resolved scenarios have it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub checksum: Option<String>,
+    /// What the earlier releases did, once it was read.
+    #[serde(skip)]
+    pub read: Option<Arc<Baseline>>,
+    /// The file as a campaign keeps it.
+    #[serde(skip)]
+    pub bytes: Option<Arc<[u8]>>,
 }
 
 fn three() -> f64 {

@@ -1,0 +1,43 @@
+//! Part two where an arm ran elsewhere: its logs become the campaign's runs.
+
+use std::path::PathBuf;
+
+use hairpin::campaign::arm::ArmSetup;
+use hairpin::campaign::{Case, Run};
+use hairpin_formats::recordings::{self, RecordingError};
+use rayon::prelude::*;
+
+use crate::folder::Work;
+use crate::problem::Problem;
+
+/// Broken logs that are told one by one.
+const TOLD: usize = 10;
+
+/// Reads the logs that `pattern` names and writes them as runs: all of them, or none where one cannot be used.
+pub(super) fn take_in(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<(), Problem> {
+    let repeat = work.setup.scenario.executor().repeat as usize;
+    let files = recordings::find(work.folder.path(), pattern, cases, repeat).map_err(|wrong| refuse(&wrong))?;
+    let jobs: Vec<((usize, usize), PathBuf)> = files.into_iter().collect();
+    let read = |((number, run), path): &((usize, usize), PathBuf)| {
+        let case = cases.iter().find(|case| case.number == *number);
+        case.map(|case| recordings::read(path, arm, case, *run))
+    };
+    let read: Vec<Result<Run, RecordingError>> = jobs.par_iter().filter_map(read).collect();
+    let (runs, wrong): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
+    let wrong: Vec<RecordingError> = wrong.into_iter().filter_map(Result::err).collect();
+    if !wrong.is_empty() {
+        return Err(refuse(&wrong));
+    }
+    for run in runs.into_iter().flatten() {
+        work.folder.write_run(&run)?;
+    }
+    Ok(())
+}
+
+fn refuse(wrong: &[RecordingError]) -> Problem {
+    let mut told: Vec<String> = wrong.iter().take(TOLD).map(ToString::to_string).collect();
+    if wrong.len() > TOLD {
+        told.push(format!("and {} more", wrong.len() - TOLD));
+    }
+    Problem::input(told.join("\n"))
+}
