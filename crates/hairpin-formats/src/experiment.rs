@@ -113,7 +113,9 @@ mod tests {
     struct Size {
         instances: usize,
         points: Vec<usize>,
+        seed: u64,
         dfs_limit_s: f64,
+        proof_limit_s: f64,
     }
 
     #[test]

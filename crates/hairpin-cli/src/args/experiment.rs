@@ -30,4 +30,13 @@ pub(crate) enum ExperimentName {
     /// RobTest, table I: seconds for the graph, depth-first search and the proof of the optimum
     #[value(name = "robtest-table-1")]
     RobtestTable1,
+    /// RobTest, figure 7: the share of the optimum that is known after a time contract
+    #[value(name = "robtest-figure-7")]
+    RobtestFigure7,
+    /// RobTest, threat: obstacles that thin the graph out
+    RobtestObstacles,
+    /// RobTest, threat: points in clusters
+    RobtestClusters,
+    /// RobTest, threat: costs that are no distances
+    RobtestCosts,
 }

@@ -23,7 +23,7 @@ pub(super) fn rows() -> Vec<Row> {
         at_most("max-load-30", "ms", 10.0, |_| proven(11, |seed| published(30, seed))),
         at_most("max-load-50", "ms", 50.0, |_| proven(11, |seed| published(50, seed))),
         at_most("max-load-100", "ms", 120.0, |_| proven(11, |seed| published(100, seed))),
-        at_most("max-load-200", "ms", 2000.0, |_| proven(5, |seed| published(200, seed))),
+        at_most("max-load-200", "ms", 2000.0, |_| proven(9, |seed| published(200, seed))),
         at_most("max-load-200-gap", "%", 0.03, |_| gap(3, 1.0, |seed| published(200, seed))),
         at_most("max-load-1000-gap", "%", 0.15, |_| gap(3, 5.0, |seed| published(1000, seed))),
         at_most("max-load-fixed", "ms", 1000.0, |_| proven(11, fixed)),

@@ -37,6 +37,10 @@ pub(crate) fn run(asked: &Experiment) -> Result<u8, Problem> {
     }
     let outcome = match asked.name {
         ExperimentName::RobtestTable1 => robtest::table_1(&sheet),
+        ExperimentName::RobtestFigure7 => robtest::figure_7(&sheet),
+        ExperimentName::RobtestObstacles => robtest::obstacles(&sheet),
+        ExperimentName::RobtestClusters => robtest::clusters(&sheet),
+        ExperimentName::RobtestCosts => robtest::costs(&sheet),
     }?;
     let folder = asked.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let files = write(&folder, &outcome)?;

@@ -1,10 +1,10 @@
 //! Progress along a section over time: constant acceleration between knots, averaged over a moving window for an S-curve.
 
 use super::grid::Section;
-use super::profile::{Knots, squared_rates};
+use super::profile::{Knots, Limits};
 use super::settings::{PlanSettings, Shape};
 use crate::math::power::square;
-use crate::robot::arm::{AXES, JointLimit};
+use crate::robot::arm::{AXES, JointLimit, Joints};
 
 /// s(t) of a section from rest to rest. With a window T: s_f(t) = (1/T) ∫ s over (t − T, t).
 #[derive(Debug, Clone)]
@@ -29,37 +29,48 @@ pub(super) struct Progress {
     pub(super) acceleration: f64,
 }
 
+/// Share of the joints' accelerations that a law uses without a window: between nodes curvatures differ a little from those at nodes.
+const USED: f64 = 0.985;
+/// Share that an S-curve may use: between two looks there can be a little more.
+const USED_AVERAGED: f64 = 0.97;
+/// Share that the law below an S-curve uses. Its average asks no more of a joint that is only pushed; of one whose way is bent too it
+/// can, and there it is lowered.
+const USED_BELOW: f64 = 0.965;
 /// How often an S-curve's caps are lowered where it exceeds a joint's limits, before all of it is slowed down.
 const ROUNDS: usize = 8;
 /// Looks per window at what an S-curve asks of the joints.
 const LOOKS: f64 = 20.0;
-/// Excess is counted from this share of a limit on: between two looks there can be a little more.
-const USED: f64 = 0.97;
 
 impl Law {
     /// The law of `section`; of a section without a motion one that is over at once.
     pub(super) fn of(section: &Section, limits: &[JointLimit; AXES], settings: &PlanSettings) -> Self {
-        let spans = section.spans.len();
         let knots = Knots::of(section);
+        if section.spans.is_empty() {
+            return Self::new(&knots, &[0.0], 0.0);
+        }
         let mut slower = vec![1.0; knots.s.len()];
-        let rates = |slower: &[f64]| squared_rates(section, &knots, limits, settings, slower);
         let window = match settings.shape {
-            Shape::Trapezoid => 0.0,
+            Shape::Trapezoid => {
+                return Self::new(
+                    &knots,
+                    &Limits::of(section, &knots, limits, settings, USED).squared_rates(&slower),
+                    0.0,
+                );
+            }
             Shape::SCurve(width) => width,
         };
-        if spans == 0 || window == 0.0 {
-            return Self::new(&knots, &if spans == 0 { vec![0.0] } else { rates(&slower) }, 0.0);
-        }
-        let mut law = Self::new(&knots, &rates(&slower), window);
+        let below = Limits::of(section, &knots, limits, settings, USED_BELOW);
+        let asked = Asked::of(limits);
+        let mut law = Self::new(&knots, &below.squared_rates(&slower), window);
         for _ in 0..ROUNDS {
-            if law.lower(section, limits, &mut slower) <= 1.0 {
+            if law.lower(section, &asked, &mut slower) <= 1.0 {
                 return law;
             }
-            law = Self::new(&knots, &rates(&slower), window);
+            law = Self::new(&knots, &below.squared_rates(&slower), window);
         }
         // Slower by a factor everywhere asks the square of it less of every acceleration.
         loop {
-            let excess = law.lower(section, limits, &mut slower);
+            let excess = law.lower(section, &asked, &mut slower);
             if excess <= 1.0 {
                 return law;
             }
@@ -95,11 +106,25 @@ impl Law {
     }
 
     fn interval(&self, t: f64) -> usize {
-        self.times.partition_point(|time| *time <= t).clamp(1, self.times.len() - 1) - 1
+        (self.times.partition_point(|time| *time <= t).max(1) - 1).min(self.times.len().saturating_sub(2))
+    }
+
+    /// The interval of a `t` that is not below what `from` was found for.
+    fn interval_from(&self, t: f64, from: usize) -> usize {
+        let mut i = from;
+        while i + 2 < self.times.len() && self.times[i + 1] <= t {
+            i += 1;
+        }
+        i
     }
 
     /// s, ṡ, s̈ and ∫ s dt without the window.
     fn raw(&self, t: f64) -> [f64; 4] {
+        self.raw_in(t, self.interval(t))
+    }
+
+    /// The same, where `t` is known to lie in the interval `i`, or before or behind all.
+    fn raw_in(&self, t: f64, i: usize) -> [f64; 4] {
         let last = self.times.len() - 1;
         if last == 0 || t <= 0.0 {
             return [0.0; 4];
@@ -107,7 +132,6 @@ impl Law {
         if t >= self.times[last] {
             return [self.s[last], 0.0, 0.0, self.area[last] + self.s[last] * (t - self.times[last])];
         }
-        let i = self.interval(t);
         let step = self.times[i + 1] - self.times[i];
         let (dt, push) = (t - self.times[i], (self.rates[i + 1] - self.rates[i]) / step);
         let s = self.s[i] + dt * (self.rates[i] + 0.5 * push * dt);
@@ -117,11 +141,16 @@ impl Law {
 
     /// Progress at `t` s after the section's start.
     pub(super) fn at(&self, t: f64) -> Progress {
-        let [s, rate, acceleration, area] = self.raw(t);
+        self.averaged(self.raw(t), || self.raw(t - self.window))
+    }
+
+    /// Progress where the law without the window is `now`, and `before` as long before as the window is wide.
+    fn averaged(&self, now: [f64; 4], before: impl FnOnce() -> [f64; 4]) -> Progress {
+        let [s, rate, acceleration, area] = now;
         if self.window == 0.0 {
             return Progress { s, rate, acceleration };
         }
-        let [before, rate_before, _, area_before] = self.raw(t - self.window);
+        let [before, rate_before, _, area_before] = before();
         let by = 1.0 / self.window;
         Progress {
             s: ((area - area_before) * by).min(self.s[self.s.len() - 1]),
@@ -155,34 +184,76 @@ impl Law {
 
     /// The largest excess of a joint's speed (squared) or acceleration over its limit, as a ratio; `slower` is multiplied where
     /// there is one.
-    fn lower(&self, section: &Section, limits: &[JointLimit; AXES], slower: &mut [f64]) -> f64 {
+    fn lower(&self, section: &Section, asked: &Asked, slower: &mut [f64]) -> f64 {
         let step = self.window / LOOKS;
-        let (mut worst, mut span) = (0.0f64, 0);
+        let (mut worst, mut span, mut head, mut tail) = (0.0f64, 0, 0, 0);
+        let mut before = Progress { s: 0.0, rate: 0.0, acceleration: 0.0 };
         let mut allowed = vec![1.0f64; slower.len()];
         for look in 0..(self.duration() / step).ceil() as usize {
             let t = (look as f64 + 0.5) * step;
-            let now = self.at(t);
+            let left = tail;
+            head = self.interval_from(t, head);
+            tail = self.interval_from(t - self.window, tail);
+            let now = self.averaged(self.raw_in(t, head), || self.raw_in(t - self.window, tail));
+            let entered = span;
             span = section.span(now.s, span);
-            let u = (now.s - section.s[span]) / (section.s[span + 1] - section.s[span]);
-            let jet = section.jet(span, u);
-            let ratio = (0..AXES).map(|k| {
-                let acceleration = jet.bend[k] * square(now.rate) + jet.slope[k] * now.acceleration;
-                let speed = USED * square(jet.slope[k] * now.rate / limits[k].speed);
-                speed.max(acceleration.abs() / limits[k].acceleration)
-            });
-            let ratio = ratio.fold(0.0, f64::max);
-            let ratio = ratio / USED;
+            let mut ratio = asked.ratio(section, span, section.share(span, now.s), &now);
+            // Curvature jumps at nodes: those that were passed since the last look are looked at from both sides.
+            for node in entered + 1..=span {
+                let there = before.towards(&now, section.s[node]);
+                ratio = ratio.max(asked.ratio(section, node - 1, 1.0, &there));
+                ratio = ratio.max(asked.ratio(section, node, 0.0, &there));
+            }
             worst = worst.max(ratio);
             if ratio > 1.0 {
-                let (first, last) = (self.interval(t - self.window), self.interval(t) + 1);
-                for allowed in &mut allowed[first..=last.min(slower.len() - 1)] {
+                for allowed in &mut allowed[left..=(head + 1).min(slower.len() - 1)] {
                     *allowed = allowed.min(0.97 / ratio);
                 }
             }
+            before = now;
         }
         for (slower, allowed) in slower.iter_mut().zip(allowed) {
             *slower *= allowed;
         }
         worst
+    }
+}
+
+impl Progress {
+    /// Progress at `s` between this one and a later one, on a straight line.
+    fn towards(&self, later: &Self, s: f64) -> Self {
+        let part = ((s - self.s) / (later.s - self.s)).clamp(0.0, 1.0);
+        let between = |from: f64, to: f64| from + part * (to - from);
+        Self { s, rate: between(self.rate, later.rate), acceleration: between(self.acceleration, later.acceleration) }
+    }
+}
+
+/// What progress asks of joints, measured in what they can.
+struct Asked {
+    /// 1 / limit.
+    speed: Joints,
+    /// 1 / (share · limit).
+    acceleration: Joints,
+}
+
+impl Asked {
+    fn of(limits: &[JointLimit; AXES]) -> Self {
+        Self {
+            speed: limits.map(|limit| 1.0 / limit.speed),
+            acceleration: limits.map(|limit| 1.0 / (USED_AVERAGED * limit.acceleration)),
+        }
+    }
+
+    /// The largest ratio of a joint's speed (squared) or acceleration to what it can, at a share of a span.
+    fn ratio(&self, section: &Section, span: usize, share: f64, now: &Progress) -> f64 {
+        let jet = section.jet(span, share);
+        let squared = square(now.rate);
+        let mut most = 0.0f64;
+        for k in 0..AXES {
+            let acceleration = jet.bend[k] * squared + jet.slope[k] * now.acceleration;
+            let speed = square(jet.slope[k] * now.rate * self.speed[k]);
+            most = most.max(speed).max((acceleration * self.acceleration[k]).abs());
+        }
+        most
     }
 }

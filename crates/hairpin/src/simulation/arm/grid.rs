@@ -102,6 +102,11 @@ impl Section {
         i
     }
 
+    /// Where in span `i` the parameter is: 0 at its first node, 1 at its last.
+    pub(super) fn share(&self, i: usize, s: f64) -> f64 {
+        (s - self.s[i]) / (self.s[i + 1] - self.s[i])
+    }
+
     /// The cubic of span `i` at `s`.
     pub(super) fn joints_at(&self, i: usize, s: f64) -> Joints {
         let h = self.s[i + 1] - self.s[i];
@@ -116,19 +121,12 @@ impl Section {
     /// The cubic of span `i` at the share `u` of it, with its derivatives.
     pub(super) fn jet(&self, i: usize, u: f64) -> Jet {
         let h = self.s[i + 1] - self.s[i];
-        let of = |f: &dyn Fn(f64, f64, f64) -> f64| -> Joints {
-            std::array::from_fn(|k| {
-                let chord = (self.joints[i + 1][k] - self.joints[i][k]) / h;
-                f(chord, self.slopes[i][k], self.slopes[i + 1][k])
-            })
-        };
+        let chord: Joints = std::array::from_fn(|k| (self.joints[i + 1][k] - self.joints[i][k]) / h);
+        let (m0, m1) = (&self.slopes[i], &self.slopes[i + 1]);
+        let along = |[c, a, b]: [f64; 3]| -> Joints { std::array::from_fn(|k| c * chord[k] + a * m0[k] + b * m1[k]) };
         Jet {
-            slope: of(&|chord, m0, m1| {
-                6.0 * u * (1.0 - u) * chord + (1.0 - u) * (1.0 - 3.0 * u) * m0 + u * (3.0 * u - 2.0) * m1
-            }),
-            bend: of(&|chord, m0, m1| {
-                (6.0 * (1.0 - 2.0 * u) * chord + (6.0 * u - 4.0) * m0 + (6.0 * u - 2.0) * m1) / h
-            }),
+            slope: along([6.0 * u * (1.0 - u), (1.0 - u) * (1.0 - 3.0 * u), u * (3.0 * u - 2.0)]),
+            bend: along([6.0 * (1.0 - 2.0 * u), 6.0 * u - 4.0, 6.0 * u - 2.0]).map(|bend| bend / h),
         }
     }
 }

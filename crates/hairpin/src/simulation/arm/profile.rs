@@ -5,9 +5,6 @@ use super::settings::PlanSettings;
 use crate::math::power::square;
 use crate::robot::arm::{AXES, JointLimit};
 
-/// Joint limits are used up to this share: between nodes slopes and curvatures differ a little from those at nodes.
-const USED: f64 = 0.985;
-
 /// One limit of an interval: |before·x₀ + after·x₁| ≤ most, x = ṡ² at its ends.
 #[derive(Clone, Copy)]
 struct Bound {
@@ -57,57 +54,79 @@ impl Knots {
     }
 }
 
-/// x = ṡ² at every knot, m²/s².
-///
-/// Between knots x is linear in s, so s̈ = (x₁ − x₀)/2h is constant and q̈ = q″x + q′s̈. At each end of an interval this is linear in
-/// x₀ and x₁. First every x is capped by the speeds and by |q″|x ≤ q̈_max, so that going on at the same rate is always
-/// allowed; then one pass backward from rest and one forward take the largest values that their neighbours allow
-/// (as Pham, Pham: "A new approach to time-optimal path parameterization based on reachability analysis", 2018, with the
-/// cap in place of its linear programs). `slower` scales the caps of x at knots.
-pub(super) fn squared_rates(
-    section: &Section,
-    knots: &Knots,
-    limits: &[JointLimit; AXES],
-    settings: &PlanSettings,
-    slower: &[f64],
-) -> Vec<f64> {
-    let spans = knots.intervals.len();
-    let mut x = vec![f64::INFINITY; spans + 1];
-    let mut bounds: Vec<[Bound; BOUNDS]> = Vec::with_capacity(spans);
-    for (i, (number, shares)) in knots.intervals.iter().enumerate() {
-        let (h, span) = (knots.s[i + 1] - knots.s[i], &section.spans[*number]);
-        let ends = shares.map(|share| section.jet(*number, share));
-        let cap = ends.iter().fold(square(span.limit), |cap, end| cap.min(joints_allow(end, limits)));
-        // Between its ends a slope can be steeper than at both.
-        let cap = cap.min(speeds_allow(&section.jet(*number, 0.5 * (shares[0] + shares[1])), limits));
-        x[i] = x[i].min(cap);
-        x[i + 1] = x[i + 1].min(cap);
-        let push = (settings.acceleration / span.way).min(settings.turn_acceleration / span.turn);
-        bounds.push(std::array::from_fn(|k| {
-            let Some(axis) = (k < 2 * AXES).then_some(k / 2) else {
-                return Bound { before: -0.5 / h, after: 0.5 / h, most: push };
-            };
-            let (end, last) = (&ends[k % 2], k % 2 == 1);
-            let (rate, most) = (end.slope[axis] * 0.5 / h, USED * limits[axis].acceleration);
-            let (bent, straight) = (end.bend[axis], 0.0);
-            let (b0, b1) = if last { (straight, bent) } else { (bent, straight) };
-            Bound { before: b0 - rate, after: b1 + rate, most }
-        }));
+/// Joint speeds are used up to this share: between nodes slopes differ a little from those at nodes.
+const USED: f64 = 0.985;
+
+/// What limits x = ṡ² along a section, whatever the caps are lowered to.
+pub(super) struct Limits {
+    /// Largest x at every knot by the speeds and by |q″|x ≤ q̈_max.
+    caps: Vec<f64>,
+    /// Of every interval.
+    bounds: Vec<[Bound; BOUNDS]>,
+}
+
+impl Limits {
+    /// Of joints that may use the share `used` of their accelerations.
+    pub(super) fn of(
+        section: &Section,
+        knots: &Knots,
+        joints: &[JointLimit; AXES],
+        settings: &PlanSettings,
+        used: f64,
+    ) -> Self {
+        let joints = joints.map(|joint| JointLimit {
+            speed: USED * joint.speed,
+            acceleration: used * joint.acceleration,
+            ..joint
+        });
+        let spans = knots.intervals.len();
+        let mut caps = vec![f64::INFINITY; spans + 1];
+        let mut bounds: Vec<[Bound; BOUNDS]> = Vec::with_capacity(spans);
+        for (i, (number, shares)) in knots.intervals.iter().enumerate() {
+            let (h, span) = (knots.s[i + 1] - knots.s[i], &section.spans[*number]);
+            let ends = shares.map(|share| section.jet(*number, share));
+            let cap = ends.iter().fold(square(span.limit), |cap, end| cap.min(joints_allow(end, &joints)));
+            // Between its ends a slope can be steeper than at both.
+            let cap = cap.min(speeds_allow(&section.jet(*number, 0.5 * (shares[0] + shares[1])), &joints));
+            caps[i] = caps[i].min(cap);
+            caps[i + 1] = caps[i + 1].min(cap);
+            let push = (settings.acceleration / span.way).min(settings.turn_acceleration / span.turn);
+            bounds.push(std::array::from_fn(|k| {
+                let Some(axis) = (k < 2 * AXES).then_some(k / 2) else {
+                    return Bound { before: -0.5 / h, after: 0.5 / h, most: push };
+                };
+                let (end, last) = (&ends[k % 2], k % 2 == 1);
+                let (rate, most) = (end.slope[axis] * 0.5 / h, joints[axis].acceleration);
+                let (bent, straight) = (end.bend[axis], 0.0);
+                let (b0, b1) = if last { (straight, bent) } else { (bent, straight) };
+                Bound { before: b0 - rate, after: b1 + rate, most }
+            }));
+        }
+        Self { caps, bounds }
     }
-    for (x, slower) in x.iter_mut().zip(slower) {
-        *x *= slower;
+
+    /// x = ṡ² at every knot, m²/s², its caps multiplied by `slower`.
+    ///
+    /// Between knots x is linear in s, so s̈ = (x₁ − x₀)/2h is constant and q̈ = q″x + q′s̈. At each end of an interval this is linear
+    /// in x₀ and x₁. First every x is capped by the speeds and by |q″|x ≤ q̈_max, so that going on at the same rate is always
+    /// allowed; then one pass backward from rest and one forward take the largest values that their neighbours allow
+    /// (as Pham, Pham: "A new approach to time-optimal path parameterization based on reachability analysis", 2018, with the
+    /// cap in place of its linear programs).
+    pub(super) fn squared_rates(&self, slower: &[f64]) -> Vec<f64> {
+        let mut x: Vec<f64> = self.caps.iter().zip(slower).map(|(cap, slower)| cap * slower).collect();
+        let spans = self.bounds.len();
+        x[0] = 0.0;
+        x[spans] = 0.0;
+        for (i, bounds) in self.bounds.iter().enumerate().rev() {
+            let after = x[i + 1];
+            x[i] = bounds.iter().fold(x[i], |x, b| x.min(largest(b.before, b.after, after, b.most)));
+        }
+        for (i, bounds) in self.bounds.iter().enumerate() {
+            let before = x[i];
+            x[i + 1] = bounds.iter().fold(x[i + 1], |x, b| x.min(largest(b.after, b.before, before, b.most)));
+        }
+        x
     }
-    x[0] = 0.0;
-    x[spans] = 0.0;
-    for i in (0..spans).rev() {
-        let after = x[i + 1];
-        x[i] = bounds[i].iter().fold(x[i], |x, b| x.min(largest(b.before, b.after, after, b.most)));
-    }
-    for i in 0..spans {
-        let before = x[i];
-        x[i + 1] = bounds[i].iter().fold(x[i + 1], |x, b| x.min(largest(b.after, b.before, before, b.most)));
-    }
-    x
 }
 
 /// The largest y ≥ 0 with |a·y + b·other| ≤ most.
@@ -117,11 +136,11 @@ fn largest(a: f64, b: f64, other: f64, most: f64) -> f64 {
 
 /// The largest x at which no joint is too fast, nor bent too hard by the path alone.
 fn joints_allow(at: &Jet, limits: &[JointLimit; AXES]) -> f64 {
-    let bends = limits.iter().zip(&at.bend).map(|(limit, bend)| USED * limit.acceleration / bend.abs());
+    let bends = limits.iter().zip(&at.bend).map(|(limit, bend)| limit.acceleration / bend.abs());
     bends.fold(speeds_allow(at, limits), f64::min)
 }
 
 fn speeds_allow(at: &Jet, limits: &[JointLimit; AXES]) -> f64 {
-    let speeds = limits.iter().zip(&at.slope).map(|(limit, slope)| square(USED * limit.speed / slope));
+    let speeds = limits.iter().zip(&at.slope).map(|(limit, slope)| square(limit.speed / slope));
     speeds.fold(f64::INFINITY, f64::min)
 }

@@ -1,19 +1,16 @@
-//! RobTest: table I, figure 7, and the threats that its authors named.
-//!
-//! Source: Collet, Gotlieb, Lazaar & Mossige, "Stress testing of single-arm robots through constraint-based generation of
-//! continuous trajectories" (2019).
+//! Table I: seconds for the graph, depth-first search, and the proof of the optimum.
 
 use hairpin::campaign::experiment::robtest::{Costs, Question};
 use hairpin::judgement::Statistics;
 use hairpin::math::random::named_seed;
-use hairpin::search::heaviest::{Arcs, Heaviest, HeaviestSettings, Method, heaviest};
+use hairpin::search::heaviest::{Heaviest, HeaviestSettings, Method};
 use hairpin_formats::experiment::Sheet;
 use hairpin_formats::figure::{Axis, Cell, Figure, Marks, Point, Scale, Series, Table};
 use serde::Deserialize;
 
-use super::{Outcome, go_on};
-use crate::commands::bench::clock::{Stopwatch, alone, median_time};
-use crate::interrupt;
+use super::super::{Outcome, go_on};
+use super::timed::timed;
+use crate::commands::bench::clock::{alone, median_time};
 use crate::problem::Problem;
 
 /// Sizes of table I.
@@ -55,7 +52,7 @@ struct Measured {
 }
 
 /// Seconds for the graph, depth-first search and the proof of the optimum, mean ± deviation, beside the paper's.
-pub(super) fn table_1(sheet: &Sheet) -> Result<Outcome, Problem> {
+pub(in super::super) fn table_1(sheet: &Sheet) -> Result<Outcome, Problem> {
     let (size, printed): (TableSize, PrintedTable) = (sheet.size()?, sheet.printed()?);
     let mut table = Table::new(&[
         "points",
@@ -153,20 +150,3 @@ fn measure(points: usize, seed: u64, size: &TableSize, measured: &mut Measured) 
     );
     Ok(())
 }
-
-/// Processor seconds of one search on one thread, and what it found within `limit` of them.
-fn timed(arcs: &Arcs, settings: &HeaviestSettings, limit: f64) -> Result<(f64, Heaviest), Problem> {
-    let watch = Stopwatch::start();
-    let stop = || interrupt::asked() || watch.passed(limit);
-    let found = alone(|| heaviest(arcs, settings, &stop)).map_err(Problem::input)?;
-    go_on()?;
-    let spent = watch.spent();
-    if spent > REPEATED || !found.proven {
-        return Ok((spent, found));
-    }
-    // Too short for one look at the clock.
-    Ok((alone(|| median_time(1, || heaviest(arcs, settings, &|| false))), found))
-}
-
-/// Searches shorter than this many seconds are repeated for their time.
-const REPEATED: f64 = 0.05;

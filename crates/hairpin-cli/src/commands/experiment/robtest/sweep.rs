@@ -1,0 +1,151 @@
+//! The threats that the authors named, as sweeps: obstacles that thin the graph out, clusters, costs that are no distances.
+
+use hairpin::campaign::experiment::robtest::{Costs, Question};
+use hairpin::judgement::Statistics;
+use hairpin::math::random::named_seed;
+use hairpin::search::heaviest::HeaviestSettings;
+use hairpin_formats::experiment::Sheet;
+use hairpin_formats::figure::{Axis, Figure, Marks, Scale, Series, Spread, Table};
+use serde::Deserialize;
+
+use super::super::{Outcome, go_on};
+use super::timed::timed;
+use crate::problem::Problem;
+
+/// What all sweeps are told.
+#[derive(Debug, Deserialize)]
+struct Size {
+    points: Vec<usize>,
+    instances: u64,
+    seed: u64,
+    /// Processor seconds that a proof gets.
+    proof_limit_s: f64,
+    #[serde(flatten)]
+    along: Along,
+}
+
+/// What is swept; each sweep asks for its own keys, and none for others.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Along {
+    obstacles: Option<Vec<usize>>,
+    clusters: Option<usize>,
+    spreads_mm: Option<Vec<f64>>,
+}
+
+/// One place of a sweep: its name, and its instances by points and seed.
+struct Place {
+    name: String,
+    draw: Box<dyn Fn(usize, u64) -> Result<Question, Problem>>,
+    costs: Costs,
+}
+
+/// Density by obstacles.
+pub(in super::super) fn obstacles(sheet: &Sheet) -> Result<Outcome, Problem> {
+    let size: Size = sheet.size()?;
+    let places = size.along.obstacles.iter().flatten().map(|&count| Place {
+        name: count.to_string(),
+        draw: Box::new(move |points, seed| Question::among_obstacles(points, count, seed).map_err(Problem::input)),
+        costs: Costs::Distance,
+    });
+    swept(&size, places.collect(), "obstacles", "obstacles in the workspace")
+}
+
+/// Points in clusters, the narrowest first, and uniform ones.
+pub(in super::super) fn clusters(sheet: &Sheet) -> Result<Outcome, Problem> {
+    let size: Size = sheet.size()?;
+    let clusters = size.along.clusters.unwrap_or(1);
+    let places = size.along.spreads_mm.iter().flatten().map(|&spread| Place {
+        name: format!("{spread} mm"),
+        draw: Box::new(move |points, seed| {
+            Question::clustered(points, clusters, 1e-3 * spread, seed).map_err(Problem::input)
+        }),
+        costs: Costs::Distance,
+    });
+    let places = places.chain([Place { name: "uniform".into(), draw: Box::new(published), costs: Costs::Distance }]);
+    swept(&size, places.collect(), "clusters", "deviation of a cluster")
+}
+
+/// Kinds of costs.
+pub(in super::super) fn costs(sheet: &Sheet) -> Result<Outcome, Problem> {
+    let size: Size = sheet.size()?;
+    let kinds = [
+        ("distance", Costs::Distance),
+        ("squared", Costs::Squared),
+        ("random", Costs::Random),
+        ("skewed 30 %", Costs::Skewed(0.3)),
+        ("random, directed", Costs::RandomDirected),
+        ("equal", Costs::Equal),
+    ];
+    let places = kinds.map(|(name, costs)| Place { name: name.into(), draw: Box::new(published), costs });
+    swept(&size, places.into(), "costs", "costs of arcs")
+}
+
+fn published(points: usize, seed: u64) -> Result<Question, Problem> {
+    Question::published(points, seed).map_err(Problem::input)
+}
+
+/// Density, time of the proof and gap at every place, for every number of points.
+fn swept(size: &Size, places: Vec<Place>, name: &'static str, label: &str) -> Result<Outcome, Problem> {
+    let mut table = Table::new(&[
+        "points",
+        name,
+        "density",
+        "proof_s",
+        "proof_s_least",
+        "proof_s_most",
+        "proven",
+        "instances",
+        "gap_percent",
+        "gap_percent_most",
+        "left_out",
+    ]);
+    let mut series = Vec::new();
+    for &points in &size.points {
+        let mut boxes = Vec::new();
+        for (at, place) in places.iter().enumerate() {
+            let (mut times, mut gaps, mut densities, mut left) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+            let mut proven = 0usize;
+            for index in 0..size.instances {
+                go_on()?;
+                let seed = named_seed(size.seed, "robtest", 1000 * points as u64 + index);
+                let graph = (place.draw)(points, seed)?.graph();
+                let arcs = place.costs.of(&graph, seed).map_err(Problem::input)?;
+                let (time, found) = timed(&arcs, &HeaviestSettings::default(), size.proof_limit_s)?;
+                times.push(time);
+                gaps.push(found.gap_percent().unwrap_or(f64::INFINITY));
+                densities.push(graph.density());
+                left.push((points - found.paths.first().map_or(0, |path| path.1.len())) as f64);
+                proven += usize::from(found.proven);
+            }
+            let of = |values: &[f64]| Statistics::of(values);
+            table.push(vec![
+                points.into(),
+                place.name.as_str().into(),
+                of(&densities).map(|s| s.mean).into(),
+                of(&times).map(|s| s.median).into(),
+                of(&times).map(|s| s.min).into(),
+                of(&times).map(|s| s.max).into(),
+                proven.into(),
+                (size.instances as usize).into(),
+                of(&gaps).map(|s| s.median).into(),
+                of(&gaps).map(|s| s.max).into(),
+                of(&left).map(|s| s.mean).into(),
+            ]);
+            boxes.extend(Spread::of(at as f64, &times));
+        }
+        series.push(Series { name: format!("{points} points"), marks: Marks::Boxes(boxes) });
+    }
+    let figure = Figure {
+        title: format!("Time until the optimum is proven: {label}"),
+        x: Axis { label: label.into(), scale: Scale::Names(places.into_iter().map(|place| place.name).collect()) },
+        y: Axis { label: "processor time, s".into(), scale: Scale::Logarithmic },
+        series,
+    };
+    let notes = vec![format!(
+        "Medians over {} instances, one thread, processor time, at most {} s each; left_out is the mean number of points that the \
+         heaviest path leaves out.",
+        size.instances, size.proof_limit_s
+    )];
+    Ok(Outcome { tables: vec![(name, table)], figures: vec![(name, figure)], notes })
+}
