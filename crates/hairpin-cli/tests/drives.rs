@@ -58,6 +58,27 @@ fn a_rovers_campaign_is_driven_judged_proven_and_driven_again() {
     assert_eq!(fs::read_to_string(at.join("a/missions/0000.csv")).unwrap().lines().count(), 5);
 }
 
+/// Plans, runs and proofs of exact kinematics agree with each other, and with nothing else.
+#[test]
+fn exact_kinematics_go_through_the_campaign_and_are_told_from_the_sources() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let exact =
+        ["--set", "generate.kinematics=\"exact\"", "--set", "spec.limits={ path_deviation_m = 5.0 }", "--out", "a"];
+    let object = json(at, &small("stress", &exact));
+    assert_eq!(object["exit_code"], 0, "{object}");
+    let verified = json(at, &["verify", "a"]);
+    assert_eq!((&verified["checked"], &verified["failed"]), (&Value::from(2), &Value::from(0)), "{verified}");
+    assert!(fs::read_to_string(at.join("a/report.html")).unwrap().contains("Kinematics `exact`"));
+    let resolved = fs::read_to_string(at.join("a/scenario.toml")).unwrap();
+    assert!(resolved.contains("kinematics = \"exact\""), "{resolved}");
+    fs::write(at.join("a/scenario.toml"), resolved.replace("kinematics = \"exact\"", "kinematics = \"source\""))
+        .unwrap();
+    let (code, out, error) = run(at, &["verify", "a", "--json"]);
+    assert!(code == 1 && out.contains("end.position"), "{code}: {out}{error}");
+    refused(at, &small("generate", &["--set", "generate.kinematics=\"exakt\""]), &["exakt", "source", "exact"]);
+}
+
 #[test]
 fn results_depend_on_no_threads_and_parts_make_the_whole() {
     let folder = tempfile::tempdir().unwrap();

@@ -220,3 +220,26 @@ fn costs_are_lowered_on_the_ground_and_told() {
     let (_, tilt) = steer(folder.path(), "rocky8", &[&there[..], &["--cost", "tilt"]].concat());
     assert!(plain.get("cost").is_none() && tilt["segments"] != plain["segments"], "{tilt}");
 }
+
+#[test]
+fn exact_kinematics_take_other_controls_to_the_same_goal() {
+    let folder = tempfile::tempdir().unwrap();
+    hills(folder.path(), rolling);
+    let asked = |more: &[&str]| {
+        let (code, answer) =
+            steer(folder.path(), "rocky8", &[&["--from", "-3,-2,0.3", "--to", "4,1,0.5"], more].concat());
+        assert_eq!((code, &answer["status"]), (0, &Value::from("ok")), "{answer}");
+        let error = |name: &str| answer["errors"][name].as_f64().unwrap().abs();
+        assert!(error("x_m").hypot(error("y_m")) < 0.01 && error("yaw_rad") < 0.01, "{answer}");
+        answer["segments"].clone()
+    };
+    let exact = asked(&["--kinematics", "exact"]);
+    assert!(!exact.is_null() && asked(&[]) == asked(&["--kinematics", "source"]) && asked(&[]) != exact, "{exact}");
+    for (more, said) in [
+        (["--terrain", "hills.asc", "--kinematics", "exakt"].as_slice(), "[possible values: source, exact]"),
+        (&["--kinematics", "exact"], "--terrain"),
+    ] {
+        let (code, _, error) = run(folder.path(), &[&["steer", "rocky8", "--to", "2,0,0"], more].concat());
+        assert!(code == 2 && error.contains(said), "{code}: {error}");
+    }
+}

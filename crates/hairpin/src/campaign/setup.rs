@@ -71,7 +71,8 @@ impl Setup {
                 world: flight::world_of(&scenario.world)?,
             },
             Scenario::Drive(scenario) => {
-                let rover = Box::new(drive::rover_of(&scenario.robot)?);
+                let mut rover = Box::new(drive::rover_of(&scenario.robot)?);
+                rover.kinematics = scenario.generate.kinematics;
                 let map = drive::map_of(&scenario.world.terrain, scenario.seed)?;
                 let planner = Box::new(drive::planner_of(&rover));
                 let keep_out = Arc::new(scenario.world.keep_outs()?);

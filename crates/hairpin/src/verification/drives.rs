@@ -180,6 +180,7 @@ mod tests {
         steering_time_constant_s: 0.0,
         steering_rate_rad_s: f64::INFINITY,
         steered_axle_m: 1.0,
+        exact: false,
     };
     const TOLERANCES: DriveTolerances = DriveTolerances {
         position: 0.01,

@@ -2,6 +2,7 @@
 
 use super::drive::{DrivePiece, LEAST_STEPS};
 use super::stand::{NoRest, Rest, Stand};
+use super::twist::{Place, carry};
 use crate::world::terrain::{NoGround, Terrain};
 
 /// The vehicle, as plain numbers.
@@ -21,6 +22,8 @@ pub struct GroundVehicle {
     pub steering_rate_rad_s: f64,
     /// κ = tan δ / it, m.
     pub steered_axle_m: f64,
+    /// Whether the body moves as a rigid one that keeps its wheels on the ground; else vz, ωx and ωy are left out.
+    pub exact: bool,
 }
 
 /// What a drive on the ground was asked to do; world frame.
@@ -70,7 +73,7 @@ const SIN_20: f64 = 0.342_020_143_325_668_7;
 const TURN_STEP: f64 = 0.005;
 
 /// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on its
-/// wheels at each. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
+/// wheels at each; an exact vehicle is carried from rest to rest by the twist between them. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
 /// drive that begins in reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a
 /// turn in place, the wheels swing to what comes.
 ///
@@ -145,14 +148,24 @@ pub fn replay_ground<T: Terrain>(
                 if let Some(end) = steered {
                     state[3] = 0.5 * (state[3] + end);
                 }
+                if vehicle.exact {
+                    let angle = vehicle.angle_after(&way, state[3], s, h);
+                    let bend = libm::tan(0.5 * (state[3] + angle)) / vehicle.steered_axle_m;
+                    let body = |place: &Place| vehicle.body_rates(&way, place, s + 0.5 * h, bend);
+                    let carried = carry(&vehicle.stand, terrain, &mut rest, [state[0], state[1], state[2]], h, body);
+                    let place = carried.map_err(|no| stopped(driven, no))?;
+                    state = [place[0], place[1], place[2], steered.unwrap_or(angle)];
+                    max_tilt = max_tilt.max(tilt(&rest));
+                    steps += 1;
+                    continue;
+                }
                 let mut rates = |state: &[f64; 4], s: f64| -> Result<[f64; 4], NoRest> {
                     let place = [state[0], state[1], state[2]];
                     // Where the body falls over an edge, the rest it comes to is not near the one before.
                     if rest.follow(&vehicle.stand, terrain, place).is_err() {
                         rest = Rest::find(&vehicle.stand, terrain, place)?;
                     }
-                    max_tilt =
-                        max_tilt.max(libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0)));
+                    max_tilt = max_tilt.max(tilt(&rest));
                     Ok(vehicle.rates(&way, &rest, state, s))
                 };
                 let middle = rates(&state, s).and_then(|k1| rates(&moved(&state, &k1, 0.5 * h), s + 0.5 * h));
@@ -231,6 +244,11 @@ impl GroundClaim {
     }
 }
 
+/// Angle of the body's z axis from the vertical, rad.
+fn tilt(rest: &Rest) -> f64 {
+    libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0))
+}
+
 fn moved(state: &[f64; 4], rates: &[f64; 4], h: f64) -> [f64; 4] {
     [state[0] + h * rates[0], state[1] + h * rates[1], state[2] + h * rates[2], state[3] + h * rates[3]]
 }
@@ -264,30 +282,45 @@ impl GroundVehicle {
 
     /// d(x, y, ψ, δ) per metre commanded, or per radian of a turn in place.
     fn rates(&self, way: &Way<'_>, rest: &Rest, state: &[f64; 4], s: f64) -> [f64; 4] {
-        let [(sf, cf), (st, ct), (sp, cp), (sd, cd)] =
-            [rest.roll(), rest.pitch(), state[2], way.crab].map(libm::sincos);
-        let DrivePiece::Arc { curvature, direction, .. } = way.piece else {
-            return [0.0, 0.0, cf / ct, 0.0];
-        };
+        let [(sf, cf), (st, ct), (sp, cp)] = [rest.roll(), rest.pitch(), state[2]].map(libm::sincos);
+        let place = Place { roll: rest.roll(), pitch: rest.pitch() };
+        let bend = libm::tan(state[3]) / self.steered_axle_m;
+        let [vx, vy, turn] = self.body_rates(way, &place, s, bend);
+        let ahead = ct * vx + st * sf * vy;
+        let left = cf * vy;
+        [cp * ahead - sp * left, sp * ahead + cp * left, cf / ct * turn, self.turned(way, state[3], s)]
+    }
+
+    /// dδ per metre of steering with a time constant; without one the step's angle is known before: `steered`.
+    fn turned(&self, way: &Way<'_>, angle: f64, s: f64) -> f64 {
+        let DrivePiece::Arc { curvature, .. } = way.piece else { return 0.0 };
+        if self.steering_time_constant_s <= 0.0 {
+            return 0.0;
+        }
         let commanded: f64 = curvature.iter().rev().fold(0.0, |sum, a| sum * s + a);
-        let (bend, turned) = if self.lags() {
-            let wanted = libm::atan(commanded * self.steered_axle_m) - state[3];
-            // Without a time constant the step's angle is known before: `steered`.
-            let rate = if self.steering_time_constant_s > 0.0 { wanted / self.steering_time_constant_s } else { 0.0 };
-            let rate = rate.clamp(-self.steering_rate_rad_s, self.steering_rate_rad_s);
-            (libm::tan(state[3]) / self.steered_axle_m, rate * way.pace)
-        } else {
-            (commanded, 0.0)
-        };
+        let wanted = libm::atan(commanded * self.steered_axle_m) - angle;
+        let rate = wanted / self.steering_time_constant_s;
+        rate.clamp(-self.steering_rate_rad_s, self.steering_rate_rad_s) * way.pace
+    }
+
+    /// The steering angle after a step from `s` on, which does not depend on where the vehicle is: by the midpoint rule.
+    fn angle_after(&self, way: &Way<'_>, angle: f64, s: f64, h: f64) -> f64 {
+        let half = angle + 0.5 * h * self.turned(way, angle, s);
+        angle + h * self.turned(way, half, s + 0.5 * h)
+    }
+
+    /// vx, vy (per metre commanded) and ωz (1/m) in the body, or 0, 0, 1 of a turn in place; `bend` is what lagging wheels steer.
+    fn body_rates(&self, way: &Way<'_>, place: &Place, s: f64, bend: f64) -> [f64; 3] {
+        let DrivePiece::Arc { curvature, direction, .. } = way.piece else { return [0.0, 0.0, 1.0] };
+        let commanded: f64 = curvature.iter().rev().fold(0.0, |sum, a| sum * s + a);
+        let bend = if self.lags() { bend } else { commanded };
+        let [(sf, _), (st, ct), (sd, cd)] = [place.roll, place.pitch, way.crab].map(libm::sincos);
         // Unit vectors of the way and across it in the body, and how steeply each rises.
         let (along, across) = ([cd, sd], [-sd, cd]);
         let rises = [-st, ct * sf];
         let rise = |v: [f64; 2]| v[0] * rises[0] + v[1] * rises[1];
         let progress = direction - self.slip_at_20_deg * rise(along) / SIN_20;
         let drift = -self.side_slip_at_20_deg * rise(across) / SIN_20;
-        let v = [progress * along[0] + drift * across[0], progress * along[1] + drift * across[1]];
-        let ahead = ct * v[0] + st * sf * v[1];
-        let left = cf * v[1];
-        [cp * ahead - sp * left, sp * ahead + cp * left, cf / ct * bend * progress, turned]
+        [progress * along[0] + drift * across[0], progress * along[1] + drift * across[1], bend * progress]
     }
 }

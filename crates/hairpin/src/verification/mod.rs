@@ -26,6 +26,7 @@ mod proof;
 mod replay;
 mod rotors;
 mod stand;
+mod twist;
 mod walk;
 
 #[cfg(test)]

@@ -86,6 +86,10 @@ pub(super) enum NoRest {
 }
 
 impl Rest {
+    pub(super) fn height(&self) -> f64 {
+        self.unknowns[0]
+    }
+
     pub(super) fn roll(&self) -> f64 {
         self.unknowns[1]
     }
@@ -194,7 +198,7 @@ fn gaps<T: Terrain>(stand: &Stand, terrain: &T, place: [f64; 3], unknowns: &Unkn
 }
 
 /// A turn by `angle` about the axis x (0), y (1) or z (2).
-fn turn(axis: usize, angle: f64) -> Matrix3<f64> {
+pub(super) fn turn(axis: usize, angle: f64) -> Matrix3<f64> {
     let (sin, cos) = libm::sincos(angle);
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut matrix = Matrix3::identity();

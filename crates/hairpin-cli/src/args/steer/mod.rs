@@ -14,7 +14,7 @@ use super::terrain::{MapFlags, NoData};
 use effort::Effort;
 pub(crate) use effort::StartTable;
 pub(crate) use keep_out::KeepOutFlags;
-use names::SteerControl;
+use names::{SteerControl, SteerKinematics};
 pub(crate) use names::{SteerCost, SteerFrame};
 
 /// Every answer is replayed by an integration of its own; `ok` means that the replay ends in the goal within 1 cm,
@@ -71,6 +71,9 @@ pub(crate) struct Steer {
     /// Elevation map to drive on
     #[arg(long, value_name = "DEM")]
     pub(crate) terrain: Option<PathBuf>,
+    /// What moves the body on --terrain
+    #[arg(long, value_enum, default_value_t = SteerKinematics::Source, value_name = "NAME", requires = "terrain")]
+    pub(crate) kinematics: SteerKinematics,
     #[command(flatten)]
     pub(crate) map: MapFlags,
     /// What cells without data are

@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use hairpin::feasibility::steering::shooting::Control;
 use hairpin::feasibility::steering::shooting::rough::GroundCost;
+use hairpin::robot::rover::Kinematics;
 
 /// Frames of poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -11,6 +12,24 @@ pub(crate) enum SteerFrame {
     Enu,
     /// North, east, down; yaw from north, clockwise; right positive
     Ned,
+}
+
+/// Rates of the planar pose on the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SteerKinematics {
+    /// Without what the suspension adds to the body's velocity: vz, roll and pitch rates
+    Source,
+    /// With it
+    Exact,
+}
+
+impl From<SteerKinematics> for Kinematics {
+    fn from(kinematics: SteerKinematics) -> Self {
+        match kinematics {
+            SteerKinematics::Source => Self::Source,
+            SteerKinematics::Exact => Self::Exact,
+        }
+    }
 }
 
 /// Families of controls.

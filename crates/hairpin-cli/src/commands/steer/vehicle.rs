@@ -34,7 +34,8 @@ pub(in crate::commands) struct Vehicle {
 
 impl Vehicle {
     pub(super) fn new(steer: &Steer) -> Result<Self, Problem> {
-        let rover = rover_for(&steer.rover)?;
+        let mut rover = rover_for(&steer.rover)?;
+        rover.kinematics = steer.kinematics.into();
         if steer.turns && !rover.limits.turns_in_place {
             return Err(Problem::input(format!(
                 "--turns: `{}` cannot turn in place (limits.turns_in_place)",

@@ -3,6 +3,7 @@
 use super::DriveSetup;
 use crate::campaign::scenario::{GroundControllerKind, GroundReach};
 use crate::feasibility::reach::drive::{Pace, Slopes};
+use crate::robot::rover::{Kinematics, Suspension};
 
 /// What stands behind the legs.
 pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
@@ -35,6 +36,11 @@ pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
         setup.tilt().to_degrees(),
         pace(setup)
     ));
+    if setup.rover.kinematics == Kinematics::Exact && setup.rover.suspension != Suspension::Level {
+        said.push(
+            "Kinematics `exact`: plans, runs and proofs have what the suspension adds to the body's velocity (vz, ωx, ωy).".into(),
+        );
+    }
     if setup.rover.response.latency > 0.0 {
         said.push(format!(
             "The latency of {} s is not planned for: legs follow each other.",

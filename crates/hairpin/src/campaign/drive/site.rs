@@ -3,7 +3,7 @@
 use crate::feasibility::steering::clear::{Around, ClearedOnGround, solve_on_ground};
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, GroundCost, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
-use crate::robot::rover::{Rover, Suspension};
+use crate::robot::rover::{Kinematics, Rover, Suspension};
 use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::verification::{
@@ -194,6 +194,7 @@ pub(super) fn ground_vehicle(rover: &Rover) -> GroundVehicle {
         steering_time_constant_s: rover.response.steering_time_constant,
         steering_rate_rad_s: rover.response.steering_rate,
         steered_axle_m: rover.response.steered_axle,
+        exact: rover.kinematics == Kinematics::Exact,
     }
 }
 

@@ -15,7 +15,7 @@ pub use differential_drive::{
 use nalgebra::{Isometry3, Translation3};
 
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
-use crate::robot::rover::{Belly, Body, Limits, Response, Rover, RoverError, Slip, Suspension, Wheels};
+use crate::robot::rover::{Belly, Body, Kinematics, Limits, Response, Rover, RoverError, Slip, Suspension, Wheels};
 
 fn named(name: &str) -> Result<String, RoverError> {
     if name.trim().is_empty() {
@@ -51,6 +51,7 @@ impl Named<'_> {
             limits,
             response,
             slip: Slip::default(),
+            kinematics: Kinematics::default(),
             default_speed,
             estimated: self.estimated.to_vec(),
         }

@@ -8,7 +8,7 @@ use super::body::{BellyDescription, Body};
 use super::error::{RoverError, place, within, wrong};
 use super::four_wheel::FourWheel;
 use super::wheels::{Steering, Wheels, WheelsDescription};
-use super::{Limits, Response, RockerBogie, Rover, Slip, Suspension};
+use super::{Kinematics, Limits, Response, RockerBogie, Rover, Slip, Suspension};
 
 /// The `kind` of a rover's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -169,6 +169,7 @@ impl RoverDescription {
                 at_20_deg: within("slip_at_20_deg", self.slip_at_20_deg, 0.0, 0.95)?,
                 side_at_20_deg: within("side_slip_at_20_deg", self.side_slip_at_20_deg, 0.0, 0.95)?,
             },
+            kinematics: Kinematics::default(),
             default_speed,
             estimated,
         })

@@ -24,7 +24,7 @@ pub use description::{RoverDescription, RoverKind};
 pub use error::RoverError;
 pub(super) use error::within;
 pub use four_wheel::FourWheel;
-pub use motion::{Rates, Slip, rates};
+pub use motion::{Kinematics, Rates, Slip, rates};
 pub use rest::{Gradient, Settled, Unsettled};
 pub use rocker_bogie::RockerBogie;
 pub use suspension::Suspension;
@@ -51,6 +51,8 @@ pub struct Rover {
     pub response: Response,
     /// How the ground gives way.
     pub slip: Slip,
+    /// Which rates the motion has; not a robot's own number, but asked for with what is to be driven.
+    pub kinematics: Kinematics,
     /// Speed where none is given, m/s.
     pub default_speed: f64,
     /// Names of the numbers that were derived here, not given.

@@ -1,6 +1,9 @@
 //! The body's velocity over the ground, from what is commanded and how it stands.
 
-use super::Settled;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Gradient, Rover, Settled};
 
 /// How much the ground gives way, in proportion to the sine of the slope.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -11,10 +14,34 @@ pub struct Slip {
     pub side_at_20_deg: f64,
 }
 
+/// Which rates a commanded twist gives the planar pose. On planes, for bodies that stand level on level ground, they are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kinematics {
+    /// Without what the suspension adds to the body's velocity: vz, ωx and ωy (Howard & Kelly 2007).
+    #[default]
+    Source,
+    /// With all six: vz, ωx and ωy are what keeps the wheels on the ground.
+    Exact,
+}
+
+impl Kinematics {
+    /// The word in scenarios and on the command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Source => "source",
+            Self::Exact => "exact",
+        }
+    }
+}
+
 /// sin 20°.
 const SIN_20: f64 = 0.342_020_143_325_668_7;
+/// The least determinant of the exact rates: as it nears 0 the ground turns the body by as much as it is driven, and less is the
+/// foot of a wall.
+const LEAST: f64 = 0.05;
 
-/// Rates of the planar pose per metre of commanded travel, in the heading's frame:
+/// Rates of the planar pose per metre of commanded travel, or per radian of a turn in place, in the heading's frame:
 /// ẋ = cosψ · ahead − sinψ · left, ẏ = sinψ · ahead + cosψ · left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rates {
@@ -26,23 +53,123 @@ pub struct Rates {
     pub yaw: f64,
 }
 
+/// What is commanded, in the body: vx and vy per metre of travel, ωz in 1/m; of a turn in place 0, 0, 1.
+#[derive(Debug, Clone, Copy)]
+struct Commanded([f64; 3]);
+
+/// Sines and cosines of roll and pitch.
+struct Lean {
+    sf: f64,
+    cf: f64,
+    st: f64,
+    ct: f64,
+}
+
+impl Lean {
+    fn of(pose: &Settled) -> Self {
+        let ((sf, cf), (st, ct)) = (libm::sincos(pose.roll), libm::sincos(pose.pitch));
+        Self { sf, cf, st, ct }
+    }
+
+    /// With slip: v (1 − s₂₀ sin(climb)/sin 20°), drift −s′₂₀ sin(side)/sin 20°; the wheels keep the path's curvature, so slip
+    /// shortens the turn as well.
+    fn commanded(&self, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip) -> Commanded {
+        // Rise per metre along the body's x and y axes.
+        let (rise_x, rise_y) = (-self.st, self.ct * self.sf);
+        let climb = sign * (direction.1 * rise_x + direction.0 * rise_y);
+        let side = direction.1 * rise_y - direction.0 * rise_x;
+        let progress = sign * (1.0 - slip.at_20_deg * climb / SIN_20);
+        let drift = -slip.side_at_20_deg * side / SIN_20;
+        let vx = progress * direction.1 - drift * direction.0;
+        let vy = progress * direction.0 + drift * direction.1;
+        Commanded([vx, vy, curvature * progress])
+    }
+
+    /// ẋ = cosψ cosθ vx + (cosψ sinθ sinφ − sinψ cosφ) vy, ẏ = sinψ cosθ vx + (sinψ sinθ sinφ + cosψ cosφ) vy,
+    /// ψ̇ = (cosφ / cosθ) ωz.
+    fn source(&self, Commanded([vx, vy, turn]): Commanded) -> Rates {
+        let Self { sf, cf, st, ct } = self;
+        Rates { ahead: ct * vx + st * sf * vy, left: cf * vy, yaw: cf / ct * turn }
+    }
+
+    /// All rates of the body, from two equations for vz and ψ̇: the third row of ṗ = R v is the height's rate, and
+    /// ωz = cosφ cosθ ψ̇ − sinφ θ̇,
+    ///
+    /// ```text
+    /// ż = z_a a + z_l l + z_ψ ψ̇ + ż₀     a = cosθ vx + sinθ sinφ vy + sinθ cosφ vz
+    /// θ̇ = θ_a a + θ_l l + θ_ψ ψ̇ + θ̇₀     l = cosφ vy − sinφ vz
+    /// ```
+    ///
+    /// with the suspension's gradient along the heading (a), across it (l) and by ψ, and `beyond` = (ż₀, θ̇₀) what it leaves out.
+    fn exact(&self, gradient: &Gradient, yaw: f64, commanded: Commanded, beyond: [f64; 2]) -> Rates {
+        let Self { sf, cf, st, ct } = self;
+        let Commanded([vx, vy, turn]) = commanded;
+        let (sin, cos) = libm::sincos(yaw);
+        let by = |row: [f64; 3]| [cos * row[0] + sin * row[1], cos * row[1] - sin * row[0], row[2]];
+        let (height, pitch) = (by(gradient.by_place[0]), by(gradient.pitch()));
+        // Without vz, and what vz adds.
+        let (ahead, left, up) = (ct * vx + st * sf * vy, cf * vy, ct * sf * vy - st * vx);
+        let (lean_ahead, lean_left, lean_up) = (st * cf, -sf, ct * cf);
+        let rows = [
+            [lean_up - height[0] * lean_ahead - height[1] * lean_left, -height[2]],
+            [-sf * (pitch[0] * lean_ahead + pitch[1] * lean_left), cf * ct - sf * pitch[2]],
+        ];
+        let right = [
+            height[0] * ahead + height[1] * left + beyond[0] - up,
+            turn + sf * (pitch[0] * ahead + pitch[1] * left + beyond[1]),
+        ];
+        let determinant = (rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0]).max(LEAST);
+        let rise = (right[0] * rows[1][1] - rows[0][1] * right[1]) / determinant;
+        let yaw = (rows[0][0] * right[1] - rows[1][0] * right[0]) / determinant;
+        Rates { ahead: ahead + lean_ahead * rise, left: left + lean_left * rise, yaw }
+    }
+}
+
 /// Rates of a body that stands as `pose` and drives with `sign` (±1) along the direction δ (`direction`: sine and
-/// cosine) of its body with curvature κ.
+/// cosine) of its body with curvature κ: the source's.
 ///
 /// ẋ = cosψ cosθ vx + (cosψ sinθ sinφ − sinψ cosφ) vy, ẏ = sinψ cosθ vx + (sinψ sinθ sinφ + cosψ cosφ) vy,
 /// ψ̇ = (cosφ / cosθ) κ v (Howard & Kelly 2007; vz, ωx, ωy left out, which is exact on planes).
-/// Slip: v (1 − s₂₀ sin(climb)/sin 20°), drift −s′₂₀ sin(side)/sin 20°; the wheels keep the path's curvature, so slip
-/// shortens the turn as well.
 #[inline]
 pub fn rates(pose: &Settled, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip) -> Rates {
-    let ((sf, cf), (st, ct)) = (libm::sincos(pose.roll), libm::sincos(pose.pitch));
-    // Rise per metre along the body's x and y axes.
-    let (rise_x, rise_y) = (-st, ct * sf);
-    let climb = sign * (direction.1 * rise_x + direction.0 * rise_y);
-    let side = direction.1 * rise_y - direction.0 * rise_x;
-    let progress = sign * (1.0 - slip.at_20_deg * climb / SIN_20);
-    let drift = -slip.side_at_20_deg * side / SIN_20;
-    let vx = progress * direction.1 - drift * direction.0;
-    let vy = progress * direction.0 + drift * direction.1;
-    Rates { ahead: ct * vx + st * sf * vy, left: cf * vy, yaw: cf / ct * curvature * progress }
+    let lean = Lean::of(pose);
+    lean.source(lean.commanded(direction, sign, curvature, slip))
+}
+
+impl Rover {
+    /// Rates of the vehicle by its own kinematics and slip, where it stands as `pose`, whose gradient `gradient` is, heading for
+    /// `yaw`; for the rest see [`rates`].
+    #[inline]
+    pub fn rates(
+        &self,
+        (pose, gradient): (&Settled, &Gradient),
+        yaw: f64,
+        direction: (f64, f64),
+        sign: f64,
+        curvature: f64,
+    ) -> Rates {
+        let lean = Lean::of(pose);
+        let commanded = lean.commanded(direction, sign, curvature, &self.slip);
+        match self.kinematics {
+            Kinematics::Source => lean.source(commanded),
+            Kinematics::Exact => lean.exact(gradient, yaw, commanded, [0.0; 2]),
+        }
+    }
+
+    /// Rates per radian of a turn in place: ψ̇ = cosφ/cosθ, and with exact kinematics what the rising body moves aside.
+    #[inline]
+    pub fn turning(&self, (pose, gradient): (&Settled, &Gradient), yaw: f64) -> Rates {
+        let (lean, commanded) = (Lean::of(pose), Commanded([0.0, 0.0, 1.0]));
+        match self.kinematics {
+            Kinematics::Source => lean.source(commanded),
+            Kinematics::Exact => lean.exact(gradient, yaw, commanded, [0.0; 2]),
+        }
+    }
+
+    /// How the pose moves where the body rises by `beyond[0]` (m) and pitches by `beyond[1]` (rad) over what gradients foresaw, as it
+    /// does at their kinks; `None` where the kinematics do not ask.
+    pub fn moved_beyond(&self, (pose, gradient): (&Settled, &Gradient), yaw: f64, beyond: [f64; 2]) -> Option<Rates> {
+        let exact = self.kinematics == Kinematics::Exact;
+        exact.then(|| Lean::of(pose).exact(gradient, yaw, Commanded([0.0; 3]), beyond))
+    }
 }

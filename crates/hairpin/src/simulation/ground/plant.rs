@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
-use crate::robot::rover::{Gradient, Rates, Rover, Settled, Slip, Suspension, rates};
+use crate::robot::rover::{Gradient, Rover, Settled, Slip, Suspension, rates};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
 
@@ -42,7 +42,7 @@ const GAP: f64 = 1e-4;
 const STILL: f64 = 1e-9;
 
 /// State of a driving vehicle:
-/// ẋ, ẏ, ψ̇ by [`rates`] of the wheels' speed v and κ = tan(δ)/L;
+/// ẋ, ẏ, ψ̇ by [`Rover::rates`] of the wheels' speed v and κ = tan(δ)/L;
 /// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; v and the rate ω of turns in place follow their commands with the
 /// bounded acceleration; z, φ, θ and the joints by the suspension on the ground.
 #[derive(Debug, Clone)]
@@ -148,9 +148,9 @@ impl<'a> Plant<'a> {
             return Ok(());
         }
         let from = self.place();
-        let first = self.motion(&self.pose, from[2], way, bend, turn);
+        let first = self.motion((&self.pose, &self.gradient), from[2], way, bend, turn);
         let half = self.pose.moved(&self.gradient.over(first.map(|d| 0.5 * d)));
-        let moved = self.motion(&half, from[2] + 0.5 * first[2], way, bend, turn);
+        let moved = self.motion((&half, &self.gradient), from[2] + 0.5 * first[2], way, bend, turn);
         (self.x, self.y, self.yaw) = (from[0] + moved[0], from[1] + moved[1], from[2] + moved[2]);
         let guess = self.pose.moved(&self.gradient.over(moved));
         (self.pose, self.gradient) = match self.vehicle.suspension {
@@ -164,17 +164,15 @@ impl<'a> Plant<'a> {
         Ok(())
     }
 
-    /// Change of (x, y, ψ) on `way` m (signed) and `turn` rad in place, standing as `pose` with `yaw`.
-    fn motion(&self, pose: &Settled, yaw: f64, way: f64, bend: f64, turn: f64) -> [f64; 3] {
+    /// Change of (x, y, ψ) on `way` m (signed) and `turn` rad in place, standing as `pose` and its gradient say with `yaw`.
+    fn motion(&self, stands: (&Settled, &Gradient), yaw: f64, way: f64, bend: f64, turn: f64) -> [f64; 3] {
         let (sin, cos) = libm::sincos(yaw);
-        let Rates { ahead, left, yaw } =
-            rates(pose, self.direction, if way < 0.0 { -1.0 } else { 1.0 }, bend, &self.vehicle.slip);
+        let sign = if way < 0.0 { -1.0 } else { 1.0 };
+        let driven = self.vehicle.rates(stands, yaw, self.direction, sign, bend);
+        let turned = self.vehicle.turning(stands, yaw);
         let way = way.abs();
-        [
-            way * (cos * ahead - sin * left),
-            way * (sin * ahead + cos * left),
-            way * yaw + turn * libm::cos(pose.roll) / libm::cos(pose.pitch),
-        ]
+        let (ahead, left) = (way * driven.ahead + turn * turned.ahead, way * driven.left + turn * turned.left);
+        [cos * ahead - sin * left, sin * ahead + cos * left, way * driven.yaw + turn * turned.yaw]
     }
 
     /// Turns the wheels for `h` s towards `curvature`.
@@ -221,7 +219,8 @@ impl<'a> Plant<'a> {
 
     /// Velocity of the body's origin, m/s, world frame.
     pub(super) fn velocity(&self) -> Vector3<f64> {
-        let moved = self.motion(&self.pose, self.yaw, self.speed, self.curvature(), self.turn_rate);
+        let stands = (&self.pose, &self.gradient);
+        let moved = self.motion(stands, self.yaw, self.speed, self.curvature(), self.turn_rate);
         let climb = match self.terrain.patch(self.x, self.y) {
             Ok(ground) if self.vehicle.suspension == Suspension::Level => {
                 ground.slope[0] * moved[0] + ground.slope[1] * moved[1]

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::campaign::scenario::{Aggregate, Sampling, SearchMethod, SearchSection};
 use crate::feasibility::steering::shooting::Control;
+use crate::robot::rover::Kinematics;
 
 /// `[generate]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,6 +23,8 @@ pub struct DriveGenerate {
     pub speed: SpeedSection,
     /// Direction of travel in the body, left positive: for vehicles that steer all wheels.
     pub direction_deg: f64,
+    /// source | exact: without or with what the suspension adds to the body's velocity (vz, ωx, ωy); of plans, runs and proofs.
+    pub kinematics: Kinematics,
     /// Headings per waypoint in the `witness` roadmap.
     pub headings: u64,
     /// Limits beside the robot's own.
@@ -41,6 +44,7 @@ impl Default for DriveGenerate {
             manoeuvres: vec![Manoeuvre::Forward],
             speed: SpeedSection::default(),
             direction_deg: 0.0,
+            kinematics: Kinematics::Source,
             headings: 4,
             limits: DriveLimits::default(),
             solver: SolverSection::default(),

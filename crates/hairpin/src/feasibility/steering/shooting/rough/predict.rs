@@ -1,12 +1,13 @@
 //! Motion prediction: where commands take a rover on the ground.
 //!
 //! dx/ds = f(x, y, ψ; κ(s)) with roll and pitch from the suspension at (x, y, ψ). One settled pose a step: the rates are taken
-//! at the step's middle, whose pose is extrapolated from the step before; second order, as the midpoint rule.
+//! at the step's middle, whose pose is extrapolated from the step before; second order, as the midpoint rule. Exact kinematics need the
+//! gradient of the pose as well, which jumps at the borders of the map's cells: what it foresaw wrongly is made good at the next look.
 
 use thiserror::Error;
 
 use super::steering_lag::SteeringLag;
-use crate::robot::rover::{Gradient, Rates, Rover, Settled, Unsettled, rates};
+use crate::robot::rover::{Gradient, Kinematics, Rates, Rover, Settled, Unsettled};
 use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::world::terrain::Terrain;
@@ -68,7 +69,7 @@ pub struct Driven {
 /// How commands are integrated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steps {
-    /// Longest step of an arc, m.
+    /// Longest step of an arc, m; exact kinematics take three for each.
     pub length: f64,
     /// Longest step of a turn in place, rad.
     pub angle: f64,
@@ -114,6 +115,19 @@ pub struct Course<'a, T> {
     pub steps: Steps,
 }
 
+impl<T> Course<'_, T> {
+    /// Longest step of an arc, m.
+    fn step(&self) -> f64 {
+        match self.rover.kinematics {
+            Kinematics::Source => self.steps.length,
+            Kinematics::Exact => EXACT * self.steps.length,
+        }
+    }
+}
+
+/// Share of the steps that exact kinematics take: their rates change as the ground bends, the source's as it slopes.
+const EXACT: f64 = 1.0 / 3.0;
+
 /// Pitch from which yaw rates lose their meaning, rad.
 const ON_END: f64 = 1.396;
 
@@ -143,6 +157,7 @@ pub fn predict<T: Terrain>(
         settled,
         gradient,
         looked_at: *start,
+        foreseen: [settled.z, settled.pitch],
         lag: SteeringLag::new(&rover.response, start.curvature),
         before: None,
         timing: Timing::new(&course.speed, segments),
@@ -171,6 +186,8 @@ struct Walk {
     gradient: Gradient,
     /// Where the last look was.
     looked_at: Planar,
+    /// Height and pitch at the end of the last step, as its gradient foresaw them.
+    foreseen: [f64; 2],
     lag: SteeringLag,
     /// The segment before.
     before: Option<Segment>,
@@ -191,8 +208,8 @@ impl Walk {
                 let count = steps(angle_rad.abs() / course.steps.angle, course.steps.least);
                 let h = angle_rad / f64::from(count);
                 for _ in 0..count {
-                    let ratio = yaw_ratio(&self.settled);
-                    let middle = Planar { yaw: self.at.yaw + 0.5 * h * ratio, ..self.at };
+                    let here = course.rover.turning((&self.settled, &self.gradient), self.at.yaw);
+                    let middle = moved(&self.at, &here, 0.5 * h, self.at.yaw + 0.25 * h * here.yaw);
                     self.look(course, &middle)?;
                     self.turned += h.abs();
                     observe(&Driven {
@@ -203,7 +220,8 @@ impl Walk {
                         at: middle,
                         settled: self.settled,
                     });
-                    self.at.yaw += h * yaw_ratio(&self.settled);
+                    let there = course.rover.turning((&self.settled, &self.gradient), middle.yaw);
+                    self.advance(course.rover, &there, h, middle.yaw);
                 }
                 // The wheels stand straight again afterwards.
                 self.at.curvature = 0.0;
@@ -216,9 +234,8 @@ impl Walk {
                     // Where the vehicle stands its wheels swing to what comes.
                     self.lag = SteeringLag::new(&course.rover.response, segment.curvature_at(0.0));
                 }
-                let count = steps(length_m / course.steps.length, course.steps.least);
+                let count = steps(length_m / course.step(), course.steps.least);
                 let h = length_m / f64::from(count);
-                let slip = &course.rover.slip;
                 let constant = libm::sincos(course.direction.start);
                 for step in 0..count {
                     let direction = if course.direction.swing() == 0.0 {
@@ -230,7 +247,8 @@ impl Walk {
                     // The curvature at the step's middle, half a step after the last one's end.
                     let begun = self.travelled;
                     let curvature = self.steered(segment, s, begun, 0.5 * h);
-                    let here = rates(&self.carried(&self.at), direction, sign, curvature, slip);
+                    let stands = (&self.carried(&self.at), &self.gradient);
+                    let here = course.rover.rates(stands, self.at.yaw, direction, sign, curvature);
                     let mut middle = moved(&self.at, &here, 0.5 * h, self.at.yaw + 0.25 * h * here.yaw);
                     middle.curvature = curvature;
                     self.look(course, &middle)?;
@@ -243,14 +261,27 @@ impl Walk {
                         at: middle,
                         settled: self.settled,
                     });
-                    let there = rates(&self.settled, direction, sign, curvature, slip);
-                    self.at = moved(&self.at, &there, h, self.at.yaw + 0.5 * h * there.yaw);
+                    let stands = (&self.settled, &self.gradient);
+                    let there = course.rover.rates(stands, middle.yaw, direction, sign, curvature);
+                    self.advance(course.rover, &there, h, middle.yaw);
                     self.at.curvature = self.steered(segment, s + 0.5 * h, begun + 0.5 * h, 0.5 * h);
                 }
             }
         }
         self.before = Some(*segment);
         Ok(())
+    }
+
+    /// Drives a step of `h` at the rates of its middle, the last look. What the body rose and pitched beyond what gradients foresaw since
+    /// the step before is made good with exact kinematics.
+    fn advance(&mut self, rover: &Rover, rates: &Rates, h: f64, yaw: f64) {
+        let next = moved(&self.at, rates, h, self.at.yaw + 0.5 * h * rates.yaw);
+        let over = self.gradient.over([next.x - self.at.x, next.y - self.at.y, next.yaw - self.at.yaw]);
+        let (now, half) = ([self.settled.z, self.settled.pitch], [0.5 * over[0], 0.5 * over[2]]);
+        let beyond = [now[0] - half[0] - self.foreseen[0], now[1] - half[1] - self.foreseen[1]];
+        self.foreseen = [now[0] + half[0], now[1] + half[1]];
+        let made_good = rover.moved_beyond((&self.settled, &self.gradient), yaw, beyond);
+        self.at = made_good.map_or(next, |moves| moved(&next, &moves, 1.0, yaw));
     }
 
     /// The steering's curvature after the `h` metres of `segment` from its `s` on, `begun` metres after the drive's beginning.
@@ -318,11 +349,6 @@ fn moved(from: &Planar, rates: &Rates, h: f64, heading: f64) -> Planar {
         yaw: from.yaw + turn,
         curvature: from.curvature,
     }
-}
-
-/// ψ̇ / ωz = cosφ / cosθ.
-fn yaw_ratio(settled: &Settled) -> f64 {
-    libm::cos(settled.roll) / libm::cos(settled.pitch)
 }
 
 /// Angle of the body's z axis from the vertical, rad.

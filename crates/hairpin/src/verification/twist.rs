@@ -1,0 +1,88 @@
+//! A rigid body carried from one rest on the ground to the next by what is commanded of its twist.
+//!
+//! Commanded are vx, vy and ωz in the body; vz, ωx and ωy are whatever keeps the wheels on the ground. So the next rest is the one that
+//! a motion with these three leads to: it is looked for, and the twist is measured between the two poses as a screw. No rates of
+//! angles, no gradient of the suspension.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::stand::{NoRest, Rest, Stand, turn};
+use crate::world::terrain::Terrain;
+
+/// How the body leans: roll and pitch, rad.
+pub(super) struct Place {
+    pub(super) roll: f64,
+    pub(super) pitch: f64,
+}
+
+/// Tries of a rest.
+const TRIES: usize = 60;
+/// Differences of vx, vy, ωz over a step that rests themselves are not known to, and from which a body counts as carried, m and rad.
+const CLOSED: f64 = 3e-9;
+const ENOUGH: f64 = 1e-6;
+
+/// The place (x, y, ψ) after a step of `h` from `from`, where the body has come to `rest`, at the rates that `body` gives for how it
+/// leans halfway; `rest` is then the one there.
+pub(super) fn carry<T: Terrain>(
+    stand: &Stand,
+    terrain: &T,
+    rest: &mut Rest,
+    from: [f64; 3],
+    h: f64,
+    body: impl Fn(&Place) -> [f64; 3],
+) -> Result<[f64; 3], NoRest> {
+    settle(stand, terrain, rest, from)?;
+    let (begun, origin) = (attitude(rest, from[2]), Vector3::new(from[0], from[1], rest.height()));
+    let leant = Place { roll: rest.roll(), pitch: rest.pitch() };
+    let mut place = from;
+    let mut left = f64::INFINITY;
+    for _ in 0..TRIES {
+        settle(stand, terrain, rest, place)?;
+        let (ended, there) = (attitude(rest, place[2]), Vector3::new(place[0], place[1], rest.height()));
+        let turned = small_turn(&(begun.transpose() * ended));
+        // In the frame halfway between the two.
+        let halfway = begun * rotation(&(0.5 * turned));
+        let moved = halfway.transpose() * (there - origin);
+        let middle = Place { roll: 0.5 * (leant.roll + rest.roll()), pitch: 0.5 * (leant.pitch + rest.pitch()) };
+        let asked = body(&middle).map(|rate| h * rate);
+        let lacks = Vector3::new(asked[0] - moved.x, asked[1] - moved.y, asked[2] - turned.z);
+        left = lacks.amax();
+        if left < CLOSED {
+            return Ok(place);
+        }
+        let over = halfway * Vector3::new(lacks.x, lacks.y, 0.0);
+        place = [place[0] + over.x, place[1] + over.y, place[2] + lacks.z];
+    }
+    if left < ENOUGH { Ok(place) } else { Err(NoRest::NotFound) }
+}
+
+/// Axis times angle of a rotation of less than a right angle, from its antisymmetric part, which is axis times sine.
+fn small_turn(rotation: &Matrix3<f64>) -> Vector3<f64> {
+    let odd = 0.5 * (rotation - rotation.transpose());
+    let sines = Vector3::new(odd[(2, 1)], odd[(0, 2)], odd[(1, 0)]);
+    let sine = sines.norm();
+    if sine < 1e-8 { sines } else { sines * (libm::asin(sine.min(1.0)) / sine) }
+}
+
+/// The rotation about an axis by its length (Rodrigues).
+fn rotation(turn: &Vector3<f64>) -> Matrix3<f64> {
+    let angle = turn.norm();
+    if angle == 0.0 {
+        return Matrix3::identity();
+    }
+    let (sin, cos) = libm::sincos(angle);
+    let across = (turn / angle).cross_matrix();
+    Matrix3::identity() + sin * across + (1.0 - cos) * across * across
+}
+
+fn settle<T: Terrain>(stand: &Stand, terrain: &T, rest: &mut Rest, place: [f64; 3]) -> Result<(), NoRest> {
+    // Where the body falls over an edge, the rest it comes to is not near the one before.
+    if rest.follow(stand, terrain, place).is_err() {
+        *rest = Rest::find(stand, terrain, place)?;
+    }
+    Ok(())
+}
+
+fn attitude(rest: &Rest, yaw: f64) -> Matrix3<f64> {
+    turn(2, yaw) * turn(1, rest.pitch()) * turn(0, rest.roll())
+}
