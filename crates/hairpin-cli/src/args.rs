@@ -384,6 +384,12 @@ pub(crate) struct Bench {
     /// Length of the campaign whose memory is measured
     #[arg(long, value_name = "M", default_value_t = 0.2)]
     pub(crate) minutes: f64,
+    /// Write the questions of the max-load benches as tables of costs into DIR instead, with DIR/questions.json, for other solvers
+    #[arg(long, value_name = "DIR")]
+    pub(crate) write: Option<PathBuf>,
+    /// How many questions of each bench --write writes
+    #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u64).range(1..=10_000), requires = "write")]
+    pub(crate) questions: u64,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,

@@ -125,3 +125,32 @@ fn points_may_come_several_times() {
     assert_eq!(several["paths"].as_array().unwrap().len(), 3);
     refused(folder.path(), &[&graph[..], &["--method", "subsets"]].concat(), &["--visits"]);
 }
+
+#[test]
+fn questions_of_the_bench_are_written_for_other_solvers() {
+    let folder = tempfile::tempdir().unwrap();
+    let asked = ["bench", "max-load-fixed", "--write", "questions", "--questions", "2"];
+    let index = json(folder.path(), &asked);
+    let questions = index["questions"].as_array().unwrap();
+    assert_eq!(questions.len(), 2, "{index}");
+    assert_eq!((&questions[0]["start"], &questions[0]["end"]), (&object!(0), &object!(49)));
+    let written = fs::read_to_string(folder.path().join("questions/questions.json")).unwrap();
+    assert!(written.contains("max-load-fixed-001.csv"), "{written}");
+    let answer = json(
+        folder.path(),
+        &[
+            "max-load",
+            "--graph",
+            "questions/max-load-fixed-001.csv",
+            "--start",
+            "0",
+            "--end",
+            "49",
+            "--time-limit",
+            "0",
+        ],
+    );
+    assert_eq!((&answer["points"], &answer["scale"]), (&object!(50), &object!(1)), "{answer}");
+    assert!((0.6..0.9).contains(&answer["density"].as_f64().unwrap()), "{answer}");
+    refused(folder.path(), &["bench", "beam", "--write", "q"], &["max-load-15"]);
+}

@@ -3,11 +3,18 @@
 //! Instances are of the published kind, 580 mm around (0, 0, 290) mm without a core of 190 mm; each row is the median over
 //! some of them, from seeds that follow each other.
 
+use std::path::Path;
+
 use hairpin::math::random::{named_seed, stream, unit};
 use hairpin::search::heaviest::{Arcs, Ends, HeaviestSettings, Workspace, heaviest};
 
+use hairpin_formats::atomic::{self, make_folder};
+use serde_json::json;
+
 use super::clock::{Stopwatch, alone, median, median_time};
 use super::{Row, Target};
+use crate::args::Bench;
+use crate::console;
 use crate::problem::Problem;
 
 /// Points of the variants.
@@ -15,21 +22,75 @@ const VARIED: usize = 50;
 /// Costs of the two directions of an arc differ by up to so much from the distance, each on its own.
 const SKEW: f64 = 0.3;
 
+/// Questions of one kind, by seed.
+struct Family {
+    /// Its bench.
+    name: &'static str,
+    draw: fn(u64) -> Result<Question, Problem>,
+}
+
+/// Those whose optimum is proven.
+const FAMILIES: [Family; 9] = [
+    Family { name: "max-load-15", draw: |seed| published(15, seed) },
+    Family { name: "max-load-16", draw: |seed| published(16, seed) },
+    Family { name: "max-load-30", draw: |seed| published(30, seed) },
+    Family { name: "max-load-50", draw: |seed| published(50, seed) },
+    Family { name: "max-load-100", draw: |seed| published(100, seed) },
+    Family { name: "max-load-200", draw: |seed| published(200, seed) },
+    Family { name: "max-load-fixed", draw: fixed },
+    Family { name: "max-load-asymmetric", draw: asymmetric },
+    Family { name: "max-load-sparse", draw: sparse },
+];
+
 pub(super) fn rows() -> Vec<Row> {
     let at_most = |name, unit, bound, measure| Row { name, unit, target: Some(Target::AtMost(bound)), measure };
     vec![
-        at_most("max-load-15", "ms", 1.0, |_| proven(11, |seed| published(15, seed))),
-        at_most("max-load-16", "ms", 1.0, |_| proven(11, |seed| published(16, seed))),
-        at_most("max-load-30", "ms", 10.0, |_| proven(11, |seed| published(30, seed))),
-        at_most("max-load-50", "ms", 50.0, |_| proven(11, |seed| published(50, seed))),
-        at_most("max-load-100", "ms", 120.0, |_| proven(11, |seed| published(100, seed))),
-        at_most("max-load-200", "ms", 2000.0, |_| proven(9, |seed| published(200, seed))),
+        at_most(FAMILIES[0].name, "ms", 1.0, |_| proven(11, FAMILIES[0].draw)),
+        at_most(FAMILIES[1].name, "ms", 1.0, |_| proven(11, FAMILIES[1].draw)),
+        at_most(FAMILIES[2].name, "ms", 10.0, |_| proven(11, FAMILIES[2].draw)),
+        at_most(FAMILIES[3].name, "ms", 50.0, |_| proven(11, FAMILIES[3].draw)),
+        at_most(FAMILIES[4].name, "ms", 120.0, |_| proven(11, FAMILIES[4].draw)),
+        at_most(FAMILIES[5].name, "ms", 2000.0, |_| proven(9, FAMILIES[5].draw)),
         at_most("max-load-200-gap", "%", 0.03, |_| gap(3, 1.0, |seed| published(200, seed))),
         at_most("max-load-1000-gap", "%", 0.15, |_| gap(3, 5.0, |seed| published(1000, seed))),
-        at_most("max-load-fixed", "ms", 1000.0, |_| proven(11, fixed)),
-        at_most("max-load-asymmetric", "ms", 1000.0, |_| proven(11, asymmetric)),
-        at_most("max-load-sparse", "ms", 1000.0, |_| proven(11, sparse)),
+        at_most(FAMILIES[6].name, "ms", 1000.0, |_| proven(11, FAMILIES[6].draw)),
+        at_most(FAMILIES[7].name, "ms", 1000.0, |_| proven(11, FAMILIES[7].draw)),
+        at_most(FAMILIES[8].name, "ms", 1000.0, |_| proven(11, FAMILIES[8].draw)),
     ]
+}
+
+/// Writes the questions as tables of costs, and an index of them: file, bench, fixed ends. 0 when all are written.
+pub(super) fn write(bench: &Bench, folder: &Path) -> Result<u8, Problem> {
+    let wanted = |family: &&Family| bench.name.as_ref().is_none_or(|name| family.name.starts_with(name.as_str()));
+    let families: Vec<&Family> = FAMILIES.iter().filter(wanted).collect();
+    if families.is_empty() {
+        let names = FAMILIES.map(|family| family.name);
+        return Err(Problem::input(format!("no questions of a bench that begins so; there are {}", names.join(", "))));
+    }
+    make_folder(folder)?;
+    let mut index = Vec::new();
+    for Family { name, draw } in families {
+        for (number, Question { arcs, settings }) in questions(bench.questions, draw)?.iter().enumerate() {
+            let file = format!("{name}-{number:03}.csv");
+            atomic::write(&folder.join(&file), table(arcs).as_bytes())?;
+            let ends = settings.ends;
+            index.push(json!({ "file": file, "bench": name, "start": ends.start, "end": ends.end }));
+        }
+    }
+    let path = folder.join("questions.json");
+    let object = json!({ "questions": index, "exit_code": 0 });
+    atomic::write(&path, format!("{object:#}\n").as_bytes())?;
+    console::say(&if bench.json { object.to_string() } else { path.display().to_string() });
+    Ok(0)
+}
+
+/// A table of costs as `max-load --graph` reads it.
+fn table(arcs: &Arcs) -> String {
+    let n = arcs.points();
+    let cell = |from, to| arcs.cost(from, to).map_or(String::new(), |cost: i64| cost.to_string());
+    let line =
+        |from| (0..n).map(|to| if from == to { "0".into() } else { cell(from, to) }).collect::<Vec<_>>().join(",");
+    (0..n).map(|from| line(from) + "\n").collect()
 }
 
 /// What is asked.

@@ -64,6 +64,9 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
         warn_of_debug_build();
         return worst::run(bench.queries, bench.json);
     }
+    if let Some(folder) = &bench.write {
+        return max_load::write(bench, folder);
+    }
     let rooms = [
         reach::rows(),
         search::rows(),

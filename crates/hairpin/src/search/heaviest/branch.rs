@@ -12,8 +12,8 @@ use super::problem::Arcs;
 use super::record::{Next, Recorder};
 use super::relaxation::{Relaxation, path_of};
 
-/// Steps of the multipliers at each look.
-const PACE: Pace = Pace { iterations: 25, alpha: 0.7, patience: 4 };
+/// Steps of the multipliers at each look: fewer leave bounds so slack that many times the problems have to be split.
+const PACE: Pace = Pace { iterations: 60, alpha: 0.7, patience: 4 };
 /// Looks at one problem, as long as each decides at least [`WORTHWHILE`] choices.
 const LOOKS: usize = 4;
 const WORTHWHILE: usize = 8;
