@@ -2,10 +2,12 @@
 
 mod compare;
 mod experiment;
+mod explain;
 mod import;
 mod max_load;
 mod numbers;
 mod requirements;
+mod select;
 mod shrink;
 mod steer;
 mod terrain;
@@ -16,9 +18,11 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::{Experiment, ExperimentName};
+pub(crate) use explain::Explain;
 pub(crate) use import::Import;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use requirements::Requirements;
+pub(crate) use select::{Select, SelectBy};
 pub(crate) use shrink::Shrink;
 pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerCost, SteerFrame};
 pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
@@ -58,6 +62,10 @@ pub(crate) enum Command {
     Verify(Verify),
     /// Fly a violating case again, from its repro file
     Replay(Replay),
+    /// Choose K of a campaign's cases for stress, diversity or coverage: a campaign folder of its own
+    Select(Select),
+    /// Tell why nothing (or little) is feasible, and the smallest change that helps
+    Explain(Explain),
     /// Reduce a violating case to the shortest feasible one that still violates
     Shrink(Shrink),
     /// Compare two judged campaigns over the same cases: better, worse, newly failing
@@ -103,6 +111,8 @@ impl Command {
             Self::Replay(a) => a.json,
             Self::Compare(a) => a.json,
             Self::Shrink(a) => a.json,
+            Self::Select(a) => a.json,
+            Self::Explain(a) => a.json,
             Self::Bench(a) => a.json,
             Self::Steer(a) => a.json,
             Self::MaxLoad(a) => a.json,
@@ -258,6 +268,9 @@ pub(crate) struct Execute {
     /// Of arms: logs of a real controller instead of runs of ours, `*` for CASE-RUN (sets execute.logs): 'nightly/*.csv'
     #[arg(long, value_name = "PATTERN", conflicts_with_all = ["missions", "executor"])]
     pub(crate) logs: Option<String>,
+    /// Run every violation N times again with other noise (sets execute.flaky.reruns): how often does it come again?
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) rerun_violations: Option<u32>,
     /// Override one key of execute, vary or spec; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,

@@ -105,8 +105,7 @@ pub(crate) fn open(
     }
     let folder = CampaignFolder::open_to_write(path)?;
     let level = level(&folder)?;
-    let portable = level.as_deref() == Some(Simd::Portable.level());
-    let setup = Setup::new(read(&folder, sets)?)?.with_simd(if portable { Simd::Portable } else { Simd::Widest });
+    let setup = Setup::new(read(&folder, sets)?)?.with_simd(simd_of(level.as_deref()));
     check_command(&setup.scenario)?;
     if let Some(kernels) = flown {
         // The users' own programs run none of our kernels.
@@ -130,13 +129,18 @@ pub(crate) fn changed_by(folder: &CampaignFolder, sets: &[(String, String)]) -> 
 /// Opens a campaign folder to read it.
 pub(crate) fn look(path: &Path) -> Result<Work, Problem> {
     let folder = CampaignFolder::open(path)?;
-    let setup = Setup::new(read(&folder, &[])?)?;
+    let setup = Setup::new(read(&folder, &[])?)?.with_simd(simd_of(level(&folder)?.as_deref()));
     Ok(Work { folder, setup })
 }
 
 fn read(folder: &CampaignFolder, sets: &[(String, String)]) -> Result<Scenario, Problem> {
     let name = folder.file("scenario.toml");
     Ok(read_scenario(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
+}
+
+/// The version of the kernels that goes on with a campaign of `level`.
+fn simd_of(level: Option<&str>) -> Simd {
+    if level == Some(Simd::Portable.level()) { Simd::Portable } else { Simd::Widest }
 }
 
 /// The SIMD level at which the campaign of a folder was begun, if that is written there.

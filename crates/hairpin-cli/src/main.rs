@@ -72,6 +72,8 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
         Command::Verify(verify) => commands::verify::run(&verify),
         Command::Replay(replay) => commands::replay::run(&replay),
         Command::Compare(compare) => commands::compare::run(&compare),
+        Command::Explain(explain) => commands::explain::run(&explain),
+        Command::Select(select) => commands::select::run(&select),
         Command::Shrink(shrink) => commands::shrink::run(&shrink),
         Command::Export(export) => commands::export::run(&export),
         Command::Import(import) => commands::import::run(&import),

@@ -16,6 +16,7 @@ pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
     let mut sets = folder::split(&execute.sets)?;
     sets.extend(execute.executor.as_deref().map(folder::as_command));
     sets.extend(execute.logs.as_deref().map(|logs| folder::as_logs(&execute.folder, logs)));
+    sets.extend(execute.rerun_violations.map(|n| ("execute.flaky.reruns".to_owned(), n.to_string())));
     let missions = execute.missions.as_deref().map(waypoints::read_folder).transpose().map_err(Problem::input)?;
     if execute.resume && !sets.is_empty() {
         unchanged(execute, &sets)?;

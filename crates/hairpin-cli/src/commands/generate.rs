@@ -37,6 +37,7 @@ pub(crate) fn run(generate: &Generate) -> Result<u8, Problem> {
         console::say(&object.to_string());
     } else {
         console::say(&outcome.sentence);
+        parts::point_to_explain(&work, outcome.exit_code);
     }
     Ok(outcome.exit_code)
 }

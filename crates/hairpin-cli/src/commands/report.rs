@@ -23,7 +23,7 @@ pub(crate) fn run(report: &ReportArguments) -> Result<u8, Problem> {
     parts::report(&work, &cases, &tally, &verdict, (&moves, regression.as_ref()))?;
     let path = work.folder.file("report.html");
     if report.json {
-        console::say(&json!({ "verdict": verdict.sentence, "exit_code": 0, "report": path }).to_string());
+        console::say(&json!({ "verdict": verdict.sentence, "exit_code": 0, "report": path, "coverage": work.folder.read_coverage()? }).to_string());
     } else {
         console::say(&path.display().to_string());
     }

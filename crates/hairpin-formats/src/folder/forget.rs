@@ -4,7 +4,9 @@ use std::fs;
 use std::io;
 use std::path::PathBuf;
 
-use super::{CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, RESULTS, RUNS, WAYPOINTS, entries};
+use super::{
+    COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, RESULTS, RUNS, WAYPOINTS, entries,
+};
 use crate::atomic::{self, WriteError};
 
 impl CampaignFolder {
@@ -20,7 +22,8 @@ impl CampaignFolder {
     /// # Errors
     /// A file cannot be removed.
     pub fn forget_runs(&self) -> Result<(), FolderError> {
-        self.remove(&[RUNS, INFLUENCE, MOVES, "junit.xml", "report.html"], &["executions"])
+        let [coverage, table] = COVERAGE;
+        self.remove(&[RUNS, INFLUENCE, MOVES, coverage, table, "junit.xml", "report.html"], &["executions", "reruns"])
     }
 
     /// Removes the campaign's products, the ones first whose presence says that others are complete.
@@ -28,8 +31,10 @@ impl CampaignFolder {
     /// # Errors
     /// A file cannot be removed.
     pub fn forget_cases(&self) -> Result<(), FolderError> {
-        let names = [RESULTS, RUNS, INFLUENCE, MOVES, WAYPOINTS, GENERATION, "junit.xml", "report.html"];
-        self.remove(&names, &["trajectories", "profiles", "programs", "executions"])
+        let [coverage, table] = COVERAGE;
+        let names =
+            [RESULTS, RUNS, INFLUENCE, MOVES, coverage, table, WAYPOINTS, GENERATION, "junit.xml", "report.html"];
+        self.remove(&names, &["trajectories", "profiles", "programs", "executions", "reruns"])
     }
 
     /// Removes `names`, the tables in `folders`, what was exported, and the executors' logs, which are of runs that go.

@@ -4,9 +4,10 @@ use std::fs;
 use std::io;
 
 use hairpin::campaign::arm::Moves;
+use hairpin::campaign::coverage::{Axis, Coverage};
 use hairpin::campaign::{Case, CaseResult, Influence};
 
-use super::{CampaignFolder, FolderError, INFLUENCE, MOVES, RESULTS};
+use super::{COVERAGE, CampaignFolder, FolderError, INFLUENCE, MOVES, RESULTS};
 use crate::atomic::{self, WriteError};
 use crate::parquet::results::{self, Row};
 
@@ -33,6 +34,45 @@ impl CampaignFolder {
     /// The file is missing or broken.
     pub fn read_results(&self) -> Result<Vec<CaseResult>, FolderError> {
         Ok(self.read_rows()?.into_iter().filter_map(|row| row.result).collect())
+    }
+
+    /// Writes which cells of the grid of motion were met: `coverage.json`, and as a table `coverage.csv`, a row per cell.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write_coverage(&self, coverage: &Coverage) -> Result<(), FolderError> {
+        let [json, csv] = COVERAGE;
+        let mut text = serde_json::to_string_pretty(coverage).expect("coverage is plain data");
+        text.push('\n');
+        atomic::write(&self.file(json), text.as_bytes())?;
+        let axes = &coverage.grid.axes;
+        let name = |axis: &Axis| match axis.unit.as_str() {
+            "" => axis.name.clone(),
+            unit => format!("{} ({unit})", axis.name),
+        };
+        let mut table = axes.iter().map(name).chain(["cases".into()]).collect::<Vec<_>>().join(",") + "\n";
+        for cell in 0..coverage.cells {
+            let places = coverage.grid.places(cell);
+            let row = axes.iter().zip(places).map(|(axis, place)| axis.told(place));
+            let cases = coverage.cases.get(&cell).copied().unwrap_or(0).to_string();
+            table += &(row.chain([cases]).collect::<Vec<_>>().join(",") + "\n");
+        }
+        Ok(atomic::write(&self.file(csv), table.as_bytes())?)
+    }
+
+    /// Which cells of the grid of motion were met; `None` before anything was judged.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_coverage(&self) -> Result<Option<Coverage>, FolderError> {
+        let path = self.file(COVERAGE[0]);
+        match fs::read_to_string(&path) {
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
+            text => {
+                let found = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
+                found.map(Some).map_err(|cause| FolderError::Unreadable { path, cause })
+            }
+        }
     }
 
     /// Writes which parameter did it; nothing to say leaves no file.

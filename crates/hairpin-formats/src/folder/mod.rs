@@ -12,6 +12,8 @@
 //! | `trajectories/CASE.parquet` | the planned motion, sampled |
 //! | `executions/CASE-RUN.parquet` | one flight: poses, velocities, rotor speeds |
 //! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
+//! | `reruns/CASE-K.parquet` | a violation run again with other noise, for the time number K |
+//! | `coverage.json`, `coverage.csv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
 //! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move; what a later campaign is held against |
 //! | `baseline.json` | of arms with `spec.regression`: the same of earlier releases |
@@ -48,7 +50,8 @@ pub const MOVES: &str = "moves.json";
 /// The same of earlier releases, which this campaign is held against.
 pub const BASELINE: &str = "baseline.json";
 const LOCK: &str = ".lock";
-const FOLDERS: [&str; 6] = ["trajectories", "profiles", "programs", "executions", "missions", "repro"];
+const COVERAGE: [&str; 2] = ["coverage.json", "coverage.csv"];
+const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];
 
 /// What [`CampaignFolder::create`] does about a campaign that already stands there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -23,6 +23,38 @@ impl CampaignFolder {
         found.is_ok_and(|(_, facts)| facts.is_some_and(|facts| facts.case == case && facts.run == run))
     }
 
+    /// Writes a run that was flown again, for the time number `again`.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_rerun(&self, run: &Run, again: usize) -> Result<(), FolderError> {
+        Ok(runs::write_run(&self.rerun_path(run.case, again), run)?)
+    }
+
+    /// Reads the runs of `case` that were flown again, as many as there are from number 0 on.
+    ///
+    /// # Errors
+    /// A file is broken.
+    pub fn read_reruns(&self, case: usize) -> Result<Vec<Run>, FolderError> {
+        let mut all = Vec::new();
+        loop {
+            let path = self.rerun_path(case, all.len());
+            if !path.exists() {
+                return Ok(all);
+            }
+            let contradiction = |what| FolderError::Contradiction { path: path.clone(), case, what };
+            let (track, facts) = runs::read_run(&path)?;
+            let facts = facts.filter(|facts| facts.case == case);
+            let run = facts.ok_or_else(|| contradiction("holds another run than its name says"))?.with_track(track);
+            all.push(run.ok_or_else(|| contradiction("ended for an unknown reason"))?);
+        }
+    }
+
+    /// `reruns/CASE-K.parquet`.
+    pub fn rerun_path(&self, case: usize, again: usize) -> PathBuf {
+        self.path.join("reruns").join(format!("{case:04}-{again}.parquet"))
+    }
+
     /// Writes `runs.parquet`, once all runs are executed.
     ///
     /// # Errors

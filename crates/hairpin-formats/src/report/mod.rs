@@ -2,6 +2,7 @@
 //! the verdict, the table and the worst case's top and side view.
 
 mod data;
+mod more;
 mod page;
 mod regression;
 mod relief;
@@ -74,6 +75,7 @@ pub fn from_folder(
         shown: in_full,
         frame: Header::of(setup, &results).lines(),
         influences: folder.read_influences()?,
+        coverage: folder.read_coverage()?,
     };
     Ok(report::assemble(pieces))
 }

@@ -7,6 +7,7 @@ use hairpin::campaign::{CaseResult, Influence};
 use hairpin::judgement::Statistics;
 use sha2::{Digest, Sha256};
 
+use super::more::{coverage, reruns};
 use super::{data, regression, svg};
 use crate::executor::ATTITUDE_UNKNOWN;
 
@@ -73,6 +74,8 @@ fn body(data: &ReportData) -> String {
         distributions(data),
         influences(data),
         regression::section(data),
+        reruns(data),
+        coverage(data),
         setup(data),
         "</main>\n<footer><p>hairpin is a test generator. What it writes is stressful by design and is no safety \
          certificate.</p></footer>"

@@ -4,7 +4,7 @@
 pub(crate) mod stress;
 
 use hairpin::campaign::case::Violation;
-use hairpin::campaign::{Case, CaseResult, Evidence, Run, Status, Tally};
+use hairpin::campaign::{Case, CaseResult, Evidence, Reruns, Run, Status, Tally};
 use hairpin::judgement::{LegMeasures, Measures};
 use hairpin::trajectory::{Channel, Ended, Flight, Profile, ProfileLeg, Track};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -157,6 +157,8 @@ pub(crate) fn failed() -> CaseResult {
         violations: vec![deviation, left],
         drawn: drawn(2),
         message: None,
+        // A violation that was run again keeps what came of it.
+        reruns: Some(Reruns { violated: 3, of: 10 }),
     }
 }
 
@@ -171,6 +173,7 @@ pub(crate) fn executor_failed() -> CaseResult {
         violations: vec![],
         drawn: vec![],
         message: Some("timed out after 60 s\nlog \u{1b}[31mred\u{1b}[0m \u{7} <line> & \"quotes\"".into()),
+        reruns: None,
     }
 }
 
@@ -185,5 +188,6 @@ pub(crate) fn passed() -> CaseResult {
         violations: vec![],
         drawn: vec![],
         message: None,
+        reruns: None,
     }
 }

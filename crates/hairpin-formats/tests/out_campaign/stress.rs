@@ -126,6 +126,7 @@ fn fly(setup: &Setup, case: &Case) -> (Result<Flight, String>, CaseResult) {
         violations: vec![],
         drawn: vec![],
         message,
+        reruns: None,
     };
     if case.number == 5 {
         let why = "time-out 60 s\nSegmentation fault <core dumped>".to_owned();

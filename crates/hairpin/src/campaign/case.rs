@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::judgement::Measures;
 pub use crate::judgement::Violation;
+use crate::judgement::{Measures, Share, share};
 use crate::trajectory::Drive;
 use crate::trajectory::program::Program;
 use crate::trajectory::{Flight, Profile};
@@ -162,6 +162,22 @@ impl Status {
     }
 }
 
+/// A violation that was run again with other noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Reruns {
+    /// Runs that violate.
+    pub violated: usize,
+    /// Of so many that were judged.
+    pub of: usize,
+}
+
+impl Reruns {
+    /// The share that violates, with its Clopper-Pearson interval.
+    pub fn share(&self, confidence: f64) -> Option<Share> {
+        share(self.violated, self.of, confidence)
+    }
+}
+
 /// A judged case: one row of `results.parquet`, its worst run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseResult {
@@ -183,6 +199,8 @@ pub struct CaseResult {
     pub drawn: Vec<(String, serde_json::Value)>,
     /// Message of a failed executor.
     pub message: Option<String>,
+    /// How often the violation comes again.
+    pub reruns: Option<Reruns>,
 }
 
 #[cfg(test)]

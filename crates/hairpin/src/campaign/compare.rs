@@ -243,6 +243,7 @@ mod tests {
                 violations: if fails { vec![violation] } else { Vec::new() },
                 drawn: Vec::new(),
                 message: None,
+                reruns: None,
             };
             (case, result)
         };

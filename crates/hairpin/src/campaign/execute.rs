@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::setup::Kind;
-use super::{Case, Mission, Run, Setup, Stop, arm, drive, flight, mission};
+use super::{Case, Mission, Mistake, Run, Setup, Stop, arm, drive, flight, mission, mission_again};
 use crate::simulation::SimulationError;
 use crate::trajectory::Flight;
 
@@ -38,7 +38,16 @@ pub fn execute(
 
 /// Run number `run` of `case` in our own simulator.
 pub fn execute_run(setup: &Setup, case: &Case, run: usize) -> Run {
-    match mission(setup, case, run) {
+    run_of(setup, case, run, mission(setup, case, run))
+}
+
+/// The same with other noise, for the time number `again`: [`mission_again`].
+pub fn execute_again(setup: &Setup, case: &Case, run: usize, again: usize) -> Run {
+    run_of(setup, case, run, mission_again(setup, case, run, again))
+}
+
+fn run_of(setup: &Setup, case: &Case, run: usize, mission: Result<Mission, Mistake>) -> Run {
+    match mission {
         Ok(mission) => {
             let outcome = carry_out(setup, &mission, case).map_err(|error| error.to_string());
             Run { case: case.number, run, drawn: mission.drawn, outcome }

@@ -9,7 +9,7 @@ use super::influence::RunDeviation;
 use super::scenario::DeviationFrom;
 use super::setup::Kind;
 use super::terms::Terms;
-use super::{Case, CaseResult, Mistake, Run, Setup, Status, Tally, arm, planned, vary};
+use super::{Case, CaseResult, Mistake, Reruns, Run, Setup, Status, Tally, arm, planned, vary};
 use crate::judgement::moves::Measured;
 use crate::judgement::{
     self, Claim, Clearance, Judged, JudgementError, Measures, Reference, Settings, Verdict, Violation, Worst,
@@ -81,6 +81,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
             violations: judged.violations,
             drawn: run.drawn.clone(),
             message,
+            reruns: None,
         },
         None => CaseResult {
             case: case.number,
@@ -92,6 +93,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
             violations: Vec::new(),
             drawn: runs.first().map_or_else(Vec::new, |run| run.drawn.clone()),
             message,
+            reruns: None,
         },
     };
     Ok((result, deviations))
@@ -213,7 +215,7 @@ fn reference(setup: &Setup, case: &Case) -> Option<Track> {
 pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Tally) -> Verdict {
     let asked = tally.asked(setup.scenario.search().cases);
     if cases.is_empty() {
-        return if tally.stopped { nothing_found(setup, tally, asked) } else { nothing_feasible(setup, tally) };
+        return if tally.stopped { nothing_found(setup, tally, asked) } else { nothing_feasible(setup, tally, None) };
     }
     let count = |status: Status| results.iter().filter(|result| result.status == status).count();
     let claims: Vec<Claim> = super::Evidence::ALL
@@ -229,6 +231,8 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
     let how: Vec<&str> = how.iter().map(String::as_str).collect();
     let gaps: Option<Vec<f64>> = cases.iter().map(Case::gap).collect();
     let proof = gaps.map(|gaps| gap_word(gaps.into_iter().fold(0.0, f64::max), "gap at most"));
+    let confidence = setup.scenario.confidence().unwrap_or(CONFIDENCE);
+    let reruns = rerun_words(results, confidence);
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
     judgement::verdict(&Judged {
         how: &how,
@@ -241,10 +245,31 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         trouble: &trouble,
         worst: worst.as_ref().map(|(case, value, saturation)| Worst { case, value, saturation: *saturation }),
         share_limit: setup.scenario.violation_share(),
-        confidence: setup.scenario.confidence().unwrap_or(CONFIDENCE),
+        confidence,
         claims: &claims,
+        reruns: reruns.as_deref(),
         proof: proof.as_deref(),
     })
+}
+
+/// `violations run again 10 times each: 5 of 7 violate every time, least often 0117, 3/10 [6.7, 65.2] %`.
+fn rerun_words(results: &[CaseResult], confidence: f64) -> Option<String> {
+    let again: Vec<(&CaseResult, Reruns)> = results
+        .iter()
+        .filter_map(|result| Some((result, result.reruns?)))
+        .filter(|(_, reruns)| reruns.of > 0)
+        .collect();
+    let always = again.iter().filter(|(_, reruns)| reruns.violated == reruns.of).count();
+    let share = |reruns: &Reruns| reruns.violated as f64 / reruns.of as f64;
+    let (result, least) = again.iter().min_by(|a, b| share(&a.1).total_cmp(&share(&b.1)))?;
+    let most = again.iter().map(|(_, reruns)| reruns.of).max()?;
+    let mut words = format!("violations run again {most} times each: {always} of {} violate every time", again.len());
+    if let Some(interval) = least.share(confidence).filter(|_| least.violated < least.of) {
+        let (low, high) = (100.0 * interval.low, 100.0 * interval.high);
+        let (k, n) = (least.violated, least.of);
+        words += &format!(", least often {:04}, {k}/{n} [{low:.1}, {high:.1}] %", result.case);
+    }
+    Some(words)
 }
 
 /// `simulated, anafi stand-in, minimum-snap`, or the executor's command; of logs `hardware, irb120, nightly/*.csv`.
@@ -301,8 +326,8 @@ fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     judgement::inconclusive(&format!("0/{asked}"), &how, "stopped before the first trajectory was found")
 }
 
-/// The verdict of exit 3, with what it rests on.
-fn nothing_feasible(setup: &Setup, tally: &Tally) -> Verdict {
+/// The verdict of exit 3, with what it rests on, and the smallest change that helps where that was looked for.
+pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str>) -> Verdict {
     let rests_on = match tally.proven_empty {
         proven if proven > 0 && proven == tally.graphs => "proof".into(),
         _ => format!("{} graphs searched", tally.graphs),
@@ -317,5 +342,5 @@ fn nothing_feasible(setup: &Setup, tally: &Tally) -> Verdict {
         Some(reason) => format!("{chain}: {reason}"),
         None => chain,
     };
-    judgement::nothing_feasible(&[&rests_on, setup.scenario.reach()], &what, None)
+    judgement::nothing_feasible(&[&rests_on, setup.scenario.reach()], &what, change)
 }

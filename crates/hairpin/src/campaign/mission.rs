@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::planned::timed;
 use super::setup::Kind;
-use super::{Case, Mistake, Setup, Timed, vary};
+use super::{Case, Mistake, Scenario, Setup, Timed, vary};
 use crate::math::random::named_seed;
 
 /// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
@@ -35,6 +35,23 @@ pub struct Mission {
     pub time_limit: f64,
     /// The planned motion, for those who track it.
     pub timed: Vec<Timed>,
+}
+
+/// Run number `run` of `case` once more, for the time number `again`, with other noise: what was drawn for `[vary]` stays, the noise of the
+/// robot's own densities is on whether or not it is in the scenario, and its seed is another.
+///
+/// # Errors
+/// As [`mission`].
+pub fn mission_again(setup: &Setup, case: &Case, run: usize, again: usize) -> Result<Mission, Mistake> {
+    let mut scenario = setup.scenario.clone();
+    match &mut scenario {
+        Scenario::Flight(scenario) => scenario.execute.noise = true,
+        Scenario::Drive(scenario) => scenario.execute.noise = true,
+        // The virtual controller has noise of its own.
+        Scenario::Arm(_) => {}
+    }
+    let seed = named_seed(named_seed(case.seed, "rerun", run as u64), "again", again as u64);
+    Ok(Mission { seed, ..mission(&setup.of_draw(scenario)?, case, run)? })
 }
 
 /// Run number `run` of `case`. A pure function of the scenario and the case's seed.

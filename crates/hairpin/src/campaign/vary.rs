@@ -6,7 +6,7 @@
 use serde_json::Value;
 
 use super::scenario::distribution::zip;
-use super::scenario::{Distribution, KeyPath, Mistake, Scenario};
+use super::scenario::{CostSection, Distribution, KeyPath, Mistake, Scenario};
 use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 
 /// How often a truncated draw is repeated. [`Scenario::check`] refuses truncations that keep less than one draw in a
@@ -30,13 +30,27 @@ pub fn draw_for_case(scenario: &Scenario, case_seed: u64, case: usize) -> Vec<(S
 pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario, Mistake> {
     let mut drawn = if draws.is_empty() { scenario.clone() } else { patch(scenario, draws)? };
     drawn.vary_mut().clear();
-    if let (Scenario::Drive(old), Scenario::Drive(new)) = (scenario, &mut drawn)
-        && new.world.terrain == old.world.terrain
-        && new.seed == old.seed
-    {
-        // The ground itself is no key; where its keys did not change it is the same.
-        new.world.terrain.map = old.world.terrain.map.clone();
-        new.world.terrain.bytes = old.world.terrain.bytes.clone();
+    // What was read from files is no key; where its keys did not change it is the same.
+    match (scenario, &mut drawn) {
+        (Scenario::Drive(old), Scenario::Drive(new))
+            if new.world.terrain == old.world.terrain && new.seed == old.seed =>
+        {
+            new.world.terrain.map = old.world.terrain.map.clone();
+            new.world.terrain.bytes = old.world.terrain.bytes.clone();
+        }
+        (Scenario::Arm(old), Scenario::Arm(new)) => {
+            if new.task.points == old.task.points {
+                new.task.cloud = old.task.cloud.clone();
+                new.task.bytes = old.task.bytes.clone();
+            }
+            if let (CostSection::Table(old), CostSection::Table(new)) = (&old.generate.cost, &mut new.generate.cost)
+                && new.table == old.table
+            {
+                new.costs = old.costs.clone();
+                new.bytes = old.bytes.clone();
+            }
+        }
+        _ => {}
     }
     Ok(drawn)
 }

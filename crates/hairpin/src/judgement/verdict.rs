@@ -64,6 +64,8 @@ pub struct Judged<'a> {
     pub confidence: f64,
     /// Evidence of the cases, those of count 0 left out.
     pub claims: &'a [Claim<'a>],
+    /// How often violations come again, where they were run again.
+    pub reruns: Option<&'a str>,
     /// How far from the best the cases' scores can be, where every case has a proof: `optimal`, `gap at most 3.1 %`.
     pub proof: Option<&'a str>,
 }
@@ -83,6 +85,7 @@ impl Default for Judged<'_> {
             share_limit: None,
             confidence: 0.95,
             claims: &[],
+            reruns: None,
             proof: None,
         }
     }
@@ -150,6 +153,7 @@ fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> 
         parts.push(worst_and_where(worst));
     }
     parts.extend(share_sentence(judged, counted, limit));
+    parts.extend(judged.reruns.map(str::to_owned));
     if judged.executor_failed > 0 && judged.failed > 0 {
         parts.push(format!("executor failed in {}/{}, not counted", judged.executor_failed, judged.cases));
     }

@@ -10,6 +10,8 @@ use super::{Judgement, Replayed, with_saved};
 use crate::console;
 use crate::folder::Work;
 
+/// Confidence of the shares of violations that come again.
+const CONFIDENCE: f64 = 0.95;
 /// Rows of the table.
 const WORST: usize = 5;
 
@@ -43,6 +45,7 @@ impl Answer<'_> {
                 console::say("rank correlation of what was varied with the largest deviation, over all runs\n");
             }
             console::say(&self.judgement.verdict.sentence);
+            point_to_explain(self.work, self.judgement.verdict.exit_code);
             let report = self.work.folder.path().join("report.html");
             if report.is_file() {
                 console::warn(&format!("report: {}", report.display()));
@@ -159,6 +162,14 @@ fn regression(found: &Regression) -> Value {
     })
 }
 
+/// Says where to ask on, where nothing was feasible.
+pub(crate) fn point_to_explain(work: &Work, exit_code: u8) {
+    if exit_code == 3 {
+        let scenario = work.folder.file("scenario.toml");
+        console::warn(&format!("why, and the smallest change that helps: hairpin explain {}", scenario.display()));
+    }
+}
+
 /// The worst run of a case.
 pub(crate) fn worst(result: &CaseResult) -> Value {
     let measures = result.measures.as_ref();
@@ -171,6 +182,13 @@ pub(crate) fn worst(result: &CaseResult) -> Value {
         "leg_worst": measures.map(|m| m.leg_worst),
         "saturation_share": measures.and_then(|m| m.saturation_share),
         "ended": result.ended,
+        "reruns": result.reruns.map(|reruns| {
+            let share = reruns.share(CONFIDENCE);
+            json!({
+                "violated": reruns.violated, "of": reruns.of,
+                "low": share.map(|share| share.low), "high": share.map(|share| share.high),
+            })
+        }),
         "violations": result.violations.iter().map(violation).collect::<Vec<_>>(),
         "message": result.message,
     })

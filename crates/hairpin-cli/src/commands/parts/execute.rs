@@ -4,7 +4,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use hairpin::campaign::{Case, Run, Setup, execute_run, mission};
+use hairpin::campaign::{
+    self, Case, Mission, Mistake, Run, Setup, Status, execute_again, execute_run, mission, mission_again,
+};
 use hairpin_formats::atomic;
 use hairpin_formats::executor::{ATTITUDE_UNKNOWN, Command, Failed, Failure, Limits, fly_all};
 use hairpin_formats::folder::{CampaignFolder, FolderError};
@@ -25,7 +27,31 @@ pub(crate) struct Flown {
     pub(crate) attitude_unknown: usize,
 }
 
-/// Flies all runs of `cases` that are not in the folder yet.
+/// What is flown: run number `run` of a case or, where it violated, that run for the time number `again`.
+#[derive(Debug, Clone, Copy)]
+struct Job<'a> {
+    case: &'a Case,
+    run: usize,
+    again: Option<usize>,
+}
+
+impl Job<'_> {
+    fn mission(&self, setup: &Setup) -> Result<Mission, Mistake> {
+        match self.again {
+            None => mission(setup, self.case, self.run),
+            Some(again) => mission_again(setup, self.case, self.run, again),
+        }
+    }
+
+    fn simulate(&self, setup: &Setup) -> Run {
+        match self.again {
+            None => execute_run(setup, self.case, self.run),
+            Some(again) => execute_again(setup, self.case, self.run, again),
+        }
+    }
+}
+
+/// Flies all runs of `cases` that are not in the folder yet, and violations as often again as the scenario asks for.
 pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
     let logs = work.setup.arm().and_then(|arm| Some((arm, arm.scenario.execute.logs.clone()?)));
@@ -34,13 +60,53 @@ pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
         return write_table(&work.folder, cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run))));
     }
     let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));
-    let missing: Vec<(&Case, usize)> =
-        all().filter(|(case, run)| !work.folder.has_valid_run(case.number, *run)).collect();
-    let bar = console::progress("execute", all().count());
-    bar.set_position((all().count() - missing.len()) as u64);
+    let missing: Vec<Job> = all()
+        .filter(|(case, run)| !work.folder.has_valid_run(case.number, *run))
+        .map(|(case, run)| Job { case, run, again: None })
+        .collect();
+    fly(work, &missing, all().count())?;
+    let flown = write_table(&work.folder, all())?;
+    let again = violations_again(work, cases)?;
+    fly(work, &again, again.len())?;
+    if flown.attitude_unknown > 0 {
+        console::warn(&format!(
+            "Warning: {} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing",
+            flown.attitude_unknown
+        ));
+    }
+    Ok(flown)
+}
+
+/// The worst run of every violating case, as often as it is to be flown again and was not yet.
+fn violations_again<'a>(work: &Work, cases: &'a [Case]) -> Result<Vec<Job<'a>>, Problem> {
+    let wanted = work.setup.scenario.executor().reruns as usize;
+    if wanted == 0 {
+        return Ok(Vec::new());
+    }
+    let table = work.folder.read_runs_table()?;
+    let jobs: Result<Vec<Vec<Job>>, Problem> = cases
+        .par_iter()
+        .map(|case| {
+            let result = campaign::judge(&work.setup, case, &work.folder.read_runs(case.number, &table)?)?;
+            let known =
+                if result.status == Status::Fail { work.folder.read_reruns(case.number)?.len() } else { wanted };
+            Ok((known..wanted).map(|again| Job { case, run: result.run, again: Some(again) }).collect())
+        })
+        .collect();
+    Ok(jobs?.into_iter().flatten().collect())
+}
+
+/// Flies `missing`, the rest of `of` runs.
+fn fly(work: &Work, missing: &[Job], of: usize) -> Result<(), Problem> {
+    let bar = console::progress("execute", of);
+    bar.set_position((of - missing.len()) as u64);
     let trouble = Mutex::new(None);
-    let landed = |run: Run| {
-        if let Err(error) = work.folder.write_run(&run) {
+    let landed = |job: &Job, run: Run| {
+        let written = match job.again {
+            None => work.folder.write_run(&run),
+            Some(again) => work.folder.write_rerun(&run, again),
+        };
+        if let Err(error) = written {
             trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get_or_insert(error);
         }
         bar.inc(1);
@@ -48,12 +114,12 @@ pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
     let broken = || trouble.lock().is_ok_and(|trouble| trouble.is_some());
     let stop = || interrupt::asked() || broken();
     match command_of(&work.setup)? {
-        None => missing.par_iter().for_each(|(case, run)| {
+        None => missing.par_iter().for_each(|job| {
             if !stop() {
-                landed(execute_run(&work.setup, case, *run));
+                landed(job, job.simulate(&work.setup));
             }
         }),
-        Some((command, limits)) => fly_with(work, &missing, &command, limits, &landed, &stop),
+        Some((command, limits)) => fly_with(work, missing, &command, limits, &landed, &stop),
     }
     bar.finish_and_clear();
     if let Some(error) = trouble.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
@@ -62,14 +128,7 @@ pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
     if interrupt::asked() {
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
     }
-    let flown = write_table(&work.folder, all())?;
-    if flown.attitude_unknown > 0 {
-        console::warn(&format!(
-            "Warning: {} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing",
-            flown.attitude_unknown
-        ));
-    }
-    Ok(flown)
+    Ok(())
 }
 
 /// The table of all runs, in order; it says that execution is complete.
@@ -99,23 +158,20 @@ pub(crate) fn attitude_unknown(run: &Run) -> bool {
 
 fn fly_with(
     work: &Work,
-    missing: &[(&Case, usize)],
+    missing: &[Job],
     command: &Command,
     limits: Limits,
-    landed: &(dyn Fn(Run) + Sync),
+    landed: &(dyn Fn(&Job, Run) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
 ) {
     let workers = work.setup.scenario.executor().workers.map_or_else(rayon::current_num_threads, |n| n as usize);
-    let make = |index: usize| {
-        let (case, run) = missing[index];
-        mission(&work.setup, case, run).map_err(|mistake| mistake.to_string())
-    };
+    let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result| {
-        let (case, number) = missing[index];
+        let job = &missing[index];
         if let Err(Failed { failure, stderr }) = &result {
-            keep_log(&work.folder, case, number, failure, stderr);
+            keep_log(&work.folder, job.case, job.run, failure, stderr);
         }
-        landed(as_run(&work.setup, case, number, result));
+        landed(job, as_run(&work.setup, job.case, job.run, result));
     };
     let flown = AtomicUsize::new(0);
     let counted = |index, result| {

@@ -2,7 +2,7 @@
 
 use hairpin::campaign::arm::Moves;
 use hairpin::campaign::{
-    self, Case, CaseResult, Influence, RunDeviation, Status, Tally,
+    self, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Status, Tally,
     report::{Shown, worst_first},
 };
 use hairpin::judgement::Verdict;
@@ -10,6 +10,7 @@ use hairpin::judgement::moves::{Outcome, Regression};
 use hairpin_formats::executor::ATTITUDE_UNKNOWN;
 use hairpin_formats::junit::{self, Suite};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::Repro;
@@ -18,6 +19,12 @@ use crate::problem::Problem;
 
 /// Violating cases that get a `repro/CASE.json`, the worst ones.
 const REPROS: usize = 20;
+
+/// Confidence of the shares of violations that come again.
+const CONFIDENCE: f64 = 0.95;
+
+/// A judged case: its result, the deviations of its runs, and the cells of the grid of motion that they met.
+type Judged = (CaseResult, Vec<RunDeviation>, BTreeSet<usize>);
 
 /// What judging came to.
 pub(crate) struct Judgement {
@@ -36,7 +43,8 @@ pub(crate) struct Judgement {
 pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgement, Problem> {
     let table = work.folder.read_runs_table()?;
     let attitude_unknown = AtomicUsize::new(0);
-    let judged: Result<Vec<(CaseResult, Vec<RunDeviation>)>, Problem> = cases
+    let grid = Grid::of(&work.setup);
+    let judged: Result<Vec<Judged>, Problem> = cases
         .par_iter()
         .map(|case| {
             let runs = work.folder.read_runs(case.number, &table)?;
@@ -48,10 +56,21 @@ pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgem
                 )));
             }
             attitude_unknown.fetch_add(runs.iter().any(super::attitude_unknown).into(), Ordering::Relaxed);
-            Ok(campaign::judge_runs(&work.setup, case, &runs)?)
+            let (mut result, deviations) = campaign::judge_runs(&work.setup, case, &runs)?;
+            if result.status == Status::Fail {
+                result.reruns = reruns(work, case)?;
+            }
+            let met = runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
+            Ok((result, deviations, met))
         })
         .collect();
-    let (results, deviations): (Vec<_>, Vec<_>) = judged?.into_iter().unzip();
+    let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
+    for (result, runs, cells) in judged? {
+        results.push(result);
+        deviations.push(runs);
+        met.push(cells);
+    }
+    let coverage = grid.coverage(&met);
     let deviations = deviations.concat();
     let influences = campaign::influences(&work.setup.scenario, &deviations);
     let moves = work.setup.arm().map(|arm| arm.moves(cases, &deviations)).unwrap_or_default();
@@ -65,7 +84,23 @@ pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgem
     junit::write(&work.folder.file("junit.xml"), &suite, &results)?;
     write_repros(work, cases, &results)?;
     work.folder.write_influences(&influences)?;
+    work.folder.write_coverage(&coverage)?;
     Ok(Judgement { results, verdict, influences, attitude_unknown: attitude_unknown.into_inner(), moves, regression })
+}
+
+/// How often the violation of `case` came again; `None` where it was not run again.
+fn reruns(work: &Work, case: &Case) -> Result<Option<Reruns>, Problem> {
+    let mut counted = Reruns { violated: 0, of: 0 };
+    let again = work.folder.read_reruns(case.number)?;
+    for run in &again {
+        match campaign::judge(&work.setup, case, std::slice::from_ref(run))?.status {
+            Status::Fail => (counted.violated, counted.of) = (counted.violated + 1, counted.of + 1),
+            Status::Pass => counted.of += 1,
+            // What was not flown, or cannot be judged, is no answer.
+            Status::ExecutorFailed | Status::Inconclusive => {}
+        }
+    }
+    Ok((!again.is_empty()).then_some(counted))
 }
 
 /// The verdict by the limits, with what an arm's baseline and the recordings' clocks say. The new release is called after the campaign's folder.
@@ -105,13 +140,25 @@ fn suite(
         asked: tally.asked(scenario.search().cases),
         missing: tally.nothing.clone().unwrap_or_else(|| "not found within the budget".into()),
         inconclusive: (verdict.exit_code == 5 && !by_a_case).then(|| verdict.sentence.clone()),
-        properties: vec![
+        properties: [
             property("verdict", verdict.sentence.clone()),
             property("seed", scenario.seed().to_string()),
             property("version", env!("CARGO_PKG_VERSION").into()),
-        ],
+        ]
+        .into_iter()
+        .chain(results.iter().filter_map(rerun_property))
+        .collect(),
         regressions: worse.collect(),
     }
+}
+
+/// `reruns 0117`: `3 of 10 violate, share 0.30 [0.07, 0.65]`. A test case of Jenkins' schema has no properties of its own.
+fn rerun_property(result: &CaseResult) -> Option<(String, String)> {
+    let reruns = result.reruns?;
+    let share = reruns.share(CONFIDENCE)?;
+    let (violated, of) = (reruns.violated, reruns.of);
+    let value = format!("{violated} of {of} violate, share {:.2} [{:.2}, {:.2}]", share.value, share.low, share.high);
+    Some((format!("reruns {:04}", result.case), value))
 }
 
 fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(), Problem> {

@@ -176,6 +176,7 @@ impl Answer {
             violations: self.violations.iter().map(violation).collect(),
             drawn: Vec::new(),
             message: None,
+            reruns: None,
         }
     }
 }

@@ -10,6 +10,9 @@ use hairpin::judgement::measures::{AccelerationSource, LegSource};
 pub use read::read;
 pub use write::write;
 
+/// Confidence of the intervals of shares in the table.
+const CONFIDENCE: f64 = 0.95;
+
 /// The status of a case that has not been judged.
 pub const GENERATED: &str = "generated";
 

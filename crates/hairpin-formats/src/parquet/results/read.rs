@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::case::Violation;
-use hairpin::campaign::{Case, CaseResult, Evidence, Status};
+use hairpin::campaign::{Case, CaseResult, Evidence, Reruns, Status};
 use hairpin::judgement::measures::{AccelerationSource, LegSource};
 use hairpin::judgement::{Late, LegMeasures, Measures};
 
@@ -71,6 +71,7 @@ fn read_results(table: &Table, cases: &[Case]) -> Result<Vec<Option<CaseResult>>
     let left = table.optional_numbers("left_world_s")?;
     let messages = table.optional_texts("message")?;
     let measures = read_measures(table)?;
+    let reruns = read_reruns(table)?;
     let violations = read_violations(table)?;
     let drawn = drawn::read(table)?;
     let rows = measures.into_iter().zip(violations).zip(messages).zip(drawn).enumerate();
@@ -93,9 +94,27 @@ fn read_results(table: &Table, cases: &[Case]) -> Result<Vec<Option<CaseResult>>
             violations,
             drawn,
             message,
+            reruns: reruns[row],
         }))
     })
     .collect()
+}
+
+/// How often violations came again; tables of older versions do not say.
+fn read_reruns(table: &Table) -> Result<Vec<Option<Reruns>>, TableError> {
+    if !table.names().iter().any(|name| name == "reruns") {
+        return Ok(vec![None; table.rows()]);
+    }
+    let (of, violated) = (table.optional_counts("reruns")?, table.optional_counts("rerun_violations")?);
+    let both = |(row, (of, violated)): (usize, (Option<usize>, Option<usize>))| match (of, violated) {
+        (Some(of), Some(violated)) if violated <= of => Ok(Some(Reruns { violated, of })),
+        (None, None) => Ok(None),
+        (of, violated) => {
+            let found = violated.map_or("empty".into(), |violated| violated.to_string());
+            Err(table.refuse("rerun_violations", row, found, format!("at most {}", of.unwrap_or(0))))
+        }
+    };
+    of.into_iter().zip(violated).enumerate().map(both).collect()
 }
 
 fn read_measures(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {

@@ -8,12 +8,12 @@ use arrow::array::{
     UInt64Array,
 };
 use hairpin::campaign::case::Violation;
-use hairpin::campaign::{Case, CaseResult};
-use hairpin::judgement::{LegMeasures, Measures};
+use hairpin::campaign::{Case, CaseResult, Reruns};
+use hairpin::judgement::{LegMeasures, Measures, Share};
 
 use super::super::drawn;
 use super::super::table::Columns;
-use super::{GENERATED, acceleration_source_word, leg_source_word};
+use super::{CONFIDENCE, GENERATED, acceleration_source_word, leg_source_word};
 use crate::atomic::WriteError;
 
 /// Writes one row per case; `results` may be missing for cases that were not judged, and stands in any order.
@@ -83,6 +83,19 @@ fn push_rest(columns: &mut Columns, rows: &Rows) {
     columns.push("acceleration_source", words(|m| acceleration_source_word(m.acceleration_source)));
     columns.push("left_world_s", numbers(rows.iter().map(|(_, result)| result.and_then(|r| r.left_world))));
     columns.push("graph", Arc::new(rows.iter().map(|(case, _)| case.graph).collect::<UInt64Array>()));
+    let again = |value: fn(&Reruns) -> usize| {
+        integers(rows.iter().map(move |(_, result)| result.and_then(|r| r.reruns.as_ref()).map(value)))
+    };
+    let share = |value: fn(&Share) -> f64| {
+        let of =
+            |result: &CaseResult| result.reruns.and_then(|reruns| reruns.share(CONFIDENCE)).map(|share| value(&share));
+        numbers(rows.iter().map(|(_, result)| result.and_then(of)))
+    };
+    columns.push("reruns", again(|reruns| reruns.of));
+    columns.push("rerun_violations", again(|reruns| reruns.violated));
+    columns.push("rerun_violation_share", share(|share| share.value));
+    columns.push("rerun_violation_share_low", share(|share| share.low));
+    columns.push("rerun_violation_share_high", share(|share| share.high));
     columns.push("violations", texts(rows.iter().map(|(_, result)| result.map(violations_text))));
     columns.push("message", texts(rows.iter().map(|(_, result)| result.and_then(|r| r.message.clone()))));
 }

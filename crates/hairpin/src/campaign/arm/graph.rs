@@ -81,15 +81,7 @@ fn allowed(scenario: &ArmScenario) -> f64 {
 /// # Errors
 /// No point can be met, or a table of costs of another size, in a sentence's part.
 pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
-    let (station, scenario) = (setup.station, setup.scenario);
-    let cost = cost_of(scenario, station.points.len())?;
-    if scenario.generate.mode == ArmMode::Cartesian && !matches!(cost, Cost::Distance | Cost::Table(_)) {
-        return Err(format!("cost `{}` needs joints: mode = \"joint\"", scenario.generate.cost.word()));
-    }
-    let graph = match scenario.generate.mode {
-        ArmMode::Cartesian => in_space(setup, &cost),
-        ArmMode::Joint => in_joints(setup, &cost),
-    };
+    let graph = whole_graph(setup)?;
     let met = graph.postures.as_ref().is_none_or(|postures| postures.iter().any(Result::is_ok));
     let joined = graph.from_home.contains(&true) && graph.to_home.contains(&true);
     match (met, joined) {
@@ -97,6 +89,22 @@ pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
         (true, false) => Err("no move from home to a point of the cloud, or back, is possible".into()),
         (true, true) => Ok(graph),
     }
+}
+
+/// The graph of `setup`, whether or not it has a way.
+///
+/// # Errors
+/// A table of costs of another size, in a sentence's part.
+pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
+    let (station, scenario) = (setup.station, setup.scenario);
+    let cost = cost_of(scenario, station.points.len())?;
+    if scenario.generate.mode == ArmMode::Cartesian && !matches!(cost, Cost::Distance | Cost::Table(_)) {
+        return Err(format!("cost `{}` needs joints: mode = \"joint\"", scenario.generate.cost.word()));
+    }
+    Ok(match scenario.generate.mode {
+        ArmMode::Cartesian => in_space(setup, &cost),
+        ArmMode::Joint => in_joints(setup, &cost),
+    })
 }
 
 impl ArmSetup<'_> {

@@ -2,6 +2,7 @@
 
 mod assumptions;
 mod cell;
+mod deaths;
 mod execute;
 mod graph;
 mod judge;
@@ -17,6 +18,7 @@ mod station;
 mod verify;
 
 pub(super) use assumptions::{act, claim, search, verdict};
+pub(super) use deaths::deaths;
 pub(super) use execute::run;
 pub use graph::{ArmGraph, graph_of};
 pub(super) use judge::{in_small_units, latest, measured};

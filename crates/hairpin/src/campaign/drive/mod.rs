@@ -2,7 +2,9 @@
 
 mod ask;
 mod assumptions;
+mod deaths;
 mod execute;
+mod legs;
 mod plan;
 mod replan;
 mod setup;
@@ -12,6 +14,7 @@ mod stepwise;
 mod verify;
 
 pub(super) use assumptions::{act, claim, verdict};
+pub(super) use deaths::deaths;
 pub(super) use execute::{Order, drive};
 pub(super) use plan::{timed, track};
 pub(super) use replan::replan;

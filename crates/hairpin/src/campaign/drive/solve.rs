@@ -6,9 +6,10 @@ use nalgebra::Point3;
 
 use super::DriveSetup;
 use super::ask::{Asked, ask};
+use super::legs::count;
 use super::stepwise::Stepwise;
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Outcome, Plan};
+use crate::campaign::graph::{Counter, Outcome, Plan};
 use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
 use crate::feasibility::reach::drive::{
     DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres, sample_ground,
@@ -62,6 +63,19 @@ impl<'a> Solver<'a> {
         DriveRoadmap::through(self.site(), poses, &DriveSettings { seed, ..self.settings.clone() })
     }
 
+    /// Counts what becomes of the candidates for legs near the start of graph number `graph`.
+    pub(super) fn count(&self, graph: u64, counter: &mut Counter) {
+        let Ok(points) = self.sample(graph) else { return };
+        match &self.stepwise {
+            Some(stepwise) => stepwise.count(&points, counter),
+            None => {
+                let (length, ends) =
+                    (self.setup.scenario.task.length as usize, self.setup.scenario.task.end_m.is_some());
+                count(&self.roadmap(graph, &points), &points, length, ends, counter);
+            }
+        }
+    }
+
     /// Start, free waypoints and, if there is one, the end.
     fn sample(&self, graph: u64) -> Result<Vec<Point3<f64>>, String> {
         let task = &self.setup.scenario.task;
@@ -88,7 +102,7 @@ impl<'a> Solver<'a> {
         Ok(std::iter::once(on_ground(start)).chain(free).chain(task.end_m.map(on_ground)).collect())
     }
 
-    fn by_roadmap(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
+    fn roadmap(&self, graph: u64, points: &[Point3<f64>]) -> DriveRoadmap<'_> {
         let task = &self.setup.scenario.task;
         let start = Planar {
             x: task.start.x_m,
@@ -98,7 +112,11 @@ impl<'a> Solver<'a> {
         };
         let seed = named_seed(self.setup.scenario.seed, "roadmap", graph);
         let settings = DriveSettings { seed, ..self.settings.clone() };
-        let roadmap = DriveRoadmap::new(self.site(), points, &start, None, &settings);
+        DriveRoadmap::new(self.site(), points, &start, None, &settings)
+    }
+
+    fn by_roadmap(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
+        let roadmap = self.roadmap(graph, points);
         let plan = |found: Found<_>| {
             let drive = roadmap.drive(&found.nodes)?;
             // With stops, which the search does not see before it knows what follows what.

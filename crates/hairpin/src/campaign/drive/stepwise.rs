@@ -6,7 +6,7 @@ use nalgebra::Point3;
 use super::DriveSetup;
 use super::ask::{Asked, ask};
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Outcome, Plan, in_order};
+use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Stage, in_order};
 use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
 use crate::feasibility::reach::drive::{DriveSettings, DriveSite, StraightLegs};
 use crate::feasibility::reach::{
@@ -77,6 +77,47 @@ impl<'a> Stepwise<'a> {
                 Set::Sphere(set) => in_order(StepReach::new(set, points, settings), start, points),
                 Set::Hull(hull) => in_order(hull.as_ref(), self.headed(hull), points),
             }
+    }
+
+    /// Counts what becomes of the candidates for legs near the start of a graph.
+    pub(super) fn count(&self, points: &[Point3<f64>], counter: &mut Counter) {
+        let (settings, start) = (self.settings(), StepNode { previous: 0, current: 0 });
+        let place = |node: &StepNode| node.current;
+        match &self.set {
+            Set::Everywhere(set) => self.count_by(StepReach::new(set, points, settings), start, place, points, counter),
+            Set::Sphere(set) => self.count_by(StepReach::new(set, points, settings), start, place, points, counter),
+            Set::Hull(hull) => {
+                self.count_by(hull.as_ref(), self.headed(hull), |node: &BodyNode| node.current, points, counter);
+            }
+        }
+    }
+
+    fn count_by<N: Copy + Eq + std::hash::Hash, R: Reach<N>>(
+        &self,
+        reach: R,
+        start: N,
+        place: impl Fn(&N) -> u32,
+        points: &[Point3<f64>],
+        counter: &mut Counter,
+    ) {
+        let task = &self.setup.scenario.task;
+        let name = self.setup.scenario.generate.reach.word();
+        let refused = |a: usize, b: usize| {
+            let apart = libm::hypot(points[b].x - points[a].x, points[b].y - points[a].y);
+            let length = !(task.leg_m[0]..=task.leg_m[1]).contains(&apart);
+            length.then(|| (Stage::Limits, "task.leg_m".to_owned()))
+        };
+        let blocked = |a: usize, b: usize| {
+            (!self.allows(&points[a], &points[b])).then(|| (Stage::Obstacle, "a keep-out".to_owned()))
+        };
+        let ends = task.end_m.is_some();
+        Explored { points, reach, start, length: task.length as usize, ends, name }.count(
+            place,
+            refused,
+            blocked,
+            |_, _| true,
+            counter,
+        );
     }
 
     fn settings(&self) -> StepSettings {

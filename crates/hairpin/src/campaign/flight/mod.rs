@@ -1,7 +1,9 @@
 //! What flies: quadrotors in a cage.
 
 mod assumptions;
+mod blocking;
 mod certificates;
+mod deaths;
 mod fly;
 mod graph;
 mod legs;
@@ -14,6 +16,7 @@ mod verify;
 mod witness;
 
 pub(super) use assumptions::{act, claim, verdict};
+pub(super) use deaths::deaths;
 pub(super) use fly::{Order, fly};
 pub(super) use plan::{timed, track};
 pub(super) use replan::replan;

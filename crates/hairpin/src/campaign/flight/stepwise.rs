@@ -7,9 +7,10 @@ use std::hash::Hash;
 use nalgebra::Point3;
 
 use super::FlightSetup;
+use super::blocking::blocking;
 use super::legs::score;
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Outcome, Plan, Question, in_order, search};
+use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Question, Stage, in_order, search};
 use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
 use crate::feasibility::reach::{
     BruteForce, BruteForceSettings, CarriedNode, Everywhere, Filtered, Hull, HullSettings, Leg, PairMask, Reach,
@@ -26,6 +27,11 @@ enum Set {
     Hull(Box<Hull>),
     /// The hull from every state that a leg before may have left, and how far its samples reach.
     Carried(Box<BruteForce>, f64),
+}
+
+/// Whether the end lies within so many steps of the sphere.
+fn set_near(set: &Sphere, points: &[Point3<f64>], node: &StepNode, steps: usize) -> bool {
+    (points[points.len() - 1] - points[node.current as usize]).norm() <= set.radius * steps as f64 + 1e-9
 }
 
 /// A step-wise reach set and what it assumes.
@@ -79,22 +85,11 @@ impl<'a> Stepwise<'a> {
 
     /// Searches graph number `graph` over `points`.
     pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
-        let end = points[points.len() - 1];
         match &self.set {
             Set::Everywhere(set) => self.bound(set, graph, points, |_, _| true),
-            Set::Sphere(set) => {
-                let near = |node: &StepNode, steps: usize| {
-                    (end - points[node.current as usize]).norm() <= set.radius * steps as f64 + 1e-9
-                };
-                self.bound(set, graph, points, near)
-            }
+            Set::Sphere(set) => self.bound(set, graph, points, |node, steps| set_near(set, points, node, steps)),
             Set::Hull(hull) => {
-                let may_arrive = |node: &StepNode, steps: usize| {
-                    let (here, before) = (points[node.current as usize], points[node.previous as usize]);
-                    !self.settings.average_velocity
-                        || hull.may_reach(&here.coords, &(here - before), &end.coords, steps as u32)
-                };
-                self.bound(hull.as_ref(), graph, points, may_arrive)
+                self.bound(hull.as_ref(), graph, points, |node, steps| self.hull_near(hull, points, node, steps))
             }
             Set::Carried(reach, _) => {
                 let start = CarriedNode { previous: 0, current: 0, carried: [0; 6] };
@@ -114,6 +109,58 @@ impl<'a> Stepwise<'a> {
                 in_order(reach.as_ref(), CarriedNode { previous: 0, current: 0, carried: [0; 6] }, points)
             }
         }
+    }
+
+    /// Whether the hull, so many steps long, still holds the end.
+    fn hull_near(&self, hull: &Hull, points: &[Point3<f64>], node: &StepNode, steps: usize) -> bool {
+        let (here, before) = (points[node.current as usize], points[node.previous as usize]);
+        let end = points[points.len() - 1];
+        !self.settings.average_velocity || hull.may_reach(&here.coords, &(here - before), &end.coords, steps as u32)
+    }
+
+    /// Counts what becomes of the candidates for legs near the start of a graph.
+    pub(super) fn count(&self, points: &[Point3<f64>], counter: &mut Counter) {
+        let start = StepNode { previous: 0, current: 0 };
+        let place = |node: &StepNode| node.current;
+        match &self.set {
+            Set::Everywhere(set) => {
+                self.count_by(StepReach::new(set, points, self.settings), start, place, points, |_, _| true, counter);
+            }
+            Set::Sphere(set) => {
+                let near = |node: &StepNode, steps: usize| set_near(set, points, node, steps);
+                self.count_by(StepReach::new(set, points, self.settings), start, place, points, near, counter);
+            }
+            Set::Hull(hull) => {
+                let near = |node: &StepNode, steps: usize| self.hull_near(hull, points, node, steps);
+                let reach = StepReach::new(hull.as_ref(), points, self.settings);
+                self.count_by(reach, start, place, points, near, counter);
+            }
+            Set::Carried(reach, _) => {
+                let start = CarriedNode { previous: 0, current: 0, carried: [0; 6] };
+                self.count_by(reach.as_ref(), start, |node| node.current, points, |_, _| true, counter);
+            }
+        }
+    }
+
+    fn count_by<N: Copy + Eq + Hash, R: Reach<N>>(
+        &self,
+        reach: R,
+        start: N,
+        place: impl Fn(&N) -> u32,
+        points: &[Point3<f64>],
+        may_arrive: impl Fn(&N, usize) -> bool,
+        counter: &mut Counter,
+    ) {
+        let length = self.setup.scenario.task.length as usize;
+        let name = self.setup.scenario.generate.reach.word();
+        let longest = self.settings.max_speed * self.settings.step;
+        let fast = |a: usize, b: usize| {
+            let limit = || (Stage::Limits, "generate.limits.max_speed_m_s".to_owned());
+            ((points[b] - points[a]).norm() > longest).then(limit)
+        };
+        let (world, radius) = (self.setup.world, self.setup.robot.clearance_radius);
+        let blocked = |a: usize, b: usize| blocking(world, radius, &points[a], &points[b]);
+        Explored { points, reach, start, length, ends: true, name }.count(place, fast, blocked, may_arrive, counter);
     }
 
     /// Speed that scores 1, m/s: the farthest sampled end ÷ step where ends are sampled, else the robot's top speed.

@@ -42,15 +42,21 @@ impl<'a> Witness<'a> {
         certify(&self.judge, waypoints, &self.timing, longest)
     }
 
-    /// Searches graph number `graph` over `points`.
-    pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
+    /// The states of graph number `graph` over `points`.
+    pub(super) fn roadmap(&self, graph: u64, points: &[Point3<f64>]) -> Roadmap<'_> {
         let scenario = self.setup.scenario;
         let settings = RoadmapSettings {
             velocities: scenario.generate.velocities as usize,
             timing: self.timing,
             seed: named_seed(scenario.seed, "roadmap", graph),
         };
-        let roadmap = Roadmap::new(&self.judge, points, &settings);
+        Roadmap::new(&self.judge, points, &settings)
+    }
+
+    /// Searches graph number `graph` over `points`.
+    pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
+        let scenario = self.setup.scenario;
+        let roadmap = self.roadmap(graph, points);
         let question = Question {
             search: &scenario.generate.search,
             length: scenario.task.length as usize,

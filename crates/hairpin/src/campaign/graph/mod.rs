@@ -1,9 +1,14 @@
 //! One sampled graph: what is asked of it, and what it gives.
 
+mod deaths;
+mod explore;
 mod in_order;
 mod outcome;
 mod search;
 
+pub(super) use deaths::Counter;
+pub use deaths::{Deaths, Lost, Stage};
+pub(super) use explore::{Explored, GRAPHS};
 pub(super) use in_order::in_order;
 pub(super) use outcome::{Outcome, Plan};
 pub(super) use search::{Question, search};

@@ -27,5 +27,6 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         claims: pieces.cases.iter().map(|case| (case.number, case.claim())).collect(),
         influences: pieces.influences,
         regression: None,
+        coverage: pieces.coverage,
     }
 }

@@ -8,7 +8,7 @@ use super::drawing::Drawing;
 use super::text::attitude;
 use crate::campaign::scenario::DeviationFrom;
 use crate::campaign::terms::Terms;
-use crate::campaign::{Case, CaseResult, Influence, Run, Setup, Status, Tally, vary};
+use crate::campaign::{Case, CaseResult, Coverage, Influence, Run, Setup, Status, Tally, vary};
 use crate::judgement::moves::Regression;
 use crate::judgement::{
     JudgementError, Measures, Reference, Settings, Statistics, Verdict, Violation, deviation_of_samples,
@@ -94,6 +94,8 @@ pub struct ReportData {
     pub influences: Vec<Influence>,
     /// Of arms with a baseline: its moves against this campaign's.
     pub regression: Option<Regression>,
+    /// Which cells of the grid of motion were met.
+    pub coverage: Option<Coverage>,
 }
 
 /// What [`super::assemble`] is given.
@@ -117,6 +119,8 @@ pub struct Pieces<'a> {
     pub frame: Vec<[String; 2]>,
     /// Rank correlations of what was varied.
     pub influences: Vec<Influence>,
+    /// Which cells of the grid of motion were met.
+    pub coverage: Option<Coverage>,
 }
 
 /// The results' order in tables: failures, then doubts, then passes, each by its deviation, the largest first.

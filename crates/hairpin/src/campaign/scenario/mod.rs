@@ -15,6 +15,7 @@ mod check;
 pub(crate) mod distribution;
 mod drive;
 mod findings;
+mod flaky;
 mod flight;
 mod path;
 mod search;
@@ -23,6 +24,7 @@ mod vary;
 pub use arm::*;
 pub use distribution::Distribution;
 pub use drive::*;
+pub use flaky::FlakySection;
 pub use flight::*;
 pub use path::KeyPath;
 pub use search::*;
@@ -103,6 +105,8 @@ pub struct Executor<'a> {
     pub workers: Option<u64>,
     /// A waypoint counts as reached inside this radius, m.
     pub accept: f64,
+    /// Further runs of every violation, with other noise.
+    pub reruns: u64,
 }
 
 impl Scenario {
@@ -207,19 +211,22 @@ impl Scenario {
     pub fn executor(&self) -> Executor<'_> {
         match self {
             Self::Flight(scenario) => {
-                let ExecuteSection { command, repeat, timeout_s, workers, accept_m, .. } = &scenario.execute;
+                let ExecuteSection { command, repeat, timeout_s, workers, accept_m, flaky, .. } = &scenario.execute;
+                let reruns = flaky.map_or(0, |flaky| flaky.reruns);
                 let command = command.as_deref();
-                Executor { command, repeat: *repeat, timeout: *timeout_s, workers: *workers, accept: *accept_m }
+                Executor { command, repeat: *repeat, timeout: *timeout_s, workers: *workers, accept: *accept_m, reruns }
             }
             Self::Drive(scenario) => {
-                let DriveExecute { command, repeat, timeout_s, workers, accept_m, .. } = &scenario.execute;
+                let DriveExecute { command, repeat, timeout_s, workers, accept_m, flaky, .. } = &scenario.execute;
+                let reruns = flaky.map_or(0, |flaky| flaky.reruns);
                 let command = command.as_deref();
                 let repeat = repeat.unwrap_or(if scenario.vary.is_empty() { 1 } else { 2 });
-                Executor { command, repeat, timeout: *timeout_s, workers: *workers, accept: *accept_m }
+                Executor { command, repeat, timeout: *timeout_s, workers: *workers, accept: *accept_m, reruns }
             }
             Self::Arm(scenario) => {
                 let repeat = scenario.execute.repeat;
-                Executor { command: None, repeat, timeout: f64::INFINITY, workers: None, accept: ARRIVED }
+                let reruns = scenario.execute.flaky.map_or(0, |flaky| flaky.reruns);
+                Executor { command: None, repeat, timeout: f64::INFINITY, workers: None, accept: ARRIVED, reruns }
             }
         }
     }
@@ -249,6 +256,12 @@ impl Scenario {
             Self::Drive(scenario) => &scenario.vary,
             Self::Arm(scenario) => &scenario.vary,
         }
+    }
+
+    /// The same scenario with these distributions.
+    pub fn with_vary(mut self, vary: BTreeMap<String, Distribution>) -> Self {
+        *self.vary_mut() = vary;
+        self
     }
 
     /// The same for changes.

@@ -160,6 +160,34 @@ impl<'a> Roadmap<'a> {
         }
     }
 
+    /// What every candidate for a leg from `from` is, a state of another waypoint each: its node, or why it is none; `None` where the
+    /// straight line alone takes longer at the speed limit than the longest leg may.
+    ///
+    /// The evidence is that of the leg time nearest to what the line takes at the mean of the speeds at both ends.
+    pub fn candidates(&self, from: &WitnessNode) -> Vec<Result<WitnessNode, Option<Infeasible>>> {
+        let (left, own) = (self.state(from), from.waypoint as usize);
+        let longest = self.rungs.last().copied().unwrap_or(0.0);
+        let others = (0..self.points.len()).filter(|w| *w != own);
+        let judged = others.flat_map(|w| (self.first[w]..self.first[w + 1]).map(move |state| (w, state)));
+        let fate = |(w, state): (usize, u32)| {
+            let (here, there) = (&self.states[left], &self.states[state as usize]);
+            let fastest = self.fastest(&here.position, &there.position);
+            if fastest > longest {
+                return Err(None);
+            }
+            if self.shortest(left, state as usize, fastest).is_some() {
+                let (waypoint, velocity) = (w as u32, state - self.first[w]);
+                return Ok(WitnessNode { previous: from.waypoint, waypoint, velocity });
+            }
+            let speed = 0.5 * (here.velocity.norm() + there.velocity.norm());
+            let usual = (there.position - here.position).norm() / speed.max(f64::MIN_POSITIVE);
+            let nearest = |a: &&f64, b: &&f64| (**a - usual).abs().total_cmp(&(**b - usual).abs());
+            let time = self.rungs.iter().filter(|rung| **rung >= fastest).min_by(nearest).copied().unwrap_or(longest);
+            Err(self.judge.judge(here, there, time).err())
+        };
+        judged.map(fate).collect()
+    }
+
     /// The trajectory over `nodes` as polynomials, built once for what is returned.
     ///
     /// # Errors

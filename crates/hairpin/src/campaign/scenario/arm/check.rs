@@ -2,8 +2,8 @@
 
 use super::{ArmExecute, ArmGenerate, ArmScenario, ArmSpec, CostSection, LogClock, PointsSource};
 use crate::campaign::arm::station_of;
-use crate::campaign::scenario::Mistake;
 use crate::campaign::scenario::findings::Findings;
+use crate::campaign::scenario::{FlakySection, Mistake};
 use crate::search::heaviest::MOST_VISITS;
 use crate::trajectory::program::{Speed, Zone};
 
@@ -107,6 +107,7 @@ fn check_execute(execute: &ArmExecute, found: &mut Findings) {
     let shared = execute.logs.is_some() || execute.log_clock == LogClock::AsRecorded;
     found.require(shared, "execute.log_clock", "\"offset-removed\"", bound);
     found.count("execute.repeat", execute.repeat, 1, 100_000);
+    FlakySection::check(execute.flaky, found);
     found.from("execute.servo_lag_s", execute.servo_lag_s, 0.0, 10.0, " s");
     found.from("execute.noise_mm", execute.noise_mm, 0.0, 100.0, " mm");
     let faults = &execute.faults;

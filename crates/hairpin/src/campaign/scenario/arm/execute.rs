@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::scenario::FlakySection;
+
 /// `[execute]`: our virtual controller, or logs of a real one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -28,6 +30,9 @@ pub struct ArmExecute {
     /// What is wrong with the virtual arm.
     #[serde(skip_serializing_if = "FaultSection::is_none")]
     pub faults: FaultSection,
+    /// Every violation is run again so often with other noise: how often does it come again?
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flaky: Option<FlakySection>,
 }
 
 impl Default for ArmExecute {
@@ -41,6 +46,7 @@ impl Default for ArmExecute {
             servo_lag_s: 0.005,
             noise_mm: 0.01,
             faults: FaultSection::default(),
+            flaky: None,
         }
     }
 }

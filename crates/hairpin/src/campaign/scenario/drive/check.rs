@@ -6,7 +6,7 @@ use super::{
 };
 use crate::campaign::drive::{map_of, rover_of};
 use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{Mistake, SearchMethod};
+use crate::campaign::scenario::{FlakySection, Mistake, SearchMethod};
 use crate::feasibility::reach::drive::GroundScore;
 use crate::robot::rover::{Rover, Steering};
 use crate::world::terrain::Terrain;
@@ -196,6 +196,7 @@ fn check_execute(execute: &DriveExecute, found: &mut Findings) {
     if let Some(repeat) = execute.repeat {
         found.count("execute.repeat", repeat, 1, 100_000);
     }
+    FlakySection::check(execute.flaky, found);
     found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");
     if let Some(limit) = execute.time_limit_s {
         found.above("execute.time_limit_s", limit, 0.0, 1e6, " s");

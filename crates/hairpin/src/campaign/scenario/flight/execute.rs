@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::scenario::FlakySection;
+
 pub use crate::simulation::{ControllerKind, SegmentTimes};
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
@@ -40,6 +42,9 @@ pub struct ExecuteSection {
     /// Workers of `command`; as many as threads if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub workers: Option<u64>,
+    /// Every violation is run again so often with other noise: how often does it come again?
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flaky: Option<FlakySection>,
 }
 
 impl Default for ExecuteSection {
@@ -58,6 +63,7 @@ impl Default for ExecuteSection {
             segment_times: SegmentTimes::SqrtLength,
             timeout_s: 60.0,
             workers: None,
+            flaky: None,
         }
     }
 }

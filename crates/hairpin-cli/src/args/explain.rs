@@ -1,0 +1,32 @@
+//! `hairpin explain`.
+
+use clap::Args;
+
+use super::{Kernels, Threads};
+
+/// Searches a fixed number of graphs, counts where candidates for legs are lost, by limit, and where nothing is feasible
+/// changes one key at a time, as little as helps. Exit code 3 where nothing is feasible, else 0. Nothing is written.
+#[derive(Debug, Args)]
+pub(crate) struct Explain {
+    /// Scenario file, the name of a shipped scenario or robot, or a campaign folder's scenario.toml
+    pub(crate) scenario: String,
+    /// Override one scenario key: dotted key, TOML value; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// Root seed, instead of the scenario's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=super::LARGEST_SEED), allow_negative_numbers = true)]
+    pub(crate) seed: Option<u64>,
+    /// Graphs that are sampled and searched; with every change the same ones
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    pub(crate) graphs: u64,
+    /// Seconds after which no further change is tried
+    #[arg(long, value_name = "S", value_parser = super::seconds, allow_negative_numbers = true)]
+    pub(crate) time_limit: Option<f64>,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+    #[command(flatten)]
+    pub(crate) kernels: Kernels,
+}

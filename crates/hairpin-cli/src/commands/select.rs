@@ -1,0 +1,161 @@
+//! `hairpin select`: a few of many cases, in a campaign folder of their own.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use hairpin::campaign::report::number;
+use hairpin::campaign::select::{By, Candidate, Choice, Measured};
+use hairpin::campaign::{Case, Grid, Setup, Tally, vary};
+use hairpin_formats::folder::CampaignFolder;
+use rayon::prelude::*;
+use serde_json::json;
+
+use super::parts;
+use crate::args::{Select, SelectBy};
+use crate::console;
+use crate::folder::{self, Work};
+use crate::problem::Problem;
+
+/// Runs the command: 0 when the folder is written.
+pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
+    folder::take_threads(&asked.threads);
+    let work = folder::look(&asked.folder)?;
+    if same_place(&asked.folder, &asked.out) {
+        return Err(Problem::input("--out: must be another folder than OUT"));
+    }
+    let cases = work.folder.read_cases()?;
+    let count = asked.cases as usize;
+    if count > cases.len() {
+        return Err(Problem::input(format!("--cases {count}: {} has {} cases", asked.folder.display(), cases.len())));
+    }
+    let candidates = candidates(&work, &cases)?;
+    let by = match asked.by {
+        SelectBy::Stress => By::Stress,
+        SelectBy::Diverse => By::Diverse,
+        SelectBy::Coverage if candidates.iter().all(|candidate| candidate.cells.is_empty()) => {
+            return Err(Problem::input(format!(
+                "--by coverage: what was exercised is known of executed cases: hairpin execute {}",
+                asked.folder.display()
+            )));
+        }
+        SelectBy::Coverage => By::Coverage,
+    };
+    let choice = Choice::new(&candidates);
+    let places = choice.best(count, by);
+    let all: Vec<usize> = (0..candidates.len()).collect();
+    let measured = [choice.measure(&places), choice.measure(&choice.best(count, By::Stress)), choice.measure(&all)];
+    let mut chosen: Vec<Case> = places.iter().map(|place| cases[*place].clone()).collect();
+    chosen.sort_by_key(|case| case.number);
+    let folder = write(&work, asked, &chosen)?;
+    let names: Vec<String> = places.iter().map(|place| cases[*place].id()).collect();
+    let cells = Grid::of(&work.setup).cells();
+    let [found, stressful, whole] = &measured;
+    let sentence = format!(
+        "SELECTED {count} of {} cases: stress {}, spread {:.2}, {} of {cells} cells; the {count} most stressful: {}, {:.2}, {}",
+        cases.len(),
+        number(Some(found.stress)),
+        found.spread,
+        found.cells,
+        number(Some(stressful.stress)),
+        stressful.spread,
+        stressful.cells,
+    );
+    if asked.json {
+        let object = json!({
+            "verdict": sentence, "exit_code": 0, "by": by, "guarantee": by.guarantee(), "cases": names,
+            "selected": found, "most_stressful": stressful, "all": whole, "cells": cells,
+            "paths": { "folder": folder.path() },
+        });
+        console::say(&object.to_string());
+    } else {
+        tell(&measured, by);
+        console::say(&format!("in the order of choice: {}", names.join(", ")));
+        console::say(&sentence);
+        console::warn(&format!("folder: {}", folder.path().display()));
+    }
+    Ok(0)
+}
+
+fn same_place(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+/// Every case with its result and the cells that its runs met, where it has them.
+fn candidates(work: &Work, cases: &[Case]) -> Result<Vec<Candidate>, Problem> {
+    let results = work.folder.read_results()?;
+    let table = work.folder.read_runs_table()?;
+    let grid = Grid::of(&work.setup);
+    cases
+        .par_iter()
+        .map(|case| {
+            let runs = work.folder.read_runs(case.number, &table)?;
+            let met: BTreeSet<usize> =
+                runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
+            // Cases are compared by what came of them only where that is known of all.
+            let result =
+                results.iter().find(|result| result.case == case.number).filter(|_| results.len() == cases.len());
+            Ok(Candidate::new(case, result, met))
+        })
+        .collect()
+}
+
+/// The new folder: the chosen cases with their plans and runs, judged if the old one was.
+fn write(work: &Work, asked: &Select, chosen: &[Case]) -> Result<CampaignFolder, Problem> {
+    let key = if work.setup.arm().is_some() { "generate.search.programs" } else { "generate.search.cases" };
+    let varied = work.setup.scenario.vary().clone();
+    let scenario = vary::apply(&work.setup.scenario, &[(key.into(), chosen.len().into())])?;
+    let setup = Setup::new(scenario.with_vary(varied))?.with_simd(work.setup.simd);
+    let new = Work { folder: folder::make(&asked.out, &setup, false, asked.force)?, setup };
+    let (old, there) = (&work.folder, &new.folder);
+    let copy = |from: &Path, to: &Path| {
+        let copied = if from.exists() { std::fs::copy(from, to).map(drop) } else { Ok(()) };
+        copied.map_err(|error| Problem::input(format!("cannot copy {} to {}: {error}", from.display(), to.display())))
+    };
+    let table = old.read_runs_table()?;
+    for case in chosen {
+        copy(&old.trajectory_path(case.number), &there.trajectory_path(case.number))?;
+        for run in 0.. {
+            if !old.run_path(case.number, run).exists() {
+                break;
+            }
+            copy(&old.run_path(case.number, run), &there.run_path(case.number, run))?;
+        }
+        for again in 0..old.read_reruns(case.number)?.len() {
+            copy(&old.rerun_path(case.number, again), &there.rerun_path(case.number, again))?;
+        }
+    }
+    there.write_new_cases(chosen, 0)?;
+    let old_tally = old.read_tally()?;
+    let names = chosen.iter().filter_map(|case| old_tally.missions.get(case.number).cloned()).collect();
+    let tally = Tally { complete: true, missions: names, ..old_tally };
+    there.write_tally(&tally)?;
+    let numbers: BTreeSet<usize> = chosen.iter().map(|case| case.number).collect();
+    let facts: Vec<_> =
+        table.into_iter().filter(|((case, _), _)| numbers.contains(case)).map(|(_, facts)| facts).collect();
+    if !facts.is_empty() {
+        there.write_runs_table(&facts)?;
+    }
+    let judged = old.read_results()?.iter().filter(|result| numbers.contains(&result.case)).count() == chosen.len();
+    if judged && !facts.is_empty() {
+        let judgement = parts::judge(&new, chosen, &tally)?;
+        parts::report(&new, chosen, &tally, &judgement.verdict, (&judgement.moves, judgement.regression.as_ref()))?;
+    }
+    Ok(new.folder)
+}
+
+fn tell(measured: &[Measured; 3], by: By) {
+    let header = ["", "cases", "mean stress", "worst", "spread", "nearest pair", "cells"].map(str::to_owned).to_vec();
+    let rows = ["chosen", "most stressful", "all"].iter().zip(measured).map(|(name, one)| {
+        vec![
+            (*name).to_owned(),
+            one.cases.to_string(),
+            number(Some(one.stress)),
+            number(Some(one.worst)),
+            format!("{:.3}", one.spread),
+            format!("{:.3}", one.nearest),
+            one.cells.to_string(),
+        ]
+    });
+    console::say(&console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
+    console::say(&format!("{}; distances are 0 … 1, over waypoints and over behaviour\n", by.guarantee()));
+}

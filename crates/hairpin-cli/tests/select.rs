@@ -1,0 +1,91 @@
+//! `hairpin select`, and what a test set exercised.
+
+mod commands;
+
+use std::fs;
+use std::path::Path;
+
+use commands::{SMALL, contents, json, refused, run};
+use serde_json::Value;
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Cells that coverage.csv says were met, and all.
+fn cells(folder: &Path) -> (usize, usize) {
+    let text = fs::read_to_string(folder.join("coverage.csv")).unwrap();
+    let rows: Vec<&str> = text.lines().skip(1).collect();
+    (rows.iter().filter(|row| !row.ends_with(",0")).count(), rows.len())
+}
+
+#[test]
+fn a_choice_is_a_campaign_folder_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let eight = [&SMALL[..], &["--set", "generate.search.cases=8", "--set", "spec.deviation.max_m=4"]].concat();
+    run(here, &[&eight[..], &["--out", "all"]].concat());
+    let select = |by: &str, out: &str| json(here, &["select", "all", "--cases", "3", "--by", by, "--out", out]);
+    let stress = select("stress", "stress");
+    let diverse = select("diverse", "diverse");
+    let coverage = select("coverage", "coverage");
+    for object in [&stress, &diverse, &coverage] {
+        assert_eq!((&object["exit_code"], &object["selected"]["cases"]), (&0.into(), &3.into()), "{object}");
+        assert_eq!(object["most_stressful"], stress["selected"]);
+        assert!(number(&object["selected"]["stress"]) <= number(&stress["selected"]["stress"]));
+        assert!(object["guarantee"].as_str().unwrap().len() > 10);
+    }
+    let of = |object: &Value, what: &str| number(&object["selected"][what]);
+    assert!(of(&diverse, "spread") >= of(&stress, "spread") && of(&diverse, "nearest") > 0.0, "{diverse} {stress}");
+    assert!(of(&coverage, "cells") >= of(&stress, "cells") && of(&coverage, "cells") >= of(&diverse, "cells"));
+    // Stress counts what was measured: the largest deviation of the worst case is the campaign's.
+    let all = json(here, &["judge", "all"]);
+    assert_eq!(stress["selected"]["worst"], all["worst"]["max_deviation_m"]);
+
+    // Every other command takes it; the cases keep number, seed, plan and runs.
+    let judged = json(here, &["judge", "stress"]);
+    assert_eq!((&judged["counts"]["asked"], &judged["counts"]["cases"]), (&3.into(), &3.into()), "{judged}");
+    assert_eq!(judged["worst"], all["worst"]);
+    let compared = json(here, &["compare", "all", "stress"]);
+    assert_eq!((&compared["pairs"], &compared["unchanged"]), (&3.into(), &3.into()), "{compared}");
+    assert_eq!(run(here, &["verify", "stress"]).0, 0);
+    let before = contents(&here.join("stress"));
+    assert_eq!(json(here, &["execute", "stress"])["counts"]["runs"], 3);
+    let after = contents(&here.join("stress"));
+    assert!(
+        before.iter().filter(|(name, _)| name.starts_with("executions/")).all(|(name, bytes)| after[name] == *bytes)
+    );
+
+    refused(here, &["select", "all", "--cases", "9", "--out", "x"], &["--cases 9", "8 cases"]);
+    refused(here, &["select", "all", "--cases", "2", "--out", "all"], &["another folder"]);
+    let generated = ["generate", "demo-quadrotor", "--set", "generate.search.cases=2", "--out", "plans"];
+    run(here, &generated);
+    refused(here, &["select", "plans", "--cases", "1", "--by", "coverage", "--out", "x"], &["hairpin execute plans"]);
+    assert_eq!(json(here, &["select", "plans", "--cases", "1", "--out", "one"])["selected"]["cases"], 1);
+}
+
+#[test]
+fn flights_drives_and_programs_say_what_they_exercised() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    run(here, &[&SMALL[..], &["--out", "flight"]].concat());
+    run(here, &["stress", "demo-rover", "--set", "generate.search.cases=1", "--out", "drive"]);
+    run(here, &["stress", "demo-arm", "--out", "arm"]);
+    for (name, axes, all) in [
+        ("flight", ["speed", "turn", "climb"].as_slice(), 100),
+        ("drive", &["slope", "curvature", "slip"], 125),
+        ("arm", &["joint", "place in range", "speed", "direction"], 6 * 8 * 4 * 3),
+    ] {
+        let (hit, of) = cells(&here.join(name));
+        assert_eq!(of, all, "{name}");
+        assert!(hit > 0 && hit < of, "{name}: {hit} of {of}");
+        let object = json(here, &["report", name]);
+        let told = &object["coverage"];
+        assert_eq!((&told["hit"], &told["cells"]), (&hit.into(), &of.into()), "{object}");
+        let names: Vec<&str> =
+            told["grid"]["axes"].as_array().unwrap().iter().map(|axis| axis["name"].as_str().unwrap()).collect();
+        assert_eq!(names, axes);
+        let page = fs::read_to_string(here.join(name).join("report.html")).unwrap();
+        assert!(page.contains("What was exercised") && page.contains(&format!("{hit} of {of} cells")), "{name}");
+    }
+}

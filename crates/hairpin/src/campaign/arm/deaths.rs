@@ -1,0 +1,46 @@
+//! Where the moves of an arm's graph are lost.
+
+use super::ArmSetup;
+use super::graph::whole_graph;
+use crate::campaign::graph::{Counter, Deaths, Stage};
+use crate::feasibility::reachability::Refusal;
+
+/// Counts the moves between all ordered pairs of points by what became of them.
+pub(in crate::campaign) fn deaths(setup: &ArmSetup) -> Deaths {
+    let mut counter = Counter::default();
+    if let Ok(graph) = whole_graph(setup) {
+        let (n, names) = (graph.points(), setup.part_names());
+        let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to))).filter(|(from, to)| from != to);
+        for (from, to) in pairs {
+            match graph.reachability.refusal(from, to) {
+                Some(refusal) => {
+                    let (stage, limit) = told(&refusal, &names);
+                    counter.lose(stage, &limit);
+                }
+                None if graph.costs[from * n + to].is_none() => counter.lose(Stage::Limits, "the table of costs"),
+                None => counter.keep(),
+            }
+        }
+        for (free, way) in [(&graph.from_home, "the way from home"), (&graph.to_home, "the way home")] {
+            let refused = free.iter().filter(|free| !**free).count() as u64;
+            counter.lose_many(Stage::EndPoint, way, refused);
+            counter.keep_many(n as u64 - refused);
+        }
+    }
+    counter.deaths("moves between points, from home and back")
+}
+
+fn told(refusal: &Refusal, names: &[String]) -> (Stage, String) {
+    let part = |index: usize| names.get(index).cloned().unwrap_or_else(|| "a part of the cell".into());
+    match *refusal {
+        Refusal::ToolMeets { part: index, .. } | Refusal::Collides { part: index, .. } => {
+            (if part(index) == "reach" { Stage::Reach } else { Stage::Obstacle }, part(index))
+        }
+        Refusal::SelfCollides { .. } => (Stage::Obstacle, "the arm itself".into()),
+        Refusal::OutOfReach { .. } => (Stage::Reach, "no joint angles".into()),
+        Refusal::JointLimit { axis, .. } => (Stage::Limits, format!("axis {}", axis + 1)),
+        Refusal::Singular { margin, .. } => (Stage::Limits, format!("{} singularity", margin.of)),
+        Refusal::Configuration { .. } => (Stage::Limits, "configuration change".into()),
+        Refusal::OtherBranch { .. } => (Stage::Limits, "another configuration than most points".into()),
+    }
+}

@@ -1,0 +1,47 @@
+//! What becomes of the legs of a roadmap of drives.
+
+use std::collections::{HashSet, VecDeque};
+
+use nalgebra::Point3;
+
+use crate::campaign::graph::{Counter, Stage};
+use crate::feasibility::reach::Reach;
+use crate::feasibility::reach::drive::{DriveRoadmap, LegRefusal};
+
+/// Nodes of a roadmap whose legs are solved.
+const NODES: usize = 16;
+
+/// Counts the legs of the first nodes of `roadmap`, of trajectories of `length` waypoints that end at the last one where `ends`.
+pub(super) fn count(roadmap: &DriveRoadmap, points: &[Point3<f64>], length: usize, ends: bool, counter: &mut Counter) {
+    let mut open = VecDeque::from([(roadmap.start(), 1)]);
+    let mut seen = HashSet::from([roadmap.start()]);
+    let mut legs = Vec::new();
+    for _ in 0..NODES {
+        let Some((node, passed)) = open.pop_front() else { break };
+        if passed >= length {
+            break;
+        }
+        legs.clear();
+        roadmap.legs(&node, points, &mut legs);
+        for leg in &legs {
+            if ends && !roadmap.may_arrive(&leg.to, length - passed - 1) {
+                counter.lose(Stage::EndPoint, "task.end_m");
+                continue;
+            }
+            counter.keep();
+            if seen.insert(leg.to) {
+                open.push_back((leg.to, passed + 1));
+            }
+        }
+    }
+    let tally = roadmap.tally();
+    for reason in LegRefusal::ALL {
+        let stage = match reason {
+            LegRefusal::Detour | LegRefusal::Unsolved => Stage::Reach,
+            LegRefusal::MapEdge | LegRefusal::NoData | LegRefusal::NoRest => Stage::World,
+            LegRefusal::Curvature | LegRefusal::Tilt | LegRefusal::Joint | LegRefusal::Belly => Stage::Limits,
+            LegRefusal::KeepOut => Stage::Obstacle,
+        };
+        counter.lose_many(stage, reason.says(), tally.refused(reason));
+    }
+}

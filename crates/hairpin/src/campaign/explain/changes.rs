@@ -1,0 +1,188 @@
+//! The smallest single change with which something is feasible: for every key the way to a value that helps, then back by bisection.
+
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::knobs::{Knob, Turn, knobs};
+use super::searched;
+use crate::campaign::{Setup, Stop, vary};
+
+/// A number is turned until what helps is known to this share of itself and of the change …
+const PRECISION: f64 = 0.05;
+/// … or its last step was halved so often.
+const HALVINGS: usize = 16;
+/// Whole numbers both ways are tried so far from where they are.
+const STEPS: u64 = 6;
+
+/// A single change with which something is feasible.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Change {
+    /// The scenario's key.
+    pub key: &'static str,
+    /// Its value.
+    pub from: Value,
+    /// A value with which something is feasible, the nearest that was found.
+    pub to: Value,
+    /// As it is told: `length 12`, `max_speed 8.0 → 9.3 m/s`.
+    pub words: String,
+    /// How large the change is beside the value: |to − from| / from; of a switch 1.
+    pub relative: f64,
+}
+
+/// Every key's smallest change that helps, the smallest first; switches and keys that are equally far in the order of
+/// the list.
+pub(super) fn smallest(setup: &Setup, stop: &Stop) -> Vec<Change> {
+    let mut found: Vec<Change> = knobs(setup).iter().filter_map(|knob| Trial { setup, stop, knob }.change()).collect();
+    found.sort_by(|a, b| a.relative.total_cmp(&b.relative));
+    found
+}
+
+/// One key being turned.
+struct Trial<'a> {
+    setup: &'a Setup,
+    stop: &'a Stop<'a>,
+    knob: &'a Knob,
+}
+
+impl Trial<'_> {
+    fn change(&self) -> Option<Change> {
+        let (from, to) = match &self.knob.turn {
+            Turn::Number { now, loosest, .. } => (json!(now), json!(self.number(*now, *loosest)?)),
+            Turn::Whole { now, loosest } => (json!(now), json!(self.whole(*now, *loosest)?)),
+            Turn::Either { now, least } => (json!(now), json!(self.either(*now, *least)?)),
+            Turn::Switch { value, .. } => (Value::Null, self.helps(value).then(|| value.clone())?),
+        };
+        let relative = match (from.as_f64(), to.as_f64()) {
+            (Some(from), Some(to)) if from != 0.0 => ((to - from) / from).abs(),
+            _ => 1.0,
+        };
+        Some(Change { key: self.knob.key, words: self.words(&from, &to), from, to, relative })
+    }
+
+    /// Whether something is feasible with `value` at the key.
+    fn helps(&self, value: &Value) -> bool {
+        if (self.stop.cancelled)() {
+            return false;
+        }
+        let draws = [(self.knob.key.to_owned(), value.clone())];
+        // Values that no scenario may have do not help.
+        let Ok(scenario) = vary::apply(&self.setup.scenario, &draws) else { return false };
+        let Ok(changed) = Setup::new(scenario) else { return false };
+        searched(&changed.with_simd(self.setup.simd), false, self.stop).solved > 0
+    }
+
+    /// The value nearest to `now` that helps: steps that double on the way to `loosest`, then bisection of the last one.
+    fn number(&self, now: f64, loosest: f64) -> Option<f64> {
+        let whole_way = loosest - now;
+        let mut share = (0.1 * now / whole_way).abs().clamp(1e-3, 0.25);
+        let mut short = 0.0;
+        while !self.helps(&json!(rounded(now, now + share * whole_way))) {
+            if share >= 1.0 {
+                return None;
+            }
+            (short, share) = (share, (2.0 * share).min(1.0));
+        }
+        for _ in 0..HALVINGS {
+            let to = now + share * whole_way;
+            if (share - short) * whole_way.abs() <= PRECISION * to.abs().min((to - now).abs()) {
+                break;
+            }
+            let middle = 0.5 * (short + share);
+            if self.helps(&json!(rounded(now, now + middle * whole_way))) { share = middle } else { short = middle }
+        }
+        (!(self.stop.cancelled)()).then(|| rounded(now, now + share * whole_way))
+    }
+
+    fn whole(&self, now: u64, loosest: u64) -> Option<u64> {
+        let (mut short, mut step) = (now, 1.max(now / 4));
+        let mut long = now + step;
+        while !self.helps(&json!(long)) {
+            if long >= loosest {
+                return None;
+            }
+            step *= 2;
+            (short, long) = (long, (now + step).min(loosest));
+        }
+        while long - short > 1.max(long / 50) {
+            let middle = short + (long - short) / 2;
+            if self.helps(&json!(middle)) { long = middle } else { short = middle }
+        }
+        (!(self.stop.cancelled)()).then_some(long)
+    }
+
+    /// Nearest first, more before less: what helps need not go on helping.
+    fn either(&self, now: u64, least: u64) -> Option<u64> {
+        (1..=STEPS)
+            .flat_map(|step| [now + step, now.saturating_sub(step)])
+            .find(|value| (least..=now + STEPS).contains(value) && self.helps(&json!(value)))
+    }
+
+    fn words(&self, from: &Value, to: &Value) -> String {
+        let name = name(self.knob.key);
+        match &self.knob.turn {
+            Turn::Number { now, unit, .. } => {
+                let to = to.as_f64().unwrap_or(*now);
+                let least = if now.abs() >= 100.0 { 0 } else { 1 };
+                let decimals = (least..6).find(|d| format!("{now:.d$}") != format!("{to:.d$}")).unwrap_or(6);
+                format!("{name} {now:.decimals$} → {to:.decimals$} {unit}").trim_end().to_owned()
+            }
+            Turn::Either { .. } => format!("{name} {to}"),
+            Turn::Whole { .. } => format!("{name} {from} → {to}"),
+            Turn::Switch { words, .. } => words.clone(),
+        }
+    }
+}
+
+/// `value` with three digits, away from `from`.
+fn rounded(from: f64, value: f64) -> f64 {
+    if value == 0.0 {
+        return 0.0;
+    }
+    let digits = 2 - libm::floor(libm::log10(value.abs())) as i32;
+    let unit = crate::math::power::power(10.0, digits.unsigned_abs() as usize);
+    let scaled = if digits >= 0 { value * unit } else { value / unit };
+    let scaled = if value > from { scaled.ceil() } else { scaled.floor() };
+    if digits >= 0 { scaled / unit } else { scaled * unit }
+}
+
+/// `max_speed` of `generate.limits.max_speed_m_s`: the last part of a key without its unit, and what a range's end is called.
+fn name(key: &str) -> String {
+    let (key, end) = match key.split_once('[') {
+        Some((key, "0]")) => (key, "least "),
+        Some((key, _)) => (key, "greatest "),
+        None => (key, ""),
+    };
+    let last = key.rsplit('.').next().unwrap_or(key);
+    // As `count` says nothing without what is counted.
+    let last = if last == "count" { "points" } else { last };
+    let units = ["_m_s", "_1_m2", "_1_m", "_mm", "_deg", "_s", "_m"];
+    let bare = units.iter().find_map(|unit| last.strip_suffix(unit)).unwrap_or(last);
+    format!("{end}{bare}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_told_without_their_units() {
+        for (key, told) in [
+            ("generate.limits.max_speed_m_s", "max_speed"),
+            ("task.length", "length"),
+            ("task.leg_m[1]", "greatest leg"),
+            ("generate.timing.leg_time_s[1]", "greatest leg_time"),
+            ("generate.limits.curvature_rate_1_m2", "curvature_rate"),
+            ("task.points.count", "points"),
+        ] {
+            assert_eq!(name(key), told);
+        }
+    }
+
+    #[test]
+    fn rounding_goes_on_the_way_that_the_key_is_turned() {
+        assert_eq!(rounded(8.0, 9.2613), 9.27);
+        assert_eq!(rounded(2.0, 0.12345), 0.123);
+        assert_eq!(rounded(100.0, 1234.0), 1240.0);
+        assert_eq!(rounded(1.0, 0.0), 0.0);
+    }
+}

@@ -1,0 +1,98 @@
+//! Why nothing, or little, is feasible: where candidates for legs are lost, and the smallest single change that helps.
+
+mod changes;
+mod knobs;
+
+use serde::Serialize;
+
+use super::generate::Known;
+use super::{Mistake, Scenario, Setup, Stop, Tally, arm, drive, flight, generate, judge};
+use crate::campaign::setup::Kind;
+use crate::judgement::Verdict;
+
+pub use super::graph::{Deaths, Lost, Stage};
+pub use changes::Change;
+
+/// What is known of a scenario's feasibility.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Explanation {
+    /// Graphs that were sampled and searched; of arms the one that there is.
+    pub graphs: u64,
+    /// Of these, graphs with a feasible trajectory.
+    pub solved: u64,
+    /// What became of the candidates for legs.
+    pub deaths: Deaths,
+    /// Single changes with which something is feasible, the smallest first; none are looked for where something is.
+    pub changes: Vec<Change>,
+    /// Whether the search for changes was stopped before it came to an end.
+    pub stopped: bool,
+    /// What the search did.
+    #[serde(skip)]
+    tally: Tally,
+}
+
+/// Samples and searches `graphs` graphs of `setup`; where none has a trajectory, every relevant key is changed until one has.
+///
+/// The same graphs (of the same seeds) are asked with every change. `stop` ends the search for changes with those that were found.
+///
+/// # Errors
+/// A scenario that no search can be begun with.
+pub fn explain(setup: &Setup, graphs: u64, stop: &Stop) -> Result<Explanation, Mistake> {
+    let setup = first_of(&setup.scenario, graphs).and_then(|scenario| setup.of_draw(scenario))?;
+    let tally = searched(&setup, true, stop);
+    let deaths = match setup.kind() {
+        Kind::Flight(setup) => flight::deaths(&setup, graphs),
+        Kind::Drive(setup) => drive::deaths(&setup, graphs),
+        Kind::Arm(setup) => arm::deaths(&setup),
+    };
+    let changes = if tally.solved > 0 { Vec::new() } else { changes::smallest(&setup, stop) };
+    let stopped = (stop.cancelled)();
+    Ok(Explanation { graphs: tally.graphs, solved: tally.solved, deaths, changes, stopped, tally })
+}
+
+impl Explanation {
+    /// `NOTHING FEASIBLE (proof, hull): no chain of 10 waypoints from start to end; smallest change: length 12, or max_speed 8.0 →
+    /// 9.3 m/s`, exit code 3; or that there is something, 0.
+    pub fn verdict(&self, setup: &Setup) -> Verdict {
+        if self.solved > 0 {
+            let reach = setup.scenario.reach();
+            let sentence = format!("FEASIBLE ({reach}): {} of {} graphs have a trajectory", self.solved, self.graphs);
+            return Verdict { sentence, exit_code: 0 };
+        }
+        let told: Vec<String> = self.changes.iter().map(|change| change.words.clone()).collect();
+        let change = match (told.as_slice(), self.stopped) {
+            ([], true) => "not found in time".into(),
+            ([], false) => "none of one key alone".into(),
+            (words, _) => words.join(", or "),
+        };
+        judge::nothing_feasible(setup, &self.tally, Some(&change))
+    }
+}
+
+/// The scenario asked for one case of `graphs` graphs, and nothing varied.
+fn first_of(scenario: &Scenario, graphs: u64) -> Result<Scenario, Mistake> {
+    let keys: &[(&str, u64)] = match scenario {
+        Scenario::Flight(_) | Scenario::Drive(_) => {
+            &[("generate.search.graphs", graphs), ("generate.search.cases", graphs), ("generate.search.per_graph", 1)]
+        }
+        Scenario::Arm(_) => &[("generate.search.programs", 1)],
+    };
+    let mut draws: Vec<_> = keys.iter().map(|(key, value)| ((*key).to_owned(), (*value).into())).collect();
+    if let Scenario::Flight(flight) = scenario {
+        // As a key that is there, which can be turned.
+        draws.push(("generate.timing".into(), serde_json::json!(flight.generate.timing_in_force())));
+    }
+    super::vary::apply(scenario, &draws)
+}
+
+/// What a search of `setup` finds: all of its graphs, or until the first trajectory.
+fn searched(setup: &Setup, all: bool, stop: &Stop) -> Tally {
+    let found = std::sync::atomic::AtomicBool::new(false);
+    let cancelled = || (stop.cancelled)() || (!all && found.load(std::sync::atomic::Ordering::Relaxed));
+    let quiet = Stop { cancelled: &cancelled, progress: &|_, _| {}, clock: stop.clock };
+    generate(setup, &Known::default(), &quiet, &mut |cases, _| {
+        if !cases.is_empty() {
+            found.store(true, std::sync::atomic::Ordering::Relaxed);
+        }
+    })
+}

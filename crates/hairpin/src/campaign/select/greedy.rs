@@ -1,0 +1,95 @@
+//! Choices that are made one by one, and how near to the best they are known to be.
+
+use std::collections::BTreeSet;
+
+/// The `count` heaviest, the heaviest first; the first of equals.
+pub(super) fn heaviest(weights: &[f64], count: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..weights.len()).collect();
+    order.sort_by(|a, b| weights[*b].total_cmp(&weights[*a]));
+    order.truncate(count);
+    order
+}
+
+/// `count` items for Σ weight · (count − 1)/2 + Σ distance over pairs, so that both sums have as many terms: each time the item that adds
+/// most to half of the weights and the whole of the distances, which is at least half of the best for distances that are a
+/// metric (Borodin, Lee, Ye: Max-sum diversification, monotone submodular functions and dynamic updates, 2012).
+pub(super) fn dispersed(weights: &[f64], distance: impl Fn(usize, usize) -> f64, count: usize) -> Vec<usize> {
+    let per_weight = 0.5 * (count.saturating_sub(1)) as f64;
+    let mut gains: Vec<f64> = weights.iter().map(|weight| 0.5 * per_weight * weight).collect();
+    let mut left: BTreeSet<usize> = (0..weights.len()).collect();
+    let mut chosen = Vec::with_capacity(count);
+    while chosen.len() < count {
+        let Some(best) = first_best(&left, |item| gains[item]) else { break };
+        left.remove(&best);
+        chosen.push(best);
+        for item in &left {
+            gains[*item] += distance(best, *item);
+        }
+    }
+    chosen
+}
+
+/// `count` sets that cover most: each time the one that covers most that is new, of equals the heaviest; at least 1 − 1/e of what
+/// the best choice covers (Nemhauser, Wolsey, Fisher: An analysis of approximations for maximizing submodular set
+/// functions, 1978).
+pub(super) fn covering(sets: &[&BTreeSet<usize>], weights: &[f64], count: usize) -> Vec<usize> {
+    let mut covered = BTreeSet::new();
+    let mut left: BTreeSet<usize> = (0..sets.len()).collect();
+    let mut chosen = Vec::with_capacity(count);
+    while chosen.len() < count {
+        // Weights are 0 … 1: they decide between equals alone.
+        let new = |item: usize| sets[item].difference(&covered).count() as f64 + 0.5 * weights[item];
+        let Some(best) = first_best(&left, new) else { break };
+        left.remove(&best);
+        chosen.push(best);
+        covered.extend(sets[best].iter().copied());
+    }
+    chosen
+}
+
+fn first_best(left: &BTreeSet<usize>, gain: impl Fn(usize) -> f64) -> Option<usize> {
+    left.iter().copied().reduce(|best, item| if gain(item) > gain(best) { item } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{stream, unit};
+
+    /// Every choice of `count` of `n`.
+    fn all(n: usize, count: usize) -> Vec<Vec<usize>> {
+        (0_u32..1 << n)
+            .filter(|bits| bits.count_ones() as usize == count)
+            .map(|bits| (0..n).filter(|i| bits >> i & 1 == 1).collect())
+            .collect()
+    }
+
+    #[test]
+    fn greedy_keeps_what_it_promises_against_every_choice() {
+        let (n, count) = (11, 4);
+        for seed in 0..40 {
+            let mut random = stream(seed);
+            let places: Vec<[f64; 2]> = (0..n).map(|_| [unit(&mut random), unit(&mut random)]).collect();
+            let weights: Vec<f64> = (0..n).map(|_| unit(&mut random)).collect();
+            let apart = |a: usize, b: usize| {
+                ((places[a][0] - places[b][0]).powi(2) + (places[a][1] - places[b][1]).powi(2)).sqrt()
+            };
+            let value = |items: &[usize]| {
+                let pairs = items.iter().enumerate().flat_map(|(i, a)| items[..i].iter().map(move |b| (*a, *b)));
+                let weight: f64 = items.iter().map(|item| weights[*item]).sum();
+                1.5 * weight + pairs.map(|(a, b)| apart(a, b)).sum::<f64>()
+            };
+            let best = all(n, count).iter().map(|items| value(items)).fold(0.0, f64::max);
+            let found = value(&dispersed(&weights, apart, count));
+            assert!(found >= 0.5 * best && found <= best + 1e-12, "seed {seed}: {found} of {best}");
+
+            let sets: Vec<BTreeSet<usize>> =
+                (0..n).map(|_| (0..6).map(|_| (20.0 * unit(&mut random)) as usize).collect()).collect();
+            let sets: Vec<&BTreeSet<usize>> = sets.iter().collect();
+            let covers = |items: &[usize]| items.iter().flat_map(|item| sets[*item]).collect::<BTreeSet<_>>().len();
+            let best = all(n, count).iter().map(|items| covers(items)).max().unwrap();
+            let found = covers(&covering(&sets, &weights, count));
+            assert!(found as f64 >= (1.0 - (-1.0_f64).exp()) * best as f64 && found <= best, "seed {seed}");
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! A few of many cases: the most stressful, the most different ones, or those that exercise most.
+//!
+//! The most stressful trajectory and 99 near copies of it are one test. How far two cases are apart is the mean of how far
+//! their ways are apart and how far what came of them is, each 0 … 1 over the campaign.
+
+mod greedy;
+
+use std::collections::BTreeSet;
+
+use nalgebra::Point3;
+use serde::Serialize;
+
+use super::{Case, CaseResult};
+use crate::judgement::Measures;
+
+/// Points at which two ways are compared, evenly along each.
+const POINTS: usize = 24;
+
+/// What a choice is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum By {
+    /// The most stressful.
+    Stress,
+    /// Stress and distance from each other.
+    Diverse,
+    /// Cells of the grid of motion that are met.
+    Coverage,
+}
+
+impl By {
+    /// What is known of how good a choice is.
+    pub fn guarantee(self) -> &'static str {
+        match self {
+            Self::Stress => "the best there is",
+            Self::Diverse => {
+                "greedy: mean stress plus mean distance at least half of the best (Borodin, Lee, Ye 2012: max-sum dispersion in a \
+                 metric)"
+            }
+            Self::Coverage => {
+                "greedy: at least 63 % of the most cells (Nemhauser, Wolsey, Fisher 1978: maximum coverage)"
+            }
+        }
+    }
+}
+
+/// A case to choose from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// Its number.
+    pub case: usize,
+    /// Its largest deviation, m, or where it was not executed its score.
+    pub stress: f64,
+    /// Places along its way, m.
+    route: Vec<Point3<f64>>,
+    /// What came of it, each measure in its own unit; empty where it was not executed.
+    behaviour: Vec<f64>,
+    /// Cells of the grid of motion that it met.
+    pub cells: BTreeSet<usize>,
+}
+
+impl Candidate {
+    /// The candidate that `case` is, with what its worst run came to and the cells that it met.
+    pub fn new(case: &Case, result: Option<&CaseResult>, cells: BTreeSet<usize>) -> Self {
+        let measures = result.and_then(|result| result.measures.as_ref());
+        Self {
+            case: case.number,
+            stress: measures.map_or(case.score, |measures| measures.max_deviation),
+            route: evenly(&case.waypoints),
+            behaviour: measures.map_or_else(Vec::new, behaviour),
+            cells,
+        }
+    }
+}
+
+fn behaviour(m: &Measures) -> Vec<f64> {
+    vec![
+        m.max_deviation,
+        m.mean_deviation,
+        m.max_overshoot(),
+        m.max_acceleration,
+        m.total_time,
+        m.min_clearance.unwrap_or(0.0),
+        m.saturation_share.unwrap_or(0.0),
+    ]
+}
+
+/// Places along a way, evenly by its length.
+fn evenly(waypoints: &[Point3<f64>]) -> Vec<Point3<f64>> {
+    let lengths: Vec<f64> = waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
+    let whole: f64 = lengths.iter().sum();
+    let (mut leg, mut before) = (0, 0.0);
+    (0..POINTS)
+        .map(|i| {
+            let along = whole * i as f64 / (POINTS - 1) as f64;
+            while leg + 1 < lengths.len() && before + lengths[leg] < along {
+                before += lengths[leg];
+                leg += 1;
+            }
+            let share = if lengths.is_empty() || lengths[leg] == 0.0 { 0.0 } else { (along - before) / lengths[leg] };
+            let next = waypoints[(leg + 1).min(waypoints.len() - 1)];
+            waypoints[leg] + (next - waypoints[leg]) * share.clamp(0.0, 1.0)
+        })
+        .collect()
+}
+
+/// How stressful cases are and how far apart, each 0 … 1 over all of them.
+#[derive(Debug, Clone)]
+pub struct Choice<'a> {
+    candidates: &'a [Candidate],
+    stress: Vec<f64>,
+    /// Distances, row by row.
+    apart: Vec<f64>,
+}
+
+/// How good a choice is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Measured {
+    /// Cases.
+    pub cases: usize,
+    /// Mean of the cases' stress in its own unit.
+    pub stress: f64,
+    /// Largest of them.
+    pub worst: f64,
+    /// Mean distance between two cases, 0 … 1.
+    pub spread: f64,
+    /// Least distance between two cases.
+    pub nearest: f64,
+    /// Cells of the grid of motion that are met.
+    pub cells: usize,
+}
+
+impl<'a> Choice<'a> {
+    /// Among `candidates`.
+    pub fn new(candidates: &'a [Candidate]) -> Self {
+        let stress = unit(&candidates.iter().map(|c| c.stress).collect::<Vec<_>>());
+        let n = candidates.len();
+        let behaved = candidates.iter().all(|c| !c.behaviour.is_empty());
+        let measures = candidates.first().map_or(0, |c| c.behaviour.len());
+        let columns: Vec<Vec<f64>> = if behaved {
+            (0..measures).map(|m| unit(&candidates.iter().map(|c| c.behaviour[m]).collect::<Vec<_>>())).collect()
+        } else {
+            Vec::new()
+        };
+        let ways = matrix(n, |a, b| {
+            let squares = candidates[a].route.iter().zip(&candidates[b].route).map(|(p, q)| (p - q).norm_squared());
+            (squares.sum::<f64>() / POINTS as f64).sqrt()
+        });
+        let behaviours = matrix(n, |a, b| {
+            let squares = columns.iter().map(|column| (column[a] - column[b]) * (column[a] - column[b]));
+            squares.sum::<f64>().sqrt()
+        });
+        // Both are metrics, and so is their mean over constants.
+        let longest = |distances: &[f64]| distances.iter().copied().fold(0.0, f64::max);
+        let scales = [longest(&ways), longest(&behaviours)];
+        let parts = scales.iter().filter(|scale| **scale > 0.0).count().max(1) as f64;
+        let share = |distance: f64, scale: f64| if scale > 0.0 { distance / scale } else { 0.0 };
+        let mean = |(way, other): (&f64, &f64)| (share(*way, scales[0]) + share(*other, scales[1])) / parts;
+        Self { candidates, stress, apart: ways.iter().zip(&behaviours).map(mean).collect() }
+    }
+
+    /// `count` of the candidates, as their places in the list, in the order in which they are chosen.
+    pub fn best(&self, count: usize, by: By) -> Vec<usize> {
+        let n = self.candidates.len();
+        match by {
+            By::Stress => greedy::heaviest(&self.stress, count),
+            By::Diverse => greedy::dispersed(&self.stress, |a, b| self.apart[a * n + b], count),
+            By::Coverage => {
+                let cells: Vec<&BTreeSet<usize>> = self.candidates.iter().map(|candidate| &candidate.cells).collect();
+                greedy::covering(&cells, &self.stress, count)
+            }
+        }
+    }
+
+    /// How good a choice of places is.
+    pub fn measure(&self, chosen: &[usize]) -> Measured {
+        let n = self.candidates.len();
+        let stress = || chosen.iter().map(|place| self.candidates[*place].stress);
+        let pairs: Vec<f64> = chosen
+            .iter()
+            .enumerate()
+            .flat_map(|(i, a)| chosen[..i].iter().map(move |b| (a, b)))
+            .map(|(a, b)| self.apart[a * n + b])
+            .collect();
+        let mean = |sum: f64, count: usize| if count == 0 { 0.0 } else { sum / count as f64 };
+        let cells: BTreeSet<usize> = chosen.iter().flat_map(|place| self.candidates[*place].cells.clone()).collect();
+        Measured {
+            cases: chosen.len(),
+            stress: mean(stress().sum(), chosen.len()),
+            worst: stress().fold(f64::NEG_INFINITY, f64::max),
+            spread: mean(pairs.iter().sum(), pairs.len()),
+            nearest: if pairs.is_empty() { 0.0 } else { pairs.iter().copied().fold(f64::INFINITY, f64::min) },
+            cells: cells.len(),
+        }
+    }
+}
+
+/// `values` as shares of their range; all 0 where they are equal.
+fn unit(values: &[f64]) -> Vec<f64> {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let range = values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low;
+    values.iter().map(|value| if range > 0.0 { (value - low) / range } else { 0.0 }).collect()
+}
+
+fn matrix(n: usize, distance: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+    let mut all = vec![0.0; n * n];
+    for a in 0..n {
+        for b in 0..a {
+            (all[a * n + b], all[b * n + a]) = (distance(a, b), distance(a, b));
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn candidate(case: usize, stress: f64, x: f64, cells: &[usize]) -> Candidate {
+        let way = [Point3::origin(), Point3::new(x, 1.0, 0.0), Point3::new(2.0 * x, 0.0, 0.0)];
+        Candidate {
+            case,
+            stress,
+            route: evenly(&way),
+            behaviour: vec![stress, x],
+            cells: cells.iter().copied().collect(),
+        }
+    }
+
+    #[test]
+    fn near_copies_are_one_test() {
+        // Five near copies of the most stressful, and two others.
+        let mut all: Vec<Candidate> =
+            (0..5).map(|i| candidate(i, 1.0 - 0.01 * i as f64, 1.0 + 0.001 * i as f64, &[1])).collect();
+        all.push(candidate(5, 0.6, 5.0, &[2, 3]));
+        all.push(candidate(6, 0.5, -5.0, &[3, 4, 5]));
+        let choice = Choice::new(&all);
+        assert_eq!(choice.best(3, By::Stress), [0, 1, 2]);
+        let mut diverse = choice.best(3, By::Diverse);
+        diverse.sort_unstable();
+        assert!(diverse[0] < 5 && diverse[1..] == [5, 6], "{diverse:?}");
+        let (alike, apart) = (choice.measure(&[0, 1, 2]), choice.measure(&diverse));
+        assert!(apart.spread > 3.0 * alike.spread && apart.stress < alike.stress && alike.nearest < 0.02);
+        assert_eq!(choice.best(2, By::Coverage), [6, 0]);
+        assert_eq!(choice.measure(&[6, 0]).cells, 4);
+        assert_eq!(choice.best(99, By::Diverse).len(), 7);
+    }
+
+    #[test]
+    fn places_are_even_along_the_way() {
+        let way = [Point3::origin(), Point3::new(1.0, 0.0, 0.0), Point3::new(1.0, 3.0, 0.0)];
+        let places = evenly(&way);
+        assert_eq!((places[0], places[POINTS - 1]), (way[0], way[2]));
+        let steps: Vec<f64> = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
+        // But for the one around the corner.
+        assert!(steps.iter().filter(|step| (*step - 4.0 / 23.0).abs() < 1e-12).count() >= POINTS - 2, "{steps:?}");
+        assert_eq!(evenly(&[Point3::origin()]).len(), POINTS);
+    }
+}
