@@ -71,6 +71,10 @@ fn flights_drives_and_programs_say_what_they_exercised() {
     run(here, &[&SMALL[..], &["--out", "flight"]].concat());
     run(here, &["stress", "demo-rover", "--set", "generate.search.cases=1", "--out", "drive"]);
     run(here, &["stress", "demo-arm", "--out", "arm"]);
+    let table = fs::read_to_string(here.join("flight/coverage.csv")).unwrap();
+    assert!(
+        table.starts_with("speed_from_m_s,speed_to_m_s,turn_from_deg,turn_to_deg,climb_from_deg,climb_to_deg,cases\n")
+    );
     for (name, axes, all) in [
         ("flight", ["speed", "turn", "climb"].as_slice(), 100),
         ("drive", &["slope", "curvature", "slip"], 125),

@@ -19,12 +19,8 @@ pub(crate) fn run(asked: &Explain) -> Result<u8, Problem> {
     sets.extend(asked.seed.map(|seed| ("seed".to_owned(), seed.to_string())));
     let setup = Setup::new(scenario_for(&asked.scenario, &sets)?)?.with_simd(folder::simd(&asked.kernels));
     let (began, deadline) = (Instant::now(), Deadline::after(asked.time_limit));
-    let stop = Stop {
-        cancelled: &|| interrupt::asked() || deadline.passed(),
-        progress: &|_, _| {},
-        clock: &|| began.elapsed().as_secs_f64(),
-    };
-    let found = explain(&setup, asked.graphs, &stop)?;
+    let stop = Stop { cancelled: &interrupt::asked, progress: &|_, _| {}, clock: &|| began.elapsed().as_secs_f64() };
+    let found = explain(&setup, asked.graphs, &stop, &|| deadline.passed())?;
     if interrupt::asked() {
         return Err(Problem::Interrupted("stopped".into()));
     }

@@ -46,16 +46,15 @@ impl CampaignFolder {
         text.push('\n');
         atomic::write(&self.file(json), text.as_bytes())?;
         let axes = &coverage.grid.axes;
-        let name = |axis: &Axis| match axis.unit.as_str() {
-            "" => axis.name.clone(),
-            unit => format!("{} ({unit})", axis.name),
-        };
-        let mut table = axes.iter().map(name).chain(["cases".into()]).collect::<Vec<_>>().join(",") + "\n";
+        let mut table = axes.iter().flat_map(columns).chain(["cases".into()]).collect::<Vec<_>>().join(",") + "\n";
         for cell in 0..coverage.cells {
             let places = coverage.grid.places(cell);
-            let row = axes.iter().zip(places).map(|(axis, place)| axis.told(place));
+            let cells = axes.iter().zip(places).flat_map(|(axis, place)| match axis.words.get(place) {
+                Some(word) => vec![word.clone()],
+                None => vec![axis.edges[place].to_string(), axis.edges[place + 1].to_string()],
+            });
             let cases = coverage.cases.get(&cell).copied().unwrap_or(0).to_string();
-            table += &(row.chain([cases]).collect::<Vec<_>>().join(",") + "\n");
+            table += &(cells.chain([cases]).collect::<Vec<_>>().join(",") + "\n");
         }
         Ok(atomic::write(&self.file(csv), table.as_bytes())?)
     }
@@ -130,5 +129,16 @@ impl CampaignFolder {
                 found.map_err(|cause| FolderError::Unreadable { path, cause })
             }
         }
+    }
+}
+
+/// The columns of an axis in `coverage.csv`: `speed_from_m_s` and `speed_to_m_s`, or its name where its cells have words.
+fn columns(axis: &Axis) -> Vec<String> {
+    let snake = |text: &str| text.replace('°', "deg").replace('%', "percent").replace(['/', ' '], "_");
+    let unit = if axis.unit.is_empty() { String::new() } else { format!("_{}", snake(&axis.unit)) };
+    let name = snake(&axis.name);
+    match axis.words.is_empty() {
+        true => vec![format!("{name}_from{unit}"), format!("{name}_to{unit}")],
+        false => vec![name],
     }
 }

@@ -123,7 +123,12 @@ impl Trial<'_> {
             Turn::Number { now, unit, .. } => {
                 let to = to.as_f64().unwrap_or(*now);
                 let least = if now.abs() >= 100.0 { 0 } else { 1 };
-                let decimals = (least..6).find(|d| format!("{now:.d$}") != format!("{to:.d$}")).unwrap_or(6);
+                // As many as tell both apart, and show what the smaller one is.
+                let small = |d: &usize| format!("{:.d$}", now.abs().min(to.abs()), d = *d).parse().unwrap_or(0.0);
+                let near =
+                    |d: &usize| (small(d) - now.abs().min(to.abs())).abs() <= PRECISION * now.abs().min(to.abs());
+                let apart = |d: &usize| format!("{now:.d$}", d = *d) != format!("{to:.d$}", d = *d);
+                let decimals = (least..9).find(|d| near(d) && apart(d)).unwrap_or(9);
                 format!("{name} {now:.decimals$} → {to:.decimals$} {unit}").trim_end().to_owned()
             }
             Turn::Either { .. } => format!("{name} {to}"),

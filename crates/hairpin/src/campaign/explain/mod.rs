@@ -33,11 +33,17 @@ pub struct Explanation {
 
 /// Samples and searches `graphs` graphs of `setup`; where none has a trajectory, every relevant key is changed until one has.
 ///
-/// The same graphs (of the same seeds) are asked with every change. `stop` ends the search for changes with those that were found.
+/// The same graphs (of the same seeds) are asked with every change. `enough` ends the search for changes with those that were found, `stop`
+/// that of the scenario's own graphs as well.
 ///
 /// # Errors
 /// A scenario that no search can be begun with.
-pub fn explain(setup: &Setup, graphs: u64, stop: &Stop) -> Result<Explanation, Mistake> {
+pub fn explain(
+    setup: &Setup,
+    graphs: u64,
+    stop: &Stop,
+    enough: &(dyn Fn() -> bool + Sync),
+) -> Result<Explanation, Mistake> {
     let setup = first_of(&setup.scenario, graphs).and_then(|scenario| setup.of_draw(scenario))?;
     let tally = searched(&setup, true, stop);
     let deaths = match setup.kind() {
@@ -45,8 +51,10 @@ pub fn explain(setup: &Setup, graphs: u64, stop: &Stop) -> Result<Explanation, M
         Kind::Drive(setup) => drive::deaths(&setup, graphs),
         Kind::Arm(setup) => arm::deaths(&setup),
     };
-    let changes = if tally.solved > 0 { Vec::new() } else { changes::smallest(&setup, stop) };
-    let stopped = (stop.cancelled)();
+    let cancelled = || (stop.cancelled)() || enough();
+    let looking = Stop { cancelled: &cancelled, ..*stop };
+    let changes = if tally.solved > 0 { Vec::new() } else { changes::smallest(&setup, &looking) };
+    let stopped = tally.solved == 0 && cancelled();
     Ok(Explanation { graphs: tally.graphs, solved: tally.solved, deaths, changes, stopped, tally })
 }
 
