@@ -14,7 +14,7 @@ pub(in crate::campaign) fn deaths(setup: &ArmSetup) -> Deaths {
         for (from, to) in pairs {
             match graph.reachability.refusal(from, to) {
                 Some(refusal) => {
-                    let (stage, limit) = told(&refusal, &names);
+                    let (stage, limit) = told(refusal, &names);
                     counter.lose(stage, &limit);
                 }
                 None if graph.costs[from * n + to].is_none() => counter.lose(Stage::Limits, "the table of costs"),
