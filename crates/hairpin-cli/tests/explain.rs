@@ -98,10 +98,12 @@ fn drives_and_arms_have_their_own_reasons() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let stiff = ["explain", "demo-rover", "--graphs", "1", "--set", "generate.limits.curvature_1_m=0.002"];
-    let object = json(here, &[&stiff[..], &["--set", "generate.search.waypoints=12"]].concat());
+    let object =
+        json(here, &[&stiff[..], &["--set", "generate.search.waypoints=12", "--set", "task.length=3"]].concat());
     assert_eq!(object["exit_code"], 3, "{object}");
     assert!(lost(&object, "reach") > 0 && object["deaths"]["left"] == 0, "{object}");
-    assert!(change(&object, "generate.limits.curvature_1_m").is_some(), "{object}");
+    let words = change(&object, "generate.limits.curvature_1_m").unwrap()["words"].as_str().unwrap();
+    assert!(words.starts_with("curvature 0.002 → 0."), "{words}");
 
     let object = json(here, &["explain", "demo-arm", "--set", "generate.search.min_cost=1e9"]);
     assert_eq!(object["exit_code"], 3, "{object}");
