@@ -31,7 +31,7 @@ mod tests {
         assert_eq!((generic.limits.curvature, generic.limits.curvature_rate, generic.default_speed), (1.0, 1.0, 1.0));
         assert!(told("genric").contains("did you mean `generic`?"), "{}", told("genric"));
         assert!(told("anafi").contains("no rover"));
-        for name in ["rocky7", "rocky8", "open-source-rover", "four-wheel"] {
+        for name in ["rocky7", "rocky8", "open-source-rover", "sojourner-like", "four-wheel"] {
             assert_eq!(rover_for(name).unwrap().name, name);
         }
         let folder = tempfile::tempdir().unwrap();

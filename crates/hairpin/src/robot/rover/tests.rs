@@ -29,7 +29,7 @@ fn hills() -> impl Terrain {
 
 #[test]
 fn on_a_plane_of_any_tilt_the_body_has_the_planes_attitude() {
-    for name in ["rocky7", "rocky8", "open-source-rover", "four-wheel"] {
+    for name in ["rocky7", "rocky8", "open-source-rover", "sojourner-like", "four-wheel"] {
         let rover = shipped(name);
         let level = rover.suspension.settle_cold(&Flat, [0.3, -0.2, 0.7]).expect("rest").0;
         for (a, b, yaw) in [(0.0, 0.0, 0.0), (0.3, 0.0, 0.0), (0.0, 0.4, 0.0), (0.5, -0.3, 2.1), (-0.2, 0.6, -1.0)] {
@@ -95,7 +95,7 @@ fn a_step_under_one_wheel_turns_rocker_and_bogie_as_by_hand() {
 
 #[test]
 fn the_gradient_is_that_of_the_settled_pose() {
-    for name in ["rocky8", "four-wheel", "open-source-rover"] {
+    for name in ["rocky8", "four-wheel", "open-source-rover", "sojourner-like"] {
         let rover = shipped(name);
         let hills = hills();
         let settle = |at: [f64; 3]| rover.suspension.settle_cold(&hills, at).expect("rest");
