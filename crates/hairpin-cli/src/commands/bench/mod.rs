@@ -3,6 +3,7 @@
 mod arm;
 mod arm_controller;
 pub(super) mod clock;
+mod controls;
 mod exact;
 pub(super) mod ground;
 mod max_load;
@@ -75,6 +76,7 @@ pub(crate) fn run(bench: &Bench) -> Result<u8, Problem> {
         simulation::rows(),
         arm_controller::rows(),
         steer::rows(),
+        controls::rows(),
         ground::rows(),
         memory::rows(),
         arm::rows(),

@@ -21,15 +21,14 @@ use super::{Row, Target};
 use crate::args::Bench;
 use crate::problem::Problem;
 
-const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
+pub(super) const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
 const QUERIES: usize = 10_000;
 /// Of the other families.
-const FEW: usize = 1000;
+pub(super) const FEW: usize = 1000;
 /// Share by which rounding may exceed a bound.
 const ROUNDING: f64 = 1e-9;
 
 pub(super) fn rows() -> Vec<Row> {
-    let row = |name, unit, target, measure| Row { name, unit, target, measure };
     let most = |bound| Some(Target::AtMost(bound));
     let all = Some(Target::AtLeast(100.0));
     vec![
@@ -54,6 +53,15 @@ pub(super) fn rows() -> Vec<Row> {
         row("steer-batch-1-thread", "1/s", None, |_| batch(1)),
         row("steer-batch-2-threads", "× 1 thread", Some(Target::AtLeast(1.8)), |_| Ok(batch(2)? / batch(1)?)),
     ]
+}
+
+pub(super) fn row(
+    name: &'static str,
+    unit: &'static str,
+    target: Option<Target>,
+    measure: fn(&Bench) -> Result<f64, Problem>,
+) -> Row {
+    Row { name, unit, target, measure }
 }
 
 /// The table of start values of `generic`, made once.
@@ -117,7 +125,7 @@ fn micros_by(queries: &[Query], choices: &Choices) -> f64 {
 }
 
 /// Whether a replay ends within 1 cm, 0.01 rad and 0.01 1/m and keeps both bounds.
-fn good(found: &DriveReplay) -> bool {
+pub(super) fn good(found: &DriveReplay) -> bool {
     let [x, y, yaw] = found.error;
     libm::hypot(x, y) <= 0.01
         && yaw.abs() <= 0.01
