@@ -24,7 +24,7 @@ pub use description::{RoverDescription, RoverKind};
 pub use error::RoverError;
 pub(super) use error::within;
 pub use four_wheel::FourWheel;
-pub use motion::{Kinematics, Rates, Slip, rates};
+pub use motion::{Kinematics, RateSlopes, Rates, Slip, rate_slopes, rates};
 pub use rest::{Gradient, Settled, Unsettled};
 pub use rocker_bogie::RockerBogie;
 pub use suspension::Suspension;

@@ -53,6 +53,17 @@ pub struct Rates {
     pub yaw: f64,
 }
 
+/// How [`rates`] change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RateSlopes {
+    /// By roll, 1/rad.
+    pub roll: Rates,
+    /// By pitch, 1/rad.
+    pub pitch: Rates,
+    /// By the curvature, m.
+    pub curvature: Rates,
+}
+
 /// What is commanded, in the body: vx and vy per metre of travel, ωz in 1/m; of a turn in place 0, 0, 1.
 #[derive(Debug, Clone, Copy)]
 struct Commanded([f64; 3]);
@@ -134,6 +145,36 @@ impl Lean {
 pub fn rates(pose: &Settled, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip) -> Rates {
     let lean = Lean::of(pose);
     lean.source(lean.commanded(direction, sign, curvature, slip))
+}
+
+/// Derivatives of [`rates`] by roll, pitch and curvature; with ρ the rises −sinθ and cosθ sinφ of the body's axes,
+///
+/// ```text
+/// ∂v = −s₂₀/sin 20° (along · ∂ρ) along + s′₂₀/sin 20° (across · ∂ρ) across
+/// ```
+pub fn rate_slopes(pose: &Settled, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip) -> RateSlopes {
+    let lean = Lean::of(pose);
+    let Lean { sf, cf, st, ct } = lean;
+    let Commanded([vx, vy, turn]) = lean.commanded(direction, sign, curvature, slip);
+    let progress = vx * direction.1 + vy * direction.0;
+    // Of the commanded twist, where the axes' rises change by `x` and `y`.
+    let by_rises = |x: f64, y: f64| {
+        let progress = -slip.at_20_deg / SIN_20 * (direction.1 * x + direction.0 * y);
+        let drift = -slip.side_at_20_deg / SIN_20 * (direction.1 * y - direction.0 * x);
+        let vx = progress * direction.1 - drift * direction.0;
+        let vy = progress * direction.0 + drift * direction.1;
+        Commanded([vx, vy, curvature * progress])
+    };
+    let (roll, pitch) = (lean.source(by_rises(0.0, ct * cf)), lean.source(by_rises(-ct, -st * sf)));
+    RateSlopes {
+        roll: Rates { ahead: roll.ahead + st * cf * vy, left: roll.left - sf * vy, yaw: roll.yaw - sf / ct * turn },
+        pitch: Rates {
+            ahead: pitch.ahead - st * vx + ct * sf * vy,
+            left: pitch.left,
+            yaw: pitch.yaw + cf * st / (ct * ct) * turn,
+        },
+        curvature: Rates { ahead: 0.0, left: 0.0, yaw: cf / ct * progress },
+    }
 }
 
 impl Rover {

@@ -18,6 +18,6 @@ mod wait;
 mod tests;
 
 pub use cost::{GroundCost, cost_along};
-pub use predict::{Blocked, Cause, Course, Driven, Prediction, Steps, predict, tilt};
+pub use predict::{Blocked, Cause, Course, Driven, Prediction, Steps, predict, predict_while, tilt};
 pub use solve::{Answer, Settings, Status, solve, solve_until};
 pub use wait::Waiting;

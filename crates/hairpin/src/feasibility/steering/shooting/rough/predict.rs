@@ -64,6 +64,8 @@ pub struct Driven {
     pub at: Planar,
     /// How the body stands.
     pub settled: Settled,
+    /// How that changes with its place.
+    pub gradient: Gradient,
 }
 
 /// How commands are integrated.
@@ -145,6 +147,23 @@ pub fn predict<T: Terrain>(
     segments: &[Segment],
     mut observe: impl FnMut(&Driven),
 ) -> Result<Prediction, Blocked> {
+    let all = |driven: &Driven| {
+        observe(driven);
+        true
+    };
+    predict_while(course, start, segments, all).map(|(prediction, _)| prediction)
+}
+
+/// [`predict`] for as long as `go_on` says, and whether that was to the end: what it did not see is not in the prediction.
+///
+/// # Errors
+/// As [`predict`].
+pub fn predict_while<T: Terrain>(
+    course: &Course<'_, T>,
+    start: &Planar,
+    segments: &[Segment],
+    mut go_on: impl FnMut(&Driven) -> bool,
+) -> Result<(Prediction, bool), Blocked> {
     let rover = course.rover;
     let (settled, gradient) = rover
         .suspension
@@ -169,11 +188,12 @@ pub fn predict<T: Terrain>(
             steps: 1,
         },
     };
+    let mut whole = true;
     for segment in segments {
-        walk.drive(course, segment, &mut observe)?;
+        whole = whole && walk.drive(course, segment, &mut go_on)?;
     }
     walk.prediction.end = walk.at;
-    Ok(walk.prediction)
+    Ok((walk.prediction, whole))
 }
 
 /// A prediction under way.
@@ -200,8 +220,8 @@ impl Walk {
         &mut self,
         course: &Course<'_, T>,
         segment: &Segment,
-        observe: &mut impl FnMut(&Driven),
-    ) -> Result<(), Blocked> {
+        go_on: &mut impl FnMut(&Driven) -> bool,
+    ) -> Result<bool, Blocked> {
         let sign = segment.gear.sign();
         match segment.motion {
             Motion::Turn { angle_rad } => {
@@ -212,14 +232,18 @@ impl Walk {
                     let middle = moved(&self.at, &here, 0.5 * h, self.at.yaw + 0.25 * h * here.yaw);
                     self.look(course, &middle)?;
                     self.turned += h.abs();
-                    observe(&Driven {
+                    let driven = Driven {
                         s: self.travelled,
                         turned: self.turned - 0.5 * h.abs(),
                         step: h,
                         in_place: true,
                         at: middle,
                         settled: self.settled,
-                    });
+                        gradient: self.gradient,
+                    };
+                    if !go_on(&driven) {
+                        return Ok(false);
+                    }
                     let there = course.rover.turning((&self.settled, &self.gradient), middle.yaw);
                     self.advance(course.rover, &there, h, middle.yaw);
                 }
@@ -253,14 +277,18 @@ impl Walk {
                     middle.curvature = curvature;
                     self.look(course, &middle)?;
                     self.travelled += h;
-                    observe(&Driven {
+                    let driven = Driven {
                         s: self.travelled - 0.5 * h,
                         turned: self.turned,
                         step: sign * h,
                         in_place: false,
                         at: middle,
                         settled: self.settled,
-                    });
+                        gradient: self.gradient,
+                    };
+                    if !go_on(&driven) {
+                        return Ok(false);
+                    }
                     let stands = (&self.settled, &self.gradient);
                     let there = course.rover.rates(stands, middle.yaw, direction, sign, curvature);
                     self.advance(course.rover, &there, h, middle.yaw);
@@ -269,7 +297,7 @@ impl Walk {
             }
         }
         self.before = Some(*segment);
-        Ok(())
+        Ok(true)
     }
 
     /// Drives a step of `h` at the rates of its middle, the last look. What the body rose and pitched beyond what gradients foresaw since

@@ -14,6 +14,7 @@
 
 mod pieces;
 mod sweep;
+mod variation;
 
 use std::f64::consts::TAU;
 
@@ -23,6 +24,7 @@ pub(super) use self::pieces::{Change, PIECES, UNKNOWNS, bend, changed, divided, 
 use self::pieces::{excess, for_each_limit};
 use self::sweep::Sweep;
 pub(super) use self::sweep::Tangent;
+use self::variation::Variation;
 use super::miss::{Miss, miss, units};
 use super::predict::{Course, Prediction, predict};
 use crate::feasibility::steering::shooting::query::{Curvatures, Precision};
@@ -115,12 +117,11 @@ pub(super) fn refine<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList,
     (found, predictions)
 }
 
-/// How the end of the motion of `segments` moves with a change of them; `None` where they do not pass.
+/// How the end of the motion of `segments` moves with a change of them, suspension and slip included; `None` where they do not pass.
 pub(super) fn tangent<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList) -> Option<Tangent> {
-    let behind = task.course.rover.response.steering_time_constant * task.course.speed.top();
-    let mut sweep = Sweep::new(task.from, behind, segments);
-    let prediction = predict(task.course, task.from, segments, |driven| sweep.add(driven)).ok()?;
-    Some(sweep.tangent(&prediction.end))
+    let mut variation = Variation::new(task.course, segments);
+    predict(task.course, task.from, segments, |driven| variation.add(driven)).ok()?;
+    Some(variation.tangent())
 }
 
 /// A change that moves the middle of a drive by about `aside` m: y = aside (1 − cos 2πs/L)/2 has y″ = ½ aside (2π/L)² cos 2πs/L.

@@ -9,6 +9,26 @@ use crate::trajectory::drive::{Planar, Segment};
 /// How the end, (x, y, ψ, κ), moves with a change.
 pub(in super::super) type Tangent = SMatrix<f64, 4, UNKNOWNS>;
 
+/// Where pieces end, m.
+pub(super) fn ends_of(segments: &[Segment]) -> [f64; PIECES] {
+    let mut ends = [0.0; PIECES];
+    let mut total = 0.0;
+    for (end, segment) in ends.iter_mut().zip(segments) {
+        total += segment.length_m();
+        *end = total;
+    }
+    ends
+}
+
+/// δκ of the bends at `s` of pieces with these `ends`; the stretch has none.
+pub(super) fn bent_at(ends: &[f64; PIECES], s: f64) -> Change {
+    let s = s.max(0.0);
+    let piece = ends.iter().position(|&end| s <= end).unwrap_or(PIECES - 1);
+    let start = if piece > 0 { ends[piece - 1] } else { 0.0 };
+    let share = (s - start) / (ends[piece] - start);
+    bend(piece, 1.0 - share, share)
+}
+
 /// ∫δκ, ∫x δκ, ∫y δκ along a prediction, for each unknown's δκ.
 pub(super) struct Sweep {
     from: Planar,
@@ -24,15 +44,9 @@ pub(super) struct Sweep {
 impl Sweep {
     /// A sweep from `from` along `segments`, whose steering is `behind` metres late.
     pub(super) fn new(from: &Planar, behind: f64, segments: &[Segment]) -> Self {
-        let mut ends = [0.0; PIECES];
-        let mut total = 0.0;
-        for (end, segment) in ends.iter_mut().zip(segments.iter()) {
-            total += segment.length_m();
-            *end = total;
-        }
         Self {
             from: *from,
-            ends,
+            ends: ends_of(segments),
             behind,
             sign: segments.first().map_or(1.0, |first| first.gear.sign()),
             done: 0.0,
@@ -42,11 +56,7 @@ impl Sweep {
 
     /// δκ of the unknowns at `s`, where the vehicle has the curvature `curvature`.
     fn effect(&self, s: f64, curvature: f64) -> Change {
-        let s = (s - self.behind).max(0.0);
-        let piece = self.ends.iter().position(|&end| s <= end).unwrap_or(PIECES - 1);
-        let start = if piece > 0 { self.ends[piece - 1] } else { 0.0 };
-        let share = (s - start) / (self.ends[piece] - start);
-        let mut effect = bend(piece, 1.0 - share, share);
+        let mut effect = bent_at(&self.ends, s - self.behind);
         effect[PIECES] = curvature;
         effect
     }
