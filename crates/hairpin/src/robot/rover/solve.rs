@@ -21,11 +21,12 @@ pub(super) fn eliminate<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]
                 continue;
             }
             let factor = line[pivot] * inverse;
-            for (value, from) in line.iter_mut().zip(&lead).skip(pivot) {
+            // Whole rows: what lies before the pivot is not looked at again, and equal lengths fill the lanes.
+            for (value, from) in line.iter_mut().zip(&lead) {
                 *value -= factor * from;
             }
         }
-        for value in rows[pivot].iter_mut().skip(pivot) {
+        for value in &mut rows[pivot] {
             *value *= inverse;
         }
     }

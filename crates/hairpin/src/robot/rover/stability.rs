@@ -64,7 +64,7 @@ impl Rover {
             for j in 0..=across {
                 let y = belly.half_width * (2.0 * j as f64 / across as f64 - 1.0);
                 let place = origin + world_from_body * Vector3::new(x, y, belly.height);
-                least = least.min(place.z - terrain.patch(place.x, place.y)?.height);
+                least = least.min(place.z - terrain.height(place.x, place.y)?);
             }
         }
         Ok(least)

@@ -170,6 +170,7 @@ impl ElevationMap {
         Self { heights, ..self.clone() }
     }
 
+    #[inline]
     fn locate(&self, x: f64, y: f64) -> Option<Located> {
         let u = (x - self.grid.first_center[0]) * self.per_cell[0];
         let v = (y - self.grid.first_center[1]) * self.per_cell[1];
@@ -248,6 +249,19 @@ impl Terrain for ElevationMap {
                 py * py * dot(&along_y[2], &rows[0]),
             ],
         })
+    }
+
+    #[inline]
+    fn height(&self, x: f64, y: f64) -> Result<f64, NoGround> {
+        let Some(at) = self.locate(x, y) else { return Err(NoGround::OffMap { x, y }) };
+        let ([along_x, ..], [along_y, ..]) = (weights(at.u), weights(at.v));
+        let row = |j: usize| {
+            let from = (at.row + j) * self.stride + at.column;
+            let cells = &self.heights[from..from + 4];
+            dot(&along_x, &[f64::from(cells[0]), f64::from(cells[1]), f64::from(cells[2]), f64::from(cells[3])])
+        };
+        let height = dot(&along_y, &[row(0), row(1), row(2), row(3)]);
+        if height.is_nan() { Err(NoGround::Hole { x, y }) } else { Ok(height) }
     }
 }
 

@@ -56,4 +56,12 @@ pub trait Terrain: Sync {
     /// # Errors
     /// [`NoGround`] where nothing is known.
     fn patch(&self, x: f64, y: f64) -> Result<Patch, NoGround>;
+
+    /// The height alone, to the bit, where there is a cheaper way to it.
+    ///
+    /// # Errors
+    /// As [`Self::patch`].
+    fn height(&self, x: f64, y: f64) -> Result<f64, NoGround> {
+        self.patch(x, y).map(|patch| patch.height)
+    }
 }

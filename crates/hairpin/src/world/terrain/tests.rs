@@ -37,6 +37,7 @@ fn derivatives_are_those_of_the_height() {
     for i in 0..200 {
         let (x, y) = (0.3 + 0.0117 * f64::from(i), 2.6 - 0.0113 * f64::from(i));
         let at = |x: f64, y: f64| map.patch(x, y).expect("ground");
+        assert_eq!(map.height(x, y).expect("ground").to_bits(), at(x, y).height.to_bits(), "({x}, {y})");
         let (p, e, w, n, s) = (at(x, y), at(x + h, y), at(x - h, y), at(x, y + h), at(x, y - h));
         assert!((p.slope[0] - (e.height - w.height) / (2.0 * h)).abs() < 2e-5, "slope at ({x}, {y})");
         assert!((p.slope[1] - (n.height - s.height) / (2.0 * h)).abs() < 2e-5, "slope at ({x}, {y})");

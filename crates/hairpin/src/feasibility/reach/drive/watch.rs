@@ -2,7 +2,7 @@
 
 use super::settings::{DriveSettings, DriveSite};
 use super::tally::LegRefusal;
-use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Steps, predict};
+use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Steps, predict_while};
 use crate::robot::rover::{Settled, Slip, Suspension, Unsettled};
 use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::{Motion, Planar, Segment};
@@ -52,7 +52,7 @@ pub(super) fn watch(
         unlooked: f64::INFINITY,
         refused: None,
     };
-    predict(&course, start, motion, |driven| watcher.look(driven)).map_err(|blocked| refusal(&blocked))?;
+    predict_while(&course, start, motion, |driven| watcher.look(driven)).map_err(|blocked| refusal(&blocked))?;
     let Watcher { mut met, way, refused, .. } = watcher;
     met.slip = if way > 0.0 { met.slip / way } else { 0.0 };
     refused.map_or(Ok(met), Err)
@@ -117,13 +117,11 @@ struct Watcher<'a> {
 }
 
 impl Watcher<'_> {
-    fn look(&mut self, driven: &Driven) {
+    /// Looks at a step; `false` where nothing more need be looked at.
+    fn look(&mut self, driven: &Driven) -> bool {
         // A step of h metres is seen at its middle; turns in place have none.
         let metres = 2.0 * (driven.s - self.way);
         self.way += metres;
-        if self.refused.is_some() {
-            return;
-        }
         let (at, settled) = (&driven.at, &driven.settled);
         let ((sin_roll, cos_roll), (sin_pitch, cos_pitch)) = (libm::sincos(settled.roll), libm::sincos(settled.pitch));
         self.refused = self.kept(at, metres, cos_roll * cos_pitch, settled).err();
@@ -136,6 +134,7 @@ impl Watcher<'_> {
             self.met.slope = self.met.slope.max(libm::asin(climb.abs().min(1.0)));
             self.met.slip += metres * slip;
         }
+        self.refused.is_none()
     }
 
     fn kept(&mut self, at: &Planar, metres: f64, upright: f64, settled: &Settled) -> Result<(), LegRefusal> {
