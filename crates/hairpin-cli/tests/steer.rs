@@ -350,8 +350,9 @@ fn precision_steps_and_costs_are_what_was_asked_for() {
     assert!((bent(&rate, true) / value - 1.0).abs() < 1e-4, "{rate}");
     for (flags, told) in [
         (vec!["--cost", "tilt"], "--terrain"),
-        (vec!["--cost", "rate", "--control", "knots"], "quintic"),
-        (vec!["--cost", "rate", "--direction-end", "0.2"], "direction of travel"),
+        (vec!["--cost", "rate", "--control", "cubic"], "cubic has 0 parameters to spare for it: 5 for 5 conditions"),
+        (vec!["--cost", "rate", "--control", "arc"], "arc has 0 parameters to spare for it: 2 for 2 conditions"),
+        (vec!["--cost", "rate", "--control", "turn-drive-turn"], "turn-drive-turn has 0 parameters"),
         (vec!["--step-scale", "0"], "0.01 to 1"),
         (vec!["--iterations=-1"], "100000"),
         (vec!["--tolerance-yaw-rad", "0"], "> 0"),

@@ -39,7 +39,7 @@ fn steer(folder: &Path, rover: &str, more: &[&str]) -> (i32, Value) {
 fn rovers_that_rest_on_their_wheels_meet_goals_on_rolling_ground() {
     let folder = tempfile::tempdir().unwrap();
     hills(folder.path(), rolling);
-    for rover in ["rocky8", "rocky7", "open-source-rover", "four-wheel"] {
+    for rover in ["rocky8", "rocky7", "open-source-rover", "sojourner-like", "four-wheel"] {
         for goal in ["4,1,0.5", "3,-2,-1", "5,0.5,0.2"] {
             let (code, answer) = steer(folder.path(), rover, &["--from", "-3,-2,0.3", "--to", goal]);
             assert_eq!((code, &answer["status"]), (0, &Value::from("ok")), "{rover} to {goal}: {answer}");
@@ -171,11 +171,16 @@ fn places_to_keep_out_of_are_gone_around_on_the_plane_and_on_the_ground() {
         assert_eq!((code, &around["status"]), (0, &Value::from("ok")), "{around}");
         assert!(around["segments"] != plain["segments"], "the rock is not in the way: {plain}");
         assert!(around["length_m"].as_f64() > plain["length_m"].as_f64(), "{around} {plain}");
-        // The same place as a flag is the same place, and other families say that it is in their way.
+        // The same place as a flag is the same place. Other families go around it as well, or say that they cannot.
         let (_, flag) = ask(&["--keep-out-circle", "0.5,-0.6,0.4"]);
         assert_eq!(flag["segments"], around["segments"]);
-        let (code, knots) = ask(&["--keep-out", "rocks.toml", "--control", "knots"]);
-        assert_eq!((code, &knots["limit"]), (3, &Value::from("keep_out")), "{knots}");
+        for control in ["knots", "time-polynomial", "velocity-polynomial"] {
+            let (code, other) = ask(&["--keep-out", "rocks.toml", "--control", control]);
+            assert_eq!((code, &other["status"], &other["control"]), (0, &"ok".into(), &control.into()), "{other}");
+        }
+        let (code, cubic) = ask(&["--keep-out", "rocks.toml", "--control", "cubic"]);
+        assert_eq!((code, &cubic["limit"]), (3, &Value::from("keep_out")), "{cubic}");
+        assert_eq!(cubic["keep_out"]["spare_parameters"], 0, "{cubic}");
         // A goal beside the rock is within reach of the wheels.
         let to = [&there[..2], &["--to", "1.2,-0.4,0.3", "--keep-out", "rocks.toml"]].concat();
         let (code, out, _) = run(folder.path(), &[&["steer", "rocky8", "--json"], ground, &to[..]].concat());

@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use hairpin::campaign::drive::drive_piece;
 use hairpin::feasibility::steering::clear::Intrusion;
-use hairpin::feasibility::steering::shooting::families::Parameters;
+use hairpin::feasibility::steering::shooting::Control;
+use hairpin::feasibility::steering::shooting::families::{Parameters, Problem};
 use hairpin::feasibility::steering::shooting::flat::Limit;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision};
 use hairpin::feasibility::steering::shooting::solve::Solution;
@@ -60,12 +61,16 @@ pub(super) struct Near {
     pub(super) depth: f64,
     /// Metres driven before.
     pub(super) after_m: f64,
+    /// Parameters that the family has to spare for going around it; `None` for the default, which has chains of clothoids.
+    pub(super) spare: Option<u32>,
 }
 
 impl Near {
-    pub(super) fn new(intrusion: &Intrusion, keep_outs: &KeepOuts) -> Self {
+    pub(super) fn new(intrusion: &Intrusion, keep_outs: &KeepOuts, control: Control, problem: &Problem) -> Self {
         let place = keep_outs.list().get(intrusion.place).map_or_else(String::new, |place| place.name.clone());
-        Self { place, depth: intrusion.depth, after_m: intrusion.after_m }
+        let default = control == Control::Quintic && problem.swing == 0.0;
+        let spare = (!default).then(|| problem.spare(control));
+        Self { place, depth: intrusion.depth, after_m: intrusion.after_m, spare }
     }
 
     /// As a limit, with what it is exceeded by.

@@ -68,7 +68,9 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
     let solving = begun.elapsed();
     let Searched { status, solution, intrusion } = found;
     let ran_out = over() && status != Found::Ok;
-    let near = intrusion.filter(|_| !ran_out).map(|intrusion| Near::new(&intrusion, task.keep_outs));
+    let near = intrusion
+        .filter(|_| !ran_out)
+        .map(|intrusion| Near::new(&intrusion, task.keep_outs, task.control, task.boundary));
     let flat = replay_drive(&pieces(&solution), &claim(asked, &solution.segments, false));
     let replay = site.replay(&start, &goal, &solution.segments);
     let answered = |status, limit, drive: Option<(Solution, DriveReplay)>| Answered {

@@ -43,6 +43,7 @@ impl Means {
             GroundCost::Rate => Cost::Rate,
             _ => Cost::Any,
         };
+        choices.families.cost = choices.flat.cost;
         let effort = &steer.effort;
         choices.flat.table = effort.start_table.as_deref().map(|path| start_table::load(path, rover)).transpose()?;
         let usual = Precision::default();
@@ -73,19 +74,21 @@ fn cost(steer: &Steer) -> Result<GroundCost, Problem> {
     if cost == GroundCost::Any {
         return Ok(cost);
     }
-    if Control::from(steer.control) != Control::Quintic {
-        return Err(Problem::input("--cost: only --control quintic has parameters to spare for it"));
+    let control = Control::from(steer.control);
+    if control.parameters() <= control.conditions() {
+        return Err(Problem::input(format!(
+            "--cost: --control {} has 0 parameters to spare for it: {} for {} conditions; quintic, time-polynomial, \
+             velocity-polynomial and knots have some",
+            control.name(),
+            control.parameters(),
+            control.conditions()
+        )));
     }
     if steer.terrain.is_some() {
         return Ok(cost);
     }
     if !matches!(steer.cost, SteerCost::Curvature | SteerCost::Rate) {
         return Err(Problem::input("--cost: in the plane nothing tilts, slips or climbs; give --terrain"));
-    }
-    if steer.direction_end.is_some() {
-        return Err(Problem::input(
-            "--cost: a direction of travel that turns leaves no parameters to spare in the plane",
-        ));
     }
     Ok(cost)
 }

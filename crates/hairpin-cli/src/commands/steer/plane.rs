@@ -77,7 +77,7 @@ pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
         Some(flat::Status::Infeasible { limit, excess }) if !default => Some((named(limit), Some(excess))),
         _ => None,
     };
-    let near = intrusion.map(|intrusion| Near::new(&intrusion, task.keep_outs));
+    let near = intrusion.map(|intrusion| Near::new(&intrusion, task.keep_outs, control, boundary));
     let status = match (solution.outcome, broken) {
         (Outcome::Solved, None) if near.is_some() => Status::Infeasible,
         (Outcome::Solved, None) => Status::Ok,

@@ -114,6 +114,10 @@ fn words(vehicle: &Vehicle, answered: &Answered, frame: Frame) -> Vec<String> {
         .near
         .as_ref()
         .map_or(String::new(), |near| format!(" m ({}, after {:.3} m)", near.place, near.after_m));
+    let spare = answered.near.as_ref().and_then(|near| near.spare);
+    let family = vehicle.pace.control.name();
+    let place = place
+        + &spare.map_or(String::new(), |spare| format!("; {family} has {spare} parameters to spare for a way around"));
     let limit = limit + &place;
     let name = &vehicle.rover.name;
     let Some((solution, replay)) = &answered.drive else {
@@ -183,6 +187,9 @@ fn object(vehicle: &Vehicle, answered: &Answered, frame: Frame, code: u8) -> Val
     });
     if let Some(near) = &answered.near {
         object["keep_out"] = json!({ "place": near.place, "depth_m": near.depth, "after_m": near.after_m });
+        if let Some(spare) = near.spare {
+            object["keep_out"]["spare_parameters"] = spare.into();
+        }
     }
     if let Some([k0, kf]) = answered.nearest {
         object["nearest"] = json!({ "k0": left * k0, "kf": left * kf });

@@ -5,7 +5,7 @@ use std::time::Duration;
 use hairpin::campaign::states::States;
 use hairpin::feasibility::steering::shooting::Control;
 use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
-use hairpin::feasibility::steering::shooting::flat::{self, Cost};
+use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query, Refusal};
 use hairpin::robot::rover::{Rover, Twist};
 use hairpin::trajectory::SpeedProfile;
@@ -91,10 +91,6 @@ impl Vehicle {
             Err(refusal) => return refused(Status::Invalid, refusal.field, None),
         };
         let swing = direction(asked).swing();
-        if means.choices.flat.cost != Cost::Any && swing != 0.0 && self.map.is_none() {
-            // Such a drive has no parameters to spare for the cost.
-            return refused(Status::Invalid, "direction_end", None);
-        }
         if self.pace.control == Control::TurnDriveTurn
             && let Some(excess) = self.cannot_turn()
         {

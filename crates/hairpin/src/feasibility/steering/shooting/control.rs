@@ -52,6 +52,26 @@ impl Control {
         Self::ALL.into_iter().find(|control| control.name() == name)
     }
 
+    /// Numbers that a family's curves have, the length among them; of turn-drive-turn two angles and a length.
+    pub fn parameters(self) -> usize {
+        match self {
+            Self::Arc => 2,
+            Self::TurnDriveTurn => 3,
+            Self::Cubic => 5,
+            Self::Quintic | Self::TimePolynomial | Self::VelocityPolynomial => 7,
+            Self::Knots => 9,
+        }
+    }
+
+    /// Conditions that they meet: the end's place, heading, and the curvature at both ends; of an arc the place alone.
+    pub fn conditions(self) -> usize {
+        match self {
+            Self::Arc => 2,
+            Self::TurnDriveTurn => 3,
+            Self::Cubic | Self::Quintic | Self::TimePolynomial | Self::Knots | Self::VelocityPolynomial => 5,
+        }
+    }
+
     /// What the flat solver calls it, if it is one of its own.
     pub fn flat(self) -> Option<flat::Control> {
         match self {

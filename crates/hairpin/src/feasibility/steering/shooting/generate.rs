@@ -1,7 +1,7 @@
 //! One call for every control: the flat solver's own, the closed forms, and the families; the value decides.
 
 use super::control::Control;
-use super::families::{self, Iteration, Parameters, Problem};
+use super::families::{self, Among, Answer, Iteration, Parameters, Problem};
 use super::flat;
 use super::query::{Curvatures, Goal, Query};
 use super::solve::{Choices, Method, Outcome, Solution, solve};
@@ -57,17 +57,9 @@ pub fn generate(
             }
             None => {
                 let settings = families::Settings { precision: choices.flat.precision, ..choices.families };
-                let mut stopped = false;
-                let mut asked = || {
-                    stopped |= stop();
-                    stopped
-                };
-                let answer = families::solve(&question, control, bounds, &settings, &mut asked, &mut observe);
-                Generated {
-                    solution: solution(answer.status, answer.segments, answer.iterations, stopped),
-                    parameters: Some(answer.parameters),
-                    fit_error: answer.fit_error,
-                }
+                in_family(&mut stop, |asked| {
+                    families::solve(&question, control, bounds, &settings, asked, &mut observe)
+                })
             }
         };
         found.solution.segments.iter_mut().for_each(|segment| segment.gear = gear);
@@ -76,6 +68,39 @@ pub fn generate(
         }
     }
     best.unwrap_or_else(|| plain(solve(&problem.query, bounds, choices, || true)))
+}
+
+/// [`generate`] in the gear of `choices` and in a family of its own, among what is in the way of its path; its guides are driven forward.
+pub fn generate_among(
+    problem: &Problem,
+    control: Control,
+    bounds: &Curvatures,
+    choices: &Choices,
+    among: &Among<'_>,
+    mut stop: impl FnMut() -> bool,
+    mut observe: impl FnMut(&Iteration),
+) -> Generated {
+    let settings = families::Settings { precision: choices.flat.precision, ..choices.families };
+    let question = mirrored(problem, choices.gear);
+    let mut found = in_family(&mut stop, |asked| {
+        families::solve_among(&question, control, bounds, &settings, among, asked, &mut observe)
+    });
+    found.solution.segments.iter_mut().for_each(|segment| segment.gear = choices.gear);
+    found
+}
+
+/// What `solve` answers, which is told to stop as `stop` is and once and for all.
+fn in_family(stop: &mut dyn FnMut() -> bool, solve: impl FnOnce(&mut dyn FnMut() -> bool) -> Answer) -> Generated {
+    let mut stopped = false;
+    let answer = solve(&mut || {
+        stopped |= stop();
+        stopped
+    });
+    Generated {
+        solution: solution(answer.status, answer.segments, answer.iterations, stopped),
+        parameters: Some(answer.parameters),
+        fit_error: answer.fit_error,
+    }
 }
 
 fn solution(

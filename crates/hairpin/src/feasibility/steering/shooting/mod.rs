@@ -35,7 +35,7 @@ pub mod rough;
 pub mod solve;
 
 pub use control::Control;
-pub use generate::{Generated, generate};
+pub use generate::{Generated, generate, generate_among};
 pub use query::{Curvatures, Goal, Precision, Query, Refusal};
 
 /// What the speed at the end of a drive may differ by from what was asked, m/s.

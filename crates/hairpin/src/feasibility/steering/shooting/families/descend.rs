@@ -13,6 +13,7 @@ use super::grid::{Grid, Node};
 use super::linear::solve;
 use super::settings::Settings;
 use crate::feasibility::steering::shooting::Curvatures;
+use crate::feasibility::steering::shooting::flat::Cost;
 
 /// Unknowns: the parameters and the length.
 const UNKNOWNS: usize = MOST + 1;
@@ -34,6 +35,9 @@ pub(super) struct Task {
     /// κ at the end; `None` where it is as it comes.
     pub(super) end: Option<f64>,
     pub(super) bounds: Curvatures,
+    pub(super) cost: Cost,
+    /// What a drive of less cost may be at the longest, m.
+    pub(super) longest: f64,
     /// Misses below which the goal is met, m, rad and 1/m.
     pub(super) tolerance: f64,
 }
@@ -53,6 +57,8 @@ pub(super) struct Fit {
     pub(super) miss: f64,
     /// Largest |κ|/most or |κ′|/most_rate at the nodes.
     pub(super) bends: f64,
+    /// Its cost; by ∫κ′² where none is asked for.
+    pub(super) value: f64,
     pub(super) iterations: u32,
 }
 
@@ -71,6 +77,8 @@ const ENOUGH: f64 = 0.9985;
 const STRICT: f64 = 1.0;
 const SMOOTH: f64 = 1e-4;
 const NEAR: f64 = 1e-4;
+/// Weight of a cost that is asked for: little against the bounds, much against what else draws a drive.
+const CHEAP: f64 = 0.01;
 /// Factors of the first.
 const STRICTER: [f64; 3] = [1.0, 100.0, 1e4];
 /// Longest step: of the curvature, as a share of its bound, and of the length, as a share of itself.
@@ -92,6 +100,7 @@ struct Shot {
     gradient: [f64; UNKNOWNS],
     hessian: [[f64; UNKNOWNS]; UNKNOWNS],
     bends: f64,
+    value: f64,
 }
 
 impl Shot {
@@ -118,10 +127,11 @@ fn shoot(grid: &Grid, task: &Task, free: &Free, from: f64, strict: f64) -> Shot 
         gradient: [0.0; UNKNOWNS],
         hessian: [[0.0; UNKNOWNS]; UNKNOWNS],
         bends: 0.0,
+        value: 0.0,
     };
+    let mut squares = Squares::default();
     let (mut x, mut y) = (0.0, 0.0);
     let mut by = [[0.0; UNKNOWNS]; 2];
-    let smooth = SMOOTH / (task.bounds.most * task.bounds.most);
     for node in grid.nodes() {
         let heading = length * dot(p, &node.integral);
         let (sin, cos) = libm::sincos(heading + task.swing * node.share);
@@ -135,23 +145,12 @@ fn shoot(grid: &Grid, task: &Task, free: &Free, from: f64, strict: f64) -> Shot 
         by[0][last] -= across * heading / length;
         by[1][last] += along * heading / length;
         shot.look(task, free, node, strict);
-        let slope = dot(p, &node.slope);
-        shot.cost += 0.5 * smooth * node.weight * slope * slope;
-        for i in 0..MOST {
-            let weighted = smooth * node.weight * node.slope[i];
-            shot.gradient[i] += weighted * slope;
-            for j in 0..MOST {
-                shot.hessian[i][j] += weighted * node.slope[j];
-            }
-        }
+        squares.add(p, if task.cost == Cost::Curvature { &node.value } else { &node.slope }, node.weight);
     }
     for end in &grid.ends {
         shot.look(task, free, end, strict);
     }
-    let stretch = (length - from) / from;
-    shot.cost += 0.5 * NEAR * stretch * stretch;
-    shot.gradient[last] += NEAR * stretch / from;
-    shot.hessian[last][last] += NEAR / (from * from);
+    shot.charge(task, &squares, length, from);
     shot.constraints[0] = length * x - task.place[0];
     shot.constraints[1] = length * y - task.place[1];
     for (row, (by, sum)) in shot.jacobian.iter_mut().zip(by.iter().zip([x, y])) {
@@ -180,7 +179,65 @@ fn shoot(grid: &Grid, task: &Task, free: &Free, from: f64, strict: f64) -> Shot 
     shot
 }
 
+/// ∫q² dσ of a quantity that is linear in the parameters, halves of its gradient and of its second derivatives.
+#[derive(Default)]
+struct Squares {
+    whole: f64,
+    image: Row,
+    matrix: [Row; MOST],
+}
+
+impl Squares {
+    fn add(&mut self, parameters: &Row, row: &Row, weight: f64) {
+        let value = dot(parameters, row);
+        self.whole += weight * value * value;
+        for i in 0..MOST {
+            self.image[i] += weight * value * row[i];
+            for j in 0..MOST {
+                self.matrix[i][j] += weight * row[i] * row[j];
+            }
+        }
+    }
+}
+
 impl Shot {
+    /// Adds half the cost f(L) ∫q² dσ: L for ∫κ² ds, 1/L for ∫κ′² ds; without one a little of both smoothness and the length at the
+    /// start. The last second derivative is as large as makes all of them a convex function's.
+    fn charge(&mut self, task: &Task, squares: &Squares, length: f64, from: f64) {
+        let last = UNKNOWNS - 1;
+        let (factor, by_length, bent) = match task.cost {
+            Cost::Any => (SMOOTH / (task.bounds.most * task.bounds.most), 0.0, 0.0),
+            Cost::Curvature => (CHEAP * length, CHEAP, CHEAP / length),
+            Cost::Rate => {
+                let share = CHEAP / length;
+                (share, -share / length, share / (length * length))
+            }
+        };
+        self.value = squares.whole * if task.cost == Cost::Curvature { length } else { 1.0 / length };
+        self.cost += 0.5 * factor * squares.whole;
+        self.gradient[last] += 0.5 * by_length * squares.whole;
+        self.hessian[last][last] += bent * squares.whole;
+        for i in 0..MOST {
+            self.gradient[i] += factor * squares.image[i];
+            self.hessian[i][last] += by_length * squares.image[i];
+            self.hessian[last][i] += by_length * squares.image[i];
+            for j in 0..MOST {
+                self.hessian[i][j] += factor * squares.matrix[i][j];
+            }
+        }
+        // Longer drives bend less without an end: beyond the longest they cost.
+        let (stretch, unit, weight) = if task.cost == Cost::Any {
+            ((length - from) / from, from, NEAR)
+        } else {
+            ((length / task.longest - 1.0).max(0.0), task.longest, STRICT)
+        };
+        if stretch != 0.0 {
+            self.cost += 0.5 * weight * stretch * stretch;
+            self.gradient[last] += weight * stretch / unit;
+            self.hessian[last][last] += weight / (unit * unit);
+        }
+    }
+
     /// Adds what exceeds the bounds at `node`.
     fn look(&mut self, task: &Task, free: &Free, node: &Node, strict: f64) {
         let last = UNKNOWNS - 1;
@@ -269,7 +326,7 @@ pub(super) fn descend(
             (free, shot) = (next, tried);
             iterations += 1;
         }
-        let fit = Fit { free, miss: shot.miss(), bends: shot.bends, iterations };
+        let fit = Fit { free, miss: shot.miss(), bends: shot.bends, value: shot.value, iterations };
         if fit.good(task.tolerance) {
             return fit;
         }
@@ -280,7 +337,8 @@ pub(super) fn descend(
             break;
         }
     }
-    let best = best.unwrap_or(Fit { free, miss: f64::INFINITY, bends: f64::INFINITY, iterations });
+    let lost = f64::INFINITY;
+    let best = best.unwrap_or(Fit { free, miss: lost, bends: lost, value: lost, iterations });
     Fit { iterations, ..best }
 }
 

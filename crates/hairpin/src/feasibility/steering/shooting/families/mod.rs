@@ -18,5 +18,5 @@ mod settings;
 mod start;
 
 pub use parameters::Parameters;
-pub use search::{Answer, Iteration, Problem, solve};
+pub use search::{Among, Answer, Iteration, Problem, solve, solve_among};
 pub use settings::Settings;

@@ -12,7 +12,7 @@ use super::pieces;
 use super::settings::Settings;
 use super::start::{nearest, word};
 use crate::feasibility::steering::shooting::control::Control;
-use crate::feasibility::steering::shooting::flat::{self, Limit, Status, extremes, forward, ways};
+use crate::feasibility::steering::shooting::flat::{self, Cost, Limit, Status, extremes, forward, ways};
 use crate::feasibility::steering::shooting::{Curvatures, Goal, Precision, Query};
 use crate::math::power::power;
 use crate::trajectory::SpeedProfile;
@@ -29,6 +29,39 @@ pub struct Problem {
     pub swing: f64,
     /// Whether the curvature at the end is as it comes. Only velocity polynomials ask for it.
     pub free_end: bool,
+}
+
+impl Problem {
+    /// Parameters, the length among them, that a family has beyond the conditions of the problem: to go around places with, or to lower a
+    /// cost by.
+    pub fn spare(&self, control: Control) -> u32 {
+        let ends = [self.speed.start(), self.speed.end()];
+        let conditions = match control {
+            // Where the vehicle stands, κ̇ must vanish.
+            Control::TimePolynomial => control.conditions() + ends.iter().filter(|speed| **speed <= 0.0).count(),
+            Control::VelocityPolynomial if self.free_end => control.conditions() - 1,
+            _ => control.conditions(),
+        };
+        control.parameters().saturating_sub(conditions) as u32
+    }
+
+    /// The path of travel's own question: it turns by the direction, too, and begins and ends with its share of the bend.
+    pub fn path(&self, bounds: &Curvatures) -> Query {
+        let (Query { goal, start_curvature }, most) = (self.query, bounds.most);
+        let bend = self.swing / libm::hypot(goal.x, goal.y).max(0.5 / most);
+        let kept = |curvature: f64| (curvature + bend).clamp(-most, most);
+        let yaw = goal.yaw + self.swing;
+        Query { start_curvature: kept(start_curvature), goal: Goal { yaw, curvature: kept(goal.curvature), ..goal } }
+    }
+}
+
+/// What is in the way of a drive, and ways around it.
+#[derive(Clone, Copy)]
+pub struct Among<'a> {
+    /// Paths of travel to begin with as well, driven forward from the origin.
+    pub guides: &'a [SegmentList],
+    /// How deep commands, driven forward, come into what is in the way, m; 0 if they stay clear.
+    pub depth: &'a dyn Fn(&SegmentList) -> f64,
 }
 
 /// What was found.
@@ -69,6 +102,8 @@ const SHORT: f64 = 1.25;
 const EXACT: f64 = 1e-7;
 /// Rounds in which length and speeds are made to agree.
 const ROUNDS: u32 = 12;
+/// What a drive of less cost may be longer by than its start value, as a factor.
+const LONGEST: f64 = 1.5;
 /// Factors on the radius of Dubins' words as start values.
 const RADII: [f64; 4] = [1.0, 1.5, 2.5, 0.8];
 
@@ -90,10 +125,25 @@ pub fn solve(
     let Problem { query, swing, .. } = problem;
     let Goal { y, yaw, curvature, .. } = query.goal;
     let leans = [y, yaw, query.start_curvature, curvature, *swing].into_iter().find(|value| *value != 0.0);
+    let open = Among { guides: &[], depth: &|_| 0.0 };
     if leans.is_some_and(|first| first < 0.0) {
-        return mirrored(search(&mirror(problem), control, bounds, settings, stop, observe));
+        return mirrored(search(&mirror(problem), control, bounds, settings, &open, stop, observe));
     }
-    search(problem, control, bounds, settings, stop, observe)
+    search(problem, control, bounds, settings, &open, stop, observe)
+}
+
+/// The same among what is in the way: of the drives that meet goal and bounds the one that comes least deep into it, begun with the
+/// guides, too.
+pub fn solve_among(
+    problem: &Problem,
+    control: Control,
+    bounds: &Curvatures,
+    settings: &Settings,
+    among: &Among<'_>,
+    stop: &mut dyn FnMut() -> bool,
+    observe: &mut dyn FnMut(&Iteration),
+) -> Answer {
+    search(problem, control, bounds, settings, among, stop, observe)
 }
 
 fn mirror(problem: &Problem) -> Problem {
@@ -119,14 +169,19 @@ struct Search<'a> {
     control: Control,
     bounds: &'a Curvatures,
     settings: &'a Settings,
+    among: &'a Among<'a>,
     best: Option<Found>,
     iterations: u32,
     started: u32,
+    /// What drives of less cost may be at the longest, m: so much more than the first start value.
+    longest: f64,
 }
 
 /// What a descent came to.
 struct Found {
     fit: Fit,
+    /// How deep it comes into what is in the way, m.
+    depth: f64,
     task: Task,
     /// What it was found on.
     basis: Basis,
@@ -142,27 +197,24 @@ fn search(
     control: Control,
     bounds: &Curvatures,
     settings: &Settings,
+    among: &Among<'_>,
     stop: &mut dyn FnMut() -> bool,
     observe: &mut dyn FnMut(&Iteration),
 ) -> Answer {
-    let mut search = Search { problem, control, bounds, settings, best: None, iterations: 0, started: 0 };
-    let Query { goal, .. } = problem.query;
-    let distance = libm::hypot(goal.x, goal.y).max(0.5 / bounds.most);
-    // The path of travel turns by the direction, too, and begins and ends with its share of the bend.
-    let bend = problem.swing / distance;
-    let most = bounds.most;
-    let path = Query {
-        start_curvature: (problem.query.start_curvature + bend).clamp(-most, most),
-        goal: Goal { yaw: goal.yaw + problem.swing, curvature: (goal.curvature + bend).clamp(-most, most), ..goal },
-    };
+    let mut search =
+        Search { problem, control, bounds, settings, among, best: None, iterations: 0, started: 0, longest: 0.0 };
+    let (path, most) = (problem.path(bounds), bounds.most);
     let flat = forward(&path, bounds, &flat::Settings { precision: settings.precision, ..flat::Settings::default() });
-    let length: f64 = flat.segments.iter().map(Segment::length_m).sum();
-    if length > 0.0 {
-        let turn = landing(&flat.segments, 0.0)[2];
-        let curvature = |share: f64| curvature_along(&flat.segments, share * length);
-        search.from(&curvature, length, turn, observe);
-    }
     let shortest = flat::least_length(&path, bounds);
+    for (index, known) in std::iter::once(&flat.segments).chain(among.guides).enumerate() {
+        let length: f64 = known.iter().map(Segment::length_m).sum();
+        // The first is always tried: without time there is still an answer.
+        if length > 0.0 && (index == 0 || !(search.done(shortest) || stop())) {
+            let turn = landing(known, 0.0)[2];
+            let curvature = |share: f64| curvature_along(known, share * length);
+            search.from(&curvature, length, turn, observe);
+        }
+    }
     for radius in RADII {
         let wide = Curvatures { most: most / radius, ..*bounds };
         for (signs, metres) in ways(&path, &wide) {
@@ -217,13 +269,16 @@ impl Search<'_> {
     /// Whether a drive was found that is good and not a long way round.
     fn done(&self, shortest: f64) -> bool {
         let short = |found: &Found| found.fit.free.length <= SHORT * shortest * self.bounds.most;
-        self.best.as_ref().is_some_and(|found| found.status == Status::Ok && short(found))
+        self.best.as_ref().is_some_and(|found| found.status == Status::Ok && found.depth == 0.0 && short(found))
     }
 
     /// Descends from a curve of the path of travel; its whole turn says how often the goal's heading is gone around.
     fn from(&mut self, curvature: &dyn Fn(f64) -> f64, length: f64, turn: f64, observe: &mut dyn FnMut(&Iteration)) {
         let Problem { query, swing, free_end, .. } = *self.problem;
         let most = self.bounds.most;
+        if self.started == 0 {
+            self.longest = LONGEST * length;
+        }
         let whole = ((turn - swing - query.goal.yaw) / TAU).round();
         let task = Task {
             place: [query.goal.x * most, query.goal.y * most],
@@ -232,6 +287,8 @@ impl Search<'_> {
             start: query.start_curvature / most,
             end: (!(free_end && self.control == Control::VelocityPolynomial)).then_some(query.goal.curvature / most),
             bounds: Curvatures { most: 1.0, most_rate: self.bounds.most_rate / (most * most) },
+            cost: self.settings.cost,
+            longest: self.longest * most,
             tolerance: TOLERANCE * self.settings.precision.position * most.min(1.0),
         };
         let start = self.started;
@@ -260,7 +317,9 @@ impl Search<'_> {
                 let parameters: Row = fit.free.parameters.map(|p| p * most);
                 let (segments, fit_error) = pieces::segments(&basis, &clock, &parameters, found);
                 let status = judge(&segments, &task, &query, swing, self.bounds, &self.settings.precision);
-                let found = Found { fit, task, basis, clock, segments, fit_error, status };
+                // What does not arrive is not compared by what is in its way.
+                let depth = if status == Status::Ok { (self.among.depth)(&segments) } else { 0.0 };
+                let found = Found { fit, depth, task, basis, clock, segments, fit_error, status };
                 if self.best.as_ref().is_none_or(|best| found.better(best)) {
                     self.best = Some(found);
                 }
@@ -336,9 +395,12 @@ fn speed_polynomial(speed: &SpeedProfile, length: f64) -> [f64; 3] {
 }
 
 impl Found {
-    /// Whether it is worth more: good before not, then the shorter, or what is nearer to goal and bounds.
+    /// Whether it is worth more: good before not, then what stays clearer, then the cheaper or shorter; or what is nearer to goal and
+    /// bounds.
     fn better(&self, other: &Self) -> bool {
         match (self.status == Status::Ok, other.status == Status::Ok) {
+            (true, true) if self.depth != other.depth => self.depth < other.depth,
+            (true, true) if self.task.cost != Cost::Any => self.fit.value < other.fit.value,
             (true, true) => self.fit.free.length < other.fit.free.length,
             (good, bad) if good != bad => good,
             _ => grade(&self.fit, &self.task) < grade(&other.fit, &other.task),
