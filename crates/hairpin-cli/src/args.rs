@@ -353,6 +353,10 @@ pub(crate) enum Format {
     Urscript,
     /// Of arms: CASE.src and CASE.dat for KUKA
     Krl,
+    /// Of arms: CASE.joint_trajectory.json, the planned joints every 10 ms as a ROS 2 message
+    JointTrajectory,
+    /// Of arms: arc_clock.mod, which clocks every move of the graph on the controller; then `hairpin import arc_ms.log`
+    ArcClock,
     /// CASE.ref.tum and CASE.exec.tum: planned motion and worst run on the same stamps, not aligned
     Tum,
 }

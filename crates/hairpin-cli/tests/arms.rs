@@ -43,11 +43,85 @@ fn what_new_writes_runs_and_can_be_verified_and_exported() {
     for name in ["0000.mod", "0000_slow.mod", "0001.pgf", "0000.script", "0001.src", "0001.dat", "0000-1.csv"] {
         assert!(place.path().join("out/arm").join(name).is_file(), "{name}");
     }
+    // The planned joints, for ROS.
+    assert_eq!(code(&hairpin(place.path(), &["export", "out/arm", "--to", "joint-trajectory"])), 0);
+    let text = fs::read_to_string(place.path().join("out/arm/0001.joint_trajectory.json")).unwrap();
+    let message: Value = serde_json::from_str(&text).unwrap();
+    let points = message["points"].as_array().unwrap();
+    assert_eq!((&message["joint_names"][5], points[0]["positions"].as_array().unwrap().len()), (&"joint_6".into(), 6));
+    let fifth = |point: &Value| point["positions"][4].as_f64().unwrap();
+    // Both ends are home.
+    assert!(
+        (fifth(&points[0]) - 30f64.to_radians()).abs() < 1e-6
+            && (fifth(points.last().unwrap()) - 30f64.to_radians()).abs() < 1e-3
+    );
     // The module that was written is one that the check of modules has nothing against.
     let module = place.path().join("out/arm/0000.mod");
     assert!(fs::read_to_string(&module).unwrap().contains("PROC stress()"));
     let check = hairpin(place.path(), &["import", "out/arm/0000.mod", "--check", "--robot", "irb120"]);
     assert_eq!(code(&check), 0, "{}", String::from_utf8_lossy(&check.stdout));
+}
+
+#[test]
+fn every_move_can_be_clocked_on_the_controller() {
+    let place = TempDir::new().unwrap();
+    let points = "x_mm,y_mm,z_mm\n300,100,400\n350,-100,300\n400,50,350\n250,200,450\n";
+    fs::write(place.path().join("p.csv"), points).unwrap();
+    assert_eq!(code(&hairpin(place.path(), &["max-load", "--cloud", "p.csv", "irb120", "--out", "ml"])), 0);
+    let exported = hairpin(place.path(), &["export", "ml", "--to", "arc-clock"]);
+    assert_eq!(code(&exported), 0, "{}", String::from_utf8_lossy(&exported.stderr));
+    let module = fs::read_to_string(place.path().join("ml/arc_clock.mod")).unwrap();
+    let driven: Vec<&str> = module.lines().filter(|line| line.trim_start().starts_with("clock_arc ")).collect();
+    assert!(driven.len() >= 12 && module.contains("MODULE hairpin_clock"), "{module}");
+    // What it would log, with 100 ms and one more for each next reading.
+    let mut log = String::from("arc_ms;4\n");
+    for (i, line) in driven.iter().enumerate() {
+        let mut numbers = line.trim_start().trim_start_matches("clock_arc ").split(',');
+        log += &format!("{};{};{}\n", numbers.next().unwrap(), numbers.next().unwrap(), 100 + i);
+    }
+    fs::write(place.path().join("arc_ms.log"), &log).unwrap();
+    let read = json(&hairpin(place.path(), &["import", "arc_ms.log", "--json"]));
+    assert_eq!(
+        (read["points"].as_u64(), read["arcs"].as_u64(), read["readings"].as_u64()),
+        (Some(4), Some(12), Some(driven.len() as u64))
+    );
+    let table =
+        ["max-load", "--cloud", "p.csv", "irb120", "--set", "generate.cost={ table = \"arc_ms.csv\" }", "--json"];
+    let found = json(&hairpin(place.path(), &table));
+    assert!(found["proven"] == true && found["cost"].as_f64().unwrap() >= 300.0, "{found}");
+    fs::write(place.path().join("bad.log"), "arc_ms;4\n0;9;100\n").unwrap();
+    let refused = hairpin(place.path(), &["import", "bad.log"]);
+    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(code(&refused) == 2 && told.contains("bad.log: line 2"), "{told}");
+}
+
+#[test]
+fn the_proof_of_the_heaviest_program_is_kept_and_checked() {
+    let place = TempDir::new().unwrap();
+    for (out, more) in [("once", &[][..]), ("often", &["--set", "generate.search.visits=2"][..])] {
+        let generate =
+            ["generate", "arm", "--out", out, "--set", "task.points.count=8", "--set", "generate.search.programs=2"];
+        assert_eq!(code(&hairpin(place.path(), &[&generate[..], more].concat())), 0);
+        let verify = ["verify", out, "--json"];
+        let good = json(&hairpin(place.path(), &verify));
+        assert_eq!((&good["optimum"]["verified"], good["exit_code"].as_u64()), (&Value::Bool(true), Some(0)), "{good}");
+        // A move that costs more than was searched for.
+        let graph = place.path().join(out).join("graph.csv");
+        let text = fs::read_to_string(&graph).unwrap();
+        let cost = text.lines().next().unwrap().split(',').find(|cell| !cell.is_empty()).unwrap();
+        fs::write(&graph, text.replacen(cost, "9000.000", 1)).unwrap();
+        let dearer = json(&hairpin(place.path(), &verify));
+        assert_eq!(
+            (&dearer["optimum"]["verified"], dearer["exit_code"].as_u64()),
+            (&Value::Bool(false), Some(1)),
+            "{dearer}"
+        );
+        fs::write(&graph, text).unwrap();
+        fs::remove_file(place.path().join(out).join("optimum.json")).unwrap();
+        let refused = hairpin(place.path(), &["verify", out]);
+        let told = String::from_utf8_lossy(&refused.stdout).into_owned();
+        assert!(code(&refused) == 1 && told.contains("optimum.json is missing"), "{told}");
+    }
 }
 
 #[test]

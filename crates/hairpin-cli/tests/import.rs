@@ -76,3 +76,28 @@ fn what_cannot_be_read_at_all_is_wrong_input() {
     refused(folder.path(), &["import", &file, "--check", "--robot", "anafi"], &["anafi"]);
     refused(folder.path(), &["import", &file, "--procedure", "Path_30"], &["Path_30", "main"]);
 }
+
+#[test]
+fn collisions_with_a_cell_are_told_by_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let cell = "hairpin = 1\nrobot = \"irb120\"\n[world]\ntool = { radius_mm = 10 }\n\
+        obstacles = [{ name = \"rod\", capsule = { a_mm = [200, 60, 300], b_mm = [500, 60, 300], radius_mm = 2 } }]\n\
+        keep_out_mm = [\"z < 100\"]\n[task]\npoints = [[350, 0, 400]]\n";
+    fs::write(folder.path().join("cell.toml"), cell).unwrap();
+    let file = module(folder.path(), "MoveL p10,v100,fine,tool0;\nMoveL Offs(p10,0,120,0),v100,z5,tool0;");
+    assert_eq!(run(folder.path(), &["import", &file, "--check"]).0, 0);
+    let (code, out, error) = run(folder.path(), &["import", &file, "--check", "--cell", "cell.toml"]);
+    assert!(code == 1 && out.contains("held against 2 obstacles and keep-outs"), "{out}{error}");
+    assert!(out.contains("line 9: COLLISION p10→"), "{out}");
+    assert!(out.contains(" meets rod at ") && out.contains("FAIL: 1 finding in 3 moves"), "{out}");
+    let object = json(folder.path(), &["import", &file, "--check", "--cell", "cell.toml"]);
+    assert_eq!(
+        (object["findings"][0]["kind"].as_str(), object["findings"][0]["line"].as_i64()),
+        (Some("collision"), Some(9))
+    );
+    let low = module(folder.path(), "MoveL p10,v100,fine,tool0;\nMoveL Offs(p10,0,0,-250),v100,z5,tool0;");
+    let (code, out, _) = run(folder.path(), &["import", &low, "--check", "--cell", "cell.toml"]);
+    assert!(code == 1 && out.contains("the tool ") && out.contains("keep-out z < 100"), "{out}");
+    refused(folder.path(), &["import", &file, "--check", "--cell", "anafi"], &["no arm's"]);
+    refused(folder.path(), &["import", &file, "--check", "--cell", "nowhere.toml"], &["nowhere.toml"]);
+}

@@ -6,20 +6,26 @@ use clap::Args;
 
 #[derive(Debug, Args)]
 pub(crate) struct Import {
-    /// RAPID module (.mod); docs/rapid.md says which RAPID is understood
+    /// RAPID module (.mod; docs/rapid.md says which RAPID is understood), or the log that arc_clock.mod wrote
     pub(crate) file: PathBuf,
-    /// Follow every move in the joints of an arm: reach, limits, singularities, configurations, by line
+    /// Follow every move in the joints of an arm: reach, limits, singularities, configurations, collisions, by line
     #[arg(long)]
     pub(crate) check: bool,
     /// The arm: a shipped name, an arm's file or a URDF
     #[arg(long, value_name = "ARM", default_value = "irb120", requires = "check")]
     pub(crate) robot: String,
+    /// What stands around it: a scenario of an arm, by file or name, with its arm, obstacles, clearance and the tool's radius
+    #[arg(long, value_name = "CELL", requires = "check", conflicts_with = "robot")]
+    pub(crate) cell: Option<String>,
     /// The procedure to execute; `main` if there is one, else the first that no other calls
     #[arg(long, value_name = "NAME")]
     pub(crate) procedure: Option<String>,
     /// Tell every line's class: understood, harmless to motion, changes motion, not reached
     #[arg(long)]
     pub(crate) lines: bool,
+    /// Of an arc clock's log: where the table of costs goes; arc_ms.csv beside the log if not given
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["check", "lines", "procedure"])]
+    pub(crate) out: Option<PathBuf>,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,

@@ -46,7 +46,10 @@ pub(crate) fn run(export: &Export) -> Result<u8, Problem> {
             Format::Geodetic => write_geodetic(&work, &cases)?,
             Format::Csv => write_csv(&work, &cases)?,
             Format::Tum => write_tum(&work, &cases)?,
-            Format::Rapid | Format::Urscript | Format::Krl => programs::write(&work, &cases, *format)?,
+            Format::Rapid | Format::Urscript | Format::Krl | Format::JointTrajectory => {
+                programs::write(&work, &cases, *format)?
+            }
+            Format::ArcClock => programs::write_clock(&work)?,
         };
         let (count, (word, programs)) = (written.files.len(), of_format(*format));
         formats.push(json!({ "format": word, "files": count, "opened_by": programs }));
@@ -85,6 +88,10 @@ fn of_format(format: Format) -> (&'static str, &'static str) {
         Format::Rapid => ("rapid", "RobotStudio and ABB controllers: load CASE.pgf or CASE.mod, run CASE_slow first"),
         Format::Urscript => ("urscript", "Universal Robots controllers and URSim"),
         Format::Krl => ("krl", "KUKA controllers and OfficeLite"),
+        Format::JointTrajectory => ("joint-trajectory", "ROS 2: `ros2 topic pub` and joint_trajectory_controller"),
+        Format::ArcClock => {
+            ("arc-clock", "ABB controllers: run clock_arcs, then `hairpin import arc_ms.log` makes arc_ms.csv")
+        }
         Format::Csv => ("csv", "spreadsheets, pandas, PlotJuggler"),
         Format::Tum => ("tum", "evo: `evo_ape tum CASE.ref.tum CASE.exec.tum`, never with --align"),
     }

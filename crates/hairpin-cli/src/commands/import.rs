@@ -1,11 +1,14 @@
-//! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it.
+//! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking module.
 
 use std::fs;
 
-use hairpin::feasibility::program::{Checked, FollowSettings, check};
+use hairpin::campaign::Setup;
+use hairpin::feasibility::program::{Checked, Surroundings, check};
+use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;
+use hairpin_formats::atomic;
 use hairpin_formats::rapid::{self, Module, Options};
-use hairpin_formats::scenario::arm_for;
+use hairpin_formats::scenario::{arm_for, scenario_for};
 use serde_json::{Value, json};
 
 use crate::args::Import;
@@ -31,26 +34,79 @@ struct Told {
 pub(crate) fn run(import: &Import) -> Result<u8, Problem> {
     let refuse = |why: String| Problem::input(format!("{}: {why}", import.file.display()));
     let bytes = fs::read(&import.file).map_err(|error| refuse(error.to_string()))?;
+    if rapid::is_log(&bytes) {
+        return clocked(import, &bytes);
+    }
     let options = Options { procedure: import.procedure.as_deref(), ..Options::default() };
     let module = rapid::read(&bytes, &options).map_err(|error| refuse(error.to_string()))?;
-    let arm = if import.check { Some(arm_for(&import.robot)?) } else { None };
-    let checked = arm.as_ref().map(|arm| check(arm, &module.program, module.certain, None, &FollowSettings::default()));
-    let told = findings(&module, checked.as_ref());
+    let followed = if import.check { Some(follow(import, &module)?) } else { None };
+    let followed = followed.as_ref();
+    let told = findings(&module, followed);
     let code = match (told.is_empty(), module.unclear_line) {
         (false, _) => FINDINGS,
         (true, Some(_)) => INCONCLUSIVE,
         (true, None) => 0,
     };
     if import.json {
-        console::say(&object(import, &module, arm.as_ref(), checked.as_ref(), &told, code).to_string());
+        console::say(&object(import, &module, followed, &told, code).to_string());
     } else {
-        in_words(import, &module, arm.as_ref(), checked.as_ref(), &told);
+        in_words(import, &module, followed, &told);
     }
     Ok(code)
 }
 
+/// Makes the table of costs of what a clocking module logged: `arc_ms.csv` beside the log, or `--out`.
+fn clocked(import: &Import, bytes: &[u8]) -> Result<u8, Problem> {
+    let times = rapid::read_log(bytes);
+    let times = times.map_err(|error| Problem::input(format!("{}: {error}", import.file.display())))?;
+    let out = import.out.clone().unwrap_or_else(|| import.file.with_file_name("arc_ms.csv"));
+    atomic::write(&out, times.csv().as_bytes())?;
+    let (arcs, readings) = (times.arcs.len(), times.arcs.values().map(|(_, count)| count).sum::<usize>());
+    if import.json {
+        let object = json!({
+            "points": times.points, "arcs": arcs, "readings": readings, "table": out, "exit_code": 0,
+        });
+        console::say(&object.to_string());
+    } else {
+        console::say(&format!(
+            "{}: {arcs} moves between {} points, {readings} readings: generate.cost = {{ table = {:?} }}",
+            out.display(),
+            times.points,
+            out.display().to_string()
+        ));
+    }
+    Ok(0)
+}
+
+/// What an arm makes of the program.
+struct Follow {
+    arm: Arm,
+    /// Of the cell, where one was given.
+    parts: Option<Vec<String>>,
+    checked: Checked,
+}
+
+/// Follows the moves that are certain, in the cell if one is given.
+fn follow(import: &Import, module: &Module) -> Result<Follow, Problem> {
+    let settings = FollowSettings { locate: true, ..FollowSettings::default() };
+    let Some(cell) = &import.cell else {
+        let arm = arm_for(&import.robot)?;
+        let checked = check(&arm, &module.program, module.certain, &Surroundings::default(), &settings);
+        return Ok(Follow { arm, parts: None, checked });
+    };
+    let setup = Setup::new(scenario_for(cell, &[])?)?;
+    let Some(arm) = setup.arm() else { return Err(Problem::input(format!("--cell {cell}: is no arm's"))) };
+    let around = Surroundings {
+        cell: Some(&arm.station.cell),
+        tool_radius: arm.station.tool.radius,
+        clearance: arm.scenario.generate.moves.clearance_mm * 1e-3,
+    };
+    let checked = check(&arm.station.arm, &module.program, module.certain, &around, &settings);
+    Ok(Follow { arm: arm.station.arm.clone(), parts: Some(arm.part_names()), checked })
+}
+
 /// What a controller would stop at, and what the arm cannot do, of the moves that are certain, in their order.
-fn findings(module: &Module, checked: Option<&Checked>) -> Vec<Told> {
+fn findings(module: &Module, followed: Option<&Follow>) -> Vec<Told> {
     let mut certain = module.program.clone();
     certain.moves.truncate(module.certain);
     let mut told: Vec<(usize, Told)> = Vec::new();
@@ -69,18 +125,19 @@ fn findings(module: &Module, checked: Option<&Checked>) -> Vec<Told> {
         told.push((index, finding));
     }
     let refused: Vec<usize> = told.iter().map(|(index, _)| *index).collect();
-    for finding in checked.iter().flat_map(|checked| &checked.findings) {
+    let parts = followed.and_then(|followed| followed.parts.as_deref()).unwrap_or_default();
+    for finding in followed.iter().flat_map(|followed| &followed.checked.findings) {
         // What is no arc has been told.
-        if finding.fault.kind() == "arc" && refused.contains(&finding.index) {
+        if finding.refusal.kind() == "arc" && refused.contains(&finding.index) {
             continue;
         }
         let new = Told {
             line: finding.line,
-            kind: finding.fault.kind(),
+            kind: finding.refusal.kind(),
             from: finding.from.clone(),
             to: finding.to.clone(),
-            reason: finding.reason(),
-            sentence: finding.to_string(),
+            reason: finding.reason(parts),
+            sentence: finding.told(parts),
         };
         told.push((finding.index, new));
     }
@@ -88,14 +145,7 @@ fn findings(module: &Module, checked: Option<&Checked>) -> Vec<Told> {
     told.into_iter().map(|(_, finding)| finding).collect()
 }
 
-fn object(
-    import: &Import,
-    module: &Module,
-    arm: Option<&Arm>,
-    checked: Option<&Checked>,
-    told: &[Told],
-    code: u8,
-) -> Value {
+fn object(import: &Import, module: &Module, followed: Option<&Follow>, told: &[Told], code: u8) -> Value {
     let findings = told.iter().map(|finding| {
         json!({ "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to, "reason": finding.reason })
     });
@@ -110,9 +160,10 @@ fn object(
         "moves": module.program.moves.len(),
         "certain_moves": module.certain,
         "certain_up_to_line": module.unclear_line,
-        "robot": arm.map(|arm| &arm.name),
-        "checked": checked.map(|checked| checked.followed),
-        "ends_only": checked.map(|checked| checked.ends_only),
+        "robot": followed.map(|followed| &followed.arm.name),
+        "obstacles": followed.and_then(|followed| followed.parts.as_ref()),
+        "checked": followed.map(|followed| followed.checked.followed),
+        "ends_only": followed.map(|followed| followed.checked.ends_only),
         "findings": findings.collect::<Vec<_>>(),
         "not_understood": unclear.collect::<Vec<_>>(),
         "mistakes": mistakes.collect::<Vec<_>>(),
@@ -128,7 +179,7 @@ fn object(
     object
 }
 
-fn in_words(import: &Import, module: &Module, arm: Option<&Arm>, checked: Option<&Checked>, told: &[Told]) {
+fn in_words(import: &Import, module: &Module, followed: Option<&Follow>, told: &[Told]) {
     let program = &module.program;
     let moves = program.moves.len();
     console::say(&format!(
@@ -137,10 +188,14 @@ fn in_words(import: &Import, module: &Module, arm: Option<&Arm>, checked: Option
         program.name,
         if program.procedure.is_empty() { "none" } else { &program.procedure }
     ));
-    if let (Some(arm), Some(checked)) = (arm, checked) {
+    if let Some(Follow { arm, parts, checked }) = followed {
         let caveat = if arm.caveat.is_empty() { String::new() } else { format!(" ({})", arm.caveat) };
+        let around = match parts {
+            Some(parts) => format!("held against {} obstacles and keep-outs", parts.len()),
+            None => "obstacles are not looked at (--cell)".into(),
+        };
         console::say(&format!(
-            "{}{caveat}: {} moves followed at samples 1 mm and 0.3° apart, of {} only the end; obstacles are not looked at",
+            "{}{caveat}: {} moves followed, proven between samples, of {} only the end; {around}",
             arm.name, checked.followed, checked.ends_only
         ));
     }
@@ -163,7 +218,7 @@ fn in_words(import: &Import, module: &Module, arm: Option<&Arm>, checked: Option
         console::warn(&format!("line {}: procedure {} is not executed", procedure.line, procedure.name));
     }
     let word = if told.len() == 1 { "finding" } else { "findings" };
-    let what = if arm.is_some() { format!("{} {word}", told.len()) } else { "read".to_owned() };
+    let what = if followed.is_some() { format!("{} {word}", told.len()) } else { "read".to_owned() };
     console::say(&match module.unclear_line {
         Some(line) => {
             let verdict = if told.is_empty() { "INCONCLUSIVE" } else { "FAIL" };

@@ -1,6 +1,7 @@
 //! What each command means; one file each. `parts` are the four parts of `stress`, on an open campaign folder.
 
 pub(crate) mod bench;
+mod certificate;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod demo;

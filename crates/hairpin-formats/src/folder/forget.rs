@@ -5,7 +5,8 @@ use std::io;
 use std::path::PathBuf;
 
 use super::{
-    COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, RESULTS, RUNS, WAYPOINTS, entries,
+    COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS,
+    entries,
 };
 use crate::atomic::{self, WriteError};
 
@@ -32,8 +33,19 @@ impl CampaignFolder {
     /// A file cannot be removed.
     pub fn forget_cases(&self) -> Result<(), FolderError> {
         let [coverage, table] = COVERAGE;
-        let names =
-            [RESULTS, RUNS, INFLUENCE, MOVES, coverage, table, WAYPOINTS, GENERATION, "junit.xml", "report.html"];
+        let names = [
+            RESULTS,
+            RUNS,
+            INFLUENCE,
+            MOVES,
+            OPTIMUM,
+            coverage,
+            table,
+            WAYPOINTS,
+            GENERATION,
+            "junit.xml",
+            "report.html",
+        ];
         self.remove(&names, &["trajectories", "profiles", "programs", "executions", "reruns"])
     }
 
@@ -70,7 +82,10 @@ fn is_export(name: &str) -> bool {
     let number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let case = |text: &str| text.len() >= 4 && number(text);
     match name.split_once('.') {
-        Some((stem, "ref.tum" | "exec.tum" | "planned.csv" | "pgf" | "script" | "src" | "dat")) => case(stem),
+        Some((
+            stem,
+            "ref.tum" | "exec.tum" | "planned.csv" | "joint_trajectory.json" | "pgf" | "script" | "src" | "dat",
+        )) => case(stem),
         Some((stem, "mod")) => case(stem.strip_suffix("_slow").unwrap_or(stem)),
         Some((stem, "csv")) => stem.split_once('-').is_some_and(|(name, run)| case(name) && number(run)),
         _ => false,

@@ -224,6 +224,11 @@ impl ArcTimes {
     }
 }
 
+/// Whether a file begins as such a log does.
+pub fn is_log(bytes: &[u8]) -> bool {
+    bytes.strip_prefix(LOG_MARK.as_bytes()).is_some_and(|rest| rest.starts_with(b";"))
+}
+
 /// Reads what a clocking module logged. Arcs that were driven more than once get the mean.
 ///
 /// # Errors

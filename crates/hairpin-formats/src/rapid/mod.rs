@@ -20,7 +20,7 @@ mod write;
 #[cfg(test)]
 mod tests;
 
-pub use clock::{ArcTimes, Clocked, Clocking, LogError, arc_clock, read_log};
+pub use clock::{ArcTimes, Clocked, Clocking, LogError, arc_clock, is_log, read_log};
 pub use lex::At;
 pub use lines::{Class, Line};
 pub use names::{LONGEST_NAME, NameError, as_name, check_name};

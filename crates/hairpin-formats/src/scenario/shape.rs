@@ -29,10 +29,12 @@ impl<'s> Shape<'s> {
             return;
         }
         let words: Vec<&str> = alternatives.iter().flat_map(|schema| words(schema)).collect();
-        if !words.is_empty() {
+        let fits = |schema: &&&Value| is_of_type(type_of(schema), node);
+        // What may be a word may be a table, too, such as a cost.
+        let is_table = matches!(node.kind, Kind::Table(_)) && alternatives.iter().any(|schema| fits(&schema));
+        if !words.is_empty() && !is_table {
             return self.check_word(&words, node, path);
         }
-        let fits = |schema: &&&Value| is_of_type(type_of(schema), node);
         let Some(schema) = alternatives.iter().find(fits) else {
             let expected: Vec<String> = alternatives.iter().map(|schema| self.describe(schema)).collect();
             return self.complain(node, path, &format!("expected {}", expected.join(" or ")));
@@ -42,7 +44,7 @@ impl<'s> Shape<'s> {
                 let tables: Vec<&'s Value> = alternatives.iter().copied().filter(|schema| fits(&schema)).collect();
                 match self.tag(&tables) {
                     Some(tag) if tables.len() > 1 => self.check_tagged(tag, &tables, node, path),
-                    _ => self.check_table(schema, node, path),
+                    _ => self.check_table(most_alike(&tables, node).unwrap_or(schema), node, path),
                 }
             }
             Kind::Array(items) => {
@@ -244,6 +246,14 @@ fn is_of_type(wanted: &str, node: &Node) -> bool {
         Kind::Bool(_) => wanted == "boolean",
         Kind::Date | Kind::Refused => false,
     }
+}
+
+/// Of tables that nothing tells apart the first that knows most of the keys.
+fn most_alike<'s>(tables: &[&'s Value], node: &Node) -> Option<&'s Value> {
+    let Kind::Table(entries) = &node.kind else { return None };
+    let known =
+        |schema: &Value| entries.iter().filter(|(name, _)| schema["properties"].get(name.as_str()).is_some()).count();
+    tables.iter().copied().rev().max_by_key(|schema| known(schema))
 }
 
 /// The words a schema of an enumeration allows; none for any other.

@@ -5,9 +5,10 @@
 //! from truncated Taylor series of the thrust vector (`demand`), the rigid body with a rotation matrix
 //! (`body`), implicit Gauss collocation of order 12 (`gauss`). Nothing is shared with feasibility, search,
 //! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have replays of their
-//! own, in the plane (`drive`) and on the ground (`ground`). That no path through a graph is heavier is checked bound by
+//! own, in the plane (`drive`) and on the ground (`ground`); moves of arms are followed by their own equations ([`verify_arm_moves`]). That no path through a graph is heavier is checked bound by
 //! bound ([`verify_heaviest`]; [`verify_walk`] where points may come several times).
 
+mod arm;
 mod body;
 mod claim;
 mod demand;
@@ -32,6 +33,10 @@ mod walk;
 #[cfg(test)]
 mod tests;
 
+pub use arm::{
+    ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm,
+    verify_arm_moves,
+};
 pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
 pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive, trace_drive};

@@ -39,7 +39,7 @@ pub(super) fn run(asked: &MaxLoad, points: &Path, cell: &str) -> Result<u8, Prob
         let folder = folder::make(out, &setup, false, asked.force)?;
         let work = Work { folder, setup: setup.clone() };
         let cases = arm.cases(graph, &found);
-        parts::keep_programs(&work, &arm, graph, &cases)?;
+        parts::keep_programs(&work, &arm, graph, &cases, &stop)?;
     }
     Ok(code(&found))
 }

@@ -41,7 +41,7 @@ pub(crate) fn run(asked: &MaxLoad) -> Result<u8, Problem> {
     let found = found.map_err(Problem::input)?;
     answer::tell(asked, &graph, &found, begun.elapsed());
     if let Some(out) = &asked.certificate {
-        certificate::write(out, &graph, settings.ends, &found)?;
+        certificate::write(out, &graph, settings.ends, &found, None)?;
     }
     Ok(code(&found))
 }

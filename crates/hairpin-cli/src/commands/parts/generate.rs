@@ -28,25 +28,21 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     let mut trouble = None;
     let bar = console::progress("generate", 0);
     let begun = Instant::now();
-    let tally = hairpin::campaign::generate(
-        &work.setup,
-        &known,
-        &Stop {
-            cancelled: &|| interrupt::asked() || deadline.passed(),
-            progress: &|done, of| {
-                bar.set_length(of as u64);
-                bar.set_position(done as u64);
-            },
-            clock: &|| begun.elapsed().as_secs_f64(),
+    let stop = Stop {
+        cancelled: &|| interrupt::asked() || deadline.passed(),
+        progress: &|done, of| {
+            bar.set_length(of as u64);
+            bar.set_position(done as u64);
         },
-        &mut |new, tally| {
-            cases.extend_from_slice(new);
-            if at.elapsed() > CHECKPOINT && trouble.is_none() {
-                trouble = save(work, &cases, saved, tally).err();
-                (saved, at) = (cases.len(), Instant::now());
-            }
-        },
-    );
+        clock: &|| begun.elapsed().as_secs_f64(),
+    };
+    let tally = hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
+        cases.extend_from_slice(new);
+        if at.elapsed() > CHECKPOINT && trouble.is_none() {
+            trouble = save(work, &cases, saved, tally).err();
+            (saved, at) = (cases.len(), Instant::now());
+        }
+    });
     bar.finish_and_clear();
     if let Some(problem) = trouble {
         return Err(problem);
@@ -56,6 +52,7 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
         && let Ok(graph) = graph_of(&arm)
     {
         keep_graph(work, &arm, &graph)?;
+        super::optimum::keep(work, &arm, &graph, &cases, &stop)?;
         // What a controller reads is what is executed and judged: numbers as the module has them.
         cases = work.folder.read_cases()?;
     }

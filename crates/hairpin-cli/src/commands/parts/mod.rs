@@ -4,6 +4,7 @@ mod answer;
 mod execute;
 mod generate;
 mod judge;
+pub(crate) mod optimum;
 mod programs;
 mod recorded;
 mod repro;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use hairpin::campaign::arm::{ArmGraph, ArmSetup};
-use hairpin::campaign::{Case, Tally};
+use hairpin::campaign::{Case, Stop, Tally};
 use hairpin_formats::atomic;
 
 use crate::folder::Work;
@@ -49,8 +49,15 @@ fn exactly(cost: i64, decimals: u32) -> String {
 }
 
 /// Writes the programs that were found, as `generate` would.
-pub(crate) fn keep_programs(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case]) -> Result<(), Problem> {
+pub(crate) fn keep_programs(
+    work: &Work,
+    arm: &ArmSetup,
+    graph: &ArmGraph,
+    cases: &[Case],
+    stop: &Stop,
+) -> Result<(), Problem> {
     keep_graph(work, arm, graph)?;
+    super::optimum::keep(work, arm, graph, cases, stop)?;
     let tally = Tally { complete: true, graphs: 1, units: 1, solved: u64::from(!cases.is_empty()), ..Tally::default() };
     super::generate::save(work, cases, 0, &tally)
 }

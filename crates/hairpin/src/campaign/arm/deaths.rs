@@ -40,7 +40,11 @@ fn told(refusal: &Refusal, names: &[String]) -> (Stage, String) {
         Refusal::OutOfReach { .. } => (Stage::Reach, "no joint angles".into()),
         Refusal::JointLimit { axis, .. } => (Stage::Limits, format!("axis {}", axis + 1)),
         Refusal::Singular { margin, .. } => (Stage::Limits, format!("{} singularity", margin.of)),
-        Refusal::Configuration { .. } => (Stage::Limits, "configuration change".into()),
+        Refusal::Configuration { .. } | Refusal::ArrivesOtherwise { .. } => {
+            (Stage::Limits, "configuration change".into())
+        }
+        Refusal::NoSuchConfiguration { .. } => (Stage::Limits, "no posture in the demanded configuration".into()),
+        Refusal::NoArc => (Stage::Limits, "no arc".into()),
         Refusal::OtherBranch { .. } => (Stage::Limits, "another configuration than most points".into()),
     }
 }

@@ -72,7 +72,7 @@ impl ArmGraph {
 }
 
 /// The deviation that the spec allows, m: moves are proven clear for whatever is within spec.
-fn allowed(scenario: &ArmScenario) -> f64 {
+pub(super) fn allowed(scenario: &ArmScenario) -> f64 {
     scenario.spec.path.map_or(0.0, |limit| limit.max_mm * 1e-3)
 }
 

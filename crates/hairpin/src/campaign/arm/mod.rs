@@ -2,6 +2,8 @@
 
 mod assumptions;
 mod cell;
+mod claim;
+mod clock;
 mod deaths;
 mod execute;
 mod graph;
@@ -18,6 +20,7 @@ mod station;
 mod verify;
 
 pub(super) use assumptions::{act, claim, search, verdict};
+pub use clock::ArcClock;
 pub(super) use deaths::deaths;
 pub(super) use execute::run;
 pub use graph::{ArmGraph, graph_of};
@@ -28,6 +31,7 @@ pub use points::CellPoint;
 pub use recorded::Shorter;
 pub use regression::RegressionError;
 pub(super) use replan::Replanner;
+pub use solve::Question;
 pub(super) use solve::Solver;
 pub(super) use station::station_of;
 pub use station::{ArmSetup, Station};

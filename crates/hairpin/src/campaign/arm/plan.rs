@@ -3,8 +3,9 @@
 use super::ArmSetup;
 use super::execute::program_of;
 use crate::campaign::{Case, PlanError};
+use crate::robot::arm::{AXES, Joints};
 use crate::simulation::SimulationError;
-use crate::simulation::arm::Plan;
+use crate::simulation::arm::{Plan, RunSettings};
 use crate::trajectory::{Channel, PlannedPath, Track};
 
 impl ArmSetup<'_> {
@@ -23,6 +24,22 @@ impl ArmSetup<'_> {
             )),
             None => Ok(plan.path()),
         }
+    }
+
+    /// Times (s) and joint angles (rad) of the planned motion of the program of `case`, every `sample` s: no lag, no noise.
+    ///
+    /// # Errors
+    /// A program that cannot be planned, or that the arm cannot follow to its end.
+    pub fn planned_joints(&self, case: &Case, sample: f64) -> Result<(Vec<f64>, Vec<Joints>), SimulationError> {
+        self.planned(case)?;
+        let orders = self.orders(program_of(case)?)?;
+        let plan = Plan::new(&self.station.arm, &self.station.home, &orders, &self.plan_settings())?;
+        let usual = RunSettings::default();
+        let settings = RunSettings { sample, interpolation: usual.interpolation.min(sample), lag: 0.0, ..usual };
+        let recording = plan.execute(&settings, &[], 0)?.recording;
+        let columns: Vec<&[f64]> = (1..=AXES).filter_map(|axis| recording.channel(&format!("q{axis}_rad"))).collect();
+        let joints = |i: usize| std::array::from_fn(|axis| columns.get(axis).map_or(f64::NAN, |column| column[i]));
+        Ok((recording.times().to_vec(), (0..recording.len()).map(joints).collect()))
     }
 }
 

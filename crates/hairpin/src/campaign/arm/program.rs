@@ -1,5 +1,7 @@
 //! From a path through the cloud to the program that an arm runs, and from a program to what the virtual controller is told.
 
+use nalgebra::Isometry3;
+
 use super::ArmSetup;
 use crate::campaign::scenario::MoveName;
 use crate::math::random::{named_seed, stream, unit};
@@ -29,9 +31,8 @@ impl ArmSetup<'_> {
         format!("p{row:0digits$}")
     }
 
-    /// The program along `way`: home, joints to the first point, on through the others, home. Speeds and zones are drawn from the scenario's
-    /// lists; `blends(k)` says whether the corner at the way's k-th point may be cut by a zone (m).
-    pub(super) fn program(&self, way: &Way, number: usize, blends: impl Fn(usize, f64) -> bool) -> Program {
+    /// Tool and work object of programs.
+    pub(super) fn frames(&self) -> (Tool, WorkObject) {
         let station = self.station;
         let tool = Tool {
             name: station.tool.name.clone(),
@@ -53,23 +54,41 @@ impl ArmSetup<'_> {
             object: station.work_object.object,
             ..WorkObject::base()
         };
+        (tool, object)
+    }
+
+    /// The posture that programs start and end at.
+    pub(super) fn home(&self) -> JointTarget {
+        JointTarget { name: Some(HOME.into()), joints: self.station.home, external: NO_EXTERNAL }
+    }
+
+    /// The point of row `row` in the work object.
+    pub(super) fn target(
+        &self,
+        object_from_base: &Isometry3<f64>,
+        row: usize,
+        configuration: Option<Configuration>,
+    ) -> PoseTarget {
+        PoseTarget {
+            configuration: configuration.map(|configuration| configuration.numbers()),
+            ..PoseTarget::unnamed(object_from_base * self.station.points[row].pose).named(&self.point_name(row))
+        }
+    }
+
+    /// The program along `way`: home, joints to the first point, on through the others, home. Speeds and zones are drawn from the scenario's
+    /// lists; `blends(k)` says whether the corner at the way's k-th point may be cut by a zone (m).
+    pub(super) fn program(&self, way: &Way, number: usize, blends: impl Fn(usize, f64) -> bool) -> Program {
+        let (tool, object) = self.frames();
         let object_from_base = object.base_from_object().inverse();
         let procedure = &self.scenario.generate.moves.procedure;
         let mut program = Program::new(&format!("hairpin_{number:04}"), procedure, tool, object);
         let moves = &self.scenario.generate.moves;
         let mut random = stream(named_seed(self.scenario.seed, "moves", number as u64));
         let mut pick = |names: &[String]| names[(unit(&mut random) * names.len() as f64) as usize].clone();
-        let home = || {
-            let target = JointTarget { name: Some(HOME.into()), joints: station.home, external: NO_EXTERNAL };
-            Move::new(Motion::AbsoluteJoint(target), slow(), Zone::stop())
-        };
+        let home = || Move::new(Motion::AbsoluteJoint(self.home()), slow(), Zone::stop());
         program.moves.push(home());
         for (k, (row, configuration)) in way.rows.iter().zip(&way.configurations).enumerate() {
-            let pose = object_from_base * station.points[*row].pose;
-            let target = PoseTarget {
-                configuration: configuration.map(|configuration| configuration.numbers()),
-                ..PoseTarget::unnamed(pose).named(&self.point_name(*row))
-            };
+            let target = self.target(&object_from_base, *row, *configuration);
             let (speed, zone) = (pick(&moves.speeds), pick(&moves.zones));
             let speed = Speed::predefined(&speed).unwrap_or_else(slow);
             let zone = Zone::predefined(&zone)

@@ -7,10 +7,21 @@ use crate::campaign::graph::{Outcome, Plan};
 use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, Evidence, Stop};
 use crate::search::heaviest::{
-    Arcs, Ends, Heaviest, HeaviestSettings, Outcome as Found, WalkSettings, heaviest, heaviest_walk,
+    Arcs, Ends, Heaviest, HeaviestSettings, Outcome as Found, WalkProof, WalkSettings, heaviest, heaviest_walk,
 };
 use crate::simulation::arm as controller;
 use crate::trajectory::program::Program;
+
+/// A graph as it is searched.
+#[derive(Debug, Clone)]
+pub struct Question {
+    /// Points of the cloud, and where there are two more, home.
+    pub points: usize,
+    /// Whole costs, row = from.
+    pub costs: Vec<Option<i64>>,
+    /// First and last point, where they are fixed.
+    pub ends: Ends,
+}
 
 /// The search for an arm's programs.
 pub(in crate::campaign) struct Solver<'a> {
@@ -55,54 +66,83 @@ impl ArmSetup<'_> {
         plans.map(|(number, plan)| plan.case(self.scenario.seed, 0, number)).collect()
     }
 
-    /// The heaviest paths through `graph`, in rows of the cloud, that home can be left for and reached from.
-    ///
-    /// Where not every point can be a first and a last one, home is two points more: one with free arcs to where programs may begin,
-    /// one with free arcs from where they may end.
-    ///
-    /// # Errors
-    /// Costs that no search takes, in a sentence's part.
-    pub fn heaviest(&self, graph: &ArmGraph, stop: &Stop) -> Result<Heaviest, String> {
+    /// What is searched: the graph's costs, and where not every point can be a first and a last one, home as two points more: one with free
+    /// arcs to where programs may begin, one with free arcs from where they may end.
+    fn question(&self, graph: &ArmGraph) -> Question {
         let search = &self.scenario.generate.search;
         let n = graph.points();
         let (first, last) = (search.start.map(|row| row as usize), search.end.map(|row| row as usize));
         let may_begin = |row: usize| graph.from_home[row] && first.is_none_or(|first| first == row);
         let may_end = |row: usize| graph.to_home[row] && last.is_none_or(|last| last == row);
-        let anywhere = (0..n).all(|row| graph.from_home[row] && graph.to_home[row]);
-        let (points, costs, ends) = if anywhere {
-            (n, graph.costs.clone(), Ends { start: first, end: last })
-        } else {
-            let arc = |from: usize, to: usize| match (from, to) {
-                (from, to) if from < n && to < n => graph.costs[from * n + to],
-                (from, to) if from == n && to < n => may_begin(to).then_some(0),
-                (from, to) if from < n && to == n + 1 => may_end(from).then_some(0),
-                _ => None,
-            };
-            let pairs = (0..n + 2).flat_map(|from| (0..n + 2).map(move |to| (from, to)));
-            (n + 2, pairs.map(|(from, to)| arc(from, to)).collect(), Ends { start: Some(n), end: Some(n + 1) })
+        if (0..n).all(|row| graph.from_home[row] && graph.to_home[row]) {
+            return Question { points: n, costs: graph.costs.clone(), ends: Ends { start: first, end: last } };
+        }
+        let arc = |from: usize, to: usize| match (from, to) {
+            (from, to) if from < n && to < n => graph.costs[from * n + to],
+            (from, to) if from == n && to < n => may_begin(to).then_some(0),
+            (from, to) if from < n && to == n + 1 => may_end(from).then_some(0),
+            _ => None,
         };
-        let arcs = Arcs::new(points, &costs).map_err(|error| error.to_string())?;
-        let begun = (stop.clock)();
-        let over = || (stop.cancelled)() || search.time_limit_s.is_some_and(|limit| (stop.clock)() - begun >= limit);
-        let settings = HeaviestSettings {
-            ends,
-            min_cost: search.min_cost.map(|least| (least / graph.unit).ceil() as i64),
-            programs: search.programs as usize,
-            seed: self.scenario.seed,
-            ..HeaviestSettings::default()
-        };
-        let mut found = if search.visits == 1 {
-            heaviest(&arcs, &settings, &over).map_err(|error| error.to_string())?
-        } else {
-            let HeaviestSettings { ends, min_cost, programs, most_nodes, .. } = settings;
-            let settings =
-                WalkSettings { ends, visits: search.visits as usize, min_cost, programs, most_nodes, proof: false };
-            heaviest_walk(&arcs, &settings, &over).map_err(|error| error.to_string())?.0
-        };
+        let pairs = (0..n + 2).flat_map(|from| (0..n + 2).map(move |to| (from, to)));
+        let ends = Ends { start: Some(n), end: Some(n + 1) };
+        Question { points: n + 2, costs: pairs.map(|(from, to)| arc(from, to)).collect(), ends }
+    }
+
+    /// The heaviest paths through `graph`, in rows of the cloud, that home can be left for and reached from.
+    ///
+    /// # Errors
+    /// Costs that no search takes, in a sentence's part.
+    pub fn heaviest(&self, graph: &ArmGraph, stop: &Stop) -> Result<Heaviest, String> {
+        let programs = self.scenario.generate.search.programs as usize;
+        let (mut found, _) = self.search(graph, &self.question(graph), programs, false, stop)?;
         for (_, path) in &mut found.paths {
-            path.retain(|row| *row < n);
+            path.retain(|row| *row < graph.points());
         }
         Ok(found)
+    }
+
+    /// The question, its heaviest path (home and all), and what proves it; `None` where it is not proven in time.
+    ///
+    /// # Errors
+    /// As [`Self::heaviest`].
+    pub fn optimum(
+        &self,
+        graph: &ArmGraph,
+        stop: &Stop,
+    ) -> Result<Option<(Question, Heaviest, Option<WalkProof>)>, String> {
+        let question = self.question(graph);
+        let (found, walk) = self.search(graph, &question, 1, true, stop)?;
+        let proven = found.proven && !found.paths.is_empty();
+        Ok(proven.then_some((question, found, walk)))
+    }
+
+    fn search(
+        &self,
+        graph: &ArmGraph,
+        question: &Question,
+        programs: usize,
+        proof: bool,
+        stop: &Stop,
+    ) -> Result<(Heaviest, Option<WalkProof>), String> {
+        let search = &self.scenario.generate.search;
+        let arcs = Arcs::new(question.points, &question.costs).map_err(|error| error.to_string())?;
+        let begun = (stop.clock)();
+        let over = || (stop.cancelled)() || search.time_limit_s.is_some_and(|limit| (stop.clock)() - begun >= limit);
+        let (ends, min_cost) = (question.ends, search.min_cost.map(|least| (least / graph.unit).ceil() as i64));
+        if search.visits > 1 {
+            let visits = search.visits as usize;
+            let settings = WalkSettings { ends, visits, min_cost, programs, most_nodes: None, proof };
+            return heaviest_walk(&arcs, &settings, &over).map_err(|error| error.to_string());
+        }
+        let settings = HeaviestSettings {
+            ends,
+            min_cost,
+            programs,
+            seed: self.scenario.seed,
+            proof,
+            ..HeaviestSettings::default()
+        };
+        heaviest(&arcs, &settings, &over).map(|found| (found, None)).map_err(|error| error.to_string())
     }
 
     /// Why there is no program.

@@ -1,4 +1,4 @@
-//! The programs that were written, followed once more by the virtual controller's own kinematics and held against the cell.
+//! The programs that were written, followed once more: by the virtual controller's own kinematics, and by code that shares nothing with either.
 
 use nalgebra::Point3;
 
@@ -16,8 +16,8 @@ const SAMPLE: f64 = 0.002;
 const MET: f64 = 1e-6;
 
 /// Follows the program of `case` without lag and noise, by the controller's inverse kinematics, not the graph's: every point must be
-/// met, every joint stay within its bounds, and, where all links are claimed to be clear, none may be in a part of the cell. Sampled:
-/// what the graph proves between samples is not proven again. `None` for a case that has no program.
+/// met, every joint stay within its bounds, and, where all links are claimed to be clear, none may be in a part of the cell, nor, followed by the
+/// proof's own equations without zones, come nearer to one than was claimed. Sampled: what the graph proves between samples is not proven again. `None` for a case that has no program.
 pub(in crate::campaign) fn verify(setup: &ArmSetup, case: &Case) -> Option<Proof> {
     case.program.as_ref()?;
     let mut proof = Proof::default();
@@ -50,6 +50,15 @@ pub(in crate::campaign) fn verify(setup: &ArmSetup, case: &Case) -> Option<Proof
             let field = format!("legs[{leg}].end.position");
             proof.findings.push(Finding { field, value, bound: MET, unit: "m", leg, at });
         }
+    }
+    if case.evidence == Evidence::ClearAllLinks
+        && let Ok(orders) = program_of(case).and_then(|program| setup.orders(program))
+    {
+        let findings = setup.followed_again(&orders).into_iter();
+        proof.findings.extend(findings.map(|found| Finding {
+            leg: found.index,
+            ..refuse(format!("{} at {:.0} % of the move", found.what, 100.0 * found.at))
+        }));
     }
     let columns: Vec<&[f64]> = (1..=AXES).filter_map(|axis| run.recording.channel(&format!("q{axis}_rad"))).collect();
     let moves = run.recording.channel("move").unwrap_or_default();

@@ -2,7 +2,8 @@
 
 use nalgebra::Isometry3;
 
-use super::finding::{Fault, Fit};
+use super::finding::Fit;
+use crate::feasibility::reachability::Refusal;
 use crate::robot::arm::{AXES, Arm, Joints};
 
 /// Quadrants of angles this near (rad) to their border are both right: targets are rounded.
@@ -41,7 +42,7 @@ pub(super) fn choose(
     flange: &Isometry3<f64>,
     demanded: Option<[i32; 4]>,
     near: &Joints,
-) -> Result<Joints, (Fault, Option<Fit>)> {
+) -> Result<Joints, (Refusal, Option<Fit>)> {
     let possible = within_limits(arm, flange, near);
     let fitting = possible.iter().filter(|q| demanded.is_none_or(|configuration| has(arm, q, &configuration)));
     if let Some(q) = fitting.min_by(|a, b| distance(a, near).total_cmp(&distance(b, near))) {
@@ -51,7 +52,7 @@ pub(super) fn choose(
     let fit = best.map(|q| Fit { configuration: arm.configuration(q).numbers(), margin: room(arm, q) });
     let solutions = arm.inverse(flange, &[0.0; AXES]);
     if solutions.is_empty() {
-        return Err((Fault::OutOfReach { at: 1.0 }, None));
+        return Err((Refusal::OutOfReach { at: 1.0 }, None));
     }
     // Of the solutions that the target means, the one that is least far beyond a bound.
     let meant = |q: &&Joints| demanded.is_none_or(|cf| i32::from(arm.branch(q).cfx()) == cf[3]);
@@ -60,9 +61,17 @@ pub(super) fn choose(
         (Some((q, (axis, _))), _) => {
             let limit = &arm.limits[axis];
             let bound = if q[axis] > limit.upper { limit.upper } else { limit.lower };
-            Err((Fault::JointLimit { axis, angle: q[axis], bound, at: 1.0 }, fit))
+            Err((Refusal::JointLimit { axis, angle: q[axis], bound, at: 1.0 }, fit))
         }
-        (None, Some(demanded)) => Err((Fault::NoSuchConfiguration { demanded }, fit)),
-        (None, None) => Err((Fault::OutOfReach { at: 1.0 }, fit)),
+        (None, Some(demanded)) => Err((Refusal::NoSuchConfiguration { demanded }, fit)),
+        (None, None) => Err((Refusal::OutOfReach { at: 1.0 }, fit)),
     }
+}
+
+/// The first axis outside its bounds.
+pub(super) fn beyond(arm: &Arm, q: &Joints, at: f64) -> Option<Refusal> {
+    let (axis, _) = arm.outside_limits(q)?;
+    let limit = &arm.limits[axis];
+    let bound = if q[axis] > limit.upper { limit.upper } else { limit.lower };
+    Some(Refusal::JointLimit { axis, angle: q[axis], bound, at })
 }

@@ -3,11 +3,15 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
-use super::{Fault, FollowSettings, check};
+use super::{Surroundings, check};
+use crate::feasibility::reachability::Refusal;
+use crate::feasibility::reachability::joint::FollowSettings;
 use crate::robot::arm::{Arm, ArmDescription, Joints, Singularity};
 use crate::trajectory::program::{
     JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
 };
+use crate::world::Shape;
+use crate::world::cell::{Cell, Part, Region};
 
 fn arm() -> Arm {
     let text = include_str!("../../../../../data/robots/arm/irb120.toml");
@@ -55,10 +59,14 @@ fn program(motions: Vec<Motion>) -> Program {
     program
 }
 
-fn faults(arm: &Arm, program: &Program) -> Vec<(usize, Fault)> {
-    let checked = check(arm, program, program.moves.len(), None, &FollowSettings::default());
+fn settings() -> FollowSettings {
+    FollowSettings { locate: true, ..FollowSettings::default() }
+}
+
+fn faults(arm: &Arm, program: &Program) -> Vec<(usize, Refusal)> {
+    let checked = check(arm, program, program.moves.len(), &Surroundings::default(), &settings());
     assert_eq!(checked.followed + checked.ends_only, program.moves.len());
-    checked.findings.into_iter().map(|finding| (finding.index, finding.fault)).collect()
+    checked.findings.into_iter().map(|finding| (finding.index, finding.refusal)).collect()
 }
 
 #[test]
@@ -76,7 +84,7 @@ fn moves_within_reach_pass_by_lines_arcs_and_joints() {
     // The same from an arm that stands anywhere: the first move's start is not known.
     let mut alone = program.clone();
     alone.moves.drain(..2);
-    let checked = check(&arm, &alone, 3, None, &FollowSettings::default());
+    let checked = check(&arm, &alone, 3, &Surroundings::default(), &settings());
     assert_eq!((checked.followed, checked.ends_only, checked.findings), (2, 1, vec![]));
 }
 
@@ -88,21 +96,21 @@ fn limits_are_found_with_their_numbers_and_a_way_out() {
         joints: rad([0.0, 0.0, 0.0, 163.1, 30.0, 0.0]),
         external: NO_EXTERNAL,
     })]);
-    let checked = check(&arm, &beyond, 2, None, &FollowSettings::default());
-    let told: Vec<String> = checked.findings.iter().map(ToString::to_string).collect();
+    let checked = check(&arm, &beyond, 2, &Surroundings::default(), &settings());
+    let told: Vec<String> = checked.findings.iter().map(|finding| finding.told(&[])).collect();
     assert_eq!(told, ["line 11: UNREACHABLE home→far: axis 4 at 163.1° > 160.0° at 100 % of the move"]);
     // Axis 4 would be at 170°; with the wrist flipped it is at −10°.
     let flipped = at(&arm, [10.0, 5.0, 10.0, 170.0, 50.0, -30.0], "p1");
     assert_eq!(flipped.configuration, Some([0, 1, -1, 0]));
-    let checked = check(&arm, &program(vec![Motion::Joint(flipped)]), 2, None, &FollowSettings::default());
+    let checked = check(&arm, &program(vec![Motion::Joint(flipped)]), 2, &Surroundings::default(), &settings());
     let finding = &checked.findings[0];
-    assert!(matches!(finding.fault, Fault::JointLimit { axis: 3, angle, bound, .. }
+    assert!(matches!(finding.refusal, Refusal::JointLimit { axis: 3, angle, bound, .. }
         if (angle.to_degrees() - 170.0).abs() < 1e-6 && (bound.to_degrees() - 160.0).abs() < 1e-9));
     let fit = finding.fit.unwrap();
     assert_eq!((fit.configuration[1], fit.configuration[3]), (-1, 1));
     assert!(
-        finding.to_string().contains("home→p1: axis 4 at 170.0° > 160.0° at 100 % of the move; with cf4 = −1"),
-        "{finding}"
+        finding.told(&[]).contains("home→p1: axis 4 at 170.0° > 160.0° at 100 % of the move; with cf4 = −1"),
+        "{finding:?}"
     );
 }
 
@@ -113,7 +121,7 @@ fn a_limit_on_the_way_is_found_where_it_is() {
     let (from, to) =
         (at(&arm, [150.0, 0.0, 0.0, 0.0, 60.0, 0.0], "a"), at(&arm, [175.0, 0.0, 0.0, 0.0, 60.0, 0.0], "b"));
     let found = faults(&arm, &program(vec![Motion::Joint(from), Motion::Linear(to)]));
-    let [(2, Fault::JointLimit { axis: 0, angle, bound, at })] = found[..] else { panic!("{found:?}") };
+    let [(2, Refusal::JointLimit { axis: 0, angle, bound, at })] = found[..] else { panic!("{found:?}") };
     assert!(angle > bound && (bound.to_degrees() - 165.0).abs() < 1e-9 && angle.to_degrees() < 165.5);
     // On the chord from 150° to 175° the ray at 165° is met at sin 15° / (sin 15° + sin 10°).
     let [a, b] = [15.0_f64, 10.0].map(|degrees| degrees.to_radians().sin());
@@ -126,7 +134,7 @@ fn reach_and_singularities_are_found() {
     let start = at(&arm, [0.0, 0.0, 0.0, 0.0, 60.0, 0.0], "a");
     let found =
         faults(&arm, &program(vec![Motion::Joint(start.clone()), Motion::Linear(shifted(&start, 0.8, 0.0, 0.0))]));
-    let [(2, Fault::Singular { margin, at: share, .. })] = found[..] else { panic!("{found:?}") };
+    let [(2, Refusal::Singular { margin, at: share, .. })] = found[..] else { panic!("{found:?}") };
     // The wrist's centre leaves the sphere of the stretched arm about the shoulder: |w + s·d|² = (c2 + √(a2² + c3²))².
     let wrist = arm.forward(&rad([0.0, 0.0, 0.0, 0.0, 60.0, 0.0])) * Point3::new(0.0, 0.0, -0.072)
         - Point3::new(0.0, 0.0, 0.29);
@@ -135,11 +143,11 @@ fn reach_and_singularities_are_found() {
     let leaves = (-half + (half * half - way.norm_squared() * room).sqrt()) / way.norm_squared();
     assert!(margin.of == Singularity::Elbow && share < leaves && leaves - share < 2e-3, "{margin:?} {share} {leaves}");
     let far = faults(&arm, &program(vec![Motion::Joint(shifted(&start, 3.0, 0.0, 0.0))]));
-    assert_eq!(far, [(1, Fault::OutOfReach { at: 1.0 })]);
+    assert_eq!(far, [(1, Refusal::OutOfReach { at: 1.0 })]);
     // Axis 5 goes from 20° through 0° to −20°.
     let (a, b) = (at(&arm, [0.0, 0.0, 0.0, 0.0, 20.0, 0.0], "a"), at(&arm, [0.0, 0.0, 0.0, 0.0, -20.0, 0.0], "b"));
     let found = faults(&arm, &program(vec![Motion::Joint(a), Motion::Linear(b)]));
-    let [(2, Fault::Singular { margin, least, at })] = found[..] else { panic!("{found:?}") };
+    let [(2, Refusal::Singular { margin, least, at })] = found[..] else { panic!("{found:?}") };
     assert!(margin.of.to_string() == "wrist" && margin.value < least && (at - 0.5).abs() < 0.1, "{margin:?} {at}");
 }
 
@@ -149,14 +157,49 @@ fn demanded_configurations_are_held_to() {
     let start = at(&arm, [10.0, 5.0, 10.0, 20.0, 50.0, -30.0], "a");
     let wrong = PoseTarget { configuration: Some([2, 0, 0, 0]), ..start.clone() };
     let mut asked = program(vec![Motion::Joint(wrong.clone())]);
-    assert_eq!(faults(&arm, &asked), [(1, Fault::NoSuchConfiguration { demanded: [2, 0, 0, 0] })]);
+    assert_eq!(faults(&arm, &asked), [(1, Refusal::NoSuchConfiguration { demanded: [2, 0, 0, 0] })]);
     asked.moves[1].configuration_demanded = false;
     assert_eq!(faults(&arm, &asked), []);
     let other = PoseTarget { configuration: Some([0, 1, -1, 0]), ..shifted(&start, 0.0, 0.02, 0.0) };
     let mut asked = program(vec![Motion::Joint(start), Motion::Linear(other)]);
     let found = faults(&arm, &asked);
     let arrives = [0, 0, -1, 0];
-    assert_eq!(found, [(2, Fault::ArrivesOtherwise { demanded: [0, 1, -1, 0], arrives })]);
+    assert_eq!(found, [(2, Refusal::ArrivesOtherwise { demanded: [0, 1, -1, 0], arrives })]);
     asked.moves[2].configuration_demanded = false;
     assert_eq!(faults(&arm, &asked), []);
+}
+
+#[test]
+fn obstacles_are_met_where_they_stand() {
+    let arm = arm();
+    let start = at(&arm, [0.0, 10.0, 0.0, 0.0, 50.0, 0.0], "a");
+    let way = object().base_from_object().rotation * Vector3::new(0.0, 0.2, 0.0);
+    let tip = (arm.forward(&rad([0.0, 10.0, 0.0, 0.0, 50.0, 0.0])) * tool().tcp).translation.vector;
+    // A thin rod across the way of the tool's point, at 60 % of it: thinner than any two samples are apart.
+    let across = way.cross(&Vector3::z()).normalize();
+    let middle = tip + way * 0.6;
+    let rod = Shape::capsule((middle - across * 0.3).into(), (middle + across * 0.3).into(), 0.002).unwrap();
+    let cell = Cell { parts: vec![Part { name: "rod".into(), region: Region::Shape(rod) }] };
+    let end = PoseTarget { configuration: None, ..shifted(&start, 0.0, 0.2, 0.0) };
+    let asked = program(vec![Motion::Joint(start.clone()), Motion::Linear(end)]);
+    assert_eq!(faults(&arm, &asked), []);
+    let around = Surroundings { cell: Some(&cell), tool_radius: 0.01, clearance: 0.0 };
+    let found = check(&arm, &asked, 3, &around, &settings()).findings;
+    let [finding] = &found[..] else { panic!("{found:?}") };
+    let Refusal::Collides { link: 7, part: 0, at, .. } = finding.refusal else { panic!("{finding:?}") };
+    let first = 0.6 - 0.012 / way.norm();
+    assert!((at - first).abs() < 0.02, "{at} {first}");
+    let told = finding.told(&["rod".into()]);
+    assert!(told.starts_with("line 12: COLLISION a→a: the tool meets rod at "), "{told}");
+    // Moves in joints are followed too: the arm that swings through a post is told so.
+    let post = Shape::capsule([0.3, 0.3, 0.0], [0.3, 0.3, 1.0], 0.05).unwrap();
+    let cell = Cell { parts: vec![Part { name: "post".into(), region: Region::Shape(post) }] };
+    let aside = JointTarget {
+        name: Some("aside".into()),
+        joints: rad([90.0, 0.0, 0.0, 0.0, 30.0, 0.0]),
+        external: NO_EXTERNAL,
+    };
+    let around = Surroundings { cell: Some(&cell), ..around };
+    let found = check(&arm, &program(vec![Motion::AbsoluteJoint(aside)]), 2, &around, &settings()).findings;
+    assert!(matches!(found[..], [super::Finding { refusal: Refusal::Collides { part: 0, .. }, .. }]), "{found:?}");
 }

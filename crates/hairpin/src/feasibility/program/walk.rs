@@ -2,11 +2,13 @@
 
 use nalgebra::Isometry3;
 
-use super::finding::{Fault, Finding, Fit};
-use super::follow::{FollowSettings, Way, beyond, follow};
-use super::posture;
-use crate::robot::arm::{AXES, Arm, Joints};
+use super::finding::{Finding, Fit};
+use super::posture::{self, beyond};
+use crate::feasibility::reachability::Refusal;
+use crate::feasibility::reachability::joint::{Bodies, Circle, FollowSettings, Followed, Motion as Way, follow};
+use crate::robot::arm::{AXES, Arm, Joints, Tool};
 use crate::trajectory::program::{Motion, Move, PoseTarget, Program};
+use crate::world::cell::Cell;
 
 /// What came of a program.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,17 +21,42 @@ pub struct Checked {
     pub findings: Vec<Finding>,
 }
 
+/// What stands around the arm, and what its tool takes up.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Surroundings<'a> {
+    /// In the base frame; without it only the arm itself is in its way.
+    pub cell: Option<&'a Cell>,
+    /// The tool is taken for all points this near (m) to the line from the flange to its point.
+    pub tool_radius: f64,
+    /// What every link and the tool keep from the cell, m.
+    pub clearance: f64,
+}
+
 /// Findings for which another configuration is looked for; beyond, a program has other worries.
 const MOST_REMEDIES: usize = 50;
 
-/// Follows the first `count` moves of a program whose tools and work objects are all there, from the posture `start` (rad), or
-/// from wherever its first posture or configuration puts the arm.
+/// Follows the first `count` moves of a program whose tools and work objects are all there, from wherever its first posture or
+/// configuration puts the arm.
 ///
-/// Straight and circular moves keep one branch of the inverse kinematics and are looked at in samples; of joint moves the ends
-/// are enough, since limits are a box. After a move that is refused the arm is taken to stand at its target.
-pub fn check(arm: &Arm, program: &Program, count: usize, start: Option<Joints>, settings: &FollowSettings) -> Checked {
+/// Straight and circular moves keep one branch of the inverse kinematics; limits, singularities and what links and tool meet are proven
+/// between samples ([`follow`]). After a move that is refused the arm is taken to stand at its target.
+pub fn check(
+    arm: &Arm,
+    program: &Program,
+    count: usize,
+    around: &Surroundings<'_>,
+    settings: &FollowSettings,
+) -> Checked {
+    let nothing = Cell::default();
+    let cell = around.cell.unwrap_or(&nothing);
+    let of = |tool: &crate::trajectory::program::Tool| {
+        let tool = Tool { name: tool.name.clone(), tcp: tool.tcp, radius: around.tool_radius, ..Tool::flange() };
+        let bodies = Bodies::new(arm, &tool, cell, around.clearance);
+        (tool, bodies)
+    };
+    let tools: Vec<(Tool, Bodies)> = program.tools.iter().map(of).collect();
     let checked = Checked { followed: 0, ends_only: 0, findings: Vec::new() };
-    let mut walk = Walk { arm, program, settings, at: start, from: None, checked };
+    let mut walk = Walk { arm, program, tools: &tools, settings, at: None, from: None, checked };
     for (index, m) in program.moves.iter().take(count).enumerate() {
         walk.step(index, m);
         walk.from = m.motion.name().map(Into::into);
@@ -40,6 +67,8 @@ pub fn check(arm: &Arm, program: &Program, count: usize, start: Option<Joints>, 
 struct Walk<'a> {
     arm: &'a Arm,
     program: &'a Program,
+    /// With what each takes up.
+    tools: &'a [(Tool, Bodies<'a>)],
     settings: &'a FollowSettings,
     /// Where the arm stands, if that is known.
     at: Option<Joints>,
@@ -50,25 +79,26 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     fn step(&mut self, index: usize, m: &Move) {
-        let whole = self.at.is_some() || matches!(m.motion, Motion::AbsoluteJoint(_) | Motion::Joint(_));
-        *(if whole { &mut self.checked.followed } else { &mut self.checked.ends_only }) += 1;
+        *(if self.at.is_some() { &mut self.checked.followed } else { &mut self.checked.ends_only }) += 1;
         let tcp = &self.program.tools[m.tool].tcp;
         match (&m.motion, self.at) {
             (Motion::AbsoluteJoint(to), _) => match beyond(self.arm, &to.joints, 1.0) {
-                Some(fault) => self.refuse(index, m, fault, None, None),
-                None => self.at = Some(to.joints),
+                Some(refusal) => self.refuse(index, m, refusal, None, None),
+                None => self.turn(index, m, to.joints),
             },
             (Motion::Joint(to), _) => self.arrive(index, m, to, to.configuration.filter(|_| m.configuration_demanded)),
             (Motion::Linear(to) | Motion::Circular { to, .. }, None) => self.arrive(index, m, to, to.configuration),
             (Motion::Linear(to), Some(q)) => {
-                let way = Way::straight(&(self.arm.forward(&q) * tcp), &self.base_from_tcp(m, to));
+                let way = Way::linear(&(self.arm.forward(&q) * tcp), &self.base_from_tcp(m, to));
                 self.follow(index, m, to, &way, &q);
             }
             (Motion::Circular { via, to }, Some(q)) => {
-                let (via, end) = (self.base_from_tcp(m, via), self.base_from_tcp(m, to));
-                match Way::circular(&(self.arm.forward(&q) * tcp), &via, &end) {
-                    Some(way) => self.follow(index, m, to, &way, &q),
-                    None => self.refuse(index, m, Fault::NoArc, to.configuration, None),
+                let (start, via, end) =
+                    (self.arm.forward(&q) * tcp, self.base_from_tcp(m, via), self.base_from_tcp(m, to));
+                let [a, b, c] = [&start, &via, &end].map(|pose| pose.translation.vector);
+                match Circle::through(&a, &b, &c) {
+                    Ok(circle) => self.follow(index, m, to, &Way::circular(&start, circle, &end.rotation), &q),
+                    Err(_) => self.refuse(index, m, Refusal::NoArc, to.configuration, None),
                 }
             }
         }
@@ -87,48 +117,70 @@ impl Walk<'_> {
         self.base_from_tcp(m, target) * self.program.tools[m.tool].tcp.inverse()
     }
 
-    /// Takes the arm to the target at once.
+    fn followed(&self, m: &Move, way: &Way, start: &Joints) -> Result<Followed, Refusal> {
+        let (tool, bodies) = &self.tools[m.tool];
+        follow(self.arm, tool, Some(bodies), way, start, self.settings, &mut 0)
+    }
+
+    /// Takes the arm to the posture in joints; where it stands is not known, it only has to stand there.
+    fn turn(&mut self, index: usize, m: &Move, end: Joints) {
+        let refusal = match self.at {
+            Some(start) => self.followed(m, &Way::Joint { start, end }, &start).err(),
+            None => self.tools[m.tool].1.standing(&end, 1.0),
+        };
+        let tried = m.motion.end().and_then(|to| to.configuration);
+        if let Some(refusal) = refusal {
+            self.told(index, m, refusal, tried, None);
+        }
+        self.at = Some(end);
+    }
+
+    /// Takes the arm to the target in joints.
     fn arrive(&mut self, index: usize, m: &Move, to: &PoseTarget, demanded: Option<[i32; 4]>) {
         match posture::choose(self.arm, &self.flange(m, to), demanded, &self.near()) {
-            Ok(q) => self.at = Some(q),
-            Err((fault, fit)) => self.refuse(index, m, fault, to.configuration, fit),
+            Ok(q) => self.turn(index, m, q),
+            Err((refusal, fit)) => self.refuse(index, m, refusal, to.configuration, fit),
         }
     }
 
     fn follow(&mut self, index: usize, m: &Move, to: &PoseTarget, way: &Way, start: &Joints) {
-        let tcp = self.program.tools[m.tool].tcp;
-        match follow(self.arm, &tcp, way, start, self.settings) {
+        match self.followed(m, way, start) {
             Ok(followed) => {
                 self.at = Some(followed.end);
                 let demanded = to.configuration.filter(|_| m.configuration_demanded);
                 if let Some(demanded) = demanded.filter(|cf| !posture::has(self.arm, &followed.end, cf)) {
                     let arrives = self.arm.configuration(&followed.end).numbers();
-                    self.refuse(index, m, Fault::ArrivesOtherwise { demanded, arrives }, Some(demanded), None);
+                    self.refuse(index, m, Refusal::ArrivesOtherwise { demanded, arrives }, Some(demanded), None);
                 }
             }
-            Err(fault) => {
+            Err(refusal) => {
                 let tried = to.configuration.unwrap_or(self.arm.configuration(start).numbers());
-                let fit = self.remedy(&tcp, way, start);
-                self.refuse(index, m, fault, Some(tried), fit);
+                let fit = self.remedy(m, way, start);
+                self.refuse(index, m, refusal, Some(tried), fit);
             }
         }
     }
 
     /// The posture at the move's start from which it fits with the most room.
-    fn remedy(&self, tcp: &Isometry3<f64>, way: &Way, start: &Joints) -> Option<Fit> {
+    fn remedy(&self, m: &Move, way: &Way, start: &Joints) -> Option<Fit> {
         if self.checked.findings.len() >= MOST_REMEDIES {
             return None;
         }
         let others = posture::within_limits(self.arm, &self.arm.forward(start), start);
-        let fits = others.iter().filter_map(|other| follow(self.arm, tcp, way, other, self.settings).ok());
-        let best = fits.max_by(|a, b| a.room.total_cmp(&b.room))?;
-        Some(Fit { configuration: self.arm.configuration(&best.end).numbers(), margin: best.room })
+        let fits = others.iter().filter_map(|other| self.followed(m, way, other).ok());
+        let best = fits.max_by(|a, b| a.limit_margin.total_cmp(&b.limit_margin))?;
+        Some(Fit { configuration: self.arm.configuration(&best.end).numbers(), margin: best.limit_margin })
+    }
+
+    /// Writes a finding down.
+    fn told(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
+        let to = m.motion.name().map(Into::into);
+        self.checked.findings.push(Finding { index, line: m.line, from: self.from.clone(), to, refusal, tried, fit });
     }
 
     /// Writes a finding down and moves on to the target, in its configuration if there is such a posture.
-    fn refuse(&mut self, index: usize, m: &Move, fault: Fault, tried: Option<[i32; 4]>, fit: Option<Fit>) {
-        let to = m.motion.name().map(Into::into);
-        self.checked.findings.push(Finding { index, line: m.line, from: self.from.clone(), to, fault, tried, fit });
+    fn refuse(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
+        self.told(index, m, refusal, tried, fit);
         self.at = m.motion.end().and_then(|to| {
             let flange = self.flange(m, to);
             let asked = posture::choose(self.arm, &flange, to.configuration, &self.near());

@@ -73,6 +73,20 @@ pub enum Refusal {
         /// The branch of the others.
         cfx: u8,
     },
+    /// Start, point on the way and end give no arc.
+    NoArc,
+    /// No posture within the limits has the configuration that the target demands.
+    NoSuchConfiguration {
+        /// \[cf1, cf4, cf6, cfx\] of the target.
+        demanded: [i32; 4],
+    },
+    /// A straight or circular move arrives in another configuration than the target demands.
+    ArrivesOtherwise {
+        /// \[cf1, cf4, cf6, cfx\] of the target.
+        demanded: [i32; 4],
+        /// The one in which it arrives.
+        arrives: [i32; 4],
+    },
 }
 
 impl Refusal {
@@ -84,9 +98,29 @@ impl Refusal {
             | Self::Singular { at, .. }
             | Self::Collides { at, .. }
             | Self::SelfCollides { at, .. } => *at = share,
-            Self::ToolMeets { .. } | Self::Configuration { .. } | Self::OtherBranch { .. } => {}
+            Self::ToolMeets { .. }
+            | Self::Configuration { .. }
+            | Self::OtherBranch { .. }
+            | Self::NoArc
+            | Self::NoSuchConfiguration { .. }
+            | Self::ArrivesOtherwise { .. } => {}
         }
         self
+    }
+
+    /// Its name, for machines.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::ToolMeets { .. } | Self::Collides { .. } | Self::SelfCollides { .. } => "collision",
+            Self::OutOfReach { .. } => "reach",
+            Self::JointLimit { .. } => "limit",
+            Self::Singular { .. } => "singularity",
+            Self::NoArc => "arc",
+            Self::Configuration { .. }
+            | Self::OtherBranch { .. }
+            | Self::NoSuchConfiguration { .. }
+            | Self::ArrivesOtherwise { .. } => "configuration",
+        }
     }
 
     /// Of two reasons against a point the one that came farther: reach, limits, then everything else.
@@ -138,6 +172,7 @@ impl fmt::Display for Told<'_> {
         let percent = |at: f64| format!("at {:.0} % of the move", 100.0 * at);
         let (meets, meet) = ("meets", "meet");
         let not_proven = "is not proven clear of";
+        let list = |[a, b, c, d]: [i32; 4]| format!("[{a},{b},{c},{d}]");
         match *self.refusal {
             Refusal::ToolMeets { part: index, undecided } => {
                 write!(f, "the tool's sphere {} {}", if undecided { not_proven } else { meets }, part(index))
@@ -175,6 +210,13 @@ impl fmt::Display for Told<'_> {
                 )
             }
             Refusal::OtherBranch { cfx } => write!(f, "reached in other configurations than cfx {cfx} only"),
+            Refusal::NoArc => f.write_str("start, point on the way and end give no arc"),
+            Refusal::NoSuchConfiguration { demanded } => {
+                write!(f, "no posture within the limits has the configuration {}", list(demanded))
+            }
+            Refusal::ArrivesOtherwise { demanded, arrives } => {
+                write!(f, "arrives in the configuration {}, the target demands {}", list(arrives), list(demanded))
+            }
         }
     }
 }

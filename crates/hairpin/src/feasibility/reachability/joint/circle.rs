@@ -1,20 +1,15 @@
 //! The arc through three points, as controllers take it.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use crate::math::rotation::angle_between;
+use crate::trajectory::program::Arc;
 
 /// An arc from its start through a point to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {
-    centre: Vector3<f64>,
-    /// From the centre to the start.
-    radius: Vector3<f64>,
-    /// At right angles to it, of the same length, forward.
-    forward: Vector3<f64>,
-    /// rad.
-    angle: f64,
+    arc: Arc,
 }
 
 /// Why three points give no circular move.
@@ -50,34 +45,27 @@ impl Circle {
         if apart.min(opposite) < 1f64.to_radians() {
             return Err(CircleError::OneDirection(apart.min(opposite)));
         }
-        // The centre, seen from the start: |w|² ((u × v)-perpendicular combination).
-        let normal = u.cross(&v);
-        let offset =
-            (normal.cross(&u) * v.norm_squared() + v.cross(&normal) * u.norm_squared()) / (2.0 * normal.norm_squared());
-        let (centre, radius) = (start + offset, -offset);
-        let forward = normal.normalize().cross(&radius);
-        let to_end = end - centre;
-        let angle = libm::atan2(to_end.dot(&forward), to_end.dot(&radius));
-        let angle = if angle <= 0.0 { angle + std::f64::consts::TAU } else { angle };
+        let point = |at: &Vector3<f64>| Point3::from(*at);
+        let arc = Arc::through(&point(start), &point(via), &point(end)).ok_or(CircleError::OneDirection(0.0))?;
+        let angle = arc.angle;
         if angle >= 240f64.to_radians() {
             return Err(CircleError::TooLong(angle));
         }
-        Ok(Self { centre, radius, forward, angle })
+        Ok(Self { arc })
     }
 
     /// The point at `s` in [0, 1].
     pub fn at(&self, s: f64) -> Vector3<f64> {
-        let (sin, cos) = libm::sincos(s * self.angle);
-        self.centre + self.radius * cos + self.forward * sin
+        self.arc.point(s).coords
     }
 
     /// Length, m.
     pub fn length(&self) -> f64 {
-        self.angle * self.radius.norm()
+        self.arc.length()
     }
 
     /// Angle, rad.
     pub fn angle(&self) -> f64 {
-        self.angle
+        self.arc.angle
     }
 }

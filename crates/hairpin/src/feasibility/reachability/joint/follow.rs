@@ -12,11 +12,13 @@ pub struct FollowSettings {
     pub margin: f64,
     /// Pieces shorter than this share of the move are not halved; what is open there is refused.
     pub least: f64,
+    /// Whether to look for the first place where the move fails; else for any.
+    pub locate: bool,
 }
 
 impl Default for FollowSettings {
     fn default() -> Self {
-        Self { margin: 0.03, least: 1.0 / 16384.0 }
+        Self { margin: 0.03, least: 1.0 / 16384.0, locate: false }
     }
 }
 
@@ -34,6 +36,8 @@ pub struct Followed {
 /// A joint may turn by this much on half a piece, rad: neighbouring samples then differ by less than a third of a turn, and whole
 /// turns cannot be confused.
 const MOST_TURN: f64 = 0.5;
+/// How near (as a share of the move) the first place where it fails is looked for.
+const LOCATED: f64 = 1.0 / 1024.0;
 /// Length (m) and angle (rad) of the pieces that a move is first cut into.
 const FIRST_PIECE: [f64; 2] = [0.08, 0.3];
 
@@ -105,11 +109,11 @@ impl Walk<'_> {
                     (last, last_turns) = (q, turns);
                     pieces += 1;
                 }
-                Judged::Refused(refusal) => return Err(refusal),
+                Judged::Refused(refusal) if !self.settings.locate || to - from <= LOCATED => return Err(refusal),
                 Judged::Open(refusal) if to - from <= self.settings.least => {
                     return Err(self.settled(refusal, to, &last));
                 }
-                Judged::Open(_) => {
+                Judged::Open(_) | Judged::Refused(_) => {
                     open.push((middle, to));
                     open.push((from, middle));
                 }
@@ -136,16 +140,25 @@ impl Walk<'_> {
         }
     }
 
-    /// What was not decided where a link comes too near is mostly decided a little farther on.
+    /// What was not decided where a link or an axis comes too near is mostly decided a little farther on.
     fn settled(&mut self, undecided: Refusal, from: f64, near: &Joints) -> Refusal {
         let collides = matches!(undecided, Refusal::Collides { .. } | Refusal::SelfCollides { .. });
-        let Some(bodies) = self.bodies.filter(|_| collides) else { return undecided };
+        let bodies = self.bodies.filter(|_| collides);
+        if bodies.is_none() && !matches!(undecided, Refusal::JointLimit { .. }) {
+            return undecided;
+        }
         let ahead = (0..6).map(|k| from + self.settings.least * f64::from(1 << (2 * k))).take_while(|s| *s <= 1.0);
         let mut last = *near;
         for s in ahead {
             let Some(q) = self.solve(s, &last) else { break };
-            if let Look::Met(refusal) = bodies.look(&q, &[0.0; AXES], s, self.queries) {
-                return refusal;
+            match bodies.map(|bodies| bodies.look(&q, &[0.0; AXES], s, self.queries)) {
+                Some(Look::Met(refusal)) => return refusal,
+                Some(Look::Clear | Look::Unknown(_)) => {}
+                None => {
+                    if let Some((axis, _)) = self.arm.outside_limits(&q) {
+                        return self.beyond(axis, &q, s);
+                    }
+                }
             }
             last = q;
         }

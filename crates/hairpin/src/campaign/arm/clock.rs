@@ -1,0 +1,50 @@
+//! What clocking every move of a graph on the real controller takes.
+
+use super::ArmSetup;
+use super::graph::ArmGraph;
+use crate::campaign::scenario::MoveName;
+use crate::trajectory::program::{JointTarget, PoseTarget, Speed, Tool, WorkObject};
+
+/// A graph's moves as a controller drives them.
+#[derive(Debug, Clone)]
+pub struct ArcClock {
+    /// Of all moves.
+    pub tool: Tool,
+    /// Of all moves.
+    pub work_object: WorkObject,
+    /// The cloud, row by row.
+    pub points: Vec<PoseTarget>,
+    /// Moves that are possible, from row to row.
+    pub arcs: Vec<(usize, usize)>,
+    /// Where it begins and ends.
+    pub home: JointTarget,
+    /// The row that home is left for and reached from.
+    pub start: usize,
+    /// Of the moves: the first of the scenario's.
+    pub speed: Speed,
+}
+
+impl ArmSetup<'_> {
+    /// The moves of `graph`, to be clocked at the first of the scenario's speeds.
+    ///
+    /// # Errors
+    /// Moves that are not straight; no point that home can be left for and reached from, in a sentence's part.
+    pub fn arc_clock(&self, graph: &ArmGraph) -> Result<ArcClock, String> {
+        let n = graph.points();
+        if self.scenario.generate.moves.kind == MoveName::Joint {
+            return Err("`generate.moves.kind` = \"joint\": what is clocked is straight moves".into());
+        }
+        let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to)));
+        let arcs: Vec<(usize, usize)> = pairs.filter(|(from, to)| graph.costs[from * n + to].is_some()).collect();
+        let leaving = |row: usize| arcs.iter().filter(|(from, _)| *from == row).count();
+        let near_home = (0..n).filter(|row| graph.from_home[*row] && graph.to_home[*row]);
+        let start = near_home.max_by_key(|row| (leaving(*row), n - row));
+        let start = start.ok_or("no point that home can be left for and reached from")?;
+        let (tool, work_object) = self.frames();
+        let object_from_base = work_object.base_from_object().inverse();
+        let points = (0..n).map(|row| self.target(&object_from_base, row, graph.configuration(self, row))).collect();
+        let speed = self.scenario.generate.moves.speeds.first().and_then(|name| Speed::predefined(name));
+        let speed = speed.ok_or("`generate.moves.speeds` is empty")?;
+        Ok(ArcClock { tool, work_object, points, arcs, home: self.home(), start, speed })
+    }
+}
