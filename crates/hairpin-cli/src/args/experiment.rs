@@ -16,7 +16,7 @@ pub(crate) struct Experiment {
     /// Where tables and figures go; out/NAME if not given. What is there under their names is replaced
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Override one size of the experiment's sheet (experiments/NAME.toml), such as points=[10,12]; repeatable
+    /// Override one size of the experiment's sheet (experiments/NAME.toml), such as `points=[10,12]`; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,
     /// One JSON object on stdout: tables and files
