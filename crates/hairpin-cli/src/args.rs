@@ -4,6 +4,7 @@ mod compare;
 mod experiment;
 mod explain;
 mod import;
+mod learn;
 mod max_load;
 mod numbers;
 mod requirements;
@@ -20,6 +21,7 @@ pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::{Experiment, ExperimentName};
 pub(crate) use explain::Explain;
 pub(crate) use import::Import;
+pub(crate) use learn::{Learn, LearnedStress};
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use requirements::Requirements;
 pub(crate) use select::{Select, SelectBy};
@@ -58,6 +60,8 @@ pub(crate) enum Command {
     Execute(Execute),
     /// Judge the flights of a campaign folder: the third part
     Judge(Judge),
+    /// Learn a score from the flights of a campaign folder: learn OUT --out MODEL, then score = "learned:MODEL"
+    Learn(Learn),
     /// Integrate every control witness of a campaign by independent code
     Verify(Verify),
     /// Fly a violating case again, from its repro file
@@ -107,6 +111,7 @@ impl Command {
             Self::Generate(a) => a.campaign.json,
             Self::Execute(a) => a.json,
             Self::Judge(a) => a.json,
+            Self::Learn(a) => a.json,
             Self::Verify(a) => a.json,
             Self::Replay(a) => a.json,
             Self::Compare(a) => a.json,

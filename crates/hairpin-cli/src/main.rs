@@ -69,6 +69,7 @@ fn run(arguments: Arguments) -> Result<u8, Problem> {
         Command::Generate(generate) => commands::generate::run(&generate),
         Command::Execute(execute) => commands::execute::run(&execute),
         Command::Judge(judge) => commands::judge::run(&judge),
+        Command::Learn(learn) => commands::learn::run(&learn),
         Command::Verify(verify) => commands::verify::run(&verify),
         Command::Replay(replay) => commands::replay::run(&replay),
         Command::Compare(compare) => commands::compare::run(&compare),

@@ -78,6 +78,7 @@ pub(crate) fn bare_case(number: usize, seed: u64, waypoints: Vec<Point3<f64>>) -
         graph: 0,
         waypoints,
         leg_times: Vec::new(),
+        seen: Vec::new(),
         score: 0.0,
         bound: None,
         evidence: Evidence::Unchecked,

@@ -12,6 +12,7 @@ pub(crate) mod export;
 pub(crate) mod generate;
 pub(crate) mod import;
 pub(crate) mod judge;
+pub(crate) mod learn;
 pub(crate) mod max_load;
 pub(crate) mod new;
 mod parts;

@@ -72,7 +72,7 @@ impl CampaignFolder {
             if route.waypoints.len() != length {
                 return Err(contradiction(number, "has another number of waypoints than in results.parquet"));
             }
-            (case.waypoints, case.leg_times) = (route.waypoints, route.leg_times);
+            (case.waypoints, case.leg_times, case.seen) = (route.waypoints, route.leg_times, route.seen);
             all.push(case);
         }
         // Waypoints are written first: those of higher numbers are of a checkpoint that a kill cut short.

@@ -1,11 +1,12 @@
-//! `waypoints.parquet`: what a campaign generated, one row per waypoint: `case,waypoint,x_m,y_m,z_m,leg_time_s`.
+//! `waypoints.parquet`: what a campaign generated, one row per waypoint: `case,waypoint,x_m,y_m,z_m,leg_time_s`
+//! and, of the leg that begins there, what the search saw of it: `seen_v_in_m_s` … `seen_duration_s`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
 use arrow::array::{Float64Array, Int64Array, StringArray};
-use hairpin::campaign::Case;
+use hairpin::campaign::{Case, SeenLeg};
 use nalgebra::Point3;
 
 use super::table::{Columns, Table, TableError};
@@ -18,6 +19,8 @@ pub struct Route {
     pub waypoints: Vec<Point3<f64>>,
     /// One per leg, s; empty where nothing was planned.
     pub leg_times: Vec<f64>,
+    /// One per leg; empty where no search saw them.
+    pub seen: Vec<SeenLeg>,
 }
 
 /// Writes the routes of all cases. `leg_time_s` belongs to the leg that begins at the row's waypoint.
@@ -35,6 +38,10 @@ pub fn write(path: &Path, cases: &[Case]) -> Result<(), WriteError> {
     }
     let times = rows().map(|(case, i)| case.leg_times.get(i).copied()).collect::<Float64Array>();
     columns.push("leg_time_s", Arc::new(times));
+    for (place, name) in SeenLeg::NAMES.into_iter().enumerate() {
+        let values = rows().map(|(case, i)| case.seen.get(i).map(|seen| seen.numbers()[place]));
+        columns.push(format!("seen_{name}"), Arc::new(values.collect::<Float64Array>()));
+    }
     columns.write(path, "waypoints")
 }
 
@@ -48,6 +55,8 @@ pub fn read(path: &Path) -> Result<BTreeMap<usize, Route>, TableError> {
     let numbers = table.counts("waypoint")?;
     let position = ["x_m", "y_m", "z_m"].iter().map(|name| table.numbers(name)).collect::<Result<Vec<_>, _>>()?;
     let times = table.optional_numbers("leg_time_s")?;
+    let saw = SeenLeg::NAMES.map(|name| format!("seen_{name}"));
+    let saw = saw.iter().map(|name| table.numbers_or_none(name)).collect::<Result<Vec<_>, _>>()?;
     let mut order: Vec<usize> = (0..table.rows()).collect();
     order.sort_by_key(|&row| (cases[row], numbers[row]));
     let mut routes: BTreeMap<usize, Route> = BTreeMap::new();
@@ -63,6 +72,13 @@ pub fn read(path: &Path) -> Result<BTreeMap<usize, Route>, TableError> {
                 return Err(table.refuse("leg_time_s", row, time, "> 0, for each leg of the case or for none"));
             }
             route.leg_times.push(time);
+        }
+        let mut leg = [0.0; SeenLeg::NAMES.len()];
+        if leg.iter_mut().zip(&saw).all(|(number, column)| column[row].map(|value| *number = value).is_some()) {
+            if route.seen.len() != next {
+                return Err(table.refuse("seen_v_in_m_s", row, leg[0], "given for each leg of the case or for none"));
+            }
+            route.seen.push(SeenLeg::of(leg));
         }
     }
     Ok(routes)

@@ -38,6 +38,15 @@ impl Table {
         }
     }
 
+    /// As [`Self::optional_numbers`]; all `None` where there is no such column.
+    pub(crate) fn numbers_or_none(&self, column: &str) -> Result<Vec<Option<f64>>, TableError> {
+        if self.names().iter().any(|name| name == column) {
+            self.optional_numbers(column)
+        } else {
+            Ok(vec![None; self.rows()])
+        }
+    }
+
     /// Counts: integers ≥ 0 without gaps.
     pub(crate) fn counts(&self, column: &str) -> Result<Vec<usize>, TableError> {
         self.all(column, self.optional_counts(column)?, "an integer ≥ 0")

@@ -7,16 +7,13 @@ use hairpin::campaign::scenario::{ArmControllerKind, ArmScenario, CloudPoint, Co
 use sha2::{Digest, Sha256};
 
 use super::baseline;
-use super::place_of;
 use super::report::Report;
 use super::resolve::read_file;
 use super::tree::Node;
+use super::{Wrong, place_of};
 use crate::folder::BASELINE;
 use crate::mesh::read_mesh;
 use crate::{cloud, costs, rapid};
-
-/// A mistake in a key's value: key, value, what it must be.
-type Wrong = (String, String, String);
 
 /// Reads the files; mistakes go to `report`.
 pub(super) fn resolve(scenario: &mut ArmScenario, base: &Path, root: &Node, report: &mut Report) {

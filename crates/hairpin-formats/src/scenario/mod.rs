@@ -3,6 +3,7 @@
 mod arm;
 mod baseline;
 mod cell;
+mod learned;
 mod report;
 mod resolve;
 mod robot;
@@ -20,6 +21,7 @@ use hairpin::campaign::scenario::{KeyPath, RobotKind};
 use toml::Table;
 
 pub use arm::arm_for;
+pub use learned::model_text;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
@@ -27,6 +29,9 @@ pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 use crate::{library, schema};
 use resolve::{Resolver, is_urdf};
 use tree::{Kind, Node};
+
+/// A mistake in a key's value: key, value, what it must be.
+type Wrong = (String, String, String);
 
 /// Reads, resolves and checks a scenario.
 ///
@@ -116,6 +121,11 @@ pub fn arm_scenario_for(cell: &str, points: &Path, sets: &[(String, String)]) ->
 /// # Errors
 /// A file cannot be read, or is another one.
 pub fn attach(scenario: &mut Scenario, folder: &Path) -> Result<(), Report> {
+    if let Err((key, value, bound)) = learned::attach(scenario, folder) {
+        let mut report = Report::default();
+        report.complain_of_file(&value, &format!("`{key}` = {value:?}: {bound}"));
+        return Err(report);
+    }
     match scenario {
         Scenario::Flight(_) => Ok(()),
         Scenario::Drive(drive) => terrain::attach(drive, folder),
@@ -174,6 +184,10 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
             drive.execute.controller = drive.execute.controller_in_force();
         }
         Scenario::Arm(arm) => cell::resolve(arm, base, &root, report),
+    }
+    if let Err((key, value, bound)) = learned::read(&mut scenario, base) {
+        let message = format!("`{key}` = {value:?}: {bound}");
+        report.complain(&place_of(&root, &key), &key, &value, &bound, message);
     }
     if !report.is_empty() {
         return None;

@@ -53,6 +53,9 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) 
         SearchMethod::Beam => "best-first with a beam: no optimum is claimed",
         SearchMethod::Exact => "exact in each sampled graph, over its waypoints only",
         SearchMethod::Uniform => "uniform over the feasible trajectories of each sampled graph",
+        SearchMethod::InLoop => {
+            "by executions in the loop: scores are the stress of a nominal run, no optimum is claimed"
+        }
     };
     said.push(format!(
         "Search: {method}; score `{}`; {} of {} cases asked for, from {} sampled graphs of {} waypoints.",

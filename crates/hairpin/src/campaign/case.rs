@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use crate::feasibility::reach::LegFeatures;
 pub use crate::judgement::Violation;
 use crate::judgement::{Measures, Share, share};
 use crate::trajectory::Drive;
@@ -50,6 +51,32 @@ impl Evidence {
     }
 }
 
+/// What a search saw of a leg: what scores are made of, and what stress is learned from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeenLeg {
+    /// Speeds, turn, length, climb, ground.
+    pub features: LegFeatures,
+    /// Planned duration, s, before stops were put in.
+    pub duration: f64,
+}
+
+impl SeenLeg {
+    /// Names of [`Self::numbers`], with their units.
+    pub const NAMES: [&'static str; 7] =
+        ["v_in_m_s", "v_out_m_s", "turn_rad", "length_m", "climb_m", "ground", "duration_s"];
+
+    /// As a row of a file.
+    pub fn numbers(&self) -> [f64; 7] {
+        let LegFeatures { v_in, v_out, turn, length, climb, ground } = self.features;
+        [v_in, v_out, turn, length, climb, ground, self.duration]
+    }
+
+    /// From a row of a file.
+    pub fn of([v_in, v_out, turn, length, climb, ground, duration]: [f64; 7]) -> Self {
+        Self { features: LegFeatures { v_in, v_out, turn, length, climb, ground }, duration }
+    }
+}
+
 /// A generated trajectory: case `number`, counted from 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
@@ -63,7 +90,9 @@ pub struct Case {
     pub waypoints: Vec<Point3<f64>>,
     /// Planned duration of each leg, s.
     pub leg_times: Vec<f64>,
-    /// Score under the scenario's objective.
+    /// What the search saw of each leg; empty for missions made elsewhere and for arms.
+    pub seen: Vec<SeenLeg>,
+    /// Score under the scenario's objective; of `in-loop` the stress that was executed.
     pub score: f64,
     /// Proven upper bound of the score in its graph, where the search has one.
     pub bound: Option<f64>,
@@ -215,6 +244,7 @@ mod tests {
             graph: 0,
             waypoints: Vec::new(),
             leg_times: Vec::new(),
+            seen: Vec::new(),
             score,
             bound,
             evidence: Evidence::HullFeasible,

@@ -220,6 +220,7 @@ mod tests {
             let violation =
                 Violation { what: "deviation".into(), value: deviation, limit, unit: "m".into(), at: 1.0, leg: 0 };
             let case = Case {
+                seen: Vec::new(),
                 number,
                 seed: number as u64,
                 graph: 0,

@@ -32,6 +32,15 @@ pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario,
     drawn.vary_mut().clear();
     // What was read from files is no key; where its keys did not change it is the same.
     match (scenario, &mut drawn) {
+        (Scenario::Flight(old), Scenario::Flight(new)) if new.generate.score == old.generate.score => {
+            new.generate.model = old.generate.model.clone();
+        }
+        (Scenario::Drive(old), Scenario::Drive(new)) if new.generate.search.score == old.generate.search.score => {
+            new.generate.search.model = old.generate.search.model.clone();
+        }
+        _ => {}
+    }
+    match (scenario, &mut drawn) {
         (Scenario::Drive(old), Scenario::Drive(new))
             if new.world.terrain == old.world.terrain && new.seed == old.seed =>
         {

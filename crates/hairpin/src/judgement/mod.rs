@@ -10,6 +10,7 @@ pub mod paired;
 pub mod settings;
 pub mod spec;
 pub mod statistics;
+mod stress;
 pub mod verdict;
 
 #[cfg(test)]
@@ -21,4 +22,5 @@ pub use paired::{Median, SignedRank, holm, median, signed_rank};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
 pub use statistics::{Share, Statistics, rank_correlation, rule_of_three, share, skewness};
+pub use stress::Stress;
 pub use verdict::{Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};

@@ -10,6 +10,7 @@ pub mod polynomial;
 pub mod power;
 pub mod quadrature;
 pub mod random;
+pub mod ridge;
 pub mod rotation;
 pub mod segment;
 pub mod simd;

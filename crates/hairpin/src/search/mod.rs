@@ -10,6 +10,7 @@ pub mod exact;
 mod frontier;
 pub mod graph;
 pub mod heaviest;
+pub mod in_loop;
 pub mod objective;
 pub mod open_end;
 #[cfg(test)]

@@ -200,6 +200,7 @@ impl Repro {
             graph: 0,
             waypoints: self.waypoints_m.iter().map(|p| Point3::from(*p)).collect(),
             leg_times: self.leg_times_s.clone(),
+            seen: Vec::new(),
             score: 0.0,
             bound: None,
             evidence,

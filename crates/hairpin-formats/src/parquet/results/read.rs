@@ -51,6 +51,7 @@ fn read_cases(table: &Table) -> Result<Vec<Case>, TableError> {
                 graph: graphs[row],
                 waypoints: Vec::new(),
                 leg_times: Vec::new(),
+                seen: Vec::new(),
                 score: scores[row],
                 bound: bounds[row],
                 evidence: Evidence::from_word(&evidence[row])

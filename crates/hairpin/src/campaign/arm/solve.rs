@@ -173,6 +173,7 @@ impl ArmSetup<'_> {
         Plan {
             waypoints: poses.map(|pose| pose.translation.vector.into()).collect(),
             leg_times,
+            seen: Vec::new(),
             score: cost as f64 * graph.unit,
             // The bound of the heaviest holds for all that come after it.
             bound: found.bound.map(|bound| bound as f64 * graph.unit).filter(|_| number == 0),

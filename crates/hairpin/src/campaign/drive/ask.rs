@@ -4,20 +4,27 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
-use crate::campaign::graph::{Outcome, Plan, Question, search};
+use crate::campaign::graph::{Looped, Outcome, Plan, Question, search};
 use crate::campaign::scenario::{DriveScenario, SearchSection};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::{Found, Objective, OpenEnd};
 
-/// One graph and what is asked of it.
-pub(super) struct Asked<'a, N, R, O> {
-    pub(super) scenario: &'a DriveScenario,
+/// One graph, and how it is searched.
+#[derive(Clone, Copy)]
+pub(super) struct Graph<'a> {
     pub(super) search: &'a SearchSection,
     /// Number of the graph.
     pub(super) graph: u64,
     /// Its waypoints, the start first and, if there is one, the end last.
     pub(super) points: &'a [Point3<f64>],
+    pub(super) looped: Looped<'a>,
+}
+
+/// A graph, and what its legs and scores are.
+pub(super) struct Asked<'a, N, R, O> {
+    pub(super) scenario: &'a DriveScenario,
+    pub(super) graph: Graph<'a>,
     pub(super) reach: &'a R,
     pub(super) start: N,
     pub(super) score: O,
@@ -37,12 +44,15 @@ where
     R: Reach<N>,
     O: Objective<Memory = ()>,
 {
-    let Asked { scenario, search: section, graph, points, reach, start, score, lookahead } = asked;
+    let Asked { scenario, graph, reach, start, score, lookahead } = asked;
+    let Graph { search: section, graph, points, looped } = graph;
     let seed = named_seed(scenario.seed, "uniform", graph);
     let length = scenario.task.length as usize;
     if scenario.task.end_m.is_some() {
-        let question = Question { search: section, length, points, reach, start, score, seed, lookahead };
-        return Outcome::of(graph, search(&question, may_arrive), plan);
+        let (plan, also) = (&plan, Vec::new());
+        let question =
+            Question { search: section, length, points, reach, start, score, seed, lookahead, plan, also, looped };
+        return Outcome::of(graph, search(&question, may_arrive));
     }
     let open = OpenEnd::new(reach, points);
     let question = Question {
@@ -54,7 +64,9 @@ where
         score: open.score(&score, section.aggregate),
         seed,
         lookahead: 0,
+        plan: &|found| plan(open.closed(found)),
+        also: Vec::new(),
+        looped,
     };
-    let answer = search(&question, OpenEnd::<&R>::may_arrive);
-    Outcome::of(graph, answer, |found| plan(open.closed(found)))
+    Outcome::of(graph, search(&question, OpenEnd::<&R>::may_arrive))
 }

@@ -36,12 +36,12 @@ pub(in crate::campaign) fn replan(
         return Some(undriven(Vec::new()));
     }
     let set = Stepwise::new(*setup).ok()?;
-    let feasible = waypoints.first() == case.waypoints.first() && set.follows(&waypoints);
+    let feasible = waypoints.first() == case.waypoints.first() && set.follows(&waypoints).is_some();
     feasible.then(|| undriven(vec![set.step(); waypoints.len() - 1]))
 }
 
 /// Pose and curvature at waypoint number `index` of a drive.
-fn pose(drive: &Drive, index: usize) -> Option<Planar> {
+pub(super) fn pose(drive: &Drive, index: usize) -> Option<Planar> {
     let before = index.checked_sub(1).and_then(|leg| drive.legs.get(leg)).map(|leg| leg.to);
     drive.legs.get(index).map(|leg| leg.from).or(before)
 }

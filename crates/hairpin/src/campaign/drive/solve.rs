@@ -5,17 +5,20 @@ use std::f64::consts::PI;
 use nalgebra::Point3;
 
 use super::DriveSetup;
-use super::ask::{Asked, ask};
+use super::ask::{Asked, Graph, ask};
 use super::legs::count;
+use super::replan::pose;
 use super::stepwise::Stepwise;
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Counter, Outcome, Plan};
-use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
+use crate::campaign::graph::{Counter, Looped, Outcome, Plan};
+use crate::campaign::learn::AnyScore;
+use crate::campaign::scenario::{DriveSearch, GroundReach, Manoeuvre, SearchSection};
 use crate::feasibility::reach::drive::{
     DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres, sample_ground,
 };
 use crate::feasibility::steering::shooting::families;
 use crate::math::random::named_seed;
+use crate::search::in_loop::Trial;
 use crate::search::{Found, Score};
 use crate::trajectory::Drive;
 use crate::trajectory::drive::Planar;
@@ -23,6 +26,8 @@ use crate::world::terrain::Terrain;
 
 /// Waypoints at a leg's distance that each waypoint has, about: the disc that waypoints are spread over follows from it.
 const NEIGHBOURS: f64 = 12.0;
+/// The ground's part in what learned scores see.
+const LEARNED_FROM: &str = "slope+slip";
 
 /// The part of a search that is the same for every graph.
 pub(in crate::campaign) struct Solver<'a> {
@@ -45,16 +50,38 @@ impl<'a> Solver<'a> {
         Ok(Self { setup, settings, search: setup.scenario.generate.search.section(), stepwise })
     }
 
-    /// Searches graph number `graph`.
-    pub(in crate::campaign) fn solve(&self, graph: u64) -> Outcome {
+    /// Searches graph number `graph`; `execute` is for searches in the loop.
+    pub(in crate::campaign) fn solve(&self, graph: u64, execute: &dyn Fn(&Plan) -> Option<Trial>) -> Outcome {
         let points = match self.sample(graph) {
             Ok(points) => points,
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
         };
+        let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved(graph, plan, points);
+        let looped = Looped { execute, moved: &moved };
+        let asked = Graph { search: &self.search, graph, points: &points, looped };
         match &self.stepwise {
-            Some(stepwise) => stepwise.solve(&self.search, &self.settings, graph, &points),
-            None => self.by_roadmap(graph, &points),
+            Some(stepwise) => stepwise.solve(&self.settings, asked),
+            None => self.by_roadmap(asked),
         }
+    }
+
+    /// `plan` over `points`, as many as its own, by the same reach set; heights are the ground's. `None` where they are not feasible.
+    fn moved(&self, graph: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+        let on_ground = |p: &Point3<f64>| Some(Point3::new(p.x, p.y, self.setup.map.patch(p.x, p.y).ok()?.height));
+        let waypoints: Vec<Point3<f64>> = points.iter().map(on_ground).collect::<Option<_>>()?;
+        if let Some(stepwise) = &self.stepwise {
+            return Some(Plan { seen: stepwise.follows(&waypoints)?, waypoints, bound: None, ..plan.clone() });
+        }
+        let old = plan.drive.as_ref()?;
+        let poses: Option<Vec<Planar>> = waypoints
+            .iter()
+            .enumerate()
+            .map(|(index, p)| Some(Planar { x: p.x, y: p.y, ..pose(old, index)? }))
+            .collect();
+        let drive = self.through(graph, &poses?)?;
+        let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
+        // No search saw its legs.
+        Some(Plan { waypoints, leg_times, seen: Vec::new(), drive: Some(drive), bound: None, ..plan.clone() })
     }
 
     /// The drive over `poses` in order, solved as one of graph number `graph` is.
@@ -115,24 +142,21 @@ impl<'a> Solver<'a> {
         DriveRoadmap::new(self.site(), points, &start, None, &settings)
     }
 
-    fn by_roadmap(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
-        let roadmap = self.roadmap(graph, points);
+    fn by_roadmap(&self, graph: Graph) -> Outcome {
+        let points = graph.points;
+        let roadmap = self.roadmap(graph.graph, points);
         let plan = |found: Found<_>| {
             let drive = roadmap.drive(&found.nodes)?;
             // With stops, which the search does not see before it knows what follows what.
             let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
             Some(Plan { leg_times, drive: Some(drive), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
-        let asked = Asked {
-            scenario: self.setup.scenario,
-            search: &self.search,
-            graph,
-            points,
-            reach: &roadmap,
-            start: roadmap.start(),
-            score: Score::Ground,
-            lookahead: 0,
+        let score = match &self.setup.scenario.generate.search.model {
+            Some(kept) => AnyScore::Learned(&kept.model),
+            None => AnyScore::Named(Score::Ground),
         };
+        let (reach, start) = (&roadmap, roadmap.start());
+        let asked = Asked { scenario: self.setup.scenario, graph, reach, start, score, lookahead: 0 };
         let mut outcome = ask(asked, |node, steps| roadmap.may_arrive(node, steps), plan);
         if outcome.plans.is_empty() {
             outcome.reason = Some(roadmap.tally().to_string());
@@ -174,8 +198,14 @@ fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
         pace: setup.pace(),
         control: generate.control.control(),
         direction: setup.direction(),
-        score: GroundScore::named(&generate.search.score).map_err(|error| error.to_string())?,
+        score: ground_score(&generate.search)?,
         ..DriveSettings::of(setup.planner)
     };
     Ok(settings)
+}
+
+/// What a leg's `ground` is: the score that is named or, as an input of a learned one, slope and slip.
+fn ground_score(search: &DriveSearch) -> Result<GroundScore, String> {
+    let name = if search.model.is_some() { LEARNED_FROM } else { &search.score };
+    GroundScore::named(name).map_err(|error| error.to_string())
 }

@@ -4,10 +4,11 @@
 use nalgebra::Point3;
 
 use super::DriveSetup;
-use super::ask::{Asked, ask};
-use crate::campaign::Evidence;
+use super::ask::{Asked, Graph, ask};
 use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Stage, in_order};
-use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchSection};
+use crate::campaign::learn::AnyScore;
+use crate::campaign::scenario::{GroundReach, Manoeuvre};
+use crate::campaign::{Evidence, SeenLeg};
 use crate::feasibility::reach::drive::{DriveSettings, DriveSite, StraightLegs};
 use crate::feasibility::reach::{
     BodyHull, BodyNode, Everywhere, Filtered, Leg, PlanarVehicle, Reach, Sphere, StepNode, StepReach, StepSettings,
@@ -48,35 +49,30 @@ impl<'a> Stepwise<'a> {
         Ok(Self { setup, set })
     }
 
-    /// Searches graph number `graph` over `points`.
-    pub(super) fn solve(
-        &self,
-        search: &SearchSection,
-        scored: &DriveSettings,
-        graph: u64,
-        points: &[Point3<f64>],
-    ) -> Outcome {
-        let settings = self.settings();
+    /// Searches a graph.
+    pub(super) fn solve(&self, scored: &DriveSettings, graph: Graph) -> Outcome {
+        let (settings, points) = (self.settings(), graph.points);
         let start = StepNode { previous: 0, current: 0 };
-        let asked = Graph { search, scored, graph, points };
+        let at = |node: &StepNode| node.current;
         match &self.set {
-            Set::Everywhere(set) => self.ask(asked, &StepReach::new(set, points, settings), start, |node| node.current),
-            Set::Sphere(set) => self.ask(asked, &StepReach::new(set, points, settings), start, |node| node.current),
-            Set::Hull(hull) => self.ask(asked, hull.as_ref(), self.headed(hull), |node| node.current),
+            Set::Everywhere(set) => self.ask(scored, graph, &StepReach::new(set, points, settings), start, at),
+            Set::Sphere(set) => self.ask(scored, graph, &StepReach::new(set, points, settings), start, at),
+            Set::Hull(hull) => self.ask(scored, graph, hull.as_ref(), self.headed(hull), |node| node.current),
         }
     }
 
-    /// Whether each of `points` is a feasible leg from the one before, in order, the first from the task's start.
-    pub(super) fn follows(&self, points: &[Point3<f64>]) -> bool {
+    /// The legs from each of `points` to the one after it, the first from the task's start; `None` where one is not feasible.
+    pub(super) fn follows(&self, points: &[Point3<f64>]) -> Option<Vec<SeenLeg>> {
         let settings = self.settings();
         let start = StepNode { previous: 0, current: 0 };
-        let allowed = points.windows(2).all(|leg| self.allows(&leg[0], &leg[1]));
-        allowed
-            && match &self.set {
-                Set::Everywhere(set) => in_order(StepReach::new(set, points, settings), start, points),
-                Set::Sphere(set) => in_order(StepReach::new(set, points, settings), start, points),
-                Set::Hull(hull) => in_order(hull.as_ref(), self.headed(hull), points),
-            }
+        if !points.windows(2).all(|leg| self.allows(&leg[0], &leg[1])) {
+            return None;
+        }
+        match &self.set {
+            Set::Everywhere(set) => in_order(StepReach::new(set, points, settings), start, points),
+            Set::Sphere(set) => in_order(StepReach::new(set, points, settings), start, points),
+            Set::Hull(hull) => in_order(hull.as_ref(), self.headed(hull), points),
+        }
     }
 
     /// Counts what becomes of the candidates for legs near the start of a graph.
@@ -146,37 +142,33 @@ impl<'a> Stepwise<'a> {
     /// Keeps the legs of the task's lengths that are clear of keep-outs, and searches.
     fn ask<N: Copy + Eq + Ord + std::hash::Hash, R: Reach<N>>(
         &self,
-        Graph { search, scored, graph, points }: Graph<'_>,
+        scored: &DriveSettings,
+        graph: Graph,
         reach: &R,
         start: N,
         place: impl Fn(&N) -> u32,
     ) -> Outcome {
-        let scenario = self.setup.scenario;
+        let (scenario, points) = (self.setup.scenario, graph.points);
         let keep = |from: &N, leg: &Leg<N>| self.allows(&points[place(from) as usize], &points[leg.waypoint as usize]);
         let filtered = Filtered { inner: reach, keep };
-        let site = DriveSite::new(self.setup.planner, self.setup.map, self.setup.keep_out);
-        let scored = DriveSettings { seed: named_seed(scenario.seed, "score", graph), ..scored.clone() };
-        let straight = StraightLegs::new(site, &scored);
-        let score = |leg: &LegView| {
-            let [from, to] = [leg.from, leg.to].map(|index| (index, &points[index as usize]));
-            straight.stress(from, to, leg.features.turn)
-        };
         let evidence = match self.set {
             Set::Hull(_) => Evidence::HullFeasible,
             Set::Everywhere(_) | Set::Sphere(_) => Evidence::Unchecked,
         };
         let plan = |found: Found<N>| Some(Plan::new(&found, points, evidence));
         let (reach, lookahead) = (&filtered, 1);
-        let asked = Asked { scenario, search, graph, points, reach, start, score, lookahead };
-        ask(asked, |_, _| true, plan)
+        if let Some(kept) = &scenario.generate.search.model {
+            let score = AnyScore::Learned(&kept.model);
+            return ask(Asked { scenario, graph, reach, start, score, lookahead }, |_, _| true, plan);
+        }
+        let site = DriveSite::new(self.setup.planner, self.setup.map, self.setup.keep_out);
+        let seed = named_seed(scenario.seed, "score", graph.graph);
+        let scored = DriveSettings { seed, ..scored.clone() };
+        let straight = StraightLegs::new(site, &scored);
+        let score = |leg: &LegView| {
+            let [from, to] = [leg.from, leg.to].map(|index| (index, &points[index as usize]));
+            straight.stress(from, to, leg.features.turn)
+        };
+        ask(Asked { scenario, graph, reach, start, score, lookahead }, |_, _| true, plan)
     }
-}
-
-/// A graph, and how it is searched and scored.
-#[derive(Clone, Copy)]
-struct Graph<'a> {
-    search: &'a SearchSection,
-    scored: &'a DriveSettings,
-    graph: u64,
-    points: &'a [Point3<f64>],
 }

@@ -1,6 +1,7 @@
 //! What flights are searched with: the judge of legs, and the score.
 
 use super::FlightSetup;
+use crate::campaign::learn::AnyScore;
 use crate::feasibility::Limits;
 use crate::feasibility::steering::{LegJudge, ProofSettings};
 use crate::math::random::named_seed;
@@ -20,8 +21,23 @@ pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
 }
 
 /// The scenario's score for graph number `graph`; `top_speed` (m/s) scores 1.
-pub(super) fn score(setup: &FlightSetup, graph: u64, top_speed: f64) -> Score {
+pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64) -> AnyScore<'a> {
+    let generate = &setup.scenario.generate;
+    match &generate.model {
+        Some(kept) => AnyScore::Learned(&kept.model),
+        None => named(setup, &generate.score, graph, top_speed),
+    }
+}
+
+/// The scores by hand whose optima a search in the loop starts from.
+pub(super) fn by_hand<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64) -> Vec<AnyScore<'a>> {
+    let names = ["high-velocity", "high-velocity-90", "high-velocity-180"];
+    let others = names.into_iter().filter(|name| *name != setup.scenario.generate.score);
+    others.map(|name| named(setup, name, graph, top_speed)).collect()
+}
+
+fn named<'a>(setup: &FlightSetup<'a>, name: &str, graph: u64, top_speed: f64) -> AnyScore<'a> {
     let seed = named_seed(setup.scenario.seed, "score", graph);
     // The name was checked with the scenario, and top speeds are > 0 with the robot.
-    Score::named(&setup.scenario.generate.score, seed, top_speed).unwrap_or(Score::Random { seed })
+    AnyScore::Named(Score::named(name, seed, top_speed).unwrap_or(Score::Random { seed }))
 }

@@ -45,7 +45,7 @@ pub(in crate::campaign) fn replan(setup: &FlightSetup, case: &Case, points: &[Po
             let set = Stepwise::new(*setup).ok()?;
             let legs = points.len() - 1;
             let longest = generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
-            let feasible = legs as f64 * set.step() <= longest && set.follows(points);
+            let feasible = legs as f64 * set.step() <= longest && set.follows(points).is_some();
             feasible.then(|| unwitnessed(vec![set.step(); legs])).flatten()
         }
     }

@@ -1,11 +1,15 @@
 //! One graph, from its number to its plans: the reach set asked for, the search asked for, and never another.
 
+use nalgebra::Point3;
+
 use super::certificates::Certifier;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
 use super::{FlightSetup, graph};
-use crate::campaign::graph::Outcome;
+use crate::campaign::graph::{Looped, Outcome, Plan};
 use crate::campaign::scenario::ReachName;
+use crate::feasibility::certify::Certificate;
+use crate::search::in_loop::Trial;
 
 /// The part of a search that is the same for every graph.
 pub(in crate::campaign) struct Solver<'a> {
@@ -43,19 +47,46 @@ impl<'a> Solver<'a> {
         Ok(Self { setup, set, certifier })
     }
 
-    /// Searches graph number `graph`.
-    pub(in crate::campaign) fn solve(&self, graph: u64) -> Outcome {
+    /// Searches graph number `graph`; `execute` is for searches in the loop.
+    pub(in crate::campaign) fn solve(&self, graph: u64, execute: &dyn Fn(&Plan) -> Option<Trial>) -> Outcome {
         let points = match graph::sample(&self.setup, graph) {
             Ok(points) => points,
             Err(error) => return Outcome { graphs: 1, reason: Some(error.to_string()), ..Outcome::default() },
         };
+        let looped = Looped { execute, moved: &|plan, points| self.moved(plan, points) };
         let mut outcome = match &self.set {
-            Set::Stepwise(set) => set.solve(graph, &points),
-            Set::Witness(set) => set.solve(graph, &points),
+            Set::Stepwise(set) => set.solve(graph, &points, looped),
+            Set::Witness(set) => set.solve(graph, &points, looped),
         };
         if let Some(certifier) = &self.certifier {
             outcome.plans.iter_mut().for_each(|(_, plan)| certifier.certify(plan));
         }
         outcome
+    }
+
+    /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible.
+    fn moved(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+        let FlightSetup { world, robot, .. } = self.setup;
+        let inner = &points[1..points.len() - 1];
+        let stands = |p: &Point3<f64>| {
+            world.wall_distance(p) >= world.keep_in_margin() && world.is_free(p, robot.clearance_radius)
+        };
+        if !inner.iter().all(stands) {
+            return None;
+        }
+        let plan = Plan { waypoints: points.to_vec(), bound: None, ..plan.clone() };
+        match &self.set {
+            Set::Stepwise(set) => {
+                let clear =
+                    points.windows(2).all(|leg| world.segment_distance(&leg[0], &leg[1]) >= robot.clearance_radius);
+                Some(Plan { seen: set.follows(points).filter(|_| clear)?, ..plan })
+            }
+            Set::Witness(set) => {
+                let Certificate::Yes(profile) = set.through(points) else { return None };
+                let leg_times = profile.legs.iter().map(|leg| leg.duration).collect();
+                // No search chose its velocities.
+                Some(Plan { leg_times, seen: Vec::new(), profile: Some(profile), ..plan })
+            }
+        }
     }
 }

@@ -8,18 +8,27 @@ use nalgebra::Point3;
 
 use super::FlightSetup;
 use super::blocking::blocking;
-use super::legs::score;
-use crate::campaign::Evidence;
-use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Question, Stage, in_order, search};
+use super::legs::{by_hand, score};
+use crate::campaign::graph::{Counter, Explored, Looped, Outcome, Plan, Question, Stage, in_order, search};
 use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
+use crate::campaign::{Evidence, SeenLeg};
 use crate::feasibility::reach::{
     BruteForce, BruteForceSettings, CarriedNode, Everywhere, Filtered, Hull, HullSettings, Leg, PairMask, Reach,
     Sphere, StepNode, StepReach, StepSet, StepSettings,
 };
 use crate::math::random::named_seed;
+use crate::search::Found;
 
 /// Steps from the end within which the beam knows exactly whether the end can be reached: cheap where legs are.
 const LOOKAHEAD: usize = 3;
+
+/// One graph, and what a search in the loop asks.
+#[derive(Clone, Copy)]
+struct Asked<'a> {
+    graph: u64,
+    points: &'a [Point3<f64>],
+    looped: Looped<'a>,
+}
 
 enum Set {
     Everywhere(Everywhere),
@@ -84,22 +93,23 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Searches graph number `graph` over `points`.
-    pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
+    pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
+        let asked = Asked { graph, points, looped };
         match &self.set {
-            Set::Everywhere(set) => self.bound(set, graph, points, |_, _| true),
-            Set::Sphere(set) => self.bound(set, graph, points, |node, steps| set_near(set, points, node, steps)),
+            Set::Everywhere(set) => self.bound(set, asked, |_, _| true),
+            Set::Sphere(set) => self.bound(set, asked, |node, steps| set_near(set, points, node, steps)),
             Set::Hull(hull) => {
-                self.bound(hull.as_ref(), graph, points, |node, steps| self.hull_near(hull, points, node, steps))
+                self.bound(hull.as_ref(), asked, |node, steps| self.hull_near(hull, points, node, steps))
             }
             Set::Carried(reach, _) => {
                 let start = CarriedNode { previous: 0, current: 0, carried: [0; 6] };
-                self.clear_of_obstacles(graph, points, reach.as_ref(), start, |node| node.current, |_, _| true)
+                self.clear_of_obstacles(asked, reach.as_ref(), start, |node| node.current, |_, _| true)
             }
         }
     }
 
-    /// Whether each of `points` is a feasible leg from the one before, in order, the first from rest.
-    pub(super) fn follows(&self, points: &[Point3<f64>]) -> bool {
+    /// The legs from each of `points` to the one after it, the first from rest; `None` where one is not feasible.
+    pub(super) fn follows(&self, points: &[Point3<f64>]) -> Option<Vec<SeenLeg>> {
         let start = StepNode { previous: 0, current: 0 };
         match &self.set {
             Set::Everywhere(set) => in_order(StepReach::new(set, points, self.settings), start, points),
@@ -172,30 +182,24 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    fn bound<S: StepSet>(
-        &self,
-        set: &S,
-        graph: u64,
-        points: &[Point3<f64>],
-        may_arrive: impl Fn(&StepNode, usize) -> bool,
-    ) -> Outcome {
+    fn bound<S: StepSet>(&self, set: &S, asked: Asked, may_arrive: impl Fn(&StepNode, usize) -> bool) -> Outcome {
         let start = StepNode { previous: 0, current: 0 };
-        let reach = StepReach::new(set, points, self.settings);
-        self.clear_of_obstacles(graph, points, reach, start, |node| node.current, may_arrive)
+        let reach = StepReach::new(set, asked.points, self.settings);
+        self.clear_of_obstacles(asked, reach, start, |node| node.current, may_arrive)
     }
 
     /// Keeps the legs whose segment is clear of obstacles by the robot's radius, and searches.
     fn clear_of_obstacles<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
         &self,
-        graph: u64,
-        points: &[Point3<f64>],
+        asked: Asked,
         reach: R,
         start: N,
         place: impl Fn(&N) -> u32,
         may_arrive: impl Fn(&N, usize) -> bool,
     ) -> Outcome {
-        if self.setup.world.obstacles().is_empty() {
-            return self.ask(graph, points, &reach, start, may_arrive);
+        let (world, points) = (self.setup.world, asked.points);
+        if world.obstacles().is_empty() {
+            return self.ask(asked, &reach, start, may_arrive);
         }
         let clear = RefCell::new(PairMask::new(points.len()));
         let radius = self.setup.robot.clearance_radius;
@@ -203,20 +207,23 @@ impl<'a> Stepwise<'a> {
             let here = place(from);
             clear.borrow_mut().allows(here, leg.waypoint, || {
                 let (a, b) = (&points[here as usize], &points[leg.waypoint as usize]);
-                self.setup.world.segment_distance(a, b) >= radius
+                world.segment_distance(a, b) >= radius
             })
         };
-        self.ask(graph, points, &Filtered { inner: reach, keep }, start, may_arrive)
+        self.ask(asked, &Filtered { inner: reach, keep }, start, may_arrive)
     }
 
     fn ask<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
         &self,
-        graph: u64,
-        points: &[Point3<f64>],
+        Asked { graph, points, looped }: Asked,
         reach: &R,
         start: N,
         may_arrive: impl Fn(&N, usize) -> bool,
     ) -> Outcome {
+        let evidence = match self.set {
+            Set::Hull(_) | Set::Carried(..) => Evidence::HullFeasible,
+            _ => Evidence::Unchecked,
+        };
         let question = Question {
             search: &self.setup.scenario.generate.search,
             length: self.setup.scenario.task.length as usize,
@@ -226,11 +233,10 @@ impl<'a> Stepwise<'a> {
             score: score(&self.setup, graph, self.top_speed()),
             seed: named_seed(self.setup.scenario.seed, "uniform", graph),
             lookahead: LOOKAHEAD,
+            plan: &|found: Found<N>| Some(Plan::new(&found, points, evidence)),
+            also: by_hand(&self.setup, graph, self.top_speed()),
+            looped,
         };
-        let evidence = match self.set {
-            Set::Hull(_) | Set::Carried(..) => Evidence::HullFeasible,
-            _ => Evidence::Unchecked,
-        };
-        Outcome::of(graph, search(&question, may_arrive), |found| Some(Plan::new(&found, points, evidence)))
+        Outcome::of(graph, search(&question, may_arrive))
     }
 }

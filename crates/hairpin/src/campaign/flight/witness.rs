@@ -3,14 +3,15 @@
 use nalgebra::Point3;
 
 use super::FlightSetup;
-use super::legs::{judge, score};
+use super::legs::{by_hand, judge, score};
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Outcome, Plan, Question, search};
+use crate::campaign::graph::{Looped, Outcome, Plan, Question, search};
 use crate::campaign::scenario::Timing;
 use crate::feasibility::certify::{Certificate, certify};
-use crate::feasibility::reach::{Roadmap, RoadmapSettings};
+use crate::feasibility::reach::{Roadmap, RoadmapSettings, WitnessNode};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::math::random::named_seed;
+use crate::search::Found;
 
 /// What judges legs, and how long they may take.
 pub(super) struct Witness<'a> {
@@ -54,26 +55,30 @@ impl<'a> Witness<'a> {
     }
 
     /// Searches graph number `graph` over `points`.
-    pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>]) -> Outcome {
+    pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
         let scenario = self.setup.scenario;
         let roadmap = self.roadmap(graph, points);
+        let longest = scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
+        let plan = |found: Found<WitnessNode>| {
+            let profile = roadmap.profile(&found.nodes).ok()?;
+            let fits = profile.duration() <= longest;
+            fits.then(|| Plan { profile: Some(profile), ..Plan::new(&found, points, Evidence::Witnessed) })
+        };
+        let top_speed = self.judge.top_speed();
         let question = Question {
             search: &scenario.generate.search,
             length: scenario.task.length as usize,
             points,
             reach: &roadmap,
             start: roadmap.start(),
-            score: score(&self.setup, graph, self.judge.top_speed()),
+            score: score(&self.setup, graph, top_speed),
             seed: named_seed(scenario.seed, "uniform", graph),
             // The roadmap's own test is exact one step from the end, and legs are dear.
             lookahead: 0,
+            plan: &plan,
+            also: by_hand(&self.setup, graph, top_speed),
+            looped,
         };
-        let answer = search(&question, |node, steps| roadmap.may_arrive(node, steps));
-        let longest = scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
-        Outcome::of(graph, answer, |found| {
-            let profile = roadmap.profile(&found.nodes).ok()?;
-            let fits = profile.duration() <= longest;
-            fits.then(|| Plan { profile: Some(profile), ..Plan::new(&found, points, Evidence::Witnessed) })
-        })
+        Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)))
     }
 }

@@ -11,9 +11,9 @@ use std::collections::HashSet;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::graph::Outcome;
+use super::graph::{Outcome, Plan};
 use super::setup::Kind;
-use super::{Case, Scenario, Setup, Stop, arm, drive, flight, vary};
+use super::{Case, Scenario, Setup, Stop, arm, drive, flight, in_loop, vary};
 use crate::math::random::case_seed;
 pub use tally::Tally;
 
@@ -73,7 +73,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
             .into_par_iter()
             .map(|unit| {
                 (!(stop.cancelled)())
-                    .then(|| if varied { drawn_case(setup, unit, stop) } else { solver.solve(unit, stop) })
+                    .then(|| if varied { drawn_case(setup, unit, stop) } else { solver.solve(setup, unit, stop) })
             })
             .collect();
         for outcome in outcomes {
@@ -102,13 +102,14 @@ fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
     let draws = vary::draw_for_case(&setup.scenario, seed, case as usize);
     let drawn = vary::apply(&setup.scenario, &draws).and_then(|scenario| setup.of_draw(scenario));
     let drawn = drawn.map_err(|mistake| mistake.to_string());
-    let solver = match drawn.as_ref().map_err(Clone::clone).and_then(Solver::new) {
-        Ok(solver) => solver,
+    let (drawn, solver) = match drawn.as_ref().map_err(Clone::clone).and_then(|drawn| Ok((drawn, Solver::new(drawn)?)))
+    {
+        Ok(both) => both,
         Err(reason) => return Outcome { reason: Some(reason), ..Outcome::default() },
     };
     let mut total = Outcome::default();
     for attempt in 0..GRAPHS_PER_CASE {
-        let outcome = solver.solve(case * GRAPHS_PER_CASE + attempt, stop);
+        let outcome = solver.solve(drawn, case * GRAPHS_PER_CASE + attempt, stop);
         let done = !outcome.plans.is_empty();
         total.add(outcome);
         if done {
@@ -136,11 +137,12 @@ impl<'a> Solver<'a> {
         })
     }
 
-    /// Searches graph number `graph`; `stop` ends what has no bound in counts.
-    fn solve(&self, graph: u64, stop: &Stop) -> Outcome {
+    /// Searches graph number `graph` of `setup`, which this was made for; `stop` ends what has no bound in counts.
+    fn solve(&self, setup: &Setup, graph: u64, stop: &Stop) -> Outcome {
+        let execute = |plan: &Plan| if (stop.cancelled)() { None } else { in_loop::execute(setup, graph, plan) };
         match self {
-            Self::Flight(solver) => solver.solve(graph),
-            Self::Drive(solver) => solver.solve(graph),
+            Self::Flight(solver) => solver.solve(graph, &execute),
+            Self::Drive(solver) => solver.solve(graph, &execute),
             Self::Arm(solver) => solver.solve(stop),
         }
     }

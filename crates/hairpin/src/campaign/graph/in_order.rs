@@ -2,15 +2,23 @@
 
 use nalgebra::Point3;
 
+use crate::campaign::SeenLeg;
 use crate::feasibility::reach::Reach;
 
-/// Whether `reach` has a leg from every point to the one after it.
-pub(in crate::campaign) fn in_order<N: Copy, R: Reach<N>>(reach: R, start: N, points: &[Point3<f64>]) -> bool {
+/// What a search would see of the legs from every point to the one after it; `None` where `reach` lacks one.
+pub(in crate::campaign) fn in_order<N: Copy, R: Reach<N>>(
+    reach: R,
+    start: N,
+    points: &[Point3<f64>],
+) -> Option<Vec<SeenLeg>> {
     let (mut node, mut legs) = (start, Vec::new());
-    (1..points.len()).all(|next| {
-        legs.clear();
-        reach.legs(&node, points, &mut legs);
-        let leg = legs.iter().find(|leg| leg.waypoint as usize == next);
-        leg.map(|leg| node = leg.to).is_some()
-    })
+    (1..points.len())
+        .map(|next| {
+            legs.clear();
+            reach.legs(&node, points, &mut legs);
+            let leg = legs.iter().find(|leg| leg.waypoint as usize == next)?;
+            node = leg.to;
+            Some(SeenLeg { features: leg.features, duration: leg.duration })
+        })
+        .collect()
 }

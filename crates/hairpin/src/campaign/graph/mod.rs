@@ -2,6 +2,7 @@
 
 mod deaths;
 mod explore;
+mod in_loop;
 mod in_order;
 mod outcome;
 mod search;
@@ -11,4 +12,4 @@ pub use deaths::{Deaths, Lost, Stage};
 pub(super) use explore::{Explored, GRAPHS};
 pub(super) use in_order::in_order;
 pub(super) use outcome::{Outcome, Plan};
-pub(super) use search::{Question, search};
+pub(super) use search::{Looped, Question, search};

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::search::Answer;
-use crate::campaign::{Case, Evidence};
+use crate::campaign::{Case, Evidence, SeenLeg};
 use crate::math::random::case_seed;
 use crate::search::Found;
 use crate::trajectory::Drive;
@@ -15,6 +15,7 @@ use crate::trajectory::program::Program;
 pub(in crate::campaign) struct Plan {
     pub(in crate::campaign) waypoints: Vec<Point3<f64>>,
     pub(in crate::campaign) leg_times: Vec<f64>,
+    pub(in crate::campaign) seen: Vec<SeenLeg>,
     pub(in crate::campaign) score: f64,
     pub(in crate::campaign) bound: Option<f64>,
     pub(in crate::campaign) evidence: Evidence,
@@ -30,6 +31,7 @@ impl Plan {
         Self {
             waypoints: found.waypoints.iter().map(|&index| points[index as usize]).collect(),
             leg_times: found.leg_times.clone(),
+            seen: Vec::new(),
             score: found.score,
             bound: None,
             evidence,
@@ -50,6 +52,7 @@ impl Plan {
             graph,
             waypoints: self.waypoints,
             leg_times: self.leg_times,
+            seen: self.seen,
             score: self.score,
             bound: self.bound,
             evidence: self.evidence,
@@ -76,18 +79,12 @@ pub(in crate::campaign) struct Outcome {
 }
 
 impl Outcome {
-    /// The outcome of graph number `graph`; `plan` gives `None` for what breaks a limit of whole trajectories.
-    pub(in crate::campaign) fn of<N>(graph: u64, answer: Answer<N>, plan: impl Fn(Found<N>) -> Option<Plan>) -> Self {
-        let found = answer.found.len();
-        let plans: Vec<(u64, Plan)> = answer
-            .found
-            .into_iter()
-            .filter_map(plan)
-            .map(|plan| (graph, Plan { bound: answer.bound, ..plan }))
-            .collect();
-        let too_long = (plans.is_empty() && found > 0).then(|| "`max_flight_time_s` is exceeded".to_string());
+    /// The outcome of graph number `graph`.
+    pub(in crate::campaign) fn of(graph: u64, answer: Answer) -> Self {
+        let too_long = answer.plans.is_empty() && answer.refused > 0;
+        let too_long = too_long.then(|| "`max_flight_time_s` is exceeded".to_string());
         Self {
-            plans,
+            plans: answer.plans.into_iter().map(|plan| (graph, plan)).collect(),
             graphs: 1,
             proven_empty: answer.proven_empty.into(),
             expansions: answer.expansions,

@@ -4,9 +4,13 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
+use super::in_loop::by_trials;
+use super::outcome::Plan;
+use crate::campaign::SeenLeg;
 use crate::campaign::scenario::{SearchMethod, SearchSection};
 use crate::feasibility::reach::Reach;
 use crate::search::beam::Ended;
+use crate::search::in_loop::Trial;
 use crate::search::{
     BeamSettings, ExactSettings, Found, LegGraph, Objective, Task, UniformSettings, beam, exact, uniform,
 };
@@ -24,13 +28,28 @@ pub(in crate::campaign) struct Question<'a, N, R, O> {
     pub(in crate::campaign) seed: u64,
     /// Steps from the end within which the beam asks the reach set itself whether the end can be reached.
     pub(in crate::campaign) lookahead: usize,
+    /// The plan of what was found; `None` for what breaks a limit of whole trajectories.
+    pub(in crate::campaign) plan: &'a dyn Fn(Found<N>) -> Option<Plan>,
+    /// Scores beside this one whose optima a search in the loop starts from.
+    pub(in crate::campaign) also: Vec<O>,
+    pub(in crate::campaign) looped: Looped<'a>,
+}
+
+/// What only a search in the loop asks.
+#[derive(Clone, Copy)]
+pub(in crate::campaign) struct Looped<'a> {
+    /// Executes a plan once; `None` where that fails.
+    pub(in crate::campaign) execute: &'a dyn Fn(&Plan) -> Option<Trial>,
+    /// A plan with other waypoints, as many; `None` where they are not feasible.
+    pub(in crate::campaign) moved: &'a dyn Fn(&Plan, &[Point3<f64>]) -> Option<Plan>,
 }
 
 /// What the search gave.
-pub(in crate::campaign) struct Answer<N> {
-    pub(in crate::campaign) found: Vec<Found<N>>,
-    /// Proven upper bound of the score.
-    pub(in crate::campaign) bound: Option<f64>,
+#[derive(Default)]
+pub(in crate::campaign) struct Answer {
+    pub(in crate::campaign) plans: Vec<Plan>,
+    /// Trajectories found that break a limit of whole trajectories.
+    pub(in crate::campaign) refused: usize,
     pub(in crate::campaign) proven_empty: bool,
     pub(in crate::campaign) expansions: u64,
     pub(in crate::campaign) dropped: u64,
@@ -43,18 +62,56 @@ pub(in crate::campaign) struct Answer<N> {
 pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
-) -> Answer<N> {
+) -> Answer {
     match question.search.method {
         SearchMethod::Beam => by_beam(question, may_arrive),
         SearchMethod::Exact => by_dynamic_program(question),
         SearchMethod::Uniform => by_uniform_draws(question),
+        SearchMethod::InLoop => by_trials(question),
+    }
+}
+
+impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>> Question<'_, N, R, O> {
+    /// The plan of `found`, with what the search saw of its legs.
+    pub(super) fn planned(&self, found: Found<N>) -> Option<Plan> {
+        let seen = self.seen(&found);
+        let mut plan = (self.plan)(found)?;
+        plan.seen = seen;
+        // The leg to the sink of a task without an end is none of the plan's.
+        plan.seen.truncate(plan.leg_times.len());
+        Some(plan)
+    }
+
+    fn seen(&self, found: &Found<N>) -> Vec<SeenLeg> {
+        let mut legs = Vec::new();
+        let pairs = found.nodes.windows(2);
+        let see = |pair: &[N]| {
+            legs.clear();
+            self.reach.legs(&pair[0], self.points, &mut legs);
+            let leg = legs.iter().find(|leg| leg.to == pair[1])?;
+            Some(SeenLeg { features: leg.features, duration: leg.duration })
+        };
+        pairs.map_while(see).collect()
+    }
+
+    /// The answer with the plans of `found`, the best first, and a proven upper bound of the score.
+    fn answer(&self, found: Vec<Found<N>>, bound: Option<f64>) -> Answer {
+        let count = found.len();
+        let plans: Vec<Plan> = found.into_iter().filter_map(|found| self.planned(found)).collect();
+        let refused = count - plans.len();
+        Answer { plans: plans.into_iter().map(|plan| Plan { bound, ..plan }).collect(), refused, ..Answer::default() }
+    }
+
+    /// All legs of the graph that are on some way of the right length.
+    pub(super) fn leg_graph(&self) -> LegGraph<'_, N> {
+        LegGraph::explore(self.start, self.points, self.reach, self.length)
     }
 }
 
 fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
-) -> Answer<N> {
+) -> Answer {
     let search = question.search;
     let settings = BeamSettings {
         length: question.length,
@@ -79,20 +136,19 @@ fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     };
     Answer {
         proven_empty: found.is_empty() && outcome.ended == Ended::Exhausted { proof: true },
-        found,
-        bound: None,
         expansions: outcome.expansions,
         dropped: outcome.dropped,
         duplicates: outcome.duplicates,
         reason,
+        ..question.answer(found, None)
     }
 }
 
 fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     question: &Question<N, R, O>,
-) -> Answer<N> {
+) -> Answer {
     let search = question.search;
-    let graph = leg_graph(question);
+    let graph = question.leg_graph();
     let settings = ExactSettings {
         length: question.length,
         best: search.per_graph as usize,
@@ -107,22 +163,14 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memor
         (true, true) => Some(format!("none among the {} feasible legs of the last graph", graph.legs())),
         (true, false) => Some("none without revisits was found within the search's budget".into()),
     };
-    Answer {
-        found: outcome.found,
-        bound: outcome.bound,
-        proven_empty,
-        expansions: outcome.expansions,
-        dropped: 0,
-        duplicates: 0,
-        reason,
-    }
+    Answer { proven_empty, expansions: outcome.expansions, reason, ..question.answer(outcome.found, outcome.bound) }
 }
 
 fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     question: &Question<N, R, O>,
-) -> Answer<N> {
+) -> Answer {
     let search = question.search;
-    let graph = leg_graph(question);
+    let graph = question.leg_graph();
     let settings = UniformSettings {
         length: question.length,
         wanted: search.per_graph as usize,
@@ -137,19 +185,6 @@ fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory 
         (true, true) => Some(format!("none among the {} feasible legs of the last graph", graph.legs())),
         (true, false) => Some(format!("{} draws all used a waypoint twice", outcome.draws)),
     };
-    Answer {
-        found: outcome.found,
-        bound: None,
-        proven_empty,
-        expansions: outcome.draws,
-        dropped: 0,
-        // Repetitions are counted where they are not taken over.
-        duplicates: 0,
-        reason,
-    }
-}
-
-/// All legs of the graph that are on some way of the right length.
-fn leg_graph<'a, N: Copy + Eq + Ord + Hash, R: Reach<N>, O>(question: &Question<'a, N, R, O>) -> LegGraph<'a, N> {
-    LegGraph::explore(question.start, question.points, question.reach, question.length)
+    // Repetitions are counted where they are not taken over.
+    Answer { proven_empty, expansions: outcome.draws, reason, ..question.answer(outcome.found, None) }
 }

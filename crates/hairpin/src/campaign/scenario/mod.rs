@@ -10,6 +10,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::campaign::learn;
+
 mod arm;
 mod check;
 pub(crate) mod distribution;
@@ -134,13 +136,21 @@ impl Scenario {
         }
     }
 
-    /// Names and contents of the files that a resolved scenario keeps in its campaign's folder: its map, its cloud, its costs, its baseline.
+    /// Names and contents of the files that a resolved scenario keeps in its campaign's folder: its map, its cloud, its costs, its baseline,
+    /// its model.
     pub fn files(&self) -> Vec<(&str, &[u8])> {
         let kept = match self {
-            Self::Flight(_) => Vec::new(),
+            Self::Flight(scenario) => {
+                let model = scenario.generate.model.as_ref();
+                vec![(Some(learn::NAME), model.map(|kept| &*kept.bytes))]
+            }
             Self::Drive(scenario) => {
                 let terrain = &scenario.world.terrain;
-                vec![(terrain.file.as_deref(), terrain.bytes.as_deref())]
+                let model = scenario.generate.search.model.as_ref();
+                vec![
+                    (terrain.file.as_deref(), terrain.bytes.as_deref()),
+                    (Some(learn::NAME), model.map(|kept| &*kept.bytes)),
+                ]
             }
             Self::Arm(scenario) => {
                 let points = match &scenario.task.points {

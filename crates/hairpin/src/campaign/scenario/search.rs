@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
+use crate::judgement::Stress;
 
 pub use crate::search::Aggregate;
 pub use crate::world::Sampling;
@@ -12,7 +13,7 @@ pub use crate::world::Sampling;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SearchSection {
-    /// beam | exact | uniform.
+    /// beam | exact | uniform | in-loop.
     pub method: SearchMethod,
     /// Waypoints sampled per graph.
     pub waypoints: u64,
@@ -35,6 +36,12 @@ pub struct SearchSection {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
+    /// `in-loop`: executions per graph at most.
+    pub executions: u64,
+    /// `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them.
+    pub move_waypoints: bool,
+    /// `in-loop`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | tilt.
+    pub stress: Stress,
 }
 
 impl Default for SearchSection {
@@ -51,6 +58,9 @@ impl Default for SearchSection {
             iterations: 10_000,
             frontier: 100_000,
             graphs: None,
+            executions: 200,
+            move_waypoints: false,
+            stress: Stress::MaxDeviation,
         }
     }
 }
@@ -65,6 +75,8 @@ pub enum SearchMethod {
     Exact,
     /// Uniform over all feasible trajectories: the random baseline.
     Uniform,
+    /// Simulation in the loop: trajectories are scored by executing them.
+    InLoop,
 }
 
 impl SearchSection {
@@ -76,6 +88,7 @@ impl SearchSection {
         found.count("generate.search.iterations", self.iterations, 1, 1_000_000_000);
         // A partial trajectory on the frontier is some hundred bytes: ten million are a few GB.
         found.count("generate.search.frontier", self.frontier, 1, 10_000_000);
+        found.count("generate.search.executions", self.executions, 1, 1_000_000);
         if let Some(graphs) = self.graphs {
             found.count("generate.search.graphs", graphs, 1, 1_000_000_000);
         }

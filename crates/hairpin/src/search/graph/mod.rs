@@ -72,6 +72,26 @@ impl<'a, N: Copy> LegGraph<'a, N> {
         self.to[leg]
     }
 
+    /// The node that a leg starts from.
+    pub(super) fn source(&self, leg: u32) -> u32 {
+        (self.first.partition_point(|&first| first <= leg) - 1) as u32
+    }
+
+    /// The legs along `nodes`, the first of which is the start's; `None` where there is no such leg.
+    pub(super) fn legs_along(&self, nodes: &[N]) -> Option<Vec<u32>>
+    where
+        N: Eq,
+    {
+        let mut here = 0;
+        let mut legs = Vec::with_capacity(nodes.len());
+        for node in nodes.get(1..)? {
+            let leg = self.legs_from(here).find(|&leg| self.nodes[self.target(leg) as usize] == *node)?;
+            legs.push(leg as u32);
+            here = self.target(leg);
+        }
+        Some(legs)
+    }
+
     pub(super) fn at_end(&self, node: u32) -> bool {
         self.waypoint(node) as usize + 1 == self.candidates.len()
     }

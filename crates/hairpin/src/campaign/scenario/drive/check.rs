@@ -1,12 +1,13 @@
 //! The bounds of every key of a drive.
 
 use super::{
-    ControlName, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, GroundReach, Manoeuvre, ProfileName,
-    SpeedSection,
+    ControlName, DriveExecute, DriveGenerate, DriveScenario, DriveSearch, DriveSpec, GroundReach, Manoeuvre,
+    ProfileName, SpeedSection,
 };
 use crate::campaign::drive::{map_of, rover_of};
+use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{FlakySection, Mistake, SearchMethod};
+use crate::campaign::scenario::{FlakySection, Mistake, Scenario, SearchMethod};
 use crate::feasibility::reach::drive::GroundScore;
 use crate::robot::rover::{Rover, Steering};
 use crate::world::terrain::Terrain;
@@ -34,9 +35,32 @@ impl DriveScenario {
         self.check_ground(&mut found);
         self.check_task(rover.as_ref(), &mut found);
         check_generate(&self.generate, rover.as_ref(), &mut found);
+        self.check_score(&mut found);
         check_execute(&self.execute, &mut found);
         check_spec(&self.spec, &mut found);
         found.0
+    }
+
+    fn check_score(&self, found: &mut Findings) {
+        let DriveSearch { method, score, model, .. } = &self.generate.search;
+        let (key, value) = ("generate.search.score", format!("\"{score}\""));
+        if KeptModel::file_of(score).is_some() {
+            match model.as_ref().map(|kept| kept.check(&Scenario::Drive(Box::new(self.clone())))) {
+                Some(Ok(())) => {}
+                Some(Err(mistake)) => {
+                    found.require(false, key, value, &format!("a model of this scenario's legs: {mistake}"));
+                }
+                None => found.require(false, key, value, "read with its scenario"),
+            }
+        } else if let Err(error) = GroundScore::named(score) {
+            found.require(false, key, value, &error.to_string());
+        }
+        found.require(
+            *method != SearchMethod::InLoop || self.execute.controller_in_force().is_some(),
+            "generate.search.method",
+            "\"in-loop\"",
+            "another one, or execute.controller given: executions in the loop are hairpin's own simulator's",
+        );
     }
 
     fn check_ground(&self, found: &mut Findings) {
@@ -106,9 +130,6 @@ fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
         found.require(nodes <= most, "generate.search.waypoints", value, &bound);
     }
     search.section().check(found);
-    if let Err(error) = GroundScore::named(&search.score) {
-        found.require(false, "generate.search.score", format!("\"{}\"", search.score), &error.to_string());
-    }
     found.above("generate.step_s", generate.step_s, 0.0, 1000.0, " s");
     let gears = generate.manoeuvres.iter().any(|m| matches!(m, Manoeuvre::Forward | Manoeuvre::Reverse));
     found.require(gears, "generate.manoeuvres", "no gear", "forward or reverse at least");

@@ -3,8 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::{Aggregate, Sampling, SearchMethod, SearchSection};
 use crate::feasibility::steering::shooting::Control;
+use crate::judgement::Stress;
 use crate::robot::rover::Kinematics;
 
 /// `[generate]`.
@@ -207,9 +209,9 @@ impl Default for SolverSection {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DriveSearch {
-    /// beam | exact | uniform.
+    /// beam | exact | uniform | in-loop.
     pub method: SearchMethod,
-    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; or random.
+    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; or learned:MODEL.
     pub score: String,
     /// How scores of legs become the score of a trajectory.
     pub aggregate: Aggregate,
@@ -232,6 +234,16 @@ pub struct DriveSearch {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
+    /// `in-loop`: executions per graph at most.
+    pub executions: u64,
+    /// `in-loop`: whether waypoints are moved off their graph, as far as legs can be solved.
+    pub move_waypoints: bool,
+    /// `in-loop`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | tilt.
+    pub stress: Stress,
+    /// The model of a learned score.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub model: Option<KeptModel>,
 }
 
 impl Default for DriveSearch {
@@ -248,6 +260,9 @@ impl Default for DriveSearch {
             iterations,
             frontier,
             graphs,
+            executions,
+            move_waypoints,
+            stress,
         } = SearchSection::default();
         Self {
             method,
@@ -263,6 +278,10 @@ impl Default for DriveSearch {
             iterations,
             frontier,
             graphs,
+            executions,
+            move_waypoints,
+            stress,
+            model: None,
         }
     }
 }
@@ -282,6 +301,9 @@ impl DriveSearch {
             iterations: self.iterations,
             frontier: self.frontier,
             graphs: self.graphs,
+            executions: self.executions,
+            move_waypoints: self.move_waypoints,
+            stress: self.stress,
         }
     }
 }

@@ -68,4 +68,13 @@ pub enum GroundDescription {
 impl GroundDescription {
     /// Words of `kind`.
     pub const KINDS: &'static [&'static str] = &["rover", "car", "differential-drive"];
+
+    /// The robot's name.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Rover(robot) => &robot.name,
+            Self::Car(robot) => &robot.name,
+            Self::DifferentialDrive(robot) => &robot.name,
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::SearchSection;
 
 /// `[task]`.
@@ -36,8 +37,12 @@ pub struct GenerateSection {
     pub certify: bool,
     /// The search.
     pub search: SearchSection,
-    /// Name of a score.
+    /// Name of a score, or learned:MODEL.
     pub score: String,
+    /// The model of a learned score.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub model: Option<KeptModel>,
     /// Limits beside the robot's own.
     pub limits: LimitsSection,
 }
@@ -53,6 +58,7 @@ impl Default for GenerateSection {
             certify: false,
             search: SearchSection::default(),
             score: "high-velocity-90".into(),
+            model: None,
             limits: LimitsSection::default(),
         }
     }

@@ -1,7 +1,10 @@
 //! Bounds of `[generate]`.
 
+use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{GenerateSection, LimitsSection, ReachName, SearchMethod, SearchSection, Timing};
+use crate::campaign::scenario::{
+    FlightScenario, GenerateSection, LimitsSection, ReachName, Scenario, SearchMethod, SearchSection, Timing,
+};
 use crate::search::Score;
 
 /// The frontier search looks at every waypoint in every expansion.
@@ -13,13 +16,14 @@ const MOST_NODES: u64 = 50_000;
 /// The same for the dynamic programs, which judge every leg before they start.
 const MOST_NODES_IN_PAIRS: u64 = 16_000;
 
-pub(super) fn check(generate: &GenerateSection, found: &mut Findings) {
+pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
+    let generate = &scenario.generate;
     check_timing(generate, found);
     // Resolution to the fourth power is the number of simulated runs: 20 736 at 12.
     found.count("generate.resolution", generate.resolution, 2, 12);
     found.count("generate.velocities", generate.velocities, 1, 64);
     check_search(&generate.search, generate, found);
-    check_score(&generate.score, found);
+    check_score(scenario, found);
     check_limits(&generate.limits, found);
 }
 
@@ -65,14 +69,21 @@ fn check_search(search: &SearchSection, generate: &GenerateSection, found: &mut 
     search.check(found);
 }
 
-fn check_score(score: &str, found: &mut Findings) {
+fn check_score(scenario: &FlightScenario, found: &mut Findings) {
+    let FlightScenario { generate: GenerateSection { score, model, .. }, .. } = scenario;
     let value = format!("\"{score}\"");
-    if score.starts_with("learned:") || score.starts_with("python:") {
-        let bound = format!("one of {}: learned and Python scores are not in this version", Score::NAMES.join(", "));
-        found.require(false, "generate.score", value, &bound);
+    let key = "generate.score";
+    if KeptModel::file_of(score).is_some() {
+        match model.as_ref().map(|kept| kept.check(&Scenario::Flight(Box::new(scenario.clone())))) {
+            Some(Ok(())) => {}
+            Some(Err(mistake)) => {
+                found.require(false, key, value, &format!("a model of this scenario's legs: {mistake}"))
+            }
+            None => found.require(false, key, value, "read with its scenario"),
+        }
     } else {
-        let bound = format!("one of {}", Score::NAMES.join(", "));
-        found.require(Score::NAMES.contains(&score), "generate.score", value, &bound);
+        let bound = format!("one of {}, or learned:MODEL", Score::NAMES.join(", "));
+        found.require(Score::NAMES.contains(&score.as_str()), key, value, &bound);
     }
 }
 

@@ -12,8 +12,8 @@ mod world;
 
 use super::FlightScenario;
 use crate::campaign::flight::{robot_of, world_of};
-use crate::campaign::scenario::Mistake;
 use crate::campaign::scenario::findings::Findings;
+use crate::campaign::scenario::{Mistake, SearchMethod};
 
 impl FlightScenario {
     /// Every nominal value that is out of bounds, in the order of the file.
@@ -28,7 +28,13 @@ impl FlightScenario {
             space = world_of(&self.world).map_err(|mistake| found.add(mistake)).ok();
         }
         task::check(&self.task, space.as_ref(), robot.as_ref(), &mut found);
-        generate::check(&self.generate, &mut found);
+        generate::check(self, &mut found);
+        found.require(
+            self.generate.search.method != SearchMethod::InLoop || self.execute.controller_in_force().is_some(),
+            "generate.search.method",
+            "\"in-loop\"",
+            "another one, or execute.controller given: executions in the loop are hairpin's own simulator's",
+        );
         execute::check(&self.execute, &mut found);
         spec::check(&self.spec, &mut found);
         found.0

@@ -78,7 +78,7 @@ fn every_bound_holds() {
         ("generate.search.cases", json!(0), "generate.search.cases = 0"),
         ("generate.search.frontier", json!(0), "generate.search.frontier = 0"),
         ("generate.score", json!("fast"), "generate.score = \"fast\": must be one of random, "),
-        ("generate.score", json!("learned:m.json"), "learned and Python scores are not in this version"),
+        ("generate.score", json!("learned:m.json"), "read with its scenario"),
         ("generate.limits.max_tilt_deg", json!(0.0), "max_tilt_deg = 0: must be > 0"),
         ("execute.logs", json!("*.ulg"), "judging logs is not in this version"),
         ("execute.step_s", json!(0.01), "execute.step_s = 0.01: must be ≥ 0.00001 and ≤ 0.001"),

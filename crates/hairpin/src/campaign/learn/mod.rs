@@ -1,0 +1,12 @@
+//! Learned scores: the stress of executed legs, as a polynomial of what a search sees of them.
+
+mod kept;
+mod model;
+mod samples;
+mod score;
+
+pub(super) use kept::subject;
+pub use kept::{KeptModel, NAME};
+pub use model::{Feature, HeldOut, LegSample, ModelMistake, ScoreModel, Subject};
+pub use samples::{learn, leg_samples};
+pub(super) use score::AnyScore;

@@ -1,0 +1,134 @@
+//! Stress: the one scalar of an execution that a search or a model is about, of a whole run and of each of its legs.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{LegMeasures, Measures};
+
+/// What is called stressful in execution; larger is worse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stress {
+    /// Largest deviation from the reference, m.
+    #[default]
+    MaxDeviation,
+    /// Mean deviation over time, m.
+    MeanDeviation,
+    /// Largest ‖dv/dt‖, m/s².
+    MaxAcceleration,
+    /// Time taken, s.
+    Time,
+    /// Largest overshoot at a waypoint, m.
+    Overshoot,
+    /// Share of actuator time at a limit, 0 … 1.
+    Saturation,
+    /// Least angle by which the body would have had to lean further to tip over, with its sign turned, degrees.
+    Tilt,
+}
+
+impl Stress {
+    /// All of them.
+    pub const ALL: [Stress; 7] = [
+        Stress::MaxDeviation,
+        Stress::MeanDeviation,
+        Stress::MaxAcceleration,
+        Stress::Time,
+        Stress::Overshoot,
+        Stress::Saturation,
+        Stress::Tilt,
+    ];
+
+    /// The word in scenarios, files and on the command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Stress::MaxDeviation => "max-deviation",
+            Stress::MeanDeviation => "mean-deviation",
+            Stress::MaxAcceleration => "max-acceleration",
+            Stress::Time => "time",
+            Stress::Overshoot => "overshoot",
+            Stress::Saturation => "saturation",
+            Stress::Tilt => "tilt",
+        }
+    }
+
+    /// The stress that `word` names.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|stress| stress.word() == word)
+    }
+
+    /// Unit of its values; empty for shares.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Stress::MaxDeviation | Stress::MeanDeviation | Stress::Overshoot => "m",
+            Stress::MaxAcceleration => "m/s²",
+            Stress::Time => "s",
+            Stress::Saturation => "",
+            Stress::Tilt => "°",
+        }
+    }
+
+    /// Of a run; `None` where it was not measured.
+    pub fn of(self, measures: &Measures) -> Option<f64> {
+        match self {
+            Stress::MaxDeviation => Some(measures.max_deviation),
+            Stress::MeanDeviation => Some(measures.mean_deviation),
+            Stress::MaxAcceleration => Some(measures.max_acceleration),
+            Stress::Time => Some(measures.total_time),
+            Stress::Overshoot => Some(measures.max_overshoot()),
+            Stress::Saturation => measures.saturation_share,
+            Stress::Tilt => measures.min_tip_over_margin.map(|margin| -margin),
+        }
+    }
+
+    /// Of one leg of a run; `None` where it was not measured.
+    pub fn of_leg(self, leg: &LegMeasures) -> Option<f64> {
+        match self {
+            Stress::MaxDeviation => Some(leg.max_deviation),
+            Stress::MeanDeviation => Some(leg.mean_deviation),
+            Stress::MaxAcceleration => Some(leg.max_acceleration),
+            Stress::Time => Some(leg.time),
+            Stress::Overshoot => Some(leg.overshoot),
+            Stress::Saturation => leg.saturation_share,
+            Stress::Tilt => leg.min_tip_over_margin.map(|margin| -margin),
+        }
+    }
+
+    /// The leg that a run owes its stress to, the first of equals; `None` where no leg was measured.
+    pub fn worst_leg(self, measures: &Measures) -> Option<usize> {
+        let mut worst: Option<(usize, f64)> = None;
+        for (number, leg) in measures.legs.iter().enumerate() {
+            let Some(value) = self.of_leg(leg).filter(|value| !value.is_nan()) else { continue };
+            if worst.is_none_or(|(_, most)| value > most) {
+                worst = Some((number, value));
+            }
+        }
+        worst.map(|(number, _)| number)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_name_one_stress_each_and_legs_and_runs_agree() {
+        let leg = |x: f64| LegMeasures {
+            max_deviation: x,
+            time: 2.0 * x,
+            saturation_share: None,
+            min_tip_over_margin: Some(30.0 - x),
+            ..LegMeasures::default()
+        };
+        let legs = vec![leg(1.0), leg(3.0), leg(3.0), leg(2.0)];
+        let measures = Measures { max_deviation: 3.0, min_tip_over_margin: Some(27.0), legs, ..Measures::default() };
+        for stress in Stress::ALL {
+            assert_eq!(Stress::from_word(stress.word()), Some(stress));
+        }
+        assert_eq!(Stress::from_word("deviation"), None);
+        assert_eq!(Stress::MaxDeviation.worst_leg(&measures), Some(1), "the first of equals");
+        assert_eq!(Stress::Tilt.of(&measures), Some(-27.0));
+        assert_eq!(Stress::Tilt.worst_leg(&measures), Some(1));
+        assert_eq!(Stress::Saturation.worst_leg(&measures), None);
+        assert_eq!(Stress::Time.of_leg(&measures.legs[3]), Some(4.0));
+    }
+}

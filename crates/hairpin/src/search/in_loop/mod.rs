@@ -1,0 +1,22 @@
+//! Simulation in the loop: trajectories are scored by executing them, under a budget of executions.
+//!
+//! [`evolve`] changes waypoint sequences within the legs of a graph, from the best that scores know of; [`shift`] then moves the
+//! waypoints themselves, as far as the reach set lets them. Both know executions only as a closure.
+
+mod evolve;
+mod regrow;
+mod shift;
+#[cfg(test)]
+mod tests;
+
+pub use evolve::{EvolveSettings, Evolved, Tested, evolve};
+pub use shift::{ShiftSettings, Shifted, shift};
+
+/// What an execution came to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial {
+    /// The stress that is searched for; larger is worse for the robot.
+    pub stress: f64,
+    /// The leg that it is owed to.
+    pub worst_leg: usize,
+}

@@ -1,0 +1,95 @@
+//! A stretch of a trajectory grown anew: a random walk of a given number of legs between two nodes.
+
+use rand::RngExt;
+
+use crate::math::random::Stream;
+use crate::search::graph::LegGraph;
+
+/// Legs that are looked at before a stretch is given up.
+const BUDGET: u32 = 3_000;
+
+/// Where a stretch must lead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Goal {
+    /// To this node.
+    Node(u32),
+    /// To any node at the end.
+    End,
+}
+
+/// A depth-first search that tries legs in random order.
+pub(super) struct Regrow<'g, 'a, N> {
+    pub(super) graph: &'g LegGraph<'a, N>,
+    pub(super) goal: Goal,
+    /// Waypoints that may not be used, by index; empty where all may.
+    pub(super) taken: &'g mut [bool],
+    pub(super) rng: &'g mut Stream,
+    spent: u32,
+}
+
+impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
+    pub(super) fn new(graph: &'g LegGraph<'a, N>, goal: Goal, taken: &'g mut [bool], rng: &'g mut Stream) -> Self {
+        Self { graph, goal, taken, rng, spent: 0 }
+    }
+
+    /// Appends `steps` legs from `node` to the goal; `false` leaves `legs` as it was.
+    pub(super) fn grow(&mut self, node: u32, steps: usize, legs: &mut Vec<u32>) -> bool {
+        let row = self.graph.legs_from(node);
+        if steps == 0 || row.is_empty() {
+            return false;
+        }
+        if let (1, Goal::Node(goal)) = (steps, self.goal) {
+            return self.last(row, goal, legs);
+        }
+        let turn = self.rng.random_range(0..row.len());
+        for place in 0..row.len() {
+            self.spent += 1;
+            if self.spent > BUDGET {
+                return false;
+            }
+            let leg = row.start + (place + turn) % row.len();
+            let to = self.graph.target(leg);
+            if steps == 1 {
+                if !self.graph.at_end(to) {
+                    continue;
+                }
+                legs.push(leg as u32);
+                return true;
+            }
+            let waypoint = self.graph.waypoint(to) as usize;
+            if self.taken.get(waypoint).copied().unwrap_or(false) {
+                continue;
+            }
+            legs.push(leg as u32);
+            self.take(waypoint, true);
+            let grown = self.grow(to, steps - 1, legs);
+            self.take(waypoint, false);
+            if grown {
+                return true;
+            }
+            legs.pop();
+        }
+        false
+    }
+
+    fn take(&mut self, waypoint: usize, taken: bool) {
+        if let Some(mark) = self.taken.get_mut(waypoint) {
+            *mark = taken;
+        }
+    }
+
+    /// The leg to the goal: rows rise with the waypoint, so it is found by halving.
+    fn last(&mut self, row: std::ops::Range<usize>, goal: u32, legs: &mut Vec<u32>) -> bool {
+        self.spent += 1;
+        let wanted = self.graph.waypoint(goal);
+        let (mut low, mut high) = (row.start, row.end);
+        while low < high {
+            let middle = low + (high - low) / 2;
+            if self.graph.waypoint(self.graph.target(middle)) < wanted { low = middle + 1 } else { high = middle }
+        }
+        let same = (low..row.end).take_while(|&leg| self.graph.waypoint(self.graph.target(leg)) == wanted);
+        let found = same.into_iter().find(|&leg| self.graph.target(leg) == goal);
+        legs.extend(found.map(|leg| leg as u32));
+        found.is_some()
+    }
+}

@@ -1,0 +1,137 @@
+use nalgebra::{Point3, Vector3};
+
+use super::*;
+use crate::feasibility::reach::StepNode;
+use crate::search::graph::LegGraph;
+use crate::search::objective::{Aggregate, Score};
+use crate::search::small::{Octahedron, START, enumerate, points};
+use crate::search::task::{Found, Task};
+
+const SMALL: Octahedron = Octahedron::WIDE;
+const LENGTH: usize = 6;
+
+/// A stress that no leg alone tells: the product of two successive legs' hashed scores, largest over the trajectory.
+fn hidden(waypoints: &[u32]) -> Trial {
+    let leg = |k: usize| {
+        let pair = [u64::from(waypoints[k]), u64::from(waypoints[k + 1])];
+        crate::math::random::hashed_unit(99, &pair)
+    };
+    let mut trial = Trial { stress: 0.0, worst_leg: 0 };
+    for k in 1..waypoints.len() - 1 {
+        let stress = leg(k - 1) * leg(k);
+        if stress > trial.stress {
+            trial = Trial { stress, worst_leg: k };
+        }
+    }
+    trial
+}
+
+/// Some of all trajectories, as a search would hand them over.
+fn first(all: &[(Vec<u32>, f64)]) -> Vec<Found<StepNode>> {
+    let node = |pair: &[u32]| StepNode { previous: pair[0], current: pair[1] };
+    let found = |waypoints: &[u32]| Found {
+        waypoints: waypoints.to_vec(),
+        nodes: std::iter::once(START).chain(waypoints.windows(2).map(node)).collect(),
+        leg_times: vec![1.0; waypoints.len() - 1],
+        score: 0.0,
+    };
+    all.iter().step_by(all.len() / 4).map(|(waypoints, _)| found(waypoints)).collect()
+}
+
+#[test]
+fn the_most_stressful_of_all_is_found_and_every_child_is_feasible() {
+    let (mut tested, mut reached) = (0, 0);
+    for seed in 0..30 {
+        let points = points(seed, 10, 11.0);
+        let task = Task { start: START, candidates: &points, reach: &SMALL };
+        let all = enumerate(&task, &Score::Random { seed }, (LENGTH, false, Aggregate::Sum));
+        if !(100..4_000).contains(&all.len()) {
+            continue;
+        }
+        let graph = LegGraph::explore(START, &points, &SMALL, LENGTH);
+        let most = all.iter().map(|(waypoints, _)| hidden(waypoints).stress).fold(0.0, f64::max);
+        let settings = EvolveSettings { length: LENGTH, executions: 150, ..EvolveSettings::default() };
+        let mut executed = Vec::new();
+        let mut run = |found: &Found<StepNode>| {
+            executed.push(found.waypoints.clone());
+            Some(hidden(&found.waypoints))
+        };
+        let evolved = evolve(&graph, &first(&all), seed, &settings, &mut run);
+        for waypoints in &executed {
+            assert!(all.iter().any(|(known, _)| known == waypoints), "seed {seed}: {waypoints:?} is not feasible");
+        }
+        let count = executed.len();
+        executed.sort();
+        executed.dedup();
+        assert_eq!(executed.len(), count, "seed {seed}: executed twice");
+        assert!(count as u64 <= settings.executions && evolved.best_so_far.len() == count);
+        assert!(evolved.best_so_far.is_sorted() && evolved.pool.is_sorted_by(|a, b| a.found.score >= b.found.score));
+        assert_eq!(evolved.pool[0].found.score, evolved.best_so_far[count - 1]);
+        let again = evolve(&graph, &first(&all), seed, &settings, |found| Some(hidden(&found.waypoints)));
+        assert_eq!(again, evolved, "seed {seed}");
+        tested += 1;
+        reached += usize::from(evolved.pool[0].found.score == most);
+    }
+    // 150 executions of 100 to 4 000 trajectories.
+    assert!(tested >= 5 && 3 * reached >= 2 * tested, "{reached} of {tested}");
+}
+
+#[test]
+fn a_small_graph_is_used_up_and_failures_count() {
+    let points = points(3, 4, 9.0);
+    let task = Task { start: START, candidates: &points, reach: &SMALL };
+    let all = enumerate(&task, &Score::Random { seed: 0 }, (4, false, Aggregate::Sum));
+    assert!((2..40).contains(&all.len()), "{}", all.len());
+    let graph = LegGraph::explore(START, &points, &SMALL, 4);
+    let settings = EvolveSettings { length: 4, executions: 1_000, ..EvolveSettings::default() };
+    let evolved = evolve(&graph, &[], 5, &settings, |found| Some(hidden(&found.waypoints)));
+    assert_eq!(evolved.best_so_far.len(), all.len(), "each once, and then an end");
+    let failed = evolve(&graph, &[], 5, &settings, |_: &Found<StepNode>| None);
+    assert!(failed.pool.is_empty() && failed.best_so_far.len() <= all.len());
+}
+
+#[test]
+fn waypoints_move_to_the_edge_of_what_is_feasible_and_never_beyond() {
+    let points = [0.0, 1.0, 2.0, 3.0].map(|x| Point3::new(x, 0.0, 0.0));
+    let settings = ShiftSettings { executions: 400, step: 0.3, free_end: false };
+    let feasible = |moved: &[Point3<f64>]| {
+        assert_eq!((moved[0], moved[3]), (points[0], points[3]), "ends stay");
+        moved.iter().all(|p| p.y.abs() <= 2.0 && p.z.abs() <= 1.0).then(|| moved.to_vec())
+    };
+    let execute = |plan: &Vec<Point3<f64>>| Some(Trial { stress: plan[1].y + plan[2].z, worst_leg: 1 });
+    let trial = Trial { stress: 0.0, worst_leg: 1 };
+    let shifted = shift(&points, trial, 1, &settings, feasible, execute);
+    assert!(shifted.trial.stress > 2.9 && shifted.trial.stress <= 3.0, "{}", shifted.trial.stress);
+    assert_eq!(shifted.best_so_far.len(), 400);
+    let stuck = shift(&points, trial, 1, &settings, |_| None::<()>, |()| None);
+    assert!(stuck.plan.is_none() && stuck.best_so_far.is_empty());
+    let far = Vector3::new(1.0, 1.0, 1.0);
+    let free = ShiftSettings { executions: 50, step: 0.3, free_end: true };
+    let moved = shift(
+        &points,
+        trial,
+        2,
+        &free,
+        |p| Some(p[3]),
+        |end| Some(Trial { stress: end.coords.dot(&far), worst_leg: 2 }),
+    );
+    assert!(moved.trial.stress > 3.0);
+}
+
+#[test]
+fn legs_are_found_again_by_their_nodes() {
+    let points = points(11, 8, 11.0);
+    let task = Task { start: START, candidates: &points, reach: &SMALL };
+    let all = enumerate(&task, &Score::Random { seed: 2 }, (LENGTH, false, Aggregate::Sum));
+    let graph = LegGraph::explore(START, &points, &SMALL, LENGTH);
+    for found in first(&all) {
+        let legs = graph.legs_along(&found.nodes).expect("its own legs");
+        let mut from = 0;
+        for (&leg, &waypoint) in legs.iter().zip(&found.waypoints[1..]) {
+            assert_eq!(graph.source(leg), from);
+            from = graph.target(leg as usize);
+            assert_eq!(graph.waypoint(from), waypoint);
+        }
+        assert!(graph.at_end(from));
+    }
+}
