@@ -27,6 +27,10 @@ pub(crate) struct Experiment {
 /// All experiments; each has a sheet of the same name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ExperimentName {
+    /// ISSTA 2020, figure 6: trajectories that each reach set gives in equal time
+    Yields,
+    /// ISSTA 2020, figure 8: the deviation that scores, learning and executions in the loop lift
+    Scores,
     /// RobTest, table I: seconds for the graph, depth-first search and the proof of the optimum
     #[value(name = "robtest-table-1")]
     RobtestTable1,

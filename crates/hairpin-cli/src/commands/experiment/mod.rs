@@ -4,6 +4,7 @@
 //! written and printed is decided here, once.
 
 mod robtest;
+mod stressful;
 
 use std::path::{Path, PathBuf};
 
@@ -36,6 +37,8 @@ pub(crate) fn run(asked: &Experiment) -> Result<u8, Problem> {
         console::warn("Warning: this is no release build; its times mean nothing");
     }
     let outcome = match asked.name {
+        ExperimentName::Yields => stressful::yields(&sheet),
+        ExperimentName::Scores => stressful::scores(&sheet),
         ExperimentName::RobtestTable1 => robtest::table_1(&sheet),
         ExperimentName::RobtestFigure7 => robtest::figure_7(&sheet),
         ExperimentName::RobtestObstacles => robtest::obstacles(&sheet),

@@ -1,0 +1,127 @@
+//! Scores that are learned from executions, and searches with executions in the loop.
+
+mod commands;
+
+use std::fs;
+use std::path::Path;
+
+use commands::{json, refused};
+use hairpin_formats::folder::CampaignFolder;
+
+/// Small graphs of hull legs, flown by minimum snap.
+const SCENARIO: &str = r#"
+hairpin = 1
+robot = "flightgoggles"
+seed = 3
+[world]
+size_m = [20, 20, 20]
+[task]
+start_m = [2, 2, 5]
+end_m = [14, 14, 12]
+length = 5
+[generate]
+reach = "hull"
+timing = { step_s = 1.0 }
+search = { method = "uniform", waypoints = 40, cases = 20, per_graph = 4 }
+score = "high-velocity-90"
+[execute]
+controller = "minimum-snap"
+[spec]
+deviation = { max_m = 0.5, from = "nearest-leg" }
+"#;
+
+fn begin(folder: &Path) {
+    fs::write(folder.join("q.toml"), SCENARIO).unwrap();
+    json(folder, &["stress", "q.toml", "--out", "flown"]);
+}
+
+#[test]
+fn a_learned_score_is_written_applied_and_refused_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    begin(here);
+    let told = json(here, &["learn", "flown", "--out", "m.json"]);
+    assert_eq!((told["trajectories"].as_u64(), told["legs"].as_u64()), (Some(20), Some(80)), "{told}");
+    assert!(told["validation"]["r2"].as_f64().unwrap() < 1.0 && told["held_out"]["trajectories"] == 4, "{told}");
+    let again = json(here, &["learn", "flown", "--out", "again.json"]);
+    assert_eq!(again["training_hash"], told["training_hash"]);
+    assert_eq!(fs::read(here.join("m.json")).unwrap(), fs::read(here.join("again.json")).unwrap());
+
+    let learned = |out: &str, more: &[&str]| {
+        let mut typed = vec!["generate", "q.toml", "--out", out, "--set", "generate.score=\"learned:m.json\""];
+        typed.extend(["--set", "generate.search.method=\"exact\"", "--set", "generate.search.cases=3"]);
+        typed.extend(more);
+        json(here, &typed)
+    };
+    learned("exact", &["--set", "generate.search.aggregate=\"max\""]);
+    learned("beam", &["--set", "generate.search.method=\"beam\""]);
+    // A folder stands alone: its model is in it.
+    fs::rename(here.join("m.json"), here.join("moved.json")).unwrap();
+    assert_eq!(fs::read(here.join("exact/score-model.json")).unwrap(), fs::read(here.join("moved.json")).unwrap());
+    json(here, &["execute", "exact"]);
+    json(here, &["judge", "exact"]);
+
+    fs::rename(here.join("moved.json"), here.join("m.json")).unwrap();
+    let apply = |more: &[&'static str]| {
+        let mut typed = vec!["generate", "q.toml", "--out", "other", "--set", "generate.score=\"learned:m.json\""];
+        typed.extend(more);
+        typed
+    };
+    refused(here, &apply(&["--set", "robot=\"crazyflie\""]), &["generate.score", "flightgoggles", "crazyflie"]);
+    refused(here, &apply(&["--set", "robot.mass_kg=1.1"]), &["generate.score", "robot_hash"]);
+    refused(here, &apply(&["--set", "generate.reach=\"witness\""]), &["leg over step", "at the leg's ends"]);
+    let text = fs::read_to_string(here.join("m.json")).unwrap();
+    fs::write(here.join("m.json"), text.replace("\"score_model\": 1", "\"score_model\": 2")).unwrap();
+    refused(here, &apply(&[]), &["score_model = 2"]);
+    fs::write(here.join("m.json"), &text[..text.len() / 2]).unwrap();
+    refused(here, &apply(&[]), &["m.json", "generate.score"]);
+    fs::remove_file(here.join("m.json")).unwrap();
+    refused(here, &apply(&[]), &["m.json", "cannot be read"]);
+    json(here, &["generate", "q.toml", "--out", "unflown"]);
+    refused(here, &["learn", "unflown"], &["no leg to learn from"]);
+}
+
+#[test]
+fn executions_in_the_loop_tell_the_stress_that_is_judged_and_beat_uniform_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    begin(here);
+    let looped = |out: &str, more: &[&str]| {
+        let mut typed = vec!["stress", "q.toml", "--out", out, "--set", "generate.search.method=\"in-loop\""];
+        typed.extend(["--set", "generate.search.cases=3", "--set", "generate.search.per_graph=1"]);
+        typed.extend(["--set", "generate.search.executions=40"]);
+        typed.extend(more);
+        json(here, &typed)
+    };
+    let mean = |out: &str| {
+        let kept = CampaignFolder::open(&here.join(out)).unwrap();
+        let (cases, results) = (kept.read_cases().unwrap(), kept.read_results().unwrap());
+        let both: Vec<(f64, f64)> = cases
+            .iter()
+            .zip(&results)
+            .map(|(case, result)| (case.score, result.measures.as_ref().unwrap().max_deviation))
+            .collect();
+        let mean = both.iter().map(|(_, deviation)| deviation).sum::<f64>() / both.len() as f64;
+        (both, mean)
+    };
+    looped("looped", &[]);
+    looped("one-thread", &["--threads", "1"]);
+    looped("moved", &["--set", "generate.search.move_waypoints=true"]);
+    let (both, looped_mean) = mean("looped");
+    assert_eq!(both.len(), 3);
+    for (score, deviation) in &both {
+        assert!((score - deviation).abs() < 1e-12, "{score} {deviation}: the score is the judge's own number");
+    }
+    assert_eq!(mean("one-thread").0, both, "threads change nothing");
+    let (moved, moved_mean) = mean("moved");
+    assert!(moved.iter().all(|(score, deviation)| (score - deviation).abs() < 1e-12));
+    let (_, uniform_mean) = mean("flown");
+    assert!(
+        looped_mean > 1.2 * uniform_mean && moved_mean > 1.2 * uniform_mean,
+        "{uniform_mean} {looped_mean} {moved_mean}"
+    );
+    let command = ["--set", "execute.command=\"true\""];
+    let mut typed = vec!["generate", "q.toml", "--out", "no", "--set", "generate.search.method=\"in-loop\""];
+    typed.extend(command);
+    refused(here, &typed, &["in-loop", "execute.controller"]);
+}

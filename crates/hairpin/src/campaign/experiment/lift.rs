@@ -1,0 +1,119 @@
+//! How much more a way of generating stresses a robot than another: the paper's measure of scores.
+
+use rand::RngExt;
+use rayon::prelude::*;
+
+use crate::campaign::judge::measures_of;
+use crate::campaign::{Case, Setup, Stop, execute_run};
+use crate::judgement::Stress;
+use crate::math::random::stream;
+use crate::trajectory::Ended;
+
+/// Resamples of a bootstrap interval.
+const RESAMPLES: usize = 2_000;
+
+/// Trajectories executed, and what they came to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Flown {
+    /// Stress of every case, the mean over its runs.
+    pub stresses: Vec<f64>,
+    /// Share of runs that ended in a crash.
+    pub crashed: f64,
+    /// Share of runs that ended by their time limit.
+    pub timed_out: f64,
+}
+
+impl Flown {
+    /// Executes `cases` as `setup` says, each as often as its `execute.repeat`. `None` where `stop` asked to.
+    pub fn of(setup: &Setup, cases: &[Case], stress: Stress, stop: &Stop) -> Option<Self> {
+        let repeat = setup.scenario.executor().repeat as usize;
+        let flown: Vec<Option<Vec<(f64, Option<Ended>)>>> = cases
+            .par_iter()
+            .map(|case| {
+                let run = |run| {
+                    let run = execute_run(setup, case, run);
+                    let measures = measures_of(setup, case, &run)?;
+                    Some((stress.of(&measures)?, run.outcome.ok().map(|flight| flight.ended)))
+                };
+                (!(stop.cancelled)()).then(|| (0..repeat).filter_map(run).collect())
+            })
+            .collect();
+        let flown: Vec<Vec<(f64, Option<Ended>)>> = flown.into_iter().collect::<Option<_>>()?;
+        let runs = || flown.iter().flatten();
+        let share = |of: fn(&Ended) -> bool| {
+            runs().filter(|(_, ended)| ended.as_ref().is_some_and(of)).count() as f64 / runs().count().max(1) as f64
+        };
+        let mean = |runs: &Vec<(f64, _)>| runs.iter().map(|(value, _)| value).sum::<f64>() / runs.len() as f64;
+        Some(Self {
+            stresses: flown.iter().filter(|runs| !runs.is_empty()).map(mean).collect(),
+            crashed: share(|ended| ended.is_crash()),
+            timed_out: share(|ended| *ended == Ended::Time),
+        })
+    }
+
+    /// Mean stress; NaN of none.
+    pub fn mean(&self) -> f64 {
+        mean(&self.stresses)
+    }
+
+    /// Median stress; NaN of none.
+    pub fn median(&self) -> f64 {
+        let mut sorted = self.stresses.clone();
+        sorted.sort_by(f64::total_cmp);
+        match sorted.len() {
+            0 => f64::NAN,
+            n if n % 2 == 1 => sorted[n / 2],
+            n => 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]),
+        }
+    }
+}
+
+/// Mean over mean − 1, with its interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lift {
+    /// The lift, a share: 0.5 is half as much again.
+    pub value: f64,
+    /// The 95 % percentile bootstrap interval; both samples are drawn again.
+    pub interval: [f64; 2],
+}
+
+/// How much larger the mean of `sample` is than that of `baseline`; a pure function of its arguments.
+pub fn lift(sample: &[f64], baseline: &[f64], seed: u64) -> Lift {
+    let value = mean(sample) / mean(baseline) - 1.0;
+    let mut rng = stream(seed);
+    let mut again = |values: &[f64]| {
+        let draw = |_| values[rng.random_range(0..values.len())];
+        (0..values.len()).map(draw).sum::<f64>() / values.len() as f64
+    };
+    if sample.is_empty() || baseline.is_empty() {
+        return Lift { value, interval: [f64::NAN; 2] };
+    }
+    let mut lifts: Vec<f64> = (0..RESAMPLES).map(|_| again(sample) / again(baseline) - 1.0).collect();
+    lifts.sort_by(f64::total_cmp);
+    let at = |share: f64| lifts[(share * (RESAMPLES - 1) as f64) as usize];
+    Lift { value, interval: [at(0.025), at(0.975)] }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lift_is_a_ratio_of_means_and_its_interval_covers_it() {
+        let baseline: Vec<f64> = (0..400).map(|i| 1.0 + f64::from(i % 10) / 10.0).collect();
+        let sample: Vec<f64> = baseline.iter().map(|value| 1.5 * value).collect();
+        let told = lift(&sample, &baseline, 1);
+        assert!((told.value - 0.5).abs() < 1e-12);
+        // Standard error of each mean 0.29/20 of 1.45: 1 %, of the ratio 1.4 %.
+        let [low, high] = told.interval;
+        assert!(low < 0.5 && high > 0.5 && (0.06..0.12).contains(&(high - low)), "{low} … {high}");
+        assert_eq!(lift(&sample, &baseline, 1), told);
+        assert!(lift(&[], &baseline, 1).interval[0].is_nan());
+        let flown = Flown { stresses: vec![3.0, 1.0, 2.0, 10.0], ..Flown::default() };
+        assert_eq!((flown.mean(), flown.median()), (4.0, 2.5));
+    }
+}
