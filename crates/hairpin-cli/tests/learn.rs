@@ -41,7 +41,8 @@ fn a_learned_score_is_written_applied_and_refused_elsewhere() {
     let here = folder.path();
     begin(here);
     let told = json(here, &["learn", "flown", "--out", "m.json"]);
-    assert_eq!((told["trajectories"].as_u64(), told["legs"].as_u64()), (Some(20), Some(80)), "{told}");
+    // Runs that crash leave legs out.
+    assert!(told["trajectories"] == 20 && (60..=80).contains(&told["legs"].as_u64().unwrap()), "{told}");
     assert!(told["validation"]["r2"].as_f64().unwrap() < 1.0 && told["held_out"]["trajectories"] == 4, "{told}");
     let again = json(here, &["learn", "flown", "--out", "again.json"]);
     assert_eq!(again["training_hash"], told["training_hash"]);
@@ -93,33 +94,29 @@ fn executions_in_the_loop_tell_the_stress_that_is_judged_and_beat_uniform_draws(
         typed.extend(more);
         json(here, &typed)
     };
-    let mean = |out: &str| {
+    // Graph, score, deviation of every case.
+    let came_to = |out: &str| -> Vec<(u64, f64, f64)> {
         let kept = CampaignFolder::open(&here.join(out)).unwrap();
         let (cases, results) = (kept.read_cases().unwrap(), kept.read_results().unwrap());
-        let both: Vec<(f64, f64)> = cases
-            .iter()
-            .zip(&results)
-            .map(|(case, result)| (case.score, result.measures.as_ref().unwrap().max_deviation))
-            .collect();
-        let mean = both.iter().map(|(_, deviation)| deviation).sum::<f64>() / both.len() as f64;
-        (both, mean)
+        let both = cases.iter().zip(&results);
+        both.map(|(case, result)| (case.graph, case.score, result.measures.as_ref().unwrap().max_deviation)).collect()
     };
     looped("looped", &[]);
     looped("one-thread", &["--threads", "1"]);
     looped("moved", &["--set", "generate.search.move_waypoints=true"]);
-    let (both, looped_mean) = mean("looped");
-    assert_eq!(both.len(), 3);
-    for (score, deviation) in &both {
+    let (found, moved, uniform) = (came_to("looped"), came_to("moved"), came_to("flown"));
+    assert_eq!(found.len(), 3);
+    assert_eq!(came_to("one-thread"), found, "threads change nothing");
+    let mut better = 0;
+    for (graph, score, deviation) in found.iter().chain(&moved) {
         assert!((score - deviation).abs() < 1e-12, "{score} {deviation}: the score is the judge's own number");
+        // The uniform draws of the same graph are among those that were executed first.
+        let drawn = uniform.iter().filter(|(other, ..)| other == graph).map(|(.., drawn)| *drawn);
+        let worst = drawn.fold(0.0, f64::max);
+        assert!(*deviation >= worst, "graph {graph}: {deviation} {worst}");
+        better += usize::from(*deviation > 1.05 * worst);
     }
-    assert_eq!(mean("one-thread").0, both, "threads change nothing");
-    let (moved, moved_mean) = mean("moved");
-    assert!(moved.iter().all(|(score, deviation)| (score - deviation).abs() < 1e-12));
-    let (_, uniform_mean) = mean("flown");
-    assert!(
-        looped_mean > 1.2 * uniform_mean && moved_mean > 1.2 * uniform_mean,
-        "{uniform_mean} {looped_mean} {moved_mean}"
-    );
+    assert!(better >= 3, "{found:?} {moved:?} {uniform:?}");
     let command = ["--set", "execute.command=\"true\""];
     let mut typed = vec!["generate", "q.toml", "--out", "no", "--set", "generate.search.method=\"in-loop\""];
     typed.extend(command);
