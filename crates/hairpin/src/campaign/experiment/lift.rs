@@ -12,6 +12,9 @@ use crate::trajectory::Ended;
 /// Resamples of a bootstrap interval.
 const RESAMPLES: usize = 2_000;
 
+/// Stress and end of every run of a case.
+type Runs = Vec<(f64, Option<Ended>)>;
+
 /// Trajectories executed, and what they came to.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Flown {
@@ -27,7 +30,7 @@ impl Flown {
     /// Executes `cases` as `setup` says, each as often as its `execute.repeat`. `None` where `stop` asked to.
     pub fn of(setup: &Setup, cases: &[Case], stress: Stress, stop: &Stop) -> Option<Self> {
         let repeat = setup.scenario.executor().repeat as usize;
-        let flown: Vec<Option<Vec<(f64, Option<Ended>)>>> = cases
+        let flown: Option<Vec<Runs>> = cases
             .par_iter()
             .map(|case| {
                 let run = |run| {
@@ -38,12 +41,12 @@ impl Flown {
                 (!(stop.cancelled)()).then(|| (0..repeat).filter_map(run).collect())
             })
             .collect();
-        let flown: Vec<Vec<(f64, Option<Ended>)>> = flown.into_iter().collect::<Option<_>>()?;
+        let flown = flown?;
         let runs = || flown.iter().flatten();
         let share = |of: fn(&Ended) -> bool| {
             runs().filter(|(_, ended)| ended.as_ref().is_some_and(of)).count() as f64 / runs().count().max(1) as f64
         };
-        let mean = |runs: &Vec<(f64, _)>| runs.iter().map(|(value, _)| value).sum::<f64>() / runs.len() as f64;
+        let mean = |runs: &Runs| runs.iter().map(|(value, _)| value).sum::<f64>() / runs.len() as f64;
         Some(Self {
             stresses: flown.iter().filter(|runs| !runs.is_empty()).map(mean).collect(),
             crashed: share(|ended| ended.is_crash()),

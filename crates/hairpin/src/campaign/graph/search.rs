@@ -41,8 +41,11 @@ pub(in crate::campaign) struct Looped<'a> {
     /// Executes a plan once; `None` where that fails.
     pub(in crate::campaign) execute: &'a dyn Fn(&Plan) -> Option<Trial>,
     /// A plan with other waypoints, as many; `None` where they are not feasible.
-    pub(in crate::campaign) moved: &'a dyn Fn(&Plan, &[Point3<f64>]) -> Option<Plan>,
+    pub(in crate::campaign) moved: Move<'a>,
 }
+
+/// Puts other waypoints into a plan.
+type Move<'a> = &'a dyn Fn(&Plan, &[Point3<f64>]) -> Option<Plan>;
 
 /// What the search gave.
 #[derive(Default)]

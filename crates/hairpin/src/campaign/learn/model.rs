@@ -229,7 +229,9 @@ impl ScoreModel {
         if let Some(row) = powers.iter().find(|row| row.len() != FEATURES || row.iter().sum::<u32>() > 64) {
             return wrong("powers", format!("{row:?}"), &format!("{per_input}, at most 64 together"));
         }
-        if let Some([least, greatest]) = range.iter().find(|[least, greatest]| !(least <= greatest)) {
+        if let Some([least, greatest]) =
+            range.iter().find(|[least, greatest]| least.is_nan() || greatest < least || greatest.is_nan())
+        {
             return wrong("range", format!("[{least}, {greatest}]"), "rising");
         }
         let numbers = || centre.iter().chain(scale).chain(weights).chain([intercept]);
