@@ -71,7 +71,7 @@ fn every_kind_of_mistake_is_told_where_it_stands() {
         ("start_m = [3, 3, 3]", "start_m = [3, 3, \"3\"]"),
         ("length = 10", "length = 2026-01-01"),
         ("reach = \"witness\"", "reach = \"witnes\""),
-        ("method = \"beam\"", "method = \"in-loop\""),
+        ("method = \"beam\"", "method = \"annealing\""),
         ("controller = \"minimum-snap\"", "controller = 3"),
         ("score = \"high-velocity-90\"", "score = \"learned:model.json\""),
         ("controller = \"minimum-snap\"", "logs = \"flights/*.ulg\""),

@@ -6,9 +6,6 @@ use serde_json::Value;
 use super::report::Report;
 use super::tree::{Kind, Node, below};
 
-/// Words of the format that this version does not know yet, with what to say.
-const NOT_YET: &[(&str, &str)] = &[("in-loop", "in-loop search is not in this version")];
-
 /// Compares `node`, at the dotted key `path`, with `schema`; mistakes go to `report`.
 pub(super) fn check(schema: &Value, node: &Node, path: &str, report: &mut Report) {
     Shape { root: schema, report }.check(schema, node, path);
@@ -84,11 +81,8 @@ impl<'s> Shape<'s> {
         if words.contains(&word.as_str()) {
             return;
         }
-        let hint = if let Some((_, why)) = NOT_YET.iter().find(|(later, _)| later == word) {
-            format!("{why}; ")
-        } else {
-            nearest(word, words.iter().copied()).map_or(String::new(), |near| format!("did you mean `{near}`? "))
-        };
+        let hint =
+            nearest(word, words.iter().copied()).map_or(String::new(), |near| format!("did you mean `{near}`? "));
         let message = format!("`{path}` = {word:?}: {hint}valid here: {list}");
         let bound = format!("must be one of {list}");
         self.report.complain(&node.place, path, &format!("{word:?}"), &bound, message);

@@ -10,15 +10,13 @@ use crate::search::task::{Found, Task};
 const SMALL: Octahedron = Octahedron::WIDE;
 const LENGTH: usize = 6;
 
-/// A stress that no leg alone tells: the product of two successive legs' hashed scores, largest over the trajectory.
-fn hidden(waypoints: &[u32]) -> Trial {
-    let leg = |k: usize| {
-        let pair = [u64::from(waypoints[k]), u64::from(waypoints[k + 1])];
-        crate::math::random::hashed_unit(99, &pair)
-    };
+/// A stress that no leg alone tells: how sharply two long legs meet, largest over the trajectory.
+fn hidden(points: &[Point3<f64>], waypoints: &[u32]) -> Trial {
+    let leg = |k: usize| points[waypoints[k + 1] as usize] - points[waypoints[k] as usize];
     let mut trial = Trial { stress: 0.0, worst_leg: 0 };
     for k in 1..waypoints.len() - 1 {
-        let stress = leg(k - 1) * leg(k);
+        let (before, after) = (leg(k - 1), leg(k));
+        let stress = before.norm() * after.norm() - before.dot(&after);
         if stress > trial.stress {
             trial = Trial { stress, worst_leg: k };
         }
@@ -35,26 +33,27 @@ fn first(all: &[(Vec<u32>, f64)]) -> Vec<Found<StepNode>> {
         leg_times: vec![1.0; waypoints.len() - 1],
         score: 0.0,
     };
-    all.iter().step_by(all.len() / 4).map(|(waypoints, _)| found(waypoints)).collect()
+    all.iter().step_by((all.len() / 4).max(1)).map(|(waypoints, _)| found(waypoints)).collect()
 }
 
 #[test]
-fn the_most_stressful_of_all_is_found_and_every_child_is_feasible() {
+fn the_most_stressful_is_found_and_every_child_is_feasible() {
     let (mut tested, mut reached) = (0, 0);
-    for seed in 0..30 {
-        let points = points(seed, 10, 11.0);
+    for seed in 0..40 {
+        let points = points(seed, 11, 11.0);
         let task = Task { start: START, candidates: &points, reach: &SMALL };
         let all = enumerate(&task, &Score::Random { seed }, (LENGTH, false, Aggregate::Sum));
-        if !(100..4_000).contains(&all.len()) {
+        if !(20..2_000).contains(&all.len()) {
             continue;
         }
         let graph = LegGraph::explore(START, &points, &SMALL, LENGTH);
-        let most = all.iter().map(|(waypoints, _)| hidden(waypoints).stress).fold(0.0, f64::max);
-        let settings = EvolveSettings { length: LENGTH, executions: 150, ..EvolveSettings::default() };
+        let most = all.iter().map(|(waypoints, _)| hidden(&points, waypoints).stress).fold(0.0, f64::max);
+        let executions = all.len() as u64;
+        let settings = EvolveSettings { length: LENGTH, executions, ..EvolveSettings::default() };
         let mut executed = Vec::new();
         let mut run = |found: &Found<StepNode>| {
             executed.push(found.waypoints.clone());
-            Some(hidden(&found.waypoints))
+            Some(hidden(&points, &found.waypoints))
         };
         let evolved = evolve(&graph, &first(&all), seed, &settings, &mut run);
         for waypoints in &executed {
@@ -67,13 +66,13 @@ fn the_most_stressful_of_all_is_found_and_every_child_is_feasible() {
         assert!(count as u64 <= settings.executions && evolved.best_so_far.len() == count);
         assert!(evolved.best_so_far.is_sorted() && evolved.pool.is_sorted_by(|a, b| a.found.score >= b.found.score));
         assert_eq!(evolved.pool[0].found.score, evolved.best_so_far[count - 1]);
-        let again = evolve(&graph, &first(&all), seed, &settings, |found| Some(hidden(&found.waypoints)));
+        let again = evolve(&graph, &first(&all), seed, &settings, |found| Some(hidden(&points, &found.waypoints)));
         assert_eq!(again, evolved, "seed {seed}");
         tested += 1;
-        reached += usize::from(evolved.pool[0].found.score == most);
+        reached += usize::from(evolved.pool[0].found.score >= most);
     }
-    // 150 executions of 100 to 4 000 trajectories.
-    assert!(tested >= 5 && 3 * reached >= 2 * tested, "{reached} of {tested}");
+    // With as many executions as there are trajectories next to all of them are met.
+    assert!(tested >= 8 && 10 * reached >= 9 * tested, "{reached} of {tested}");
 }
 
 #[test]
@@ -84,7 +83,7 @@ fn a_small_graph_is_used_up_and_failures_count() {
     assert!((2..40).contains(&all.len()), "{}", all.len());
     let graph = LegGraph::explore(START, &points, &SMALL, 4);
     let settings = EvolveSettings { length: 4, executions: 1_000, ..EvolveSettings::default() };
-    let evolved = evolve(&graph, &[], 5, &settings, |found| Some(hidden(&found.waypoints)));
+    let evolved = evolve(&graph, &[], 5, &settings, |found| Some(hidden(&points, &found.waypoints)));
     assert_eq!(evolved.best_so_far.len(), all.len(), "each once, and then an end");
     let failed = evolve(&graph, &[], 5, &settings, |_: &Found<StepNode>| None);
     assert!(failed.pool.is_empty() && failed.best_so_far.len() <= all.len());
@@ -120,18 +119,23 @@ fn waypoints_move_to_the_edge_of_what_is_feasible_and_never_beyond() {
 
 #[test]
 fn legs_are_found_again_by_their_nodes() {
-    let points = points(11, 8, 11.0);
-    let task = Task { start: START, candidates: &points, reach: &SMALL };
-    let all = enumerate(&task, &Score::Random { seed: 2 }, (LENGTH, false, Aggregate::Sum));
-    let graph = LegGraph::explore(START, &points, &SMALL, LENGTH);
-    for found in first(&all) {
-        let legs = graph.legs_along(&found.nodes).expect("its own legs");
-        let mut from = 0;
-        for (&leg, &waypoint) in legs.iter().zip(&found.waypoints[1..]) {
-            assert_eq!(graph.source(leg), from);
-            from = graph.target(leg as usize);
-            assert_eq!(graph.waypoint(from), waypoint);
+    let mut tested = 0;
+    for seed in 0..10 {
+        let points = points(seed, 8, 11.0);
+        let task = Task { start: START, candidates: &points, reach: &SMALL };
+        let all = enumerate(&task, &Score::Random { seed }, (LENGTH, false, Aggregate::Sum));
+        let graph = LegGraph::explore(START, &points, &SMALL, LENGTH);
+        for found in first(&all) {
+            let legs = graph.legs_along(&found.nodes).expect("its own legs");
+            let mut from = 0;
+            for (&leg, &waypoint) in legs.iter().zip(&found.waypoints[1..]) {
+                assert_eq!(graph.source(leg), from);
+                from = graph.target(leg as usize);
+                assert_eq!(graph.waypoint(from), waypoint);
+            }
+            assert!(graph.at_end(from));
+            tested += 1;
         }
-        assert!(graph.at_end(from));
     }
+    assert!(tested > 10, "{tested}");
 }

@@ -59,7 +59,7 @@ impl DriveScenario {
             *method != SearchMethod::InLoop || self.execute.controller_in_force().is_some(),
             "generate.search.method",
             "\"in-loop\"",
-            "another one, or execute.controller given: executions in the loop are hairpin's own simulator's",
+            "another one, or execute.controller given: a command is not executed in the loop",
         );
     }
 
@@ -137,7 +137,8 @@ fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
     for (key, value, most, unit) in [
         ("curvature_1_m", limits.curvature_1_m, 1e3, " 1/m"),
         ("curvature_rate_1_m2", limits.curvature_rate_1_m2, 1e6, " 1/m²"),
-        ("speed_m_s", limits.speed_m_s, rover.map_or(100.0, |rover| rover.limits.speed.min(100.0)), " m/s"),
+        // Beside the robot's own, which holds where this is higher.
+        ("speed_m_s", limits.speed_m_s, 100.0, " m/s"),
         ("tilt_deg", limits.tilt_deg, 89.0, "°"),
     ] {
         if let Some(value) = value {

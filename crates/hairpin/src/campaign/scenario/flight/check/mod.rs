@@ -33,7 +33,7 @@ impl FlightScenario {
             self.generate.search.method != SearchMethod::InLoop || self.execute.controller_in_force().is_some(),
             "generate.search.method",
             "\"in-loop\"",
-            "another one, or execute.controller given: executions in the loop are hairpin's own simulator's",
+            "another one, or execute.controller given: a command is not executed in the loop",
         );
         execute::check(&self.execute, &mut found);
         spec::check(&self.spec, &mut found);
