@@ -12,11 +12,11 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
-/// Cells that coverage.csv says were met, and all.
+/// Cells that coverage.tsv says were met, and all.
 fn cells(folder: &Path) -> (usize, usize) {
-    let text = fs::read_to_string(folder.join("coverage.csv")).unwrap();
+    let text = fs::read_to_string(folder.join("coverage.tsv")).unwrap();
     let rows: Vec<&str> = text.lines().skip(1).collect();
-    (rows.iter().filter(|row| !row.ends_with(",0")).count(), rows.len())
+    (rows.iter().filter(|row| !row.ends_with("\t0")).count(), rows.len())
 }
 
 #[test]
@@ -71,10 +71,10 @@ fn flights_drives_and_programs_say_what_they_exercised() {
     run(here, &[&SMALL[..], &["--out", "flight"]].concat());
     run(here, &["stress", "demo-rover", "--set", "generate.search.cases=1", "--out", "drive"]);
     run(here, &["stress", "demo-arm", "--out", "arm"]);
-    let table = fs::read_to_string(here.join("flight/coverage.csv")).unwrap();
-    assert!(
-        table.starts_with("speed_from_m_s,speed_to_m_s,turn_from_deg,turn_to_deg,climb_from_deg,climb_to_deg,cases\n")
-    );
+    let table = fs::read_to_string(here.join("flight/coverage.tsv")).unwrap();
+    assert!(table.starts_with(
+        "speed_from_m_s\tspeed_to_m_s\tturn_from_deg\tturn_to_deg\tclimb_from_deg\tclimb_to_deg\tcases\n"
+    ));
     for (name, axes, all) in [
         ("flight", ["speed", "turn", "climb"].as_slice(), 100),
         ("drive", &["slope", "curvature", "slip"], 125),

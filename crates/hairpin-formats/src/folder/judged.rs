@@ -36,17 +36,18 @@ impl CampaignFolder {
         Ok(self.read_rows()?.into_iter().filter_map(|row| row.result).collect())
     }
 
-    /// Writes which cells of the grid of motion were met: `coverage.json`, and as a table `coverage.csv`, a row per cell.
+    /// Writes which cells of the grid of motion were met: `coverage.json`, and as a table `coverage.tsv`, a row per cell: with tabs, for every CSV of a
+    /// campaign is a motion in time.
     ///
     /// # Errors
     /// A file cannot be written.
     pub fn write_coverage(&self, coverage: &Coverage) -> Result<(), FolderError> {
-        let [json, csv] = COVERAGE;
+        let [json, tabs] = COVERAGE;
         let mut text = serde_json::to_string_pretty(coverage).expect("coverage is plain data");
         text.push('\n');
         atomic::write(&self.file(json), text.as_bytes())?;
         let axes = &coverage.grid.axes;
-        let mut table = axes.iter().flat_map(columns).chain(["cases".into()]).collect::<Vec<_>>().join(",") + "\n";
+        let mut table = axes.iter().flat_map(columns).chain(["cases".into()]).collect::<Vec<_>>().join("\t") + "\n";
         for cell in 0..coverage.cells {
             let places = coverage.grid.places(cell);
             let cells = axes.iter().zip(places).flat_map(|(axis, place)| match axis.words.get(place) {
@@ -54,9 +55,9 @@ impl CampaignFolder {
                 None => vec![axis.edges[place].to_string(), axis.edges[place + 1].to_string()],
             });
             let cases = coverage.cases.get(&cell).copied().unwrap_or(0).to_string();
-            table += &(cells.chain([cases]).collect::<Vec<_>>().join(",") + "\n");
+            table += &(cells.chain([cases]).collect::<Vec<_>>().join("\t") + "\n");
         }
-        Ok(atomic::write(&self.file(csv), table.as_bytes())?)
+        Ok(atomic::write(&self.file(tabs), table.as_bytes())?)
     }
 
     /// Which cells of the grid of motion were met; `None` before anything was judged.
@@ -132,7 +133,7 @@ impl CampaignFolder {
     }
 }
 
-/// The columns of an axis in `coverage.csv`: `speed_from_m_s` and `speed_to_m_s`, or its name where its cells have words.
+/// The columns of an axis in `coverage.tsv`: `speed_from_m_s` and `speed_to_m_s`, or its name where its cells have words.
 fn columns(axis: &Axis) -> Vec<String> {
     let snake = |text: &str| text.replace('°', "deg").replace('%', "percent").replace(['/', ' '], "_");
     let unit = if axis.unit.is_empty() { String::new() } else { format!("_{}", snake(&axis.unit)) };

@@ -13,7 +13,7 @@
 //! | `executions/CASE-RUN.parquet` | one flight: poses, velocities, rotor speeds |
 //! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
 //! | `reruns/CASE-K.parquet` | a violation run again with other noise, for the time number K |
-//! | `coverage.json`, `coverage.csv` | once judged, which cells of the grid of motion were met, and by how many cases |
+//! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
 //! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move; what a later campaign is held against |
 //! | `optimum.json`, `graph.csv`, `reasons.csv` | of arms: the graph, why moves are not in it, and the proof that the first program is the heaviest |
@@ -53,7 +53,7 @@ pub const MOVES: &str = "moves.json";
 /// The same of earlier releases, which this campaign is held against.
 pub const BASELINE: &str = "baseline.json";
 const LOCK: &str = ".lock";
-const COVERAGE: [&str; 2] = ["coverage.json", "coverage.csv"];
+const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];
 
 /// What [`CampaignFolder::create`] does about a campaign that already stands there.

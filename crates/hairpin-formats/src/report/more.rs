@@ -51,7 +51,7 @@ pub(super) fn coverage(data: &ReportData) -> String {
     let names: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
     format!(
         "<section class=\"panel\" id=\"coverage\"><h2>What was exercised</h2><p class=\"note\">{} of {} cells of {} were met by at \
-         least one case; below, for every range of one of them, how many of its cells. All cells are in coverage.csv.</p>\
+         least one case; below, for every range of one of them, how many of its cells. All cells are in coverage.tsv.</p>\
          <div class=\"scroll\"><table class=\"spread\"><tbody>{}</tbody></table></div></section>",
         coverage.hit,
         coverage.cells,
