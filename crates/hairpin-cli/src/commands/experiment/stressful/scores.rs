@@ -293,6 +293,9 @@ fn summary(size: &Size, printed: &Printed, measured: &[Measured]) -> Table {
     for measured in measured {
         for (kind, name) in KINDS {
             let (best, mean) = measured.best(kind);
+            if best.iter().all(Option::is_none) {
+                continue;
+            }
             let mut row: Vec<Cell> = vec![measured.reach.as_str().into(), name.into()];
             row.extend(best.iter().map(|lift| Cell::from(lift.map(|lift| 100.0 * lift.value))));
             row.push((100.0 * mean).into());
