@@ -21,7 +21,7 @@ pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::{Experiment, ExperimentName};
 pub(crate) use explain::Explain;
 pub(crate) use import::Import;
-pub(crate) use learn::{Learn, LearnedStress};
+pub(crate) use learn::Learn;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use requirements::Requirements;
 pub(crate) use select::{Select, SelectBy};

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use hairpin::judgement::Stress;
 
 /// Learns per-leg stress from the executed legs of a campaign, as a polynomial of what the search saw of them. Degree and penalty
 /// are chosen by 10-fold cross-validation over trajectories; the quality told is that on trajectories that took no part.
@@ -15,21 +17,15 @@ pub(crate) struct Learn {
     #[arg(long, value_name = "MODEL", default_value = "score-model.json")]
     pub(crate) out: PathBuf,
     /// What is learned
-    #[arg(long, value_enum, default_value_t = LearnedStress::MaxDeviation)]
-    pub(crate) stress: LearnedStress,
+    #[arg(long, value_name = "STRESS", default_value = Stress::MaxDeviation.word(), value_parser = stress())]
+    pub(crate) stress: Stress,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,
 }
 
-/// What can be learned of a leg.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum LearnedStress {
-    MaxDeviation,
-    MeanDeviation,
-    MaxAcceleration,
-    Time,
-    Overshoot,
-    Saturation,
-    Tilt,
+/// The words of [`Stress`].
+fn stress() -> impl TypedValueParser<Value = Stress> {
+    PossibleValuesParser::new(Stress::ALL.map(Stress::word))
+        .try_map(|word| Stress::from_word(&word).ok_or("no stress is called so"))
 }

@@ -1,20 +1,19 @@
 //! `hairpin learn`: a score from executed legs.
 
 use hairpin::campaign::learn::{learn, leg_samples};
-use hairpin::judgement::Stress;
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::model_text;
 use rayon::prelude::*;
 use serde_json::json;
 
-use crate::args::{Learn, LearnedStress};
+use crate::args::Learn;
 use crate::problem::Problem;
 use crate::{console, folder};
 
 /// Runs the command: 0 when the model is written, however good it is.
 pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
     let work = folder::look(&asked.folder)?;
-    let stress = stress_of(asked.stress);
+    let stress = asked.stress;
     let cases = work.folder.read_cases()?;
     let table = work.folder.read_runs_table()?;
     let samples: Result<Vec<_>, Problem> = cases
@@ -70,16 +69,4 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
         console::say(&format!("use it: generate.score = \"learned:{}\"", asked.out.display()));
     }
     Ok(0)
-}
-
-fn stress_of(asked: LearnedStress) -> Stress {
-    match asked {
-        LearnedStress::MaxDeviation => Stress::MaxDeviation,
-        LearnedStress::MeanDeviation => Stress::MeanDeviation,
-        LearnedStress::MaxAcceleration => Stress::MaxAcceleration,
-        LearnedStress::Time => Stress::Time,
-        LearnedStress::Overshoot => Stress::Overshoot,
-        LearnedStress::Saturation => Stress::Saturation,
-        LearnedStress::Tilt => Stress::Tilt,
-    }
 }

@@ -127,15 +127,6 @@ impl PolynomialRidge {
         Ok((fitted, Validation { folds, r2, rmse: libm::sqrt(error) }))
     }
 
-    /// Fits `rows` with a degree and a penalty > 0 chosen elsewhere.
-    ///
-    /// # Errors
-    /// [`NoFit`].
-    pub fn with(rows: &Rows, degree: u32, penalty: f64) -> Result<Self, NoFit> {
-        check(rows, 1)?;
-        Ok(Self::fit(rows, &Standard::of(&rows.inputs)?, degree, penalty))
-    }
-
     fn fit(rows: &Rows, standard: &Standard, degree: u32, penalty: f64) -> Self {
         let powers = powers(&standard.scale, degree);
         let mut sums = Sums::new(powers.len());
@@ -442,7 +433,7 @@ mod tests {
     fn weights_solve_the_normal_equations() {
         let rows = rows(50, 3.0, 4, |x| x[0] * x[1]);
         let penalty = 0.1;
-        let fitted = PolynomialRidge::with(&rows, 1, penalty).unwrap();
+        let fitted = PolynomialRidge::fit(&rows, &Standard::of(&rows.inputs).unwrap(), 1, penalty);
         // Gradient of ‖y − b − Z w‖²/n + λ‖w‖² over standardised inputs, by hand.
         let n = rows.values.len() as f64;
         for input in 0..3 {

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use super::{ModelMistake, ScoreModel, Subject};
+use serde::Serialize;
+
+use super::{ScoreModel, Subject};
 use crate::campaign::Scenario;
-use crate::campaign::scenario::{GroundReach, ReachName};
+use crate::campaign::scenario::{DriveScenario, FlightScenario, GroundReach, ReachName};
 
 /// Name of the model's file in a campaign folder.
 pub const NAME: &str = "score-model.json";
@@ -31,39 +33,40 @@ impl KeptModel {
     pub fn score() -> String {
         format!("{PREFIX}{NAME}")
     }
-
-    /// Whether the model fits the legs of `scenario`.
-    ///
-    /// # Errors
-    /// [`ModelMistake`].
-    pub fn check(&self, scenario: &Scenario) -> Result<(), ModelMistake> {
-        self.model.check(&subject(scenario))
-    }
 }
 
 /// Whose legs a scenario is about.
 pub(in crate::campaign) fn subject(scenario: &Scenario) -> Subject {
-    let (name, numbers, at_ends) = match scenario {
-        Scenario::Flight(scenario) => {
-            let robot = scenario.robot.resolved().ok();
-            let name = robot.map_or(String::new(), |robot| robot.name.clone());
-            (name, serde_json::to_vec(&robot), scenario.generate.reach == ReachName::Witness)
+    match scenario {
+        Scenario::Flight(scenario) => of_flight(scenario),
+        Scenario::Drive(scenario) => of_drive(scenario),
+        Scenario::Arm(arm) => {
+            let robot = arm.robot.resolved().ok();
+            of_robot(robot, |robot| &robot.name, true, scenario.controller())
         }
-        Scenario::Drive(scenario) => {
-            let robot = scenario.robot.resolved().ok();
-            let name = robot.map_or(String::new(), |robot| robot.name().to_owned());
-            (name, serde_json::to_vec(&robot), scenario.generate.reach == GroundReach::Witness)
-        }
-        Scenario::Arm(scenario) => {
-            let robot = scenario.robot.resolved().ok();
-            let name = robot.map_or(String::new(), |robot| robot.name.clone());
-            (name, serde_json::to_vec(&robot), true)
-        }
-    };
+    }
+}
+
+/// Whose legs a scenario of flights is about.
+pub(in crate::campaign) fn of_flight(scenario: &FlightScenario) -> Subject {
+    let at_ends = scenario.generate.reach == ReachName::Witness;
+    let controller = scenario.execute.controller_in_force().map(|controller| controller.word());
+    of_robot(scenario.robot.resolved().ok(), |robot| &robot.name, at_ends, controller)
+}
+
+/// Whose legs a scenario of drives is about.
+pub(in crate::campaign) fn of_drive(scenario: &DriveScenario) -> Subject {
+    let at_ends = scenario.generate.reach == GroundReach::Witness;
+    let controller = scenario.execute.controller_in_force().map(|controller| controller.word());
+    of_robot(scenario.robot.resolved().ok(), |robot| robot.name(), at_ends, controller)
+}
+
+fn of_robot<R: Serialize>(robot: Option<&R>, name: fn(&R) -> &str, at_ends: bool, controller: Option<&str>) -> Subject {
+    let numbers = serde_json::to_vec(&robot).unwrap_or_default();
     Subject {
-        robot: name,
-        robot_hash: blake3::hash(&numbers.unwrap_or_default()).to_hex().to_string(),
+        robot: robot.map_or(String::new(), |robot| name(robot).to_owned()),
+        robot_hash: blake3::hash(&numbers).to_hex().to_string(),
         speeds: if at_ends { "at the leg's ends" } else { "leg over step" }.into(),
-        controller: scenario.controller().unwrap_or("command").into(),
+        controller: controller.unwrap_or("command").into(),
     }
 }

@@ -5,8 +5,8 @@ mod model;
 mod samples;
 mod score;
 
-pub(super) use kept::subject;
 pub use kept::{KeptModel, NAME};
+pub(super) use kept::{of_drive, of_flight, subject};
 pub use model::{Feature, HeldOut, LegSample, ModelMistake, ScoreModel, Subject};
 pub use samples::{learn, leg_samples};
 pub(super) use score::AnyScore;

@@ -6,7 +6,6 @@ use thiserror::Error;
 use crate::feasibility::reach::LegFeatures;
 use crate::judgement::{Stress, rank_correlation};
 use crate::math::ridge::{NoFit, PolynomialRidge, Rows, Validation};
-use crate::search::{LegView, Objective};
 
 /// Number of features of a leg.
 const FEATURES: usize = 7;
@@ -244,16 +243,6 @@ impl ScoreModel {
     /// The stress expected of a leg, in [`Self::unit`].
     pub fn expected(&self, leg: &LegFeatures, duration: f64) -> f64 {
         self.polynomial.value(&inputs(leg, duration))
-    }
-}
-
-impl Objective for &ScoreModel {
-    type Memory = ();
-
-    fn start(&self) {}
-
-    fn extend(&self, (): &(), leg: &LegView<'_>) -> (f64, ()) {
-        (self.expected(&leg.features, leg.duration), ())
     }
 }
 

@@ -1,6 +1,7 @@
 //! What checks of scenarios find, and the few questions that most keys are asked.
 
-use super::Mistake;
+use super::{Mistake, SearchMethod};
+use crate::campaign::learn::{KeptModel, Subject};
 
 /// The mistakes found so far, with the few questions that most keys are asked.
 #[derive(Default)]
@@ -38,6 +39,28 @@ impl Findings {
     pub(super) fn above(&mut self, key: &str, value: f64, least: f64, most: f64, unit: &str) {
         let bound = format!("> {least} and ≤ {most}{unit}");
         self.require(value > least && value <= most, key, value, &bound);
+    }
+
+    /// Whether a score that a model is asked for has one, of the legs of `subject`.
+    pub(super) fn model(&mut self, key: &str, score: &str, model: Option<&KeptModel>, subject: impl Fn() -> Subject) {
+        let value = format!("\"{score}\"");
+        match model.map(|kept| kept.model.check(&subject())) {
+            Some(Ok(())) => {}
+            Some(Err(mistake)) => {
+                self.require(false, key, value, &format!("a model of this scenario's legs: {mistake}"));
+            }
+            None => self.require(false, key, value, "read with its scenario"),
+        }
+    }
+
+    /// Whether what is searched in the loop can be executed there.
+    pub(super) fn in_loop(&mut self, method: SearchMethod, controlled: bool) {
+        self.require(
+            method != SearchMethod::InLoop || controlled,
+            "generate.search.method",
+            "\"in-loop\"",
+            "another one, or execute.controller given: a command is not executed in the loop",
+        );
     }
 }
 

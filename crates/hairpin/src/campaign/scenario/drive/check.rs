@@ -5,9 +5,9 @@ use super::{
     ProfileName, SpeedSection,
 };
 use crate::campaign::drive::{map_of, rover_of};
-use crate::campaign::learn::KeptModel;
+use crate::campaign::learn::{KeptModel, of_drive};
 use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{FlakySection, Mistake, Scenario, SearchMethod};
+use crate::campaign::scenario::{FlakySection, Mistake, SearchMethod};
 use crate::feasibility::reach::drive::GroundScore;
 use crate::robot::rover::{Rover, Steering};
 use crate::world::terrain::Terrain;
@@ -43,24 +43,13 @@ impl DriveScenario {
 
     fn check_score(&self, found: &mut Findings) {
         let DriveSearch { method, score, model, .. } = &self.generate.search;
-        let (key, value) = ("generate.search.score", format!("\"{score}\""));
+        let key = "generate.search.score";
         if KeptModel::file_of(score).is_some() {
-            match model.as_ref().map(|kept| kept.check(&Scenario::Drive(Box::new(self.clone())))) {
-                Some(Ok(())) => {}
-                Some(Err(mistake)) => {
-                    found.require(false, key, value, &format!("a model of this scenario's legs: {mistake}"));
-                }
-                None => found.require(false, key, value, "read with its scenario"),
-            }
+            found.model(key, score, model.as_ref(), || of_drive(self));
         } else if let Err(error) = GroundScore::named(score) {
-            found.require(false, key, value, &error.to_string());
+            found.require(false, key, format!("\"{score}\""), &error.to_string());
         }
-        found.require(
-            *method != SearchMethod::InLoop || self.execute.controller_in_force().is_some(),
-            "generate.search.method",
-            "\"in-loop\"",
-            "another one, or execute.controller given: a command is not executed in the loop",
-        );
+        found.in_loop(*method, self.execute.controller_in_force().is_some());
     }
 
     fn check_ground(&self, found: &mut Findings) {

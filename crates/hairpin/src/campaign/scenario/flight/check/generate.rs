@@ -1,9 +1,9 @@
 //! Bounds of `[generate]`.
 
-use crate::campaign::learn::KeptModel;
+use crate::campaign::learn::{KeptModel, of_flight};
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{
-    FlightScenario, GenerateSection, LimitsSection, ReachName, Scenario, SearchMethod, SearchSection, Timing,
+    FlightScenario, GenerateSection, LimitsSection, ReachName, SearchMethod, SearchSection, Timing,
 };
 use crate::search::Score;
 
@@ -71,19 +71,12 @@ fn check_search(search: &SearchSection, generate: &GenerateSection, found: &mut 
 
 fn check_score(scenario: &FlightScenario, found: &mut Findings) {
     let FlightScenario { generate: GenerateSection { score, model, .. }, .. } = scenario;
-    let value = format!("\"{score}\"");
     let key = "generate.score";
     if KeptModel::file_of(score).is_some() {
-        match model.as_ref().map(|kept| kept.check(&Scenario::Flight(Box::new(scenario.clone())))) {
-            Some(Ok(())) => {}
-            Some(Err(mistake)) => {
-                found.require(false, key, value, &format!("a model of this scenario's legs: {mistake}"))
-            }
-            None => found.require(false, key, value, "read with its scenario"),
-        }
+        found.model(key, score, model.as_ref(), || of_flight(scenario));
     } else {
         let bound = format!("one of {}, or learned:MODEL", Score::NAMES.join(", "));
-        found.require(Score::NAMES.contains(&score.as_str()), key, value, &bound);
+        found.require(Score::NAMES.contains(&score.as_str()), key, format!("\"{score}\""), &bound);
     }
 }
 

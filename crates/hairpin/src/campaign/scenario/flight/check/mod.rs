@@ -12,8 +12,8 @@ mod world;
 
 use super::FlightScenario;
 use crate::campaign::flight::{robot_of, world_of};
+use crate::campaign::scenario::Mistake;
 use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{Mistake, SearchMethod};
 
 impl FlightScenario {
     /// Every nominal value that is out of bounds, in the order of the file.
@@ -29,12 +29,7 @@ impl FlightScenario {
         }
         task::check(&self.task, space.as_ref(), robot.as_ref(), &mut found);
         generate::check(self, &mut found);
-        found.require(
-            self.generate.search.method != SearchMethod::InLoop || self.execute.controller_in_force().is_some(),
-            "generate.search.method",
-            "\"in-loop\"",
-            "another one, or execute.controller given: a command is not executed in the loop",
-        );
+        found.in_loop(self.generate.search.method, self.execute.controller_in_force().is_some());
         execute::check(&self.execute, &mut found);
         spec::check(&self.spec, &mut found);
         found.0
