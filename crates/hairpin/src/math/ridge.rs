@@ -127,6 +127,15 @@ impl PolynomialRidge {
         Ok((fitted, Validation { folds, r2, rmse: libm::sqrt(error) }))
     }
 
+    /// Fits `rows` with this degree and penalty.
+    ///
+    /// # Errors
+    /// [`NoFit`], of fewer than two groups too.
+    pub fn of(rows: &Rows, degree: u32, penalty: f64) -> Result<Self, NoFit> {
+        check(rows, 1)?;
+        Ok(Self::fit(rows, &Standard::of(&rows.inputs)?, degree, penalty))
+    }
+
     fn fit(rows: &Rows, standard: &Standard, degree: u32, penalty: f64) -> Self {
         let powers = powers(&standard.scale, degree);
         let mut sums = Sums::new(powers.len());
@@ -190,7 +199,8 @@ impl Standard {
             let scale = libm::sqrt(variance);
             // What differs by rounding only carries nothing, and what is another input in other units nothing new.
             let differs = scale > 1e-9 * centre.abs().max(1e-9);
-            let known = (0..i).any(|other| standard.repeats(inputs, other, i, centre, scale));
+            let mut others = (0..i).filter(|other| standard.scale[*other] > 0.0);
+            let known = others.any(|other| standard.repeats(inputs, other, i, centre, scale));
             let scale = if differs && !known { scale } else { 0.0 };
             let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
             for row in inputs {
@@ -451,6 +461,13 @@ mod tests {
         let (fitted, _) = PolynomialRidge::choose(&twice, 3, 10).unwrap();
         assert_eq!(fitted.scale[3], 0.0);
         assert!(fitted.powers.iter().all(|powers| powers[3] == 0));
+        // Nothing is told by what never differs, though its mean is a little beside it: 0.1 summed up 200 times is not 20.
+        twice.inputs.iter_mut().for_each(|inputs| inputs.insert(0, 0.1));
+        let (fitted, _) = PolynomialRidge::choose(&twice, 3, 10).unwrap();
+        assert!(fitted.scale[0] == 0.0 && fitted.scale[4] == 0.0, "{:?}", fitted.scale);
+        assert!(fitted.scale[1..4].iter().all(|scale| *scale > 0.0), "{:?}", fitted.scale);
+        let again = PolynomialRidge::of(&twice, fitted.degree, fitted.penalty).unwrap();
+        assert_eq!(again, fitted);
     }
 
     #[test]
