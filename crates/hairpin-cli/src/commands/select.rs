@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use hairpin::campaign::learn::NAME;
 use hairpin::campaign::report::number;
 use hairpin::campaign::select::{By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, Grid, Setup, Tally, vary};
@@ -124,6 +125,7 @@ fn write(work: &Work, asked: &Select, chosen: &[Case]) -> Result<CampaignFolder,
             copy(&old.rerun_path(case.number, again), &there.rerun_path(case.number, again))?;
         }
     }
+    copy(&old.file(NAME), &there.file(NAME))?;
     there.write_new_cases(chosen, 0)?;
     let old_tally = old.read_tally()?;
     let names = chosen.iter().filter_map(|case| old_tally.missions.get(case.number).cloned()).collect();

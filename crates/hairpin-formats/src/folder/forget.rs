@@ -4,9 +4,11 @@ use std::fs;
 use std::io;
 use std::path::PathBuf;
 
+use hairpin::campaign::learn::NAME;
+
 use super::{
-    COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS,
-    entries,
+    BEST_SO_FAR, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, OPTIMUM, RESULTS, RUNS,
+    WAYPOINTS, entries,
 };
 use crate::atomic::{self, WriteError};
 
@@ -43,10 +45,16 @@ impl CampaignFolder {
             table,
             WAYPOINTS,
             GENERATION,
+            BEST_SO_FAR,
             "junit.xml",
             "report.html",
         ];
         self.remove(&names, &["trajectories", "profiles", "programs", "executions", "reruns"])
+    }
+
+    /// Removes a model of legs: another campaign's is none of this one's.
+    pub(super) fn forget_model(&self) -> Result<(), FolderError> {
+        self.remove(&[NAME], &[])
     }
 
     /// Removes `names`, the tables in `folders`, what was exported, and the executors' logs, which are of runs that go.

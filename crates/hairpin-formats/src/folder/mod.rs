@@ -12,6 +12,8 @@
 //! | `trajectories/CASE.parquet` | the planned motion, sampled |
 //! | `executions/CASE-RUN.parquet` | one flight: poses, velocities, rotor speeds |
 //! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
+//! | `best-so-far.tsv` | of searches that execute: where the largest stress of a graph rose as executions went on |
+//! | `score-model.json` | the model of a learned score; of an adaptive campaign what it learned itself |
 //! | `reruns/CASE-K.parquet` | a violation run again with other noise, for the time number K |
 //! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
@@ -34,7 +36,8 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::Tally;
+use hairpin::campaign::{Curve, Tally};
+use hairpin::judgement::Stress;
 
 use crate::atomic::{self, WriteError};
 
@@ -52,6 +55,7 @@ pub const OPTIMUM: &str = "optimum.json";
 pub const MOVES: &str = "moves.json";
 /// The same of earlier releases, which this campaign is held against.
 pub const BASELINE: &str = "baseline.json";
+const BEST_SO_FAR: &str = "best-so-far.tsv";
 const LOCK: &str = ".lock";
 const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];
@@ -89,6 +93,7 @@ impl CampaignFolder {
         folder.remove_leftovers();
         if existing == Existing::Replace {
             folder.forget_cases()?;
+            folder.forget_model()?;
         }
         Ok(folder)
     }
@@ -161,10 +166,40 @@ impl CampaignFolder {
         tally.map_err(|cause| FolderError::Unreadable { path, cause })
     }
 
+    /// Writes where the largest stress executed in a graph rose, a row each, and where it stood at the end; nothing to say leaves no file.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_curves(&self, stress: Stress, curves: &[Curve]) -> Result<(), FolderError> {
+        if curves.is_empty() {
+            return Ok(());
+        }
+        let mut table = format!("graph\texecutions\t{}\n", column_of(stress));
+        for Curve { graph, executions, rises } in curves {
+            let end = rises.last().filter(|(at, _)| at < executions).map(|(_, most)| (*executions, *most));
+            for (at, most) in rises.iter().copied().chain(end) {
+                table += &format!("{graph}\t{at}\t{most}\n");
+            }
+        }
+        Ok(atomic::write(&self.file(BEST_SO_FAR), table.as_bytes())?)
+    }
+
     /// Whether it is known what the search did.
     pub fn has_tally(&self) -> bool {
         self.file(GENERATION).is_file()
     }
+}
+
+/// The stress with its unit, as columns are named.
+fn column_of(stress: Stress) -> String {
+    let unit = match stress.unit() {
+        "" => "",
+        "°" => "_deg",
+        "m/s²" => "_m_s2",
+        "s" => "_s",
+        _ => "_m",
+    };
+    stress.word().replace('-', "_") + unit
 }
 
 fn is_campaign(path: &Path) -> bool {

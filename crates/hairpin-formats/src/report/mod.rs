@@ -4,6 +4,7 @@
 mod data;
 mod more;
 mod page;
+mod progress;
 mod regression;
 mod relief;
 mod svg;

@@ -8,7 +8,7 @@ use hairpin::judgement::Statistics;
 use sha2::{Digest, Sha256};
 
 use super::more::{coverage, reruns};
-use super::{data, regression, svg};
+use super::{data, progress, regression, svg};
 use crate::executor::ATTITUDE_UNKNOWN;
 
 const STYLE: &str = include_str!("page.css");
@@ -72,6 +72,7 @@ fn body(data: &ReportData) -> String {
         flight(data),
         table(data),
         distributions(data),
+        progress::section(data),
         influences(data),
         regression::section(data),
         reruns(data),

@@ -56,6 +56,9 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) 
         SearchMethod::InLoop => {
             "by executions in the loop: scores are the stress of a nominal run, no optimum is claimed"
         }
+        SearchMethod::Adaptive => {
+            "in rounds of executing and learning: scores are the stress of a nominal run, no optimum is claimed"
+        }
     };
     said.push(format!(
         "Search: {method}; score `{}`; {} of {} cases asked for, from {} sampled graphs of {} waypoints.",
@@ -65,6 +68,17 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) 
         tally.graphs.max(cases.last().map_or(0, |case| case.graph + 1)),
         search.waypoints
     ));
+    if let Some(time) = search.time_s {
+        said.push(format!(
+            "The search had {time} s beside its {} executions: what it found depends on the clock and is not reproducible.",
+            search.executions
+        ));
+    }
+    for (number, round) in tally.rounds.iter().enumerate() {
+        if let Some(reason) = &round.unlearned {
+            said.push(format!("Round {number} of the search learned nothing and drew uniformly: {reason}."));
+        }
+    }
     if tally.dropped > 0 {
         said.push(format!(
             "The frontier was full: {} partial trajectories of least score were dropped.",

@@ -122,6 +122,7 @@ impl Answer<'_> {
                 "scenario": file("scenario.toml"),
                 "results": file("results.parquet"),
                 "junit": file("junit.xml"),
+                "best_so_far": file("best-so-far.tsv"),
                 "report": file("report.html"),
             },
         })

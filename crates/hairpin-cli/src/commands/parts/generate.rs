@@ -4,8 +4,10 @@ use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::graph_of;
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Kind, Stop, Tally, planned};
+use hairpin::campaign::{Case, Kind, Stop, Tally, learn, planned};
 use hairpin::world::terrain::Terrain;
+use hairpin_formats::atomic;
+use hairpin_formats::scenario::model_text;
 
 use super::programs::keep_graph;
 use crate::folder::Work;
@@ -48,6 +50,10 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
         return Err(problem);
     }
     save(work, &cases, saved, &tally)?;
+    work.folder.write_curves(work.setup.scenario.search().stress, &tally.curves)?;
+    if let Some(model) = &tally.model {
+        atomic::write(&work.folder.file(learn::NAME), model_text(model).as_bytes())?;
+    }
     if let Some(arm) = work.setup.arm()
         && let Ok(graph) = graph_of(&arm)
     {
@@ -71,13 +77,19 @@ fn known(work: &Work) -> Result<Known, Problem> {
         return Ok(Known::default());
     }
     let known = Known { cases: folder.read_cases()?, tally: folder.read_tally()? };
+    let begun = !known.cases.is_empty();
     if !known.tally.missions.is_empty() {
         return Err(Problem::input(format!(
             "--resume: {} holds missions made elsewhere, not an interrupted generation; --force replaces them",
             folder.path().display()
         )));
     }
-    Ok(hairpin::campaign::generate::counted(&work.setup.scenario, known))
+    let known = hairpin::campaign::generate::counted(&work.setup.scenario, known);
+    if begun && known.cases.is_empty() {
+        // Flights of what is generated anew would be taken for those of what is.
+        folder.forget_cases()?;
+    }
+    Ok(known)
 }
 
 /// Writes the cases from number `from` of the list on, the tables of all, and the tally that belongs to them. Each file

@@ -5,6 +5,7 @@ use std::hash::Hash;
 use nalgebra::Point3;
 
 use crate::campaign::graph::{Looped, Outcome, Plan, Question, search};
+use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{DriveScenario, SearchSection};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
@@ -28,6 +29,8 @@ pub(super) struct Asked<'a, N, R, O> {
     pub(super) reach: &'a R,
     pub(super) start: N,
     pub(super) score: O,
+    /// Those beside it.
+    pub(super) also: Vec<O>,
     /// Steps from the end within which the beam asks the reach set itself whether the end can be reached.
     pub(super) lookahead: usize,
 }
@@ -44,12 +47,12 @@ where
     R: Reach<N>,
     O: Objective<Memory = ()>,
 {
-    let Asked { scenario, graph, reach, start, score, lookahead } = asked;
+    let Asked { scenario, graph, reach, start, score, also, lookahead } = asked;
     let Graph { search: section, graph, points, looped } = graph;
     let seed = named_seed(scenario.seed, "uniform", graph);
     let length = scenario.task.length as usize;
     if scenario.task.end_m.is_some() {
-        let (plan, also) = (&plan, Vec::new());
+        let plan = &plan;
         let question =
             Question { search: section, length, points, reach, start, score, seed, lookahead, plan, also, looped };
         return Outcome::of(graph, search(&question, may_arrive));
@@ -65,8 +68,19 @@ where
         seed,
         lookahead: 0,
         plan: &|found| plan(open.closed(found)),
-        also: Vec::new(),
+        also: also.iter().map(|score| open.score(score, section.aggregate)).collect(),
         looped,
     };
     Outcome::of(graph, search(&question, OpenEnd::<&R>::may_arrive))
+}
+
+/// What was learned of legs: by rounds before this one, or by the scenario's model.
+pub(super) fn learned<'a>(scenario: &'a DriveScenario, looped: &Looped<'a>) -> Option<AnyScore<'a>> {
+    let kept = scenario.generate.search.model.as_ref().map(|kept| &*kept.model);
+    looped.models().first().or(kept).map(AnyScore::Learned)
+}
+
+/// A round's other models.
+pub(super) fn beside<'a>(looped: &Looped<'a>) -> Vec<AnyScore<'a>> {
+    looped.models().iter().skip(1).map(AnyScore::Learned).collect()
 }

@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 use nalgebra::Point3;
 
 use super::DriveSetup;
-use super::ask::{Asked, Graph, ask};
+use super::ask::{Asked, Graph, ask, beside, learned};
 use super::legs::count;
 use super::replan::pose;
 use super::stepwise::Stepwise;
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Counter, Looped, Outcome, Plan};
+use crate::campaign::graph::{Counter, Looped, Outcome, Plan, Round};
 use crate::campaign::learn::AnyScore;
-use crate::campaign::scenario::{DriveSearch, GroundReach, Manoeuvre, SearchSection};
+use crate::campaign::scenario::{DriveSearch, GroundReach, Manoeuvre, SearchMethod, SearchSection};
 use crate::feasibility::reach::drive::{
     DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres, sample_ground,
 };
@@ -50,14 +50,19 @@ impl<'a> Solver<'a> {
         Ok(Self { setup, settings, search: setup.scenario.generate.search.section(), stepwise })
     }
 
-    /// Searches graph number `graph`; `execute` is for searches in the loop.
-    pub(in crate::campaign) fn solve(&self, graph: u64, execute: &dyn Fn(&Plan) -> Option<Trial>) -> Outcome {
+    /// Searches graph number `graph`; `execute` is for searches in the loop, `round` for adaptive campaigns.
+    pub(in crate::campaign) fn solve(
+        &self,
+        graph: u64,
+        execute: &dyn Fn(&Plan) -> Option<Trial>,
+        round: Option<&Round>,
+    ) -> Outcome {
         let points = match self.sample(graph) {
             Ok(points) => points,
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
         };
         let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved(graph, plan, points);
-        let looped = Looped { execute, moved: &moved };
+        let looped = Looped { execute, moved: &moved, round };
         let asked = Graph { search: &self.search, graph, points: &points, looped };
         match &self.stepwise {
             Some(stepwise) => stepwise.solve(&self.settings, asked),
@@ -151,12 +156,10 @@ impl<'a> Solver<'a> {
             let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
             Some(Plan { leg_times, drive: Some(drive), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
-        let score = match &self.setup.scenario.generate.search.model {
-            Some(kept) => AnyScore::Learned(&kept.model),
-            None => AnyScore::Named(Score::Ground),
-        };
+        let score = learned(self.setup.scenario, &graph.looped).unwrap_or(AnyScore::Named(Score::Ground));
+        let also = beside(&graph.looped);
         let (reach, start) = (&roadmap, roadmap.start());
-        let asked = Asked { scenario: self.setup.scenario, graph, reach, start, score, lookahead: 0 };
+        let asked = Asked { scenario: self.setup.scenario, graph, reach, start, score, also, lookahead: 0 };
         let mut outcome = ask(asked, |node, steps| roadmap.may_arrive(node, steps), plan);
         if outcome.plans.is_empty() {
             outcome.reason = Some(roadmap.tally().to_string());
@@ -206,6 +209,7 @@ fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
 
 /// What a leg's `ground` is: the score that is named or, as an input of a learned one, slope and slip.
 fn ground_score(search: &DriveSearch) -> Result<GroundScore, String> {
-    let name = if search.model.is_some() { LEARNED_FROM } else { &search.score };
+    let learned = search.model.is_some() || search.method == SearchMethod::Adaptive;
+    let name = if learned { LEARNED_FROM } else { &search.score };
     GroundScore::named(name).map_err(|error| error.to_string())
 }

@@ -4,9 +4,8 @@
 use nalgebra::Point3;
 
 use super::DriveSetup;
-use super::ask::{Asked, Graph, ask};
+use super::ask::{Asked, Graph, ask, beside, learned};
 use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Stage, in_order};
-use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{GroundReach, Manoeuvre};
 use crate::campaign::{Evidence, SeenLeg};
 use crate::feasibility::reach::drive::{DriveSettings, DriveSite, StraightLegs};
@@ -157,9 +156,9 @@ impl<'a> Stepwise<'a> {
         };
         let plan = |found: Found<N>| Some(Plan::new(&found, points, evidence));
         let (reach, lookahead) = (&filtered, 1);
-        if let Some(kept) = &scenario.generate.search.model {
-            let score = AnyScore::Learned(&kept.model);
-            return ask(Asked { scenario, graph, reach, start, score, lookahead }, |_, _| true, plan);
+        if let Some(score) = learned(scenario, &graph.looped) {
+            let also = beside(&graph.looped);
+            return ask(Asked { scenario, graph, reach, start, score, also, lookahead }, |_, _| true, plan);
         }
         let site = DriveSite::new(self.setup.planner, self.setup.map, self.setup.keep_out);
         let seed = named_seed(scenario.seed, "score", graph.graph);
@@ -169,6 +168,6 @@ impl<'a> Stepwise<'a> {
             let [from, to] = [leg.from, leg.to].map(|index| (index, &points[index as usize]));
             straight.stress(from, to, leg.features.turn)
         };
-        ask(Asked { scenario, graph, reach, start, score, lookahead }, |_, _| true, plan)
+        ask(Asked { scenario, graph, reach, start, score, also: Vec::new(), lookahead }, |_, _| true, plan)
     }
 }

@@ -86,6 +86,10 @@ fn first_of(scenario: &Scenario, graphs: u64) -> Result<Scenario, Mistake> {
         Scenario::Arm(_) => &[("generate.search.programs", 1)],
     };
     let mut draws: Vec<_> = keys.iter().map(|(key, value)| ((*key).to_owned(), (*value).into())).collect();
+    if scenario.search().method.executes() {
+        // What is feasible does not depend on what it does to the robot.
+        draws.push(("generate.search.method".into(), "uniform".into()));
+    }
     if let Scenario::Flight(flight) = scenario {
         // As a key that is there, which can be turned.
         draws.push(("generate.timing".into(), serde_json::json!(flight.generate.timing_in_force())));

@@ -1,6 +1,7 @@
 //! What flights are searched with: the judge of legs, and the score.
 
 use super::FlightSetup;
+use crate::campaign::graph::Looped;
 use crate::campaign::learn::AnyScore;
 use crate::feasibility::Limits;
 use crate::feasibility::steering::{LegJudge, ProofSettings};
@@ -20,17 +21,26 @@ pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
     LegJudge::new(setup.robot, setup.world, limits, ProofSettings::default()).map_err(|error| error.to_string())
 }
 
-/// The scenario's score for graph number `graph`; `top_speed` (m/s) scores 1.
-pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64) -> AnyScore<'a> {
+/// The score for graph number `graph`, the scenario's or the first model of a round; `top_speed` (m/s) scores 1.
+pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64, looped: &Looped<'a>) -> AnyScore<'a> {
     let generate = &setup.scenario.generate;
-    match &generate.model {
-        Some(kept) => AnyScore::Learned(&kept.model),
-        None => named(setup, &generate.score, graph, top_speed),
+    match (looped.models(), &generate.model) {
+        ([model, ..], _) => AnyScore::Learned(model),
+        ([], Some(kept)) => AnyScore::Learned(&kept.model),
+        ([], None) => named(setup, &generate.score, graph, top_speed),
     }
 }
 
-/// The scores by hand whose optima a search in the loop starts from.
-pub(super) fn by_hand<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64) -> Vec<AnyScore<'a>> {
+/// The scores beside it: a round's other models, or those by hand whose optima a search in the loop starts from.
+pub(super) fn beside<'a>(
+    setup: &FlightSetup<'a>,
+    graph: u64,
+    top_speed: f64,
+    looped: &Looped<'a>,
+) -> Vec<AnyScore<'a>> {
+    if looped.round.is_some() {
+        return looped.models().iter().skip(1).map(AnyScore::Learned).collect();
+    }
     let names = ["high-velocity", "high-velocity-90", "high-velocity-180"];
     let others = names.into_iter().filter(|name| *name != setup.scenario.generate.score);
     others.map(|name| named(setup, name, graph, top_speed)).collect()

@@ -6,7 +6,7 @@ use super::certificates::Certifier;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
 use super::{FlightSetup, graph};
-use crate::campaign::graph::{Looped, Outcome, Plan};
+use crate::campaign::graph::{Looped, Outcome, Plan, Round};
 use crate::campaign::scenario::ReachName;
 use crate::feasibility::certify::Certificate;
 use crate::search::in_loop::Trial;
@@ -47,13 +47,18 @@ impl<'a> Solver<'a> {
         Ok(Self { setup, set, certifier })
     }
 
-    /// Searches graph number `graph`; `execute` is for searches in the loop.
-    pub(in crate::campaign) fn solve(&self, graph: u64, execute: &dyn Fn(&Plan) -> Option<Trial>) -> Outcome {
+    /// Searches graph number `graph`; `execute` is for searches in the loop, `round` for adaptive campaigns.
+    pub(in crate::campaign) fn solve(
+        &self,
+        graph: u64,
+        execute: &dyn Fn(&Plan) -> Option<Trial>,
+        round: Option<&Round>,
+    ) -> Outcome {
         let points = match graph::sample(&self.setup, graph) {
             Ok(points) => points,
             Err(error) => return Outcome { graphs: 1, reason: Some(error.to_string()), ..Outcome::default() },
         };
-        let looped = Looped { execute, moved: &|plan, points| self.moved(plan, points) };
+        let looped = Looped { execute, moved: &|plan, points| self.moved(plan, points), round };
         let mut outcome = match &self.set {
             Set::Stepwise(set) => set.solve(graph, &points, looped),
             Set::Witness(set) => set.solve(graph, &points, looped),

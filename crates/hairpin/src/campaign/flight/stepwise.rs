@@ -8,7 +8,7 @@ use nalgebra::Point3;
 
 use super::FlightSetup;
 use super::blocking::blocking;
-use super::legs::{by_hand, score};
+use super::legs::{beside, score};
 use crate::campaign::graph::{Counter, Explored, Looped, Outcome, Plan, Question, Stage, in_order, search};
 use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
 use crate::campaign::{Evidence, SeenLeg};
@@ -230,11 +230,11 @@ impl<'a> Stepwise<'a> {
             points,
             reach,
             start,
-            score: score(&self.setup, graph, self.top_speed()),
+            score: score(&self.setup, graph, self.top_speed(), &looped),
             seed: named_seed(self.setup.scenario.seed, "uniform", graph),
             lookahead: LOOKAHEAD,
             plan: &|found: Found<N>| Some(Plan::new(&found, points, evidence)),
-            also: by_hand(&self.setup, graph, self.top_speed()),
+            also: beside(&self.setup, graph, self.top_speed(), &looped),
             looped,
         };
         Outcome::of(graph, search(&question, may_arrive))

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::FlightSetup;
-use super::legs::{by_hand, judge, score};
+use super::legs::{beside, judge, score};
 use crate::campaign::Evidence;
 use crate::campaign::graph::{Looped, Outcome, Plan, Question, search};
 use crate::campaign::scenario::Timing;
@@ -71,12 +71,12 @@ impl<'a> Witness<'a> {
             points,
             reach: &roadmap,
             start: roadmap.start(),
-            score: score(&self.setup, graph, top_speed),
+            score: score(&self.setup, graph, top_speed, &looped),
             seed: named_seed(scenario.seed, "uniform", graph),
             // The roadmap's own test is exact one step from the end, and legs are dear.
             lookahead: 0,
             plan: &plan,
-            also: by_hand(&self.setup, graph, top_speed),
+            also: beside(&self.setup, graph, top_speed, &looped),
             looped,
         };
         Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)))

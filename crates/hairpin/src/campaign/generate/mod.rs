@@ -4,18 +4,19 @@
 //! of their numbers, so that what is found depends on the seed alone. Where `[vary]` shapes the plan (keys under `task`
 //! and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
 
+mod adaptive;
 mod tally;
 
 use std::collections::HashSet;
 
-use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::graph::{Outcome, Plan};
+use super::graph::{Outcome, Plan, Round, fingerprint};
+use super::scenario::SearchMethod;
 use super::setup::Kind;
 use super::{Case, Scenario, Setup, Stop, arm, drive, flight, in_loop, vary};
 use crate::math::random::case_seed;
-pub use tally::Tally;
+pub use tally::{RoundTally, Tally};
 
 /// Graphs sampled per case asked for, where the scenario sets no limit.
 const GRAPHS_PER_CASE: u64 = 20;
@@ -31,6 +32,11 @@ pub struct Known {
 
 /// `known` without the cases that its tally does not count, as a kill between the writing of both may leave them.
 pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
+    if scenario.search().method == SearchMethod::Adaptive {
+        // What a round chooses depends on all before it: there is no place to go on from.
+        let done = !known.tally.stopped && !known.tally.rounds.is_empty();
+        return if done { known } else { Known::default() };
+    }
     let varied = varies(scenario);
     let units = known.tally.units;
     known.cases.retain(|case| if varied { (case.number as u64) < units } else { case.graph < units });
@@ -58,6 +64,9 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
             return collector.tally;
         }
     };
+    if search.method == SearchMethod::Adaptive {
+        return adaptive::generate(setup, &solver, known, stop, sink);
+    }
     let varied = varies(&setup.scenario);
     let units = match search.graphs {
         _ if varied => wanted,
@@ -73,7 +82,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
             .into_par_iter()
             .map(|unit| {
                 (!(stop.cancelled)())
-                    .then(|| if varied { drawn_case(setup, unit, stop) } else { solver.solve(setup, unit, stop) })
+                    .then(|| if varied { drawn_case(setup, unit, stop) } else { solver.solve(setup, unit, None, stop) })
             })
             .collect();
         for outcome in outcomes {
@@ -109,7 +118,7 @@ fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
     };
     let mut total = Outcome::default();
     for attempt in 0..GRAPHS_PER_CASE {
-        let outcome = solver.solve(drawn, case * GRAPHS_PER_CASE + attempt, stop);
+        let outcome = solver.solve(drawn, case * GRAPHS_PER_CASE + attempt, None, stop);
         let done = !outcome.plans.is_empty();
         total.add(outcome);
         if done {
@@ -137,12 +146,13 @@ impl<'a> Solver<'a> {
         })
     }
 
-    /// Searches graph number `graph` of `setup`, which this was made for; `stop` ends what has no bound in counts.
-    fn solve(&self, setup: &Setup, graph: u64, stop: &Stop) -> Outcome {
+    /// Searches graph number `graph` of `setup`, which this was made for, for the `round` of an adaptive campaign or as the scenario asks;
+    /// `stop` ends what has no bound in counts.
+    fn solve(&self, setup: &Setup, graph: u64, round: Option<&Round>, stop: &Stop) -> Outcome {
         let execute = |plan: &Plan| if (stop.cancelled)() { None } else { in_loop::execute(setup, graph, plan) };
         match self {
-            Self::Flight(solver) => solver.solve(graph, &execute),
-            Self::Drive(solver) => solver.solve(graph, &execute),
+            Self::Flight(solver) => solver.solve(graph, &execute, round),
+            Self::Drive(solver) => solver.solve(graph, &execute, round),
             Self::Arm(solver) => solver.solve(stop),
         }
     }
@@ -158,7 +168,7 @@ struct Collector<'a> {
 
 impl<'a> Collector<'a> {
     fn new(setup: &'a Setup, known: &Known) -> Self {
-        let seen = known.cases.iter().map(|case| fingerprint(&case.waypoints)).collect();
+        let seen = known.cases.iter().map(|case| fingerprint(case.waypoints.iter().copied())).collect();
         let tally = Tally { stopped: false, ..known.tally.clone() };
         Self { setup, tally, cases: known.cases.len(), seen }
     }
@@ -177,11 +187,12 @@ impl<'a> Collector<'a> {
         } else {
             self.tally.nothing = None;
         }
+        self.tally.curves.extend(outcome.curves);
         for (graph, plan) in outcome.plans {
             if self.cases as u64 >= wanted {
                 break;
             }
-            if !self.seen.insert(fingerprint(&plan.waypoints)) {
+            if !self.seen.insert(fingerprint(plan.waypoints.iter().copied())) {
                 self.tally.duplicates += 1;
                 continue;
             }
@@ -194,15 +205,4 @@ impl<'a> Collector<'a> {
     fn finish(&mut self, wanted: u64) {
         self.tally.complete = self.cases as u64 >= wanted;
     }
-}
-
-/// 128 bits of BLAKE3 over the coordinates: equal waypoint lists are one trajectory.
-fn fingerprint(waypoints: &[Point3<f64>]) -> [u8; 16] {
-    let mut hasher = blake3::Hasher::new();
-    for coordinate in waypoints.iter().flat_map(|p| p.iter()) {
-        hasher.update(&coordinate.to_le_bytes());
-    }
-    let mut short = [0; 16];
-    short.copy_from_slice(&hasher.finalize().as_bytes()[..16]);
-    short
 }

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::curve::Curve;
+use crate::campaign::learn::ScoreModel;
+
 /// What a generation did, in numbers; the report's and the verdict's.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -26,6 +29,18 @@ pub struct Tally {
     pub stopped: bool,
     /// Where nothing was found: why, in a sentence's part.
     pub nothing: Option<String>,
+    /// Where trajectories were executed in the loop: the largest stress so far in every graph, as executions went on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub curves: Vec<Curve>,
+    /// Rounds of an adaptive campaign.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rounds: Vec<RoundTally>,
+    /// What an adaptive campaign learned from all its executions; a file of its own in a campaign's folder.
+    #[serde(skip)]
+    pub model: Option<Box<ScoreModel>>,
+    /// Why it learned nothing, in a sentence's part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unlearned: Option<String>,
     /// Names of the files that the cases were read from, in their order, where these are missions made elsewhere.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub missions: Vec<String>,
@@ -36,4 +51,30 @@ impl Tally {
     pub fn asked(&self, wanted: u64) -> usize {
         if self.missions.is_empty() { wanted as usize } else { self.missions.len() }
     }
+}
+
+/// A round of an adaptive campaign.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RoundTally {
+    /// Executions in it.
+    pub executions: u64,
+    /// Of these, the uniform draws.
+    pub drawn: u64,
+    /// Executions that failed, or whose stress could not be measured.
+    pub failed: u64,
+    /// Mean stress of its uniform draws; `None` where there were none.
+    pub drawn_mean: Option<f64>,
+    /// Mean stress of what models chose; `None` where there was nothing.
+    pub chosen_mean: Option<f64>,
+    /// The largest stress of any graph, up to its end.
+    pub largest: Option<f64>,
+    /// Mean over the graphs of the largest stress in each, up to its end.
+    pub mean_largest: Option<f64>,
+    /// How well the model that it chose by told trajectories that it had not seen: R² over legs.
+    pub r2: Option<f64>,
+    /// The same: Spearman's ρ of the largest stress of a trajectory.
+    pub rank_correlation: Option<f64>,
+    /// Why there was no model, in a sentence's part; never of the first round.
+    pub unlearned: Option<String>,
 }

@@ -37,20 +37,21 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
         revisits: search.revisits,
         ..EvolveSettings::default()
     };
-    let Looped { execute, moved } = question.looped;
+    let Looped { execute, moved, .. } = question.looped;
     let seed = named_seed(question.seed, "evolution", 0);
     let evolved = evolve(&graph, &first, seed, &settings, |found| execute(&question.planned(found.clone())?));
-    let mut executions = evolved.best_so_far.len() as u64;
+    let mut best_so_far = evolved.best_so_far;
     let mut plans = Vec::new();
     for (place, Tested { found, trial }) in evolved.pool.into_iter().enumerate() {
         let Some(mut plan) = question.planned(found) else { continue };
         plan.score = trial.stress;
         if search.move_waypoints && place < SHIFTED {
-            let left = (budget.saturating_sub(executions)) / (SHIFTED - place) as u64;
+            let left = budget.saturating_sub(best_so_far.len() as u64) / (SHIFTED - place) as u64;
             let settings = ShiftSettings { executions: left, step: STEP * mean_leg(&plan), free_end: false };
             let seed = named_seed(question.seed, "shift", place as u64);
             let shifted = shift(&plan.waypoints, trial, seed, &settings, |points| moved(&plan, points), execute);
-            executions += shifted.best_so_far.len() as u64;
+            let most = best_so_far.last().copied().unwrap_or(f64::NEG_INFINITY);
+            best_so_far.extend(shifted.best_so_far.iter().map(|stress| most.max(*stress)));
             if let Some(better) = shifted.plan {
                 plan = Plan { score: shifted.trial.stress, ..better };
             }
@@ -60,7 +61,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
     plans.sort_by(|a, b| b.score.total_cmp(&a.score));
     plans.truncate(search.per_graph as usize);
     let reason = plans.is_empty().then(|| "no execution of what was found ended with a measure".to_string());
-    Answer { plans, expansions: executions, reason, ..Answer::default() }
+    Answer { plans, expansions: best_so_far.len() as u64, best_so_far, reason, ..Answer::default() }
 }
 
 /// What evolution starts from: every score's optima under both aggregates, and uniform draws.

@@ -5,11 +5,13 @@ mod explore;
 mod in_loop;
 mod in_order;
 mod outcome;
+mod rounds;
 mod search;
 
 pub(super) use deaths::Counter;
 pub use deaths::{Deaths, Lost, Stage};
 pub(super) use explore::{Explored, GRAPHS};
 pub(super) use in_order::in_order;
-pub(super) use outcome::{Outcome, Plan};
+pub(super) use outcome::{Outcome, Plan, fingerprint};
+pub(super) use rounds::Round;
 pub(super) use search::{Looped, Question, search};

@@ -1,8 +1,9 @@
-//! What one graph gives, and what every way of searching it is asked with.
+//! What one graph gives.
 
 use nalgebra::Point3;
 
 use super::search::Answer;
+use crate::campaign::curve::Curve;
 use crate::campaign::{Case, Evidence, SeenLeg};
 use crate::math::random::case_seed;
 use crate::search::Found;
@@ -74,6 +75,10 @@ pub(in crate::campaign) struct Outcome {
     pub(in crate::campaign) expansions: u64,
     pub(in crate::campaign) dropped: u64,
     pub(in crate::campaign) duplicates: u64,
+    /// Of a round of an adaptive campaign: how many of the plans, from the first, models chose.
+    pub(in crate::campaign) chosen: usize,
+    /// Of searches in the loop: the largest stress after each execution, of every graph that was executed in.
+    pub(in crate::campaign) curves: Vec<Curve>,
     /// Why there is no plan.
     pub(in crate::campaign) reason: Option<String>,
 }
@@ -90,6 +95,11 @@ impl Outcome {
             expansions: answer.expansions,
             dropped: answer.dropped,
             duplicates: answer.duplicates,
+            chosen: answer.chosen,
+            curves: (!answer.best_so_far.is_empty())
+                .then(|| Curve::of(graph, &answer.best_so_far))
+                .into_iter()
+                .collect(),
             reason: answer.reason.or(too_long),
         }
     }
@@ -101,6 +111,20 @@ impl Outcome {
         self.expansions += other.expansions;
         self.dropped += other.dropped;
         self.duplicates += other.duplicates;
+        self.curves.extend(other.curves);
         self.reason = other.reason;
     }
+}
+
+/// 128 bits of BLAKE3 over the coordinates: equal waypoint lists are one trajectory.
+pub(in crate::campaign) fn fingerprint(waypoints: impl IntoIterator<Item = Point3<f64>>) -> [u8; 16] {
+    let mut hasher = blake3::Hasher::new();
+    for waypoint in waypoints {
+        for coordinate in waypoint.iter() {
+            hasher.update(&coordinate.to_le_bytes());
+        }
+    }
+    let mut short = [0; 16];
+    short.copy_from_slice(&hasher.finalize().as_bytes()[..16]);
+    short
 }

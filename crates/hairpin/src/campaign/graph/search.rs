@@ -6,7 +6,9 @@ use nalgebra::Point3;
 
 use super::in_loop::by_trials;
 use super::outcome::Plan;
+use super::rounds::{Round, by_round};
 use crate::campaign::SeenLeg;
+use crate::campaign::learn::ScoreModel;
 use crate::campaign::scenario::{SearchMethod, SearchSection};
 use crate::feasibility::reach::Reach;
 use crate::search::beam::Ended;
@@ -30,18 +32,27 @@ pub(in crate::campaign) struct Question<'a, N, R, O> {
     pub(in crate::campaign) lookahead: usize,
     /// The plan of what was found; `None` for what breaks a limit of whole trajectories.
     pub(in crate::campaign) plan: &'a dyn Fn(Found<N>) -> Option<Plan>,
-    /// Scores beside this one whose optima a search in the loop starts from.
+    /// Scores beside this one whose optima a search in the loop starts from, or a round of an adaptive campaign is to have.
     pub(in crate::campaign) also: Vec<O>,
     pub(in crate::campaign) looped: Looped<'a>,
 }
 
-/// What only a search in the loop asks.
+/// What only searches that execute ask.
 #[derive(Clone, Copy)]
 pub(in crate::campaign) struct Looped<'a> {
     /// Executes a plan once; `None` where that fails.
     pub(in crate::campaign) execute: &'a dyn Fn(&Plan) -> Option<Trial>,
     /// A plan with other waypoints, as many; `None` where they are not feasible.
     pub(in crate::campaign) moved: Move<'a>,
+    /// The round of an adaptive campaign.
+    pub(in crate::campaign) round: Option<&'a Round<'a>>,
+}
+
+impl<'a> Looped<'a> {
+    /// The models that a round searches under.
+    pub(in crate::campaign) fn models(&self) -> &'a [ScoreModel] {
+        self.round.map_or(&[], |round| round.models)
+    }
 }
 
 /// Puts other waypoints into a plan.
@@ -57,6 +68,10 @@ pub(in crate::campaign) struct Answer {
     pub(in crate::campaign) expansions: u64,
     pub(in crate::campaign) dropped: u64,
     pub(in crate::campaign) duplicates: u64,
+    /// How many of the plans, from the first, a round's models chose.
+    pub(in crate::campaign) chosen: usize,
+    /// The largest stress after each execution in the loop.
+    pub(in crate::campaign) best_so_far: Vec<f64>,
     /// Why nothing was found.
     pub(in crate::campaign) reason: Option<String>,
 }
@@ -71,6 +86,11 @@ pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Obj
         SearchMethod::Exact => by_dynamic_program(question),
         SearchMethod::Uniform => by_uniform_draws(question),
         SearchMethod::InLoop => by_trials(question),
+        SearchMethod::Adaptive => match question.looped.round {
+            Some(round) => by_round(question, round),
+            // Whoever only asks what is feasible.
+            None => by_uniform_draws(question),
+        },
     }
 }
 

@@ -2,11 +2,14 @@
 
 mod kept;
 mod model;
+mod resample;
 mod samples;
 mod score;
 
 pub use kept::{KeptModel, NAME};
 pub(super) use kept::{of_drive, of_flight, subject};
+pub(super) use model::LEAST_TRAJECTORIES;
 pub use model::{Feature, HeldOut, LegSample, ModelMistake, ScoreModel, Subject};
+pub(super) use samples::samples_of;
 pub use samples::{learn, leg_samples};
 pub(super) use score::AnyScore;

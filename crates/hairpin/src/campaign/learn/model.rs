@@ -15,6 +15,8 @@ const FOLDS: usize = 10;
 const MOST_DEGREE: u32 = 4;
 /// Every so many trajectories one is held out.
 const HELD_OUT: usize = 5;
+/// Trajectories that a model needs at least: as many as leave one for every fold when some are held out.
+pub(in crate::campaign) const LEAST_TRAJECTORIES: usize = 13;
 
 /// A feature of legs that models are made of.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -246,7 +248,7 @@ impl ScoreModel {
     }
 }
 
-fn rows(samples: &[LegSample]) -> Rows {
+pub(super) fn rows(samples: &[LegSample]) -> Rows {
     Rows {
         inputs: samples.iter().map(|sample| inputs(&sample.features, sample.duration).to_vec()).collect(),
         values: samples.iter().map(|sample| sample.stress).collect(),

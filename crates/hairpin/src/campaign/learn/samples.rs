@@ -3,7 +3,7 @@
 use super::{LegSample, ScoreModel, subject};
 use crate::campaign::judge::measures_of;
 use crate::campaign::{Case, Run, Setup};
-use crate::judgement::Stress;
+use crate::judgement::{Measures, Stress};
 use crate::math::ridge::NoFit;
 
 /// The legs of `case` with the stress that each of `runs` put on them. Legs that a run did not come to, and cases whose legs no search
@@ -12,15 +12,22 @@ pub fn leg_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> 
     let mut samples = Vec::new();
     for run in runs {
         let Some(measures) = measures_of(setup, case, run) else { continue };
-        for (seen, leg) in case.seen.iter().zip(&measures.legs) {
-            let stress = stress.of_leg(leg).filter(|value| value.is_finite() && leg.time > 0.0);
-            samples.extend(stress.map(|stress| LegSample {
-                trajectory: case.number,
-                features: seen.features,
-                duration: seen.duration,
-                stress,
-            }));
-        }
+        samples.extend(samples_of(case, &measures, stress));
+    }
+    samples
+}
+
+/// The legs of `case` with the stress that was measured on them.
+pub(in crate::campaign) fn samples_of(case: &Case, measures: &Measures, stress: Stress) -> Vec<LegSample> {
+    let mut samples = Vec::new();
+    for (seen, leg) in case.seen.iter().zip(&measures.legs) {
+        let stress = stress.of_leg(leg).filter(|value| value.is_finite() && leg.time > 0.0);
+        samples.extend(stress.map(|stress| LegSample {
+            trajectory: case.number,
+            features: seen.features,
+            duration: seen.duration,
+            stress,
+        }));
     }
     samples
 }

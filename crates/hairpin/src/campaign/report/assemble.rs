@@ -28,5 +28,8 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         influences: pieces.influences,
         regression: None,
         coverage: pieces.coverage,
+        stress: pieces.setup.scenario.search().stress,
+        curves: pieces.tally.curves.clone(),
+        rounds: pieces.tally.rounds.clone(),
     }
 }

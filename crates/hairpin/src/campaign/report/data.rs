@@ -8,10 +8,10 @@ use super::drawing::Drawing;
 use super::text::attitude;
 use crate::campaign::scenario::DeviationFrom;
 use crate::campaign::terms::Terms;
-use crate::campaign::{Case, CaseResult, Coverage, Influence, Run, Setup, Status, Tally, vary};
+use crate::campaign::{Case, CaseResult, Coverage, Curve, Influence, RoundTally, Run, Setup, Status, Tally, vary};
 use crate::judgement::moves::Regression;
 use crate::judgement::{
-    JudgementError, Measures, Reference, Settings, Statistics, Verdict, Violation, deviation_of_samples,
+    JudgementError, Measures, Reference, Settings, Statistics, Stress, Verdict, Violation, deviation_of_samples,
 };
 use crate::trajectory::Track;
 
@@ -96,6 +96,12 @@ pub struct ReportData {
     pub regression: Option<Regression>,
     /// Which cells of the grid of motion were met.
     pub coverage: Option<Coverage>,
+    /// What searches that execute look for.
+    pub stress: Stress,
+    /// Of such searches: the largest stress so far in every graph.
+    pub curves: Vec<Curve>,
+    /// Of adaptive campaigns.
+    pub rounds: Vec<RoundTally>,
 }
 
 /// What [`super::assemble`] is given.

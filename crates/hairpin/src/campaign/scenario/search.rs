@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
+use crate::campaign::learn::LEAST_TRAJECTORIES;
 use crate::judgement::Stress;
 
 pub use crate::search::Aggregate;
@@ -13,7 +14,7 @@ pub use crate::world::Sampling;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SearchSection {
-    /// beam | exact | uniform | in-loop.
+    /// beam | exact | uniform | in-loop | adaptive.
     pub method: SearchMethod,
     /// Waypoints sampled per graph.
     pub waypoints: u64,
@@ -36,11 +37,18 @@ pub struct SearchSection {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `in-loop`: executions per graph at most.
+    /// `in-loop`: executions per graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
+    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly.
+    pub rounds: u64,
+    /// `adaptive`: share of every later round's executions that is drawn uniformly, whatever the model says.
+    pub explore: f64,
+    /// `adaptive`: time for executing and learning beside `executions`; what is found then depends on the clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<f64>,
     /// `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them.
     pub move_waypoints: bool,
-    /// `in-loop`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | tilt.
+    /// `in-loop`, `adaptive`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | tilt.
     pub stress: Stress,
 }
 
@@ -59,6 +67,9 @@ impl Default for SearchSection {
             frontier: 100_000,
             graphs: None,
             executions: 200,
+            rounds: 4,
+            explore: 0.2,
+            time_s: None,
             move_waypoints: false,
             stress: Stress::MaxDeviation,
         }
@@ -77,9 +88,26 @@ pub enum SearchMethod {
     Uniform,
     /// Simulation in the loop: trajectories are scored by executing them.
     InLoop,
+    /// Rounds of executing trajectories and learning from them which are worth executing next.
+    Adaptive,
 }
 
+impl SearchMethod {
+    /// Whether trajectories are executed while they are searched for.
+    pub fn executes(self) -> bool {
+        matches!(self, Self::InLoop | Self::Adaptive)
+    }
+}
+
+/// Every round of an adaptive campaign keeps its legs: at ten legs a trajectory, a million rows to fit.
+const MOST_LEARNED: u64 = 100_000;
+
 impl SearchSection {
+    /// Graphs that an adaptive campaign executes in.
+    pub fn adaptive_graphs(&self) -> u64 {
+        self.cases.div_ceil(self.per_graph.max(1))
+    }
+
     /// Bounds of all that does not depend on what moves: but for `waypoints`.
     pub(super) fn check(&self, found: &mut Findings) {
         found.count("generate.search.width", self.width, 1, 100_000);
@@ -92,5 +120,35 @@ impl SearchSection {
         if let Some(graphs) = self.graphs {
             found.count("generate.search.graphs", graphs, 1, 1_000_000_000);
         }
+        found.count("generate.search.rounds", self.rounds, 1, 1_000);
+        found.from("generate.search.explore", self.explore, 0.0, 1.0, "");
+        if let Some(time) = self.time_s {
+            found.above("generate.search.time_s", time, 0.0, 1e6, " s");
+            let adaptive = self.method == SearchMethod::Adaptive;
+            found.require(
+                adaptive,
+                "generate.search.time_s",
+                time,
+                "left out: only the method `adaptive` has rounds to end",
+            );
+        }
+        if self.method == SearchMethod::Adaptive {
+            self.check_adaptive(found);
+        }
+    }
+
+    fn check_adaptive(&self, found: &mut Findings) {
+        let graphs = self.adaptive_graphs();
+        let first = graphs.max(LEAST_TRAJECTORIES as u64);
+        let least = first.saturating_mul(self.rounds);
+        let bound = format!(
+            "{least} … {MOST_LEARNED} for the method `adaptive`: in each of {} rounds one in each of {graphs} graphs, and \
+             {LEAST_TRAJECTORIES} to learn from",
+            self.rounds
+        );
+        let fine = (least..=MOST_LEARNED).contains(&self.executions);
+        found.require(fine, "generate.search.executions", self.executions, &bound);
+        let bound = "false: the method `adaptive` stays on its graphs' legs, which are what it learns of";
+        found.require(!self.move_waypoints, "generate.search.move_waypoints", true, bound);
     }
 }

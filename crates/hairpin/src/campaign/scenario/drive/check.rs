@@ -49,7 +49,7 @@ impl DriveScenario {
         } else if let Err(error) = GroundScore::named(score) {
             found.require(false, key, format!("\"{score}\""), &error.to_string());
         }
-        found.in_loop(*method, self.execute.controller_in_force().is_some());
+        found.in_loop(*method, self.execute.controller_in_force().is_some(), (key, score), self.vary.keys());
     }
 
     fn check_ground(&self, found: &mut Findings) {

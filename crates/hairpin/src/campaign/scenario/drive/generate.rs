@@ -209,7 +209,7 @@ impl Default for SolverSection {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DriveSearch {
-    /// beam | exact | uniform | in-loop.
+    /// beam | exact | uniform | in-loop | adaptive.
     pub method: SearchMethod,
     /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; or learned:MODEL.
     pub score: String,
@@ -234,11 +234,18 @@ pub struct DriveSearch {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `in-loop`: executions per graph at most.
+    /// `in-loop`: executions per graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
+    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly.
+    pub rounds: u64,
+    /// `adaptive`: share of every later round's executions that is drawn uniformly, whatever the model says.
+    pub explore: f64,
+    /// `adaptive`: time for executing and learning beside `executions`; what is found then depends on the clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<f64>,
     /// `in-loop`: whether waypoints are moved off their graph, as far as legs can be solved.
     pub move_waypoints: bool,
-    /// `in-loop`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | tilt.
+    /// `in-loop`, `adaptive`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | tilt.
     pub stress: Stress,
     /// The model of a learned score.
     #[serde(skip)]
@@ -261,6 +268,9 @@ impl Default for DriveSearch {
             frontier,
             graphs,
             executions,
+            rounds,
+            explore,
+            time_s,
             move_waypoints,
             stress,
         } = SearchSection::default();
@@ -279,6 +289,9 @@ impl Default for DriveSearch {
             frontier,
             graphs,
             executions,
+            rounds,
+            explore,
+            time_s,
             move_waypoints,
             stress,
             model: None,
@@ -302,6 +315,9 @@ impl DriveSearch {
             frontier: self.frontier,
             graphs: self.graphs,
             executions: self.executions,
+            rounds: self.rounds,
+            explore: self.explore,
+            time_s: self.time_s,
             move_waypoints: self.move_waypoints,
             stress: self.stress,
         }

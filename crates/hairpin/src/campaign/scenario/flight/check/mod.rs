@@ -29,7 +29,9 @@ impl FlightScenario {
         }
         task::check(&self.task, space.as_ref(), robot.as_ref(), &mut found);
         generate::check(self, &mut found);
-        found.in_loop(self.generate.search.method, self.execute.controller_in_force().is_some());
+        let controlled = self.execute.controller_in_force().is_some();
+        let score = ("generate.score", self.generate.score.as_str());
+        found.in_loop(self.generate.search.method, controlled, score, self.vary.keys());
         execute::check(&self.execute, &mut found);
         spec::check(&self.spec, &mut found);
         found.0

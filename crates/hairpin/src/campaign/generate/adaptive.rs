@@ -1,0 +1,267 @@
+//! Rounds: execute, learn which legs are stressful, search for trajectories of such legs, execute those.
+//!
+//! The first round draws uniformly. Each later one fits the stress of all legs executed so far, takes every graph's best under the
+//! model, and under models of resampled trajectories, which differ where little is known (bootstrapped Thompson sampling); a share of its
+//! executions stays uniform, so that no model sees stressful legs alone. Whatever runs on several threads is taken over in order.
+
+use std::collections::HashSet;
+
+use rayon::prelude::*;
+
+use super::{GRAPHS_PER_CASE, Known, RoundTally, Solver, Tally};
+use crate::campaign::curve::Curve;
+use crate::campaign::graph::{Outcome, Plan, Round, fingerprint};
+use crate::campaign::learn::{LegSample, ScoreModel, learn};
+use crate::campaign::scenario::SearchSection;
+use crate::campaign::{Case, Setup, Stop, in_loop};
+use crate::math::random::named_seed;
+
+/// Models of a round, the one of all trajectories included: what else is executed are second bests.
+const MODELS: usize = 8;
+
+/// One graph that trajectories are executed in.
+struct Graph {
+    number: u64,
+    /// Fingerprints of what was executed.
+    known: HashSet<[u8; 16]>,
+    /// The most stressful, the first of equals first.
+    kept: Vec<Plan>,
+    curve: Curve,
+}
+
+/// A trajectory to be executed.
+struct Todo {
+    /// Place of its graph.
+    graph: usize,
+    plan: Plan,
+    /// Whether it was drawn uniformly.
+    drawn: bool,
+}
+
+struct Campaign<'a> {
+    setup: &'a Setup,
+    solver: &'a Solver<'a>,
+    stop: &'a Stop<'a>,
+    search: SearchSection,
+    begun: f64,
+    graphs: Vec<Graph>,
+    samples: Vec<LegSample>,
+    executed: u64,
+    tally: Tally,
+}
+
+/// Executes `generate.search.executions` trajectories in rounds and gives the most stressful ones to `sink`, at the end. Of `known` all
+/// rounds or none are.
+pub(super) fn generate(
+    setup: &Setup,
+    solver: &Solver<'_>,
+    known: &Known,
+    stop: &Stop,
+    sink: &mut dyn FnMut(&[Case], &Tally),
+) -> Tally {
+    if !known.tally.rounds.is_empty() {
+        sink(&[], &known.tally);
+        return known.tally.clone();
+    }
+    let search = setup.scenario.search();
+    let begun = (stop.clock)();
+    let (graphs, samples, tally) = (Vec::new(), Vec::new(), Tally::default());
+    let mut campaign = Campaign { setup, solver, stop, search, begun, graphs, samples, executed: 0, tally };
+    for round in 0..campaign.search.rounds {
+        if round > 0 && campaign.graphs.is_empty() || (stop.cancelled)() {
+            break;
+        }
+        campaign.round(round);
+    }
+    campaign.finish(sink)
+}
+
+impl Campaign<'_> {
+    fn round(&mut self, number: u64) {
+        let mut told = RoundTally::default();
+        let todo = if number == 0 { self.first() } else { self.next(number, &mut told) };
+        let results: Vec<Option<_>> = todo
+            .par_iter()
+            .enumerate()
+            .map(|(place, todo)| {
+                // What is not begun in time does not count.
+                let graph = self.graphs[todo.graph].number;
+                let trajectory = self.executed as usize + place;
+                let found = || {
+                    in_loop::execute_and_learn(self.setup, graph, &todo.plan, trajectory).filter(|(trial, _)| {
+                        // An infinite stress could not be told from a mistake.
+                        trial.stress.is_finite()
+                    })
+                };
+                self.goes_on(number).then(found)
+            })
+            .collect();
+        self.executed += results.len() as u64;
+        let mut sums = [(0.0, 0_u64); 2];
+        for (Todo { graph, plan, drawn }, result) in todo.into_iter().zip(results) {
+            let Some(result) = result else { continue };
+            told.executions += 1;
+            told.drawn += u64::from(drawn);
+            let graph = &mut self.graphs[graph];
+            graph.known.insert(fingerprint(plan.waypoints.iter().copied()));
+            graph.curve.push(result.as_ref().map(|(trial, _)| trial.stress));
+            let Some((trial, samples)) = result else {
+                told.failed += 1;
+                continue;
+            };
+            let (sum, count) = &mut sums[usize::from(drawn)];
+            (*sum, *count) = (*sum + trial.stress, *count + 1);
+            self.samples.extend(samples);
+            let place = graph.kept.partition_point(|kept| kept.score >= trial.stress);
+            graph.kept.insert(place, Plan { score: trial.stress, bound: None, ..plan });
+            graph.kept.truncate(self.search.per_graph as usize);
+        }
+        let mean = |(sum, count): (f64, u64)| (count > 0).then(|| sum / count as f64);
+        [told.chosen_mean, told.drawn_mean] = sums.map(mean);
+        let largest: Vec<f64> = self.graphs.iter().filter_map(|graph| Some(graph.kept.first()?.score)).collect();
+        told.largest = largest.iter().copied().reduce(f64::max);
+        told.mean_largest = mean((largest.iter().sum(), largest.len() as u64));
+        self.tally.expansions += told.executions;
+        self.tally.rounds.push(told);
+        (self.stop.progress)(self.tally.expansions as usize, self.search.executions as usize);
+    }
+
+    /// Whether executions of round `number` may begin: neither stopped, nor is the round's share of the time used up.
+    fn goes_on(&self, number: u64) -> bool {
+        let share = (number + 1) as f64 / self.search.rounds as f64;
+        let late = self.search.time_s.is_some_and(|time| (self.stop.clock)() - self.begun >= share * time);
+        !late && !(self.stop.cancelled)()
+    }
+
+    /// Finds as many graphs as cases are asked for, in the order of their numbers, and draws in each.
+    fn first(&mut self) -> Vec<Todo> {
+        let wanted = self.search.adaptive_graphs() as usize;
+        let units = self.search.graphs.unwrap_or(self.search.cases.saturating_mul(GRAPHS_PER_CASE));
+        let share = dealt(self.search.executions, self.search.rounds, 0);
+        let known = HashSet::new();
+        let most = share.div_ceil(wanted as u64) as usize;
+        let round = Round { number: 0, optima: 0, draws: most, models: &[], known: &known };
+        let batch = 2 * rayon::current_num_threads() as u64;
+        let mut todo = Vec::new();
+        while self.tally.units < units && self.graphs.len() < wanted && self.goes_on(0) {
+            let (first, last) = (self.tally.units, units.min(self.tally.units + batch));
+            let outcomes: Vec<Outcome> = (first..last)
+                .into_par_iter()
+                .map(|graph| self.solver.solve(self.setup, graph, Some(&round), self.stop))
+                .collect();
+            for (outcome, number) in outcomes.into_iter().zip(first..) {
+                if self.graphs.len() == wanted {
+                    break;
+                }
+                self.tally.units += 1;
+                self.tally.graphs += outcome.graphs;
+                self.tally.proven_empty += outcome.proven_empty;
+                if outcome.plans.is_empty() {
+                    self.tally.nothing = outcome.reason;
+                    continue;
+                }
+                self.tally.solved += 1;
+                let graph = self.graphs.len();
+                let own = dealt(share, wanted as u64, graph as u64) as usize;
+                let plans = outcome.plans.into_iter().take(own);
+                todo.extend(plans.map(|(_, plan)| Todo { graph, plan, drawn: true }));
+                let curve = Curve { graph: number, ..Curve::default() };
+                self.graphs.push(Graph { number, known: HashSet::new(), kept: Vec::new(), curve });
+            }
+        }
+        todo
+    }
+
+    /// What round `number` executes, by what all before it have taught.
+    fn next(&self, number: u64, told: &mut RoundTally) -> Vec<Todo> {
+        let (graphs, search) = (self.graphs.len() as u64, &self.search);
+        let share = dealt(search.executions, search.rounds, number);
+        let draws = libm::round(search.explore * share as f64) as u64;
+        // Where graphs get different numbers they are others every round.
+        let of = |total: u64, place: usize| dealt(total, graphs, (place as u64 + number) % graphs) as usize;
+        let most = share.saturating_sub(draws).div_ceil(graphs) as usize;
+        let models = if draws < share { self.models(number, most.clamp(1, MODELS), told) } else { Vec::new() };
+        let outcomes: Vec<Option<Outcome>> = (0..self.graphs.len())
+            .into_par_iter()
+            .map(|place| {
+                let graph = &self.graphs[place];
+                let whole = of(share, place);
+                let draws = of(draws, place).min(whole);
+                let round = Round { number, optima: whole - draws, draws, models: &models, known: &graph.known };
+                self.goes_on(number).then(|| self.solver.solve(self.setup, graph.number, Some(&round), self.stop))
+            })
+            .collect();
+        let mut todo = Vec::new();
+        for (graph, outcome) in outcomes.into_iter().enumerate() {
+            let Some(Outcome { plans, chosen, .. }) = outcome else { continue };
+            let plans = plans.into_iter().enumerate();
+            todo.extend(plans.map(|(place, (_, plan))| Todo { graph, plan, drawn: place >= chosen }));
+        }
+        todo
+    }
+
+    /// Up to `count` models, the first of all trajectories; none where they teach nothing.
+    fn models(&self, number: u64, count: usize, told: &mut RoundTally) -> Vec<ScoreModel> {
+        let model = match learn(self.setup, self.search.stress, &self.samples) {
+            Ok(model) => model,
+            Err(reason) => {
+                told.unlearned = Some(reason.to_string());
+                return Vec::new();
+            }
+        };
+        (told.r2, told.rank_correlation) = (Some(model.held_out.r2), model.held_out.rank_correlation);
+        let seed = named_seed(self.setup.scenario.seed(), "models", number);
+        let others: Vec<ScoreModel> = (1..count as u64)
+            .into_par_iter()
+            .filter_map(|other| model.resampled(&self.samples, named_seed(seed, "resampled", other)).ok())
+            .collect();
+        std::iter::once(model).chain(others).collect()
+    }
+
+    fn finish(mut self, sink: &mut dyn FnMut(&[Case], &Tally)) -> Tally {
+        let (seed, wanted) = (self.setup.scenario.seed(), self.search.cases as usize);
+        match learn(self.setup, self.search.stress, &self.samples) {
+            Ok(model) => self.tally.model = Some(Box::new(model)),
+            Err(reason) => self.tally.unlearned = Some(reason.to_string()),
+        }
+        let mut cases = Vec::new();
+        for Graph { number, kept, curve, .. } in self.graphs {
+            self.tally.curves.push(curve);
+            for plan in kept {
+                if cases.len() < wanted {
+                    cases.push(plan.case(seed, number, cases.len()));
+                }
+            }
+        }
+        self.tally.stopped = (self.stop.cancelled)();
+        self.tally.complete = !self.tally.stopped && cases.len() >= wanted;
+        if !cases.is_empty() {
+            self.tally.nothing = None;
+        } else if self.tally.solved > 0 {
+            self.tally.nothing = Some("no execution of what was drawn ended with a measure of its stress".into());
+        }
+        sink(&cases, &self.tally);
+        self.tally
+    }
+}
+
+/// What place `place` of `parts` gets of `total`: as evenly as whole numbers allow.
+fn dealt(total: u64, parts: u64, place: u64) -> u64 {
+    let until = |place: u64| (u128::from(total) * u128::from(place) / u128::from(parts)) as u64;
+    until(place + 1) - until(place)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::dealt;
+
+    #[test]
+    fn all_is_dealt_and_evenly() {
+        for (total, parts) in [(0, 3), (7, 3), (400, 4), (5, 8), (u64::MAX, 7)] {
+            let shares: Vec<u64> = (0..parts).map(|place| dealt(total, parts, place)).collect();
+            assert_eq!(shares.iter().map(|share| u128::from(*share)).sum::<u128>(), u128::from(total));
+            let (least, most) = (shares.iter().min().unwrap(), shares.iter().max().unwrap());
+            assert!(most - least <= 1, "{shares:?}");
+        }
+    }
+}

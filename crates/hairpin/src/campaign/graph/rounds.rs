@@ -1,0 +1,134 @@
+//! What a round of an adaptive campaign has executed in one graph: the best under models, and uniform draws.
+
+use std::collections::HashSet;
+use std::hash::Hash;
+
+use super::outcome::{Plan, fingerprint};
+use super::search::{Answer, Question};
+use crate::campaign::learn::ScoreModel;
+use crate::feasibility::reach::Reach;
+use crate::math::random::named_seed;
+use crate::search::{Aggregate, ExactSettings, Found, LegGraph, Objective, UniformSettings, exact, uniform};
+
+/// A score is asked for so many of its best at first, and then for this multiple of them …
+const MORE: usize = 4;
+/// … as long as all are known, up to so many.
+const MOST_BEST: usize = 256;
+/// Uniform draws are repeated with twice as many as long as too few are new, so often.
+const REDRAWS: u32 = 6;
+
+/// One round.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::campaign) struct Round<'a> {
+    /// From 0. The first one draws what the method `uniform` does.
+    pub(in crate::campaign) number: u64,
+    /// Trajectories wanted that are best under the models, each in turn.
+    pub(in crate::campaign) optima: usize,
+    /// Uniform draws wanted beside them.
+    pub(in crate::campaign) draws: usize,
+    /// Scores of legs.
+    pub(in crate::campaign) models: &'a [ScoreModel],
+    /// Fingerprints of what was executed before.
+    pub(in crate::campaign) known: &'a HashSet<[u8; 16]>,
+}
+
+/// Trajectories that were not executed yet. What models cannot give is drawn, so that a round is as large as it was asked for.
+pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+    question: &Question<N, R, O>,
+    round: &Round,
+) -> Answer {
+    let graph = question.leg_graph();
+    let graph = if question.search.revisits { graph } else { graph.without_returns(question.length) };
+    let mut new = New { question, known: round.known.clone(), plans: Vec::new() };
+    if !round.models.is_empty() {
+        for (place, score) in std::iter::once(&question.score).chain(&question.also).enumerate() {
+            let scores = 1 + question.also.len();
+            new.best(&graph, score, (round.optima + scores - 1 - place) / scores);
+        }
+    }
+    let chosen = new.plans.len();
+    let wanted = round.optima + round.draws - chosen;
+    let empty = new.draw(&graph, round.number, wanted);
+    let reason = match (new.plans.is_empty(), empty) {
+        (false, _) => None,
+        (true, true) => Some(format!("none among the {} feasible legs of the last graph", graph.legs())),
+        (true, false) => Some("all draws used a waypoint twice, or broke a limit".into()),
+    };
+    Answer { proven_empty: empty, plans: new.plans, chosen, reason, ..Answer::default() }
+}
+
+struct New<'q, 'a, N, R, O> {
+    question: &'q Question<'a, N, R, O>,
+    known: HashSet<[u8; 16]>,
+    plans: Vec<Plan>,
+}
+
+impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>> New<'_, '_, N, R, O> {
+    /// Takes up to `wanted` of `found` that are not known; how many there were.
+    fn take(&mut self, found: Vec<Found<N>>, wanted: usize) -> usize {
+        let before = self.plans.len();
+        for found in found {
+            if self.plans.len() - before >= wanted {
+                break;
+            }
+            let Some(plan) = self.question.planned(found) else { continue };
+            if self.known.insert(fingerprint(plan.waypoints.iter().copied())) {
+                self.plans.push(plan);
+            }
+        }
+        self.plans.len() - before
+    }
+
+    /// The best `wanted` under `score`.
+    fn best(&mut self, graph: &LegGraph<'_, N>, score: &O, mut wanted: usize) {
+        let search = self.question.search;
+        let mut best = wanted;
+        while wanted > 0 {
+            let settings = ExactSettings {
+                length: self.question.length,
+                best,
+                revisits: search.revisits,
+                aggregate: search.aggregate,
+                ..ExactSettings::default()
+            };
+            let found = exact(graph, score, &settings).found;
+            let all = found.len() < best;
+            wanted -= self.take(found, wanted);
+            best *= MORE;
+            if all || best > MOST_BEST.max(MORE * wanted) {
+                break;
+            }
+        }
+    }
+
+    /// Uniform draws; whether there is nothing to draw from.
+    fn draw(&mut self, graph: &LegGraph<'_, N>, number: u64, mut wanted: usize) -> bool {
+        let (search, seed) = (self.question.search, self.question.seed);
+        let seed = if number == 0 { seed } else { named_seed(seed, "round", number) };
+        let mut most = wanted;
+        for _ in 0..=REDRAWS {
+            if wanted == 0 {
+                return false;
+            }
+            let settings = UniformSettings {
+                length: self.question.length,
+                wanted: most,
+                draws: search.iterations.max(most as u64),
+                revisits: search.revisits,
+                aggregate: Aggregate::Sum,
+            };
+            // One seed: more draws begin with the same ones, which are known then.
+            let outcome = uniform(graph, &self.question.score, seed, &settings);
+            if outcome.walks.is_zero() {
+                return true;
+            }
+            let all = outcome.found.len() < most;
+            wanted -= self.take(outcome.found, wanted);
+            if all {
+                return false;
+            }
+            most *= 2;
+        }
+        false
+    }
+}
