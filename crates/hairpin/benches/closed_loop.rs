@@ -51,6 +51,6 @@ fn geometric(bencher: divan::Bencher) {
 #[divan::bench]
 fn stable_waypoint_in_gusts_with_noise(bencher: divan::Bencher) {
     let gusts = Some(Gusts { std: 1.0, correlation: 1.0 });
-    let conditions = Conditions { wind: Vector3::new(2.0, 0.0, 0.0), gusts, noise: true };
+    let conditions = Conditions { wind: Vector3::new(2.0, 0.0, 0.0), gusts, noise: true, ..Default::default() };
     bench(bencher, ControllerKind::StableWaypoint, conditions);
 }

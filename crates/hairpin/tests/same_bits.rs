@@ -68,7 +68,8 @@ fn legs() -> Vec<f64> {
 
 fn flight() -> Vec<f64> {
     let waypoints = [[5.0, 5.0, 5.0], [14.0, 9.0, 8.0], [6.0, 12.0, 4.0]].map(Point3::from);
-    let conditions = Conditions { wind: Vector3::x(), gusts: Some(Gusts { std: 1.0, correlation: 1.0 }), noise: true };
+    let gusts = Some(Gusts { std: 1.0, correlation: 1.0 });
+    let conditions = Conditions { wind: Vector3::x(), gusts, noise: true, ..Conditions::default() };
     let (robot, world) = (robot(), world());
     let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
     let flight = fly(&sortie, &ControllerSettings::default(), &conditions, &FlySettings::default(), 3);

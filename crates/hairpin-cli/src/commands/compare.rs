@@ -30,7 +30,7 @@ pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
     let compared = compare(&judged(&a, &asked.a)?, &judged(&b, &asked.b)?, asked.tolerance_m);
     if compared.pairs == 0 {
         return Err(Problem::input(format!(
-            "no case of {a} has a partner in {b} with the same number, seed and waypoints ({}): fly the same trajectories in \
+            "no case of {a} has a partner in {b} with the same number, seed, waypoints and environment ({}): fly the same trajectories in \
              both, such as by hairpin export {a} --to waypoints and hairpin execute {b} --missions {a}/missions",
             reasons(&compared),
             a = asked.a.display(),
@@ -116,7 +116,7 @@ fn tell(compared: &Comparison, differences: &[String]) {
 
 /// `0003, 0007 (only in A); 0009 (other waypoints)`.
 fn reasons(compared: &Comparison) -> String {
-    let whys = ["only in A", "only in B", "another seed", "other waypoints"];
+    let whys = ["only in A", "only in B", "another seed", "other waypoints", "another environment"];
     let group = |why: &&str| {
         let names: Vec<String> =
             compared.unpaired.iter().filter(|one| one.why == *why).map(|one| one.case.clone()).collect();

@@ -86,5 +86,6 @@ pub(crate) fn bare_case(number: usize, seed: u64, waypoints: Vec<Point3<f64>>) -
         profile: None,
         drive: None,
         program: None,
+        environment: None,
     }
 }

@@ -97,7 +97,7 @@ fn of_format(format: Format) -> (&'static str, &'static str) {
     }
 }
 
-/// `missions/CASE.csv`.
+/// `missions/CASE.csv`, and `missions/CASE.environment.json` of what a case has beside them.
 fn write_waypoints(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     let place = work.folder.file("missions");
     atomic::make_folder(&place)?;
@@ -105,7 +105,16 @@ fn write_waypoints(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
         let path = place.join(format!("{}.csv", case.id()));
         waypoints::write(&path, &case.waypoints).map(|()| path)
     };
-    Ok(Written::all(cases.iter().map(one).collect::<Result<_, _>>()?))
+    let mut files = cases.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    for case in cases {
+        if let Some(environment) = &case.environment {
+            let path = place.join(format!("{}.environment.json", case.id()));
+            let text = serde_json::to_string_pretty(environment).map_err(Problem::input)?;
+            atomic::write(&path, (text + "\n").as_bytes())?;
+            files.push(path);
+        }
+    }
+    Ok(Written::all(files))
 }
 
 /// `missions/CASE.geodetic.csv`.

@@ -15,8 +15,15 @@ use crate::problem::Problem;
 enum Answer {
     /// It claims no witness.
     NothingClaimed,
-    /// Largest end error over its legs, m, and what does not hold.
-    Checked { case: usize, position_m: f64, findings: Vec<String> },
+    /// Whether it has a witness, the largest end error over its legs, m, and what does not hold.
+    Checked { case: usize, witness: bool, position_m: f64, findings: Vec<String> },
+}
+
+impl Answer {
+    /// Whether all that was checked holds.
+    fn fine(&self) -> bool {
+        matches!(self, Self::Checked { findings, .. } if findings.is_empty())
+    }
 }
 
 /// Runs the command: 1 for a finding.
@@ -64,6 +71,7 @@ pub(crate) fn run(verify: &Verify) -> Result<u8, Problem> {
     if unclaimed > 0 {
         console::warn(&format!("{unclaimed} of {} cases claim no witness: nothing to verify there", answers.len()));
     }
+    let worst = worst.filter(|(.., answer)| matches!(answer, Answer::Checked { witness: true, .. }));
     let worst =
         worst.map_or(String::new(), |(_, position_m, _)| format!("; largest end error of a leg {:.3e} m", position_m));
     let optimal = match &optimum {
@@ -71,32 +79,48 @@ pub(crate) fn run(verify: &Verify) -> Result<u8, Problem> {
         Some(optimum) if optimum.findings.is_empty() => "; no program is heavier than case 0000's".into(),
         Some(optimum) => format!("; {}", optimum.findings.join("; ")),
     };
+    let surrounded: Vec<&Answer> = answers
+        .iter()
+        .zip(&cases)
+        .filter(|(answer, case)| case.environment.is_some() && matches!(answer, Answer::Checked { .. }))
+        .map(|(answer, _)| answer)
+        .collect();
+    let clear = surrounded.iter().filter(|answer| answer.fine()).count();
+    let environments = match surrounded.len() {
+        0 => String::new(),
+        all => format!("; the plans of {clear}/{all} cases are clear of what was placed around them"),
+    };
+    let witnessed = answers.iter().filter(|answer| matches!(answer, Answer::Checked { witness: true, .. }));
+    let (fine, witnesses) = witnessed.fold((0, 0), |(fine, all), answer| (fine + usize::from(answer.fine()), all + 1));
     let word = if code == 0 { "VERIFIED" } else { "NOT VERIFIED" };
     console::say(&format!(
-        "{word} {}/{checked} witnesses integrated by independent code{worst}{optimal}",
-        checked - failed.len()
+        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{optimal}{environments}"
     ));
     Ok(code)
 }
 
 fn check(work: &Work, case: &Case) -> Answer {
-    let finding = |what: String| Answer::Checked { case: case.number, position_m: f64::MAX, findings: vec![what] };
+    let finding =
+        |what: String| Answer::Checked { case: case.number, witness: true, position_m: f64::MAX, findings: vec![what] };
     let mut case = case.clone();
     if let Err(error) = work.folder.read_witness(&mut case) {
         return finding(error.to_string());
     }
     let claims = matches!(case.evidence, Evidence::Witnessed | Evidence::ClearAllLinks | Evidence::ClearToolSphere);
-    if case.profile.is_none() && case.drive.is_none() && case.program.is_none() && !claims {
+    if case.environment.is_none() && case.profile.is_none() && case.drive.is_none() && case.program.is_none() && !claims
+    {
         return Answer::NothingClaimed;
     }
     let verified = campaign::verify(&work.setup, &case);
+    let witness = case.profile.is_some() || case.drive.is_some() || case.program.is_some();
     match verified.proof {
-        None => finding("its profile is missing".into()),
-        Some(proof) => Answer::Checked {
+        Some(proof) if witness || !claims => Answer::Checked {
             case: case.number,
+            witness,
             position_m: proof.position.value,
             findings: proof.findings.iter().map(words).collect(),
         },
+        _ => finding("its profile is missing".into()),
     }
 }
 
@@ -108,7 +132,7 @@ fn words(finding: &Finding) -> String {
 fn object(answer: &Answer) -> Value {
     match answer {
         Answer::NothingClaimed => Value::Null,
-        Answer::Checked { case, position_m, findings } => {
+        Answer::Checked { case, position_m, findings, .. } => {
             let position = (*position_m < f64::MAX).then_some(*position_m);
             json!({ "case": format!("{case:04}"), "end_error_m": position, "findings": findings })
         }

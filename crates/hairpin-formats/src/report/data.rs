@@ -86,6 +86,8 @@ fn metric(metric: &Metric) -> Value {
 }
 
 fn case(shown: &Shown) -> Value {
+    // Balls and boxes: few triangles each, and those of the world do not count here.
+    let mut left = TRIANGLES;
     let measures = shown.result.measures.as_ref();
     let waypoints: Vec<_> = shown.waypoints.iter().map(|p| [round(p.x, 2), round(p.y, 2), round(p.z, 2)]).collect();
     json!({
@@ -94,6 +96,7 @@ fn case(shown: &Shown) -> Value {
         "waypoints": waypoints,
         "planned": positions(&shown.planned, &thin(shown.planned.len(), PLANNED, &[])),
         "flown": shown.flown.as_ref().map(|track| flown(shown, track)),
+        "obstacles": shown.obstacles.iter().map(|surface| obstacle(surface, &mut left)).collect::<Vec<_>>(),
         "worst": measures.map(|m| json!({"t": m.t_worst, "leg": m.leg_worst, "d": m.max_deviation})),
     })
 }

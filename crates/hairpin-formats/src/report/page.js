@@ -48,7 +48,7 @@
 
   function scene(c) {
     const traces = [data.relief ? ground() : cage()];
-    for (const o of data.obstacles) traces.push({ type: "mesh3d", x: o.x, y: o.y, z: o.z, i: o.i, j: o.j, k: o.k, color: "#9aa7b3", opacity: 0.55, flatshading: true, hoverinfo: "name", name: o.name });
+    for (const o of data.obstacles.concat(c.obstacles)) traces.push({ type: "mesh3d", x: o.x, y: o.y, z: o.z, i: o.i, j: o.j, k: o.k, color: "#9aa7b3", opacity: 0.55, flatshading: true, hoverinfo: "name", name: o.name });
     traces.push({ type: "scatter3d", mode: "lines", x: c.planned.x, y: c.planned.y, z: c.planned.z, name: "planned", line: { color: PLAN, width: 4, dash: "dash" }, hoverinfo: "skip" });
     const w = c.waypoints;
     traces.push({ type: "scatter3d", mode: "markers+text", name: "waypoints", x: w.map((p) => p[0]), y: w.map((p) => p[1]), z: w.map((p) => p[2]), text: w.map((_, i) => String(i)), textposition: "top center", textfont: { size: 14, color: INK }, marker: { size: 4, color: INK }, hovertemplate: "waypoint %{text}<br>(%{x:.2f}, %{y:.2f}, %{z:.2f}) m<extra></extra>" });

@@ -172,6 +172,7 @@ fn findings(shown: &Shown, first: bool) -> String {
     if let Some(attitude) = shown.attitude.as_ref().filter(|_| !unknown) {
         findings.push(format!("at the worst moment: {attitude}"));
     }
+    findings.extend(shown.environment.iter().cloned());
     let drawn: Vec<String> = shown.result.drawn.iter().map(|(key, value)| format!("{key} = {value}")).collect();
     let drawn = if drawn.is_empty() { "nominal values".to_owned() } else { drawn.join(", ") };
     let list: String = findings.iter().map(|finding| format!("<li>{}</li>", escape(finding))).collect();

@@ -100,7 +100,7 @@ fn view(svg: &mut String, shown: &Shown, drawing: &Drawing, view: &View, name: &
     }
     let label = format!("{name} view: {} across, {} up, m", names[view.across], names[view.up]);
     add(format!("<text class=\"axis\" x=\"{x0:.1}\" y=\"{:.1}\">{label}</text>", y0 - 10.0));
-    for obstacle in &drawing.obstacles {
+    for obstacle in drawing.obstacles.iter().chain(&shown.obstacles) {
         add(format!("<path class=\"obstacle\" d=\"{}\"/>", outline(obstacle, view)));
     }
     add(format!("<polyline class=\"legs\" points=\"{}\"/>", points(shown.waypoints.iter().copied(), view)));

@@ -71,6 +71,7 @@ fn case(number: usize, evidence: Evidence) -> Case {
         profile,
         drive: None,
         program: None,
+        environment: None,
     }
 }
 

@@ -90,6 +90,7 @@ fn case(number: usize) -> Case {
         profile: None,
         drive: None,
         program: None,
+        environment: None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::Environment;
 use crate::feasibility::reach::LegFeatures;
 pub use crate::judgement::Violation;
 use crate::judgement::{Measures, Share, share};
@@ -106,6 +107,8 @@ pub struct Case {
     pub drive: Option<Drive>,
     /// What an arm runs.
     pub program: Option<Program>,
+    /// What was found beside the waypoints of a flight.
+    pub environment: Option<Environment>,
 }
 
 impl Case {
@@ -252,6 +255,7 @@ mod tests {
             profile: None,
             drive: None,
             program: None,
+            environment: None,
         };
         assert_eq!(case(2.0, None).claim(), "hull-feasible");
         assert_eq!(case(2.0, Some(2.0)).claim(), "hull-feasible, optimal");

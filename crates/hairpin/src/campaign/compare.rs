@@ -96,7 +96,7 @@ impl Comparison {
     }
 }
 
-/// Compares judged cases of two campaigns. Pairs have the same number, the same seed and the same waypoints to the bit. Two
+/// Compares judged cases of two campaigns. Pairs have the same number, the same seed, the same waypoints to the bit and the same environment. Two
 /// runs that both pass or both fail are told apart by whether they crashed, then by their largest deviation, of which
 /// `tolerance` (m) is no difference.
 pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f64) -> Comparison {
@@ -112,6 +112,7 @@ pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f6
             (Some(&i), Some(&k)) => match (&a[i].0, &b[k].0) {
                 (a, b) if a.seed != b.seed => "another seed",
                 (a, b) if a.waypoints != b.waypoints => "other waypoints",
+                (a, b) if a.environment != b.environment => "another environment",
                 _ => {
                     pairs.push((&a[i].1, &b[k].1));
                     continue;
@@ -233,6 +234,7 @@ mod tests {
                 profile: None,
                 drive: None,
                 program: None,
+                environment: None,
             };
             let result = CaseResult {
                 case: number,

@@ -1,15 +1,28 @@
 //! Executions that a search asks for: one nominal run of a plan, in our own simulator.
 
+use super::flight::{self, Placement};
 use super::graph::Plan;
 use super::judge::measures_of;
 use super::learn::{LegSample, samples_of};
-use super::{Case, Setup, execute_run};
-use crate::judgement::Measures;
+use super::{Case, Run, Setup, execute_run};
+use crate::judgement::{Measures, Stress};
 use crate::search::in_loop::Trial;
 
-/// Executes `plan` of graph number `graph` once; `None` where the simulator or the judge refuses.
+/// A plan that was carried out, and what was measured.
+struct Executed {
+    case: Case,
+    run: Run,
+    measures: Measures,
+}
+
+/// Executes `plan` of graph number `graph` once; `None` where the simulator or the judge refuses. Where obstacles are to be placed, the
+/// stress is how deep the robot gets into those that could stand in its way.
 pub(super) fn execute(setup: &Setup, graph: u64, plan: &Plan) -> Option<Trial> {
-    trial(setup, &measured(setup, graph, plan)?.1)
+    let executed = executed(setup, graph, plan)?;
+    let own = trial(setup, &executed.measures);
+    let Some(Placement { clearance, leg, .. }) = placement(setup, &executed) else { return own };
+    let placed = Trial { stress: -clearance, worst_leg: leg.min(plan.waypoints.len().saturating_sub(2)) };
+    own.filter(|own| own.stress >= placed.stress).or(Some(placed))
 }
 
 /// The same, with what there is to learn from it as trajectory number `trajectory`.
@@ -19,17 +32,43 @@ pub(super) fn execute_and_learn(
     plan: &Plan,
     trajectory: usize,
 ) -> Option<(Trial, Vec<LegSample>)> {
-    let (case, measures) = measured(setup, graph, plan)?;
+    let Executed { case, measures, .. } = executed(setup, graph, plan)?;
     let mut samples = samples_of(&case, &measures, setup.scenario.search().stress);
     samples.iter_mut().for_each(|sample| sample.trajectory = trajectory);
     Some((trial(setup, &measures)?, samples))
 }
 
-fn measured(setup: &Setup, graph: u64, plan: &Plan) -> Option<(Case, Measures)> {
+/// How long the execution of `plan` takes, s.
+pub(super) fn duration(setup: &Setup, graph: u64, plan: &Plan) -> Option<f64> {
+    executed(setup, graph, plan).map(|executed| executed.measures.total_time)
+}
+
+/// `plan` with the obstacles that are asked for, and its execution among them; as it is where none are. `None` where there is no room for any.
+pub(super) fn furnish(setup: &Setup, graph: u64, plan: &Plan) -> Option<(Plan, Trial)> {
+    let Placement { obstacles, .. } = placement(setup, &executed(setup, graph, plan)?)?;
+    let mut plan = plan.clone();
+    plan.environment.get_or_insert_default().obstacles = obstacles;
+    let among = executed(setup, graph, &plan)?;
+    Some((plan, trial(setup, &among.measures)?))
+}
+
+fn executed(setup: &Setup, graph: u64, plan: &Plan) -> Option<Executed> {
     let case = plan.clone().case(setup.scenario.seed(), graph, 0);
     let run = execute_run(setup, &case, 0);
     let measures = measures_of(setup, &case, &run)?;
-    Some((case, measures))
+    Some(Executed { case, run, measures })
+}
+
+/// Where the obstacles that are asked for, and not there yet, would stand.
+fn placement(setup: &Setup, executed: &Executed) -> Option<Placement> {
+    let Executed { case, run, .. } = executed;
+    let setup = setup.flight()?;
+    let environment =
+        setup.scenario.generate.environment.filter(|_| setup.scenario.generate.search.stress == Stress::Clearance)?;
+    let asked = environment.obstacles?;
+    let furnished = case.environment.as_ref().is_some_and(|environment| !environment.obstacles.is_empty());
+    let flight = run.outcome.as_ref().ok().filter(|_| !furnished)?;
+    flight::place(&setup, case, &flight.track, &asked)
 }
 
 fn trial(setup: &Setup, measures: &Measures) -> Option<Trial> {

@@ -148,6 +148,8 @@ fn judge_run(
     run: &Run,
     flight: &Flight,
 ) -> Result<Result<JudgedRun, JudgementError>, Mistake> {
+    let around = setup.around(case)?;
+    let setup = around.as_ref();
     let drawn;
     let own = if run.drawn.is_empty() {
         setup

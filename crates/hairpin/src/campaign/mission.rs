@@ -59,6 +59,8 @@ pub fn mission_again(setup: &Setup, case: &Case, run: usize, again: usize) -> Re
 /// # Errors
 /// A drawn value that is out of its key's bounds in combination with the others.
 pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistake> {
+    let around = setup.around(case)?;
+    let setup = around.as_ref();
     let drawn = vary::draw(&setup.scenario, case.seed, run);
     let varied = if drawn.is_empty() { setup.clone() } else { setup.of_draw(vary::apply(&setup.scenario, &drawn)?)? };
     // The plan is the nominal robot's, whatever was drawn for the one that carries it out.

@@ -1,7 +1,9 @@
 //! From a scenario's numbers to the things they describe. Robots are chosen by the one `match` here.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::Case;
 use super::arm::{self, ArmSetup, Station};
 use super::drive::{self, DriveSetup};
 use super::flight::{self, FlightSetup};
@@ -62,6 +64,17 @@ impl Setup {
     /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; the kernels stay these.
     pub(super) fn of_draw(&self, scenario: Scenario) -> Result<Self, Mistake> {
         Self::build(scenario, self.simd)
+    }
+
+    /// This setup with what `case` has beside its waypoints in its world.
+    ///
+    /// # Errors
+    /// An environment of a folder that was edited, with the key of `[world]` that it breaks.
+    pub fn around(&self, case: &Case) -> Result<Cow<'_, Self>, Mistake> {
+        match &case.environment {
+            Some(environment) => self.of_draw(environment.around(&self.scenario)).map(Cow::Owned),
+            None => Ok(Cow::Borrowed(self)),
+        }
     }
 
     fn build(scenario: Scenario, simd: Simd) -> Result<Self, Mistake> {

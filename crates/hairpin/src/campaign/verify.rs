@@ -9,7 +9,7 @@ use crate::verification::{EndError, Proof};
 pub struct Verified {
     /// Number of the case.
     pub case: usize,
-    /// The proof; `None` for a case that claims no witness.
+    /// The proof, and what was found of its environment; `None` for a case that claims no witness and has none.
     pub proof: Option<Proof>,
     /// End error of a whole flight, open loop, with rotor lag: what the claim leaves out.
     pub with_lag: Option<EndError>,
@@ -19,7 +19,13 @@ pub struct Verified {
 pub fn verify(setup: &Setup, case: &Case) -> Verified {
     let (proof, with_lag) = match setup.kind() {
         Kind::Flight(setup) => {
-            flight::verify(setup.robot, case).map_or((None, None), |(proof, lag)| (Some(proof), lag))
+            let (mut proof, lag) =
+                flight::verify(setup.robot, case).map_or((None, None), |(proof, lag)| (Some(proof), lag));
+            if case.environment.is_some() {
+                let findings = flight::verify_environment(&setup, case);
+                proof.get_or_insert_default().findings.extend(findings);
+            }
+            (proof, lag)
         }
         Kind::Drive(setup) => (drive::verify(&setup, case), None),
         Kind::Arm(setup) => (arm::verify(&setup, case), None),

@@ -22,19 +22,22 @@ pub enum Stress {
     Overshoot,
     /// Share of actuator time at a limit, 0 … 1.
     Saturation,
+    /// Least distance from obstacles, with its sign turned, m.
+    Clearance,
     /// Least angle by which the body would have had to lean further to tip over, with its sign turned, degrees.
     Tilt,
 }
 
 impl Stress {
     /// All of them.
-    pub const ALL: [Stress; 7] = [
+    pub const ALL: [Stress; 8] = [
         Stress::MaxDeviation,
         Stress::MeanDeviation,
         Stress::MaxAcceleration,
         Stress::Time,
         Stress::Overshoot,
         Stress::Saturation,
+        Stress::Clearance,
         Stress::Tilt,
     ];
 
@@ -47,6 +50,7 @@ impl Stress {
             Stress::Time => "time",
             Stress::Overshoot => "overshoot",
             Stress::Saturation => "saturation",
+            Stress::Clearance => "clearance",
             Stress::Tilt => "tilt",
         }
     }
@@ -59,7 +63,7 @@ impl Stress {
     /// Unit of its values; empty for shares.
     pub fn unit(self) -> &'static str {
         match self {
-            Stress::MaxDeviation | Stress::MeanDeviation | Stress::Overshoot => "m",
+            Stress::MaxDeviation | Stress::MeanDeviation | Stress::Overshoot | Stress::Clearance => "m",
             Stress::MaxAcceleration => "m/s²",
             Stress::Time => "s",
             Stress::Saturation => "",
@@ -76,6 +80,7 @@ impl Stress {
             Stress::Time => Some(measures.total_time),
             Stress::Overshoot => Some(measures.max_overshoot()),
             Stress::Saturation => measures.saturation_share,
+            Stress::Clearance => measures.min_clearance.map(|clearance| -clearance),
             Stress::Tilt => measures.min_tip_over_margin.map(|margin| -margin),
         }
     }
@@ -89,6 +94,7 @@ impl Stress {
             Stress::Time => Some(leg.time),
             Stress::Overshoot => Some(leg.overshoot),
             Stress::Saturation => leg.saturation_share,
+            Stress::Clearance => leg.min_clearance.map(|clearance| -clearance),
             Stress::Tilt => leg.min_tip_over_margin.map(|margin| -margin),
         }
     }

@@ -304,15 +304,17 @@ impl ClosedLoop {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulation::Gusts;
     use crate::simulation::tests::{cage, shipped};
+    use crate::simulation::{DiscreteGust, Gusts};
 
     /// The dispatched ticks against the same ticks compiled for the least of machines.
     #[test]
     fn wider_instructions_give_the_same_bits() {
         let (world, settings) = (cage(), FlySettings::default());
         let waypoints = [Point3::new(5.0, 5.0, 5.0), Point3::new(15.0, 9.0, 8.0)];
-        let stormy = Conditions { wind: Vector3::x(), gusts: Some(Gusts { std: 1.0, correlation: 1.0 }), noise: true };
+        let gusts = Some(Gusts { std: 1.0, correlation: 1.0 });
+        let gust = DiscreteGust { velocity: Vector3::y(), start: 0.1, duration: 1.0 };
+        let stormy = Conditions { wind: Vector3::x(), gusts, discrete_gust: Some(gust), noise: true };
         for robot in shipped() {
             for conditions in [Conditions::default(), stormy] {
                 let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };

@@ -16,6 +16,30 @@ pub struct Gusts {
     pub correlation: f64,
 }
 
+/// One gust: the air's velocity changes by `velocity` (1 − cos 2π(t − start)/duration)/2 for `duration`.
+///
+/// Source: the discrete gust of MIL-F-8785C, one whole "1 − cosine".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DiscreteGust {
+    /// At its middle, m/s.
+    pub velocity: Vector3<f64>,
+    /// When it begins, s.
+    pub start: f64,
+    /// How long it takes, s, > 0.
+    pub duration: f64,
+}
+
+impl DiscreteGust {
+    fn at(&self, t: f64) -> Vector3<f64> {
+        let share = (t - self.start) / self.duration;
+        if share > 0.0 && share < 1.0 {
+            self.velocity * (0.5 * (1.0 - libm::cos(std::f64::consts::TAU * share)))
+        } else {
+            Vector3::zeros()
+        }
+    }
+}
+
 /// Air and noise of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Conditions {
@@ -23,6 +47,8 @@ pub struct Conditions {
     pub wind: Vector3<f64>,
     /// Gusts on top of it.
     pub gusts: Option<Gusts>,
+    /// One gust more.
+    pub discrete_gust: Option<DiscreteGust>,
     /// Whether the robot's own force and moment noise acts.
     pub noise: bool,
 }
@@ -38,6 +64,19 @@ impl Conditions {
                 return Err(SimulationError::new(field, value.to_string(), "finite and ≥ 0"));
             }
         }
+        if let Some(gust) = self.discrete_gust {
+            if !(gust.velocity.iter().all(|c| c.is_finite()) && gust.start.is_finite()) {
+                let value = format!("{:?} from {} s", gust.velocity.as_slice(), gust.start);
+                return Err(SimulationError::new("discrete_gust", value, "finite"));
+            }
+            if !(gust.duration.is_finite() && gust.duration > 0.0) {
+                return Err(SimulationError::new(
+                    "discrete_gust.duration",
+                    gust.duration.to_string(),
+                    "finite and > 0",
+                ));
+            }
+        }
         Ok(())
     }
 }
@@ -47,6 +86,8 @@ impl Conditions {
 pub struct Disturbances {
     wind: Vector3<f64>,
     gusts: Option<GustProcess>,
+    /// And the time that the next step begins, in steps of so many seconds.
+    discrete_gust: Option<(DiscreteGust, u64, f64)>,
     noise: Option<Noise>,
 }
 
@@ -82,13 +123,14 @@ impl Disturbances {
             force: (robot.force_noise / h).sqrt(),
             moment: (robot.moment_noise / h).sqrt(),
         });
-        Self { wind: conditions.wind, gusts, noise }
+        let discrete_gust = conditions.discrete_gust.filter(|gust| gust.velocity != Vector3::zeros());
+        Self { wind: conditions.wind, gusts, discrete_gust: discrete_gust.map(|gust| (gust, 0, h)), noise }
     }
 
     /// Whether nothing ever disturbs: still air and no noise.
     #[inline(always)]
     pub(super) fn none(&self) -> bool {
-        self.gusts.is_none() && self.noise.is_none() && self.wind == Vector3::zeros()
+        self.gusts.is_none() && self.discrete_gust.is_none() && self.noise.is_none() && self.wind == Vector3::zeros()
     }
 
     /// Sets what acts on the plant during the next step.
@@ -99,6 +141,10 @@ impl Disturbances {
             plant.air += gusts.velocity;
             let fresh = Vector3::from(standard_normals(&mut gusts.stream));
             gusts.velocity = gusts.velocity * gusts.keep + fresh * gusts.renew;
+        }
+        if let Some((gust, steps, h)) = &mut self.discrete_gust {
+            plant.air += gust.at(*steps as f64 * *h);
+            *steps += 1;
         }
         if let Some(noise) = &mut self.noise {
             let drawn: [f64; 6] = standard_normals(&mut noise.stream);

@@ -25,7 +25,7 @@ use thiserror::Error;
 
 pub use close_loop::{FlySettings, Sortie, fly};
 pub use controllers::{ControllerKind, ControllerSettings, SegmentTimes};
-pub use disturbance::{Conditions, Disturbances, Gusts};
+pub use disturbance::{Conditions, DiscreteGust, Disturbances, Gusts};
 pub use plant::{Plant, PlantState};
 pub use step::{Motion, Stepper};
 

@@ -258,9 +258,39 @@ fn gusts_have_their_deviation_and_correlation() {
 }
 
 #[test]
+fn a_discrete_gust_comes_once_and_goes() {
+    let robot = flightgoggles();
+    let gust = DiscreteGust { velocity: Vector3::new(0.0, -4.0, 2.0), start: 0.5, duration: 2.0 };
+    let conditions = Conditions { wind: Vector3::x(), discrete_gust: Some(gust), ..Default::default() };
+    let (mut process, mut plant) = (Disturbances::new(&robot, &conditions, 0.001, 3), Plant::new(&robot));
+    let air: Vec<Vector3<f64>> = (0..4000)
+        .map(|_| {
+            process.act_on(&mut plant);
+            plant.air
+        })
+        .collect();
+    let sum: Vector3<f64> = air.iter().map(|air| air - Vector3::x()).sum();
+    assert!((air[1500] - Vector3::new(1.0, -4.0, 2.0)).norm() < 1e-9 && (air[1000].y + 2.0).abs() < 1e-9);
+    assert!(air[..=500].iter().chain(&air[2500..]).all(|air| (air - Vector3::x()).norm() < 1e-12));
+    // Half of its peak in the mean.
+    assert!((sum * 1e-3 - gust.velocity).norm() < 1e-6, "{sum}");
+    let calm = DiscreteGust { duration: 0.0, ..gust };
+    let error = fly_with_conditions(&Conditions { discrete_gust: Some(calm), ..Default::default() }).unwrap_err();
+    assert!(error.to_string().contains("discrete_gust.duration"), "{error}");
+}
+
+/// What a flight under `conditions` comes to.
+fn fly_with_conditions(conditions: &Conditions) -> Result<Flight, SimulationError> {
+    let (robot, world) = (flightgoggles(), cage());
+    let waypoints = [Point3::new(5.0, 5.0, 5.0), Point3::new(9.0, 7.0, 6.0)];
+    let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
+    fly(&sortie, &ControllerSettings::default(), conditions, &FlySettings::default(), 1)
+}
+
+#[test]
 fn the_same_seed_flies_the_same_flight() {
     let gusts = Some(Gusts { std: 1.0, correlation: 1.0 });
-    let conditions = Conditions { wind: Vector3::x(), gusts, noise: true };
+    let conditions = Conditions { wind: Vector3::x(), gusts, noise: true, ..Default::default() };
     let points = [[5.0, 5.0, 5.0], [9.0, 7.0, 6.0]];
     let fly = |seed| fly_with(&flightgoggles(), &cage(), &points, &conditions, seed);
     assert_eq!(fly(1), fly(1));

@@ -118,7 +118,8 @@ impl Repro {
             drive: case.drive.clone(),
             program: case.program.as_ref().and_then(|program| rapid::module(program, &[]).ok()),
             shrunk: None,
-            scenario: setup.scenario.clone(),
+            // What it has beside its waypoints is part of its world.
+            scenario: setup.around(case).map_or_else(|_| setup.scenario.clone(), |setup| setup.scenario.clone()),
         }
     }
 
@@ -207,6 +208,7 @@ impl Repro {
             certified: None,
             drive: self.drive.clone(),
             program,
+            environment: None,
             profile: self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() }),
         })
     }

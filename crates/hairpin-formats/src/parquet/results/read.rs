@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::case::Violation;
-use hairpin::campaign::{Case, CaseResult, Evidence, Reruns, Status};
+use hairpin::campaign::{Case, CaseResult, Environment, Evidence, Reruns, Status};
 use hairpin::judgement::measures::{AccelerationSource, LegSource};
 use hairpin::judgement::{Late, LegMeasures, Measures};
 
@@ -34,6 +34,7 @@ fn read_cases(table: &Table) -> Result<Vec<Case>, TableError> {
     let bounds = table.optional_numbers("bound")?;
     let evidence = table.texts("evidence")?;
     let certified = table.optional_texts("certified")?;
+    let environments = read_environments(table)?;
     let mut seen = std::collections::BTreeSet::new();
     (0..table.rows())
         .map(|row| {
@@ -60,9 +61,26 @@ fn read_cases(table: &Table) -> Result<Vec<Case>, TableError> {
                 profile: None,
                 drive: None,
                 program: None,
+                environment: environments[row].clone(),
             })
         })
         .collect()
+}
+
+/// What cases have beside their waypoints; tables without such cases do not say.
+fn read_environments(table: &Table) -> Result<Vec<Option<Environment>>, TableError> {
+    if !table.names().iter().any(|name| name == "environment") {
+        return Ok(vec![None; table.rows()]);
+    }
+    let texts = table.optional_texts("environment")?.into_iter().enumerate();
+    let one = |(row, text): (usize, Option<String>)| {
+        let read = text.as_ref().map(|text| serde_json::from_str(text)).transpose();
+        read.map_err(|error| {
+            let found = text.clone().unwrap_or_default();
+            table.refuse("environment", row, found, format!("an environment as JSON: {error}"))
+        })
+    };
+    texts.map(one).collect()
 }
 
 fn read_results(table: &Table, cases: &[Case]) -> Result<Vec<Option<CaseResult>>, TableError> {

@@ -96,6 +96,10 @@ fn push_rest(columns: &mut Columns, rows: &Rows) {
     columns.push("rerun_violation_share", share(|share| share.value));
     columns.push("rerun_violation_share_low", share(|share| share.low));
     columns.push("rerun_violation_share_high", share(|share| share.high));
+    if rows.iter().any(|(case, _)| case.environment.is_some()) {
+        let text = |case: &Case| case.environment.as_ref().and_then(|found| serde_json::to_string(found).ok());
+        columns.push("environment", texts(rows.iter().map(|(case, _)| text(case))));
+    }
     columns.push("violations", texts(rows.iter().map(|(_, result)| result.map(violations_text))));
     columns.push("message", texts(rows.iter().map(|(_, result)| result.and_then(|r| r.message.clone()))));
 }

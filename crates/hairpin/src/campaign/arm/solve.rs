@@ -185,6 +185,7 @@ impl ArmSetup<'_> {
             profile: None,
             drive: None,
             program: Some(program),
+            environment: None,
         }
     }
 }

@@ -10,7 +10,7 @@ use super::legs::count;
 use super::replan::pose;
 use super::stepwise::Stepwise;
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Counter, Looped, Outcome, Plan, Round};
+use crate::campaign::graph::{Counter, Executions, Looped, Outcome, Plan, Round};
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{DriveSearch, GroundReach, Manoeuvre, SearchMethod, SearchSection};
 use crate::feasibility::reach::drive::{
@@ -18,7 +18,6 @@ use crate::feasibility::reach::drive::{
 };
 use crate::feasibility::steering::shooting::families;
 use crate::math::random::named_seed;
-use crate::search::in_loop::Trial;
 use crate::search::{Found, Score};
 use crate::trajectory::Drive;
 use crate::trajectory::drive::Planar;
@@ -50,19 +49,14 @@ impl<'a> Solver<'a> {
         Ok(Self { setup, settings, search: setup.scenario.generate.search.section(), stepwise })
     }
 
-    /// Searches graph number `graph`; `execute` is for searches in the loop, `round` for adaptive campaigns.
-    pub(in crate::campaign) fn solve(
-        &self,
-        graph: u64,
-        execute: &dyn Fn(&Plan) -> Option<Trial>,
-        round: Option<&Round>,
-    ) -> Outcome {
+    /// Searches graph number `graph`; `executions` are for searches in the loop, `round` for adaptive campaigns.
+    pub(in crate::campaign) fn solve(&self, graph: u64, executions: Executions, round: Option<&Round>) -> Outcome {
         let points = match self.sample(graph) {
             Ok(points) => points,
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
         };
         let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved(graph, plan, points);
-        let looped = Looped { execute, moved: &moved, round };
+        let looped = Looped { executions, surroundings: None, moved: &moved, round };
         let asked = Graph { search: &self.search, graph, points: &points, looped };
         match &self.stepwise {
             Some(stepwise) => stepwise.solve(&self.settings, asked),

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::FlightSetup;
 use crate::simulation::{
-    self, Conditions, ControllerKind, ControllerSettings, FlySettings, Gusts, SimulationError, Sortie,
+    self, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError, Sortie,
 };
 use crate::trajectory::{Flight, Profile};
 
@@ -36,6 +36,11 @@ pub(in crate::campaign) fn fly(setup: &FlightSetup, order: &Order) -> Result<Fli
     let conditions = Conditions {
         wind: Vector3::from(scenario.world.wind_m_s.unwrap_or_default()),
         gusts: scenario.world.gusts.map(|gusts| Gusts { std: gusts.std_m_s, correlation: gusts.correlation_s }),
+        discrete_gust: scenario.world.discrete_gust.map(|gust| DiscreteGust {
+            velocity: Vector3::from(gust.velocity_m_s),
+            start: gust.start_s,
+            duration: gust.duration_s,
+        }),
         noise: execute.noise,
     };
     let settings = FlySettings {

@@ -5,11 +5,10 @@ use nalgebra::Point3;
 use super::certificates::Certifier;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
-use super::{FlightSetup, graph};
-use crate::campaign::graph::{Looped, Outcome, Plan, Round};
+use super::{FlightSetup, graph, surround};
+use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Round, Surroundings};
 use crate::campaign::scenario::ReachName;
 use crate::feasibility::certify::Certificate;
-use crate::search::in_loop::Trial;
 
 /// The part of a search that is the same for every graph.
 pub(in crate::campaign) struct Solver<'a> {
@@ -47,18 +46,25 @@ impl<'a> Solver<'a> {
         Ok(Self { setup, set, certifier })
     }
 
-    /// Searches graph number `graph`; `execute` is for searches in the loop, `round` for adaptive campaigns.
-    pub(in crate::campaign) fn solve(
-        &self,
-        graph: u64,
-        execute: &dyn Fn(&Plan) -> Option<Trial>,
-        round: Option<&Round>,
-    ) -> Outcome {
+    /// Searches graph number `graph`; `executions` are for searches in the loop, `round` for adaptive campaigns.
+    pub(in crate::campaign) fn solve(&self, graph: u64, executions: Executions, round: Option<&Round>) -> Outcome {
         let points = match graph::sample(&self.setup, graph) {
             Ok(points) => points,
             Err(error) => return Outcome { graphs: 1, reason: Some(error.to_string()), ..Outcome::default() },
         };
-        let looped = Looped { execute, moved: &|plan, points| self.moved(plan, points), round };
+        let asked = self.setup.scenario.generate.environment;
+        let bound = |place: &mut [f64]| asked.iter().for_each(|asked| surround::bound(asked, place));
+        let put = |plan: &Plan, place: &[f64], duration: f64| match &asked {
+            Some(asked) => surround::put(asked, plan, place, duration),
+            None => plan.clone(),
+        };
+        let surroundings = asked.map(|asked| Surroundings {
+            coordinates: surround::coordinates(&asked),
+            bound: &bound,
+            put: &put,
+            obstacles: asked.obstacles.is_some(),
+        });
+        let looped = Looped { executions, surroundings, moved: &|plan, points| self.moved(plan, points), round };
         let mut outcome = match &self.set {
             Set::Stepwise(set) => set.solve(graph, &points, looped),
             Set::Witness(set) => set.solve(graph, &points, looped),

@@ -2,7 +2,11 @@
 
 use crate::campaign::Case;
 use crate::robot::quadrotor::Quadrotor;
-use crate::verification::{self, Body, Claim, EndError, Leg, Proof, RotorPlace, Tolerances};
+use crate::verification::{
+    self, Body, Claim, ClearClaim, ClearSolid, EndError, Finding, Leg, Proof, RotorPlace, Tolerances, verify_clear,
+};
+
+use super::FlightSetup;
 
 /// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances: the proof,
 /// and the end error of the whole flight with rotor lag. `None` for a case that claims no witness.
@@ -31,4 +35,70 @@ fn body_of(robot: &Quadrotor) -> Body {
         aerodynamic_moment: robot.aerodynamic_moment,
         gravity: robot.gravity,
     }
+}
+
+/// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere, they are in the world,
+/// and wind and gust are no faster than was asked for. Nothing for a case without one.
+pub(in crate::campaign) fn verify_environment(setup: &FlightSetup, case: &Case) -> Vec<Finding> {
+    let Some(environment) = &case.environment else { return Vec::new() };
+    let mut findings = Vec::new();
+    let solids: Vec<ClearSolid> = environment
+        .obstacles
+        .iter()
+        .filter_map(|obstacle| {
+            let ball = obstacle.sphere.map(|ball| ClearSolid::Ball(ball.center_m, ball.radius_m));
+            ball.or(obstacle.cuboid.map(|cuboid| ClearSolid::Box(cuboid.center_m, cuboid.size_m)))
+        })
+        .collect();
+    let mut exceed = |field: String, value: f64, bound: f64, unit| {
+        if value > bound || value.is_nan() {
+            findings.push(Finding { field: format!("environment.{field}"), value, bound, unit, leg: 0, at: 0.0 });
+        }
+    };
+    // Shapes that are none of these are not placed by any search: that they are clear is not known.
+    let others = environment.obstacles.len() - solids.len();
+    exceed("obstacles".into(), others as f64, 0.0, "");
+    for (number, solid) in solids.iter().enumerate() {
+        let (centre, half) = match solid {
+            ClearSolid::Ball(centre, radius) => (centre, [*radius; 3]),
+            ClearSolid::Box(centre, size) => (centre, size.map(|edge| 0.5 * edge)),
+        };
+        let size = setup.world.size();
+        let outside = |i: usize| (half[i] - centre[i]).max(centre[i] + half[i] - size[i]);
+        let outside = (0..3).map(outside).fold(f64::NEG_INFINITY, f64::max);
+        exceed(format!("obstacles[{number}].outside"), outside, 0.0, "m");
+    }
+    let asked = setup.scenario.generate.environment.unwrap_or_default();
+    let speed = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    // A vector at its bound may be rounded beyond it.
+    let most = |bound: Option<f64>| bound.map_or(f64::INFINITY, |bound| bound * (1.0 + 1e-12));
+    exceed("wind_m_s".into(), environment.wind_m_s.map_or(0.0, speed), most(asked.wind_m_s), "m/s");
+    let gust = environment.discrete_gust.map_or(0.0, |gust| speed(gust.velocity_m_s));
+    exceed("discrete_gust".into(), gust, most(asked.gust_m_s), "m/s");
+    let legs = match &case.profile {
+        Some(profile) => {
+            profile.legs.iter().map(|leg| Leg { duration: leg.duration, coefficients: leg.coefficients }).collect()
+        }
+        None => straight(case),
+    };
+    findings.extend(verify_clear(&ClearClaim {
+        legs: &legs,
+        solids: &solids,
+        clearance: setup.robot.clearance_radius,
+    }));
+    findings
+}
+
+/// The straight legs of a case that claims no more than these; at 1 m/s where it has no times.
+fn straight(case: &Case) -> Vec<Leg> {
+    let leg = |(number, pair): (usize, &[nalgebra::Point3<f64>])| {
+        let way = pair[1] - pair[0];
+        let duration = case.leg_times.get(number).copied().unwrap_or_else(|| way.norm().max(f64::MIN_POSITIVE));
+        let mut coefficients = [[0.0; 8]; 3];
+        for (axis, c) in coefficients.iter_mut().enumerate() {
+            (c[0], c[1]) = (pair[0][axis], way[axis] / duration);
+        }
+        Leg { duration, coefficients }
+    };
+    case.waypoints.windows(2).enumerate().map(leg).collect()
 }

@@ -11,7 +11,7 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
-use super::graph::{Outcome, Plan, Round, fingerprint};
+use super::graph::{Executions, Outcome, Plan, Round, fingerprint};
 use super::scenario::SearchMethod;
 use super::setup::Kind;
 use super::{Case, Scenario, Setup, Stop, arm, drive, flight, in_loop, vary};
@@ -149,10 +149,14 @@ impl<'a> Solver<'a> {
     /// Searches graph number `graph` of `setup`, which this was made for, for the `round` of an adaptive campaign or as the scenario asks;
     /// `stop` ends what has no bound in counts.
     fn solve(&self, setup: &Setup, graph: u64, round: Option<&Round>, stop: &Stop) -> Outcome {
-        let execute = |plan: &Plan| if (stop.cancelled)() { None } else { in_loop::execute(setup, graph, plan) };
+        let goes_on = || (!(stop.cancelled)()).then_some(());
+        let execute = |plan: &Plan| goes_on().and_then(|()| in_loop::execute(setup, graph, plan));
+        let duration = |plan: &Plan| goes_on().and_then(|()| in_loop::duration(setup, graph, plan));
+        let furnish = |plan: &Plan| goes_on().and_then(|()| in_loop::furnish(setup, graph, plan));
+        let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish };
         match self {
-            Self::Flight(solver) => solver.solve(graph, &execute, round),
-            Self::Drive(solver) => solver.solve(graph, &execute, round),
+            Self::Flight(solver) => solver.solve(graph, executions, round),
+            Self::Drive(solver) => solver.solve(graph, executions, round),
             Self::Arm(solver) => solver.solve(stop),
         }
     }

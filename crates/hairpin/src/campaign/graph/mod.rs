@@ -14,4 +14,4 @@ pub(super) use explore::{Explored, GRAPHS};
 pub(super) use in_order::in_order;
 pub(super) use outcome::{Outcome, Plan, fingerprint};
 pub(super) use rounds::Round;
-pub(super) use search::{Looped, Question, search};
+pub(super) use search::{Executions, Looped, Question, Surroundings, search};

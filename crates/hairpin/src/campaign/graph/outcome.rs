@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::search::Answer;
 use crate::campaign::curve::Curve;
-use crate::campaign::{Case, Evidence, SeenLeg};
+use crate::campaign::{Case, Environment, Evidence, SeenLeg};
 use crate::math::random::case_seed;
 use crate::search::Found;
 use crate::trajectory::Drive;
@@ -24,6 +24,8 @@ pub(in crate::campaign) struct Plan {
     pub(in crate::campaign) profile: Option<Profile>,
     pub(in crate::campaign) drive: Option<Drive>,
     pub(in crate::campaign) program: Option<Program>,
+    /// What was found beside the waypoints.
+    pub(in crate::campaign) environment: Option<Environment>,
 }
 
 impl Plan {
@@ -40,6 +42,7 @@ impl Plan {
             profile: None,
             drive: None,
             program: None,
+            environment: None,
         }
     }
 }
@@ -61,6 +64,7 @@ impl Plan {
             profile: self.profile,
             drive: self.drive,
             program: self.program,
+            environment: self.environment,
         }
     }
 }

@@ -37,11 +37,36 @@ pub(in crate::campaign) struct Question<'a, N, R, O> {
     pub(in crate::campaign) looped: Looped<'a>,
 }
 
+/// Executions, each of which counts; `None` where one fails.
+#[derive(Clone, Copy)]
+pub(in crate::campaign) struct Executions<'a> {
+    /// Of a plan, once.
+    pub(in crate::campaign) execute: &'a dyn Fn(&Plan) -> Option<Trial>,
+    /// How long a plan's takes, s.
+    pub(in crate::campaign) duration: &'a dyn Fn(&Plan) -> Option<f64>,
+    /// A plan with the obstacles that are asked for, executed twice: without them, to see where they belong, and among them.
+    pub(in crate::campaign) furnish: &'a dyn Fn(&Plan) -> Option<(Plan, Trial)>,
+}
+
+/// What surrounds a plan and is searched with it.
+#[derive(Clone, Copy)]
+pub(in crate::campaign) struct Surroundings<'a> {
+    /// Numbers between −1 and 1 that say what the air does.
+    pub(in crate::campaign) coordinates: usize,
+    /// Puts numbers that are not allowed to the nearest that are.
+    pub(in crate::campaign) bound: &'a dyn Fn(&mut [f64]),
+    /// A plan in the air that numbers say, flown for so many seconds.
+    pub(in crate::campaign) put: &'a dyn Fn(&Plan, &[f64], f64) -> Plan,
+    /// Whether obstacles are to be placed.
+    pub(in crate::campaign) obstacles: bool,
+}
+
 /// What only searches that execute ask.
 #[derive(Clone, Copy)]
 pub(in crate::campaign) struct Looped<'a> {
-    /// Executes a plan once; `None` where that fails.
-    pub(in crate::campaign) execute: &'a dyn Fn(&Plan) -> Option<Trial>,
+    pub(in crate::campaign) executions: Executions<'a>,
+    /// What is searched beside the waypoints.
+    pub(in crate::campaign) surroundings: Option<Surroundings<'a>>,
     /// A plan with other waypoints, as many; `None` where they are not feasible.
     pub(in crate::campaign) moved: Move<'a>,
     /// The round of an adaptive campaign.

@@ -5,10 +5,13 @@ use std::collections::BTreeMap;
 use nalgebra::Point3;
 
 use super::drawing::Drawing;
+use super::solid::{Surface, surface};
 use super::text::attitude;
 use crate::campaign::scenario::DeviationFrom;
 use crate::campaign::terms::Terms;
-use crate::campaign::{Case, CaseResult, Coverage, Curve, Influence, RoundTally, Run, Setup, Status, Tally, vary};
+use crate::campaign::{
+    Case, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
+};
 use crate::judgement::moves::Regression;
 use crate::judgement::{
     JudgementError, Measures, Reference, Settings, Statistics, Stress, Verdict, Violation, deviation_of_samples,
@@ -43,6 +46,10 @@ pub struct Shown {
     pub attitude: Option<String>,
     /// Score.
     pub score: f64,
+    /// What was found beside its waypoints, in words.
+    pub environment: Vec<String>,
+    /// The obstacles of it.
+    pub obstacles: Vec<Surface>,
     /// The planned motion.
     pub planned: Track,
     /// The worst run; `None` where the executor failed.
@@ -188,12 +195,23 @@ pub fn shown(
             .filter(|_| setup.arm().is_none())
             .map(|(track, measures)| worst_attitude(track, measures)),
         score: case.score,
+        environment: case.environment.as_ref().map_or_else(Vec::new, Environment::words),
+        obstacles: own_obstacles(setup, case),
         planned,
         flown,
         distances,
         judged,
         statistics: Statistics::of(&counted),
     })
+}
+
+/// The obstacles that only `case` has.
+fn own_obstacles(setup: &Setup, case: &Case) -> Vec<Surface> {
+    let (Some(world), Ok(around)) = (setup.flight().map(|flight| flight.world), setup.around(case)) else {
+        return Vec::new();
+    };
+    let own = around.flight().map(|flight| flight.world.obstacles().iter().skip(world.obstacles().len()));
+    own.into_iter().flatten().map(surface).collect()
 }
 
 /// The attitude at the stamp nearest to the worst moment, in words.

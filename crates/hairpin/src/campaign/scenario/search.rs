@@ -48,7 +48,7 @@ pub struct SearchSection {
     pub time_s: Option<f64>,
     /// `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them.
     pub move_waypoints: bool,
-    /// `in-loop`, `adaptive`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | tilt.
+    /// `in-loop`, `adaptive`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | clearance | tilt.
     pub stress: Stress,
 }
 

@@ -2,6 +2,7 @@
 
 use super::Job;
 use crate::campaign::Scenario;
+use crate::judgement::Stress;
 use crate::search::ddmin;
 
 impl Job<'_> {
@@ -19,9 +20,13 @@ impl Job<'_> {
         match &self.setup.scenario {
             Scenario::Flight(flight) => {
                 let (wind, gusts) = (flight.world.wind_m_s, flight.world.gusts.is_some());
+                let discrete_gust = flight.world.discrete_gust.is_some();
                 let (noise, obstacles) = (flight.execute.noise, flight.world.obstacles.len());
                 if gusts {
                     self.without("no gusts", &in_flight(|flight| flight.world.gusts = None));
+                }
+                if discrete_gust {
+                    self.without("no discrete gust", &in_flight(|flight| flight.world.discrete_gust = None));
                 }
                 if wind.is_some_and(|wind| wind != [0.0; 3]) {
                     self.without("no wind", &in_flight(|flight| flight.world.wind_m_s = None));
@@ -61,7 +66,12 @@ impl Job<'_> {
         let Scenario::Flight(flight) = &self.setup.scenario else { return };
         let all = flight.world.obstacles.clone();
         let before = self.best.simplified.len();
-        self.without("no obstacles", &in_flight(|flight| flight.world.obstacles.clear()));
+        let none = in_flight(|flight| {
+            flight.world.obstacles.clear();
+            // What the search looked for is nothing to a run, and cannot be looked for where there are none.
+            flight.generate.search.stress = Stress::default();
+        });
+        self.without("no obstacles", &none);
         // Varied obstacles are named by their place in the list.
         let by_place = self.setup.scenario.vary().keys().any(|key| key.starts_with("world.obstacles"));
         if self.stopped || all.len() < 2 || by_place || self.best.simplified.len() > before {

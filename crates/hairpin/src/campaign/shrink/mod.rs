@@ -72,6 +72,9 @@ pub fn shrink(
     run: &mut dyn FnMut(&Setup, &Case) -> Option<CaseResult>,
 ) -> Result<Shrunk, ShrinkError> {
     let Some(violation) = result.violations.first() else { return Err(ShrinkError::Within(case.id())) };
+    // What it has beside its waypoints can be left out like anything else of its world.
+    let around = setup.around(case)?;
+    let (setup, case) = (around.as_ref(), &Case { environment: None, ..case.clone() });
     let scenario = pinned(&setup.scenario, case, result)?;
     let setup = setup.of_draw(scenario.clone())?;
     let best = Shrunk { scenario, case: case.clone(), result: result.clone(), simplified: Vec::new(), finished: false };

@@ -1,14 +1,16 @@
 //! Simulation in the loop: trajectories are scored by executing them, under a budget of executions.
 //!
 //! [`evolve`] changes waypoint sequences within the legs of a graph, from the best that scores know of; [`shift`] then moves the
-//! waypoints themselves, as far as the reach set lets them. Both know executions only as a closure.
+//! waypoints themselves, as far as the reach set lets them; [`climb`] searches a few numbers beside them. All know executions only as a closure.
 
+mod climb;
 mod evolve;
 mod regrow;
 mod shift;
 #[cfg(test)]
 mod tests;
 
+pub use climb::{Climbed, climb};
 pub use evolve::{EvolveSettings, Evolved, Tested, evolve};
 pub use shift::{ShiftSettings, Shifted, shift};
 

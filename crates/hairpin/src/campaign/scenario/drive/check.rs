@@ -9,6 +9,7 @@ use crate::campaign::learn::{KeptModel, of_drive};
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{FlakySection, Mistake, SearchMethod};
 use crate::feasibility::reach::drive::GroundScore;
+use crate::judgement::Stress;
 use crate::robot::rover::{Rover, Steering};
 use crate::world::terrain::Terrain;
 
@@ -42,13 +43,18 @@ impl DriveScenario {
     }
 
     fn check_score(&self, found: &mut Findings) {
-        let DriveSearch { method, score, model, .. } = &self.generate.search;
+        let search = &self.generate.search;
+        let DriveSearch { method, score, model, .. } = search;
         let key = "generate.search.score";
         if KeptModel::file_of(score).is_some() {
             found.model(key, score, model.as_ref(), || of_drive(self));
         } else if let Err(error) = GroundScore::named(score) {
             found.require(false, key, format!("\"{score}\""), &error.to_string());
         }
+        let near = search.stress == Stress::Clearance && search.method.executes();
+        let bound = "another one, or keep-outs given: there is nothing to be near to";
+        let some = !self.world.keep_out.is_empty();
+        found.require(some || !near, "generate.search.stress", "\"clearance\"", bound);
         found.in_loop(*method, self.execute.controller_in_force().is_some(), (key, score), self.vary.keys());
     }
 

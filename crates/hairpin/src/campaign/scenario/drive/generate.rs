@@ -245,7 +245,7 @@ pub struct DriveSearch {
     pub time_s: Option<f64>,
     /// `in-loop`: whether waypoints are moved off their graph, as far as legs can be solved.
     pub move_waypoints: bool,
-    /// `in-loop`, `adaptive`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | tilt.
+    /// `in-loop`, `adaptive`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | clearance | tilt.
     pub stress: Stress,
     /// The model of a learned score.
     #[serde(skip)]

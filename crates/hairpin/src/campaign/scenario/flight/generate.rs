@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::EnvironmentSection;
 use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::SearchSection;
 
@@ -45,6 +46,9 @@ pub struct GenerateSection {
     pub model: Option<KeptModel>,
     /// Limits beside the robot's own.
     pub limits: LimitsSection,
+    /// What of the environment is searched for stress, too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub environment: Option<EnvironmentSection>,
 }
 
 impl Default for GenerateSection {
@@ -60,6 +64,7 @@ impl Default for GenerateSection {
             score: "high-velocity-90".into(),
             model: None,
             limits: LimitsSection::default(),
+            environment: None,
         }
     }
 }

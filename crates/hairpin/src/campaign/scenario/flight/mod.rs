@@ -1,6 +1,7 @@
 //! Scenarios of flights: keys, defaults, bounds.
 
 mod check;
+mod environment;
 mod execute;
 mod generate;
 mod spec;
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::{Distribution, RobotSource};
 use crate::robot::quadrotor::QuadrotorDescription;
 
+pub use environment::*;
 pub use execute::*;
 pub use generate::*;
 pub use spec::*;

@@ -28,6 +28,9 @@ pub struct WorldSection {
     /// Gusts on top of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gusts: Option<Gusts>,
+    /// One gust more, at a time of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub discrete_gust: Option<DiscreteGustSection>,
 }
 
 /// Geodetic place and heading of the world frame.
@@ -52,6 +55,18 @@ pub struct Gusts {
     pub std_m_s: f64,
     /// Correlation time.
     pub correlation_s: f64,
+}
+
+/// `discrete_gust = { velocity_m_s, start_s, duration_s }`: the air changes by velocity · (1 − cos 2π(t − start)/duration)/2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DiscreteGustSection {
+    /// At its middle.
+    pub velocity_m_s: [f64; 3],
+    /// When it begins.
+    pub start_s: f64,
+    /// How long it takes.
+    pub duration_s: f64,
 }
 
 /// One obstacle: exactly one of the shapes.

@@ -2,6 +2,7 @@
 //!
 //! Upper bounds are there to refuse what would fill the memory or never end, so they stand far above what is useful.
 
+mod environment;
 mod execute;
 mod generate;
 mod spec;
@@ -32,6 +33,7 @@ impl FlightScenario {
         let controlled = self.execute.controller_in_force().is_some();
         let score = ("generate.score", self.generate.score.as_str());
         found.in_loop(self.generate.search.method, controlled, score, self.vary.keys());
+        environment::check(self, &mut found);
         execute::check(&self.execute, &mut found);
         spec::check(&self.spec, &mut found);
         found.0

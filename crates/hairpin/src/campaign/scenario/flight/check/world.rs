@@ -34,6 +34,12 @@ pub(super) fn check(world: &WorldSection, found: &mut Findings) {
         found.from("world.gusts.std_m_s", gusts.std_m_s, 0.0, 100.0, " m/s");
         found.above("world.gusts.correlation_s", gusts.correlation_s, 0.0, 1000.0, " s");
     }
+    if let Some(gust) = &world.discrete_gust {
+        let key = "world.discrete_gust.velocity_m_s";
+        vector(key, gust.velocity_m_s, found, |v| v.abs() <= 100.0, "between -100 and 100 m/s");
+        found.from("world.discrete_gust.start_s", gust.start_s, 0.0, 1e6, " s");
+        found.above("world.discrete_gust.duration_s", gust.duration_s, 0.0, 1000.0, " s");
+    }
     if world.obstacles.len() > MOST_OBSTACLES {
         found.require(false, "world.obstacles", format!("{} obstacles", world.obstacles.len()), "at most 10 000");
         return;

@@ -1,0 +1,167 @@
+//! Wind, gusts and obstacles searched beside the waypoints: what was found is part of the case, wherever the case goes.
+
+mod commands;
+
+use std::fs;
+use std::path::Path;
+
+use commands::{assert_same, json, refused, run};
+use hairpin::campaign::{Case, Environment};
+use hairpin_formats::folder::CampaignFolder;
+use nalgebra::Vector3;
+use serde_json::Value;
+
+/// Small graphs of hull legs, flown by minimum snap.
+const SCENARIO: &str = r#"
+hairpin = 1
+robot = "flightgoggles"
+seed = 3
+[world]
+size_m = [20, 20, 20]
+[task]
+start_m = [2, 2, 5]
+end_m = [14, 14, 12]
+length = 5
+[generate]
+reach = "hull"
+timing = { step_s = 1.0 }
+search = { method = "in-loop", waypoints = 90, cases = 2, executions = 60 }
+[execute]
+controller = "minimum-snap"
+[spec]
+deviation = { max_m = 0.5, from = "nearest-leg" }
+"#;
+
+fn looped(here: &Path, command: &str, out: &str, sets: &[&str]) -> Value {
+    fs::write(here.join("q.toml"), SCENARIO).unwrap();
+    let sets = sets.iter().flat_map(|set| ["--set", set]);
+    json(here, &[command, "q.toml", "--out", out].into_iter().chain(sets).collect::<Vec<_>>())
+}
+
+fn cases(folder: &Path) -> Vec<Case> {
+    CampaignFolder::open(folder).unwrap().read_cases().unwrap()
+}
+
+/// Score and largest deviation of every case.
+fn came_to(folder: &Path) -> Vec<(f64, f64, Option<f64>)> {
+    let results = CampaignFolder::open(folder).unwrap().read_results().unwrap();
+    let both = cases(folder).into_iter().zip(results);
+    let of = |(case, result): (Case, hairpin::campaign::CaseResult)| {
+        let measures = result.measures.unwrap();
+        (case.score, measures.max_deviation, measures.min_clearance)
+    };
+    both.map(of).collect()
+}
+
+#[test]
+fn wind_and_a_gust_are_found_and_go_with_their_cases() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    looped(here, "generate", "calm", &[]);
+    let air = ["generate.environment.wind_m_s=4.0", "generate.environment.gust_m_s=3.0"];
+    looped(here, "stress", "air", &air);
+    let (calm, found) = (cases(&here.join("calm")), cases(&here.join("air")));
+    for (case, calm) in found.iter().zip(&calm) {
+        let Environment { wind_m_s, discrete_gust, obstacles } = case.environment.clone().unwrap();
+        let gust = discrete_gust.unwrap();
+        assert!(Vector3::from(wind_m_s.unwrap()).norm() < 4.0 + 1e-9 && obstacles.is_empty());
+        assert!(Vector3::from(gust.velocity_m_s).norm() < 3.0 + 1e-9 && gust.duration_s == 2.0);
+        assert!(case.score > 1.05 * calm.score, "{} {}: half the executions went to the air", case.score, calm.score);
+    }
+    for (score, deviation, _) in came_to(&here.join("air")) {
+        assert!((score - deviation).abs() < 1e-12, "{score} {deviation}: judged as it was found");
+    }
+    // The other parts of a campaign meet the same air.
+    json(here, &["execute", "air", "--force"]);
+    json(here, &["judge", "air"]);
+    assert!(came_to(&here.join("air")).iter().all(|(score, deviation, _)| (score - deviation).abs() < 1e-12));
+    let again = json(here, &["replay", "air/repro/0000.json"]);
+    assert!(again["reproduces"] == true, "{again}");
+    let shrunk = json(here, &["shrink", "air", "--case", "0", "--budget", "20"]);
+    assert_eq!(shrunk["what"], "deviation");
+    assert!(json(here, &["replay", "air/repro/0000-shrunk.json"])["violates"] == true);
+    json(here, &["select", "air", "--cases", "1", "--out", "one"]);
+    assert!(cases(&here.join("one"))[0].environment.is_some());
+    let page = fs::read_to_string(here.join("air/report.html")).unwrap();
+    assert!(page.contains("wind (") && page.contains("a gust of up to 3 m/s"));
+    // In other air it is another test.
+    looped(here, "stress", "other", &[air[0], "generate.environment.gust_m_s=2.5"]);
+    let (_, _, error) = run(here, &["compare", "air", "other"]);
+    assert!(error.contains("0000, 0001 (another environment)"), "{error}");
+}
+
+#[test]
+fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let near = "generate.search.stress=\"clearance\"";
+    let balls = "generate.environment.obstacles={count=2,radius_m=0.5}";
+    looped(here, "stress", "balls", &[near, balls]);
+    looped(here, "stress", "one-thread", &[near, balls]);
+    let boxes = "generate.environment.obstacles={count=1,size_m=[0.6,0.4,2.0]}";
+    let wind = "generate.environment.wind_m_s=2.0";
+    looped(here, "stress", "boxes", &[near, boxes, wind, "generate.search.executions=30"]);
+    assert_same(&here.join("balls"), &here.join("one-thread"));
+    for (name, count) in [("balls", 2), ("boxes", 1)] {
+        let kept = CampaignFolder::open(&here.join(name)).unwrap();
+        for ((case, result), (score, _, clearance)) in
+            cases(&here.join(name)).iter().zip(kept.read_results().unwrap()).zip(came_to(&here.join(name)))
+        {
+            assert_eq!(case.environment.as_ref().unwrap().obstacles.len(), count);
+            assert!((score + clearance.unwrap()).abs() < 1e-12, "{score} {clearance:?}");
+            assert!(score > -1e-3, "{score}");
+            assert_eq!(result.ended, "obstacle", "{result:?}");
+        }
+        let verified = json(here, &["verify", name]);
+        assert_eq!((&verified["checked"], &verified["failed"]), (&2.into(), &0.into()), "{verified}");
+        let again = json(here, &["replay", &format!("{name}/repro/0001.json")]);
+        assert!(again["reproduces"] == true, "{again}");
+    }
+    let (_, out, _) = run(here, &["verify", "balls"]);
+    assert!(out.contains("the plans of 2/2 cases are clear"), "{out}");
+    json(here, &["export", "balls", "--to", "waypoints"]);
+    let exported = fs::read_to_string(here.join("balls/missions/0000.environment.json")).unwrap();
+    let exported: Environment = serde_json::from_str(&exported).unwrap();
+    assert_eq!(Some(&exported), cases(&here.join("balls"))[0].environment.as_ref());
+
+    // Moved to three centimetres less than the robot's radius from the plan, an obstacle is no longer clear of it.
+    let kept = CampaignFolder::open_to_write(&here.join("balls")).unwrap();
+    let mut moved = kept.read_cases().unwrap();
+    let case = &mut moved[0];
+    let ball = case.environment.as_mut().unwrap().obstacles[0].sphere.as_mut().unwrap();
+    let center = nalgebra::Point3::from(ball.center_m);
+    let foot = |leg: &[nalgebra::Point3<f64>]| hairpin::math::segment::nearest_point(&center, &leg[0], &leg[1]);
+    let nearest =
+        case.waypoints.windows(2).map(foot).min_by(|a, b| (a - center).norm().total_cmp(&(b - center).norm()));
+    let nearest = nearest.unwrap();
+    ball.center_m = (nearest + (center - nearest).normalize() * (ball.radius_m + 0.2)).coords.into();
+    kept.write_results(&moved, &[]).unwrap();
+    drop(kept);
+    let (code, out, _) = run(here, &["verify", "balls"]);
+    assert!(code == 1 && out.contains("case 0000: environment.obstacles[0].clearance"), "{out}");
+}
+
+#[test]
+fn what_cannot_be_searched_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("q.toml"), SCENARIO).unwrap();
+    let wind = "generate.environment.wind_m_s=4.0";
+    let near = "generate.search.stress=\"clearance\"";
+    let balls = "generate.environment.obstacles={count=2,radius_m=0.5}";
+    let table: [(&[&str], &[&str]); 8] = [
+        (&[wind, "generate.search.method=\"exact\""], &["generate.environment", "only the method `in-loop`"]),
+        (&[wind, "world.wind_m_s=[1,0,0]"], &["generate.environment.wind_m_s", "takes the place"]),
+        (&["generate.environment.wind_m_s=-1.0"], &["generate.environment.wind_m_s", "> 0 and ≤ 100 m/s"]),
+        (&["generate.environment={}"], &["wind_m_s, gust_m_s or obstacles"]),
+        (&[balls], &["generate.environment.obstacles", "stress = \"clearance\""]),
+        (&[near], &["nothing to be near to"]),
+        (&[near, "generate.environment.obstacles={count=2}"], &["exactly one of radius_m and size_m"]),
+        (&[near, "generate.environment.obstacles={count=2,radius_m=30.0}"], &["less than the world's size"]),
+    ];
+    for (sets, words) in table {
+        let mut typed = vec!["generate", "q.toml", "--out", "no"];
+        typed.extend(sets.iter().flat_map(|set| ["--set", set]));
+        refused(here, &typed, words);
+    }
+}

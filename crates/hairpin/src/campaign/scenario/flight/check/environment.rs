@@ -1,0 +1,63 @@
+//! Bounds of `generate.environment`, and what it goes with.
+
+use super::world::vector;
+use crate::campaign::scenario::findings::Findings;
+use crate::campaign::scenario::{EnvironmentSection, FlightScenario, PlacedSection, SearchMethod};
+use crate::judgement::Stress;
+
+/// Each is tried against every leg for every execution.
+const MOST_OBSTACLES: u64 = 100;
+
+pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
+    let search = &scenario.generate.search;
+    let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);
+    if search.method.executes() && search.stress == Stress::Clearance {
+        let some = placed.is_some() || !scenario.world.obstacles.is_empty();
+        let bound = "another one, or obstacles given: there is nothing to be near to";
+        found.require(some, "generate.search.stress", "\"clearance\"", bound);
+    }
+    let Some(environment) = &scenario.generate.environment else { return };
+    let key = "generate.environment";
+    let in_loop = search.method == SearchMethod::InLoop;
+    found.require(in_loop, key, "given", "left out: only the method `in-loop` searches the environment");
+    let EnvironmentSection { wind_m_s, gust_m_s, gust_s, obstacles } = *environment;
+    let some = wind_m_s.is_some() || gust_m_s.is_some() || obstacles.is_some();
+    found.require(some, key, "{}", "given wind_m_s, gust_m_s or obstacles");
+    found.above(&format!("{key}.gust_s"), gust_s, 0.0, 1000.0, " s");
+    let varied = |fixed: &str| scenario.vary.keys().any(|varied| varied.starts_with(fixed));
+    let both = "left out: what is searched takes the place of what is given in [world] or varied";
+    if let Some(wind) = wind_m_s {
+        let key = format!("{key}.wind_m_s");
+        found.above(&key, wind, 0.0, 100.0, " m/s");
+        let given = scenario.world.wind_m_s.is_some() || varied("world.wind_m_s");
+        found.require(!given, &key, wind, both);
+    }
+    if let Some(gust) = gust_m_s {
+        let key = format!("{key}.gust_m_s");
+        found.above(&key, gust, 0.0, 100.0, " m/s");
+        let given = scenario.world.discrete_gust.is_some() || varied("world.discrete_gust");
+        found.require(!given, &key, gust, both);
+    }
+    if let Some(placed) = &obstacles {
+        check_obstacles(scenario, placed, found);
+    }
+}
+
+fn check_obstacles(scenario: &FlightScenario, placed: &PlacedSection, found: &mut Findings) {
+    let key = "generate.environment.obstacles";
+    let bound = "left out, or generate.search.stress = \"clearance\": obstacles do nothing else to a flight but end it";
+    found.require(scenario.generate.search.stress == Stress::Clearance, key, "given", bound);
+    found.count(&format!("{key}.count"), placed.count, 1, MOST_OBSTACLES);
+    let one = placed.radius_m.is_some() != placed.size_m.is_some();
+    found.require(one, key, "a table", "exactly one of radius_m and size_m");
+    let size = scenario.world.size_m.unwrap_or([f64::INFINITY; 3]);
+    let bound = "> 0 and less than the world's size";
+    if let Some(radius) = placed.radius_m {
+        let fits = radius > 0.0 && size.iter().all(|size| 2.0 * radius < *size);
+        found.require(fits, &format!("{key}.radius_m"), radius, bound);
+    }
+    if let Some(edges) = placed.size_m {
+        let least = size.iter().copied().fold(f64::INFINITY, f64::min);
+        vector(&format!("{key}.size_m"), edges, found, |edge| edge > 0.0 && edge < least, bound);
+    }
+}

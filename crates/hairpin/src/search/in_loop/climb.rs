@@ -1,0 +1,95 @@
+//! A few numbers searched for stress: what surrounds a trajectory that stays as it is.
+//!
+//! Places are drawn uniformly at first; the best one is then improved by a (1+1) evolution strategy whose step follows success (Rechenberg's
+//! one in five).
+
+use rand::RngExt;
+
+use super::Trial;
+use crate::math::random::{standard_normals, stream};
+
+/// Share of the executions that is drawn uniformly.
+const DRAWN: f64 = 0.4;
+const GROWTH: f64 = 1.5;
+/// First and least step of a coordinate.
+const STEPS: [f64; 2] = [0.3, 1e-3];
+
+/// The answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Climbed {
+    /// The most stressful place, if one was better than the first.
+    pub place: Option<Vec<f64>>,
+    /// Its execution, or the first one's.
+    pub trial: Trial,
+    /// The largest stress after each execution.
+    pub best_so_far: Vec<f64>,
+}
+
+/// Searches places with coordinates between −1 and 1 from `start`, whose execution came to `trial`. `bound` puts a place that is not
+/// allowed to the nearest that is; `execute` gives `None` where an execution failed.
+pub fn climb(
+    start: &[f64],
+    trial: Trial,
+    seed: u64,
+    executions: u64,
+    bound: impl Fn(&mut [f64]),
+    mut execute: impl FnMut(&[f64]) -> Option<Trial>,
+) -> Climbed {
+    let mut rng = stream(seed);
+    let mut best = Climbed { place: None, trial, best_so_far: Vec::new() };
+    let mut here = start.to_vec();
+    let drawn = (executions as f64 * DRAWN) as u64;
+    let shrink = libm::pow(GROWTH, -0.25);
+    let mut step = STEPS[0];
+    for number in 0..executions {
+        let mut place: Vec<f64> = if number < drawn {
+            here.iter().map(|_| rng.random_range(-1.0..=1.0)).collect()
+        } else {
+            here.iter().map(|x| x + step * standard_normals::<1>(&mut rng)[0]).collect()
+        };
+        place.iter_mut().for_each(|x| *x = x.clamp(-1.0, 1.0));
+        bound(&mut place);
+        match execute(&place).filter(|trial| !trial.stress.is_nan()) {
+            Some(trial) if trial.stress >= best.trial.stress => {
+                here.clone_from(&place);
+                (best.place, best.trial) = (Some(place), trial);
+                step = (step * GROWTH).min(2.0 * STEPS[0]);
+            }
+            _ if number >= drawn => step = (step * shrink).max(STEPS[1]),
+            _ => {}
+        }
+        best.best_so_far.push(best.trial.stress);
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_place_is_found_within_its_bounds() {
+        // Within the unit disc the sum of a hill's height and a slope is largest on the rim.
+        let stress = |x: &[f64]| 2.0 * x[0] + x[1] - (x[2] - 0.4) * (x[2] - 0.4);
+        let bound = |x: &mut [f64]| {
+            let norm = (x[0] * x[0] + x[1] * x[1]).sqrt().max(1.0);
+            x[..2].iter_mut().for_each(|x| *x /= norm);
+        };
+        for seed in 0..5 {
+            let first = Trial { stress: stress(&[0.0; 3]), worst_leg: 0 };
+            let mut executed = 0;
+            let found = climb(&[0.0; 3], first, seed, 200, bound, |x| {
+                executed += 1;
+                assert!(x[0] * x[0] + x[1] * x[1] <= 1.0 + 1e-12 && x[2].abs() <= 1.0);
+                (executed % 7 != 0).then(|| Trial { stress: stress(x), worst_leg: 0 })
+            });
+            let place = found.place.unwrap();
+            assert_eq!((executed, found.best_so_far.len()), (200, 200));
+            assert!((found.trial.stress - 5.0f64.sqrt()).abs() < 0.01, "{seed}: {place:?} {:?}", found.trial);
+            assert!(found.best_so_far.windows(2).all(|pair| pair[0] <= pair[1]));
+            assert_eq!(stress(&place), found.trial.stress);
+        }
+        let nothing = climb(&[0.0], Trial { stress: 1.0, worst_leg: 2 }, 1, 9, |_| {}, |_| None);
+        assert_eq!((nothing.place, nothing.trial.worst_leg, nothing.best_so_far), (None, 2, vec![1.0; 9]));
+    }
+}
