@@ -41,6 +41,7 @@ pub(crate) fn begin(campaign: &Campaign, executor: Option<&str>) -> Result<Work,
     let mut scenario = scenario_for(&campaign.scenario, &sets)?;
     tell_logs_from(&mut scenario, &path, Path::new(&campaign.scenario));
     let setup = Setup::new(scenario)?.with_simd(simd(&campaign.kernels));
+    setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
     let work = Work { folder: make(&path, &setup, campaign.resume, campaign.force)?, setup };
     tracing::info!("campaign folder {}", work.folder.path().display());

@@ -5,7 +5,7 @@ mod commands;
 use std::fs;
 use std::path::Path;
 
-use commands::{assert_same, json, refused, run};
+use commands::{assert_same, copy, json, refused, run};
 use hairpin::campaign::{Case, Environment};
 use hairpin_formats::folder::CampaignFolder;
 use nalgebra::Vector3;
@@ -72,7 +72,7 @@ fn wind_and_a_gust_are_found_and_go_with_their_cases() {
         assert!((score - deviation).abs() < 1e-12, "{score} {deviation}: judged as it was found");
     }
     // The other parts of a campaign meet the same air.
-    json(here, &["execute", "air", "--force"]);
+    assert_eq!(json(here, &["execute", "air"])["exit_code"], 0);
     json(here, &["judge", "air"]);
     assert!(came_to(&here.join("air")).iter().all(|(score, deviation, _)| (score - deviation).abs() < 1e-12));
     let again = json(here, &["replay", "air/repro/0000.json"]);
@@ -80,8 +80,21 @@ fn wind_and_a_gust_are_found_and_go_with_their_cases() {
     let shrunk = json(here, &["shrink", "air", "--case", "0", "--budget", "20"]);
     assert_eq!(shrunk["what"], "deviation");
     assert!(json(here, &["replay", "air/repro/0000-shrunk.json"])["violates"] == true);
+    // Programs of other people execute what was found in the loop, and are told of the air.
+    copy(&here.join("air"), &here.join("elsewhere"));
+    let ready = r#"{"type":"ready","protocol":1,"name":"scribe"}"#;
+    let scribe = format!("read -r hello\necho '{ready}'\nread -r mission\nprintf '%s\\n' \"$mission\" >> got.json\n");
+    fs::write(here.join("scribe.sh"), scribe).unwrap();
+    // It flies nothing.
+    let (code, out, error) =
+        run(here, &["execute", "elsewhere", "--executor", "sh scribe.sh", "--set", "execute.workers=1"]);
+    assert_eq!(code, 4, "{out}{error}");
+    let got = fs::read_to_string(here.join("got.json")).unwrap();
+    let wind = serde_json::to_string(&found[1].environment.as_ref().unwrap().wind_m_s).unwrap();
+    assert!(got.contains(&format!("\"wind_m_s\":{wind}")) && got.contains("\"discrete_gust\""), "{got}");
     json(here, &["select", "air", "--cases", "1", "--out", "one"]);
     assert!(cases(&here.join("one"))[0].environment.is_some());
+    json(here, &["report", "air"]);
     let page = fs::read_to_string(here.join("air/report.html")).unwrap();
     assert!(page.contains("wind (") && page.contains("a gust of up to 3 m/s"));
     // In other air it is another test.

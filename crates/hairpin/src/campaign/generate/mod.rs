@@ -56,7 +56,8 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
     let search = setup.scenario.search();
     let wanted = search.cases;
     let mut collector = Collector::new(setup, known);
-    let solver = match Solver::new(setup) {
+    let searchable = setup.scenario.check_search().map_err(|mistake| mistake.to_string());
+    let solver = match searchable.and_then(|()| Solver::new(setup)) {
         Ok(solver) => solver,
         Err(reason) => {
             collector.tally.nothing = Some(reason);

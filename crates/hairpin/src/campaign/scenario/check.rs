@@ -15,6 +15,23 @@ impl Scenario {
         }
     }
 
+    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours. Trajectories that are there already are
+    /// anybody's to execute.
+    ///
+    /// # Errors
+    /// The method of search.
+    pub fn check_search(&self) -> Result<(), Mistake> {
+        let method = self.search().method;
+        if !method.executes() || self.controller().is_some() {
+            return Ok(());
+        }
+        Err(Mistake {
+            key: "generate.search.method".into(),
+            value: serde_json::to_string(&method).unwrap_or_default(),
+            bound: "another one, or execute.controller given: a command is not executed in the loop".into(),
+        })
+    }
+
     fn check_as_it_is(&self) -> Vec<Mistake> {
         let mut mistakes = self.check_nominal();
         if mistakes.is_empty() {

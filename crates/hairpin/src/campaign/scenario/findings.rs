@@ -53,28 +53,19 @@ impl Findings {
         }
     }
 
-    /// Whether what is executed while it is searched for can be. `score`: the key of the score, and its value.
-    pub(super) fn in_loop<'k>(
+    /// Whether rounds can learn. `score`: the key of the score, and its value.
+    pub(super) fn rounds<'k>(
         &mut self,
         method: SearchMethod,
-        controlled: bool,
         (score, value): (&str, &str),
         mut varied: impl Iterator<Item = &'k String>,
     ) {
-        let word = match method {
-            SearchMethod::InLoop => "\"in-loop\"",
-            SearchMethod::Adaptive => "\"adaptive\"",
-            SearchMethod::Beam | SearchMethod::Exact | SearchMethod::Uniform => return,
-        };
-        let key = "generate.search.method";
-        let bound = "another one, or execute.controller given: a command is not executed in the loop";
-        self.require(controlled, key, word, bound);
         if method == SearchMethod::Adaptive {
             let bound = "one that is not learned: the method `adaptive` learns its own, from its own executions";
             self.require(KeptModel::file_of(value).is_none(), score, format!("\"{value}\""), bound);
             if let Some(varied) = varied.find(|key| key.starts_with("task.") || key.starts_with("generate.")) {
                 let bound = format!("another one, or `{varied}` not varied: rounds learn from cases of one plan");
-                self.require(false, key, word, &bound);
+                self.require(false, "generate.search.method", "\"adaptive\"", &bound);
             }
         }
     }

@@ -55,7 +55,7 @@ impl DriveScenario {
         let bound = "another one, or keep-outs given: there is nothing to be near to";
         let some = !self.world.keep_out.is_empty();
         found.require(some || !near, "generate.search.stress", "\"clearance\"", bound);
-        found.in_loop(*method, self.execute.controller_in_force().is_some(), (key, score), self.vary.keys());
+        found.rounds(*method, (key, score), self.vary.keys());
     }
 
     fn check_ground(&self, found: &mut Findings) {

@@ -30,9 +30,8 @@ impl FlightScenario {
         }
         task::check(&self.task, space.as_ref(), robot.as_ref(), &mut found);
         generate::check(self, &mut found);
-        let controlled = self.execute.controller_in_force().is_some();
         let score = ("generate.score", self.generate.score.as_str());
-        found.in_loop(self.generate.search.method, controlled, score, self.vary.keys());
+        found.rounds(self.generate.search.method, score, self.vary.keys());
         environment::check(self, &mut found);
         execute::check(&self.execute, &mut found);
         spec::check(&self.spec, &mut found);
