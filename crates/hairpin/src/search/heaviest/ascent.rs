@@ -16,11 +16,11 @@ pub(super) struct Ascent {
     /// How often each choice was in the late relaxed solutions.
     pub(super) often: Vec<f64>,
     weight: f64,
-    at: Vec<i64>,
-    excess: Vec<i32>,
-    step: Vec<f64>,
+    pub(super) at: Vec<i64>,
+    pub(super) excess: Vec<i32>,
+    pub(super) step: Vec<f64>,
     /// No multiplier is farther from 0, so that sums stay in their numbers.
-    limit: i64,
+    pub(super) limit: i64,
 }
 
 /// How an ascent came to its end.
@@ -62,28 +62,21 @@ impl Ascent {
     pub(super) fn run<R: Relaxation>(
         &mut self,
         relaxation: &mut R,
-        (choices, made): (&Choices, &Made),
+        problem @ (choices, _): (&Choices, &Made),
         begin: &[i64],
         (threshold, target): (i64, f64),
         pace: Pace,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Ended {
-        self.at.copy_from_slice(begin);
-        self.best.copy_from_slice(begin);
-        self.bound = i64::MAX;
-        self.often.resize(choices.len(), 0.0);
-        self.often.fill(0.0);
-        self.weight = 1.0;
-        self.step.fill(0.0);
+        self.begin(choices, begin);
         let (mut alpha, mut waited) = (pace.alpha, 0);
         for iteration in 0..pace.iterations.max(1) {
             if iteration % 32 == 31 && stop() {
                 return Ended::Open;
             }
-            let Some(bound) = relaxation.solve(choices, made, &self.at, iteration == 0) else { return Ended::Closed };
+            let Some(bound) = self.look(relaxation, problem, iteration == 0) else { return Ended::Closed };
             if bound < self.bound {
-                self.bound = bound;
-                self.best.copy_from_slice(&self.at);
+                self.take(bound);
                 waited = 0;
                 if bound < threshold {
                     return Ended::Closed;
@@ -95,15 +88,9 @@ impl Ascent {
                     waited = 0;
                 }
             }
-            for id in relaxation.used() {
-                self.often[*id as usize] += self.weight;
-            }
-            self.weight *= 1.1;
-            relaxation.excess(choices, &mut self.excess);
             let norm: i64 = self.excess.iter().map(|e| i64::from(*e) * i64::from(*e)).sum();
             if norm == 0 {
-                self.bound = bound;
-                self.best.copy_from_slice(&self.at);
+                self.take(bound);
                 return Ended::Path;
             }
             let length = alpha * (bound as f64 - target) / norm as f64;
@@ -114,6 +101,39 @@ impl Ascent {
             }
         }
         Ended::Open
+    }
+
+    /// Begins at multipliers of which nothing is known.
+    pub(super) fn begin(&mut self, choices: &Choices, begin: &[i64]) {
+        self.at.copy_from_slice(begin);
+        self.best.copy_from_slice(begin);
+        self.bound = i64::MAX;
+        self.often.resize(choices.len(), 0.0);
+        self.often.fill(0.0);
+        self.weight = 1.0;
+        self.step.fill(0.0);
+    }
+
+    /// The bound where the multipliers are, with what is in its solution counted and its excess; `None` if nothing keeps the choices.
+    pub(super) fn look<R: Relaxation>(
+        &mut self,
+        relaxation: &mut R,
+        (choices, made): (&Choices, &Made),
+        renew: bool,
+    ) -> Option<i64> {
+        let bound = relaxation.solve(choices, made, &self.at, renew)?;
+        for id in relaxation.used() {
+            self.often[*id as usize] += self.weight;
+        }
+        self.weight *= 1.1;
+        relaxation.excess(choices, &mut self.excess);
+        Some(bound)
+    }
+
+    /// Keeps the multipliers where they are as the best.
+    pub(super) fn take(&mut self, bound: i64) {
+        self.bound = bound;
+        self.best.copy_from_slice(&self.at);
     }
 
     /// Share of the late relaxed solutions in which a choice was.

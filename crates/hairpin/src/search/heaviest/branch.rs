@@ -248,11 +248,16 @@ impl<'a, R: Relaxation> Branching<'a, R> {
         }
     }
 
-    /// The open choice that is in about half of the relaxed solutions; arcs rather than ends.
+    /// The open choice that is in about half of the relaxed solutions: whether a point is met at all rather than arcs, which mean little
+    /// while that is open, and arcs rather than ends.
     fn contested(&self, made: &Made) -> Option<usize> {
         let score = |id: &usize| {
             let off = (self.ascent.share(*id) - 0.5).abs();
-            if matches!(self.ground.choices.kind(*id), Choice::Arc(_)) { off } else { off + 0.1 }
+            match self.ground.choices.kind(*id) {
+                Choice::Loop(_) => off - 0.3,
+                Choice::Arc(_) => off,
+                Choice::Start(_) | Choice::End(_) => off + 0.1,
+            }
         };
         let open = (0..self.ground.choices.len()).filter(|id| made.state[*id] == OPEN);
         open.min_by(|a, b| score(a).total_cmp(&score(b)))

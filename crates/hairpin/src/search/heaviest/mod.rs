@@ -22,6 +22,7 @@ mod several;
 mod solve;
 mod subsets;
 mod tour;
+mod volume;
 mod walk;
 mod walks;
 mod workspace;

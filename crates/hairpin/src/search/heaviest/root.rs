@@ -18,6 +18,9 @@ const NEAR: usize = 10;
 const STEPS: usize = 200;
 /// Rounds without a better path before branching begins.
 const PATIENCE: usize = 2;
+/// Steps along means of relaxed solutions, where so many arcs a point are left open that branching would be long.
+const MEAN_STEPS: usize = 2000;
+const MANY_OPEN: usize = 5;
 /// Costs times the scale are about so many bits long, so that multipliers are finer than costs.
 const BITS: u32 = 33;
 
@@ -159,6 +162,21 @@ impl<'a, R: Relaxation> Root<'a, R> {
         ended
     }
 
+    /// Multipliers along means of relaxed solutions, kept if their bound is smaller.
+    fn average(&mut self) -> Ended {
+        let aims = (self.threshold(), self.best.cost().max(0) as f64 * self.scale as f64);
+        let problem = (&self.choices, &self.made);
+        let ended = self.ascent.mean(&mut self.relaxation, problem, &self.multipliers, aims, MEAN_STEPS, self.stop);
+        if self.ascent.bound < self.bound || ended == Ended::Closed {
+            self.multipliers.copy_from_slice(&self.ascent.best);
+        }
+        ended
+    }
+
+    fn open_arcs(&self) -> usize {
+        self.made.state[..self.choices.arcs.len()].iter().filter(|state| **state == OPEN).count()
+    }
+
     fn threshold(&self) -> i64 {
         self.best.needed() * self.scale
     }
@@ -169,16 +187,23 @@ impl<'a, R: Relaxation> Root<'a, R> {
         let points = self.arcs.points() as u64;
         let kicks = settings.kicks.unwrap_or(points * (1 + points / 60));
         self.polish(2 * kicks);
-        let mut waited = 0;
+        let (mut waited, mut averaged) = (0, false);
         loop {
             if self.decide() {
                 return true;
             }
-            if waited >= PATIENCE || (self.stop)() {
+            let patient = waited < PATIENCE;
+            if (self.stop)() || !patient && (averaged || self.open_arcs() <= MANY_OPEN * self.arcs.points()) {
                 return false;
             }
-            waited = if self.polish(kicks) { 0 } else { waited + 1 };
-            match self.ascend(self.threshold()) {
+            averaged = !patient;
+            let ended = if averaged {
+                self.average()
+            } else {
+                waited = if self.polish(kicks) { 0 } else { waited + 1 };
+                self.ascend(self.threshold())
+            };
+            match ended {
                 Ended::Closed => return self.close(),
                 Ended::Path => {
                     let path = path_of(&self.choices, self.relaxation.used());

@@ -1,0 +1,87 @@
+//! Multipliers along means of relaxed solutions, where single ones are of no help: many points of one price, as in clusters.
+//!
+//! A single tree hangs a whole cluster on one point, so its excess says little of where the bound falls. The excess of a mean of trees,
+//! v̄ ← α d + (1 − α) v̄ with the α that makes |v̄| least, does; steps go from the best multipliers (volume algorithm; Barahona & Anbil 2000).
+
+use super::ascent::{Ascent, Ended};
+use super::choices::{Choices, Made};
+use super::relaxation::Relaxation;
+
+/// First share of a new relaxed solution in the mean, at most; it shrinks where the gap does not.
+const SHARE: f64 = 0.2;
+/// Steps after which the gap must be smaller by [`SHRINKING`], else the share is halved.
+const PERIOD: usize = 50;
+const SHRINKING: f64 = 0.98;
+/// First factor of Polyak's step; it grows while the bound falls along the mean, and shrinks after [`PATIENCE`] steps in vain.
+const FACTOR: f64 = 0.2;
+const PATIENCE: usize = 10;
+
+impl Ascent {
+    /// From `begin` downwards until the bound is below `threshold`. The relaxation is left at the last multipliers.
+    pub(super) fn mean<R: Relaxation>(
+        &mut self,
+        relaxation: &mut R,
+        problem: (&Choices, &Made),
+        begin: &[i64],
+        (threshold, target): (i64, f64),
+        iterations: usize,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Ended {
+        self.begin(problem.0, begin);
+        let (mut factor, mut share, mut waited, mut gap) = (FACTOR, SHARE, 0, f64::INFINITY);
+        for iteration in 0..iterations {
+            if iteration % 32 == 31 && stop() {
+                return Ended::Open;
+            }
+            let Some(bound) = self.look(relaxation, problem, iteration == 0) else { return Ended::Closed };
+            let (dd, dv, vv) = self.step.iter().zip(&self.excess).fold((0.0, 0.0, 0.0), |(dd, dv, vv), (v, d)| {
+                let d = f64::from(*d);
+                (dd + d * d, dv + d * v, vv + v * v)
+            });
+            if dd == 0.0 {
+                self.take(bound);
+                return Ended::Path;
+            }
+            if bound < self.bound {
+                self.take(bound);
+                if bound < threshold {
+                    return Ended::Closed;
+                }
+                if dv >= 0.0 {
+                    factor = (factor * 1.1).min(2.0);
+                }
+                waited = 0;
+            } else {
+                waited += 1;
+                if waited == PATIENCE {
+                    (factor, waited) = ((factor * 0.66).max(5e-4), 0);
+                }
+            }
+            if iteration % PERIOD == PERIOD - 1 {
+                let left = self.bound as f64 - target;
+                if left > SHRINKING * gap {
+                    share = (share * 0.5).max(1e-3);
+                }
+                gap = left;
+            }
+            // |α d + (1 − α) v̄|² is least at (v̄² − d·v̄) / |d − v̄|²; the first mean is the first solution.
+            let apart = dd - 2.0 * dv + vv;
+            let alpha = match iteration {
+                0 => 1.0,
+                _ if apart > 0.0 => ((vv - dv) / apart).clamp(share / 10.0, share),
+                _ => share,
+            };
+            let mut norm = 0.0;
+            for (v, d) in self.step.iter_mut().zip(&self.excess) {
+                *v = alpha * f64::from(*d) + (1.0 - alpha) * *v;
+                norm += *v * *v;
+            }
+            let length = factor * (self.bound as f64 - target) / norm.max(1e-9);
+            for ((at, best), v) in self.at.iter_mut().zip(&self.best).zip(&self.step) {
+                let moved = (*v * length + 0.5).floor() as i64;
+                *at = best.saturating_add(moved).clamp(-self.limit, self.limit);
+            }
+        }
+        Ended::Open
+    }
+}
