@@ -38,6 +38,9 @@ fn what_new_writes_runs_and_can_be_verified_and_exported() {
     assert!(verdict.contains(" mm ≤ 15.00 mm") && verdict.ends_with("all 2 clear: all links"), "{verdict}");
     let verified = hairpin(place.path(), &["verify", "out/arm", "--json"]);
     assert_eq!((code(&verified), json(&verified)["checked"].as_u64()), (0, Some(2)));
+    // Every move of the graph is followed again, those to and from home as well.
+    let graph = &json(&verified)["graph"];
+    assert!(graph["moves"].as_u64().unwrap() > 30 && graph["findings"] == serde_json::json!([]), "{graph}");
     let exported = hairpin(place.path(), &["export", "out/arm", "--to", "rapid,urscript,krl,csv", "--json"]);
     assert_eq!(code(&exported), 0, "{}", String::from_utf8_lossy(&exported.stderr));
     for name in ["0000.mod", "0000_slow.mod", "0001.pgf", "0000.script", "0001.src", "0001.dat", "0000-1.csv"] {

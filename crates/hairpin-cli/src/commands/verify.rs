@@ -1,5 +1,6 @@
 //! `hairpin verify`: every witness integrated by independent code.
 
+use hairpin::campaign::arm::{GraphAgain, graph_of};
 use hairpin::campaign::{self, Case, Evidence};
 use hairpin::verification::Finding;
 use rayon::prelude::*;
@@ -48,7 +49,11 @@ pub(crate) fn run(verify: &Verify) -> Result<u8, Problem> {
     }
     let optimum = work.setup.arm().and_then(|arm| optimum::verify(&work, &arm, &cases));
     let lighter = optimum.as_ref().is_some_and(|optimum| !optimum.findings.is_empty());
-    let code = u8::from(!failed.is_empty() || lighter);
+    // Of the graph, the moves that no program uses as well.
+    let graph =
+        work.setup.arm().and_then(|arm| Some(arm.graph_again(&graph_of(&arm).ok()?))).filter(|graph| graph.moves > 0);
+    let unfree = graph.as_ref().is_some_and(|graph| !graph.findings.is_empty());
+    let code = u8::from(!failed.is_empty() || lighter || unfree);
     if verify.json {
         let worst = worst.map(|(_, _, answer)| object(answer));
         console::say(
@@ -57,6 +62,7 @@ pub(crate) fn run(verify: &Verify) -> Result<u8, Problem> {
                 "optimum": optimum.as_ref().map(|optimum| json!({
                     "verified": optimum.findings.is_empty(), "steps": optimum.steps, "findings": optimum.findings,
                 })),
+                "graph": graph.as_ref().map(|graph| json!({ "moves": graph.moves, "findings": graph.findings })),
             })
             .to_string(),
         );
@@ -92,9 +98,16 @@ pub(crate) fn run(verify: &Verify) -> Result<u8, Problem> {
     };
     let witnessed = answers.iter().filter(|answer| matches!(answer, Answer::Checked { witness: true, .. }));
     let (fine, witnesses) = witnessed.fold((0, 0), |(fine, all), answer| (fine + usize::from(answer.fine()), all + 1));
+    let free = match &graph {
+        None => String::new(),
+        Some(GraphAgain { moves, findings }) => {
+            findings.iter().for_each(|finding| console::say(&format!("graph: {finding}")));
+            format!("; {} of {moves} moves of the graph followed again hold", moves - findings.len())
+        }
+    };
     let word = if code == 0 { "VERIFIED" } else { "NOT VERIFIED" };
     console::say(&format!(
-        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{optimal}{environments}"
+        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{optimal}{environments}{free}"
     ));
     Ok(code)
 }

@@ -36,7 +36,7 @@ mod tests;
 
 pub use arm::{
     ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm,
-    verify_arm_moves,
+    verify_arm_graph, verify_arm_moves,
 };
 pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};

@@ -2,13 +2,16 @@
 
 use nalgebra::{Isometry3, Point3};
 
+use rayon::prelude::*;
+
 use super::ArmSetup;
-use super::graph::allowed;
+use super::graph::{ArmGraph, allowed};
+use crate::campaign::scenario::MoveName;
 use crate::robot::arm::{AXES, Joints};
-use crate::simulation::arm::{Order, Target};
+use crate::simulation::arm::{Order, Target, Zone};
 use crate::verification::{
     ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm,
-    verify_arm_moves,
+    verify_arm_graph, verify_arm_moves,
 };
 use crate::world::cell::{Region, Words};
 use crate::world::{Shape, Solid};
@@ -16,10 +19,74 @@ use crate::world::{Shape, Solid};
 /// Whether words hold at a point.
 type Holds = Box<dyn Fn(&Point3<f64>) -> bool>;
 
+/// Moves that are followed together.
+const SHARE: usize = 32;
+
+/// What following a graph's moves again came to.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct GraphAgain {
+    /// Moves followed.
+    pub moves: usize,
+    /// What does not hold.
+    pub findings: Vec<String>,
+}
+
 impl ArmSetup<'_> {
-    /// Follows every move of `orders` by code of its own: bounds, targets, and the distance that links and tool keep from the cell. Zones are left out: a
-    /// blend is another path, which its corner's triangle was proven for.
+    /// Follows every move of `orders` by code of its own: bounds, targets, the distance that links and tool keep from the cell, and what the tool's point may
+    /// meet where zones cut corners.
     pub(super) fn followed_again(&self, orders: &[Order]) -> Vec<ArmMoveFinding> {
+        let zone = |order: &Order| match order.zone {
+            Zone::Fine => 0.0,
+            Zone::Radius(radius) => radius,
+        };
+        let zones: Vec<f64> = orders.iter().map(zone).collect();
+        self.claimed(&self.moves_of(orders), &zones, verify_arm_moves)
+    }
+
+    /// Follows every move that `graph` has, between points, from home and back, by code of its own; what does not hold, in words. In Cartesian mode, which
+    /// knows no joints, there is nothing to follow.
+    pub fn graph_again(&self, graph: &ArmGraph) -> GraphAgain {
+        let Some(postures) = &graph.postures else { return GraphAgain::default() };
+        let (n, home) = (graph.points(), self.station.home);
+        let known: Vec<usize> = (0..n).filter(|row| postures[*row].is_ok()).collect();
+        let place = |row: usize| known.binary_search(&row).ok();
+        let angles: Vec<Joints> = known.iter().filter_map(|row| postures[*row].as_ref().ok().copied()).collect();
+        let poses: Vec<Isometry3<f64>> = known.iter().map(|row| self.station.points[*row].pose).collect();
+        let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to)));
+        let free = pairs.filter(|(from, to)| from != to && graph.reachability.refusal(*from, *to).is_none());
+        let between: Vec<(usize, usize)> = free.filter_map(|(from, to)| Some((place(from)?, place(to)?))).collect();
+        let from_home = (0..n).filter(|row| graph.from_home[*row]).filter_map(place).map(|to| (known.len(), to));
+        let to_home = (0..n).filter(|row| graph.to_home[*row]).filter_map(place).map(|from| (from, known.len()));
+        let around: Vec<(usize, usize)> = from_home.chain(to_home).collect();
+        let with_home = [&angles[..], &[home]].concat();
+        let at_home = [&poses[..], &[self.station.tool_at(&home)]].concat();
+        let straight = self.scenario.generate.moves.kind == MoveName::Linear;
+        let name = |place: usize| known.get(place).map_or("home".into(), |row| self.point_name(*row));
+        let told = |moves: &[(usize, usize)], found: Vec<ArmMoveFinding>| -> Vec<String> {
+            let one = |finding: &ArmMoveFinding| {
+                let (from, to) = moves[finding.index];
+                format!("{}→{}: {} at {:.0} % of the move", name(from), name(to), finding.what, 100.0 * finding.at)
+            };
+            found.iter().map(one).collect()
+        };
+        let look = |moves: &[(usize, usize)], straight: bool| {
+            let parts: Vec<Vec<String>> = moves
+                .par_chunks(SHARE)
+                .map(|part| {
+                    told(
+                        part,
+                        self.claimed(&[], &[], |claim| verify_arm_graph(claim, &with_home, &at_home, straight, part)),
+                    )
+                })
+                .collect();
+            parts.concat()
+        };
+        let findings = [look(&between, straight), look(&around, false)].concat();
+        GraphAgain { moves: between.len() + around.len(), findings }
+    }
+
+    /// Hands arm, tool, cell, `moves` and `zones` to `look`.
+    fn claimed<T>(&self, moves: &[ArmMoveClaim], zones: &[f64], look: impl FnOnce(&ArmMovesClaim) -> T) -> T {
         let station = self.station;
         let chain = &station.arm.chain;
         let joints: [ArmJointClaim; AXES] = std::array::from_fn(|k| ArmJointClaim {
@@ -67,9 +134,10 @@ impl ArmSetup<'_> {
             solids: &solids,
             clearance: self.scenario.generate.moves.clearance_mm * 1e-3 + allowed(self.scenario),
             start: station.home,
-            moves: &self.moves_of(orders),
+            moves,
+            zones,
         };
-        verify_arm_moves(&claim)
+        look(&claim)
     }
 
     /// Targets as they are; where a pose is met in joints its angles are the ones of its configuration, which the proof holds to the pose.
@@ -85,7 +153,7 @@ impl ArmSetup<'_> {
             Target::Joints(end) => ArmMoveClaim::Joints(*end, None),
             Target::Joint(pose, configuration) => ArmMoveClaim::Joints(joints(pose, configuration), Some(*pose)),
             Target::Line(pose, _) => ArmMoveClaim::Straight(*pose),
-            Target::Arc(_, pose, configuration) => ArmMoveClaim::Joints(joints(pose, configuration), Some(*pose)),
+            Target::Arc(via, pose, _) => ArmMoveClaim::Arc(*via, *pose),
         };
         orders.iter().map(one).collect()
     }

@@ -20,6 +20,7 @@ mod station;
 mod verify;
 
 pub(super) use assumptions::{act, claim, search, verdict};
+pub use claim::GraphAgain;
 pub use clock::ArcClock;
 pub(super) use deaths::deaths;
 pub(super) use execute::run;

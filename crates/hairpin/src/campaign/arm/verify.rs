@@ -17,7 +17,7 @@ const MET: f64 = 1e-6;
 
 /// Follows the program of `case` without lag and noise, by the controller's inverse kinematics, not the graph's: every point must be
 /// met, every joint stay within its bounds, and, where all links are claimed to be clear, none may be in a part of the cell, nor, followed by the
-/// proof's own equations without zones, come nearer to one than was claimed. Sampled: what the graph proves between samples is not proven again. `None` for a case that has no program.
+/// proof's own equations, come nearer to one than was claimed; nor may the tool where a zone cuts a corner. Sampled: what the graph proves between samples is not proven again. `None` for a case that has no program.
 pub(in crate::campaign) fn verify(setup: &ArmSetup, case: &Case) -> Option<Proof> {
     case.program.as_ref()?;
     let mut proof = Proof::default();
