@@ -527,12 +527,12 @@ fn costs(segments: &[Segment], cost: Cost) -> f64 {
 fn families_with_parameters_to_spare_lower_costs_and_keep_their_goals() {
     let ramp = SpeedProfile::Ramp { start: 0.5, end: 1.5 };
     // Of four parameters to spare more comes than of two; without a cost a drive is the smoothest near its start value already.
-    for (control, speed, cost, most, often) in [
-        (Control::Knots, 1.0.into(), Cost::Curvature, 0.99, 0.9),
-        (Control::Knots, 1.0.into(), Cost::Rate, 1.0001, 0.9),
-        (Control::TimePolynomial, ramp, Cost::Curvature, 1.0001, 0.8),
+    for (control, speed, cost, most) in [
+        (Control::Knots, 1.0.into(), Cost::Curvature, 0.99),
+        (Control::Knots, 1.0.into(), Cost::Rate, 1.0001),
+        (Control::TimePolynomial, ramp, Cost::Curvature, 1.0001),
     ] {
-        let (mut lowered, mut count, mut shares) = (0, 0, Vec::new());
+        let (mut count, mut shares) = (0, Vec::new());
         for seed in 0..40 {
             let mut random = stream(seed);
             let (length, shape) = (random.random_range(3.0..10.0), polynomial(&mut random, 3));
@@ -548,12 +548,13 @@ fn families_with_parameters_to_spare_lower_costs_and_keep_their_goals() {
             assert!(after < 2.2 * before, "{told}: {after} m, {before} m");
             let share = costs(&cheap.segments, cost) / costs(&plain.segments, cost);
             count += 1;
-            lowered += usize::from(share < 1.0 + 1e-3);
+            // The midpoint rule's own error.
+            assert!(share < 1.0 + 1e-3, "{told}: dearer by {share}");
             shares.push(share);
         }
         shares.sort_by(f64::total_cmp);
-        println!("{control:?} {cost:?}: {lowered} of {count} lowered, to {:.3} in the median", shares[count / 2]);
-        assert!(count >= 38 && lowered as f64 >= often * count as f64, "{control:?} {cost:?}: {lowered} of {count}");
+        println!("{control:?} {cost:?}: {count} lowered, to {:.3} in the median", shares[count / 2]);
+        assert!(count >= 38, "{control:?} {cost:?}: {count}");
         assert!(shares[count / 2] < most, "{control:?} {cost:?}: {}", shares[count / 2]);
     }
 }

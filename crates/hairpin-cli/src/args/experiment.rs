@@ -29,8 +29,12 @@ pub(crate) struct Experiment {
 pub(crate) enum ExperimentName {
     /// ISSTA 2020, figure 6: trajectories that each reach set gives in equal time
     Yields,
+    /// ISSTA 2020, figure 7: how deviation, acceleration and time of feasible trajectories are spread
+    Metrics,
     /// ISSTA 2020, figure 8: the deviation that scores, learning and executions in the loop lift
     Scores,
+    /// ISSTA 2020, figures 9 to 11: a learned score on the Anafi's stand-in, tests over a limit, the worst flight
+    FollowUp,
     /// RobTest, table I: seconds for the graph, depth-first search and the proof of the optimum
     #[value(name = "robtest-table-1")]
     RobtestTable1,

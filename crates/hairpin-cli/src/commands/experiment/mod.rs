@@ -38,7 +38,9 @@ pub(crate) fn run(asked: &Experiment) -> Result<u8, Problem> {
     }
     let outcome = match asked.name {
         ExperimentName::Yields => stressful::yields(&sheet),
+        ExperimentName::Metrics => stressful::metrics(&sheet),
         ExperimentName::Scores => stressful::scores(&sheet),
+        ExperimentName::FollowUp => stressful::follow_up(&sheet),
         ExperimentName::RobtestTable1 => robtest::table_1(&sheet),
         ExperimentName::RobtestFigure7 => robtest::figure_7(&sheet),
         ExperimentName::RobtestObstacles => robtest::obstacles(&sheet),

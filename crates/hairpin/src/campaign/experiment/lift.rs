@@ -18,8 +18,10 @@ type Runs = Vec<(f64, Option<Ended>)>;
 /// Trajectories executed, and what they came to.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Flown {
-    /// Stress of every case, the mean over its runs.
+    /// Stress of every case that could be measured, the mean over its runs.
     pub stresses: Vec<f64>,
+    /// Place of each of those among the cases given.
+    pub places: Vec<usize>,
     /// Share of runs that ended in a crash.
     pub crashed: f64,
     /// Share of runs that ended by their time limit.
@@ -47,8 +49,10 @@ impl Flown {
             runs().filter(|(_, ended)| ended.as_ref().is_some_and(of)).count() as f64 / runs().count().max(1) as f64
         };
         let mean = |runs: &Runs| runs.iter().map(|(value, _)| value).sum::<f64>() / runs.len() as f64;
+        let measured = || flown.iter().enumerate().filter(|(_, runs)| !runs.is_empty());
         Some(Self {
-            stresses: flown.iter().filter(|runs| !runs.is_empty()).map(mean).collect(),
+            stresses: measured().map(|(_, runs)| mean(runs)).collect(),
+            places: measured().map(|(place, _)| place).collect(),
             crashed: share(|ended| ended.is_crash()),
             timed_out: share(|ended| *ended == Ended::Time),
         })

@@ -10,16 +10,18 @@ use rayon::prelude::*;
 use crate::interrupt;
 use crate::problem::Problem;
 
-/// The shipped scenario that all cells start from.
-const SCENARIO: &str = "paper-minimum-snap";
+/// The shipped scenario that cells of FlightGoggles' quadrotor start from.
+pub(super) const FLIGHT_GOGGLES: &str = "paper-minimum-snap";
+/// The one of the Anafi's stand-in.
+pub(super) const ANAFI: &str = "paper-anafi";
 
 /// Dotted keys and TOML values.
 pub(super) type Sets<'a> = &'a [(&'a str, String)];
 
-/// The paper's scenario with `sets`, and with a learned score if there is a model.
-pub(super) fn setup(sets: Sets, model: Option<&ScoreModel>) -> Result<Setup, Problem> {
+/// The shipped `scenario` with `sets`, and with a learned score if there is a model.
+pub(super) fn setup(scenario: &str, sets: Sets, model: Option<&ScoreModel>) -> Result<Setup, Problem> {
     let sets: Vec<(String, String)> = sets.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
-    let mut scenario = scenario_for(SCENARIO, &sets)?;
+    let mut scenario = scenario_for(scenario, &sets)?;
     if let (Scenario::Flight(flight), Some(model)) = (&mut scenario, model) {
         flight.generate.score = KeptModel::score();
         flight.generate.model = Some(KeptModel { model: model.clone().into(), bytes: [].into() });
@@ -39,10 +41,9 @@ pub(super) fn cases(setup: &Setup) -> Result<Vec<Case>, Problem> {
     Ok(cases)
 }
 
-/// What `cases` come to under `setup`.
-pub(super) fn flown(setup: &Setup, cases: &[Case]) -> Result<Flown, Problem> {
-    Flown::of(setup, cases, Stress::MaxDeviation, &stop())
-        .ok_or(Problem::Interrupted("interrupted: nothing was written".into()))
+/// The `stress` that `cases` come to under `setup`.
+pub(super) fn flown(setup: &Setup, cases: &[Case], stress: Stress) -> Result<Flown, Problem> {
+    Flown::of(setup, cases, stress, &stop()).ok_or(Problem::Interrupted("interrupted: nothing was written".into()))
 }
 
 /// A model of the largest deviation per leg, learned from one nominal run of each of `cases`.

@@ -7,13 +7,14 @@
 use hairpin::campaign::Setup;
 use hairpin::campaign::experiment::lift::{Flown, Lift, lift};
 use hairpin::campaign::learn::ScoreModel;
+use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
 use hairpin_formats::experiment::Sheet;
 use hairpin_formats::figure::{Axis, Cell, Figure, Marks, Point, Scale, Series, Table};
 use serde::Deserialize;
 
 use super::super::{Outcome, go_on};
-use super::cell;
+use super::cell::{self, FLIGHT_GOGGLES};
 use crate::problem::Problem;
 
 #[derive(Debug, Deserialize)]
@@ -132,7 +133,11 @@ fn with(base: &[(&'static str, String)], sets: &[(&'static str, String)]) -> Vec
 
 /// The setup that judges: the same flights with noise, `runs` each.
 fn with_noise(base: &[(&'static str, String)], runs: u64) -> Result<Setup, Problem> {
-    cell::setup(&with(base, &[("execute.noise", "true".into()), ("execute.repeat", runs.to_string())]), None)
+    cell::setup(
+        FLIGHT_GOGGLES,
+        &with(base, &[("execute.noise", "true".into()), ("execute.repeat", runs.to_string())]),
+        None,
+    )
 }
 
 fn learned(size: &Size, base: &[(&'static str, String)]) -> Result<ScoreModel, Problem> {
@@ -142,7 +147,7 @@ fn learned(size: &Size, base: &[(&'static str, String)]) -> Result<ScoreModel, P
         ("generate.search.method", text("uniform")),
         ("generate.search.cases", size.training.to_string()),
     ];
-    let setup = cell::setup(&with(base, &sets), None)?;
+    let setup = cell::setup(FLIGHT_GOGGLES, &with(base, &sets), None)?;
     cell::model(&setup, &cell::cases(&setup)?)
 }
 
@@ -156,8 +161,8 @@ fn ceiling(size: &Size, base: &[(&'static str, String)]) -> Result<Option<f64>, 
         ("generate.search.cases", size.ceiling.to_string()),
         ("generate.search.per_graph", size.ceiling.div_ceil(size.graphs).to_string()),
     ];
-    let setup = cell::setup(&with(base, &sets), None)?;
-    let flown = cell::flown(&setup, &cell::cases(&setup)?)?;
+    let setup = cell::setup(FLIGHT_GOGGLES, &with(base, &sets), None)?;
+    let flown = cell::flown(&setup, &cell::cases(&setup)?, Stress::MaxDeviation)?;
     Ok(flown.stresses.into_iter().reduce(f64::max))
 }
 
@@ -233,9 +238,9 @@ pub(in super::super) fn scores(sheet: &Sheet) -> Result<Outcome, Problem> {
             let mut flown: Vec<(Way, Flown)> = Vec::new();
             for way in ways(&size) {
                 go_on()?;
-                let setup = cell::setup(&with(&base, &way.sets), way.learned.then_some(&model))?;
+                let setup = cell::setup(FLIGHT_GOGGLES, &with(&base, &way.sets), way.learned.then_some(&model))?;
                 let cases = cell::cases(&setup)?;
-                let came_to = cell::flown(&judge, &cases)?;
+                let came_to = cell::flown(&judge, &cases, Stress::MaxDeviation)?;
                 flown.push((way, came_to));
             }
             let (uniform, beam) = (flown[0].1.stresses.clone(), flown[1].1.stresses.clone());

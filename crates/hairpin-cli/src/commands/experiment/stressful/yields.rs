@@ -7,7 +7,7 @@ use hairpin_formats::figure::{Axis, Figure, Marks, Point, Scale, Series, Table};
 use serde::Deserialize;
 
 use super::super::{Outcome, go_on};
-use super::cell;
+use super::cell::{self, FLIGHT_GOGGLES};
 use crate::commands::bench::clock::{Stopwatch, alone};
 use crate::interrupt;
 use crate::problem::Problem;
@@ -70,7 +70,7 @@ pub(in super::super) fn yields(sheet: &Sheet) -> Result<Outcome, Problem> {
                     ("generate.certify", certify.to_string()),
                 ]
             };
-            let setup = cell::setup(&timed(reach, sets(MANY, false)), None)?;
+            let setup = cell::setup(FLIGHT_GOGGLES, &timed(reach, sets(MANY, false)), None)?;
             let (mut count, mut graphs, mut spent) = (0_u64, 0, 0.0);
             alone(|| {
                 let watch = Stopwatch::start();
@@ -87,7 +87,7 @@ pub(in super::super) fn yields(sheet: &Sheet) -> Result<Outcome, Problem> {
                 "witness" if count > 0 => Some((100.0, wanted)),
                 _ if wanted == 0 => None,
                 _ => {
-                    let cases = cell::cases(&cell::setup(&timed(reach, sets(wanted, true)), None)?)?;
+                    let cases = cell::cases(&cell::setup(FLIGHT_GOGGLES, &timed(reach, sets(wanted, true)), None)?)?;
                     let yes = cases.iter().filter(|case| case.certified == Some("yes")).count();
                     Some((100.0 * yes as f64 / cases.len() as f64, cases.len() as u64))
                 }

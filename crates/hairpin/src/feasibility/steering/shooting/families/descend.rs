@@ -57,8 +57,6 @@ pub(super) struct Fit {
     pub(super) miss: f64,
     /// Largest |κ|/most or |κ′|/most_rate at the nodes.
     pub(super) bends: f64,
-    /// Its cost; by ∫κ′² where none is asked for.
-    pub(super) value: f64,
     pub(super) iterations: u32,
 }
 
@@ -100,7 +98,6 @@ struct Shot {
     gradient: [f64; UNKNOWNS],
     hessian: [[f64; UNKNOWNS]; UNKNOWNS],
     bends: f64,
-    value: f64,
 }
 
 impl Shot {
@@ -127,7 +124,6 @@ fn shoot(grid: &Grid, task: &Task, free: &Free, from: f64, strict: f64) -> Shot 
         gradient: [0.0; UNKNOWNS],
         hessian: [[0.0; UNKNOWNS]; UNKNOWNS],
         bends: 0.0,
-        value: 0.0,
     };
     let mut squares = Squares::default();
     let (mut x, mut y) = (0.0, 0.0);
@@ -213,7 +209,6 @@ impl Shot {
                 (share, -share / length, share / (length * length))
             }
         };
-        self.value = squares.whole * if task.cost == Cost::Curvature { length } else { 1.0 / length };
         self.cost += 0.5 * factor * squares.whole;
         self.gradient[last] += 0.5 * by_length * squares.whole;
         self.hessian[last][last] += bent * squares.whole;
@@ -326,7 +321,7 @@ pub(super) fn descend(
             (free, shot) = (next, tried);
             iterations += 1;
         }
-        let fit = Fit { free, miss: shot.miss(), bends: shot.bends, value: shot.value, iterations };
+        let fit = Fit { free, miss: shot.miss(), bends: shot.bends, iterations };
         if fit.good(task.tolerance) {
             return fit;
         }
@@ -338,7 +333,7 @@ pub(super) fn descend(
         }
     }
     let lost = f64::INFINITY;
-    let best = best.unwrap_or(Fit { free, miss: lost, bends: lost, value: lost, iterations });
+    let best = best.unwrap_or(Fit { free, miss: lost, bends: lost, iterations });
     Fit { iterations, ..best }
 }
 

@@ -170,6 +170,8 @@ struct Search<'a> {
     bounds: &'a Curvatures,
     settings: &'a Settings,
     among: &'a Among<'a>,
+    /// What descents lower beside what is missing.
+    lowering: Cost,
     best: Option<Found>,
     iterations: u32,
     started: u32,
@@ -182,6 +184,8 @@ struct Found {
     fit: Fit,
     /// How deep it comes into what is in the way, m.
     depth: f64,
+    /// What it costs by what was asked for; its length where nothing was.
+    cost: f64,
     task: Task,
     /// What it was found on.
     basis: Basis,
@@ -201,18 +205,25 @@ fn search(
     stop: &mut dyn FnMut() -> bool,
     observe: &mut dyn FnMut(&Iteration),
 ) -> Answer {
-    let mut search =
-        Search { problem, control, bounds, settings, among, best: None, iterations: 0, started: 0, longest: 0.0 };
+    let mut search = Search {
+        problem,
+        control,
+        bounds,
+        settings,
+        among,
+        lowering: Cost::Any,
+        best: None,
+        iterations: 0,
+        started: 0,
+        longest: 0.0,
+    };
     let (path, most) = (problem.path(bounds), bounds.most);
     let flat = forward(&path, bounds, &flat::Settings { precision: settings.precision, ..flat::Settings::default() });
     let shortest = flat::least_length(&path, bounds);
     for (index, known) in std::iter::once(&flat.segments).chain(among.guides).enumerate() {
-        let length: f64 = known.iter().map(Segment::length_m).sum();
         // The first is always tried: without time there is still an answer.
-        if length > 0.0 && (index == 0 || !(search.done(shortest) || stop())) {
-            let turn = landing(known, 0.0)[2];
-            let curvature = |share: f64| curvature_along(known, share * length);
-            search.from(&curvature, length, turn, observe);
+        if index == 0 || !(search.done(shortest) || stop()) {
+            search.along(known, 0.0, observe);
         }
     }
     for radius in RADII {
@@ -230,6 +241,17 @@ fn search(
             let turn: f64 = signs.iter().zip(metres).map(|(sign, piece)| sign * piece * wide.most).sum();
             let curvature = |share: f64| word(signs, metres, wide.most, share);
             search.from(&curvature, whole + 0.3 * most / bounds.most_rate, turn, observe);
+        }
+    }
+    // What costs less is looked for from what is there: an answer is never dearer than without a cost.
+    search.lowering = settings.cost;
+    if settings.cost != Cost::Any
+        && let Some(best) = search.best.as_ref().map(|best| best.segments)
+    {
+        // Its curvature is that of the body; starts are paths of travel, which turn by the direction, too.
+        search.along(&best, problem.swing, observe);
+        if !stop() {
+            search.along(&flat.segments, 0.0, observe);
         }
     }
     search.answer()
@@ -272,6 +294,15 @@ impl Search<'_> {
         self.best.as_ref().is_some_and(|found| found.status == Status::Ok && found.depth == 0.0 && short(found))
     }
 
+    /// Descends from a known path, turned by `swing` more along its way.
+    fn along(&mut self, known: &SegmentList, swing: f64, observe: &mut dyn FnMut(&Iteration)) {
+        let length: f64 = known.iter().map(Segment::length_m).sum();
+        if length > 0.0 {
+            let curvature = |share: f64| curvature_along(known, share * length) + swing / length;
+            self.from(&curvature, length, landing(known, 0.0)[2] + swing, observe);
+        }
+    }
+
     /// Descends from a curve of the path of travel; its whole turn says how often the goal's heading is gone around.
     fn from(&mut self, curvature: &dyn Fn(f64) -> f64, length: f64, turn: f64, observe: &mut dyn FnMut(&Iteration)) {
         let Problem { query, swing, free_end, .. } = *self.problem;
@@ -287,7 +318,7 @@ impl Search<'_> {
             start: query.start_curvature / most,
             end: (!(free_end && self.control == Control::VelocityPolynomial)).then_some(query.goal.curvature / most),
             bounds: Curvatures { most: 1.0, most_rate: self.bounds.most_rate / (most * most) },
-            cost: self.settings.cost,
+            cost: self.lowering,
             longest: self.longest * most,
             tolerance: TOLERANCE * self.settings.precision.position * most.min(1.0),
         };
@@ -319,7 +350,8 @@ impl Search<'_> {
                 let status = judge(&segments, &task, &query, swing, self.bounds, &self.settings.precision);
                 // What does not arrive is not compared by what is in its way.
                 let depth = if status == Status::Ok { (self.among.depth)(&segments) } else { 0.0 };
-                let found = Found { fit, depth, task, basis, clock, segments, fit_error, status };
+                let cost = cost(&segments, self.settings.cost);
+                let found = Found { fit, depth, cost, task, basis, clock, segments, fit_error, status };
                 if self.best.as_ref().is_none_or(|best| found.better(best)) {
                     self.best = Some(found);
                 }
@@ -400,12 +432,27 @@ impl Found {
     fn better(&self, other: &Self) -> bool {
         match (self.status == Status::Ok, other.status == Status::Ok) {
             (true, true) if self.depth != other.depth => self.depth < other.depth,
-            (true, true) if self.task.cost != Cost::Any => self.fit.value < other.fit.value,
-            (true, true) => self.fit.free.length < other.fit.free.length,
+            (true, true) => self.cost < other.cost,
             (good, bad) if good != bad => good,
             _ => grade(&self.fit, &self.task) < grade(&other.fit, &other.task),
         }
     }
+}
+
+/// ∫κ² ds or ∫κ′² ds of commands, in closed form: Σ aᵢ aⱼ Lⁱ⁺ʲ⁺¹/(i + j + 1); their length where no cost is asked for.
+fn cost(segments: &[Segment], asked: Cost) -> f64 {
+    let of = |segment: &Segment| {
+        let length = segment.length_m();
+        let Motion::Arc { curvature: a, .. } = segment.motion else { return 0.0 };
+        let a = match asked {
+            Cost::Any => return length,
+            Cost::Curvature => a,
+            Cost::Rate => std::array::from_fn(|k| if k < 5 { (k + 1) as f64 * a[k + 1] } else { 0.0 }),
+        };
+        let term = |i: usize, j: usize| a[i] * a[j] * power(length, i + j + 1) / (i + j + 1) as f64;
+        (0..6).map(|i| (0..6).map(|j| term(i, j)).sum::<f64>()).sum()
+    };
+    segments.iter().map(of).sum()
 }
 
 /// Judges by the numbers that are handed out, not by those that made them.
