@@ -3,19 +3,27 @@
 
 use std::hash::Hash;
 
+use nalgebra::Point3;
+
 use super::outcome::Plan;
 use super::search::{Answer, Executions, Looped, Question};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
-use crate::search::in_loop::{EvolveSettings, ShiftSettings, Tested, climb, evolve, shift};
+use crate::search::in_loop::{EvolveSettings, ShiftSettings, Tested, Trial, climb, evolve, shift};
 use crate::search::{Aggregate, ExactSettings, Found, LegGraph, Objective, UniformSettings, exact, uniform};
 
 /// One in so many executions is of a uniform draw.
 const DRAWN: u64 = 10;
-/// Trajectories of the pool whose waypoints are moved and whose surroundings are searched, at most.
-const SHIFTED: usize = 3;
-/// First step of a moved waypoint, as a share of the mean leg.
+/// Share of the executions that go to wind and gusts where they are searched, and trajectories that are flown in them.
+const AIR: f64 = 0.4;
+const AIRED: usize = 3;
+/// Share of the others that evolution gets where waypoints may be moved.
+const EVOLVED: f64 = 0.3;
+/// Trajectories whose waypoints are moved, and the share of the executions left that they get together: many are tried, the best go on.
+const STAGES: [(usize, f64); 3] = [(6, 0.4), (2, 0.4), (1, 1.0)];
+/// First and largest step of a moved waypoint, as shares of the mean leg.
 const STEP: f64 = 0.15;
+const LARGEST_STEP: f64 = 0.3;
 
 pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     question: &Question<N, R, O>,
@@ -28,56 +36,61 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
         let reason = Some(format!("none among the {} feasible legs of the last graph", graph.legs()));
         return Answer { proven_empty: graph.legs() == 0, reason, ..Answer::default() };
     }
-    let Looped { executions: Executions { execute, duration, furnish }, surroundings, moved, .. } = question.looped;
+    let Looped { executions: Executions { execute, duration, furnish }, surroundings, .. } = question.looped;
     let air = surroundings.filter(|surroundings| surroundings.coordinates > 0);
     let furnished = surroundings.is_some_and(|surroundings| surroundings.obstacles);
     // Obstacles are put around what is kept, in two executions each.
     let budget = search.executions.saturating_sub(if furnished { 2 * search.per_graph } else { 0 }).max(1);
-    let phases = 1 + u64::from(search.move_waypoints) + u64::from(air.is_some());
+    let in_still_air = if air.is_some() { (budget as f64 * (1.0 - AIR)).ceil() } else { budget as f64 };
     let settings = EvolveSettings {
         length: question.length,
-        executions: (budget / phases).max(1),
+        executions: ((in_still_air * if search.move_waypoints { EVOLVED } else { 1.0 }) as u64).max(1),
         revisits: search.revisits,
         ..EvolveSettings::default()
     };
     let seed = named_seed(question.seed, "evolution", 0);
     let evolved = evolve(&graph, &first, seed, &settings, |found| execute(&question.planned(found.clone())?));
     let mut best_so_far = evolved.best_so_far;
-    let mut plans = Vec::new();
-    for (place, Tested { found, trial }) in evolved.pool.into_iter().enumerate() {
-        let Some(mut plan) = question.planned(found) else { continue };
+    let climber = |Tested { found, trial }| {
+        let mut plan = question.planned(found)?;
         plan.score = trial.stress;
-        let mut trial = trial;
-        let left = budget.saturating_sub(best_so_far.len() as u64) / SHIFTED.saturating_sub(place).max(1) as u64;
-        if search.move_waypoints && place < SHIFTED {
-            let executions = left / (phases - 1).max(1);
-            let settings = ShiftSettings { executions, step: STEP * mean_leg(&plan), free_end: false };
-            let seed = named_seed(question.seed, "shift", place as u64);
-            let shifted = shift(&plan.waypoints, trial, seed, &settings, |points| moved(&plan, points), execute);
-            go_on(&mut best_so_far, &shifted.best_so_far);
-            trial = shifted.trial;
-            if let Some(better) = shifted.plan {
-                plan = Plan { score: trial.stress, ..better };
+        let step = STEP * mean_leg(&plan);
+        Some(Climber { plan, trial, step })
+    };
+    let mut climbers: Vec<Climber> = evolved.pool.into_iter().filter_map(climber).collect();
+    if search.move_waypoints {
+        for (stage, (most, share)) in STAGES.into_iter().enumerate() {
+            let most = most.min(climbers.len());
+            let left = (in_still_air as u64).saturating_sub(best_so_far.len() as u64) as f64;
+            let each = (left * share) as u64 / most.max(1) as u64;
+            for (place, climber) in climbers[..most].iter_mut().enumerate() {
+                let seed = named_seed(question.seed, "shift", (stage * STAGES[0].0 + place) as u64);
+                go_on(&mut best_so_far, &climber.climb(&question.looped, seed, each));
             }
+            climbers.sort_by(|a, b| b.trial.stress.total_cmp(&a.trial.stress));
         }
-        let executions = (left / (phases - 1).max(1)).saturating_sub(1);
-        if let Some(air) = air.filter(|_| place < SHIFTED && executions > 0)
-            && let Some(time) = duration(&plan)
-        {
+    }
+    if let Some(air) = air {
+        let most = AIRED.min(climbers.len());
+        // One execution of each is its duration's.
+        let each = budget.saturating_sub(best_so_far.len() as u64) / most.max(1) as u64;
+        for (place, Climber { plan, trial, .. }) in climbers[..most].iter_mut().enumerate() {
+            let Some(time) = Some(each).filter(|each| *each > 1).and_then(|_| duration(plan)) else { continue };
             let seed = named_seed(question.seed, "air", place as u64);
             let calm = vec![0.0; air.coordinates];
             go_on(&mut best_so_far, &[trial.stress]);
             let climbed =
-                climb(&calm, trial, seed, executions, air.bound, |place| execute(&(air.put)(&plan, place, time)));
+                climb(&calm, *trial, seed, each - 1, air.bound, |place| execute(&(air.put)(plan, place, time)));
             go_on(&mut best_so_far, &climbed.best_so_far);
+            *trial = climbed.trial;
             if let Some(place) = climbed.place {
-                plan = Plan { score: climbed.trial.stress, ..(air.put)(&plan, &place, time) };
+                *plan = Plan { score: trial.stress, ..(air.put)(plan, &place, time) };
             }
         }
-        plans.push(plan);
+        climbers.sort_by(|a, b| b.trial.stress.total_cmp(&a.trial.stress));
     }
-    plans.sort_by(|a, b| b.score.total_cmp(&a.score));
-    plans.truncate(search.per_graph as usize);
+    climbers.truncate(search.per_graph as usize);
+    let mut plans: Vec<Plan> = climbers.into_iter().map(|climber| climber.plan).collect();
     let mut reason = plans.is_empty().then(|| "no execution of what was found ended with a measure".to_string());
     if furnished && !plans.is_empty() {
         let among = |plan: &Plan| furnish(plan).map(|(plan, trial)| Plan { score: trial.stress, ..plan });
@@ -87,6 +100,30 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
         reason = plans.is_empty().then(|| "no obstacle finds room where flights leave their plan".to_string());
     }
     Answer { plans, expansions: best_so_far.len() as u64, best_so_far, reason, ..Answer::default() }
+}
+
+/// A trajectory whose waypoints may be moved, and how far it has come.
+struct Climber {
+    plan: Plan,
+    trial: Trial,
+    /// Of the next move, m.
+    step: f64,
+}
+
+impl Climber {
+    /// Moves waypoints by `executions` at most; its largest stress after each.
+    fn climb(&mut self, looped: &Looped, seed: u64, executions: u64) -> Vec<f64> {
+        let largest = LARGEST_STEP * mean_leg(&self.plan);
+        let settings = ShiftSettings { executions, step: self.step, largest, free_end: false };
+        let feasible = |points: &[Point3<f64>]| (looped.moved)(&self.plan, points);
+        let execute = looped.executions.execute;
+        let shifted = shift(&self.plan.waypoints, self.trial, seed, &settings, feasible, execute);
+        (self.trial, self.step) = (shifted.trial, shifted.step);
+        if let Some(better) = shifted.plan {
+            self.plan = Plan { score: self.trial.stress, ..better };
+        }
+        shifted.best_so_far
+    }
 }
 
 /// What evolution starts from: every score's optima under both aggregates, and uniform draws.

@@ -2,11 +2,16 @@
 
 use rand::RngExt;
 
-use crate::math::random::Stream;
+use crate::math::random::{Stream, unit};
 use crate::search::graph::LegGraph;
 
 /// Legs that are looked at before a stretch is given up.
 const BUDGET: u32 = 3_000;
+/// Share of legs that are sought among the shortest: a waypoint just passed by, and the way back, are a stress that blind draws among all
+/// legs hardly ever meet.
+const SHORT: f64 = 0.25;
+/// How many count as the shortest.
+const SHORTEST: usize = 8;
 
 /// Where a stretch must lead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,7 +22,7 @@ pub(super) enum Goal {
     End,
 }
 
-/// A depth-first search that tries legs in random order.
+/// A depth-first search that tries legs in random order, the shortest ones more often.
 pub(super) struct Regrow<'g, 'a, N> {
     pub(super) graph: &'g LegGraph<'a, N>,
     pub(super) goal: Goal,
@@ -41,13 +46,11 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
         if let (1, Goal::Node(goal)) = (steps, self.goal) {
             return self.last(row, goal, legs);
         }
-        let turn = self.rng.random_range(0..row.len());
-        for place in 0..row.len() {
+        for leg in self.order(node, row) {
             self.spent += 1;
             if self.spent > BUDGET {
                 return false;
             }
-            let leg = row.start + (place + turn) % row.len();
             let to = self.graph.target(leg);
             if steps == 1 {
                 if !self.graph.at_end(to) {
@@ -70,6 +73,22 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
             legs.pop();
         }
         false
+    }
+
+    /// The legs of `row` in the order in which they are tried: from a random one on, or one of the shortest and on to the longest.
+    fn order(&mut self, node: u32, row: std::ops::Range<usize>) -> Vec<usize> {
+        let mut legs: Vec<usize> = row.collect();
+        if unit(self.rng) < SHORT {
+            let place = |node: u32| self.graph.candidates()[self.graph.waypoint(node) as usize];
+            let length = |leg: usize| (place(self.graph.target(leg)) - place(node)).norm_squared();
+            legs.sort_by(|&a, &b| length(a).total_cmp(&length(b)));
+            let first = self.rng.random_range(0..legs.len().min(SHORTEST));
+            legs.swap(0, first);
+        } else {
+            let first = self.rng.random_range(0..legs.len());
+            legs.rotate_left(first);
+        }
+        legs
     }
 
     fn take(&mut self, waypoint: usize, taken: bool) {

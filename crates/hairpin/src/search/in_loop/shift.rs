@@ -2,19 +2,23 @@
 //!
 //! A (1+1) evolution strategy: a few neighbouring waypoints are moved by a normal step, what is not feasible costs nothing and is drawn
 //! again, what is executed and no less stressful is kept. The step grows by half on success and shrinks so that one success in
-//! five keeps it. Source: Rechenberg, Evolutionsstrategie, 1973.
+//! five keeps it. Some steps draw a waypoint towards its neighbour instead, by a factor that is even in its logarithm: legs of every length
+//! are tried. Source: Rechenberg, Evolutionsstrategie, 1973.
 
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
 use super::Trial;
-use crate::math::random::{standard_normals, stream, unit};
+use crate::math::random::{Stream, standard_normals, stream, unit};
 
 /// Draws for one execution at most; where none is feasible the step is halved.
 const DRAWS: u32 = 60;
 /// Steps are taken back to their first size below this share of it.
 const SMALLEST: f64 = 1e-3;
 const GROWTH: f64 = 1.5;
+/// Share of steps that shorten a leg, and the smallest factor that they do it by.
+const SHORTENED: f64 = 0.2;
+const LEAST_FACTOR: f64 = 0.05;
 
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +27,8 @@ pub struct ShiftSettings {
     pub executions: u64,
     /// First step of each coordinate, m.
     pub step: f64,
+    /// Largest step, m.
+    pub largest: f64,
     /// Whether the last waypoint may move, too; the first never does.
     pub free_end: bool,
 }
@@ -34,6 +40,8 @@ pub struct Shifted<P> {
     pub plan: Option<P>,
     /// Its execution, or the first one's.
     pub trial: Trial,
+    /// Step to go on with, m.
+    pub step: f64,
     /// The largest stress after each execution.
     pub best_so_far: Vec<f64>,
 }
@@ -48,37 +56,25 @@ pub fn shift<P>(
     mut execute: impl FnMut(&P) -> Option<Trial>,
 ) -> Shifted<P> {
     let mut rng = stream(seed);
-    let mut best = Shifted { plan: None, trial, best_so_far: Vec::new() };
+    let mut best = Shifted { plan: None, trial, step: settings.step, best_so_far: Vec::new() };
     let mut points = points.to_vec();
     let last = points.len() - usize::from(!settings.free_end);
     if last < 2 {
         return best;
     }
     let shrink = libm::pow(GROWTH, -0.25);
-    let mut step = settings.step;
     while (best.best_so_far.len() as u64) < settings.executions {
         let mut drawn = None;
         for _ in 0..DRAWS {
-            // Waypoints 1 … last − 1 may move; those at the worst leg mostly do.
-            let count = rng.random_range(1..=3usize).min(last - 1);
-            let begin = if unit(&mut rng) < 0.7 {
-                let around = best.trial.worst_leg + rng.random_range(0..=3usize);
-                around.saturating_sub(2).clamp(1, last - count)
-            } else {
-                rng.random_range(1..=last - count)
-            };
-            let mut moved = points.clone();
-            for point in &mut moved[begin..begin + count] {
-                *point += Vector3::from(standard_normals::<3>(&mut rng)) * step;
-            }
+            let moved = moved(&points, best.trial.worst_leg, last, best.step, &mut rng);
             if let Some(plan) = feasible(&moved) {
                 drawn = Some((moved, plan));
                 break;
             }
         }
         let Some((moved, plan)) = drawn else {
-            step *= 0.5;
-            if step < SMALLEST * settings.step {
+            best.step *= 0.5;
+            if best.step < SMALLEST * settings.largest {
                 break;
             }
             continue;
@@ -87,15 +83,38 @@ pub fn shift<P>(
         match trial {
             Some(trial) if trial.stress >= best.trial.stress => {
                 (best.plan, best.trial, points) = (Some(plan), trial, moved);
-                step *= GROWTH;
+                best.step *= GROWTH;
             }
-            _ => step *= shrink,
+            _ => best.step *= shrink,
         }
-        step = step.min(2.0 * settings.step);
-        if step < SMALLEST * settings.step {
-            step = settings.step;
+        best.step = best.step.min(settings.largest);
+        if best.step < SMALLEST * settings.largest {
+            best.step = settings.step;
         }
         best.best_so_far.push(best.trial.stress);
     }
     best
+}
+
+/// `points` with a few of those before `last` moved, the first never; mostly those at the worst leg.
+fn moved(points: &[Point3<f64>], worst_leg: usize, last: usize, step: f64, rng: &mut Stream) -> Vec<Point3<f64>> {
+    let mut moved = points.to_vec();
+    let shortens = unit(rng) < SHORTENED;
+    let count = if shortens { 1 } else { rng.random_range(1..=3usize).min(last - 1) };
+    let begin = if unit(rng) < 0.7 {
+        let around = worst_leg + rng.random_range(0..=3usize);
+        around.saturating_sub(2).clamp(1, last - count)
+    } else {
+        rng.random_range(1..=last - count)
+    };
+    if shortens {
+        let neighbour = if begin + 1 < points.len() && unit(rng) < 0.5 { begin + 1 } else { begin - 1 };
+        let factor = libm::pow(LEAST_FACTOR, unit(rng));
+        moved[begin] = points[neighbour] + (points[begin] - points[neighbour]) * factor;
+    } else {
+        for point in &mut moved[begin..begin + count] {
+            *point += Vector3::from(standard_normals::<3>(rng)) * step;
+        }
+    }
+    moved
 }

@@ -92,7 +92,7 @@ fn a_small_graph_is_used_up_and_failures_count() {
 #[test]
 fn waypoints_move_to_the_edge_of_what_is_feasible_and_never_beyond() {
     let points = [0.0, 1.0, 2.0, 3.0].map(|x| Point3::new(x, 0.0, 0.0));
-    let settings = ShiftSettings { executions: 400, step: 0.3, free_end: false };
+    let settings = ShiftSettings { executions: 400, step: 0.3, largest: 0.6, free_end: false };
     let feasible = |moved: &[Point3<f64>]| {
         assert_eq!((moved[0], moved[3]), (points[0], points[3]), "ends stay");
         moved.iter().all(|p| p.y.abs() <= 2.0 && p.z.abs() <= 1.0).then(|| moved.to_vec())
@@ -105,7 +105,7 @@ fn waypoints_move_to_the_edge_of_what_is_feasible_and_never_beyond() {
     let stuck = shift(&points, trial, 1, &settings, |_| None::<()>, |()| None);
     assert!(stuck.plan.is_none() && stuck.best_so_far.is_empty());
     let far = Vector3::new(1.0, 1.0, 1.0);
-    let free = ShiftSettings { executions: 50, step: 0.3, free_end: true };
+    let free = ShiftSettings { executions: 50, step: 0.3, largest: 0.6, free_end: true };
     let moved = shift(
         &points,
         trial,

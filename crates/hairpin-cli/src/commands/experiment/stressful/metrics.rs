@@ -2,6 +2,7 @@
 //! a score. The paper finds all three skewed to the right; here skewness is told with them.
 
 use hairpin::judgement::Stress;
+use hairpin::math::power::power;
 use hairpin_formats::experiment::Sheet;
 use hairpin_formats::figure::{Axis, Figure, Marks, Point, Scale, Series, Spread, Table};
 use serde::Deserialize;
@@ -105,9 +106,9 @@ fn file(stress: Stress) -> &'static str {
 fn moments(values: &[f64]) -> (f64, f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
-    let moment = |power: i32| values.iter().map(|value| (value - mean).powi(power)).sum::<f64>() / n;
+    let moment = |order: usize| values.iter().map(|value| power(value - mean, order)).sum::<f64>() / n;
     let deviation = moment(2).sqrt();
-    (mean, deviation, moment(3) / deviation.powi(3))
+    (mean, deviation, moment(3) / power(deviation, 3))
 }
 
 /// Shares of trajectories over equal ranges, the same for all sets.

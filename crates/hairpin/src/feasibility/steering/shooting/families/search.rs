@@ -184,7 +184,7 @@ struct Found {
     fit: Fit,
     /// How deep it comes into what is in the way, m.
     depth: f64,
-    /// What it costs by what was asked for; its length where nothing was.
+    /// What it costs by what was asked for.
     cost: f64,
     task: Task,
     /// What it was found on.
@@ -352,7 +352,7 @@ impl Search<'_> {
                 let depth = if status == Status::Ok { (self.among.depth)(&segments) } else { 0.0 };
                 let cost = cost(&segments, self.settings.cost);
                 let found = Found { fit, depth, cost, task, basis, clock, segments, fit_error, status };
-                if self.best.as_ref().is_none_or(|best| found.better(best)) {
+                if self.best.as_ref().is_none_or(|best| found.better(best, self.lowering)) {
                     self.best = Some(found);
                 }
                 return;
@@ -429,23 +429,24 @@ fn speed_polynomial(speed: &SpeedProfile, length: f64) -> [f64; 3] {
 impl Found {
     /// Whether it is worth more: good before not, then what stays clearer, then the cheaper or shorter; or what is nearer to goal and
     /// bounds.
-    fn better(&self, other: &Self) -> bool {
+    fn better(&self, other: &Self, lowering: Cost) -> bool {
         match (self.status == Status::Ok, other.status == Status::Ok) {
             (true, true) if self.depth != other.depth => self.depth < other.depth,
-            (true, true) => self.cost < other.cost,
+            (true, true) if lowering != Cost::Any => self.cost < other.cost,
+            (true, true) => self.fit.free.length < other.fit.free.length,
             (good, bad) if good != bad => good,
             _ => grade(&self.fit, &self.task) < grade(&other.fit, &other.task),
         }
     }
 }
 
-/// ∫κ² ds or ∫κ′² ds of commands, in closed form: Σ aᵢ aⱼ Lⁱ⁺ʲ⁺¹/(i + j + 1); their length where no cost is asked for.
+/// ∫κ² ds or ∫κ′² ds of commands, in closed form: Σ aᵢ aⱼ Lⁱ⁺ʲ⁺¹/(i + j + 1); 0 where no cost is asked for.
 fn cost(segments: &[Segment], asked: Cost) -> f64 {
     let of = |segment: &Segment| {
         let length = segment.length_m();
         let Motion::Arc { curvature: a, .. } = segment.motion else { return 0.0 };
         let a = match asked {
-            Cost::Any => return length,
+            Cost::Any => return 0.0,
             Cost::Curvature => a,
             Cost::Rate => std::array::from_fn(|k| if k < 5 { (k + 1) as f64 * a[k + 1] } else { 0.0 }),
         };
