@@ -61,6 +61,19 @@ pub struct RoverDescription {
     /// Drift downhill across a slope of 20 deg, as a share of the speed; 0 if not given.
     #[serde(default)]
     pub side_slip_at_20_deg: f64,
+    /// Mass without a load, which both slips are given for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_kg: Option<f64>,
+    /// Mass of the load that it carries; 0 if not given. Slips grow with it.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub load_kg: f64,
+    /// n: slips grow with (1 + load / mass)ⁿ; 1 if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slip_load_exponent: Option<f64>,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// Geometry in the body frame: x forward, y left, z up, m; left side given, right side mirrored.
@@ -139,6 +152,8 @@ pub struct ResponseDescription {
 const CURVATURE_RATE: f64 = 1.0;
 /// Default speed, m/s.
 const SPEED: f64 = 1.0;
+/// Largest slip at 20°.
+const MOST_SLIP: f64 = 0.95;
 
 impl RoverDescription {
     /// Checks every number and builds the rover.
@@ -165,13 +180,35 @@ impl RoverDescription {
             wheels,
             limits,
             response,
-            slip: Slip {
-                at_20_deg: within("slip_at_20_deg", self.slip_at_20_deg, 0.0, 0.95)?,
-                side_at_20_deg: within("side_slip_at_20_deg", self.side_slip_at_20_deg, 0.0, 0.95)?,
-            },
+            slip: self.slip()?,
             kinematics: Kinematics::default(),
             default_speed,
             estimated,
+        })
+    }
+
+    /// The slip under the load: s₂₀ (1 + load / mass)ⁿ.
+    fn slip(&self) -> Result<Slip, RoverError> {
+        let exponent = within("slip_load_exponent", self.slip_load_exponent.unwrap_or(1.0), 0.0, 10.0)?;
+        let load = within("load_kg", self.load_kg, 0.0, 1e6)?;
+        let factor = match self.mass_kg {
+            Some(mass) => libm::pow(1.0 + load / within("mass_kg", mass, 1e-3, 1e6)?, exponent),
+            None if load > 0.0 => {
+                return Err(wrong("load_kg", load.to_string(), "given with mass_kg, which slips are for"));
+            }
+            None => 1.0,
+        };
+        let loaded = |key: &str, unloaded: f64| {
+            let slip = factor * within(key, unloaded, 0.0, MOST_SLIP)?;
+            if slip <= MOST_SLIP {
+                return Ok(slip);
+            }
+            let bound = format!("a load under which {key} is at most {MOST_SLIP}; it would be {slip:.3}");
+            Err(wrong("load_kg", load.to_string(), &bound))
+        };
+        Ok(Slip {
+            at_20_deg: loaded("slip_at_20_deg", self.slip_at_20_deg)?,
+            side_at_20_deg: loaded("side_slip_at_20_deg", self.side_slip_at_20_deg)?,
         })
     }
 

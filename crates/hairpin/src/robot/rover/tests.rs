@@ -197,3 +197,32 @@ fn numbers_that_make_no_rover_are_refused_by_key() {
         assert!(error.field.contains(key), "{error}");
     }
 }
+
+#[test]
+fn slip_grows_with_the_load() {
+    let path = format!("{}/../../data/robots/rover/rocky8.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a shipped rover");
+    let text = text.replace("side_slip_at_20_deg = 0", "side_slip_at_20_deg = 0.1");
+    let text = text.replace("\nslip_at_20_deg = 0", "\nslip_at_20_deg = 0.3");
+    let with = |keys: &str| {
+        let text = text.replace("\n[suspension]", &format!("\n{keys}\n[suspension]"));
+        toml::from_str::<RoverDescription>(&text).expect("its keys").build()
+    };
+    let slip = |keys: &str| with(keys).expect("its numbers").slip;
+    assert_eq!(slip(""), Slip { at_20_deg: 0.3, side_at_20_deg: 0.1 });
+    assert_eq!(slip("mass_kg = 60"), slip(""));
+    let half_again = slip("mass_kg = 60\nload_kg = 30");
+    assert!((half_again.at_20_deg - 0.45).abs() < 1e-15 && (half_again.side_at_20_deg - 0.15).abs() < 1e-15);
+    let rooted = slip("mass_kg = 60\nload_kg = 30\nslip_load_exponent = 0.5");
+    assert!((rooted.at_20_deg - 0.3 * 1.5_f64.sqrt()).abs() < 1e-15);
+    for (keys, field, bound) in [
+        ("load_kg = 30", "load_kg", "mass_kg"),
+        ("mass_kg = 60\nload_kg = 180", "load_kg", "it would be 1.200"),
+        ("mass_kg = 0", "mass_kg", "0.001"),
+        ("mass_kg = 60\nload_kg = -1", "load_kg", "0"),
+        ("slip_load_exponent = nan", "slip_load_exponent", "10"),
+    ] {
+        let error = with(keys).unwrap_err();
+        assert!(error.field == field && error.bound.contains(bound), "{keys}: {error}");
+    }
+}
