@@ -46,3 +46,35 @@ fn sizes_that_are_none_are_refused() {
     }
     assert!(fs::read_dir(folder.path()).unwrap().next().is_none());
 }
+
+#[test]
+fn metrics_and_the_follow_up_are_told_and_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let metrics = ["experiment", "metrics", "--set", "graphs=6", "--set", "reach=[\"hull\"]", "--set", "length=6"];
+    let answer = json(folder.path(), &metrics);
+    let rows = answer["tables"]["metrics"].as_array().unwrap();
+    assert_eq!(rows.len(), 3, "{answer}");
+    for row in rows {
+        let number = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key} of {row}"));
+        let five = ["least", "lower_quartile", "median", "upper_quartile", "greatest"].map(number);
+        assert!(five.is_sorted() && five[0] < five[4] && number("trajectories") == 6.0, "{row}");
+        // Of n values no skewness is beyond (n − 2)/√(n − 1).
+        assert!(number("deviation") > 0.0 && number("skewness").abs() <= 4.0 / 5.0_f64.sqrt() + 1e-9, "{row}");
+    }
+    for name in ["deviation", "acceleration", "time"] {
+        let figure = fs::read_to_string(folder.path().join(format!("out/metrics/{name}.svg"))).unwrap();
+        assert!(figure.contains("hull"), "{name}");
+    }
+    let sets = ["graphs=4", "training=12", "runs=1", "executions=12", "length=6", "reach=\"hull\""];
+    let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+    let answer = json(folder.path(), &[&["experiment", "follow-up"], &sets[..]].concat());
+    let rows = answer["tables"]["follow-up"].as_array().unwrap();
+    let ways: Vec<&str> = rows.iter().map(|row| row["way"].as_str().unwrap()).collect();
+    assert_eq!(ways, ["uniform", "random beam", "learned", "in the loop"], "{answer}");
+    // 30 % of four are one: the limit is the second largest of the baseline.
+    assert_eq!((&rows[1]["over_limit_percent"], &rows[1]["lift_percent"]), (&25.0.into(), &0.0.into()), "{answer}");
+    assert_eq!(rows[2]["paper_lift_percent"], 26.0, "{answer}");
+    for name in ["figure-9", "figure-10-top", "figure-10-side", "figure-11"] {
+        assert!(folder.path().join(format!("out/follow-up/{name}.svg")).is_file(), "{name}");
+    }
+}

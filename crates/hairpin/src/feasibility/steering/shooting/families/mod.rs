@@ -8,15 +8,18 @@
 mod basis;
 mod clock;
 mod descend;
+mod found;
 mod grid;
 mod landing;
 mod linear;
 mod parameters;
 mod pieces;
+mod problem;
 mod search;
 mod settings;
 mod start;
 
 pub use parameters::Parameters;
-pub use search::{Among, Answer, Iteration, Problem, solve, solve_among};
+pub use problem::{Among, Answer, Iteration, Problem};
+pub use search::{solve, solve_among};
 pub use settings::Settings;

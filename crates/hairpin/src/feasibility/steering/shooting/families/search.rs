@@ -4,102 +4,26 @@ use std::f64::consts::TAU;
 
 use super::basis::{Basis, Row};
 use super::clock::Clock;
-use super::descend::{Fit, Free, Task, descend, grade};
+use super::descend::{Free, Task, descend};
+use super::found::{Found, cost, judge};
 use super::grid::Grid;
 use super::landing::landing;
 use super::parameters::{Parameters, named};
 use super::pieces;
+use super::problem::{Among, Answer, Iteration, Problem};
 use super::settings::Settings;
 use super::start::{nearest, word};
 use crate::feasibility::steering::shooting::control::Control;
-use crate::feasibility::steering::shooting::flat::{self, Cost, Limit, Status, extremes, forward, ways};
-use crate::feasibility::steering::shooting::{Curvatures, Goal, Precision, Query};
+use crate::feasibility::steering::shooting::flat::{self, Cost, Status, forward, ways};
+use crate::feasibility::steering::shooting::{Curvatures, Goal, Query};
 use crate::math::power::power;
 use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::{Motion, Segment, SegmentList};
-
-/// A boundary-value problem with speed and direction of travel: a query in the frame that looks along the first direction of travel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Problem {
-    /// Where to; driven forward. Its yaw is the change of the body's heading.
-    pub query: Query,
-    /// The speeds at both ends and between; it forms controls that are functions of time.
-    pub speed: SpeedProfile,
-    /// Change of the direction of travel in the body along the drive, rad, left positive.
-    pub swing: f64,
-    /// Whether the curvature at the end is as it comes. Only velocity polynomials ask for it.
-    pub free_end: bool,
-}
-
-impl Problem {
-    /// Parameters, the length among them, that a family has beyond the conditions of the problem: to go around places with, or to lower a
-    /// cost by.
-    pub fn spare(&self, control: Control) -> u32 {
-        let ends = [self.speed.start(), self.speed.end()];
-        let conditions = match control {
-            // Where the vehicle stands, κ̇ must vanish.
-            Control::TimePolynomial => control.conditions() + ends.iter().filter(|speed| **speed <= 0.0).count(),
-            Control::VelocityPolynomial if self.free_end => control.conditions() - 1,
-            _ => control.conditions(),
-        };
-        control.parameters().saturating_sub(conditions) as u32
-    }
-
-    /// The path of travel's own question: it turns by the direction, too, and begins and ends with its share of the bend.
-    pub fn path(&self, bounds: &Curvatures) -> Query {
-        let (Query { goal, start_curvature }, most) = (self.query, bounds.most);
-        let bend = self.swing / libm::hypot(goal.x, goal.y).max(0.5 / most);
-        let kept = |curvature: f64| (curvature + bend).clamp(-most, most);
-        let yaw = goal.yaw + self.swing;
-        Query { start_curvature: kept(start_curvature), goal: Goal { yaw, curvature: kept(goal.curvature), ..goal } }
-    }
-}
-
-/// What is in the way of a drive, and ways around it.
-#[derive(Clone, Copy)]
-pub struct Among<'a> {
-    /// Paths of travel to begin with as well, driven forward from the origin.
-    pub guides: &'a [SegmentList],
-    /// How deep commands, driven forward, come into what is in the way, m; 0 if they stay clear.
-    pub depth: &'a dyn Fn(&SegmentList) -> f64,
-}
-
-/// What was found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Answer {
-    /// Whether it does what was asked, and what it lacks otherwise.
-    pub status: Status,
-    /// The commands; if not `Ok`, what came nearest.
-    pub segments: SegmentList,
-    /// The family's own parameters.
-    pub parameters: Parameters,
-    /// Largest difference between the family's curvature and that of the commands, 1/m; 0 where they are the same function.
-    pub fit_error: f64,
-    /// Steps over all descents.
-    pub iterations: u32,
-}
-
-/// One step of a descent, as an observer gets it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Iteration {
-    /// Which start, from 0.
-    pub start: u32,
-    /// Which step of it, from 1.
-    pub step: u32,
-    /// Metres of the drive.
-    pub length: f64,
-    /// Largest of what is missing at the end, m, rad, 1/m.
-    pub miss: f64,
-    /// Largest |κ| or |κ′| over its bound.
-    pub bends: f64,
-}
 
 /// The descents' tolerance as a share of the precision.
 const TOLERANCE: f64 = 1e-3;
 /// A drive no longer than the shortest way around by this factor is short enough.
 const SHORT: f64 = 1.25;
-/// The wheels stand where they stand: the first curvature is exact to this, 1/m.
-const EXACT: f64 = 1e-7;
 /// Rounds in which length and speeds are made to agree.
 const ROUNDS: u32 = 12;
 /// What a drive of less cost may be longer by than its start value, as a factor.
@@ -177,23 +101,6 @@ struct Search<'a> {
     started: u32,
     /// What drives of less cost may be at the longest, m: so much more than the first start value.
     longest: f64,
-}
-
-/// What a descent came to.
-struct Found {
-    fit: Fit,
-    /// How deep it comes into what is in the way, m.
-    depth: f64,
-    /// What it costs by what was asked for.
-    cost: f64,
-    task: Task,
-    /// What it was found on.
-    basis: Basis,
-    clock: Clock,
-    /// The commands that are handed out, by how much they differ from the family, and what they are worth.
-    segments: SegmentList,
-    fit_error: f64,
-    status: Status,
 }
 
 fn search(
@@ -423,76 +330,5 @@ fn speed_polynomial(speed: &SpeedProfile, length: f64) -> [f64; 3] {
     match Clock::through(start, middle, end) {
         Clock::Polynomial(shape) => shape,
         Clock::Metres | Clock::Seconds { .. } => [middle, 0.0, 0.0],
-    }
-}
-
-impl Found {
-    /// Whether it is worth more: good before not, then what stays clearer, then the cheaper or shorter; or what is nearer to goal and
-    /// bounds.
-    fn better(&self, other: &Self, lowering: Cost) -> bool {
-        match (self.status == Status::Ok, other.status == Status::Ok) {
-            (true, true) if self.depth != other.depth => self.depth < other.depth,
-            (true, true) if lowering != Cost::Any => self.cost < other.cost,
-            (true, true) => self.fit.free.length < other.fit.free.length,
-            (good, bad) if good != bad => good,
-            _ => grade(&self.fit, &self.task) < grade(&other.fit, &other.task),
-        }
-    }
-}
-
-/// ∫κ² ds or ∫κ′² ds of commands, in closed form: Σ aᵢ aⱼ Lⁱ⁺ʲ⁺¹/(i + j + 1); 0 where no cost is asked for.
-fn cost(segments: &[Segment], asked: Cost) -> f64 {
-    let of = |segment: &Segment| {
-        let length = segment.length_m();
-        let Motion::Arc { curvature: a, .. } = segment.motion else { return 0.0 };
-        let a = match asked {
-            Cost::Any => return 0.0,
-            Cost::Curvature => a,
-            Cost::Rate => std::array::from_fn(|k| if k < 5 { (k + 1) as f64 * a[k + 1] } else { 0.0 }),
-        };
-        let term = |i: usize, j: usize| a[i] * a[j] * power(length, i + j + 1) / (i + j + 1) as f64;
-        (0..6).map(|i| (0..6).map(|j| term(i, j)).sum::<f64>()).sum()
-    };
-    segments.iter().map(of).sum()
-}
-
-/// Judges by the numbers that are handed out, not by those that made them.
-fn judge(
-    segments: &[Segment],
-    task: &Task,
-    query: &Query,
-    swing: f64,
-    bounds: &Curvatures,
-    precision: &Precision,
-) -> Status {
-    let [x, y, yaw] = landing(segments, swing);
-    let missed = libm::hypot(x - query.goal.x, y - query.goal.y);
-    let last = segments.last().map_or(query.start_curvature, |last| last.curvature_at(last.length_m()));
-    let bent = if task.end.is_some() { (last - query.goal.curvature).abs() } else { 0.0 };
-    let turned = (yaw - task.turn).abs();
-    let first = segments.first().map_or(0.0, |first| (first.curvature_at(0.0) - query.start_curvature).abs());
-    if !(first <= EXACT && missed <= precision.position && turned <= precision.yaw && bent <= precision.curvature) {
-        return Status::NotConverged { residual: missed };
-    }
-    let (mut most, mut rate) = (0.0_f64, 0.0_f64);
-    for segment in segments {
-        let Motion::Arc { length_m, curvature } = segment.motion else { continue };
-        let mut scale = 1.0;
-        let mut bend = [0.0; 6];
-        for (bend, a) in bend.iter_mut().zip(&curvature) {
-            *bend = a * scale;
-            scale *= length_m;
-        }
-        let slope: [f64; 6] = std::array::from_fn(|k| if k < 5 { (k + 1) as f64 * bend[k + 1] } else { 0.0 });
-        most = most.max(extremes::largest(&bend) / bounds.most);
-        rate = rate.max(extremes::largest(&slope) / (length_m * bounds.most_rate));
-    }
-    const KEPT: f64 = 1.0 + 1e-9;
-    if most <= KEPT && rate <= KEPT {
-        Status::Ok
-    } else if most >= rate {
-        Status::Infeasible { limit: Limit::Curvature, excess: (most - 1.0) * bounds.most }
-    } else {
-        Status::Infeasible { limit: Limit::CurvatureRate, excess: (rate - 1.0) * bounds.most_rate }
     }
 }
