@@ -5,7 +5,7 @@ mod commands;
 use std::fs;
 use std::path::Path;
 
-use commands::{json, refused};
+use commands::{json, refused, run};
 use hairpin_formats::folder::CampaignFolder;
 
 /// Small graphs of hull legs, flown by minimum snap.
@@ -121,4 +121,34 @@ fn executions_in_the_loop_tell_the_stress_that_is_judged_and_beat_uniform_draws(
     let mut typed = vec!["generate", "q.toml", "--out", "no", "--set", "generate.search.method=\"in-loop\""];
     typed.extend(command);
     refused(here, &typed, &["in-loop", "controller given"]);
+}
+
+/// Moves of an arm: what its programs took is told by a model, which then is what programs are searched for.
+#[test]
+fn an_arm_learns_what_its_moves_take() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let small = ["--set", "task.points.count=7", "--set", "generate.search.programs=14", "--set", "execute.repeat=1"];
+    json(here, &[&["stress", "arm", "--out", "ran"][..], &small].concat());
+    let told = json(here, &["learn", "ran", "--stress", "time", "--out", "m.json"]);
+    // Seven points have six moves between them; those from and to home are not between points.
+    assert!(told["trajectories"] == 14 && told["unit"] == "s", "{told}");
+    assert!((70..=84).contains(&told["legs"].as_u64().unwrap()), "{told}");
+    assert!(told["validation"]["r2"].as_f64().unwrap() > 0.5, "{told}");
+    let learned = ["--set", "generate.cost=\"learned:m.json\"", "--set", "task.points.count=7"];
+    let found =
+        |out: &str, more: &[&str]| json(here, &[&["generate", "arm", "--out", out][..], &learned, more].concat());
+    found("slow", &["--set", "generate.search.programs=1"]);
+    // The folder stands alone, and its proof is of the model's costs.
+    fs::rename(here.join("m.json"), here.join("moved.json")).unwrap();
+    let verified = json(here, &["verify", "slow"]);
+    assert!(verified["optimum"]["verified"] == true && verified["exit_code"] == 0, "{verified}");
+    let scenario = fs::read_to_string(here.join("slow/scenario.toml")).unwrap();
+    assert!(scenario.contains("learned:score-model.json"), "{scenario}");
+    fs::rename(here.join("moved.json"), here.join("m.json")).unwrap();
+    let other = [&["generate", "arm", "--out", "other", "--set", "robot=\"irb1200\""][..], &learned].concat();
+    refused(here, &other, &["learned on robot `irb120`"]);
+    let blind = [&["generate", "arm", "--out", "blind", "--set", "generate.mode=\"cartesian\""][..], &learned].concat();
+    let (code, told, _) = run(here, &blind);
+    assert!(code == 3 && told.contains("needs joints"), "{told}");
 }

@@ -1,6 +1,7 @@
 //! `hairpin learn`: a score from executed legs.
 
-use hairpin::campaign::learn::{learn, leg_samples};
+use hairpin::campaign::Case;
+use hairpin::campaign::learn::{learn, learn_moves, leg_samples, move_samples};
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::model_text;
 use rayon::prelude::*;
@@ -16,22 +17,27 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
     let stress = asked.stress;
     let cases = work.folder.read_cases()?;
     let table = work.folder.read_runs_table()?;
-    let samples: Result<Vec<_>, Problem> = cases
-        .par_iter()
-        .map(|case| {
-            let runs = work.folder.read_runs(case.number, &table)?;
-            Ok(leg_samples(&work.setup, case, &runs, stress))
-        })
-        .collect();
-    let samples = samples?.concat();
     let place = asked.folder.display();
-    if samples.is_empty() {
-        return Err(Problem::input(format!(
-            "{place}: no leg to learn from: cases need legs that a search saw, executions, and {} measured on them",
+    let found = |samples: usize, what: &str| match samples {
+        0 => Err(Problem::input(format!(
+            "{place}: no {what} to learn from: cases need {what}s that a search saw, executions, and {} measured on them",
             stress.word()
-        )));
-    }
-    let model = learn(&work.setup, stress, &samples).map_err(|error| Problem::input(format!("{place}: {error}")))?;
+        ))),
+        _ => Ok(()),
+    };
+    let runs = |case: &Case| work.folder.read_runs(case.number, &table);
+    let learned = if work.setup.arm().is_some() {
+        let of_case = |case: &Case| Ok(move_samples(&work.setup, case, &runs(case)?, stress));
+        let samples = cases.par_iter().map(of_case).collect::<Result<Vec<_>, Problem>>()?.concat();
+        found(samples.len(), "move")?;
+        learn_moves(&work.setup, stress, &samples)
+    } else {
+        let of_case = |case: &Case| Ok(leg_samples(&work.setup, case, &runs(case)?, stress));
+        let samples = cases.par_iter().map(of_case).collect::<Result<Vec<_>, Problem>>()?.concat();
+        found(samples.len(), "leg")?;
+        learn(&work.setup, stress, &samples)
+    };
+    let model = learned.map_err(|error| Problem::input(format!("{place}: {error}")))?;
     atomic::write(&asked.out, model_text(&model).as_bytes())?;
     let (validation, held_out) = (model.validation, model.held_out);
     if asked.json {
@@ -66,7 +72,8 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
              of their largest {rank}",
             validation.r2, validation.rmse, held_out.trajectories, held_out.r2, held_out.rmse,
         ));
-        console::say(&format!("use it: generate.score = \"learned:{}\"", asked.out.display()));
+        let key = if work.setup.arm().is_some() { "generate.cost" } else { "generate.score" };
+        console::say(&format!("use it: {key} = \"learned:{}\"", asked.out.display()));
     }
     Ok(0)
 }

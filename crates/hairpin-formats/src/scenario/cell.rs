@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use hairpin::campaign::learn::NAME;
 use hairpin::campaign::scenario::{ArmControllerKind, ArmScenario, CloudPoint, CostMatrix, CostSection, PointsSource};
 use sha2::{Digest, Sha256};
 
@@ -38,6 +39,7 @@ pub(super) fn attach(scenario: &mut ArmScenario, folder: &Path) -> Result<(), Re
     };
     let table = match &scenario.generate.cost {
         CostSection::Table(table) => Some(table.table.as_str()),
+        CostSection::Learned(_) => Some(NAME),
         CostSection::Named(_) | CostSection::Weighted(_) => None,
     };
     let baseline = scenario.spec.regression.as_ref().map(|limit| limit.baseline.as_str());

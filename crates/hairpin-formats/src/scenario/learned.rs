@@ -4,6 +4,7 @@ use std::path::Path;
 
 use hairpin::campaign::Scenario;
 use hairpin::campaign::learn::{KeptModel, NAME, ScoreModel};
+use hairpin::campaign::scenario::CostSection;
 
 use super::Wrong;
 use super::resolve::read_file;
@@ -16,7 +17,10 @@ pub(super) fn read(scenario: &mut Scenario, base: &Path) -> Result<(), Wrong> {
             let search = &mut scenario.generate.search;
             ("generate.search.score", &mut search.score, &mut search.model)
         }
-        Scenario::Arm(_) => return Ok(()),
+        Scenario::Arm(scenario) => match &mut scenario.generate.cost {
+            CostSection::Learned(cost) => ("generate.cost", &mut cost.score, &mut cost.model),
+            CostSection::Named(_) | CostSection::Table(_) | CostSection::Weighted(_) => return Ok(()),
+        },
     };
     let Some(file) = KeptModel::file_of(score) else { return Ok(()) };
     let wrong = |bound: String| (key.to_owned(), score.clone(), bound);

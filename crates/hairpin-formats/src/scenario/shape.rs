@@ -29,6 +29,14 @@ impl<'s> Shape<'s> {
         let fits = |schema: &&&Value| is_of_type(type_of(schema), node);
         // What may be a word may be a table, too, such as a cost.
         let is_table = matches!(node.kind, Kind::Table(_)) && alternatives.iter().any(|schema| fits(&schema));
+        // So may what only begins like one, such as a model's file.
+        let is_begun = |text: &str| {
+            let mut starts = alternatives.iter().filter_map(|schema| schema["pattern"].as_str()?.strip_prefix('^'));
+            starts.any(|start| text.starts_with(start))
+        };
+        if matches!(&node.kind, Kind::Text(text) if is_begun(text)) {
+            return;
+        }
         if !words.is_empty() && !is_table {
             return self.check_word(&words, node, path);
         }

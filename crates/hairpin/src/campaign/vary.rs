@@ -52,6 +52,11 @@ pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario,
                 new.task.cloud = old.task.cloud.clone();
                 new.task.bytes = old.task.bytes.clone();
             }
+            if let (CostSection::Learned(old), CostSection::Learned(new)) = (&old.generate.cost, &mut new.generate.cost)
+                && new.score == old.score
+            {
+                new.model = old.model.clone();
+            }
             if let (CostSection::Table(old), CostSection::Table(new)) = (&old.generate.cost, &mut new.generate.cost)
                 && new.table == old.table
             {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::ArmSetup;
 use super::graph::{ArmGraph, allowed};
 use crate::campaign::scenario::MoveName;
-use crate::robot::arm::{AXES, Joints};
+use crate::robot::arm::{AXES, Configuration, Joints};
 use crate::simulation::arm::{Order, Target, Zone};
 use crate::verification::{
     ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm,
@@ -142,12 +142,8 @@ impl ArmSetup<'_> {
 
     /// Targets as they are; where a pose is met in joints its angles are the ones of its configuration, which the proof holds to the pose.
     fn moves_of(&self, orders: &[Order]) -> Vec<ArmMoveClaim> {
-        let joints = |pose: &Isometry3<f64>, configuration: &Option<crate::robot::arm::Configuration>| -> Joints {
-            let flange = self.station.flange(pose);
-            let turned = self.station.arm.inverse(&flange, &self.station.home).into_iter();
-            let mut turned = turned.flat_map(|q| self.station.arm.turns_of(&q));
-            let fits = |q: &Joints| configuration.is_none_or(|wanted| self.station.arm.configuration(q) == wanted);
-            turned.find(fits).unwrap_or(self.station.home)
+        let joints = |pose: &Isometry3<f64>, configuration: &Option<Configuration>| -> Joints {
+            configuration.and_then(|wanted| self.posture(pose, &wanted)).unwrap_or(self.station.home)
         };
         let one = |order: &Order| match &order.target {
             Target::Joints(end) => ArmMoveClaim::Joints(*end, None),

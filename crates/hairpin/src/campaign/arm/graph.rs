@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Point3};
 use super::{ArmSetup, Station};
 use crate::campaign::scenario::{ArmMode, ArmScenario, CostName, CostSection, MoveName};
 use crate::feasibility::reachability::joint::{
-    Bodies, Cost, FollowSettings, JointSettings, MoveKind, Station as Stand, joint,
+    Bodies, Cost, FollowSettings, JointGraph, JointSettings, MoveKind, Station as Stand, joint,
 };
 use crate::feasibility::reachability::{
     CartesianSettings, Level, Obstacle, ReachabilityGraph, Refusal, Verdict, cartesian,
@@ -98,7 +98,8 @@ pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
 pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
     let (station, scenario) = (setup.station, setup.scenario);
     let cost = cost_of(scenario, station.points.len())?;
-    if scenario.generate.mode == ArmMode::Cartesian && !matches!(cost, Cost::Distance | Cost::Table(_)) {
+    let learned = matches!(scenario.generate.cost, CostSection::Learned(_));
+    if scenario.generate.mode == ArmMode::Cartesian && (learned || !matches!(cost, Cost::Distance | Cost::Table(_))) {
         return Err(format!("cost `{}` needs joints: mode = \"joint\"", scenario.generate.cost.word()));
     }
     Ok(match scenario.generate.mode {
@@ -140,11 +141,28 @@ fn in_joints(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
         .map(|point| Stand { pose: point.pose, configuration: point.configuration.and_then(configuration) })
         .collect();
     let graph = joint(&station.arm, &station.tool, &station.cell, &stands, &joint_settings(station, scenario), cost);
+    let graph = with_learned(setup, graph);
     let costs = masked(graph.graph.matrix(), scenario);
     let free = |refusals: &[Option<Refusal>]| refusals.iter().map(Option::is_none).collect();
     let (from_home, to_home) = (free(&graph.from_home), free(&graph.to_home));
     let (unit, unit_name) = unit_of(cost, scenario);
     ArmGraph { reachability: graph.graph, postures: Some(graph.joints), costs, from_home, to_home, unit, unit_name }
+}
+
+/// With what a learned model expects in place of the costs, where one is asked for.
+fn with_learned(setup: &ArmSetup, graph: JointGraph) -> JointGraph {
+    let model = match &setup.scenario.generate.cost {
+        CostSection::Learned(learned) => learned.model.as_ref(),
+        _ => None,
+    };
+    let Some(kept) = model else { return graph };
+    let JointGraph { graph: reachability, joints, .. } = graph;
+    let reachability =
+        reachability.with_costs("1e-6 of the model's unit", |from, to| match (&joints[from], &joints[to]) {
+            (Ok(start), Ok(end)) => setup.expected(&kept.model, [from, to], [start, end]),
+            _ => 0,
+        });
+    JointGraph { graph: reachability, joints, ..graph }
 }
 
 fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
@@ -207,6 +225,8 @@ fn configuration([cf1, cf4, cf6, cfx]: [i32; 4]) -> Option<Configuration> {
 fn cost_of(scenario: &ArmScenario, points: usize) -> Result<Cost, String> {
     match &scenario.generate.cost {
         CostSection::Named(name) => Ok(by_name(*name)),
+        // What a model expects takes the place of these once the graph is known.
+        CostSection::Learned(_) => Ok(Cost::Distance),
         CostSection::Table(table) => {
             let matrix = table.costs.as_ref().ok_or_else(|| format!("`{}` was not read", table.table))?;
             if matrix.points != points {
@@ -238,6 +258,9 @@ fn by_name(name: CostName) -> Cost {
 
 /// What one unit of a cost is, and in which unit users are told.
 fn unit_of(cost: &Cost, scenario: &ArmScenario) -> (f64, String) {
+    if let CostSection::Learned(learned) = &scenario.generate.cost {
+        return (1e-6, learned.model.as_ref().map_or_else(String::new, |kept| kept.model.unit.clone()));
+    }
     match cost {
         Cost::Distance => (1e-3, "mm".into()),
         Cost::Time => (1e-6, "s".into()),

@@ -15,6 +15,7 @@ mod program;
 mod recorded;
 mod regression;
 mod replan;
+mod seen;
 mod solve;
 mod station;
 mod verify;

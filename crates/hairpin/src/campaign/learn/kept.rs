@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
+use super::moves::ARM_MOVES;
 use super::{ScoreModel, Subject};
 use crate::campaign::Scenario;
-use crate::campaign::scenario::{DriveScenario, FlightScenario, GroundReach, ReachName};
+use crate::campaign::scenario::{ArmScenario, DriveScenario, FlightScenario, GroundReach, ReachName};
 
 /// Name of the model's file in a campaign folder.
 pub const NAME: &str = "score-model.json";
@@ -40,11 +41,15 @@ pub(in crate::campaign) fn subject(scenario: &Scenario) -> Subject {
     match scenario {
         Scenario::Flight(scenario) => of_flight(scenario),
         Scenario::Drive(scenario) => of_drive(scenario),
-        Scenario::Arm(arm) => {
-            let robot = arm.robot.resolved().ok();
-            of_robot(robot, |robot| &robot.name, true, scenario.controller())
-        }
+        Scenario::Arm(scenario) => of_arm(scenario),
     }
+}
+
+/// Whose moves a scenario of arms is about.
+pub(in crate::campaign) fn of_arm(scenario: &ArmScenario) -> Subject {
+    let controller = if scenario.execute.logs.is_some() { "recorded" } else { "virtual" };
+    let subject = of_robot(scenario.robot.resolved().ok(), |robot| &robot.name, true, Some(controller));
+    Subject { speeds: ARM_MOVES.into(), ..subject }
 }
 
 /// Whose legs a scenario of flights is about.

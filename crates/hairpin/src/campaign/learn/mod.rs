@@ -2,14 +2,16 @@
 
 mod kept;
 mod model;
+mod moves;
 mod resample;
 mod samples;
 mod score;
 
 pub use kept::{KeptModel, NAME};
-pub(super) use kept::{of_drive, of_flight, subject};
+pub(super) use kept::{of_arm, of_drive, of_flight, subject};
 pub(super) use model::LEAST_TRAJECTORIES;
 pub use model::{Feature, HeldOut, LegSample, ModelMistake, ScoreModel, Subject};
+pub use moves::{MoveFeatures, MoveSample};
 pub(super) use samples::samples_of;
-pub use samples::{learn, leg_samples};
+pub use samples::{learn, learn_moves, leg_samples, move_samples};
 pub(super) use score::AnyScore;

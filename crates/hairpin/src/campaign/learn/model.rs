@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::moves::{ARM_MOVES, MoveFeatures, MoveSample};
 use crate::feasibility::reach::LegFeatures;
 use crate::judgement::{Stress, rank_correlation};
 use crate::math::ridge::{NoFit, PolynomialRidge, Rows, Validation};
@@ -164,24 +165,40 @@ impl ScoreModel {
     /// # Errors
     /// [`NoFit`]: fewer than 13 trajectories, numbers that are none, legs that are all the same.
     pub fn learn(stress: Stress, subject: Subject, samples: &[LegSample]) -> Result<Self, NoFit> {
-        let all = rows(samples);
-        let (seen, unseen): (Vec<LegSample>, Vec<LegSample>) = split(samples);
-        let (tested, _) = PolynomialRidge::choose(&rows(&seen), MOST_DEGREE, FOLDS)?;
+        Self::fit(stress, subject, features(), &rows(samples))
+    }
+
+    /// Learns the stress of an arm's moves in the same way; its trajectories are programs.
+    ///
+    /// # Errors
+    /// As [`Self::learn`].
+    pub fn learn_moves(stress: Stress, subject: Subject, samples: &[MoveSample]) -> Result<Self, NoFit> {
+        let rows = Rows {
+            inputs: samples.iter().map(|sample| sample.features.inputs().to_vec()).collect(),
+            values: samples.iter().map(|sample| sample.stress).collect(),
+            groups: samples.iter().map(|sample| sample.program).collect(),
+        };
+        Self::fit(stress, subject, MoveFeatures::named(), &rows)
+    }
+
+    fn fit(stress: Stress, subject: Subject, features: Vec<Feature>, all: &Rows) -> Result<Self, NoFit> {
+        let (seen, unseen) = split(all);
+        let (tested, _) = PolynomialRidge::choose(&seen, MOST_DEGREE, FOLDS)?;
         let held_out = held_out(&tested, &unseen);
-        let (polynomial, validation) = PolynomialRidge::choose(&all, MOST_DEGREE, FOLDS)?;
-        let mut trajectories: Vec<usize> = samples.iter().map(|sample| sample.trajectory).collect();
+        let (polynomial, validation) = PolynomialRidge::choose(all, MOST_DEGREE, FOLDS)?;
+        let mut trajectories = all.groups.clone();
         trajectories.dedup();
         Ok(Self {
             score_model: 1,
             stress,
             unit: stress.unit().into(),
             subject,
-            features: features(),
+            features,
             validation,
             held_out,
             trajectories: trajectories.len(),
-            legs: samples.len(),
-            training_hash: hash(&all),
+            legs: all.values.len(),
+            training_hash: hash(all),
             polynomial,
         })
     }
@@ -205,11 +222,12 @@ impl ScoreModel {
                 return Err(ModelMistake::Subject { field, found: found.clone(), wanted: wanted.clone() });
             }
         }
-        if self.features != features() {
+        let wanted = if subject.speeds == ARM_MOVES { MoveFeatures::named() } else { features() };
+        if self.features != wanted {
             let told = |features: &[Feature]| {
                 features.iter().map(|f| format!("{} [{}]", f.name, f.unit)).collect::<Vec<_>>().join(", ")
             };
-            return Err(ModelMistake::Features { found: told(&self.features), wanted: told(&features()) });
+            return Err(ModelMistake::Features { found: told(&self.features), wanted: told(&wanted) });
         }
         self.check_polynomial()
     }
@@ -218,16 +236,17 @@ impl ScoreModel {
         let wrong =
             |field, found: String, bound: &str| Err(ModelMistake::Polynomial { field, found, bound: bound.to_owned() });
         let PolynomialRidge { centre, scale, range, powers, weights, intercept, .. } = &self.polynomial;
-        let per_input = format!("{FEATURES} numbers");
+        let inputs = self.features.len();
+        let per_input = format!("{inputs} numbers");
         for (field, length) in [("centre", centre.len()), ("scale", scale.len()), ("range", range.len())] {
-            if length != FEATURES {
+            if length != inputs {
                 return wrong(field, format!("{length} numbers"), &per_input);
             }
         }
         if powers.len() != weights.len() {
             return wrong("weights", weights.len().to_string(), &format!("{}, one per monomial", powers.len()));
         }
-        if let Some(row) = powers.iter().find(|row| row.len() != FEATURES || row.iter().sum::<u32>() > 64) {
+        if let Some(row) = powers.iter().find(|row| row.len() != inputs || row.iter().sum::<u32>() > 64) {
             return wrong("powers", format!("{row:?}"), &format!("{per_input}, at most 64 together"));
         }
         if let Some([least, greatest]) =
@@ -246,6 +265,11 @@ impl ScoreModel {
     pub fn expected(&self, leg: &LegFeatures, duration: f64) -> f64 {
         self.polynomial.value(&inputs(leg, duration))
     }
+
+    /// The stress expected of a move of an arm, in [`Self::unit`].
+    pub fn expected_of_move(&self, features: &MoveFeatures) -> f64 {
+        self.polynomial.value(&features.inputs())
+    }
 }
 
 pub(super) fn rows(samples: &[LegSample]) -> Rows {
@@ -256,33 +280,38 @@ pub(super) fn rows(samples: &[LegSample]) -> Rows {
     }
 }
 
-/// Legs of trajectories that are seen, and of every fifth, which is not.
-fn split(samples: &[LegSample]) -> (Vec<LegSample>, Vec<LegSample>) {
+/// Trajectories that are seen, and every fifth, which is not.
+fn split(all: &Rows) -> (Rows, Rows) {
     let mut place = 0;
     let mut last = None;
-    samples.iter().partition(|sample| {
-        if last.is_some_and(|last| last != sample.trajectory) {
+    let (mut seen, mut unseen) = (Rows::default(), Rows::default());
+    for ((inputs, value), group) in all.inputs.iter().zip(&all.values).zip(&all.groups) {
+        if last.is_some_and(|last| last != *group) {
             place += 1;
         }
-        last = Some(sample.trajectory);
-        place % HELD_OUT != HELD_OUT - 1
-    })
+        last = Some(*group);
+        let part = if place % HELD_OUT == HELD_OUT - 1 { &mut unseen } else { &mut seen };
+        part.inputs.push(inputs.clone());
+        part.values.push(*value);
+        part.groups.push(*group);
+    }
+    (seen, unseen)
 }
 
-fn held_out(fitted: &PolynomialRidge, samples: &[LegSample]) -> HeldOut {
-    let n = samples.len().max(1) as f64;
-    let mean = samples.iter().map(|sample| sample.stress).sum::<f64>() / n;
+fn held_out(fitted: &PolynomialRidge, unseen: &Rows) -> HeldOut {
+    let n = unseen.values.len().max(1) as f64;
+    let mean = unseen.values.iter().sum::<f64>() / n;
     let (mut squares, mut spread) = (0.0, 0.0);
     let mut largest: Vec<(usize, f64, f64)> = Vec::new();
-    for sample in samples {
-        let told = fitted.value(&inputs(&sample.features, sample.duration));
-        squares += (sample.stress - told) * (sample.stress - told);
-        spread += (sample.stress - mean) * (sample.stress - mean);
+    for ((inputs, value), group) in unseen.inputs.iter().zip(&unseen.values).zip(&unseen.groups) {
+        let told = fitted.value(inputs);
+        squares += (value - told) * (value - told);
+        spread += (value - mean) * (value - mean);
         match largest.last_mut() {
-            Some((trajectory, expected, measured)) if *trajectory == sample.trajectory => {
-                (*expected, *measured) = (expected.max(told), measured.max(sample.stress));
+            Some((trajectory, expected, measured)) if trajectory == group => {
+                (*expected, *measured) = (expected.max(told), measured.max(*value));
             }
-            _ => largest.push((sample.trajectory, told, sample.stress)),
+            _ => largest.push((*group, told, *value)),
         }
     }
     let (told, measured): (Vec<f64>, Vec<f64>) = largest.iter().map(|(_, told, measured)| (told, measured)).unzip();

@@ -1,9 +1,9 @@
 //! From the executed cases of a campaign to a model.
 
-use super::{LegSample, ScoreModel, subject};
+use super::{LegSample, MoveFeatures, MoveSample, ScoreModel, subject};
 use crate::campaign::judge::measures_of;
 use crate::campaign::{Case, Run, Setup};
-use crate::judgement::{Measures, Stress};
+use crate::judgement::{LegMeasures, Measures, Stress};
 use crate::math::ridge::NoFit;
 
 /// The legs of `case` with the stress that each of `runs` put on them. Legs that a run did not come to, and cases whose legs no search
@@ -38,4 +38,28 @@ pub(in crate::campaign) fn samples_of(case: &Case, measures: &Measures, stress: 
 /// [`NoFit`].
 pub fn learn(setup: &Setup, stress: Stress, samples: &[LegSample]) -> Result<ScoreModel, NoFit> {
     ScoreModel::learn(stress, subject(&setup.scenario), samples)
+}
+
+/// The moves of `case` between points of the cloud with the stress that each of `runs` put on them, and what the graph knew of them; of moves whose
+/// angles are not known (Cartesian mode), on arcs, and of those that a run did not come to there are none.
+pub fn move_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> Vec<MoveSample> {
+    let Some(features) = setup.arm().map(|arm| arm.moves_seen(case)) else { return Vec::new() };
+    let measured = runs.iter().filter_map(|run| measures_of(setup, case, run));
+    let of_run = |measures: Measures| -> Vec<MoveSample> {
+        let pairs = features.iter().zip(&measures.legs);
+        let sample = |(features, leg): (&Option<MoveFeatures>, &LegMeasures)| {
+            let stress = stress.of_leg(leg).filter(|value| value.is_finite() && leg.time > 0.0)?;
+            Some(MoveSample { program: case.number, features: (*features)?, stress })
+        };
+        pairs.filter_map(sample).collect()
+    };
+    measured.flat_map(of_run).collect()
+}
+
+/// Learns the stress of moves, which executions of `setup` gave.
+///
+/// # Errors
+/// [`NoFit`].
+pub fn learn_moves(setup: &Setup, stress: Stress, samples: &[MoveSample]) -> Result<ScoreModel, NoFit> {
+    ScoreModel::learn_moves(stress, subject(&setup.scenario), samples)
 }

@@ -159,6 +159,7 @@ impl Scenario {
                 };
                 let table = match &scenario.generate.cost {
                     CostSection::Table(table) => (Some(table.table.as_str()), table.bytes.as_deref()),
+                    CostSection::Learned(cost) => (Some(learn::NAME), cost.model.as_ref().map(|kept| &*kept.bytes)),
                     CostSection::Named(_) | CostSection::Weighted(_) => (None, None),
                 };
                 let regression = scenario.spec.regression.as_ref();

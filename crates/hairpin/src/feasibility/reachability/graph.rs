@@ -25,7 +25,7 @@ impl ReachabilityGraph {
     }
 
     /// Sets the costs of the moves that are possible.
-    pub(super) fn with_costs(mut self, unit: &'static str, mut cost: impl FnMut(usize, usize) -> i64) -> Self {
+    pub fn with_costs(mut self, unit: &'static str, mut cost: impl FnMut(usize, usize) -> i64) -> Self {
         self.unit = unit;
         for from in 0..self.points {
             for to in 0..self.points {

@@ -2,6 +2,7 @@
 
 use super::{ArmExecute, ArmGenerate, ArmScenario, ArmSpec, CostSection, LogClock, PointsSource};
 use crate::campaign::arm::station_of;
+use crate::campaign::learn::of_arm;
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{FlakySection, Mistake};
 use crate::search::heaviest::MOST_VISITS;
@@ -17,6 +18,9 @@ impl ArmScenario {
         found.head(self.hairpin, self.seed);
         self.check_task(&mut found);
         check_generate(&self.generate, self.task.count(), &mut found);
+        if let CostSection::Learned(cost) = &self.generate.cost {
+            found.model("generate.cost", &cost.score, cost.model.as_ref(), || of_arm(self));
+        }
         check_execute(&self.execute, &mut found);
         let drawn = self.execute.logs.is_some() && !self.vary.is_empty();
         found.require(

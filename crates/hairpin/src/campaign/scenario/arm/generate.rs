@@ -5,6 +5,7 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::{SearchMethod, SearchSection};
 
 /// `[generate]`.
@@ -13,7 +14,7 @@ use crate::campaign::scenario::{SearchMethod, SearchSection};
 pub struct ArmGenerate {
     /// joint: every link checked; cartesian: the tool's sphere only.
     pub mode: ArmMode,
-    /// distance | time | controller-load | joint-effort | { table = "arc_ms.csv" } | { distance = 1.0, time = 2.0, … }.
+    /// distance | time | controller-load | joint-effort | learned:MODEL | { table = "arc_ms.csv" } | { distance = 1.0, time = 2.0, … }.
     pub cost: CostSection,
     /// What moves are made of.
     pub moves: MovesSection,
@@ -58,6 +59,8 @@ impl ArmMode {
 pub enum CostSection {
     /// One of ours.
     Named(CostName),
+    /// What was learned.
+    Learned(LearnedCost),
     /// What was measured.
     Table(CostTable),
     /// Several, each times its weight.
@@ -69,6 +72,7 @@ impl CostSection {
     pub fn word(&self) -> &'static str {
         match self {
             Self::Named(name) => name.word(),
+            Self::Learned(_) => "learned",
             Self::Table(_) => "table",
             Self::Weighted(_) => "weighted sum",
         }
@@ -98,6 +102,34 @@ impl CostName {
             Self::ControllerLoad => "controller-load",
             Self::JointEffort => "joint-effort",
         }
+    }
+}
+
+/// `"learned:FILE"`: what a model of executed moves expects (`hairpin learn`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "String", into = "String")]
+#[schemars(extend("pattern" = "^learned:"))]
+pub struct LearnedCost {
+    /// As written.
+    pub score: String,
+    /// The model, once it was read.
+    pub model: Option<KeptModel>,
+}
+
+impl TryFrom<String> for LearnedCost {
+    type Error = String;
+
+    fn try_from(score: String) -> Result<Self, Self::Error> {
+        match KeptModel::file_of(&score) {
+            Some(_) => Ok(Self { score, model: None }),
+            None => Err(format!("\"{score}\" is neither the name of a cost nor learned:FILE")),
+        }
+    }
+}
+
+impl From<LearnedCost> for String {
+    fn from(cost: LearnedCost) -> Self {
+        cost.score
     }
 }
 

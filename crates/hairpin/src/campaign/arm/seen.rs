@@ -1,0 +1,59 @@
+//! What the search saw of the moves of a program, and what a learned model expects of those of a graph.
+
+use nalgebra::Isometry3;
+
+use super::ArmSetup;
+use super::execute::program_of;
+use crate::campaign::Case;
+use crate::campaign::learn::{MoveFeatures, ScoreModel};
+use crate::robot::arm::{Configuration, Joints};
+use crate::simulation::arm::{Order, Target};
+use crate::trajectory::program::Speed;
+
+impl ArmSetup<'_> {
+    /// The features of each move of the program of `case`; `None` of those from and to home, on arcs, and between points of unknown posture.
+    pub(in crate::campaign) fn moves_seen(&self, case: &Case) -> Vec<Option<MoveFeatures>> {
+        let orders = program_of(case).and_then(|program| self.orders(program)).unwrap_or_default();
+        let one = |(index, order): (usize, &Order)| {
+            let before = orders.get(index.checked_sub(1)?)?;
+            let ((start, from), (end, to)) = (self.stand(before)?, self.stand(order)?);
+            match order.target {
+                Target::Joint(..) | Target::Line(..) => {
+                    Some(MoveFeatures::of(&self.station.arm, [&start, &end], &from, &to, order.speed.tcp))
+                }
+                Target::Joints(_) | Target::Arc(..) => None,
+            }
+        };
+        orders.iter().enumerate().map(one).collect()
+    }
+
+    /// Pose and angles at the end of a move to a point.
+    fn stand(&self, order: &Order) -> Option<(Isometry3<f64>, Joints)> {
+        let (pose, configuration) = match &order.target {
+            Target::Joint(pose, configuration) | Target::Line(pose, configuration) => (pose, configuration),
+            Target::Arc(_, pose, configuration) => (pose, configuration),
+            Target::Joints(_) => return None,
+        };
+        Some((*pose, self.posture(pose, configuration.as_ref()?)?))
+    }
+
+    /// Angles with the tool at `pose` in a configuration.
+    pub(super) fn posture(&self, pose: &Isometry3<f64>, wanted: &Configuration) -> Option<Joints> {
+        let (station, flange) = (self.station, self.station.flange(pose));
+        let turned = station.arm.inverse(&flange, &station.home).into_iter().flat_map(|q| station.arm.turns_of(&q));
+        turned.into_iter().find(|q| station.arm.configuration(q) == *wanted)
+    }
+
+    /// What `model` expects of the move from row to row with these angles at both ends, in millionths of its unit, at the mean of the scenario's
+    /// speeds; at least 0.
+    pub(super) fn expected(&self, model: &ScoreModel, [from, to]: [usize; 2], angles: [&Joints; 2]) -> i64 {
+        let place = |row: usize| &self.station.points[row].pose;
+        let speeds = &self.scenario.generate.moves.speeds;
+        let named = speeds.iter().filter_map(|name| Speed::predefined(name));
+        let sum: f64 = named.map(|speed| MoveFeatures::speed_of(speed.tcp)).sum();
+        let speed = sum / speeds.len().max(1) as f64;
+        let features = MoveFeatures::of(&self.station.arm, [place(from), place(to)], angles[0], angles[1], speed);
+        // Whole numbers without limit are no costs; nothing that is measured of a move is as large.
+        (1e6 * model.expected_of_move(&features)).clamp(0.0, 1e15).round() as i64
+    }
+}
