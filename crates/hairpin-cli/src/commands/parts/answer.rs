@@ -95,6 +95,17 @@ impl Answer<'_> {
             let path = self.work.folder.path().join(name);
             if path.exists() { json!(path) } else { Value::Null }
         };
+        let mut paths = json!({
+            "folder": self.work.folder.path(),
+            "scenario": file("scenario.toml"),
+            "results": file("results.parquet"),
+            "junit": file("junit.xml"),
+            "report": file("report.html"),
+        });
+        // Only searches that execute have one.
+        if let curve @ Value::String(_) = file("best-so-far.tsv") {
+            paths["best_so_far"] = curve;
+        }
         json!({
             "verdict": self.judgement.verdict.sentence,
             "exit_code": self.exit_code(),
@@ -117,14 +128,7 @@ impl Answer<'_> {
             "influences": self.judgement.influences,
             "offsets": self.offsets(),
             "regression": self.judgement.regression.as_ref().map(regression),
-            "paths": {
-                "folder": self.work.folder.path(),
-                "scenario": file("scenario.toml"),
-                "results": file("results.parquet"),
-                "junit": file("junit.xml"),
-                "best_so_far": file("best-so-far.tsv"),
-                "report": file("report.html"),
-            },
+            "paths": paths,
         })
     }
 }
