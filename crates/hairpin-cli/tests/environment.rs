@@ -5,35 +5,17 @@ mod commands;
 use std::fs;
 use std::path::Path;
 
-use commands::{assert_same, copy, json, refused, run};
+use commands::{assert_same, copy, json, refused, run, small_hull};
 use hairpin::campaign::{Case, Environment};
 use hairpin_formats::folder::CampaignFolder;
 use nalgebra::Vector3;
 use serde_json::Value;
 
-/// Small graphs of hull legs, flown by minimum snap.
-const SCENARIO: &str = r#"
-hairpin = 1
-robot = "flightgoggles"
-seed = 3
-[world]
-size_m = [20, 20, 20]
-[task]
-start_m = [2, 2, 5]
-end_m = [14, 14, 12]
-length = 5
-[generate]
-reach = "hull"
-timing = { step_s = 1.0 }
-search = { method = "in-loop", waypoints = 90, cases = 2, executions = 60 }
-[execute]
-controller = "minimum-snap"
-[spec]
-deviation = { max_m = 0.5, from = "nearest-leg" }
-"#;
+/// What is searched.
+const SEARCH: &str = r#"{ method = "in-loop", waypoints = 90, cases = 2, executions = 60 }"#;
 
 fn looped(here: &Path, command: &str, out: &str, sets: &[&str]) -> Value {
-    fs::write(here.join("q.toml"), SCENARIO).unwrap();
+    fs::write(here.join("q.toml"), small_hull(SEARCH)).unwrap();
     let sets = sets.iter().flat_map(|set| ["--set", set]);
     json(here, &[command, "q.toml", "--out", out].into_iter().chain(sets).collect::<Vec<_>>())
 }
@@ -158,7 +140,7 @@ fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
 fn what_cannot_be_searched_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    fs::write(here.join("q.toml"), SCENARIO).unwrap();
+    fs::write(here.join("q.toml"), small_hull(SEARCH)).unwrap();
     let wind = "generate.environment.wind_m_s=4.0";
     let near = "generate.search.stress=\"clearance\"";
     let balls = "generate.environment.obstacles={count=2,radius_m=0.5}";

@@ -5,33 +5,15 @@ mod commands;
 use std::fs;
 use std::path::Path;
 
-use commands::{json, refused, run};
+use commands::{json, refused, run, small_hull};
 use hairpin_formats::folder::CampaignFolder;
 
-/// Small graphs of hull legs, flown by minimum snap.
-const SCENARIO: &str = r#"
-hairpin = 1
-robot = "flightgoggles"
-seed = 3
-[world]
-size_m = [20, 20, 20]
-[task]
-start_m = [2, 2, 5]
-end_m = [14, 14, 12]
-length = 5
-[generate]
-reach = "hull"
-timing = { step_s = 1.0 }
-search = { method = "uniform", waypoints = 90, cases = 20, per_graph = 4 }
-score = "high-velocity-90"
-[execute]
-controller = "minimum-snap"
-[spec]
-deviation = { max_m = 0.5, from = "nearest-leg" }
-"#;
+/// What is searched.
+const SEARCH: &str = r#"{ method = "uniform", waypoints = 90, cases = 20, per_graph = 4 }
+score = "high-velocity-90""#;
 
 fn begin(folder: &Path) {
-    fs::write(folder.join("q.toml"), SCENARIO).unwrap();
+    fs::write(folder.join("q.toml"), small_hull(SEARCH)).unwrap();
     json(folder, &["stress", "q.toml", "--out", "flown"]);
 }
 

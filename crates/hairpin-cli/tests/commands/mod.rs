@@ -11,6 +11,31 @@ use serde_json::Value;
 pub(crate) const SMALL: [&str; 6] =
     ["stress", "demo-quadrotor", "--set", "generate.search.cases=4", "--set", "execute.repeat=1"];
 
+/// Small graphs of hull legs, flown by minimum snap; `search` is that key of `[generate]`, and what else stands there.
+pub(crate) fn small_hull(search: &str) -> String {
+    format!(
+        r#"
+hairpin = 1
+robot = "flightgoggles"
+seed = 3
+[world]
+size_m = [20, 20, 20]
+[task]
+start_m = [2, 2, 5]
+end_m = [14, 14, 12]
+length = 5
+[generate]
+reach = "hull"
+timing = {{ step_s = 1.0 }}
+search = {search}
+[execute]
+controller = "minimum-snap"
+[spec]
+deviation = {{ max_m = 0.5, from = "nearest-leg" }}
+"#
+    )
+}
+
 pub(crate) fn hairpin(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
     command.current_dir(folder).args(arguments);

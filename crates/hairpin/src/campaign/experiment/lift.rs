@@ -5,15 +5,15 @@ use rayon::prelude::*;
 
 use crate::campaign::judge::measures_of;
 use crate::campaign::{Case, Setup, Stop, execute_run};
-use crate::judgement::Stress;
+use crate::judgement::{Measures, Statistics, Stress};
 use crate::math::random::stream;
 use crate::trajectory::Ended;
 
 /// Resamples of a bootstrap interval.
 const RESAMPLES: usize = 2_000;
 
-/// Stress and end of every run of a case.
-type Runs = Vec<(f64, Option<Ended>)>;
+/// Measures and end of every run of a case.
+type Runs = Vec<(Measures, Option<Ended>)>;
 
 /// Trajectories executed, and what they came to.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -29,8 +29,9 @@ pub struct Flown {
 }
 
 impl Flown {
-    /// Executes `cases` as `setup` says, each as often as its `execute.repeat`. `None` where `stop` asked to.
-    pub fn of(setup: &Setup, cases: &[Case], stress: Stress, stop: &Stop) -> Option<Self> {
+    /// Executes `cases` as `setup` says, each as often as its `execute.repeat`, and tells what they came to by each of `stresses`. `None`
+    /// where `stop` asked to.
+    pub fn of<const N: usize>(setup: &Setup, cases: &[Case], stresses: [Stress; N], stop: &Stop) -> Option<[Self; N]> {
         let repeat = setup.scenario.executor().repeat as usize;
         let flown: Option<Vec<Runs>> = cases
             .par_iter()
@@ -38,24 +39,32 @@ impl Flown {
                 let run = |run| {
                     let run = execute_run(setup, case, run);
                     let measures = measures_of(setup, case, &run)?;
-                    Some((stress.of(&measures)?, run.outcome.ok().map(|flight| flight.ended)))
+                    Some((measures, run.outcome.ok().map(|flight| flight.ended)))
                 };
                 (!(stop.cancelled)()).then(|| (0..repeat).filter_map(run).collect())
             })
             .collect();
         let flown = flown?;
+        Some(stresses.map(|stress| Self::by(stress, &flown)))
+    }
+
+    fn by(stress: Stress, flown: &[Runs]) -> Self {
+        let measured = |runs: &Runs| -> Vec<_> {
+            runs.iter().filter_map(|(measures, ended)| Some((stress.of(measures)?, *ended))).collect()
+        };
+        let flown: Vec<Vec<(f64, Option<Ended>)>> = flown.iter().map(measured).collect();
         let runs = || flown.iter().flatten();
         let share = |of: fn(&Ended) -> bool| {
             runs().filter(|(_, ended)| ended.as_ref().is_some_and(of)).count() as f64 / runs().count().max(1) as f64
         };
-        let mean = |runs: &Runs| runs.iter().map(|(value, _)| value).sum::<f64>() / runs.len() as f64;
+        let mean = |runs: &[(f64, Option<Ended>)]| runs.iter().map(|(value, _)| value).sum::<f64>() / runs.len() as f64;
         let measured = || flown.iter().enumerate().filter(|(_, runs)| !runs.is_empty());
-        Some(Self {
+        Self {
             stresses: measured().map(|(_, runs)| mean(runs)).collect(),
             places: measured().map(|(place, _)| place).collect(),
             crashed: share(|ended| ended.is_crash()),
             timed_out: share(|ended| *ended == Ended::Time),
-        })
+        }
     }
 
     /// Mean stress; NaN of none.
@@ -65,13 +74,7 @@ impl Flown {
 
     /// Median stress; NaN of none.
     pub fn median(&self) -> f64 {
-        let mut sorted = self.stresses.clone();
-        sorted.sort_by(f64::total_cmp);
-        match sorted.len() {
-            0 => f64::NAN,
-            n if n % 2 == 1 => sorted[n / 2],
-            n => 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]),
-        }
+        Statistics::of(&self.stresses).map_or(f64::NAN, |told| told.median)
     }
 }
 

@@ -6,11 +6,11 @@
 use rand::RngExt;
 
 use super::Trial;
+use super::step::after;
 use crate::math::random::{standard_normals, stream};
 
 /// Share of the executions that is drawn uniformly.
 const DRAWN: f64 = 0.4;
-const GROWTH: f64 = 1.5;
 /// First and least step of a coordinate.
 const STEPS: [f64; 2] = [0.3, 1e-3];
 
@@ -39,7 +39,6 @@ pub fn climb(
     let mut best = Climbed { place: None, trial, best_so_far: Vec::new() };
     let mut here = start.to_vec();
     let drawn = (executions as f64 * DRAWN) as u64;
-    let shrink = libm::pow(GROWTH, -0.25);
     let mut step = STEPS[0];
     for number in 0..executions {
         let mut place: Vec<f64> = if number < drawn {
@@ -53,9 +52,9 @@ pub fn climb(
             Some(trial) if trial.stress >= best.trial.stress => {
                 here.clone_from(&place);
                 (best.place, best.trial) = (Some(place), trial);
-                step = (step * GROWTH).min(2.0 * STEPS[0]);
+                step = after(step, true).min(2.0 * STEPS[0]);
             }
-            _ if number >= drawn => step = (step * shrink).max(STEPS[1]),
+            _ if number >= drawn => step = after(step, false).max(STEPS[1]),
             _ => {}
         }
         best.best_so_far.push(best.trial.stress);

@@ -7,6 +7,7 @@ mod climb;
 mod evolve;
 mod regrow;
 mod shift;
+mod step;
 #[cfg(test)]
 mod tests;
 

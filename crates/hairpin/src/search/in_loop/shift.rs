@@ -9,13 +9,13 @@ use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
 use super::Trial;
+use super::step::after;
 use crate::math::random::{Stream, standard_normals, stream, unit};
 
 /// Draws for one execution at most; where none is feasible the step is halved.
 const DRAWS: u32 = 60;
-/// Steps are taken back to their first size below this share of it.
+/// Steps are taken back to half of the largest below this share of it.
 const SMALLEST: f64 = 1e-3;
-const GROWTH: f64 = 1.5;
 /// Share of steps that shorten a leg, and the smallest factor that they do it by.
 const SHORTENED: f64 = 0.2;
 const LEAST_FACTOR: f64 = 0.05;
@@ -62,7 +62,6 @@ pub fn shift<P>(
     if last < 2 {
         return best;
     }
-    let shrink = libm::pow(GROWTH, -0.25);
     while (best.best_so_far.len() as u64) < settings.executions {
         let mut drawn = None;
         for _ in 0..DRAWS {
@@ -83,13 +82,13 @@ pub fn shift<P>(
         match trial {
             Some(trial) if trial.stress >= best.trial.stress => {
                 (best.plan, best.trial, points) = (Some(plan), trial, moved);
-                best.step *= GROWTH;
+                best.step = after(best.step, true);
             }
-            _ => best.step *= shrink,
+            _ => best.step = after(best.step, false),
         }
         best.step = best.step.min(settings.largest);
         if best.step < SMALLEST * settings.largest {
-            best.step = settings.step;
+            best.step = 0.5 * settings.largest;
         }
         best.best_so_far.push(best.trial.stress);
     }

@@ -125,6 +125,12 @@ fn arcs_are_followed_on_their_circle() {
     assert!(check(NOWHERE, &line)[0].what.contains("on a line"));
 }
 
+/// A ball of 2 cm at the tool's point.
+fn tip() -> ArmBodyClaim {
+    let axis = [Point3::new(0.1, 0.0, 0.0); 2];
+    ArmBodyClaim { link: 6, name: "the tool".into(), tool: true, axis, radius: 0.02 }
+}
+
 #[test]
 fn corners_that_are_cut_keep_their_triangle_clear() {
     let from = tool_at(&START);
@@ -137,17 +143,10 @@ fn corners_that_are_cut_keep_their_triangle_clear() {
         let ball = ArmSolidForm::Ball(Point3::from(from.translation.vector) + Vector3::new(0.15, 0.15, -0.05), 0.0);
         let inside = ArmSolidForm::Ball(Point3::from(from.translation.vector) + Vector3::new(0.0, 0.15, -0.05), 0.005);
         let solids = [("far", ball), ("peg", inside)].map(|(name, form)| ArmSolidClaim { name, tool_only: true, form });
-        let body = ArmBodyClaim {
-            link: 6,
-            name: "the tool".into(),
-            tool: true,
-            axis: [Point3::new(0.1, 0.0, 0.0); 2],
-            radius: 0.02,
-        };
         verify_arm_moves(&ArmMovesClaim {
             joints: &joints(),
             tool: Isometry3::translation(0.1, 0.0, 0.0),
-            bodies: &[body],
+            bodies: &[tip()],
             solids: &solids,
             clearance: 0.01,
             start: START,
@@ -175,18 +174,11 @@ fn moves_of_a_graph_lead_from_posture_to_posture() {
     let poses = postures.map(|q| tool_at(&q));
     let claim = |form| {
         let solids = [ArmSolidClaim { name: "block", tool_only: false, form }];
-        let body = ArmBodyClaim {
-            link: 6,
-            name: "the tool".into(),
-            tool: true,
-            axis: [Point3::new(0.1, 0.0, 0.0); 2],
-            radius: 0.02,
-        };
         let check = |postures: &[[f64; 6]], poses: &[Isometry3<f64>], straight| {
             let claim = ArmMovesClaim {
                 joints: &joints(),
                 tool: Isometry3::translation(0.1, 0.0, 0.0),
-                bodies: std::slice::from_ref(&body),
+                bodies: &[tip()],
                 solids: &solids,
                 clearance: 0.0,
                 start: START,

@@ -4,6 +4,7 @@ use hairpin::campaign::experiment::lift::Flown;
 use hairpin::campaign::learn::{KeptModel, ScoreModel, learn, leg_samples};
 use hairpin::campaign::{self, Case, Known, Scenario, Setup, Stop};
 use hairpin::judgement::Stress;
+use hairpin::math::random::named_seed;
 use hairpin_formats::scenario::scenario_for;
 use rayon::prelude::*;
 
@@ -15,11 +16,26 @@ pub(super) const FLIGHT_GOGGLES: &str = "paper-minimum-snap";
 /// The one of the Anafi's stand-in.
 pub(super) const ANAFI: &str = "paper-anafi";
 
-/// Dotted keys and TOML values.
-pub(super) type Sets<'a> = &'a [(&'a str, String)];
+/// A dotted key and its TOML value.
+pub(super) type Set = (&'static str, String);
+
+/// A string in TOML.
+pub(super) fn text(value: &str) -> String {
+    format!("\"{value}\"")
+}
+
+/// `base`, and `sets` after it.
+pub(super) fn with(base: &[Set], sets: &[Set]) -> Vec<Set> {
+    [base, sets].concat()
+}
+
+/// Rotor speeds sampled per rotor: those of the authors' program for the authors' set, else those of the paper.
+pub(super) fn resolution(reach: &str) -> Set {
+    ("generate.resolution", if reach == "published" { "4" } else { "5" }.to_owned())
+}
 
 /// The shipped `scenario` with `sets`, and with a learned score if there is a model.
-pub(super) fn setup(scenario: &str, sets: Sets, model: Option<&ScoreModel>) -> Result<Setup, Problem> {
+pub(super) fn setup(scenario: &str, sets: &[Set], model: Option<&ScoreModel>) -> Result<Setup, Problem> {
     let sets: Vec<(String, String)> = sets.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
     let mut scenario = scenario_for(scenario, &sets)?;
     if let (Scenario::Flight(flight), Some(model)) = (&mut scenario, model) {
@@ -41,17 +57,33 @@ pub(super) fn cases(setup: &Setup) -> Result<Vec<Case>, Problem> {
     Ok(cases)
 }
 
-/// The `stress` that `cases` come to under `setup`.
-pub(super) fn flown(setup: &Setup, cases: &[Case], stress: Stress) -> Result<Flown, Problem> {
-    Flown::of(setup, cases, stress, &stop()).ok_or(Problem::Interrupted("interrupted: nothing was written".into()))
+/// The setup that judges: the flights of `base` with noise, `runs` each.
+pub(super) fn with_noise(scenario: &str, base: &[Set], runs: u64) -> Result<Setup, Problem> {
+    setup(scenario, &with(base, &[("execute.noise", "true".into()), ("execute.repeat", runs.to_string())]), None)
 }
 
-/// A model of the largest deviation per leg, learned from one nominal run of each of `cases`.
-pub(super) fn model(setup: &Setup, cases: &[Case]) -> Result<ScoreModel, Problem> {
-    let samples: Vec<Vec<_>> = cases
+/// What `cases` come to under `setup`, by each of `stresses`.
+pub(super) fn flown<const N: usize>(
+    setup: &Setup,
+    cases: &[Case],
+    stresses: [Stress; N],
+) -> Result<[Flown; N], Problem> {
+    Flown::of(setup, cases, stresses, &stop()).ok_or(Problem::Interrupted("interrupted: nothing was written".into()))
+}
+
+/// A model of the largest deviation per leg, learned from one nominal run of each of `trajectories` uniform ones, of other graphs than
+/// those of `seed`.
+pub(super) fn learned(scenario: &str, base: &[Set], trajectories: u64, seed: u64) -> Result<ScoreModel, Problem> {
+    let sets = [
+        ("seed", (named_seed(seed, "training", 0) >> 1).to_string()),
+        ("generate.search.method", text("uniform")),
+        ("generate.search.cases", trajectories.to_string()),
+    ];
+    let setup = setup(scenario, &with(base, &sets), None)?;
+    let samples: Vec<Vec<_>> = cases(&setup)?
         .par_iter()
-        .map(|case| leg_samples(setup, case, &[campaign::execute_run(setup, case, 0)], Stress::MaxDeviation))
+        .map(|case| leg_samples(&setup, case, &[campaign::execute_run(&setup, case, 0)], Stress::MaxDeviation))
         .collect();
     super::super::go_on()?;
-    learn(setup, Stress::MaxDeviation, &samples.concat()).map_err(Problem::input)
+    learn(&setup, Stress::MaxDeviation, &samples.concat()).map_err(Problem::input)
 }

@@ -11,7 +11,7 @@ use nalgebra::Point3;
 use serde::Deserialize;
 
 use super::super::{Outcome, go_on};
-use super::cell::{self, ANAFI};
+use super::cell::{self, ANAFI, Set, text, with};
 use crate::problem::Problem;
 
 #[derive(Debug, Deserialize)]
@@ -50,7 +50,6 @@ struct Way {
 /// Figures 9, 10 and 11.
 pub(in super::super) fn follow_up(sheet: &Sheet) -> Result<Outcome, Problem> {
     let (size, printed): (Size, Printed) = (sheet.size()?, sheet.printed()?);
-    let text = |value: &str| format!("\"{value}\"");
     let base = [
         ("seed", size.seed.to_string()),
         ("task.length", size.length.to_string()),
@@ -58,20 +57,12 @@ pub(in super::super) fn follow_up(sheet: &Sheet) -> Result<Outcome, Problem> {
         ("generate.search.cases", size.graphs.to_string()),
         ("spec.deviation.from", text(&size.from)),
     ];
-    let with = |sets: &[(&'static str, String)]| base.iter().chain(sets).cloned().collect::<Vec<_>>();
     let method = |name: &str| ("generate.search.method", text(name));
     let random = ("generate.score", text("random"));
-    let training = [
-        ("seed", (named_seed(size.seed, "training", 0) >> 1).to_string()),
-        method("uniform"),
-        ("generate.search.cases", size.training.to_string()),
-    ];
-    let training = cell::setup(ANAFI, &with(&training), None)?;
-    let model = cell::model(&training, &cell::cases(&training)?)?;
-    let judge = [("execute.noise", "true".into()), ("execute.repeat", size.runs.to_string())];
-    let judge = cell::setup(ANAFI, &with(&judge), None)?;
+    let model = cell::learned(ANAFI, &base, size.training, size.seed)?;
+    let judge = cell::with_noise(ANAFI, &base, size.runs)?;
     let aggregate = ("generate.search.aggregate", text("max"));
-    let asked: [(&str, Vec<(&'static str, String)>); 4] = [
+    let asked: [(&str, Vec<Set>); 4] = [
         ("uniform", vec![method("uniform")]),
         ("random beam", vec![method("beam"), random]),
         ("learned", vec![method("exact"), aggregate]),
@@ -80,9 +71,9 @@ pub(in super::super) fn follow_up(sheet: &Sheet) -> Result<Outcome, Problem> {
     let mut ways = Vec::new();
     for (name, sets) in asked {
         go_on()?;
-        let setup = cell::setup(ANAFI, &with(&sets), (name == "learned").then_some(&model))?;
+        let setup = cell::setup(ANAFI, &with(&base, &sets), (name == "learned").then_some(&model))?;
         let cases = cell::cases(&setup)?;
-        let flown = cell::flown(&judge, &cases, Stress::MaxDeviation)?;
+        let [flown] = cell::flown(&judge, &cases, [Stress::MaxDeviation])?;
         ways.push(Way { name, cases, flown });
     }
     // The paper's trajectories without a score are those of its beam.
@@ -125,7 +116,7 @@ pub(in super::super) fn follow_up(sheet: &Sheet) -> Result<Outcome, Problem> {
             (100.0 * way.flown.timed_out).into(),
         ]);
     }
-    let mut figures = vec![("figure-9", boxes(&ways, &baseline)), ("figure-11", shares(&ways))];
+    let mut figures = vec![("figure-9", boxes(&ways, ways[1].flown.mean())), ("figure-11", shares(&ways))];
     if let Some((name, case)) = worst(&ways) {
         figures.extend(views(&judge, name, case));
     }
@@ -153,8 +144,8 @@ fn over(stresses: &[f64], limit: f64) -> f64 {
     100.0 * stresses.iter().filter(|stress| **stress > limit).count() as f64 / stresses.len() as f64
 }
 
-fn boxes(ways: &[Way], baseline: &[f64]) -> Figure {
-    let mean = baseline.iter().sum::<f64>() / baseline.len() as f64;
+/// Boxes over the `mean` of the baseline.
+fn boxes(ways: &[Way], mean: f64) -> Figure {
     let spread = |(place, way): (usize, &Way)| {
         let relative: Vec<f64> = way.flown.stresses.iter().map(|stress| stress / mean).collect();
         Spread::of(place as f64, &relative)

@@ -1,14 +1,13 @@
 //! Figure 7: how the largest deviation, the largest acceleration and the time of feasible trajectories are spread, generated without
 //! a score. The paper finds all three skewed to the right; here skewness is told with them.
 
-use hairpin::judgement::Stress;
-use hairpin::math::power::power;
+use hairpin::judgement::{Statistics, Stress, skewness};
 use hairpin_formats::experiment::Sheet;
 use hairpin_formats::figure::{Axis, Figure, Marks, Point, Scale, Series, Spread, Table};
 use serde::Deserialize;
 
 use super::super::{Outcome, go_on};
-use super::cell::{self, FLIGHT_GOGGLES};
+use super::cell::{self, FLIGHT_GOGGLES, text};
 use crate::problem::Problem;
 
 #[derive(Debug, Deserialize)]
@@ -35,7 +34,6 @@ const METRICS: [(Stress, &str); 3] = [
 /// How three metrics are spread over trajectories without a score.
 pub(in super::super) fn metrics(sheet: &Sheet) -> Result<Outcome, Problem> {
     let size: Size = sheet.size()?;
-    let text = |value: &str| format!("\"{value}\"");
     let mut table = Table::new(&[
         "metric",
         "unit",
@@ -52,12 +50,11 @@ pub(in super::super) fn metrics(sheet: &Sheet) -> Result<Outcome, Problem> {
     ]);
     let mut spreads: Vec<Vec<(String, Vec<f64>)>> = vec![Vec::new(); METRICS.len()];
     for reach in &size.reach {
-        let resolution = if reach == "published" { 4 } else { 5 };
         let sets = [
             ("seed", size.seed.to_string()),
             ("task.length", size.length.to_string()),
             ("generate.reach", text(reach)),
-            ("generate.resolution", resolution.to_string()),
+            cell::resolution(reach),
             ("generate.score", text("random")),
             ("generate.search.method", text("beam")),
             ("generate.search.cases", size.graphs.to_string()),
@@ -66,19 +63,21 @@ pub(in super::super) fn metrics(sheet: &Sheet) -> Result<Outcome, Problem> {
             ("spec.deviation.from", text(&size.from)),
         ];
         let setup = cell::setup(FLIGHT_GOGGLES, &sets, None)?;
-        let cases = cell::cases(&setup)?;
-        for (spread, (stress, _)) in spreads.iter_mut().zip(METRICS) {
-            go_on()?;
-            spread.push((reach.clone(), cell::flown(&setup, &cases, stress)?.stresses));
+        go_on()?;
+        let flown = cell::flown(&setup, &cell::cases(&setup)?, METRICS.map(|(stress, _)| stress))?;
+        for (spread, flown) in spreads.iter_mut().zip(flown) {
+            spread.push((reach.clone(), flown.stresses));
         }
     }
     let mut figures = Vec::new();
     for (sets, (stress, label)) in spreads.iter().zip(METRICS) {
         for (reach, values) in sets {
             let Some(Spread { five, .. }) = Spread::of(0.0, values) else { continue };
-            let (mean, deviation, skewness) = moments(values);
+            let told = Statistics::of(values);
             let mut row = vec![stress.word().into(), stress.unit().into(), reach.as_str().into(), values.len().into()];
-            row.extend([mean, deviation].into_iter().chain(five).chain([skewness]).map(Into::into));
+            row.extend([told.map(|told| told.mean), told.map(|told| told.std)].map(Into::into));
+            row.extend(five.map(Into::into));
+            row.push(skewness(values).into());
             table.push(row);
         }
         figures.push((file(stress), histogram(sets, label, size.bars)));
@@ -100,15 +99,6 @@ fn file(stress: Stress) -> &'static str {
         Stress::MaxAcceleration => "acceleration",
         _ => "time",
     }
-}
-
-/// Mean, standard deviation and skewness √n Σ(x − x̄)³ / (Σ(x − x̄)²)^(3/2).
-fn moments(values: &[f64]) -> (f64, f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let moment = |order: usize| values.iter().map(|value| power(value - mean, order)).sum::<f64>() / n;
-    let deviation = moment(2).sqrt();
-    (mean, deviation, moment(3) / power(deviation, 3))
 }
 
 /// Shares of trajectories over equal ranges, the same for all sets.
@@ -138,17 +128,6 @@ fn histogram(sets: &[(String, Vec<f64>)], label: &str, bars: usize) -> Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_tail_to_the_right_is_a_positive_skewness() {
-        let (mean, deviation, skewness) = moments(&[0.0, 0.0, 0.0, 4.0]);
-        assert_eq!(mean, 1.0);
-        assert!((deviation - 3.0_f64.sqrt()).abs() < 1e-12);
-        // Σ(x − 1)³/4 = 24/4 = 6 over 3^1.5.
-        assert!((skewness - 6.0 / 27.0_f64.sqrt()).abs() < 1e-12);
-        let (.., even) = moments(&[1.0, 2.0, 3.0]);
-        assert!(even.abs() < 1e-12);
-    }
 
     #[test]
     fn every_trajectory_is_in_one_bar() {

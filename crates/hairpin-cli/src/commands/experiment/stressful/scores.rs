@@ -4,9 +4,7 @@
 //! Every trajectory comes from a graph of its own (one best per graph), no waypoint is used twice on either side, and what is told are
 //! fresh runs with noise, which no search has seen.
 
-use hairpin::campaign::Setup;
 use hairpin::campaign::experiment::lift::{Flown, Lift, lift};
-use hairpin::campaign::learn::ScoreModel;
 use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
 use hairpin_formats::experiment::Sheet;
@@ -14,7 +12,7 @@ use hairpin_formats::figure::{Axis, Cell, Figure, Marks, Point, Scale, Series, T
 use serde::Deserialize;
 
 use super::super::{Outcome, go_on};
-use super::cell::{self, FLIGHT_GOGGLES};
+use super::cell::{self, FLIGHT_GOGGLES, Set, text, with};
 use crate::problem::Problem;
 
 #[derive(Debug, Deserialize)]
@@ -56,7 +54,7 @@ struct PrintedRow {
 struct Way {
     name: String,
     kind: Kind,
-    sets: Vec<(&'static str, String)>,
+    sets: Vec<Set>,
     learned: bool,
 }
 
@@ -76,12 +74,8 @@ const KINDS: [(Kind, &str); 4] = [
     (Kind::Moved, "in the loop, waypoints moved"),
 ];
 
-fn text(value: &str) -> String {
-    format!("\"{value}\"")
-}
-
 fn ways(size: &Size) -> Vec<Way> {
-    let way = |name: &str, kind, method: &str, sets: &[(&'static str, String)]| {
+    let way = |name: &str, kind, method: &str, sets: &[Set]| {
         let mut all = vec![("generate.search.method", text(method))];
         all.extend_from_slice(sets);
         Way { name: name.to_owned(), kind, sets: all, learned: kind == Kind::Learned }
@@ -113,13 +107,12 @@ fn ways(size: &Size) -> Vec<Way> {
 }
 
 /// The keys of all cells of a feasible set and a controller.
-fn base(size: &Size, reach: &str, controller: &str) -> Vec<(&'static str, String)> {
-    let resolution = if reach == "published" { 4 } else { 5 };
+fn base(size: &Size, reach: &str, controller: &str) -> Vec<Set> {
     vec![
         ("seed", size.seed.to_string()),
         ("task.length", size.length.to_string()),
         ("generate.reach", text(reach)),
-        ("generate.resolution", resolution.to_string()),
+        cell::resolution(reach),
         ("generate.search.cases", size.graphs.to_string()),
         ("execute.controller", text(controller)),
         ("execute.segment_times", text("sqrt-length")),
@@ -127,32 +120,8 @@ fn base(size: &Size, reach: &str, controller: &str) -> Vec<(&'static str, String
     ]
 }
 
-fn with(base: &[(&'static str, String)], sets: &[(&'static str, String)]) -> Vec<(&'static str, String)> {
-    base.iter().chain(sets).cloned().collect()
-}
-
-/// The setup that judges: the same flights with noise, `runs` each.
-fn with_noise(base: &[(&'static str, String)], runs: u64) -> Result<Setup, Problem> {
-    cell::setup(
-        FLIGHT_GOGGLES,
-        &with(base, &[("execute.noise", "true".into()), ("execute.repeat", runs.to_string())]),
-        None,
-    )
-}
-
-fn learned(size: &Size, base: &[(&'static str, String)]) -> Result<ScoreModel, Problem> {
-    let seed = named_seed(size.seed, "training", 0) >> 1;
-    let sets = [
-        ("seed", seed.to_string()),
-        ("generate.search.method", text("uniform")),
-        ("generate.search.cases", size.training.to_string()),
-    ];
-    let setup = cell::setup(FLIGHT_GOGGLES, &with(base, &sets), None)?;
-    cell::model(&setup, &cell::cases(&setup)?)
-}
-
 /// The worst of many uniform trajectories, each executed once without noise.
-fn ceiling(size: &Size, base: &[(&'static str, String)]) -> Result<Option<f64>, Problem> {
+fn ceiling(size: &Size, base: &[Set]) -> Result<Option<f64>, Problem> {
     if size.ceiling == 0 {
         return Ok(None);
     }
@@ -162,7 +131,7 @@ fn ceiling(size: &Size, base: &[(&'static str, String)]) -> Result<Option<f64>, 
         ("generate.search.per_graph", size.ceiling.div_ceil(size.graphs).to_string()),
     ];
     let setup = cell::setup(FLIGHT_GOGGLES, &with(base, &sets), None)?;
-    let flown = cell::flown(&setup, &cell::cases(&setup)?, Stress::MaxDeviation)?;
+    let [flown] = cell::flown(&setup, &cell::cases(&setup)?, [Stress::MaxDeviation])?;
     Ok(flown.stresses.into_iter().reduce(f64::max))
 }
 
@@ -221,8 +190,8 @@ pub(in super::super) fn scores(sheet: &Sheet) -> Result<Outcome, Problem> {
         for controller in &size.controllers {
             go_on()?;
             let base = base(&size, reach, controller);
-            let judge = with_noise(&base, size.runs)?;
-            let model = learned(&size, &base)?;
+            let judge = cell::with_noise(FLIGHT_GOGGLES, &base, size.runs)?;
+            let model = cell::learned(FLIGHT_GOGGLES, &base, size.training, size.seed)?;
             quality.push(vec![
                 reach.as_str().into(),
                 controller.as_str().into(),
@@ -240,7 +209,7 @@ pub(in super::super) fn scores(sheet: &Sheet) -> Result<Outcome, Problem> {
                 go_on()?;
                 let setup = cell::setup(FLIGHT_GOGGLES, &with(&base, &way.sets), way.learned.then_some(&model))?;
                 let cases = cell::cases(&setup)?;
-                let came_to = cell::flown(&judge, &cases, Stress::MaxDeviation)?;
+                let [came_to] = cell::flown(&judge, &cases, [Stress::MaxDeviation])?;
                 flown.push((way, came_to));
             }
             let (uniform, beam) = (flown[0].1.stresses.clone(), flown[1].1.stresses.clone());
