@@ -99,6 +99,8 @@ fn successors_are_those_of_the_second_difference() {
                 assert!(reach.feasible(&(w1 - w0), &(there - w1)));
                 assert!((leg.features.v_out - (there - w1).norm()).abs() < 1e-12);
                 assert!((leg.features.climb - (there.z - w1.z)).abs() < 1e-12);
+                let slope_in = if previous == current { 0.0 } else { (w1.z - w0.z) / (w1 - w0).norm() };
+                assert!((leg.features.slope_in - slope_in).abs() < 1e-12);
                 let turn = if previous == current { 0.0 } else { (w1 - w0).angle(&(there - w1)) };
                 assert!((leg.features.turn - turn).abs() < 1e-6);
             }

@@ -55,7 +55,7 @@ impl Evidence {
 /// What a search saw of a leg: what scores are made of, and what stress is learned from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeenLeg {
-    /// Speeds, turn, length, climb, ground.
+    /// Speeds, turn, length, climb, slope_in, ground.
     pub features: LegFeatures,
     /// Planned duration, s, before stops were put in.
     pub duration: f64,
@@ -63,18 +63,18 @@ pub struct SeenLeg {
 
 impl SeenLeg {
     /// Names of [`Self::numbers`], with their units.
-    pub const NAMES: [&'static str; 7] =
-        ["v_in_m_s", "v_out_m_s", "turn_rad", "length_m", "climb_m", "ground", "duration_s"];
+    pub const NAMES: [&'static str; 8] =
+        ["v_in_m_s", "v_out_m_s", "turn_rad", "length_m", "climb_m", "slope_in", "ground", "duration_s"];
 
     /// As a row of a file.
-    pub fn numbers(&self) -> [f64; 7] {
-        let LegFeatures { v_in, v_out, turn, length, climb, ground } = self.features;
-        [v_in, v_out, turn, length, climb, ground, self.duration]
+    pub fn numbers(&self) -> [f64; 8] {
+        let LegFeatures { v_in, v_out, turn, length, climb, slope_in, ground } = self.features;
+        [v_in, v_out, turn, length, climb, slope_in, ground, self.duration]
     }
 
     /// From a row of a file.
-    pub fn of([v_in, v_out, turn, length, climb, ground, duration]: [f64; 7]) -> Self {
-        Self { features: LegFeatures { v_in, v_out, turn, length, climb, ground }, duration }
+    pub fn of([v_in, v_out, turn, length, climb, slope_in, ground, duration]: [f64; 8]) -> Self {
+        Self { features: LegFeatures { v_in, v_out, turn, length, climb, slope_in, ground }, duration }
     }
 }
 

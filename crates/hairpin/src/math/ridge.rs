@@ -14,10 +14,14 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::simd::{Simd, kernel};
+
 /// Penalties tried, each ten times the one before, relative to the variance 1 of every monomial.
 const PENALTIES: [f64; 8] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0];
 /// Monomials at most: their products are kept as one matrix per fold.
 const MOST_MONOMIALS: usize = 500;
+/// Inputs at most.
+const MOST_INPUTS: usize = 32;
 
 /// Rows to learn from: row i has inputs `inputs[i]`, value `values[i]`, and belongs to `groups[i]`.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -59,6 +63,18 @@ pub enum NoFit {
         /// Inputs of row 0.
         expected: usize,
     },
+    /// Too many inputs.
+    #[error("{inputs} inputs; must be at most {MOST_INPUTS}")]
+    Inputs {
+        /// Inputs of a row.
+        inputs: usize,
+    },
+    /// Too many monomials.
+    #[error("degree {degree}: more than {MOST_MONOMIALS} monomials")]
+    Degree {
+        /// As asked for.
+        degree: u32,
+    },
     /// Nothing differs.
     #[error("no input differs between rows: there is nothing to learn from")]
     Constant,
@@ -78,7 +94,7 @@ pub struct PolynomialRidge {
     pub scale: Vec<f64>,
     /// Least and greatest z that were fitted, one pair per input.
     pub range: Vec<[f64; 2]>,
-    /// Powers of every monomial, one per input.
+    /// Powers of every monomial, one per input: [`monomials_of`] the degree and the scale.
     pub powers: Vec<Vec<u32>>,
     /// Weight of every monomial, in units of the value.
     pub weights: Vec<f64>,
@@ -110,11 +126,10 @@ impl PolynomialRidge {
         let standard = Standard::of(&rows.inputs)?;
         let mut best: Option<(f64, u32, f64)> = None;
         for degree in 1..=most_degree.max(1) {
-            let powers = powers(&standard.scale, degree);
-            if powers.len() > MOST_MONOMIALS {
+            if monomials_of(&standard.scale, degree).is_none() {
                 break;
             }
-            let errors = cross_validate(rows, &standard, &powers, &fold_of, folds);
+            let errors = cross_validate(rows, &standard, degree, &fold_of, folds);
             for (penalty, error) in PENALTIES.into_iter().zip(errors) {
                 if best.is_none_or(|(least, ..)| error < least) {
                     best = Some((error, degree, penalty));
@@ -122,7 +137,7 @@ impl PolynomialRidge {
             }
         }
         let (error, degree, penalty) = best.ok_or(NoFit::Constant)?;
-        let fitted = Self::fit(rows, &standard, degree, penalty);
+        let fitted = Self::fit(rows, &standard, degree, penalty)?;
         let r2 = if variance > 0.0 { 1.0 - error / variance } else { 0.0 };
         Ok((fitted, Validation { folds, r2, rmse: libm::sqrt(error) }))
     }
@@ -133,20 +148,19 @@ impl PolynomialRidge {
     /// [`NoFit`], of fewer than two groups too.
     pub fn of(rows: &Rows, degree: u32, penalty: f64) -> Result<Self, NoFit> {
         check(rows, 1)?;
-        Ok(Self::fit(rows, &Standard::of(&rows.inputs)?, degree, penalty))
+        Self::fit(rows, &Standard::of(&rows.inputs)?, degree, penalty)
     }
 
-    fn fit(rows: &Rows, standard: &Standard, degree: u32, penalty: f64) -> Self {
-        let powers = powers(&standard.scale, degree);
+    fn fit(rows: &Rows, standard: &Standard, degree: u32, penalty: f64) -> Result<Self, NoFit> {
+        let powers = monomials_of(&standard.scale, degree).ok_or(NoFit::Degree { degree })?;
         let mut sums = Sums::new(powers.len());
-        let mut monomials = vec![0.0; powers.len()];
+        let mut monomials = [0.0; MOST_MONOMIALS];
         for (inputs, &value) in rows.inputs.iter().zip(&rows.values) {
-            standard.monomials(inputs, &powers, &mut monomials);
-            sums.add(&monomials, value);
+            sums.add(standard.monomials(inputs, degree, &mut monomials), value);
         }
         let (weights, intercept) = sums.solve(penalty);
         let Standard { centre, scale, range } = standard.clone();
-        Self { degree, penalty, centre, scale, range, powers, weights, intercept }
+        Ok(Self { degree, penalty, centre, scale, range, powers, weights, intercept })
     }
 
     /// Number of inputs.
@@ -160,10 +174,9 @@ impl PolynomialRidge {
     /// If their number is not [`Self::inputs`].
     pub fn value(&self, inputs: &[f64]) -> f64 {
         assert_eq!(inputs.len(), self.centre.len(), "as many inputs as were fitted");
-        let standard = |i: usize| standardised(inputs[i], self.centre[i], self.scale[i], self.range[i]);
-        let z: Vec<f64> = (0..inputs.len()).map(standard).collect();
-        let terms = self.powers.iter().zip(&self.weights).map(|(powers, weight)| weight * monomial(&z, powers));
-        self.intercept + terms.sum::<f64>()
+        let mut buffer = [0.0; MOST_MONOMIALS];
+        let monomials = monomials(inputs, &self.centre, &self.scale, &self.range, self.degree, &mut buffer);
+        self.intercept + dot(&self.weights, monomials)
     }
 }
 
@@ -171,14 +184,60 @@ fn standardised(x: f64, centre: f64, scale: f64, [least, greatest]: [f64; 2]) ->
     if scale > 0.0 { ((x - centre) / scale).clamp(least, greatest) } else { 0.0 }
 }
 
-fn monomial(z: &[f64], powers: &[u32]) -> f64 {
-    let mut product = 1.0;
-    for (z, &power) in z.iter().zip(powers) {
-        for _ in 0..power {
-            product *= z;
-        }
+/// All monomials of total degree 1 to `degree` in the standardised inputs, in the order of [`monomials_of`]. Those of one degree are,
+/// input after input, the input times those of the degree before that have no earlier input: a run at the end of their block.
+fn monomials<'m>(
+    inputs: &[f64],
+    centre: &[f64],
+    scale: &[f64],
+    range: &[[f64; 2]],
+    degree: u32,
+    out: &'m mut [f64; MOST_MONOMIALS],
+) -> &'m [f64] {
+    let mut count = 0;
+    for i in (0..inputs.len()).filter(|&i| scale[i] > 0.0) {
+        out[count] = standardised(inputs[i], centre[i], scale[i], range[i]);
+        count += 1;
     }
-    product
+    let mut starts = [0; MOST_INPUTS];
+    (0..count).for_each(|i| starts[i] = i);
+    let mut end = count;
+    for _ in 1..degree {
+        let (known, new) = out.split_at_mut(end);
+        let mut length = 0;
+        for i in 0..count {
+            let z = known[i];
+            let run = &known[starts[i]..];
+            starts[i] = end + length;
+            for (out, monomial) in new[length..].iter_mut().zip(run) {
+                *out = z * monomial;
+            }
+            length += run.len();
+        }
+        end += length;
+    }
+    &out[..end]
+}
+
+/// a·b in eight sums, the same on every machine.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    sum_of_products(Simd::Widest, a, b, &mut sum);
+    sum
+}
+
+kernel! {
+    fn sum_of_products(a: &[f64], b: &[f64], sum: &mut f64) {
+        let mut lanes = [0.0; 8];
+        let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
+        let rest = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum::<f64>();
+        for (a, b) in a.zip(b) {
+            for lane in 0..8 {
+                lanes[lane] += a[lane] * b[lane];
+            }
+        }
+        *sum = lanes.iter().sum::<f64>() + rest;
+    }
 }
 
 /// How inputs are standardised.
@@ -221,23 +280,23 @@ impl Standard {
         correlation.abs() > 1.0 - 1e-12
     }
 
-    fn monomials(&self, inputs: &[f64], powers: &[Vec<u32>], out: &mut [f64]) {
-        let standard = |i: usize| standardised(inputs[i], self.centre[i], self.scale[i], self.range[i]);
-        let z: Vec<f64> = (0..inputs.len()).map(standard).collect();
-        for (out, powers) in out.iter_mut().zip(powers) {
-            *out = monomial(&z, powers);
-        }
+    fn monomials<'m>(&self, inputs: &[f64], degree: u32, out: &'m mut [f64; MOST_MONOMIALS]) -> &'m [f64] {
+        monomials(inputs, &self.centre, &self.scale, &self.range, degree, out)
     }
 }
 
-/// Powers of all monomials of total degree 1 to `degree` in the inputs that differ, lower degrees first.
-fn powers(scale: &[f64], degree: u32) -> Vec<Vec<u32>> {
+/// Powers of all monomials of total degree 1 to `degree` in the inputs that differ (`scale` above 0), lower degrees first and the first
+/// input's higher powers first; `None` of more than 500.
+pub fn monomials_of(scale: &[f64], degree: u32) -> Option<Vec<Vec<u32>>> {
     let mut all = Vec::new();
     for total in 1..=degree {
         let mut powers = vec![0; scale.len()];
         each(scale, total, 0, &mut powers, &mut all);
+        if all.len() > MOST_MONOMIALS || total as usize > MOST_MONOMIALS {
+            return None;
+        }
     }
-    all
+    Some(all)
 }
 
 fn each(scale: &[f64], left: u32, input: usize, powers: &mut Vec<u32>, all: &mut Vec<Vec<u32>>) {
@@ -333,17 +392,17 @@ impl Sums {
 fn cross_validate(
     rows: &Rows,
     standard: &Standard,
-    powers: &[Vec<u32>],
+    degree: u32,
     fold_of: &[usize],
     folds: usize,
 ) -> [f64; PENALTIES.len()] {
-    let mut parts = vec![Sums::new(powers.len()); folds];
-    let mut monomials = vec![0.0; powers.len()];
+    let mut buffer = [0.0; MOST_MONOMIALS];
+    let count = standard.monomials(&rows.inputs[0], degree, &mut buffer).len();
+    let mut parts = vec![Sums::new(count); folds];
     for (row, inputs) in rows.inputs.iter().enumerate() {
-        standard.monomials(inputs, powers, &mut monomials);
-        parts[fold_of[row]].add(&monomials, rows.values[row]);
+        parts[fold_of[row]].add(standard.monomials(inputs, degree, &mut buffer), rows.values[row]);
     }
-    let mut all = Sums::new(powers.len());
+    let mut all = Sums::new(count);
     for part in &parts {
         all.count += part.count;
         all.products += &part.products;
@@ -360,9 +419,9 @@ fn cross_validate(
         .collect();
     let mut squares = [0.0; PENALTIES.len()];
     for (row, inputs) in rows.inputs.iter().enumerate() {
-        standard.monomials(inputs, powers, &mut monomials);
+        let monomials = standard.monomials(inputs, degree, &mut buffer);
         for (square, (weights, intercept)) in squares.iter_mut().zip(&fits[fold_of[row]]) {
-            let told = intercept + weights.iter().zip(&monomials).map(|(w, m)| w * m).sum::<f64>();
+            let told = intercept + dot(weights, monomials);
             *square += (rows.values[row] - told) * (rows.values[row] - told);
         }
     }
@@ -384,6 +443,9 @@ fn check(rows: &Rows, folds: usize) -> Result<Vec<usize>, NoFit> {
         return Err(NoFit::Groups { groups: seen.len(), needed: folds.max(2) });
     }
     let expected = rows.inputs[0].len();
+    if expected > MOST_INPUTS {
+        return Err(NoFit::Inputs { inputs: expected });
+    }
     for (row, (inputs, value)) in rows.inputs.iter().zip(&rows.values).enumerate() {
         if inputs.len() != expected {
             return Err(NoFit::Ragged { row, found: inputs.len(), expected });
@@ -443,7 +505,7 @@ mod tests {
     fn weights_solve_the_normal_equations() {
         let rows = rows(50, 3.0, 4, |x| x[0] * x[1]);
         let penalty = 0.1;
-        let fitted = PolynomialRidge::fit(&rows, &Standard::of(&rows.inputs).unwrap(), 1, penalty);
+        let fitted = PolynomialRidge::of(&rows, 1, penalty).unwrap();
         // Gradient of ‖y − b − Z w‖²/n + λ‖w‖² over standardised inputs, by hand.
         let n = rows.values.len() as f64;
         for input in 0..3 {
@@ -452,6 +514,26 @@ mod tests {
             let place = fitted.powers.iter().position(|powers| powers[input] == 1).unwrap();
             assert!((gradient / n + penalty * fitted.weights[place]).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn monomials_are_products_by_their_powers() {
+        let (centre, scale, range) = ([0.5, 9.0, 1.0, -2.0], [2.0, 0.0, 0.5, 3.0], [[-1.5, 1.5]; 4]);
+        let inputs = [1.3, 4.0, 0.2, 11.0];
+        let z: Vec<f64> = (0..4).map(|i| standardised(inputs[i], centre[i], scale[i], range[i])).collect();
+        assert_eq!(z[3], 1.5);
+        for degree in 1..=5 {
+            let powers = monomials_of(&scale, degree).unwrap();
+            let mut buffer = [0.0; MOST_MONOMIALS];
+            let told = monomials(&inputs, &centre, &scale, &range, degree, &mut buffer);
+            assert_eq!(told.len(), powers.len());
+            for (told, powers) in told.iter().zip(&powers) {
+                let product: f64 = z.iter().zip(powers).map(|(z, &power)| z.powi(power as i32)).product();
+                assert!((told - product).abs() < 1e-12, "{powers:?}: {told}, {product}");
+            }
+        }
+        assert!(monomials_of(&[1.0; 8], 4).is_some_and(|all| all.len() == 494) && monomials_of(&[1.0; 8], 5).is_none());
+        assert!(monomials_of(&[0.0; 3], u32::MAX).is_none());
     }
 
     #[test]
@@ -488,6 +570,8 @@ mod tests {
         let mut ragged = good.clone();
         ragged.inputs[5].pop();
         assert_eq!(PolynomialRidge::choose(&ragged, 3, 10), Err(NoFit::Ragged { row: 5, found: 2, expected: 3 }));
+        let steep = PolynomialRidge::of(&good, 40, 0.1);
+        assert_eq!(steep, Err(NoFit::Degree { degree: 40 }));
         let flat = Rows { inputs: vec![vec![1.0, 2.0]; 200], ..good };
         assert_eq!(PolynomialRidge::choose(&flat, 3, 10), Err(NoFit::Constant));
     }

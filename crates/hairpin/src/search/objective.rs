@@ -180,7 +180,15 @@ mod tests {
     use super::*;
 
     fn leg(v_out: f64, turn_deg: f64) -> LegFeatures {
-        LegFeatures { v_in: 0.0, v_out, turn: turn_deg.to_radians(), length: v_out, climb: 0.0, ground: 0.0 }
+        LegFeatures {
+            v_in: 0.0,
+            v_out,
+            turn: turn_deg.to_radians(),
+            length: v_out,
+            climb: 0.0,
+            slope_in: 0.0,
+            ground: 0.0,
+        }
     }
 
     fn score(name: &str, features: LegFeatures) -> f64 {

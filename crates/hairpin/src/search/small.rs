@@ -47,7 +47,8 @@ impl Reach<StepNode> for Octahedron {
                 let v_in = arriving.norm();
                 let turn = if v_in > 0.0 { angle_between(&arriving, &leaving) } else { 0.0 };
                 let length = leaving.norm();
-                let features = LegFeatures { v_in, v_out: length, turn, length, climb: leaving.z, ground: 0.0 };
+                let climb = leaving.z;
+                let features = LegFeatures { v_in, v_out: length, turn, length, climb, ..LegFeatures::default() };
                 let to = StepNode { previous: from.current, current: i as u32 };
                 out.push(Leg { to, waypoint: i as u32, duration: 1.0, features });
             }

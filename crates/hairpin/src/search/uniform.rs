@@ -1,5 +1,6 @@
 //! Uniform over all feasible trajectories of a graph: the honest random baseline.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 use rand::{Rng, RngExt};
@@ -128,13 +129,8 @@ where
     N: Copy,
     O: Objective,
 {
-    let filtered;
-    let graph = if settings.revisits {
-        graph
-    } else {
-        filtered = graph.without_returns(settings.length);
-        &filtered
-    };
+    let graph = if settings.revisits { Cow::Borrowed(graph) } else { graph.without_returns(settings.length) };
+    let graph = &*graph;
     let mut outcome = UniformOutcome { found: Vec::new(), distinct: 0, draws: 0, walks: Count::Exact(0) };
     let Some(sampler) = Sampler::new(graph, settings.length) else { return outcome };
     outcome.walks = sampler.total();

@@ -6,10 +6,10 @@ use thiserror::Error;
 use super::moves::{ARM_MOVES, MoveFeatures, MoveSample};
 use crate::feasibility::reach::LegFeatures;
 use crate::judgement::{Stress, rank_correlation};
-use crate::math::ridge::{NoFit, PolynomialRidge, Rows, Validation};
+use crate::math::ridge::{NoFit, PolynomialRidge, Rows, Validation, monomials_of};
 
 /// Number of features of a leg.
-const FEATURES: usize = 7;
+const FEATURES: usize = 8;
 /// Folds of the cross-validation.
 const FOLDS: usize = 10;
 /// Degrees tried.
@@ -29,15 +29,16 @@ pub struct Feature {
     pub unit: String,
 }
 
-/// The features in their order: speeds at both ends, turn from the leg before, length, height gained, planned duration, and what the
-/// reach set knows of the ground.
+/// The features in their order: speeds at both ends, turn from the leg before, length, sines of elevation of the leg and of the one
+/// before, planned duration, and what the reach set knows of the ground.
 fn features() -> Vec<Feature> {
     let named: [(&str, &str); FEATURES] = [
         ("v_in", "m/s"),
         ("v_out", "m/s"),
         ("turn", "rad"),
         ("length", "m"),
-        ("climb", "m"),
+        ("slope", ""),
+        ("slope_in", ""),
         ("duration", "s"),
         ("ground", ""),
     ];
@@ -45,7 +46,8 @@ fn features() -> Vec<Feature> {
 }
 
 fn inputs(leg: &LegFeatures, duration: f64) -> [f64; FEATURES] {
-    [leg.v_in, leg.v_out, leg.turn, leg.length, leg.climb, duration, leg.ground]
+    let slope = if leg.length > 0.0 { leg.climb / leg.length } else { 0.0 };
+    [leg.v_in, leg.v_out, leg.turn, leg.length, slope, leg.slope_in, duration, leg.ground]
 }
 
 /// A leg that was executed.
@@ -235,7 +237,7 @@ impl ScoreModel {
     fn check_polynomial(&self) -> Result<(), ModelMistake> {
         let wrong =
             |field, found: String, bound: &str| Err(ModelMistake::Polynomial { field, found, bound: bound.to_owned() });
-        let PolynomialRidge { centre, scale, range, powers, weights, intercept, .. } = &self.polynomial;
+        let PolynomialRidge { degree, centre, scale, range, powers, weights, intercept, .. } = &self.polynomial;
         let inputs = self.features.len();
         let per_input = format!("{inputs} numbers");
         for (field, length) in [("centre", centre.len()), ("scale", scale.len()), ("range", range.len())] {
@@ -243,11 +245,12 @@ impl ScoreModel {
                 return wrong(field, format!("{length} numbers"), &per_input);
             }
         }
+        if monomials_of(scale, *degree).as_ref() != Some(powers) {
+            let found = format!("{} rows", powers.len());
+            return wrong("powers", found, "those of all monomials of the degree in inputs with a scale");
+        }
         if powers.len() != weights.len() {
             return wrong("weights", weights.len().to_string(), &format!("{}, one per monomial", powers.len()));
-        }
-        if let Some(row) = powers.iter().find(|row| row.len() != inputs || row.iter().sum::<u32>() > 64) {
-            return wrong("powers", format!("{row:?}"), &format!("{per_input}, at most 64 together"));
         }
         if let Some([least, greatest]) =
             range.iter().find(|[least, greatest]| least.is_nan() || greatest < least || greatest.is_nan())
@@ -354,8 +357,8 @@ mod tests {
             .map(|leg| {
                 let v = 10.0 * unit(&mut rng);
                 let turn = 3.0 * unit(&mut rng);
-                let climb = unit(&mut rng) - 0.5;
-                let features = LegFeatures { v_in: 2.0, v_out: v, turn, length: v, climb, ground: 0.0 };
+                let climb = v * (unit(&mut rng) - 0.5);
+                let features = LegFeatures { v_in: 2.0, v_out: v, turn, length: v, climb, ..LegFeatures::default() };
                 let stress = 0.2 * v * turn + 0.1 * unit(&mut rng);
                 LegSample { trajectory: leg / 9, features, duration: 1.0, stress }
             })
@@ -368,7 +371,7 @@ mod tests {
         assert_eq!((model.trajectories, model.legs, model.held_out.trajectories), (60, 540, 12));
         assert!(model.validation.r2 > 0.99 && model.held_out.r2 > 0.99, "{model:?}");
         assert!(model.held_out.rank_correlation.unwrap() > 0.9);
-        let leg = LegFeatures { v_in: 2.0, v_out: 8.0, turn: 2.0, length: 8.0, climb: 0.1, ground: 0.0 };
+        let leg = LegFeatures { v_in: 2.0, v_out: 8.0, turn: 2.0, length: 8.0, climb: 0.1, ..LegFeatures::default() };
         assert!((model.expected(&leg, 1.0) - 3.25).abs() < 0.1, "{}", model.expected(&leg, 1.0));
         let again = ScoreModel::learn(Stress::MaxDeviation, subject(), &samples(60)).unwrap();
         assert_eq!(model, again);

@@ -48,7 +48,7 @@ mod tests {
         let samples: Vec<LegSample> = (0..200)
             .map(|leg| {
                 let v_out = 6.0 * unit(&mut random);
-                let features = LegFeatures { v_in: 1.0, v_out, turn: 0.5, length: 3.0, climb: 0.0, ground: 0.0 };
+                let features = LegFeatures { v_in: 1.0, v_out, turn: 0.5, length: 3.0, ..LegFeatures::default() };
                 let stress = 0.3 * v_out * v_out + unit(&mut random);
                 LegSample { trajectory: leg / 5, features, duration: 1.0, stress }
             })

@@ -18,7 +18,8 @@ pub(super) const LANES: usize = 8;
 pub(super) fn features(before: &Vector3<f64>, leg: &Vector3<f64>, step: f64) -> LegFeatures {
     let length_before = before.norm();
     let (length, turn) = length_and_turn([before.x, before.y, before.z], length_before, [leg.x, leg.y, leg.z]);
-    LegFeatures { v_in: length_before / step, v_out: length / step, turn, length, climb: leg.z, ground: 0.0 }
+    let slope_in = slope(before.z, length_before);
+    LegFeatures { v_in: length_before / step, v_out: length / step, turn, length, climb: leg.z, slope_in, ground: 0.0 }
 }
 
 /// [`features`] of eight displacements, one row per coordinate.
@@ -32,6 +33,7 @@ pub(super) fn eight_features(
     let length_before = before.norm();
     let (mut lengths, mut turns) = ([0.0; LANES], [0.0; LANES]);
     lengths_and_turns(simd, [before.x, before.y, before.z], length_before, legs, &mut lengths, &mut turns);
+    let slope_in = slope(before.z, length_before);
     std::array::from_fn(|lane| {
         let (length, turn) = (lengths[lane], turns[lane]);
         LegFeatures {
@@ -40,9 +42,16 @@ pub(super) fn eight_features(
             turn,
             length,
             climb: legs[2][lane],
+            slope_in,
             ground: 0.0,
         }
     })
+}
+
+/// Sine of the elevation of a leg that gains `height`; 0 if it has no length.
+#[inline(always)]
+fn slope(height: f64, length: f64) -> f64 {
+    if length > 0.0 { height / length } else { 0.0 }
 }
 
 kernel! {

@@ -49,6 +49,8 @@ pub struct LegFeatures {
     pub length: f64,
     /// Height gained, m.
     pub climb: f64,
+    /// Sine of the elevation of the incoming leg; 0 on a flyer's first leg, and for drives.
+    pub slope_in: f64,
     /// What the reach set knows of the leg's stress on the ground; 0 for flyers.
     pub ground: f64,
 }

@@ -129,7 +129,7 @@ fn waypoints_are_found_and_legs_measured_equally() {
         let legs = [0, 1, 2].map(|axis| std::array::from_fn::<f64, LANES, _>(|lane| all[lane][axis]));
         same("legs", |simd| {
             let numbers = eight_features(simd, &before, &legs, 0.7);
-            numbers.map(|f| [f.v_in, f.v_out, f.turn, f.length, f.climb].map(f64::to_bits))
+            numbers.map(|f| [f.v_in, f.v_out, f.turn, f.length, f.climb, f.slope_in].map(f64::to_bits))
         });
     }
 }

@@ -286,6 +286,7 @@ impl Reach<WitnessNode> for Roadmap<'_> {
         let here = self.points[from.waypoint as usize];
         let incoming = here - self.points[from.previous as usize];
         let left = self.state(from);
+        let length_in = incoming.norm();
         let v_in = self.states[left].velocity.norm();
         for leg in self.kept_legs(left).iter() {
             let (waypoint, velocity) = self.place(leg.state);
@@ -300,6 +301,7 @@ impl Reach<WitnessNode> for Roadmap<'_> {
                     turn: if from.previous == from.waypoint { 0.0 } else { angle_between(&incoming, &outgoing) },
                     length: outgoing.norm(),
                     climb: outgoing.z,
+                    slope_in: if length_in > 0.0 { incoming.z / length_in } else { 0.0 },
                     ground: 0.0,
                 },
             });

@@ -9,6 +9,7 @@ mod descent;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 use super::graph::{Count, LegGraph};
@@ -67,13 +68,8 @@ where
     N: Copy,
     O: Objective<Memory = ()>,
 {
-    let filtered;
-    let graph = if settings.revisits {
-        graph
-    } else {
-        filtered = graph.without_returns(settings.length);
-        &filtered
-    };
+    let graph = if settings.revisits { Cow::Borrowed(graph) } else { graph.without_returns(settings.length) };
+    let graph = &*graph;
     let walks = match settings.length {
         0 | 1 => Count::Exact(0),
         length => graph.counts_by_length(length)[length],

@@ -1,5 +1,6 @@
 //! Building a leg graph: outwards from the start, then cut down to what can be part of a trajectory.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::hash::Hash;
 
@@ -46,6 +47,7 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
             first: vec![0],
             to: Vec::new(),
             details: Vec::new(),
+            without_returns: None,
         };
         let mut numbers: HashMap<N, u32, FxBuildHasher> = HashMap::default();
         numbers.insert(start, 0);
@@ -79,8 +81,11 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
 
 impl<N: Copy> LegGraph<'_, N> {
     /// Without the legs that no trajectory without revisits has: into the start, from the end on, and back to the only
-    /// waypoint that their first node can be entered from. What is left are still walks, but far fewer.
-    pub fn without_returns(&self, length: usize) -> Self {
+    /// waypoint that their first node can be entered from. What is left are still walks, but far fewer. Itself where that was done before.
+    pub fn without_returns(&self, length: usize) -> Cow<'_, Self> {
+        if self.without_returns == Some(length) {
+            return Cow::Borrowed(self);
+        }
         const MANY: u32 = u32::MAX;
         const NONE: u32 = u32::MAX - 1;
         let mut entered_from = vec![NONE; self.nodes()];
@@ -91,11 +96,11 @@ impl<N: Copy> LegGraph<'_, N> {
                 *entry = if *entry == NONE || *entry == waypoint { waypoint } else { MANY };
             }
         }
-        self.filtered(|from, leg| {
+        let fewer = self.filtered(|from, leg| {
             let to = self.waypoint(self.target(leg));
             to != 0 && !self.at_end(from) && entered_from[from as usize] != to
-        })
-        .trimmed(length)
+        });
+        Cow::Owned(Self { without_returns: Some(length), ..fewer.trimmed(length) })
     }
 
     /// Only nodes and legs on a walk from the start to the end of at most `length` waypoints.
@@ -139,6 +144,7 @@ impl<N: Copy> LegGraph<'_, N> {
             first,
             to: kept.iter().map(|&(_, leg)| number[self.target(leg) as usize]).collect(),
             details: kept.iter().map(|&(_, leg)| self.details[leg]).collect(),
+            without_returns: self.without_returns,
         }
     }
 

@@ -30,6 +30,8 @@ pub struct LegGraph<'a, N> {
     /// Node that a leg leads to.
     to: Vec<u32>,
     details: Vec<Details>,
+    /// The length for which the legs that no trajectory without revisits has were taken out.
+    without_returns: Option<usize>,
 }
 
 /// What only scores and results ask for.

@@ -274,6 +274,7 @@ impl Reach<DriveNode> for DriveRoadmap<'_> {
                     turn: angle_between(&heading, &Vector3::new(way.x, way.y, 0.0)),
                     length: way.norm(),
                     climb: way.z,
+                    slope_in: 0.0,
                     ground: leg.solved.stress,
                 },
             });

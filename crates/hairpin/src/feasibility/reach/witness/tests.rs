@@ -76,6 +76,9 @@ fn walks_become_continuous_profiles_with_their_features() {
             let turn = if nodes.len() == 1 { 0.0 } else { (a - points[from.previous as usize]).angle(&(b - a)) };
             // The arc cosine loses half the digits near a straight line.
             assert!((leg.features.turn - turn).abs() < 1e-6 && leg.features.climb == b.z - a.z);
+            let before = a - points[from.previous as usize];
+            let slope_in = if nodes.len() == 1 { 0.0 } else { before.z / before.norm() };
+            assert_eq!(leg.features.slope_in, slope_in);
             nodes.push(leg.to);
             times.push(leg.duration);
         }
