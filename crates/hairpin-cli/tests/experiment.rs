@@ -65,7 +65,7 @@ fn metrics_and_the_follow_up_are_told_and_drawn() {
         let figure = fs::read_to_string(folder.path().join(format!("out/metrics/{name}.svg"))).unwrap();
         assert!(figure.contains("hull"), "{name}");
     }
-    let sets = ["graphs=4", "training=12", "runs=1", "executions=12", "length=6", "reach=\"hull\""];
+    let sets = ["graphs=4", "training=65", "runs=1", "executions=12", "length=6", "reach=\"hull\""];
     let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
     let answer = json(folder.path(), &[&["experiment", "follow-up"], &sets[..]].concat());
     let rows = answer["tables"]["follow-up"].as_array().unwrap();

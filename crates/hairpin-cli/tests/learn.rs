@@ -99,6 +99,19 @@ fn executions_in_the_loop_tell_the_stress_that_is_judged_and_beat_uniform_draws(
         better += usize::from(*deviation > 1.05 * worst);
     }
     assert!(better >= 3, "{found:?} {moved:?} {uniform:?}");
+    looped("confirmed", &["--set", "generate.search.confirm=2"]);
+    for (_, score, deviation) in came_to("confirmed") {
+        assert!(
+            score != deviation && (score - deviation).abs() < 0.5 * deviation,
+            "{score} {deviation}: a mean of three"
+        );
+    }
+    let curves = fs::read_to_string(here.join("confirmed/best-so-far.tsv")).unwrap();
+    let executions = curves.lines().skip(1).map(|row| row.split('\t').nth(1).unwrap().parse::<u64>().unwrap());
+    assert!(executions.max().is_some_and(|most| most <= 40), "{curves}");
+    let mut typed = vec!["generate", "q.toml", "--out", "no", "--set", "generate.search.method=\"in-loop\""];
+    typed.extend(["--set", "generate.search.executions=3", "--set", "generate.search.confirm=3"]);
+    refused(here, &typed, &["generate.search.confirm", "0 … 2"]);
     let command = ["--set", "execute.command=\"true\""];
     let mut typed = vec!["generate", "q.toml", "--out", "no", "--set", "generate.search.method=\"in-loop\""];
     typed.extend(command);

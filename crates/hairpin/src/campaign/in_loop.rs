@@ -4,9 +4,12 @@ use super::flight::{self, Placement};
 use super::graph::Plan;
 use super::judge::measures_of;
 use super::learn::{LegSample, samples_of};
-use super::{Case, Run, Setup, execute_run};
+use super::{Case, Run, Setup, execute_again, execute_run};
 use crate::judgement::{Measures, Stress};
 use crate::search::in_loop::Trial;
+
+/// Numbers of the noise that stress is confirmed under begin here: no run and no re-run of a violation has the same.
+const CONFIRMING: usize = 1 << 20;
 
 /// A plan that was carried out, and what was measured.
 struct Executed {
@@ -15,13 +18,32 @@ struct Executed {
     measures: Measures,
 }
 
-/// Executes `plan` of graph number `graph` once; `None` where the simulator or the judge refuses. Where obstacles are to be placed, the
-/// stress is how deep the robot gets into those that could stand in its way.
-pub(super) fn execute(setup: &Setup, graph: u64, plan: &Plan) -> Option<Trial> {
+/// Executes `plan` of graph number `graph`; `None` where the simulator or the judge refuses. What comes to the stress `least` is executed
+/// `confirm` times more, under noise, and its stress is the mean; NaN where one of those fails.
+pub(super) fn execute(setup: &Setup, graph: u64, plan: &Plan, least: f64) -> Option<Trial> {
     let executed = executed(setup, graph, plan)?;
+    let first = stressed(setup, &executed)?;
+    let confirm = setup.scenario.search().confirm;
+    if confirm == 0 || first.stress.is_nan() || first.stress < least {
+        return Some(first);
+    }
+    let again = |number: u64| {
+        let case = executed.case.clone();
+        let run = execute_again(setup, &case, 0, CONFIRMING + number as usize);
+        let measures = measures_of(setup, &case, &run)?;
+        Some(stressed(setup, &Executed { case, run, measures })?.stress)
+    };
+    let sum = (0..confirm).try_fold(first.stress, |sum, number| Some(sum + again(number)?));
+    let stress = sum.map_or(f64::NAN, |sum| sum / (1 + confirm) as f64);
+    Some(Trial { stress, executions: 1 + confirm, ..first })
+}
+
+/// The stress of an execution. Where obstacles are to be placed, it is how deep the robot gets into those that could stand in its way.
+fn stressed(setup: &Setup, executed: &Executed) -> Option<Trial> {
     let own = trial(setup, &executed.measures);
-    let Some(Placement { clearance, leg, .. }) = placement(setup, &executed) else { return own };
-    let placed = Trial { stress: -clearance, worst_leg: leg.min(plan.waypoints.len().saturating_sub(2)) };
+    let Some(Placement { clearance, leg, .. }) = placement(setup, executed) else { return own };
+    let worst_leg = leg.min(executed.case.waypoints.len().saturating_sub(2));
+    let placed = Trial { stress: -clearance, worst_leg, executions: 1 };
     own.filter(|own| own.stress >= placed.stress).or(Some(placed))
 }
 
@@ -74,5 +96,5 @@ fn placement(setup: &Setup, executed: &Executed) -> Option<Placement> {
 fn trial(setup: &Setup, measures: &Measures) -> Option<Trial> {
     let stress = setup.scenario.search().stress;
     let worst_leg = stress.worst_leg(measures).unwrap_or(0);
-    Some(Trial { stress: stress.of(measures)?, worst_leg })
+    Some(Trial { stress: stress.of(measures)?, worst_leg, executions: 1 })
 }

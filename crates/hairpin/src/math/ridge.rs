@@ -20,6 +20,8 @@ use super::simd::{Simd, kernel};
 const PENALTIES: [f64; 8] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0];
 /// Monomials at most: their products are kept as one matrix per fold.
 const MOST_MONOMIALS: usize = 500;
+/// As many as five inputs have up to the fourth degree, and some more.
+const SMALL: usize = 128;
 /// Inputs at most.
 const MOST_INPUTS: usize = 32;
 
@@ -174,7 +176,16 @@ impl PolynomialRidge {
     /// If their number is not [`Self::inputs`].
     pub fn value(&self, inputs: &[f64]) -> f64 {
         assert_eq!(inputs.len(), self.centre.len(), "as many inputs as were fitted");
-        let mut buffer = [0.0; MOST_MONOMIALS];
+        // Searches ask millions of times: what is not needed is not cleared.
+        if self.weights.len() <= SMALL {
+            self.value_in::<SMALL>(inputs)
+        } else {
+            self.value_in::<MOST_MONOMIALS>(inputs)
+        }
+    }
+
+    fn value_in<const N: usize>(&self, inputs: &[f64]) -> f64 {
+        let mut buffer = [0.0; N];
         let monomials = monomials(inputs, &self.centre, &self.scale, &self.range, self.degree, &mut buffer);
         self.intercept + dot(&self.weights, monomials)
     }
@@ -192,7 +203,7 @@ fn monomials<'m>(
     scale: &[f64],
     range: &[[f64; 2]],
     degree: u32,
-    out: &'m mut [f64; MOST_MONOMIALS],
+    out: &'m mut [f64],
 ) -> &'m [f64] {
     let mut count = 0;
     for i in (0..inputs.len()).filter(|&i| scale[i] > 0.0) {

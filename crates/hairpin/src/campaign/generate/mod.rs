@@ -151,7 +151,7 @@ impl<'a> Solver<'a> {
     /// `stop` ends what has no bound in counts.
     fn solve(&self, setup: &Setup, graph: u64, round: Option<&Round>, stop: &Stop) -> Outcome {
         let goes_on = || (!(stop.cancelled)()).then_some(());
-        let execute = |plan: &Plan| goes_on().and_then(|()| in_loop::execute(setup, graph, plan));
+        let execute = |plan: &Plan, least| goes_on().and_then(|()| in_loop::execute(setup, graph, plan, least));
         let duration = |plan: &Plan| goes_on().and_then(|()| in_loop::duration(setup, graph, plan));
         let furnish = |plan: &Plan| goes_on().and_then(|()| in_loop::furnish(setup, graph, plan));
         let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish };

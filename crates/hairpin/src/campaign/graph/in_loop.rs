@@ -44,12 +44,14 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
     let in_still_air = if air.is_some() { (budget as f64 * (1.0 - AIR)).ceil() } else { budget as f64 };
     let settings = EvolveSettings {
         length: question.length,
-        executions: ((in_still_air * if search.move_waypoints { EVOLVED } else { 1.0 }) as u64).max(1),
+        executions: ((in_still_air * if search.move_waypoints { EVOLVED } else { 1.0 }) as u64).max(1 + search.confirm),
+        per_trial: 1 + search.confirm,
         revisits: search.revisits,
         ..EvolveSettings::default()
     };
     let seed = named_seed(question.seed, "evolution", 0);
-    let evolved = evolve(&graph, &first, seed, &settings, |found| execute(&question.planned(found.clone())?));
+    let evolved =
+        evolve(&graph, &first, seed, &settings, |found, least| execute(&question.planned(found.clone())?, least));
     let mut best_so_far = evolved.best_so_far;
     let climber = |Tested { found, trial }| {
         let mut plan = question.planned(found)?;
@@ -65,7 +67,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
             let each = (left * share) as u64 / most.max(1) as u64;
             for (place, climber) in climbers[..most].iter_mut().enumerate() {
                 let seed = named_seed(question.seed, "shift", (stage * STAGES[0].0 + place) as u64);
-                go_on(&mut best_so_far, &climber.climb(&question.looped, seed, each));
+                go_on(&mut best_so_far, &climber.climb(&question.looped, seed, [each, 1 + search.confirm]));
             }
             climbers.sort_by(|a, b| b.trial.stress.total_cmp(&a.trial.stress));
         }
@@ -79,8 +81,9 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
             let seed = named_seed(question.seed, "air", place as u64);
             let calm = vec![0.0; air.coordinates];
             go_on(&mut best_so_far, &[trial.stress]);
-            let climbed =
-                climb(&calm, *trial, seed, each - 1, air.bound, |place| execute(&(air.put)(plan, place, time)));
+            let climbed = climb(&calm, *trial, seed, [each - 1, 1 + search.confirm], air.bound, |place, least| {
+                execute(&(air.put)(plan, place, time), least)
+            });
             go_on(&mut best_so_far, &climbed.best_so_far);
             *trial = climbed.trial;
             if let Some(place) = climbed.place {
@@ -111,10 +114,10 @@ struct Climber {
 }
 
 impl Climber {
-    /// Moves waypoints by `executions` at most; its largest stress after each.
-    fn climb(&mut self, looped: &Looped, seed: u64, executions: u64) -> Vec<f64> {
+    /// Moves waypoints by `executions` at most, `per_trial` each; its largest stress after each.
+    fn climb(&mut self, looped: &Looped, seed: u64, [executions, per_trial]: [u64; 2]) -> Vec<f64> {
         let largest = LARGEST_STEP * mean_leg(&self.plan);
-        let settings = ShiftSettings { executions, step: self.step, largest, free_end: false };
+        let settings = ShiftSettings { executions, per_trial, step: self.step, largest, free_end: false };
         let feasible = |points: &[Point3<f64>]| (looped.moved)(&self.plan, points);
         let execute = looped.executions.execute;
         let shifted = shift(&self.plan.waypoints, self.trial, seed, &settings, feasible, execute);

@@ -40,8 +40,8 @@ pub(in crate::campaign) struct Question<'a, N, R, O> {
 /// Executions, each of which counts; `None` where one fails.
 #[derive(Clone, Copy)]
 pub(in crate::campaign) struct Executions<'a> {
-    /// Of a plan, once.
-    pub(in crate::campaign) execute: &'a dyn Fn(&Plan) -> Option<Trial>,
+    /// Of a plan: once, and as often again as the search asks for if it came to the stress that is given.
+    pub(in crate::campaign) execute: &'a dyn Fn(&Plan, f64) -> Option<Trial>,
     /// How long a plan's takes, s.
     pub(in crate::campaign) duration: &'a dyn Fn(&Plan) -> Option<f64>,
     /// A plan with the obstacles that are asked for, executed twice: without them, to see where they belong, and among them.

@@ -39,6 +39,8 @@ pub struct SearchSection {
     pub graphs: Option<u64>,
     /// `in-loop`: executions per graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
+    /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
+    pub confirm: u64,
     /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly.
     pub rounds: u64,
     /// `adaptive`: share of every later round's executions that is drawn uniformly, whatever the model says.
@@ -67,6 +69,7 @@ impl Default for SearchSection {
             frontier: 100_000,
             graphs: None,
             executions: 200,
+            confirm: 0,
             rounds: 4,
             explore: 0.2,
             time_s: None,
@@ -117,6 +120,7 @@ impl SearchSection {
         // A partial trajectory on the frontier is some hundred bytes: ten million are a few GB.
         found.count("generate.search.frontier", self.frontier, 1, 10_000_000);
         found.count("generate.search.executions", self.executions, 1, 1_000_000);
+        found.count("generate.search.confirm", self.confirm, 0, self.executions.saturating_sub(1).min(1_000));
         if let Some(graphs) = self.graphs {
             found.count("generate.search.graphs", graphs, 1, 1_000_000_000);
         }

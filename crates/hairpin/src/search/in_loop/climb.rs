@@ -26,21 +26,23 @@ pub struct Climbed {
 }
 
 /// Searches places with coordinates between −1 and 1 from `start`, whose execution came to `trial`. `bound` puts a place that is not
-/// allowed to the nearest that is; `execute` gives `None` where an execution failed.
+/// allowed to the nearest that is; `execute` gives `None` where an execution failed; it is told the stress of the best so
+/// far. `executions` is how many there are at most, `per_trial` how many one trial takes at most.
 pub fn climb(
     start: &[f64],
     trial: Trial,
     seed: u64,
-    executions: u64,
+    [executions, per_trial]: [u64; 2],
     bound: impl Fn(&mut [f64]),
-    mut execute: impl FnMut(&[f64]) -> Option<Trial>,
+    mut execute: impl FnMut(&[f64], f64) -> Option<Trial>,
 ) -> Climbed {
     let mut rng = stream(seed);
     let mut best = Climbed { place: None, trial, best_so_far: Vec::new() };
     let mut here = start.to_vec();
     let drawn = (executions as f64 * DRAWN) as u64;
     let mut step = STEPS[0];
-    for number in 0..executions {
+    while best.best_so_far.len() as u64 + per_trial.max(1) <= executions {
+        let number = best.best_so_far.len() as u64;
         let mut place: Vec<f64> = if number < drawn {
             here.iter().map(|_| rng.random_range(-1.0..=1.0)).collect()
         } else {
@@ -48,7 +50,9 @@ pub fn climb(
         };
         place.iter_mut().for_each(|x| *x = x.clamp(-1.0, 1.0));
         bound(&mut place);
-        match execute(&place).filter(|trial| !trial.stress.is_nan()) {
+        let trial = execute(&place, best.trial.stress);
+        let count = trial.map_or(1, |trial| trial.executions);
+        match trial {
             Some(trial) if trial.stress >= best.trial.stress => {
                 here.clone_from(&place);
                 (best.place, best.trial) = (Some(place), trial);
@@ -57,7 +61,7 @@ pub fn climb(
             _ if number >= drawn => step = after(step, false).max(STEPS[1]),
             _ => {}
         }
-        best.best_so_far.push(best.trial.stress);
+        best.best_so_far.extend((0..count).map(|_| best.trial.stress));
     }
     best
 }
@@ -75,12 +79,12 @@ mod tests {
             x[..2].iter_mut().for_each(|x| *x /= norm);
         };
         for seed in 0..5 {
-            let first = Trial { stress: stress(&[0.0; 3]), worst_leg: 0 };
+            let first = Trial { stress: stress(&[0.0; 3]), worst_leg: 0, executions: 1 };
             let mut executed = 0;
-            let found = climb(&[0.0; 3], first, seed, 200, bound, |x| {
+            let found = climb(&[0.0; 3], first, seed, [200, 1], bound, |x, _| {
                 executed += 1;
                 assert!(x[0] * x[0] + x[1] * x[1] <= 1.0 + 1e-12 && x[2].abs() <= 1.0);
-                (executed % 7 != 0).then(|| Trial { stress: stress(x), worst_leg: 0 })
+                (executed % 7 != 0).then(|| Trial { stress: stress(x), worst_leg: 0, executions: 1 })
             });
             let place = found.place.unwrap();
             assert_eq!((executed, found.best_so_far.len()), (200, 200));
@@ -88,7 +92,7 @@ mod tests {
             assert!(found.best_so_far.windows(2).all(|pair| pair[0] <= pair[1]));
             assert_eq!(stress(&place), found.trial.stress);
         }
-        let nothing = climb(&[0.0], Trial { stress: 1.0, worst_leg: 2 }, 1, 9, |_| {}, |_| None);
+        let nothing = climb(&[0.0], Trial { stress: 1.0, worst_leg: 2, executions: 1 }, 1, [9, 1], |_| {}, |_, _| None);
         assert_eq!((nothing.place, nothing.trial.worst_leg, nothing.best_so_far), (None, 2, vec![1.0; 9]));
     }
 }

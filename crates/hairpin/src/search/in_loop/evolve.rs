@@ -28,6 +28,8 @@ pub struct EvolveSettings {
     pub length: usize,
     /// Executions at most, those of the first trajectories included.
     pub executions: u64,
+    /// Executions of one trial at most.
+    pub per_trial: u64,
     /// Trajectories that may have children.
     pub pool: usize,
     /// Whether a waypoint may be used twice.
@@ -36,7 +38,7 @@ pub struct EvolveSettings {
 
 impl Default for EvolveSettings {
     fn default() -> Self {
-        Self { length: 10, executions: 200, pool: 12, revisits: false }
+        Self { length: 10, executions: 200, per_trial: 1, pool: 12, revisits: false }
     }
 }
 
@@ -74,7 +76,7 @@ struct Evolution<'g, 'a, N, F> {
 }
 
 /// Evolves trajectories of `graph` from `first` (repetitions are executed once). `execute` gives `None` where an execution failed, which
-/// counts against the budget.
+/// counts against the budget; it is told the stress that the pool's last has.
 pub fn evolve<N, F>(
     graph: &LegGraph<'_, N>,
     first: &[Found<N>],
@@ -84,7 +86,7 @@ pub fn evolve<N, F>(
 ) -> Evolved<N>
 where
     N: Copy + Eq,
-    F: FnMut(&Found<N>) -> Option<Trial>,
+    F: FnMut(&Found<N>, f64) -> Option<Trial>,
 {
     let mut evolution = Evolution {
         graph,
@@ -101,7 +103,7 @@ where
         }
     }
     let mut fruitless = 0;
-    while evolution.left() > 0 && fruitless < FRUITLESS {
+    while evolution.goes_on() && fruitless < FRUITLESS {
         fruitless += 1;
         if let Some(child) = evolution.child()
             && evolution.test(child)
@@ -114,24 +116,30 @@ where
     Evolved { pool: pool.into_iter().map(tested).collect(), best_so_far }
 }
 
-impl<N: Copy, F: FnMut(&Found<N>) -> Option<Trial>> Evolution<'_, '_, N, F> {
-    fn left(&self) -> u64 {
-        self.settings.executions.saturating_sub(self.best_so_far.len() as u64)
+impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F> {
+    /// Whether there are executions left for another trial.
+    fn goes_on(&self) -> bool {
+        self.best_so_far.len() as u64 + self.settings.per_trial.max(1) <= self.settings.executions
     }
 
     /// Executes the trajectory along `legs` unless it was before; whether it was new.
     fn test(&mut self, legs: Vec<u32>) -> bool {
-        if self.left() == 0 || self.known.contains(&legs) {
+        if !self.goes_on() || self.known.contains(&legs) {
             return false;
         }
-        let trial = (self.execute)(&self.graph.found(&legs, 0.0)).filter(|trial| !trial.stress.is_nan());
+        let most = self.settings.pool.max(1);
+        let least = self.pool.get(most - 1).map_or(f64::NEG_INFINITY, |member| member.trial.stress);
+        let trial = (self.execute)(&self.graph.found(&legs, 0.0), least);
+        let executions = trial.map_or(1, |trial| trial.executions);
+        let trial = trial.filter(|trial| !trial.stress.is_nan());
         self.known.insert(legs.clone());
         if let Some(trial) = trial {
             let place = self.pool.partition_point(|member| member.trial.stress >= trial.stress);
             self.pool.insert(place, Member { legs, trial });
-            self.pool.truncate(self.settings.pool.max(1));
+            self.pool.truncate(most);
         }
-        self.best_so_far.push(self.pool.first().map_or(f64::NEG_INFINITY, |member| member.trial.stress));
+        let best = self.pool.first().map_or(f64::NEG_INFINITY, |member| member.trial.stress);
+        self.best_so_far.extend((0..executions).map(|_| best));
         true
     }
 

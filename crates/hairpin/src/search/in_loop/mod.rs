@@ -1,7 +1,8 @@
 //! Simulation in the loop: trajectories are scored by executing them, under a budget of executions.
 //!
 //! [`evolve`] changes waypoint sequences within the legs of a graph, from the best that scores know of; [`shift`] then moves the
-//! waypoints themselves, as far as the reach set lets them; [`climb`] searches a few numbers beside them. All know executions only as a closure.
+//! waypoints themselves, as far as the reach set lets them; [`climb`] searches a few numbers beside them. All know executions only as a closure, which is told the
+//! stress from which on a trial is of use.
 
 mod climb;
 mod evolve;
@@ -22,4 +23,6 @@ pub struct Trial {
     pub stress: f64,
     /// The leg that it is owed to.
     pub worst_leg: usize,
+    /// Executions that it took: more than one where what would be kept is executed again.
+    pub executions: u64,
 }

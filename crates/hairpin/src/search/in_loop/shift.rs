@@ -25,6 +25,8 @@ const LEAST_FACTOR: f64 = 0.05;
 pub struct ShiftSettings {
     /// Executions at most.
     pub executions: u64,
+    /// Executions of one trial at most.
+    pub per_trial: u64,
     /// First step of each coordinate, m.
     pub step: f64,
     /// Largest step, m.
@@ -46,14 +48,15 @@ pub struct Shifted<P> {
     pub best_so_far: Vec<f64>,
 }
 
-/// Moves `points`, whose execution came to `trial`. `feasible` plans through given waypoints; `execute` carries a plan out.
+/// Moves `points`, whose execution came to `trial`. `feasible` plans through given waypoints; `execute` carries a plan out,
+/// and is told the stress of the best so far.
 pub fn shift<P>(
     points: &[Point3<f64>],
     trial: Trial,
     seed: u64,
     settings: &ShiftSettings,
     mut feasible: impl FnMut(&[Point3<f64>]) -> Option<P>,
-    mut execute: impl FnMut(&P) -> Option<Trial>,
+    mut execute: impl FnMut(&P, f64) -> Option<Trial>,
 ) -> Shifted<P> {
     let mut rng = stream(seed);
     let mut best = Shifted { plan: None, trial, step: settings.step, best_so_far: Vec::new() };
@@ -62,7 +65,7 @@ pub fn shift<P>(
     if last < 2 {
         return best;
     }
-    while (best.best_so_far.len() as u64) < settings.executions {
+    while best.best_so_far.len() as u64 + settings.per_trial.max(1) <= settings.executions {
         let mut drawn = None;
         for _ in 0..DRAWS {
             let moved = moved(&points, best.trial.worst_leg, last, best.step, &mut rng);
@@ -78,7 +81,8 @@ pub fn shift<P>(
             }
             continue;
         };
-        let trial = execute(&plan).filter(|trial| !trial.stress.is_nan());
+        let trial = execute(&plan, best.trial.stress);
+        let executions = trial.map_or(1, |trial| trial.executions);
         match trial {
             Some(trial) if trial.stress >= best.trial.stress => {
                 (best.plan, best.trial, points) = (Some(plan), trial, moved);
@@ -90,7 +94,7 @@ pub fn shift<P>(
         if best.step < SMALLEST * settings.largest {
             best.step = 0.5 * settings.largest;
         }
-        best.best_so_far.push(best.trial.stress);
+        best.best_so_far.extend((0..executions).map(|_| best.trial.stress));
     }
     best
 }

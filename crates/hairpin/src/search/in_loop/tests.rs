@@ -13,12 +13,12 @@ const LENGTH: usize = 6;
 /// A stress that no leg alone tells: how sharply two long legs meet, largest over the trajectory.
 fn hidden(points: &[Point3<f64>], waypoints: &[u32]) -> Trial {
     let leg = |k: usize| points[waypoints[k + 1] as usize] - points[waypoints[k] as usize];
-    let mut trial = Trial { stress: 0.0, worst_leg: 0 };
+    let mut trial = Trial { stress: 0.0, worst_leg: 0, executions: 1 };
     for k in 1..waypoints.len() - 1 {
         let (before, after) = (leg(k - 1), leg(k));
         let stress = before.norm() * after.norm() - before.dot(&after);
         if stress > trial.stress {
-            trial = Trial { stress, worst_leg: k };
+            trial = Trial { stress, worst_leg: k, executions: 1 };
         }
     }
     trial
@@ -51,7 +51,7 @@ fn the_most_stressful_is_found_and_every_child_is_feasible() {
         let executions = all.len() as u64;
         let settings = EvolveSettings { length: LENGTH, executions, ..EvolveSettings::default() };
         let mut executed = Vec::new();
-        let mut run = |found: &Found<StepNode>| {
+        let mut run = |found: &Found<StepNode>, _: f64| {
             executed.push(found.waypoints.clone());
             Some(hidden(&points, &found.waypoints))
         };
@@ -66,7 +66,7 @@ fn the_most_stressful_is_found_and_every_child_is_feasible() {
         assert!(count as u64 <= settings.executions && evolved.best_so_far.len() == count);
         assert!(evolved.best_so_far.is_sorted() && evolved.pool.is_sorted_by(|a, b| a.found.score >= b.found.score));
         assert_eq!(evolved.pool[0].found.score, evolved.best_so_far[count - 1]);
-        let again = evolve(&graph, &first(&all), seed, &settings, |found| Some(hidden(&points, &found.waypoints)));
+        let again = evolve(&graph, &first(&all), seed, &settings, |found, _| Some(hidden(&points, &found.waypoints)));
         assert_eq!(again, evolved, "seed {seed}");
         tested += 1;
         reached += usize::from(evolved.pool[0].found.score >= most);
@@ -83,38 +83,81 @@ fn a_small_graph_is_used_up_and_failures_count() {
     assert!((2..40).contains(&all.len()), "{}", all.len());
     let graph = LegGraph::explore(START, &points, &SMALL, 4);
     let settings = EvolveSettings { length: 4, executions: 1_000, ..EvolveSettings::default() };
-    let evolved = evolve(&graph, &[], 5, &settings, |found| Some(hidden(&points, &found.waypoints)));
+    let evolved = evolve(&graph, &[], 5, &settings, |found, _| Some(hidden(&points, &found.waypoints)));
     assert_eq!(evolved.best_so_far.len(), all.len(), "each once, and then an end");
-    let failed = evolve(&graph, &[], 5, &settings, |_: &Found<StepNode>| None);
+    let failed = evolve(&graph, &[], 5, &settings, |_: &Found<StepNode>, _| None);
     assert!(failed.pool.is_empty() && failed.best_so_far.len() <= all.len());
 }
 
 #[test]
 fn waypoints_move_to_the_edge_of_what_is_feasible_and_never_beyond() {
     let points = [0.0, 1.0, 2.0, 3.0].map(|x| Point3::new(x, 0.0, 0.0));
-    let settings = ShiftSettings { executions: 400, step: 0.3, largest: 0.6, free_end: false };
+    let settings = ShiftSettings { executions: 400, per_trial: 1, step: 0.3, largest: 0.6, free_end: false };
     let feasible = |moved: &[Point3<f64>]| {
         assert_eq!((moved[0], moved[3]), (points[0], points[3]), "ends stay");
         moved.iter().all(|p| p.y.abs() <= 2.0 && p.z.abs() <= 1.0).then(|| moved.to_vec())
     };
-    let execute = |plan: &Vec<Point3<f64>>| Some(Trial { stress: plan[1].y + plan[2].z, worst_leg: 1 });
-    let trial = Trial { stress: 0.0, worst_leg: 1 };
+    let execute =
+        |plan: &Vec<Point3<f64>>, _: f64| Some(Trial { stress: plan[1].y + plan[2].z, worst_leg: 1, executions: 1 });
+    let trial = Trial { stress: 0.0, worst_leg: 1, executions: 1 };
     let shifted = shift(&points, trial, 1, &settings, feasible, execute);
     assert!(shifted.trial.stress > 2.9 && shifted.trial.stress <= 3.0, "{}", shifted.trial.stress);
     assert_eq!(shifted.best_so_far.len(), 400);
-    let stuck = shift(&points, trial, 1, &settings, |_| None::<()>, |()| None);
+    let stuck = shift(&points, trial, 1, &settings, |_| None::<()>, |(), _| None);
     assert!(stuck.plan.is_none() && stuck.best_so_far.is_empty());
     let far = Vector3::new(1.0, 1.0, 1.0);
-    let free = ShiftSettings { executions: 50, step: 0.3, largest: 0.6, free_end: true };
+    let free = ShiftSettings { executions: 50, per_trial: 1, step: 0.3, largest: 0.6, free_end: true };
     let moved = shift(
         &points,
         trial,
         2,
         &free,
         |p| Some(p[3]),
-        |end| Some(Trial { stress: end.coords.dot(&far), worst_leg: 2 }),
+        |end, _| Some(Trial { stress: end.coords.dot(&far), worst_leg: 2, executions: 1 }),
     );
     assert!(moved.trial.stress > 3.0);
+}
+
+#[test]
+fn what_is_confirmed_counts_within_the_budget_and_luck_is_let_go_of() {
+    let points = points(3, 11, 11.0);
+    let everywhere = Octahedron { centre: Vector3::zeros(), half: Vector3::repeat(1e9) };
+    let graph = LegGraph::explore(START, &points, &everywhere, LENGTH);
+    // Every second trajectory is ten times as stressful at first, and not at all under noise.
+    let lucky = |found: &Found<StepNode>| found.waypoints.iter().sum::<u32>() % 2 == 0;
+    let settings = EvolveSettings { length: LENGTH, executions: 100, per_trial: 3, pool: 4, ..Default::default() };
+    let (mut executed, mut confirmed) = (0, 0);
+    let evolved = evolve(&graph, &[], 2, &settings, |found, least| {
+        let lasting = hidden(&points, &found.waypoints);
+        let first = if lucky(found) { 10.0 * lasting.stress } else { lasting.stress };
+        let again = first >= least;
+        let trial = Trial { stress: if again { lasting.stress / 2.0 } else { first }, ..lasting };
+        executed += if again { 3 } else { 1 };
+        confirmed += u64::from(again);
+        Some(Trial { executions: if again { 3 } else { 1 }, ..trial })
+    });
+    assert!(executed <= 100 && executed > 97 && confirmed > 4, "{executed}");
+    assert_eq!(evolved.best_so_far.len(), executed);
+    for tested in &evolved.pool {
+        assert_eq!(tested.trial.stress, hidden(&points, &tested.found.waypoints).stress / 2.0);
+    }
+    let settings = ShiftSettings { executions: 50, per_trial: 3, step: 0.3, largest: 0.6, free_end: false };
+    let mut executed = 0;
+    let start = Trial { stress: points[1].x, worst_leg: 1, executions: 1 };
+    let moved = shift(
+        &points[..4],
+        start,
+        1,
+        &settings,
+        |p| Some(p[1].x),
+        |&x, least| {
+            let executions = if x >= least { 3 } else { 1 };
+            executed += executions;
+            Some(Trial { stress: x, worst_leg: 1, executions })
+        },
+    );
+    assert!(executed <= 50 && executed > 47 && moved.trial.stress > points[1].x);
+    assert_eq!(moved.best_so_far.len() as u64, executed);
 }
 
 #[test]

@@ -1,12 +1,11 @@
 //! One way to generate: a scenario of the paper's with some of its keys changed, its cases, and what they come to.
 
 use hairpin::campaign::experiment::lift::Flown;
-use hairpin::campaign::learn::{KeptModel, ScoreModel, learn, leg_samples};
+use hairpin::campaign::learn::{KeptModel, ScoreModel};
 use hairpin::campaign::{self, Case, Known, Scenario, Setup, Stop};
 use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
 use hairpin_formats::scenario::scenario_for;
-use rayon::prelude::*;
 
 use crate::interrupt;
 use crate::problem::Problem;
@@ -15,6 +14,10 @@ use crate::problem::Problem;
 pub(super) const FLIGHT_GOGGLES: &str = "paper-minimum-snap";
 /// The one of the Anafi's stand-in.
 pub(super) const ANAFI: &str = "paper-anafi";
+
+/// Rounds that scores are learned in, and trajectories per graph in each.
+const ROUNDS: u64 = 5;
+const PER_GRAPH_AND_ROUND: u64 = 3;
 
 /// A dotted key and its TOML value.
 pub(super) type Set = (&'static str, String);
@@ -71,19 +74,21 @@ pub(super) fn flown<const N: usize>(
     Flown::of(setup, cases, stresses, &stop()).ok_or(Problem::Interrupted("interrupted: nothing was written".into()))
 }
 
-/// A model of the largest deviation per leg, learned from one nominal run of each of `trajectories` uniform ones, of other graphs than
-/// those of `seed`.
-pub(super) fn learned(scenario: &str, base: &[Set], trajectories: u64, seed: u64) -> Result<ScoreModel, Problem> {
+/// A model of the largest deviation per leg, learned in rounds from `executions` nominal runs of trajectories of other graphs than those
+/// of `seed`: uniform ones at first, then mostly the worst ones that the model of the rounds before knows of.
+pub(super) fn learned(scenario: &str, base: &[Set], executions: u64, seed: u64) -> Result<ScoreModel, Problem> {
+    let graphs = executions.div_ceil(ROUNDS * PER_GRAPH_AND_ROUND);
     let sets = [
         ("seed", (named_seed(seed, "training", 0) >> 1).to_string()),
-        ("generate.search.method", text("uniform")),
-        ("generate.search.cases", trajectories.to_string()),
+        ("generate.search.method", text("adaptive")),
+        ("generate.search.aggregate", text("max")),
+        ("generate.search.cases", graphs.to_string()),
+        ("generate.search.executions", executions.to_string()),
+        ("generate.search.rounds", ROUNDS.to_string()),
     ];
     let setup = setup(scenario, &with(base, &sets), None)?;
-    let samples: Vec<Vec<_>> = cases(&setup)?
-        .par_iter()
-        .map(|case| leg_samples(&setup, case, &[campaign::execute_run(&setup, case, 0)], Stress::MaxDeviation))
-        .collect();
+    let tally = campaign::generate(&setup, &Known::default(), &stop(), &mut |_, _| {});
     super::super::go_on()?;
-    learn(&setup, Stress::MaxDeviation, &samples.concat()).map_err(Problem::input)
+    let reason = || tally.unlearned.or(tally.nothing).unwrap_or_else(|| "no trajectory was executed".into());
+    tally.model.map(|model| *model).ok_or_else(|| Problem::input(format!("nothing to learn from: {}", reason())))
 }

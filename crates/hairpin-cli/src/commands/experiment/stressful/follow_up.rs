@@ -19,7 +19,7 @@ use crate::problem::Problem;
 struct Size {
     /// Trajectories per way, each from a graph of its own.
     graphs: u64,
-    /// Trajectories without a score that the score is learned from, of other graphs.
+    /// Executions of other graphs' trajectories that the score is learned from.
     training: u64,
     /// Runs with noise of every trajectory.
     runs: u64,

@@ -7,6 +7,7 @@
 use hairpin::campaign::experiment::lift::{Flown, Lift, lift};
 use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
+use hairpin::search::Score;
 use hairpin_formats::experiment::Sheet;
 use hairpin_formats::figure::{Axis, Cell, Figure, Marks, Point, Scale, Series, Table};
 use serde::Deserialize;
@@ -20,7 +21,7 @@ use crate::problem::Problem;
 struct Size {
     /// Trajectories per cell, each from a graph of its own.
     graphs: u64,
-    /// Uniform trajectories that scores are learned from, of other graphs.
+    /// Executions of other graphs' trajectories that scores are learned from.
     training: u64,
     /// Runs with noise of every trajectory.
     runs: u64,
@@ -28,6 +29,8 @@ struct Size {
     executions: u64,
     /// The same where waypoints are moved as well; 0: left out.
     executions_moved: u64,
+    /// Executions under noise that searches in the loop confirm a stress with.
+    confirm: u64,
     /// Uniform trajectories whose worst is the ceiling; 0: left out.
     ceiling: u64,
     length: u64,
@@ -86,21 +89,22 @@ fn ways(size: &Size) -> Vec<Way> {
     ];
     for aggregate in ["sum", "max"] {
         let aggregate_set = ("generate.search.aggregate", text(aggregate));
-        for score in ["high-velocity", "high-velocity-90", "high-velocity-180"] {
+        for score in Score::NAMES.into_iter().filter(|name| *name != "random") {
             let sets = [("generate.score", text(score)), aggregate_set.clone()];
             ways.push(way(&format!("{score}, {aggregate}"), Kind::ByHand, "exact", &sets));
         }
     }
     ways.push(way("learned, max", Kind::Learned, "exact", &[("generate.search.aggregate", text("max"))]));
     let executions = |count: u64| ("generate.search.executions", count.to_string());
+    let confirm = ("generate.search.confirm", size.confirm.to_string());
     ways.push(way(
         &format!("in the loop, {}", size.executions),
         Kind::InLoop,
         "in-loop",
-        &[executions(size.executions)],
+        &[executions(size.executions), confirm.clone()],
     ));
     if size.executions_moved > 0 {
-        let sets = [executions(size.executions_moved), ("generate.search.move_waypoints", "true".into())];
+        let sets = [executions(size.executions_moved), confirm, ("generate.search.move_waypoints", "true".into())];
         ways.push(way(&format!("in the loop and moved, {}", size.executions_moved), Kind::Moved, "in-loop", &sets));
     }
     ways
@@ -244,7 +248,7 @@ pub(in super::super) fn scores(sheet: &Sheet) -> Result<Outcome, Problem> {
     let notes = vec![
         format!(
             "Deviation from `{}`, length {}, {} graphs a cell, each trajectory flown {} times with noise; lifts are of means over uniform \
-             feasible trajectories, with 95 % bootstrap intervals; scores are learned from {} trajectories of other graphs.",
+             feasible trajectories, with 95 % bootstrap intervals; scores are learned from {} executions in other graphs.",
             size.from, size.length, size.graphs, size.runs, size.training
         ),
         "No waypoint is used twice, on either side; minimum snap has times by the square root of the leg's length."

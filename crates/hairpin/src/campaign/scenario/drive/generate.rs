@@ -236,6 +236,8 @@ pub struct DriveSearch {
     pub graphs: Option<u64>,
     /// `in-loop`: executions per graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
+    /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
+    pub confirm: u64,
     /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly.
     pub rounds: u64,
     /// `adaptive`: share of every later round's executions that is drawn uniformly, whatever the model says.
@@ -268,6 +270,7 @@ impl Default for DriveSearch {
             frontier,
             graphs,
             executions,
+            confirm,
             rounds,
             explore,
             time_s,
@@ -289,6 +292,7 @@ impl Default for DriveSearch {
             frontier,
             graphs,
             executions,
+            confirm,
             rounds,
             explore,
             time_s,
@@ -315,6 +319,7 @@ impl DriveSearch {
             frontier: self.frontier,
             graphs: self.graphs,
             executions: self.executions,
+            confirm: self.confirm,
             rounds: self.rounds,
             explore: self.explore,
             time_s: self.time_s,
