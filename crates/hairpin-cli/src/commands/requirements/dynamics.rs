@@ -31,12 +31,12 @@ pub(super) fn compensated(subject: &Subject) -> Result<Test, Problem> {
     let stored = store::compare(subject, store::ROUGH_DYNAMICS)?;
     let check = Check::new(
         format!(
-            "{} of {} ({:.2} %) met within 0.01 m, rad and 1/m in {:.3} ms each; drives that do not know of the dynamics miss by {median:.3} m \
+            "{} of {} ({:.2} %) met within 0.01 m, rad and 1/m in {}; drives that do not know of the dynamics miss by {median:.3} m \
              in the median; {}",
             tally.met,
             tally.asked,
             tally.share(),
-            tally.mean_ms(),
+            tally.times(),
             stored.words()
         ),
         format!("≥ {SHARE} %, far more than 0.01 m without, none worse"),

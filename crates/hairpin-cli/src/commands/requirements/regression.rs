@@ -27,15 +27,15 @@ const ROUGH_SHARE: f64 = 99.0;
 const MEAN_MS: f64 = 100.0;
 
 /// What came of many queries.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Tally {
     pub(super) asked: usize,
     /// Controls and a path of states came back.
     pub(super) paths: usize,
     /// The replay meets the goal within [`MET`] and keeps the bounds.
     pub(super) met: usize,
-    /// Time of solving all, on the wall's clock, s.
-    pub(super) seconds: f64,
+    /// Time of solving each, on the wall's clock, s.
+    pub(super) seconds: Vec<f64>,
     /// Largest errors of those that are met: m, rad, 1/m.
     pub(super) worst: [f64; 3],
 }
@@ -55,7 +55,20 @@ impl Tally {
     }
 
     pub(super) fn mean_ms(&self) -> f64 {
-        1e3 * self.seconds / self.asked.max(1) as f64
+        1e3 * self.seconds.iter().sum::<f64>() / self.asked.max(1) as f64
+    }
+
+    /// The time that at least 99 of a hundred queries keep: the ⌈0.99 n⌉-th of n by size.
+    pub(super) fn p99_ms(&self) -> f64 {
+        let mut seconds = self.seconds.clone();
+        seconds.sort_by(f64::total_cmp);
+        let rank = (99 * seconds.len()).div_ceil(100);
+        1e3 * rank.checked_sub(1).map_or(f64::NAN, |index| seconds[index])
+    }
+
+    /// Both, as they are told.
+    pub(super) fn times(&self) -> String {
+        format!("{:.3} ms in the mean (p99 {:.3} ms)", self.mean_ms(), self.p99_ms())
     }
 }
 
@@ -68,7 +81,7 @@ pub(super) fn flat(subject: &Subject) -> Result<[Test; 3], Problem> {
         let choices = Choices { reversals, ..Choices::default() };
         let begun = Instant::now();
         let solution = solve(&query, &bounds, &choices, || false);
-        tally.seconds += begun.elapsed().as_secs_f64();
+        tally.seconds.push(begun.elapsed().as_secs_f64());
         let replay = replay_flat(&query, 0.0, &solution.segments);
         let [x, y, yaw] = replay.error;
         let kept = solution.outcome == Outcome::Solved
@@ -87,7 +100,7 @@ pub(super) fn flat(subject: &Subject) -> Result<[Test; 3], Problem> {
         }
     }
     let stored = store::compare(subject, store::FLAT)?;
-    let Tally { asked, paths, met, worst, .. } = tally;
+    let &Tally { asked, paths, met, worst, .. } = &tally;
     let interface = Check::new(
         format!("{paths} of {asked} with controls and a path of states, {:.2} % converged", tally.share()),
         "all",
@@ -95,9 +108,10 @@ pub(super) fn flat(subject: &Subject) -> Result<[Test; 3], Problem> {
     );
     let convergence = Check::new(
         format!(
-            "{met} of {asked} ({:.2} %) by replay, {:.1} µs each; largest errors {:.1e} m, {:.1e} rad, {:.1e} 1/m",
+            "{met} of {asked} ({:.2} %) by replay, {:.1} µs each (p99 {:.1} µs); largest errors {:.1e} m, {:.1e} rad, {:.1e} 1/m",
             tally.share(),
             1e3 * tally.mean_ms(),
+            1e3 * tally.p99_ms(),
             worst[0],
             worst[1],
             worst[2]
@@ -139,7 +153,7 @@ pub(super) fn on_the_ground(subject: &Subject, rover: &Rover, goals: &[(Planar, 
     let mut tally = Tally { asked: goals.len(), ..Tally::default() };
     for (start, goal) in goals {
         let answered = vehicle.answer(&asked(start, goal));
-        tally.seconds += answered.solving.as_secs_f64();
+        tally.seconds.push(answered.solving.as_secs_f64());
         let Some((solution, replay)) = &answered.drive else { continue };
         let path = site.predict(start, &solution.segments, Steps::default());
         tally.paths += usize::from(path.is_ok_and(|path| path.steps > 1 && path.end.x.is_finite()));
@@ -176,14 +190,32 @@ pub(super) fn rough(subject: &Subject) -> Result<[Test; 3], Problem> {
         six.share() >= ROUGH_SHARE && point.share() >= ROUGH_SHARE,
     );
     let time = Check::new(
-        format!("rocky8 {:.3} ms, generic {:.3} ms in the mean", six.mean_ms(), point.mean_ms()),
-        format!("< {MEAN_MS} ms"),
+        format!("rocky8 {}, generic {}", six.times(), point.times()),
+        format!("mean < {MEAN_MS} ms"),
         six.mean_ms() < MEAN_MS && point.mean_ms() < MEAN_MS,
     );
     let test = |id, requirement, what: &str, check| Test { id, requirement, what: what.into(), check };
     Ok([
         test("R4", "R-1", "rough ground: the interface, and as good as the stored solutions", interface),
         test("R5", "R-4", "rough ground: goals that were driven to are met within 0.01 m, rad and 1/m", convergence),
-        test("R6", "R-5", "rough ground: mean time of a query, on the wall's clock", time),
+        test("R6", "R-5", "rough ground: time of a query, on the wall's clock", time),
     ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ninety_nine_of_a_hundred_keep_the_percentile() {
+        let of = |count: usize| {
+            // From slow to fast: times are told whatever their order.
+            let seconds = (1..=count).rev().map(|i| 1e-3 * i as f64).collect();
+            Tally { asked: count, seconds, ..Tally::default() }
+        };
+        for (count, expected) in [(1, 1.0), (99, 99.0), (100, 99.0), (1000, 990.0)] {
+            assert!((of(count).p99_ms() - expected).abs() < 1e-9, "{count}: {}", of(count).p99_ms());
+        }
+        assert!((of(100).mean_ms() - 50.5).abs() < 1e-9 && of(0).p99_ms().is_nan());
+    }
 }
