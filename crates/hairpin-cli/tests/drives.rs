@@ -216,14 +216,14 @@ fn cars_shunt_and_every_reach_set_takes_every_score() {
     assert_eq!((&verified["checked"], &verified["failed"]), (&Value::from(1), &Value::from(0)), "{verified}");
 }
 
-/// A rover that travels at an angle to its body, with an acceleration and a lag of its own.
+/// A rover that travels at angles to its body that turn along the way, with an acceleration and a lag of its own.
 #[test]
 fn a_rover_travels_crabwise_and_stops_for_its_turns() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let own = [
         "--set",
-        "generate.direction_deg=25",
+        "generate.direction_deg=[-10, 25]",
         "--set",
         "generate.manoeuvres=[\"forward\", \"reverse\", \"turn-in-place\"]",
         "--set",
@@ -247,6 +247,7 @@ fn a_rover_travels_crabwise_and_stops_for_its_turns() {
     assert_eq!((&verified["checked"], &verified["failed"]), (&Value::from(1), &Value::from(0)), "{verified}");
     let report = fs::read_to_string(at.join("a/report.html")).unwrap();
     assert!(report.contains("as trapezoids"), "the speeds of plans are told");
+    assert!(report.contains("between -10° and 25° of the body"), "and the directions");
 }
 
 #[test]
@@ -262,6 +263,10 @@ fn mistakes_are_told_with_their_place() {
         ("generate.speed.profile=\"ramp\"", &["generate.speed.acceleration_m_s2", "not bounded"]),
         ("generate.speed.waypoint_m_s=[0.01, 0.05]", &["generate.speed.waypoint_m_s", "constant"]),
         ("generate.direction_deg=400", &["generate.direction_deg", "180"]),
+        ("generate.direction_deg=[30, -30]", &["generate.direction_deg", "rising"]),
+        ("generate.direction_deg=[-30, 400]", &["generate.direction_deg[1]", "180"]),
+        ("generate.direction_deg=\"left\"", &["generate.direction_deg", "an array of 2 numbers"]),
+        ("generate={ reach = \"hull\", direction_deg = [0, 20] }", &["generate.direction_deg", "witness"]),
         ("world.terrain={ file = \"none.tif\" }", &["none.tif", "cannot be read"]),
         ("world.terrain={ generator = \"moon\" }", &["generator", "craters"]),
         ("world.keep_out=[{ name = \"x\" }]", &["world.keep_out[0]", "circle"]),

@@ -14,7 +14,7 @@ use hairpin::simulation::ground::{
     DriveSettings, GroundConditions, GroundController, GroundSortie, drive, planned_track,
 };
 use hairpin::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
-use hairpin::trajectory::{Drive, DriveLeg, Ended, Flight, SpeedProfile};
+use hairpin::trajectory::{Direction, Drive, DriveLeg, Ended, Flight, SpeedProfile};
 use hairpin::world::terrain::generate::{Recipe, generate};
 use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, KeepOut, KeepOutShape, KeepOuts};
 use nalgebra::Point3;
@@ -56,10 +56,10 @@ fn plan(legs: &[Vec<Segment>], speed: f64) -> Drive {
             for segment in segments {
                 at = after(&at, segment);
             }
-            DriveLeg { from, to: at, segments: segments.clone(), speed: speed.into() }
+            DriveLeg { from, to: at, segments: segments.clone(), speed: speed.into(), direction: 0.0.into() }
         })
         .collect();
-    Drive { legs, speed, turn_rate: 0.3, direction: 0.0 }
+    Drive { legs, speed, turn_rate: 0.3 }
 }
 
 fn after(from: &Planar, segment: &Segment) -> Planar {
@@ -82,11 +82,18 @@ fn after(from: &Planar, segment: &Segment) -> Planar {
 }
 
 /// An answer of the flat solver within |κ| ≤ 1, |κ'| ≤ 1.
-fn flat_answer(from: &Planar, to: &Planar, gear: Gear) -> Option<SegmentList> {
-    flat_answer_within(Curvatures { most: 1.0, most_rate: 1.0 }, from, to, gear)
+fn flat_answer(from: &Planar, to: &Planar, gear: Gear, direction: Direction) -> Option<SegmentList> {
+    flat_answer_within(Curvatures { most: 1.0, most_rate: 1.0 }, from, to, gear, direction)
 }
 
-fn flat_answer_within(bounds: Curvatures, from: &Planar, to: &Planar, gear: Gear) -> Option<SegmentList> {
+fn flat_answer_within(
+    bounds: Curvatures,
+    from: &Planar,
+    to: &Planar,
+    gear: Gear,
+    direction: Direction,
+) -> Option<SegmentList> {
+    assert_eq!(direction, Direction::default(), "the plans here go straight ahead");
     let (sin, cos) = from.yaw.sin_cos();
     let (dx, dy) = (to.x - from.x, to.y - from.y);
     let goal = Goal {
@@ -222,7 +229,8 @@ fn plans_that_stop_at_cusps_are_followed_more_closely() {
         Site { vehicle: car(), nominal: car(), map: plane(0.0, 0.0), conditions: GroundConditions::default() };
     let limits = &site.nominal.limits;
     let bounds = Curvatures { most: limits.curvature, most_rate: limits.curvature_rate };
-    let resolve = |from: &Planar, to: &Planar, gear: Gear| flat_answer_within(bounds, from, to, gear);
+    let resolve =
+        |from: &Planar, to: &Planar, gear: Gear, direction| flat_answer_within(bounds, from, to, gear, direction);
     let controllers = [CONTROLLERS[0], CONTROLLERS[1], ("predictive", GroundController::Predictive(&resolve))];
     let stops = Slopes { waypoints: [2.0, 2.0], acceleration: 3.0 };
     for latency in [0.0, 0.05, 0.2] {
@@ -321,7 +329,8 @@ fn a_lateral_step_of_one_metre_settles_without_much_overshoot() {
         let site = Site { vehicle: car(), nominal: car(), map: plane(0.0, 0.0), conditions };
         let limits = &site.nominal.limits;
         let bounds = Curvatures { most: limits.curvature, most_rate: limits.curvature_rate };
-        let resolve = |from: &Planar, to: &Planar, gear: Gear| flat_answer_within(bounds, from, to, gear);
+        let resolve =
+            |from: &Planar, to: &Planar, gear: Gear, direction| flat_answer_within(bounds, from, to, gear, direction);
         for (word, controller) in
             [CONTROLLERS[0], CONTROLLERS[1], ("predictive", GroundController::Predictive(&resolve))]
         {
@@ -503,7 +512,7 @@ fn predictive_tracking_stays_closer_than_pure_pursuit_where_the_ground_gives_way
         let path = planned_track(&site.nominal, &site.map, &plan).expect("a plan on the map");
         let end = path.position(path.len() - 1);
         (plan.legs[0].to.x, plan.legs[0].to.y) = (end.x, end.y);
-        let resolve = |from: &Planar, to: &Planar, gear: Gear| rough_answer(&site, from, to, gear);
+        let resolve = |from: &Planar, to: &Planar, gear: Gear, _| rough_answer(&site, from, to, gear);
         let predictive = ("predictive", GroundController::Predictive(&resolve));
         let controllers = [&CONTROLLERS[0], &CONTROLLERS[1], &predictive];
         for (sum, (word, controller)) in sums.iter_mut().zip(controllers) {
@@ -559,7 +568,7 @@ fn predictive_tracking_learns_a_steady_drift() {
     let mut site = Site::new("rocky8", plane(0.0, 0.3));
     site.vehicle.slip = Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 };
     let line = plan(&[vec![Segment::straight(10.0, Gear::Forward)]], 0.1);
-    let resolve = |from: &Planar, to: &Planar, gear: Gear| rough_answer(&site, from, to, gear);
+    let resolve = |from: &Planar, to: &Planar, gear: Gear, _| rough_answer(&site, from, to, gear);
     let below = |controller: &GroundController| {
         let (flight, _) = site.run(&line, controller, 1);
         let middle = flight.track.len() / 2;

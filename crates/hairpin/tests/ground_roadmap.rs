@@ -78,9 +78,8 @@ fn by_beam(
 
 /// Replays every leg with another integrator and holds it against what was claimed.
 fn hold(site: &DriveSite, settings: &DriveSettings, drive: &Drive, told: &str) {
-    let ground =
-        Site { rover: site.rover, map: site.map, speed: drive.speed.into(), direction: drive.direction.into() };
     for (number, leg) in drive.legs.iter().enumerate() {
+        let ground = Site { rover: site.rover, map: site.map, speed: drive.speed.into(), direction: leg.direction };
         let replay = ground.replay(&leg.from, &leg.to, &leg.segments).expect("a way");
         let [x, y, yaw] = replay.error;
         let met = x.hypot(y) <= 0.01 && yaw.abs() <= 0.01 && replay.error_curvature.abs() <= 0.01;
@@ -92,7 +91,7 @@ fn hold(site: &DriveSite, settings: &DriveSettings, drive: &Drive, told: &str) {
             assert!(most <= settings.bounds.most * (1.0 + 1e-6), "{told}, leg {number}: {most}");
         }
         if let Some(next) = drive.legs.get(number + 1) {
-            assert_eq!(leg.to, next.from, "{told}");
+            assert_eq!((leg.to, leg.direction.end), (next.from, next.direction.start), "{told}");
         }
     }
 }

@@ -2,14 +2,15 @@
 //! `leg,segment,kind,direction,length_m,turn_rad,a0…a5,from_x_m,from_y_m,from_yaw_rad,from_curvature_1_m,to_x_m,…`.
 //!
 //! The leg's ends stand in each of its rows, and its speeds: `profile` (constant, ramp, trapezoid) with `start_speed_m_s`,
-//! `cruise_speed_m_s`, `end_speed_m_s`, `acceleration_m_s2`, NaN where a profile has none; the highest speed, turn rate and direction of travel in every row.
+//! `cruise_speed_m_s`, `end_speed_m_s`, `acceleration_m_s2`, NaN where a profile has none; and the direction of travel in the body there,
+//! `travel_direction_rad` and `travel_direction_end_rad`. The highest speed and the turn rate stand in every row.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use arrow::array::{Float64Array, Int64Array, StringArray};
 use hairpin::trajectory::drive::{Gear, Motion, Planar, Segment};
-use hairpin::trajectory::{Drive, DriveLeg, SpeedProfile};
+use hairpin::trajectory::{Direction, Drive, DriveLeg, SpeedProfile};
 
 use super::table::{Columns, Table, TableError};
 use crate::atomic::WriteError;
@@ -62,7 +63,8 @@ pub fn write(path: &Path, drive: &Drive) -> Result<(), WriteError> {
     }
     numbers("speed_m_s".into(), &|_, _| drive.speed);
     numbers("turn_rate_rad_s".into(), &|_, _| drive.turn_rate);
-    numbers("travel_direction_rad".into(), &|_, _| drive.direction);
+    numbers("travel_direction_rad".into(), &|leg, _| leg.direction.start);
+    numbers("travel_direction_end_rad".into(), &|leg, _| leg.direction.end);
     let profiles = rows.iter().map(|row| Some(profile_word(&row.2.speed))).collect::<StringArray>();
     columns.push("profile", Arc::new(profiles));
     columns.write(path, "drive")
@@ -139,14 +141,16 @@ pub fn read(path: &Path) -> Result<Drive, TableError> {
     };
     let (from, to) = (end("from")?, end("to")?);
     let (speeds, turn_rates) = (table.numbers("speed_m_s")?, table.numbers("turn_rate_rad_s")?);
-    let travel = table.numbers("travel_direction_rad")?;
+    // Folders of before directions could turn have the first alone.
+    let (travel, travel_end) =
+        (table.numbers("travel_direction_rad")?, table.numbers_or_none("travel_direction_end_rad")?);
     let profiles = read_speeds(&table)?;
     if table.rows() == 0 {
         return Err(table.refuse("leg", 0, "missing", "one row for each segment"));
     }
     let mut order: Vec<usize> = (0..table.rows()).collect();
     order.sort_by_key(|&row| (legs[row], segments[row]));
-    let mut drive = Drive { legs: Vec::new(), speed: speeds[0], turn_rate: turn_rates[0], direction: travel[0] };
+    let mut drive = Drive { legs: Vec::new(), speed: speeds[0], turn_rate: turn_rates[0] };
     for (name, values) in [("speed_m_s", &speeds), ("turn_rate_rad_s", &turn_rates)] {
         if let Some(row) = values.iter().position(|value| *value <= 0.0 || *value != values[0]) {
             return Err(table.refuse(name, row, values[row], "> 0, and the same in every row"));
@@ -154,7 +158,9 @@ pub fn read(path: &Path) -> Result<Drive, TableError> {
     }
     for row in order {
         if segments[row] == 0 {
-            drive.legs.push(DriveLeg { from: from[row], to: to[row], segments: Vec::new(), speed: profiles[row] });
+            let direction = Direction { start: travel[row], end: travel_end[row].unwrap_or(travel[row]) };
+            let (from, to, speed) = (from[row], to[row], profiles[row]);
+            drive.legs.push(DriveLeg { from, to, segments: Vec::new(), speed, direction });
         }
         let number = drive.legs.len();
         let Some(leg) =
@@ -198,6 +204,7 @@ mod tests {
             to: at(x + 1.0),
             segments: segments.to_vec(),
             speed,
+            direction: Direction { start: 0.2 - 0.1 * x, end: 0.1 - 0.1 * x },
         };
         let legs = vec![
             leg(0.0, &segments, SpeedProfile::Ramp { start: 0.0, end: 0.05 }),
@@ -208,7 +215,7 @@ mod tests {
             ),
             leg(2.0, &segments[..1], SpeedProfile::Constant { speed: 0.06 }),
         ];
-        let drive = Drive { legs, speed: 0.06, turn_rate: 0.1, direction: 0.2 };
+        let drive = Drive { legs, speed: 0.06, turn_rate: 0.1 };
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("0000.parquet");
         write(&path, &drive).unwrap();

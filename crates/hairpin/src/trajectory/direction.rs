@@ -1,7 +1,9 @@
 //! The direction of travel in the body: constant for crabbing, or turned evenly along the drive.
 
+use serde::{Deserialize, Serialize};
+
 /// δ of vehicles with all wheels steered, rad, left positive: δ(s) = start + (end − start) s/L over the L metres of a drive.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Direction {
     /// Where the drive begins.
     pub start: f64,

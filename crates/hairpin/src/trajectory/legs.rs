@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::direction::Direction;
 use super::drive::{Motion, Planar, Segment};
 use super::speed::{SpeedProfile, Timing};
 
@@ -16,6 +17,17 @@ pub struct DriveLeg {
     pub segments: Vec<Segment>,
     /// The speeds of the commands, from the first waypoint to the last.
     pub speed: SpeedProfile,
+    /// The direction of travel in the body, from the first waypoint to the last.
+    pub direction: Direction,
+}
+
+/// How a waypoint of a [`Drive`] is passed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Passing {
+    /// Pose and curvature.
+    pub at: Planar,
+    /// Direction of travel in the body, rad: 0 along x, left positive.
+    pub direction: f64,
 }
 
 impl DriveLeg {
@@ -34,14 +46,12 @@ impl DriveLeg {
 /// The path of a whole mission, leg after leg: the witness of a ground vehicle's trajectory.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drive {
-    /// The legs in the order they are driven; each begins where the one before ends, and as fast.
+    /// The legs in the order they are driven; each begins where the one before ends, as fast, and in its direction of travel.
     pub legs: Vec<DriveLeg>,
     /// The highest speed along the path, m/s, > 0.
     pub speed: f64,
     /// Commanded rate of turns in place, rad/s, > 0.
     pub turn_rate: f64,
-    /// Direction of travel in the body, rad: 0 along x, left positive.
-    pub direction: f64,
 }
 
 impl Drive {
@@ -51,6 +61,14 @@ impl Drive {
         let timing = leg.timing();
         let turned: f64 = leg.segments.iter().map(|segment| segment.turn_rad().abs()).sum();
         timing.time_at(timing.length()) + turned / self.turn_rate
+    }
+
+    /// How waypoint number `index` is passed; `None` beyond the last.
+    pub fn passing(&self, index: usize) -> Option<Passing> {
+        let leaves = |leg: &DriveLeg| Passing { at: leg.from, direction: leg.direction.start };
+        let arrives = |leg: &DriveLeg| Passing { at: leg.to, direction: leg.direction.end };
+        let before = || index.checked_sub(1).and_then(|leg| self.legs.get(leg)).map(arrives);
+        self.legs.get(index).map(leaves).or_else(before)
     }
 }
 
@@ -67,12 +85,15 @@ mod tests {
             to: Planar::default(),
             segments: vec![Segment::straight(4.0, Gear::Forward), Segment::straight(4.0, Gear::Reverse), turn],
             speed: SpeedProfile::Constant { speed: 2.0 },
+            direction: Direction { start: 0.1, end: 0.3 },
         };
         assert_eq!(leg.turns_at_ends(), [false, true]);
         let stopping = SpeedProfile::Trapezoid { start: 2.0, cruise: 2.0, end: 2.0, acceleration: 1.0 };
         let legs = vec![leg.clone(), DriveLeg { speed: stopping, ..leg }];
-        let drive = Drive { legs, speed: 2.0, turn_rate: 0.5, direction: 0.0 };
+        let drive = Drive { legs, speed: 2.0, turn_rate: 0.5 };
         assert_eq!(drive.leg_time(0), 4.0 + 3.0);
+        let passed: Vec<_> = (0..4).map(|index| drive.passing(index).map(|passing| passing.direction)).collect();
+        assert_eq!(passed, [Some(0.1), Some(0.1), Some(0.3), None]);
         // 2 m at 2 m/s and 2 m to rest in 2 s; then, from rest to rest over 4 m, 2 s up and 2 s down.
         assert!((drive.leg_time(1) - (1.0 + 2.0 + 4.0 + 3.0)).abs() < 1e-12, "{}", drive.leg_time(1));
     }

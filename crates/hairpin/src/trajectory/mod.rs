@@ -13,7 +13,7 @@ pub mod track;
 
 pub use direction::Direction;
 pub use flight::{Ended, Flight};
-pub use legs::{Drive, DriveLeg};
+pub use legs::{Drive, DriveLeg, Passing};
 pub use planned_path::{PlannedMove, PlannedPath};
 pub use profile::{Profile, ProfileLeg};
 pub use speed::{SpeedError, SpeedProfile, Speeds, Timing};

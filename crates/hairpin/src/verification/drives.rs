@@ -19,6 +19,8 @@ pub struct DriveLegClaim {
     pub speed: Vec<[f64; 2]>,
     /// Planned duration, s.
     pub duration: f64,
+    /// Direction of travel in the body at its first waypoint and at its last, rad; it turns evenly with the metres.
+    pub direction: [f64; 2],
 }
 
 /// What the whole drive claims.
@@ -32,8 +34,6 @@ pub struct DrivesClaim<'a> {
     pub speed: f64,
     /// Rate of turns in place, rad/s.
     pub turn_rate: f64,
-    /// Direction of travel in the body, rad.
-    pub direction: f64,
 }
 
 /// What a leg may leave open, and what it must keep.
@@ -51,10 +51,14 @@ pub struct DriveTolerances {
     pub most_curvature_rate: f64,
     /// Largest angle of the body's z axis from the vertical, rad.
     pub most_tilt: f64,
+    /// Least and greatest direction of travel in the body, rad.
+    pub directions: [f64; 2],
     /// Largest change of speed, m/s²; infinite where drives do not stop for changes of gear and turns in place.
     pub most_acceleration: f64,
 }
 
+/// Waypoints are written with all their digits.
+const SAME: f64 = 1e-9;
 /// Bounds are kept up to this share of them: what a replay on a grid may see of rounding.
 const ROUNDING: f64 = 1e-6;
 
@@ -103,14 +107,16 @@ pub fn verify_drives<T: Terrain>(
                 proof.findings.push(finding(field, value, bound, unit, number, at));
             }
         };
+        let [crab, last] = leg.direction;
+        let metres: f64 = leg.pieces.iter().map(DrivePiece::length).sum();
+        let crab_rate = if metres > 0.0 { (last - crab) / metres } else { 0.0 };
+        let [least, greatest] = tolerances.directions;
+        for (what, direction) in [("direction.start.excess", crab), ("direction.end.excess", last)] {
+            exceed(what, (least - direction).max(direction - greatest), SAME, "rad");
+        }
         // In the plane: the commands themselves, whatever they lead to.
-        let plane = DriveClaim {
-            start_curvature: leg.from[3],
-            crab: claim.direction,
-            crab_rate: 0.0,
-            end: [0.0; 3],
-            end_curvature: leg.to[3],
-        };
+        let plane =
+            DriveClaim { start_curvature: leg.from[3], crab, crab_rate, end: [0.0; 3], end_curvature: leg.to[3] };
         let commands = replay_drive(&leg.pieces, &plane);
         let kept = |bound: f64| bound * (1.0 + ROUNDING);
         exceed("curvature", commands.max_curvature, kept(tolerances.most_curvature), "1/m");
@@ -120,8 +126,8 @@ pub fn verify_drives<T: Terrain>(
         let ground = GroundClaim {
             start: [leg.from[0], leg.from[1], leg.from[2]],
             start_curvature: leg.from[3],
-            crab: claim.direction,
-            crab_rate: 0.0,
+            crab,
+            crab_rate,
             speed: leg.speed.clone(),
             end: [leg.to[0], leg.to[1], leg.to[2]],
             end_curvature: leg.to[3],
@@ -153,16 +159,15 @@ fn check_joint(proof: &mut Proof, claim: &DrivesClaim, number: usize, at: f64) {
     if number > 0 {
         let before = &claim.legs[number - 1].to;
         off = (0..4).fold(off, |off, i| off.max((leg.from[i] - before[i]).abs()));
+        off = off.max((leg.direction[0] - claim.legs[number - 1].direction[1]).abs());
     }
     let worst = &mut proof.knots[0];
     if off > worst.value {
         *worst = Worst { value: off, leg: number, at };
     }
-    // Waypoints are written with all their digits.
-    let bound = 1e-9;
-    if off.is_nan() || off > bound {
+    if off.is_nan() || off > SAME {
         let field = format!("legs[{number}].joint");
-        proof.findings.push(Finding { field, value: off, bound, unit: "m", leg: number, at });
+        proof.findings.push(Finding { field, value: off, bound: SAME, unit: "m", leg: number, at });
     }
 }
 
@@ -189,6 +194,7 @@ mod tests {
         most_curvature: 1.0,
         most_curvature_rate: 1.0,
         most_tilt: 0.5,
+        directions: [0.0, 0.0],
         most_acceleration: f64::INFINITY,
     };
 
@@ -207,6 +213,7 @@ mod tests {
                 pieces: vec![arc(0.5, 2.0 * quarter)],
                 speed: vec![[0.0, 1.0]],
                 duration: 2.0 * quarter,
+                direction: [0.0; 2],
             },
             DriveLegClaim {
                 from: [2.0, 2.0, quarter, 0.5],
@@ -214,14 +221,45 @@ mod tests {
                 pieces: vec![arc(0.5, 2.0 * quarter)],
                 speed: vec![[0.0, 1.0]],
                 duration: 2.0 * quarter,
+                direction: [0.0; 2],
             },
         ]
     }
 
     fn prove(legs: &[DriveLegClaim]) -> Proof {
+        prove_within(legs, &TOLERANCES)
+    }
+
+    fn prove_within(legs: &[DriveLegClaim], tolerances: &DriveTolerances) -> Proof {
         let waypoints = [[0.0, 0.0], [2.0, 2.0], [0.0, 4.0]];
-        let claim = DrivesClaim { waypoints: &waypoints, legs, speed: 1.0, turn_rate: 1.0, direction: 0.0 };
-        verify_drives(&VEHICLE, &Flat, &claim, &TOLERANCES)
+        let claim = DrivesClaim { waypoints: &waypoints, legs, speed: 1.0, turn_rate: 1.0 };
+        verify_drives(&VEHICLE, &Flat, &claim, tolerances)
+    }
+
+    /// The same half circle by a body that does not turn: what turns is the direction in which it travels.
+    #[test]
+    fn a_direction_that_turns_drives_round_and_joins_and_keeps_its_bounds() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let mut legs = legs();
+        for (number, leg) in legs.iter_mut().enumerate() {
+            let line = DrivePiece::Arc { length_m: 2.0 * quarter, curvature: [0.0; 6], direction: 1.0 };
+            leg.pieces = vec![line];
+            for end in [&mut leg.from, &mut leg.to] {
+                (end[2], end[3]) = (0.0, 0.0);
+            }
+            leg.direction = [number as f64 * quarter, (number as f64 + 1.0) * quarter];
+        }
+        let wide = DriveTolerances { directions: [0.0, 2.0 * quarter], ..TOLERANCES };
+        let sound = prove_within(&legs, &wide);
+        assert!(sound.ok() && sound.position.value < 1e-6, "{sound:?}");
+        let told = |proof: Proof| proof.findings.into_iter().map(|f| f.field).collect::<Vec<_>>().join(" ");
+        let narrow = told(prove_within(&legs, &DriveTolerances { directions: [0.0, quarter], ..TOLERANCES }));
+        assert_eq!(narrow, "legs[1].direction.end.excess");
+        legs[1].direction[0] = 0.9 * quarter;
+        let jumps = told(prove_within(&legs, &wide));
+        assert!(jumps.contains("legs[1].joint") && jumps.contains("legs[1].end.position"), "{jumps}");
+        legs[1].direction[0] = f64::NAN;
+        assert!(told(prove_within(&legs, &wide)).contains("legs[1].direction.start.excess"));
     }
 
     #[test]

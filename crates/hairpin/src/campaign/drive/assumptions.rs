@@ -41,6 +41,16 @@ pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
             "Kinematics `exact`: plans, runs and proofs have what the suspension adds to the body's velocity (vz, ωx, ωy).".into(),
         );
     }
+    match generate.direction_deg.bounds() {
+        [low, high] if low < high => said.push(format!(
+            "Waypoints are passed in directions of travel between {low}° and {high}° of the body, each with its own; along a leg the \
+             direction turns evenly, by its command and without a lag."
+        )),
+        [direction, _] if direction != 0.0 => {
+            said.push(format!("The vehicle travels at {direction}° to its body, left positive."));
+        }
+        _ => {}
+    }
     if setup.rover.response.latency > 0.0 {
         said.push(format!(
             "The latency of {} s is not planned for: legs follow each other.",

@@ -3,14 +3,15 @@
 use super::DriveSetup;
 use super::plan::drive_of;
 use crate::campaign::Case;
-use crate::feasibility::steering::shooting::solve::{Choices, Outcome, solve as steer};
-use crate::feasibility::steering::shooting::{Query, rough};
+use crate::feasibility::steering::shooting::families::Problem;
+use crate::feasibility::steering::shooting::solve::{Choices, Outcome};
+use crate::feasibility::steering::shooting::{Control, Query, generate, rough};
 use crate::simulation::SimulationError;
 use crate::simulation::ground::{
     self, DriveSettings, GroundConditions, GroundController, GroundControllerKind, GroundSortie,
 };
-use crate::trajectory::Flight;
 use crate::trajectory::drive::{Gear, Planar, SegmentList};
+use crate::trajectory::{Direction, Flight};
 
 /// How a mission is to be driven.
 #[derive(Debug, Clone, Copy)]
@@ -42,7 +43,7 @@ pub(in crate::campaign) fn drive(
         clearance_radius: own.radius(),
         drive: &plan,
     };
-    let resolve = |from: &Planar, to: &Planar, gear: Gear| solve(nominal, from, to, gear);
+    let resolve = |from: &Planar, to: &Planar, gear: Gear, direction| solve(nominal, from, to, gear, direction);
     let controller = match execute.controller_in_force().unwrap_or(GroundControllerKind::Predictive) {
         GroundControllerKind::PurePursuit => GroundController::PurePursuit,
         GroundControllerKind::Stanley => GroundController::Stanley,
@@ -58,17 +59,19 @@ pub(in crate::campaign) fn drive(
     ground::drive(&sortie, &controller, &conditions, &settings, order.seed)
 }
 
-/// Commands in one gear from `from` to `to` on the ground, as far as the nominal vehicle goes; `None` where there are none.
-fn solve(setup: &DriveSetup, from: &Planar, to: &Planar, gear: Gear) -> Option<SegmentList> {
+/// Commands in one gear from `from` to `to` on the ground, travelling in `direction`, as far as the nominal vehicle goes; `None` where
+/// there are none.
+fn solve(setup: &DriveSetup, from: &Planar, to: &Planar, gear: Gear, direction: Direction) -> Option<SegmentList> {
     let bounds = setup.bounds();
     let within = |at: &Planar| Planar { curvature: at.curvature.clamp(-bounds.most, bounds.most), ..*at };
     let settings = setup.leg_solver();
     let choices = Choices { gear, flat: setup.flat_solver(), ..Choices::default() };
     let mut shape = |query: &Query| {
         let query = Query::new(query.start_curvature, query.goal, &bounds).ok()?;
-        let solution = steer(&query, &bounds, &choices, || false);
+        let problem = Problem { query, speed: setup.speed().into(), swing: direction.swing(), free_end: false };
+        let solution = generate(&problem, Control::Quintic, &bounds, &choices, || false, |_| {}).solution;
         (solution.outcome == Outcome::Solved).then_some(solution.segments)
     };
-    let answer = setup.site().solve(&within(from), &within(to), &bounds, &settings, &mut shape);
+    let answer = setup.site(direction).solve(&within(from), &within(to), &bounds, &settings, &mut shape);
     (answer.status == rough::Status::Ok).then_some(answer.segments)
 }

@@ -39,7 +39,9 @@ pub(super) fn count(roadmap: &DriveRoadmap, points: &[Point3<f64>], length: usiz
         let stage = match reason {
             LegRefusal::Detour | LegRefusal::Unsolved => Stage::Reach,
             LegRefusal::MapEdge | LegRefusal::NoData | LegRefusal::NoRest => Stage::World,
-            LegRefusal::Curvature | LegRefusal::Tilt | LegRefusal::Joint | LegRefusal::Belly => Stage::Limits,
+            LegRefusal::Curvature | LegRefusal::Steering | LegRefusal::Tilt | LegRefusal::Joint | LegRefusal::Belly => {
+                Stage::Limits
+            }
             LegRefusal::KeepOut => Stage::Obstacle,
         };
         counter.lose_many(stage, reason.says(), tally.refused(reason));

@@ -45,7 +45,9 @@ pub(in crate::campaign) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> 
 
 /// Turns towards each waypoint and straight lines to it, from rest to rest.
 fn straight_legs(setup: &DriveSetup, waypoints: &[Point3<f64>]) -> Drive {
-    let (speed, direction) = (setup.speed(), setup.direction());
+    let (speed, [low, high]) = (setup.speed(), setup.directions());
+    // Straight legs have one direction.
+    let direction = if low == high { low } else { 0.5 * (low + high) };
     let mut yaw = setup.scenario.task.start.yaw_deg.to_radians();
     let mut legs = Vec::with_capacity(waypoints.len().saturating_sub(1));
     for pair in waypoints.windows(2) {
@@ -56,7 +58,7 @@ fn straight_legs(setup: &DriveSetup, waypoints: &[Point3<f64>]) -> Drive {
         let place = |p: &Point3<f64>, yaw| Planar { x: p.x, y: p.y, yaw, curvature: 0.0 };
         let segments = vec![turn, Segment::straight(length, Gear::Forward)];
         let (from, to) = (place(&pair[0], yaw), place(&pair[1], heading));
-        legs.push(DriveLeg { from, to, segments, speed: speed.into() });
+        legs.push(DriveLeg { from, to, segments, speed: speed.into(), direction: direction.into() });
         yaw = heading;
     }
     let segments: Vec<&[Segment]> = legs.iter().map(|leg| leg.segments.as_slice()).collect();
@@ -65,5 +67,5 @@ fn straight_legs(setup: &DriveSetup, waypoints: &[Point3<f64>]) -> Drive {
     for (leg, profile) in legs.iter_mut().zip(profiles) {
         leg.speed = profile;
     }
-    Drive { legs, speed, turn_rate: setup.turn_rate(), direction }
+    Drive { legs, speed, turn_rate: setup.turn_rate() }
 }

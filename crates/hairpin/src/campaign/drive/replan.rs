@@ -6,7 +6,7 @@ use super::DriveSetup;
 use super::solve::Solver;
 use super::stepwise::Stepwise;
 use crate::campaign::Case;
-use crate::trajectory::Drive;
+use crate::trajectory::Passing;
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::Terrain;
 
@@ -23,12 +23,12 @@ pub(in crate::campaign) fn replan(
     let waypoints: Vec<Point3<f64>> = points.iter().map(on_ground).collect::<Option<_>>()?;
     let undriven = |leg_times| Case { waypoints: waypoints.clone(), leg_times, bound: None, ..case.clone() };
     if let Some(drive) = &case.drive {
-        let poses: Vec<Planar> = indices
+        let passings: Vec<Passing> = indices
             .iter()
             .zip(&waypoints)
-            .map(|(index, p)| Some(Planar { x: p.x, y: p.y, ..pose(drive, *index)? }))
+            .map(|(index, p)| Some(moved_to(p, drive.passing(*index)?)))
             .collect::<Option<_>>()?;
-        let drive = Solver::new(*setup).ok()?.through(case.graph, &poses)?;
+        let drive = Solver::new(*setup).ok()?.through(case.graph, &passings)?;
         let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
         return Some(Case { drive: Some(drive), ..undriven(leg_times) });
     }
@@ -40,8 +40,7 @@ pub(in crate::campaign) fn replan(
     feasible.then(|| undriven(vec![set.step(); waypoints.len() - 1]))
 }
 
-/// Pose and curvature at waypoint number `index` of a drive.
-pub(super) fn pose(drive: &Drive, index: usize) -> Option<Planar> {
-    let before = index.checked_sub(1).and_then(|leg| drive.legs.get(leg)).map(|leg| leg.to);
-    drive.legs.get(index).map(|leg| leg.from).or(before)
+/// `passing` at another place.
+pub(super) fn moved_to(place: &Point3<f64>, passing: Passing) -> Passing {
+    Passing { at: Planar { x: place.x, y: place.y, ..passing.at }, ..passing }
 }

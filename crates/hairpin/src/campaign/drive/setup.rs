@@ -9,6 +9,7 @@ use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite
 use crate::feasibility::steering::shooting::{Curvatures, Precision, flat, rough};
 use crate::math::simd::Simd;
 use crate::robot::rover::{Response, Rover};
+use crate::trajectory::Direction;
 use crate::world::terrain::generate::{Recipe, generate};
 use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
 
@@ -56,9 +57,9 @@ impl<'a> DriveSetup<'a> {
         }
     }
 
-    /// Direction of travel in the body, rad.
-    pub fn direction(&self) -> f64 {
-        self.scenario.generate.direction_deg.to_radians()
+    /// Least and greatest direction of travel in the body, rad.
+    pub fn directions(&self) -> [f64; 2] {
+        self.scenario.generate.direction_deg.bounds().map(f64::to_radians)
     }
 
     /// Bounds of the commands' curvature: the scenario's or the robot's, whichever is smaller.
@@ -96,9 +97,9 @@ impl<'a> DriveSetup<'a> {
         flat::Settings { starts, simd: self.simd, ..ReachSettings::of(self.planner).flat }
     }
 
-    /// The vehicle on its ground at the commanded speed and in its direction of travel.
-    pub fn site(&self) -> Site<'a> {
-        Site { rover: self.planner, map: self.map, speed: self.speed().into(), direction: self.direction().into() }
+    /// The vehicle on its ground at the commanded speed, travelling in `direction` of its body.
+    pub fn site(&self, direction: Direction) -> Site<'a> {
+        Site { rover: self.planner, map: self.map, speed: self.speed().into(), direction }
     }
 }
 

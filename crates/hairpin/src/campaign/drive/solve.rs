@@ -7,7 +7,7 @@ use nalgebra::Point3;
 use super::DriveSetup;
 use super::ask::{Asked, Graph, ask, beside, learned};
 use super::legs::count;
-use super::replan::pose;
+use super::replan::moved_to;
 use super::stepwise::Stepwise;
 use crate::campaign::Evidence;
 use crate::campaign::graph::{Counter, Executions, Looped, Outcome, Plan, Round};
@@ -19,8 +19,8 @@ use crate::feasibility::reach::drive::{
 use crate::feasibility::steering::shooting::families;
 use crate::math::random::named_seed;
 use crate::search::{Found, Score};
-use crate::trajectory::Drive;
 use crate::trajectory::drive::Planar;
+use crate::trajectory::{Drive, Passing};
 use crate::world::terrain::Terrain;
 
 /// Waypoints at a leg's distance that each waypoint has, about: the disc that waypoints are spread over follows from it.
@@ -72,21 +72,18 @@ impl<'a> Solver<'a> {
             return Some(Plan { seen: stepwise.follows(&waypoints)?, waypoints, bound: None, ..plan.clone() });
         }
         let old = plan.drive.as_ref()?;
-        let poses: Option<Vec<Planar>> = waypoints
-            .iter()
-            .enumerate()
-            .map(|(index, p)| Some(Planar { x: p.x, y: p.y, ..pose(old, index)? }))
-            .collect();
-        let drive = self.through(graph, &poses?)?;
+        let passings: Option<Vec<Passing>> =
+            waypoints.iter().enumerate().map(|(index, p)| Some(moved_to(p, old.passing(index)?))).collect();
+        let drive = self.through(graph, &passings?)?;
         let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
         // No search saw its legs.
         Some(Plan { waypoints, leg_times, seen: Vec::new(), drive: Some(drive), bound: None, ..plan.clone() })
     }
 
-    /// The drive over `poses` in order, solved as one of graph number `graph` is.
-    pub(super) fn through(&self, graph: u64, poses: &[Planar]) -> Option<Drive> {
+    /// The drive over waypoints passed as `passings` say, in order, solved as one of graph number `graph` is.
+    pub(super) fn through(&self, graph: u64, passings: &[Passing]) -> Option<Drive> {
         let seed = named_seed(self.setup.scenario.seed, "roadmap", graph);
-        DriveRoadmap::through(self.site(), poses, &DriveSettings { seed, ..self.settings.clone() })
+        DriveRoadmap::through(self.site(), passings, &DriveSettings { seed, ..self.settings.clone() })
     }
 
     /// Counts what becomes of the candidates for legs near the start of graph number `graph`.
@@ -194,7 +191,7 @@ fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
         },
         pace: setup.pace(),
         control: generate.control.control(),
-        direction: setup.direction(),
+        directions: setup.directions(),
         score: ground_score(&generate.search)?,
         ..DriveSettings::of(setup.planner)
     };

@@ -18,18 +18,13 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
             to: end(&leg.to),
             pieces: leg.segments.iter().map(drive_piece).collect(),
             speed: leg.timing().knots(),
+            direction: [leg.direction.start, leg.direction.end],
             // What the case says, which others read.
             duration: case.leg_times.get(number).copied().unwrap_or_else(|| drive.leg_time(number)),
         })
         .collect();
     let waypoints: Vec<[f64; 2]> = case.waypoints.iter().map(|p| [p.x, p.y]).collect();
-    let claim = DrivesClaim {
-        waypoints: &waypoints,
-        legs: &legs,
-        speed: drive.speed,
-        turn_rate: drive.turn_rate,
-        direction: drive.direction,
-    };
+    let claim = DrivesClaim { waypoints: &waypoints, legs: &legs, speed: drive.speed, turn_rate: drive.turn_rate };
     let (solver, bounds) = (&setup.scenario.generate.solver, setup.bounds());
     let tolerances = DriveTolerances {
         position: solver.position_m,
@@ -38,6 +33,7 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
         most_curvature: bounds.most,
         most_curvature_rate: bounds.most_rate,
         most_tilt: setup.tilt(),
+        directions: setup.directions(),
         most_acceleration: match setup.pace() {
             Pace::Constant => f64::INFINITY,
             Pace::Ramp(slopes) | Pace::Trapezoid(slopes) => slopes.acceleration,

@@ -12,7 +12,7 @@ use crate::math::random::{Stream, named_seed, standard_normals, stream};
 use crate::robot::rover::Rover;
 use crate::simulation::SimulationError;
 use crate::trajectory::drive::Planar;
-use crate::trajectory::{Drive, Ended, Flight};
+use crate::trajectory::{Direction, Drive, Ended, Flight};
 use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// What drives where.
@@ -101,7 +101,8 @@ const LONGEST_LATENCY: f64 = 60.0;
 /// The log has the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`, `speed_m_s` (of the wheels, negative in reverse),
 /// `curvature_1_m` (of the wheels), `commanded_curvature_1_m`, `slip` (share of the wheels' way that is lost), with wheels
 /// `tip_over_margin_deg` and `belly_clearance_m` (the least since the sample before), with a rocker-bogie `joint_rocker_rad`,
-/// `joint_left_bogie_rad`, `joint_right_bogie_rad`; about 3000 samples.
+/// `joint_left_bogie_rad`, `joint_right_bogie_rad`, and `travel_direction_rad` where the plan goes in another direction than straight
+/// ahead; about 3000 samples.
 ///
 /// # Errors
 /// Settings, latency or a drive out of bounds; a plan along which the nominal vehicle cannot stand; a start where the true
@@ -129,7 +130,8 @@ pub fn drive(
     let mut run = Run::new(sortie, controller, conditions, &plan, latency, seed)?;
     let log_every = ((plan.duration / SAMPLES / run.period).round() as u64).max(1);
     let time_limit = settings.time_limit.unwrap_or(2.0 * plan.duration + 60.0);
-    let mut recorder = Recorder::new(sortie.vehicle);
+    let crabs = sortie.drive.legs.iter().any(|leg| leg.direction != Direction::default());
+    let mut recorder = Recorder::new(sortie.vehicle, crabs);
     let mut watch = Watch::new(sortie, settings, time_limit, [run.plant.x, run.plant.y, run.plant.yaw]);
     for tick in 0.. {
         let t = tick as f64 * run.period;
@@ -184,20 +186,21 @@ impl<'a> Run<'a> {
         latency: f64,
         seed: u64,
     ) -> Result<Self, SimulationError> {
-        let Drive { legs, speed, turn_rate, direction } = sortie.drive;
+        let Drive { legs, speed, turn_rate } = sortie.drive;
+        let direction = legs[0].direction.start;
         let start = beside(&legs[0].from, &conditions.start_offset);
-        let plant = Plant::new(sortie.vehicle, sortie.terrain, *direction, &start).map_err(|_| {
+        let plant = Plant::new(sortie.vehicle, sortie.terrain, direction, &start).map_err(|_| {
             let value = format!("({}, {})", start.x, start.y);
             SimulationError::new("drive.legs[0].from", value, "a place where the vehicle can stand")
         })?;
         Ok(Self {
             plant,
-            guide: Guide::new(plan, sortie.nominal, latency, [*speed, *turn_rate, *direction]),
-            driver: Driver::new(controller, sortie.nominal, *direction, latency),
+            guide: Guide::new(plan, sortie.nominal, latency, [*speed, *turn_rate]),
+            driver: Driver::new(controller, sortie.nominal, latency),
             noise: conditions.noise.then(|| stream(named_seed(seed, "pose", 0))),
             latency,
             period: (TURN / speed).clamp(PERIODS[0], PERIODS[1]),
-            acting: Command { curvature: start.curvature, ..Command::default() },
+            acting: Command { curvature: start.curvature, direction, ..Command::default() },
             coming: VecDeque::new(),
             lost: None,
         })
@@ -210,7 +213,7 @@ impl<'a> Run<'a> {
             Task::Hold(command) => command,
             Task::Follow(along) => {
                 let curvature = self.driver.steer(&measured, &along, self.period);
-                Command { speed: along.sign * along.speed, curvature, turn_rate: 0.0 }
+                Command { speed: along.sign * along.speed, curvature, turn_rate: 0.0, direction: along.direction }
             }
         };
         self.driver.note(&measured, &command);
@@ -233,7 +236,8 @@ impl<'a> Run<'a> {
             let [x, y, yaw] = standard_normals(noise);
             (at.x, at.y, at.yaw) = (at.x + POSITION_NOISE * x, at.y + POSITION_NOISE * y, at.yaw + YAW_NOISE * yaw);
         }
-        Measured { t, at, speed: plant.speed, lean: [plant.pose.roll, plant.pose.pitch] }
+        let lean = [plant.pose.roll, plant.pose.pitch];
+        Measured { t, at, speed: plant.speed, lean, direction: plant.direction }
     }
 
     fn record(&self, recorder: &mut Recorder, t: f64, least: &Stands) -> Result<(), Lost> {

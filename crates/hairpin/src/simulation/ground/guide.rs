@@ -2,9 +2,9 @@
 //! controller; what differs is how each steers.
 
 use std::collections::VecDeque;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-use super::plan::{Plan, Section, Station, speed_at};
+use super::plan::{Plan, Section, Station, direction_at, heading, speed_at};
 use super::plant::Command;
 use crate::math::power::square;
 use crate::robot::rover::Rover;
@@ -21,6 +21,8 @@ pub(super) struct Measured {
     pub(super) speed: f64,
     /// φ and θ, rad.
     pub(super) lean: [f64; 2],
+    /// Of travel in the body, as the wheels are steered, rad.
+    pub(super) direction: f64,
 }
 
 /// The part of a section that is being driven.
@@ -32,8 +34,10 @@ pub(super) struct Along<'a> {
     pub(super) stations: &'a [Station],
     /// +1 forward, −1 in reverse.
     pub(super) sign: f64,
-    /// Heading of travel in the body, rad.
+    /// Heading of travel in the body as it is now, rad.
     pub(super) heading: f64,
+    /// Direction of travel in the body to command, rad.
+    pub(super) direction: f64,
     /// Commanded metres to the station nearest to the vehicle.
     pub(super) s: f64,
     /// Speed to go at, m/s, ≥ 0.
@@ -83,13 +87,11 @@ pub(super) struct Guide<'a> {
     turn_rate: f64,
     acceleration: f64,
     curvature: f64,
-    direction: f64,
 }
 
 impl<'a> Guide<'a> {
-    /// At the beginning of `plan`, driven at up to `speed` (m/s) and `turn_rate` (rad/s) along `direction` (rad) of the body by
-    /// commands that act `latency` s late.
-    pub(super) fn new(plan: &'a Plan, nominal: &Rover, latency: f64, [speed, turn_rate, direction]: [f64; 3]) -> Self {
+    /// At the beginning of `plan`, driven at up to `speed` (m/s) and `turn_rate` (rad/s) by commands that act `latency` s late.
+    pub(super) fn new(plan: &'a Plan, nominal: &Rover, latency: f64, [speed, turn_rate]: [f64; 2]) -> Self {
         let response = &nominal.response;
         let swing = 2.0 * libm::atan(nominal.limits.curvature * response.steered_axle) / response.steering_rate;
         Self {
@@ -105,7 +107,6 @@ impl<'a> Guide<'a> {
             turn_rate,
             acceleration: nominal.limits.acceleration,
             curvature: nominal.limits.curvature,
-            direction,
         }
     }
 
@@ -166,23 +167,27 @@ impl<'a> Guide<'a> {
         let plan = self.plan;
         loop {
             match plan.sections.get(self.section) {
-                None => return Task::Hold(Command { curvature: measured.at.curvature, ..Command::default() }),
+                None => return Task::Hold(held(measured)),
                 Some(Section::Way { sign, stations }) => {
                     if let Some(since) = self.waiting {
                         let wanted = stations[0].at.curvature;
                         let ready = (wanted - measured.at.curvature).abs() <= READY * self.curvature
                             && measured.speed.abs() < STILL;
                         if !ready && measured.t - since < self.patience {
-                            return Task::Hold(Command { curvature: wanted, ..Command::default() });
+                            let direction = stations[0].direction;
+                            return Task::Hold(Command { curvature: wanted, direction, ..Command::default() });
                         }
                         self.waiting = None;
                     }
-                    let heading = self.direction + if *sign < 0.0 { PI } else { 0.0 };
-                    let s = self.progress(stations, &measured.at, heading);
+                    let s = self.progress(stations, &measured.at, *sign);
                     let left = stations[stations.len() - 1].s - s;
                     if left > ARRIVED {
                         let speed = self.pace(stations, measured, s, dt);
-                        return Task::Follow(Along { section: self.section, stations, sign: *sign, heading, s, speed });
+                        let heading = heading(measured.direction, *sign);
+                        // Where the vehicle will be while the command acts.
+                        let direction = direction_at(stations, s + self.coming(measured.t) + 0.5 * speed * dt);
+                        let section = self.section;
+                        return Task::Follow(Along { section, stations, sign: *sign, heading, direction, s, speed });
                     }
                 }
                 Some(Section::Turn { from, angle, .. }) => {
@@ -194,11 +199,7 @@ impl<'a> Guide<'a> {
                     if left.abs() > TURNED {
                         let braking = (2.0 * self.acceleration * left.abs()).sqrt();
                         let rate = self.turn_rate.min(TURN_GAIN * left.abs()).min(braking);
-                        return Task::Hold(Command {
-                            turn_rate: rate.copysign(left),
-                            curvature: measured.at.curvature,
-                            ..Command::default()
-                        });
+                        return Task::Hold(Command { turn_rate: rate.copysign(left), ..held(measured) });
                     }
                 }
             }
@@ -209,7 +210,7 @@ impl<'a> Guide<'a> {
 
     /// The metres to the place on the section that is nearest to the vehicle, never behind the last station found and never
     /// far ahead of it: a section may cross itself.
-    fn progress(&mut self, stations: &[Station], at: &Planar, heading: f64) -> f64 {
+    fn progress(&mut self, stations: &[Station], at: &Planar, sign: f64) -> f64 {
         let distance = |i: usize| square(stations[i].at.x - at.x) + square(stations[i].at.y - at.y);
         let from = self.nearest;
         let mut best = distance(from);
@@ -223,12 +224,17 @@ impl<'a> Guide<'a> {
             }
         }
         let station = &stations[self.nearest];
-        let (sin, cos) = libm::sincos(station.at.yaw + heading);
+        let (sin, cos) = libm::sincos(station.at.yaw + heading(station.direction, sign));
         let beyond = cos * (at.x - station.at.x) + sin * (at.y - station.at.y);
         // Between stations; only at the end also beyond, which says that it is over.
         let last = self.nearest + 1 == stations.len();
         station.s + if last { beyond } else { beyond.clamp(-WINDOW, stations[self.nearest + 1].s - station.s) }
     }
+}
+
+/// Standing, with the wheels as they are.
+fn held(measured: &Measured) -> Command {
+    Command { curvature: measured.at.curvature, direction: measured.direction, ..Command::default() }
 }
 
 /// An angle in (−π, π].

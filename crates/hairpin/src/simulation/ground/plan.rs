@@ -7,7 +7,7 @@ use crate::math::power::square;
 use crate::robot::rover::{Response, Rover};
 use crate::simulation::SimulationError;
 use crate::trajectory::drive::{Motion, Planar, Segment};
-use crate::trajectory::{Channel, Drive, Timing, Track};
+use crate::trajectory::{Channel, Direction, Drive, DriveLeg, Timing, Track};
 use crate::world::terrain::ElevationMap;
 
 /// Distance of neighbouring stations, m, at most.
@@ -31,6 +31,8 @@ pub(super) struct Station {
     pub(super) rises: [f64; 2],
     /// Planned speed, m/s, ≥ 0.
     pub(super) speed: f64,
+    /// Planned direction of travel in the body, rad.
+    pub(super) direction: f64,
     /// The leg it belongs to.
     pub(super) leg: usize,
 }
@@ -108,14 +110,15 @@ impl Plan {
     fn add_leg(&mut self, vehicle: &Rover, terrain: &ElevationMap, drive: &Drive, leg: usize) -> Result<(), Lost> {
         let timing = drive.legs[leg].timing();
         let mut driven = 0.0;
-        let mut plant = Plant::new(vehicle, terrain, drive.direction, &drive.legs[leg].from)?;
+        let DriveLeg { from, direction, .. } = &drive.legs[leg];
+        let mut plant = Plant::new(vehicle, terrain, direction.start, from)?;
         if self.times.is_empty() {
             self.note(&plant, leg);
         }
         for segment in &drive.legs[leg].segments {
             match segment.motion {
                 Motion::Arc { length_m, .. } if length_m > NOTHING => {
-                    self.add_way(&mut plant, drive.direction, segment, &timing, driven, leg)?;
+                    self.add_way(&mut plant, direction, segment, &timing, driven, leg)?;
                 }
                 Motion::Turn { angle_rad } if angle_rad.abs() > NOTHING => {
                     self.sections.push(Section::Turn { from: plant.yaw, angle: angle_rad, leg });
@@ -124,6 +127,7 @@ impl Plan {
                     let command = Command {
                         turn_rate: drive.turn_rate.copysign(angle_rad),
                         curvature: plant.curvature(),
+                        direction: plant.direction,
                         ..Command::default()
                     };
                     plant.speed = 0.0;
@@ -145,7 +149,7 @@ impl Plan {
     fn add_way(
         &mut self,
         plant: &mut Plant,
-        direction: f64,
+        direction: &Direction,
         segment: &Segment,
         timing: &Timing,
         driven: f64,
@@ -153,13 +157,14 @@ impl Plan {
     ) -> Result<(), Lost> {
         let (length, gear) = (segment.length_m(), segment.gear.sign());
         let first = segment.curvature_at(0.0);
-        let direction = libm::sincos(direction);
+        let direction_at = |done: f64| direction.at(driven + done, timing.length());
         let goes_on = matches!(self.sections.last(), Some(Section::Way { sign, .. }) if *sign == gear);
         let station = |plant: &Plant, s: f64, done: f64| Station {
             at: Planar { x: plant.x, y: plant.y, yaw: plant.yaw, curvature: plant.curvature() },
             s,
             speed: timing.speed_at(driven + done),
-            rises: rises([plant.pose.roll, plant.pose.pitch], direction, gear),
+            direction: direction_at(done),
+            rises: rises([plant.pose.roll, plant.pose.pitch], direction_at(done), gear),
             leg,
         };
         if !goes_on {
@@ -175,7 +180,8 @@ impl Plan {
                 let begun = step * (part * STEPS + i) as f64;
                 let time = timing.time_over(driven + begun, step);
                 let curvature = segment.curvature_at(begun + 0.5 * step);
-                plant.advance(&Command { speed: gear * step / time, curvature, turn_rate: 0.0 }, time)?;
+                let direction = direction_at(begun + 0.5 * step);
+                plant.advance(&Command { speed: gear * step / time, curvature, turn_rate: 0.0, direction }, time)?;
                 self.duration += time;
             }
             let done = step * ((part + 1) * STEPS) as f64;
@@ -208,9 +214,6 @@ fn check(drive: &Drive) -> Result<(), SimulationError> {
             return Err(SimulationError::new(field, value.to_string(), "finite and > 0"));
         }
     }
-    if !drive.direction.is_finite() {
-        return Err(SimulationError::new("drive.direction", drive.direction.to_string(), "finite"));
-    }
     for (index, leg) in drive.legs.iter().enumerate() {
         let known = |p: &Planar| [p.x, p.y, p.yaw, p.curvature].iter().all(|v| v.is_finite());
         let possible = |segment: &Segment| match segment.motion {
@@ -219,6 +222,10 @@ fn check(drive: &Drive) -> Result<(), SimulationError> {
             }
             Motion::Turn { angle_rad } => angle_rad.abs() <= 1e3,
         };
+        let Direction { start, end } = leg.direction;
+        if !(start.is_finite() && end.is_finite()) {
+            return Err(SimulationError::new("drive.legs.direction", format!("leg {index}"), "finite"));
+        }
         if let Err(error) = leg.speed.checked() {
             return Err(SimulationError::new("drive.legs.speed", format!("leg {index}: {error}"), "a profile"));
         }
@@ -240,8 +247,9 @@ impl Section {
 }
 
 /// Rise per metre along the way, and to the left of it, of a body that leans by `lean` (φ, θ) and travels along `direction`
-/// (sine and cosine) of itself with `sign`.
-pub(super) fn rises([roll, pitch]: [f64; 2], (sin, cos): (f64, f64), sign: f64) -> [f64; 2] {
+/// (rad) of itself with `sign`.
+pub(super) fn rises([roll, pitch]: [f64; 2], direction: f64, sign: f64) -> [f64; 2] {
+    let (sin, cos) = libm::sincos(direction);
     let (ahead, left) = (-libm::sin(pitch), libm::cos(pitch) * libm::sin(roll));
     [sign * (cos * ahead + sin * left), sign * (cos * left - sin * ahead)]
 }
@@ -256,16 +264,35 @@ pub(super) fn speed_at(stations: &[Station], s: f64) -> f64 {
     (square(a.speed) + share * (square(b.speed) - square(a.speed))).sqrt()
 }
 
-/// The place `s` commanded metres along `stations`, between two by linear interpolation, beyond the last straight on; `heading`
-/// (rad) is that of travel in the body.
-pub(super) fn station_at(stations: &[Station], s: f64, heading: f64) -> Planar {
+/// Heading of travel in the body, rad, of what goes with `sign` in `direction` of it.
+pub(super) fn heading(direction: f64, sign: f64) -> f64 {
+    direction + if sign < 0.0 { std::f64::consts::PI } else { 0.0 }
+}
+
+/// The planned direction of travel `s` commanded metres along `stations`, rad: between two linear, beyond the ends as there.
+pub(super) fn direction_at(stations: &[Station], s: f64) -> f64 {
+    let next = stations.partition_point(|station| station.s < s);
+    let (Some(b), Some(a)) = (stations.get(next), stations.get(next.wrapping_sub(1))) else {
+        return stations[next.min(stations.len() - 1)].direction;
+    };
+    a.direction + (s - a.s) / (b.s - a.s) * (b.direction - a.direction)
+}
+
+/// Mean change of the planned direction over the `ahead` metres after `s`, rad/m.
+pub(super) fn turning(stations: &[Station], s: f64, ahead: f64) -> f64 {
+    (direction_at(stations, s + ahead) - direction_at(stations, s)) / ahead
+}
+
+/// The place `s` commanded metres along `stations`, which are driven with `sign`: between two by linear interpolation, beyond the last
+/// straight on.
+pub(super) fn station_at(stations: &[Station], s: f64, sign: f64) -> Planar {
     let next = stations.partition_point(|station| station.s < s);
     if next == 0 {
         return stations[0].at;
     }
     let a = &stations[next - 1];
     let Some(b) = stations.get(next) else {
-        let (sin, cos) = libm::sincos(a.at.yaw + heading);
+        let (sin, cos) = libm::sincos(a.at.yaw + heading(a.direction, sign));
         let beyond = s - a.s;
         return Planar { x: a.at.x + beyond * cos, y: a.at.y + beyond * sin, ..a.at };
     };

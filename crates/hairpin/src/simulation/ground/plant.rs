@@ -16,6 +16,8 @@ pub(super) struct Command {
     pub(super) curvature: f64,
     /// In place, rad/s; acts only while the vehicle stands.
     pub(super) turn_rate: f64,
+    /// Of travel in the body, rad.
+    pub(super) direction: f64,
 }
 
 /// Why a vehicle cannot go on.
@@ -43,14 +45,16 @@ const STILL: f64 = 1e-9;
 
 /// State of a driving vehicle:
 /// ẋ, ẏ, ψ̇ by [`Rover::rates`] of the wheels' speed v and κ = tan(δ)/L;
-/// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; v and the rate ω of turns in place follow their commands with the
+/// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; the direction of travel is what is commanded, as in plans; v and the rate ω of turns in place follow their commands with the
 /// bounded acceleration; z, φ, θ and the joints by the suspension on the ground.
 #[derive(Debug, Clone)]
 pub(super) struct Plant<'a> {
     pub(super) vehicle: &'a Rover,
     terrain: &'a ElevationMap,
-    /// Sine and cosine of the direction of travel in the body.
-    direction: (f64, f64),
+    /// Of travel in the body, rad.
+    pub(super) direction: f64,
+    /// Its sine and cosine.
+    travels: (f64, f64),
     /// East, m.
     pub(super) x: f64,
     /// North, m.
@@ -80,7 +84,8 @@ impl<'a> Plant<'a> {
         let mut plant = Self {
             vehicle,
             terrain,
-            direction: libm::sincos(direction),
+            direction,
+            travels: libm::sincos(direction),
             x: start.x,
             y: start.y,
             yaw: start.yaw,
@@ -142,6 +147,9 @@ impl<'a> Plant<'a> {
     fn step(&mut self, command: &Command, h: f64) -> Result<(), Lost> {
         let bend_before = self.curvature();
         self.steer(command.curvature, h);
+        if command.direction != self.direction {
+            (self.direction, self.travels) = (command.direction, libm::sincos(command.direction));
+        }
         let bend = if self.vehicle.response.lags() { 0.5 * (bend_before + self.curvature()) } else { self.curvature() };
         let (way, turn) = self.accelerate(command, h);
         if way == 0.0 && turn == 0.0 {
@@ -168,7 +176,7 @@ impl<'a> Plant<'a> {
     fn motion(&self, stands: (&Settled, &Gradient), yaw: f64, way: f64, bend: f64, turn: f64) -> [f64; 3] {
         let (sin, cos) = libm::sincos(yaw);
         let sign = if way < 0.0 { -1.0 } else { 1.0 };
-        let driven = self.vehicle.rates(stands, yaw, self.direction, sign, bend);
+        let driven = self.vehicle.rates(stands, yaw, self.travels, sign, bend);
         let turned = self.vehicle.turning(stands, yaw);
         let way = way.abs();
         let (ahead, left) = (way * driven.ahead + turn * turned.ahead, way * driven.left + turn * turned.left);
@@ -211,7 +219,7 @@ impl<'a> Plant<'a> {
         let lost = Slip { side_at_20_deg: 0.0, ..self.vehicle.slip };
         let sign = if self.speed < 0.0 { -1.0 } else { 1.0 };
         let way = |slip: &Slip| {
-            let r = rates(&self.pose, self.direction, sign, 0.0, slip);
+            let r = rates(&self.pose, self.travels, sign, 0.0, slip);
             libm::hypot(r.ahead, r.left)
         };
         if self.speed.abs() < STILL { 0.0 } else { 1.0 - way(&lost) / way(&Slip::default()) }

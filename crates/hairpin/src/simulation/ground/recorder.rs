@@ -12,21 +12,25 @@ pub(super) struct Recorder {
     times: Vec<f64>,
     poses: Vec<Isometry3<f64>>,
     channels: Vec<Channel>,
+    crabs: bool,
 }
 
 const MOTION: [&str; 7] =
     ["leg", "vx_m_s", "vy_m_s", "vz_m_s", "speed_m_s", "curvature_1_m", "commanded_curvature_1_m"];
+const DIRECTION: [&str; 1] = ["travel_direction_rad"];
 const STANDING: [&str; 2] = ["tip_over_margin_deg", "belly_clearance_m"];
 const JOINTS: [&str; 3] = ["joint_rocker_rad", "joint_left_bogie_rad", "joint_right_bogie_rad"];
 
 impl Recorder {
-    /// With the channels that `vehicle` has: what a point without wheels cannot tell is left out.
-    pub(super) fn new(vehicle: &Rover) -> Self {
+    /// With the channels that `vehicle` has: what a point without wheels cannot tell is left out, and the direction of travel where
+    /// nothing `crabs`.
+    pub(super) fn new(vehicle: &Rover, crabs: bool) -> Self {
         let standing: &[&str] = if vehicle.suspension == Suspension::Level { &[] } else { &STANDING };
         let joints: &[&str] = if matches!(vehicle.suspension, Suspension::RockerBogie(_)) { &JOINTS } else { &[] };
-        let names = MOTION.iter().chain(&["slip"]).chain(standing).chain(joints);
+        let direction: &[&str] = if crabs { &DIRECTION } else { &[] };
+        let names = MOTION.iter().chain(&["slip"]).chain(direction).chain(standing).chain(joints);
         let channels = names.map(|name| Channel { name: (*name).into(), values: vec![] }).collect();
-        Self { times: vec![], poses: vec![], channels }
+        Self { times: vec![], poses: vec![], channels, crabs }
     }
 
     /// Appends a sample; one that is not later than the last is left out. `least` is the worst since the sample before.
@@ -43,6 +47,9 @@ impl Recorder {
         }
         let v = plant.velocity();
         let mut values = vec![leg as f64, v.x, v.y, v.z, plant.speed, plant.curvature(), commanded, plant.slip()];
+        if self.crabs {
+            values.push(plant.direction);
+        }
         if self.channels.len() > values.len() {
             let least = if least.margin.is_finite() { *least } else { plant.stands()? };
             values.extend([least.margin.to_degrees(), least.clearance]);

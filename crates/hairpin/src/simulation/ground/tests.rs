@@ -17,7 +17,7 @@ fn plane(a: f64, b: f64) -> ElevationMap {
     ElevationMap::new(grid, &heights, HoleRule::Error).expect("a map")
 }
 
-const GO: Command = Command { speed: 0.1, curvature: 0.0, turn_rate: 0.0 };
+const GO: Command = Command { speed: 0.1, curvature: 0.0, turn_rate: 0.0, direction: 0.0 };
 
 #[test]
 fn slip_on_planes_is_the_closed_form() {

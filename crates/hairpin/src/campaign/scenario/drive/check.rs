@@ -1,8 +1,8 @@
 //! The bounds of every key of a drive.
 
 use super::{
-    ControlName, DriveExecute, DriveGenerate, DriveScenario, DriveSearch, DriveSpec, GroundReach, Manoeuvre,
-    ProfileName, SpeedSection,
+    ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSearch, DriveSpec, GroundReach,
+    Manoeuvre, ProfileName, SpeedSection,
 };
 use crate::campaign::drive::{map_of, rover_of};
 use crate::campaign::learn::{KeptModel, of_drive};
@@ -166,15 +166,29 @@ fn check_controls(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
     let Some(rover) = rover else { return };
     let able = !turns || rover.limits.turns_in_place;
     found.require(able, "generate.manoeuvres", "\"turn-in-place\"", "what the robot can do: it does not turn in place");
-    let direction = generate.direction_deg;
-    found.from("generate.direction_deg", direction, -180.0, 180.0, "°");
-    let crabs = direction == 0.0 || rover.wheels.steering == Steering::AllWheel;
-    found.require(
-        crabs,
-        "generate.direction_deg",
-        direction,
-        "0: the robot does not steer all wheels (steering = \"all-wheel\")",
-    );
+    check_direction(generate, rover, found);
+}
+
+/// A direction of travel, and the vehicle and reach set it is for.
+fn check_direction(generate: &DriveGenerate, rover: &Rover, found: &mut Findings) {
+    let key = "generate.direction_deg";
+    let value = match generate.direction_deg {
+        DirectionDeg::All(direction) => {
+            found.from(key, direction, -180.0, 180.0, "°");
+            direction.to_string()
+        }
+        DirectionDeg::Between([low, high]) => {
+            found.from(&format!("{key}[0]"), low, -180.0, 180.0, "°");
+            found.from(&format!("{key}[1]"), high, -180.0, 180.0, "°");
+            let given = format!("[{low}, {high}]");
+            found.require(low <= high, key, &given, "rising: [least, greatest]");
+            let drives = generate.reach == GroundReach::Witness;
+            found.require(drives, key, &given, "one number: only drives of reach \"witness\" turn it along the way");
+            given
+        }
+    };
+    let crabs = generate.direction_deg.bounds() == [0.0; 2] || rover.wheels.steering == Steering::AllWheel;
+    found.require(crabs, key, value, "0: the robot does not steer all wheels (steering = \"all-wheel\")");
 }
 
 fn check_speed(speed: &SpeedSection, rover: Option<&Rover>, found: &mut Findings) {

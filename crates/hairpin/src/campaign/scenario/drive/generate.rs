@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::DirectionDeg;
 use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::{Aggregate, Sampling, SearchMethod, SearchSection};
 use crate::feasibility::steering::shooting::Control;
@@ -23,8 +24,9 @@ pub struct DriveGenerate {
     pub manoeuvres: Vec<Manoeuvre>,
     /// How speed changes along the way.
     pub speed: SpeedSection,
-    /// Direction of travel in the body, left positive: for vehicles that steer all wheels.
-    pub direction_deg: f64,
+    /// Direction of travel in the body, left positive: for vehicles that steer all wheels. `[least, greatest]`: each waypoint has one of
+    /// its own, drawn evenly, and along a leg it turns evenly from one to the other.
+    pub direction_deg: DirectionDeg,
     /// source | exact: without or with what the suspension adds to the body's velocity (vz, ωx, ωy); of plans, runs and proofs.
     pub kinematics: Kinematics,
     /// Headings per waypoint in the `witness` roadmap.
@@ -45,7 +47,7 @@ impl Default for DriveGenerate {
             control: ControlName::Quintic,
             manoeuvres: vec![Manoeuvre::Forward],
             speed: SpeedSection::default(),
-            direction_deg: 0.0,
+            direction_deg: DirectionDeg::All(0.0),
             kinematics: Kinematics::Source,
             headings: 4,
             limits: DriveLimits::default(),

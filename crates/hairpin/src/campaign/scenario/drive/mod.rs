@@ -1,6 +1,7 @@
 //! Scenarios of drives: rovers on elevation maps, cars and differential drives; keys, defaults, bounds.
 
 mod check;
+mod direction;
 mod execute;
 mod generate;
 mod keep_out;
@@ -17,6 +18,7 @@ use super::{Distribution, RobotSource};
 use crate::robot::ground::{CarDescription, DifferentialDriveDescription};
 use crate::robot::rover::RoverDescription;
 
+pub use direction::DirectionDeg;
 pub use execute::*;
 pub use generate::*;
 pub use keep_out::*;

@@ -6,10 +6,9 @@ use super::tally::LegRefusal;
 use super::watch::{curvature_change, refusal, watch};
 use super::ways::{Way, ways};
 use crate::feasibility::steering::shooting::rough::{self, Status, Steps};
-use crate::feasibility::steering::shooting::{Goal, Query, flat};
-use crate::trajectory::SpeedProfile;
-use crate::trajectory::Timing;
+use crate::feasibility::steering::shooting::{Curvatures, Goal, Query, flat};
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
+use crate::trajectory::{Direction, SpeedProfile, Timing};
 
 /// A leg that is one.
 #[derive(Debug, Clone)]
@@ -33,6 +32,8 @@ pub(super) struct Ends<'a> {
     pub(super) distance: f64,
     /// Speeds at them, m/s.
     pub(super) speeds: [f64; 2],
+    /// Of travel in the body, from one to the other.
+    pub(super) direction: Direction,
     /// The value of the term `random`.
     pub(super) random: f64,
 }
@@ -58,28 +59,35 @@ pub(super) fn judge(
     Err(farthest)
 }
 
-/// Necessary for a drive in one gear to be no longer than the longest detour: Dubins' path is not.
+/// Necessary for a drive in one gear to be no longer than the longest detour: Dubins' path is not. A direction that turns by Δδ bends the
+/// way by Δδ/L more, L no less than the distance.
 fn may_be_short(settings: &DriveSettings, ends: &Ends, way: Way) -> bool {
     let Some(gear) = way.gear() else { return true };
     let (from, to) = (ends.from, ends.to);
-    let (sin, cos) = libm::sincos(from.yaw + settings.direction);
+    let (swing, bounds) = (ends.direction.swing(), &settings.bounds);
+    let (sin, cos) = libm::sincos(from.yaw + ends.direction.start);
     let (dx, dy) = (to.x - from.x, to.y - from.y);
     let sign = gear.sign();
     // In reverse, the mirror image about the y axis.
     let goal = Goal {
         x: sign * (cos * dx + sin * dy),
         y: cos * dy - sin * dx,
-        yaw: sign * (to.yaw - from.yaw),
+        yaw: sign * (to.yaw - from.yaw + swing),
         curvature: to.curvature,
     };
     let query = Query { start_curvature: from.curvature, goal };
-    flat::least_length(&query, &settings.bounds) <= settings.detour * ends.distance
+    let bent = Curvatures { most: bounds.most + swing.abs() / ends.distance, ..*bounds };
+    flat::least_length(&query, &bent) <= settings.detour * ends.distance
 }
 
 fn driven(site: &DriveSite, settings: &DriveSettings, ends: &Ends, way: Way) -> Result<Solved, LegRefusal> {
     let segments = solved(site, settings, ends, way, &settings.speed.into())?;
-    let met =
-        watch(site, settings, ends.from, &as_moved(site, settings, ends.from, &segments), &settings.speed.into())?;
+    let turning = settings.speed * ends.direction.rate(metres(&segments)).abs();
+    if turning > site.rover.response.steering_rate.min(site.rover.wheels.steer_rate) {
+        return Err(LegRefusal::Steering);
+    }
+    let moved = as_moved(site, settings, ends.from, &segments);
+    let met = watch(site, settings, ends.from, &moved, &settings.speed.into(), ends.direction)?;
     let turned: f64 = segments.iter().map(|segment| segment.turn_rad().abs()).sum();
     let profiles = settings.pace.over(settings.speed, &ends.speeds, &[&segments], &site.rover.response);
     let driving: f64 =
@@ -108,13 +116,13 @@ pub(super) fn refitted(
     segments: &[Segment],
     profile: &SpeedProfile,
 ) -> Result<Option<Box<[Segment]>>, LegRefusal> {
-    let course = settings.course(site, Steps::default(), *profile);
+    let course = settings.course(site, Steps::default(), *profile, ends.direction);
     let again = rough::predict(&course, ends.from, segments, |_| {});
     if again.is_ok_and(|again| settings.solver.met(ends.to, &again.end)) {
         return Ok(None);
     }
     let segments = solved(site, settings, ends, way, profile)?;
-    watch(site, settings, ends.from, &segments, profile)?;
+    watch(site, settings, ends.from, &segments, profile, ends.direction)?;
     Ok(Some(segments.as_ref().into()))
 }
 
@@ -129,11 +137,11 @@ fn solved(
     let longest = settings.detour * ends.distance;
     let mut too_long = false;
     let mut steer = |query: &Query| -> Option<SegmentList> {
-        let found = way.steer(settings, query)?;
+        let found = way.steer(settings, query, ends.direction.swing())?;
         too_long = metres(&found) > longest;
         (!too_long).then_some(found)
     };
-    let course = settings.course(site, Steps::default(), *speed);
+    let course = settings.course(site, Steps::default(), *speed, ends.direction);
     let answer = rough::solve(&course, ends.from, ends.to, &settings.bounds, &settings.solver, &mut steer);
     match answer.status {
         Status::Ok if metres(&answer.segments) > longest => Err(LegRefusal::Detour),

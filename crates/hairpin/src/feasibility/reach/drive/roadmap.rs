@@ -16,7 +16,7 @@ use crate::feasibility::reach::{Leg, LegFeatures, Reach};
 use crate::math::random::{Stream, hashed_unit, named_seed, stream, unit};
 use crate::math::rotation::angle_between;
 use crate::trajectory::drive::{Planar, Segment};
-use crate::trajectory::{Drive, DriveLeg, SpeedProfile};
+use crate::trajectory::{Direction, Drive, DriveLeg, Passing, SpeedProfile};
 
 /// A node: a waypoint and one of its headings, passed with straight wheels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -44,6 +44,8 @@ pub struct DriveRoadmap<'a> {
     site: DriveSite<'a>,
     settings: DriveSettings,
     points: Vec<Point3<f64>>,
+    /// Directions in which the waypoints are passed, rad.
+    directions: Vec<f64>,
     /// Poses of all waypoints, waypoint by waypoint.
     states: Vec<Planar>,
     /// First state of every waypoint, and the number of states.
@@ -83,8 +85,9 @@ impl<'a> DriveRoadmap<'a> {
         }
         first.push(states.len() as u32);
         let kept = RefCell::new((0..states.len()).map(|_| None).collect());
+        let directions = (0..points.len()).map(|w| settings.direction_at(w)).collect();
         let (points, settings) = (points.to_vec(), settings.clone());
-        Self { site, settings, points, states, first, kept, tally: Cell::default() }
+        Self { site, settings, points, directions, states, first, kept, tally: Cell::default() }
     }
 
     /// The node at the start.
@@ -122,7 +125,9 @@ impl<'a> DriveRoadmap<'a> {
     /// commanded speed has no commands for those that it really has, which lags of the steering can do.
     pub fn drive(&self, nodes: &[DriveNode]) -> Option<Drive> {
         let states: Vec<usize> = nodes.iter().map(|node| self.state(node)).collect();
-        let kept: Vec<Rc<[Kept]>> = states.iter().map(|&state| self.kept_legs(state)).collect();
+        // Nothing leaves the last: its legs need not be solved.
+        let leaving = &states[..states.len().saturating_sub(1)];
+        let kept: Vec<Rc<[Kept]>> = leaving.iter().map(|&state| self.kept_legs(state)).collect();
         let mut legs = Vec::with_capacity(nodes.len().saturating_sub(1));
         for (pair, kept) in states.windows(2).zip(&kept) {
             let leg = kept.iter().find(|leg| leg.state as usize == pair[1])?;
@@ -131,16 +136,17 @@ impl<'a> DriveRoadmap<'a> {
         self.joined(legs)
     }
 
-    /// The drive over `poses` in order, passed with their curvatures, each leg solved as those of a roadmap are; `None` where one of
-    /// them is no leg, or as [`Self::drive`].
-    pub fn through(site: DriveSite<'a>, poses: &[Planar], settings: &DriveSettings) -> Option<Drive> {
-        let points = poses.iter().map(|pose| Point3::new(pose.x, pose.y, 0.0)).collect();
-        let (first, kept) = ((0..=poses.len() as u32).collect(), RefCell::default());
+    /// The drive over waypoints that are passed as `passings` say, in order, each leg solved as those of a roadmap are; `None` where one
+    /// of them is no leg, or as [`Self::drive`].
+    pub fn through(site: DriveSite<'a>, passings: &[Passing], settings: &DriveSettings) -> Option<Drive> {
+        let points = passings.iter().map(|passing| Point3::new(passing.at.x, passing.at.y, 0.0)).collect();
+        let (first, kept) = ((0..=passings.len() as u32).collect(), RefCell::default());
         let roadmap = Self {
             site,
             settings: settings.clone(),
             points,
-            states: poses.to_vec(),
+            directions: passings.iter().map(|passing| passing.direction).collect(),
+            states: passings.iter().map(|passing| passing.at).collect(),
             first,
             kept,
             tally: Cell::default(),
@@ -150,21 +156,22 @@ impl<'a> DriveRoadmap<'a> {
             let solved = at_a_leg(settings, ends.distance).then(|| judge(&site, settings, &ends, &mut 0).ok())??;
             Some((ends, solved.way, solved.segments))
         };
-        let legs: Option<Vec<_>> = (0..poses.len().saturating_sub(1)).map(leg).collect();
+        let legs: Option<Vec<_>> = (0..passings.len().saturating_sub(1)).map(leg).collect();
         roadmap.joined(legs?)
     }
 
     /// The drive over solved `legs`, with its speeds.
     fn joined(&self, mut legs: Vec<(Ends, Way, Box<[Segment]>)>) -> Option<Drive> {
         let profiles = self.settled(&mut legs)?;
-        let DriveSettings { speed, turn_rate, direction, .. } = self.settings;
+        let DriveSettings { speed, turn_rate, .. } = self.settings;
         let leg = |((ends, _, segments), speed): ((Ends, Way, Box<[Segment]>), _)| DriveLeg {
             from: *ends.from,
             to: *ends.to,
             segments: segments.into_vec(),
             speed,
+            direction: ends.direction,
         };
-        Some(Drive { legs: legs.into_iter().zip(profiles).map(leg).collect(), speed, turn_rate, direction })
+        Some(Drive { legs: legs.into_iter().zip(profiles).map(leg).collect(), speed, turn_rate })
     }
 
     /// The speeds of `legs`, whose commands are fitted to them where the steering lags: other commands stop elsewhere, and so it goes
@@ -205,6 +212,7 @@ impl<'a> DriveRoadmap<'a> {
             to: &self.states[to],
             distance: self.distance(a, b),
             speeds: [a, b].map(|waypoint| pace.wish(speed, seed, waypoint)),
+            direction: Direction { start: self.directions[a], end: self.directions[b] },
             random: hashed_unit(seed, &[a as u64, b as u64]),
         }
     }
@@ -256,7 +264,7 @@ impl Reach<DriveNode> for DriveRoadmap<'_> {
     fn legs(&self, from: &DriveNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<DriveNode>>) {
         assert_eq!(candidates.len(), self.points.len(), "a roadmap serves the graph that it was drawn over");
         let left = self.state(from);
-        let (sin, cos) = libm::sincos(self.states[left].yaw + self.settings.direction);
+        let (sin, cos) = libm::sincos(self.states[left].yaw + self.directions[from.waypoint as usize]);
         let heading = Vector3::new(cos, sin, 0.0);
         let here = self.points[from.waypoint as usize];
         let DriveSettings { pace, speed, seed, .. } = self.settings;
@@ -301,29 +309,25 @@ fn draw_headings(
     let mut random = stream(named_seed(settings.seed, "waypoint headings", w as u64));
     let here = &points[w];
     let near: Vec<&Point3<f64>> = points.iter().filter(|p| at_a_leg(settings, apart(here, p))).collect();
+    let (way, direction) = (settings.gear().sign(), settings.direction_at(w));
+    let aimed = |at: &Point3<f64>| {
+        let bearing = libm::atan2(way * (at.y - here.y), way * (at.x - here.x));
+        libm::remainder(bearing - direction, TAU)
+    };
     for k in 0..settings.headings.max(1) {
         let drawn = (0..DRAWS)
-            .map(|_| heading(settings, here, &near, (k + 1) % ANYWHERE == 0, &mut random))
+            .map(|_| heading(&near, (k + 1) % ANYWHERE == 0, aimed, &mut random))
             .map(|yaw| Planar { x: here.x, y: here.y, yaw, curvature: 0.0 })
             .find(|at| stands(site, settings, at).is_ok());
         states.extend(drawn);
     }
 }
 
-/// A heading that travels towards one of `near`, or anywhere; in [−π, π].
-fn heading(
-    settings: &DriveSettings,
-    here: &Point3<f64>,
-    near: &[&Point3<f64>],
-    anywhere: bool,
-    random: &mut Stream,
-) -> f64 {
+/// A heading that is `aimed` at one of `near`, or anywhere; in [−π, π].
+fn heading(near: &[&Point3<f64>], anywhere: bool, aimed: impl Fn(&Point3<f64>) -> f64, random: &mut Stream) -> f64 {
     let draw = unit(random);
     if anywhere || near.is_empty() {
         return TAU * draw - PI;
     }
-    let towards = near[((draw * near.len() as f64) as usize).min(near.len() - 1)];
-    let way = settings.gear().sign();
-    let bearing = libm::atan2(way * (towards.y - here.y), way * (towards.x - here.x));
-    libm::remainder(bearing - settings.direction, TAU)
+    aimed(near[((draw * near.len() as f64) as usize).min(near.len() - 1)])
 }

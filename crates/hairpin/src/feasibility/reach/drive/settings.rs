@@ -7,9 +7,10 @@ use super::stress::GroundScore;
 use crate::feasibility::steering::clear::footprint;
 use crate::feasibility::steering::shooting::rough::{Course, Steps};
 use crate::feasibility::steering::shooting::{Control, Curvatures, families, flat, rough};
+use crate::math::random::hashed_unit;
 use crate::robot::rover::Rover;
-use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::Gear;
+use crate::trajectory::{Direction, SpeedProfile};
 use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// A vehicle on a map, and where it must not go.
@@ -67,8 +68,9 @@ pub struct DriveSettings {
     pub speed: f64,
     /// Commanded rate of turns in place, rad/s, > 0.
     pub turn_rate: f64,
-    /// Direction of travel in the body, rad: 0 along x, left positive.
-    pub direction: f64,
+    /// Least and greatest direction of travel in the body, rad: 0 along x, left positive. Each waypoint has one of its own, drawn
+    /// evenly, and along a leg it turns evenly from one to the other.
+    pub directions: [f64; 2],
     /// Which ways of driving there are.
     pub manoeuvres: Manoeuvres,
     /// What paths may bend.
@@ -91,6 +93,8 @@ pub struct DriveSettings {
     pub seed: u64,
 }
 
+/// Stream of the waypoints' directions beside that of pairs of waypoints.
+const DIRECTIONS: u64 = u64::MAX - 1;
 /// Precision of the flat solver where drives are shaped for the ground, m, rad, 1/m.
 const FLAT: f64 = 1e-5;
 
@@ -106,7 +110,7 @@ impl DriveSettings {
             detour: 1.5,
             speed: rover.default_speed,
             turn_rate: rover.default_speed * limits.curvature,
-            direction: 0.0,
+            directions: [0.0; 2],
             manoeuvres: Manoeuvres { forward: true, reverse: false, turn_in_place: false },
             bounds: Curvatures { most: limits.curvature, most_rate: limits.curvature_rate },
             limits: DriveLimits { tilt: limits.tilt, joint: limits.joint, clearance: f64::NEG_INFINITY },
@@ -130,14 +134,21 @@ impl DriveSettings {
         if self.manoeuvres.forward || !self.manoeuvres.reverse { Gear::Forward } else { Gear::Reverse }
     }
 
+    /// The direction in which waypoint `index` is passed, rad.
+    pub(super) fn direction_at(&self, index: usize) -> f64 {
+        let [low, high] = self.directions;
+        low + (high - low) * hashed_unit(self.seed, &[DIRECTIONS, index as u64])
+    }
+
     pub(super) fn course<'a>(
         &self,
         site: &DriveSite<'a>,
         steps: Steps,
         speed: SpeedProfile,
+        direction: Direction,
     ) -> Course<'a, ElevationMap> {
         let lag = site.rover.response.steering_time_constant * speed.top();
         let steps = steps.for_rate(self.bounds.most_rate).for_lag(lag);
-        Course { rover: site.rover, terrain: site.map, speed, direction: self.direction.into(), steps }
+        Course { rover: site.rover, terrain: site.map, speed, direction, steps }
     }
 }

@@ -54,11 +54,12 @@ impl<'a> StraightLegs<'a> {
     }
 
     fn follow(&self, from: &Point3<f64>, to: &Point3<f64>, distance: f64) -> Met {
-        let yaw = libm::atan2(to.y - from.y, to.x - from.x) - self.settings.direction;
+        let direction = mean(self.settings.directions);
+        let yaw = libm::atan2(to.y - from.y, to.x - from.x) - direction;
         let start = Planar { x: from.x, y: from.y, yaw, curvature: 0.0 };
         let line = [Segment::straight(distance, Gear::Forward)];
         let speed = SpeedProfile::from(self.settings.speed);
-        watch(&self.site, &self.lax, &start, &line, &speed)
+        watch(&self.site, &self.lax, &start, &line, &speed, direction.into())
             .unwrap_or_else(|_| Met { slope: libm::atan2((to.z - from.z).abs(), distance), ..Met::default() })
     }
 
@@ -74,4 +75,9 @@ impl<'a> StraightLegs<'a> {
         let driving: f64 = profiles.iter().map(|profile| Timing::new(profile, &segments).time_at(distance)).sum();
         driving + turn.abs() / settings.turn_rate
     }
+}
+
+/// Of two directions. Straight legs have one: what turns on the way is for drives.
+fn mean([low, high]: [f64; 2]) -> f64 {
+    if low == high { low } else { 0.5 * (low + high) }
 }

@@ -17,6 +17,8 @@ pub enum LegRefusal {
     NoRest,
     /// The path bends more than allowed.
     Curvature,
+    /// At the commanded speed the direction of travel turns faster than the wheels are steered.
+    Steering,
     /// The body tilts more than allowed.
     Tilt,
     /// A rocker or bogie turns more than allowed.
@@ -29,13 +31,14 @@ pub enum LegRefusal {
 
 impl LegRefusal {
     /// All, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Detour,
         Self::Unsolved,
         Self::MapEdge,
         Self::NoData,
         Self::NoRest,
         Self::Curvature,
+        Self::Steering,
         Self::Tilt,
         Self::Joint,
         Self::Belly,
@@ -51,6 +54,7 @@ impl LegRefusal {
             Self::NoData => "meet cells without data",
             Self::NoRest => "pass places where the wheels find no rest",
             Self::Curvature => "bend more than allowed",
+            Self::Steering => "turn their direction of travel faster than the wheels are steered",
             Self::Tilt => "tilt more than allowed",
             Self::Joint => "turn a joint more than allowed",
             Self::Belly => "come too near to the ground with their underside",

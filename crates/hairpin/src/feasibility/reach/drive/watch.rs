@@ -4,8 +4,8 @@ use super::settings::{DriveSettings, DriveSite};
 use super::tally::LegRefusal;
 use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Steps, predict_while};
 use crate::robot::rover::{Settled, Slip, Suspension, Unsettled};
-use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::{Motion, Planar, Segment};
+use crate::trajectory::{Direction, SpeedProfile};
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
 
 /// Limits are asked for at least this often.
@@ -32,20 +32,22 @@ pub(super) struct Met {
     pub(super) slip: f64,
 }
 
-/// Follows `motion` from `start` at `speed` and looks at every limit on the way.
+/// Follows `motion` from `start` at `speed`, travelling in `direction` of the body, and looks at every limit on the way.
 pub(super) fn watch(
     site: &DriveSite,
     settings: &DriveSettings,
     start: &Planar,
     motion: &[Segment],
     speed: &SpeedProfile,
+    direction: Direction,
 ) -> Result<Met, LegRefusal> {
-    let course = settings.course(site, STEPS, *speed);
+    let course = settings.course(site, STEPS, *speed, direction);
     let mut watcher = Watcher {
         site,
         settings,
         level: matches!(site.rover.suspension, Suspension::Level),
-        direction: libm::sincos(settings.direction),
+        direction,
+        length: motion.iter().map(Segment::length_m).sum(),
         slip: slip_in_force(&site.rover.slip),
         met: Met::default(),
         way: 0.0,
@@ -104,8 +106,9 @@ struct Watcher<'a> {
     site: &'a DriveSite<'a>,
     settings: &'a DriveSettings,
     level: bool,
-    /// Sine and cosine of the direction of travel.
-    direction: (f64, f64),
+    /// Of travel in the body, over so many metres.
+    direction: Direction,
+    length: f64,
     slip: Slip,
     /// Its slip is summed over the way until the end.
     met: Met,
@@ -128,8 +131,9 @@ impl Watcher<'_> {
         self.met.roll = self.met.roll.max(settled.roll.abs());
         if metres > 0.0 {
             let (rise_x, rise_y) = (-sin_pitch, cos_pitch * sin_roll);
-            let climb = self.direction.1 * rise_x + self.direction.0 * rise_y;
-            let side = self.direction.1 * rise_y - self.direction.0 * rise_x;
+            let (sin, cos) = libm::sincos(self.direction.at(driven.s, self.length));
+            let climb = cos * rise_x + sin * rise_y;
+            let side = cos * rise_y - sin * rise_x;
             let slip = libm::hypot(self.slip.at_20_deg * climb, self.slip.side_at_20_deg * side) / SIN_20;
             self.met.slope = self.met.slope.max(libm::asin(climb.abs().min(1.0)));
             self.met.slip += metres * slip;

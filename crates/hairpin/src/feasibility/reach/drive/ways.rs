@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::settings::{DriveSettings, Manoeuvres};
 use crate::feasibility::steering::shooting::families::Problem;
 use crate::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
-use crate::feasibility::steering::shooting::{Control, Curvatures, Query, generate};
+use crate::feasibility::steering::shooting::{Control, Curvatures, Query, flat, generate};
 use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
 
 /// One way of driving a leg.
@@ -27,22 +27,24 @@ impl Way {
         if let Self::Along(gear) = self { Some(gear) } else { None }
     }
 
-    /// The flat drive of `query`.
-    pub(super) fn steer(self, settings: &DriveSettings, query: &Query) -> Option<SegmentList> {
+    /// The flat drive of `query`, whose direction of travel turns by `swing` (rad): where the controls do not know of that, as one that
+    /// looks along the mean direction.
+    pub(super) fn steer(self, settings: &DriveSettings, query: &Query, swing: f64) -> Option<SegmentList> {
         let bounds = &settings.bounds;
         let query = Query::new(query.start_curvature, query.goal, bounds).ok()?;
+        let mean = if swing == 0.0 { query } else { flat::crab(&query, 0.5 * swing) };
         let plain = Choices { flat: settings.flat, families: settings.families, ..Choices::default() };
         let solution = match self {
             Self::Along(gear) => {
-                let problem = Problem { query, speed: settings.speed.into(), swing: 0.0, free_end: false };
+                let problem = Problem { query, speed: settings.speed.into(), swing, free_end: false };
                 let choices = Choices { gear, ..plain };
                 generate(&problem, settings.control, bounds, &choices, || false, |_| {}).solution
             }
-            Self::Reversals => solve(&query, bounds, &Choices { reversals: true, arcs: false, ..plain }, || false),
+            Self::Reversals => solve(&mean, bounds, &Choices { reversals: true, arcs: false, ..plain }, || false),
             Self::TurnDriveTurn(gear) => {
-                solve(&query, bounds, &Choices { gear, turns: true, arcs: false, ..plain }, || false)
+                solve(&mean, bounds, &Choices { gear, turns: true, arcs: false, ..plain }, || false)
             }
-            Self::TurnArc(gear) => return turn_arc(&query, bounds, gear),
+            Self::TurnArc(gear) => return turn_arc(&mean, bounds, gear),
         };
         (solution.outcome == Outcome::Solved).then_some(solution.segments)
     }

@@ -10,11 +10,12 @@ use super::guide::{Along, Measured};
 use super::plant::Command;
 use super::pursuit::PurePursuit;
 use crate::robot::rover::Rover;
+use crate::trajectory::Direction;
 use crate::trajectory::drive::{Gear, Planar, SegmentList};
 
 /// Solves for the commands of one gear that lead the nominal vehicle, lags included but without latency, from a pose and
-/// curvature to another, both in the world; `None`: no answer.
-pub type Resolve<'a> = dyn Fn(&Planar, &Planar, Gear) -> Option<SegmentList> + Sync + 'a;
+/// curvature to another, both in the world, while its direction of travel turns evenly; `None`: no answer.
+pub type Resolve<'a> = dyn Fn(&Planar, &Planar, Gear, Direction) -> Option<SegmentList> + Sync + 'a;
 
 /// The controllers of ground vehicles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -60,12 +61,12 @@ pub(super) enum Driver<'a> {
 impl<'a> Driver<'a> {
     /// For the vehicle as it was planned with; `latency` (s), which time stamps tell, is used where commands under way are
     /// looked at.
-    pub(super) fn new(controller: &GroundController<'a>, nominal: &Rover, direction: f64, latency: f64) -> Self {
+    pub(super) fn new(controller: &GroundController<'a>, nominal: &Rover, latency: f64) -> Self {
         match controller {
             GroundController::PurePursuit => Driver::PurePursuit(PurePursuit::new(nominal)),
             GroundController::Stanley => Driver::Stanley(stanley::Stanley::new(nominal)),
             GroundController::Predictive(solve) => {
-                Driver::Predictive(Box::new(predictive::Predictive::new(nominal, direction, latency, *solve)))
+                Driver::Predictive(Box::new(predictive::Predictive::new(nominal, latency, *solve)))
             }
         }
     }

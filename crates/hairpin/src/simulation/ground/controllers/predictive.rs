@@ -11,9 +11,10 @@ use std::collections::VecDeque;
 use super::Resolve;
 use crate::robot::rover::{Rover, Settled, rates};
 use crate::simulation::ground::guide::{Along, Measured, wrap};
-use crate::simulation::ground::plan::{rises, station_at};
+use crate::simulation::ground::plan::{direction_at, heading, rises, station_at, turning};
 use crate::simulation::ground::plant::Command;
 use crate::simulation::ground::pursuit::PurePursuit;
+use crate::trajectory::Direction;
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 
 /// How far ahead on the path the goal lies, in smallest turning radii, and per speed, s.
@@ -28,6 +29,8 @@ const MEMORY: f64 = 5.0;
 const PRIOR: f64 = 0.02;
 /// sin 20°, the slope to which slip is referred.
 const SIN_20: f64 = 0.342_020_143_325_668_7;
+/// What is near enough to tell how the planned direction turns at a place, m.
+const NEAR: f64 = 0.02;
 /// Answers longer than the way to the goal by this factor go round in circles.
 const LONGEST: f64 = 1.5;
 
@@ -36,6 +39,8 @@ struct Answer {
     segments: SegmentList,
     /// What the odometer says where it begins, m.
     from: f64,
+    /// What the direction of travel turns by in it, rad/m.
+    turning: f64,
 }
 
 /// A coefficient c in off = −c · rise/sin 20° · way, by least squares.
@@ -59,10 +64,20 @@ impl Learnt {
     }
 }
 
+/// What the wheels do for a while.
+#[derive(Debug, Clone, Copy)]
+struct Rolls {
+    /// m, negative in reverse.
+    way: f64,
+    /// 1/m.
+    curvature: f64,
+    /// Of travel in the body, rad.
+    direction: f64,
+}
+
 /// State of a run.
 pub(in crate::simulation::ground) struct Predictive<'a> {
     nominal: Rover,
-    direction: (f64, f64),
     latency: f64,
     solve: &'a Resolve<'a>,
     pursuit: PurePursuit,
@@ -81,10 +96,9 @@ pub(in crate::simulation::ground) struct Predictive<'a> {
 }
 
 impl<'a> Predictive<'a> {
-    pub(super) fn new(nominal: &Rover, direction: f64, latency: f64, solve: &'a Resolve<'a>) -> Self {
+    pub(super) fn new(nominal: &Rover, latency: f64, solve: &'a Resolve<'a>) -> Self {
         Self {
             nominal: nominal.clone(),
-            direction: libm::sincos(direction),
             latency,
             solve,
             pursuit: PurePursuit::new(nominal),
@@ -117,12 +131,12 @@ impl<'a> Predictive<'a> {
         if way == 0.0 || before.speed * now.speed <= 0.0 {
             return;
         }
-        let expected = self.rolled(before, &before.at, way, before.at.curvature, &[0.0; 2]);
-        let heading = before.at.yaw + if way < 0.0 { std::f64::consts::PI } else { 0.0 };
-        let (sin, cos) = libm::sincos(heading + libm::atan2(self.direction.0, self.direction.1));
+        let rolls = Rolls { way, curvature: before.at.curvature, direction: before.direction };
+        let expected = self.rolled(before, &before.at, &rolls, &[0.0; 2]);
+        let (sin, cos) = libm::sincos(before.at.yaw + heading(before.direction, way));
         let (dx, dy) = (now.at.x - expected.x, now.at.y - expected.y);
         let kept = libm::exp(-way.abs() * self.nominal.limits.curvature / MEMORY);
-        let rises = rises(before.lean, self.direction, way.signum());
+        let rises = rises(before.lean, before.direction, way.signum());
         let offs = [cos * dx + sin * dy, cos * dy - sin * dx];
         for ((slip, off), rise) in self.slip.iter_mut().zip(offs).zip(rises) {
             slip.note(off, rise, way.abs(), kept);
@@ -138,12 +152,14 @@ impl<'a> Predictive<'a> {
         RADII / self.nominal.limits.curvature + TIME * speed
     }
 
-    /// `from` after `way` m (signed) of the wheels along `curvature`, leaning as measured, with `drift` per metre.
-    fn rolled(&self, lean: &Measured, from: &Planar, way: f64, curvature: f64, drift: &[f64; 2]) -> Planar {
+    /// `from` after what the wheels have rolled, leaning as measured, with `drift` per metre.
+    fn rolled(&self, lean: &Measured, from: &Planar, rolls: &Rolls, drift: &[f64; 2]) -> Planar {
+        let Rolls { way, curvature, direction } = *rolls;
+        let direction = libm::sincos(direction);
         let pose = Settled { roll: lean.lean[0], pitch: lean.lean[1], ..Settled::default() };
         let sign = if way < 0.0 { -1.0 } else { 1.0 };
-        let rate = rates(&pose, self.direction, sign, curvature, &self.nominal.slip);
-        let along = [self.direction.1 * sign, self.direction.0 * sign];
+        let rate = rates(&pose, direction, sign, curvature, &self.nominal.slip);
+        let along = [direction.1 * sign, direction.0 * sign];
         let ahead = rate.ahead + drift[0] * along[0] - drift[1] * along[1];
         let left = rate.left + drift[0] * along[1] + drift[1] * along[0];
         let way = way.abs();
@@ -181,8 +197,9 @@ impl<'a> Predictive<'a> {
             let step = mean * time;
             speed = after_speed;
             let bend = if lag > 0.0 || fastest.is_finite() { 0.5 * (at.curvature + after) } else { after };
-            let drift = self.drift(rises(measured.lean, self.direction, step.signum()));
-            at = self.rolled(measured, &at, step, bend, &drift);
+            let drift = self.drift(rises(measured.lean, command.direction, step.signum()));
+            let rolls = Rolls { way: step, curvature: bend, direction: command.direction };
+            at = self.rolled(measured, &at, &rolls, &drift);
             at.curvature = after;
             way += step.abs();
         }
@@ -205,7 +222,9 @@ impl<'a> Predictive<'a> {
         if let Some(answer) = &self.answer {
             let s = self.odometer + way - answer.from + 0.5 * step;
             if let Some(curvature) = curvature_at(&answer.segments, s) {
-                return curvature.clamp(-most, most);
+                // The way is to bend as the answer's does, though the planned direction may turn unevenly.
+                let turning = answer.turning - turning(along.stations, along.s + way, step.max(f64::MIN_POSITIVE));
+                return (curvature + along.sign * turning).clamp(-most, most);
             }
             self.answer = None;
         }
@@ -221,13 +240,13 @@ impl<'a> Predictive<'a> {
         if distance <= 0.0 {
             return;
         }
-        let mut goal = station_at(along.stations, goal_at, along.heading);
+        let mut goal = station_at(along.stations, goal_at, along.sign);
         // Against the drift that is to be expected on the way there.
         let mut crab = 0.0;
         for pair in along.stations.windows(2).filter(|pair| pair[1].s > start && pair[0].s < goal_at) {
             let part = pair[1].s.min(goal_at) - pair[0].s.max(start);
             let [ahead, left] = self.drift(pair[0].rises);
-            let (sin, cos) = libm::sincos(pair[0].at.yaw + along.heading);
+            let (sin, cos) = libm::sincos(pair[0].at.yaw + heading(pair[0].direction, along.sign));
             goal.x -= part * (cos * ahead - sin * left);
             goal.y -= part * (sin * ahead + cos * left);
             crab = libm::atan(left);
@@ -237,11 +256,17 @@ impl<'a> Predictive<'a> {
         }
         goal.yaw = from.yaw + wrap(goal.yaw - from.yaw);
         let gear = if along.sign < 0.0 { Gear::Reverse } else { Gear::Forward };
-        let Some(segments) = (self.solve)(from, &goal, gear) else { return };
+        let [begins, ends] = [start, goal_at].map(|s| direction_at(along.stations, s));
+        let direction = Direction { start: begins, end: ends };
+        // An answer's direction turns evenly: what the plan's does otherwise at both ends is left to the body.
+        let uneven = |s: f64| along.sign * (turning(along.stations, s, NEAR) - direction.rate(distance));
+        let from = &Planar { curvature: from.curvature + uneven(start), ..*from };
+        goal.curvature += uneven(goal_at - NEAR);
+        let Some(segments) = (self.solve)(from, &goal, gear, direction) else { return };
         let drives = |s: &Segment| matches!(s.motion, Motion::Arc { .. }) && s.gear == gear;
         let length: f64 = segments.iter().map(|segment| segment.length_m()).sum();
         if segments.iter().all(drives) && length <= LONGEST * distance {
-            self.answer = Some(Answer { segments, from: self.odometer + way });
+            self.answer = Some(Answer { segments, from: self.odometer + way, turning: direction.rate(length) });
         }
     }
 }
