@@ -229,6 +229,14 @@ fn a_rover_travels_crabwise_and_stops_for_its_turns() {
         "--set",
         "robot.limits.acceleration_m_s2=0.05",
         "--set",
+        "robot.mass_kg=60",
+        "--set",
+        "robot.forces={ gravity_m_s2 = 3.71, rolling_resistance = 0.05 }",
+        "--set",
+        "robot.wheels={ torque_n_m = 3 }",
+        "--set",
+        "execute.external_force_n=[5, -3, 0]",
+        "--set",
         "robot.response.steering_time_constant_s=0.5",
         "--set",
         "spec.limits={ path_deviation_m = 5.0 }",
@@ -248,6 +256,11 @@ fn a_rover_travels_crabwise_and_stops_for_its_turns() {
     let report = fs::read_to_string(at.join("a/report.html")).unwrap();
     assert!(report.contains("as trapezoids"), "the speeds of plans are told");
     assert!(report.contains("between -10° and 25° of the body"), "and the directions");
+    assert!(report.contains("more than 3 N·m") && report.contains("(5, -3, 0) N"), "and the forces");
+    json(at, &["export", "a", "--to", "csv"]);
+    let run = fs::read_to_string(at.join("a/0000-0.csv")).unwrap();
+    let names = run.lines().find(|line| line.contains("slip")).unwrap();
+    assert!(names.contains("wheel_torque_n_m") && names.contains("travel_direction_rad"), "{names}");
 }
 
 #[test]
@@ -267,6 +280,8 @@ fn mistakes_are_told_with_their_place() {
         ("generate.direction_deg=[-30, 400]", &["generate.direction_deg[1]", "180"]),
         ("generate.direction_deg=\"left\"", &["generate.direction_deg", "an array of 2 numbers"]),
         ("generate={ reach = \"hull\", direction_deg = [0, 20] }", &["generate.direction_deg", "witness"]),
+        ("execute.external_force_n=[1, 0, 0]", &["execute.external_force_n", "robot.forces"]),
+        ("robot.wheels={ torque_n_m = 3 }", &["robot.wheels.torque_n_m", "mass_kg"]),
         ("world.terrain={ file = \"none.tif\" }", &["none.tif", "cannot be read"]),
         ("world.terrain={ generator = \"moon\" }", &["generator", "craters"]),
         ("world.keep_out=[{ name = \"x\" }]", &["world.keep_out[0]", "circle"]),

@@ -143,7 +143,8 @@ fn paths_and_wheels_are_written_in_time() {
     let (names, rows) = table(&path.join("p.csv"));
     assert_eq!(
         names.join(","),
-        "t_s,s_m,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,curvature_1_m,v_m_s,direction_rad,tilt_rad,clearance_m"
+        "t_s,s_m,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,curvature_1_m,v_m_s,direction_rad,tilt_rad,clearance_m,tip_over_margin_rad,\
+         joint_rocker_rad,joint_left_bogie_rad,joint_right_bogie_rad"
     );
     let (first, last) = (&rows[0], rows.last().unwrap());
     for (row, expected) in [(first, [10.0, 5.0, 0.6, 0.1, 0.2]), (last, [14.0, 7.0, 0.5, 0.3, -0.1])] {
@@ -166,6 +167,39 @@ fn paths_and_wheels_are_written_in_time() {
     assert!((mean * 0.13 - speed).abs() < 0.1 * speed, "{mean} {speed}");
     let (code, _, error) = run(path, &["steer", "generic", "--to", "3,1,0", "--wheels", "w.csv"], "warn");
     assert!(code == 2 && error.contains("no wheels"), "{error}");
+}
+
+/// 100 kg of which rolling takes a tenth: 100 N at a steady speed, shared by four wheels of 0.1 m.
+#[test]
+fn torques_are_told_of_vehicles_that_weigh_and_hold_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let heavy = |wheels: &str| {
+        format!(
+            "kind = \"rover\"\nname = \"heavy\"\nmass_kg = 80\nload_kg = 20\n\
+             forces = {{ gravity_m_s2 = 10.0, rolling_resistance = 0.1 }}\n\
+             suspension = {{ kind = \"four-wheel\", wheel_radius_m = 0.1, front_m = [0.3, 0.25, -0.05], rear_m = [-0.3, 0.25, -0.05] }}\n\
+             limits = {{ curvature_1_m = 1.0 }}\n[wheels]\n{wheels}"
+        )
+    };
+    fs::write(folder.path().join("free.toml"), heavy("")).unwrap();
+    fs::write(folder.path().join("weak.toml"), heavy("torque_n_m = 2.0")).unwrap();
+    let (code, free) = object(folder.path(), &["free.toml", "--to", "4,1,0.3", "--v0", "0.5", "--path", "p.csv"]);
+    let forces = &free["forces"];
+    assert!(code == 0 && forces["wheel_torque_limit_n_m"].is_null(), "{free}");
+    for (key, expected) in [("mass_kg", 100.0), ("max_traction_n", 100.0), ("max_wheel_torque_n_m", 2.5)] {
+        assert!((number(&forces[key]) - expected).abs() < 1e-6, "{key}: {forces}");
+    }
+    let (names, rows) = table(&folder.path().join("p.csv"));
+    assert_eq!(names[names.len() - 2..], ["traction_n", "wheel_torque_n_m"]);
+    assert!(rows.iter().all(|row| (row[names.len() - 1] - 2.5).abs() < 1e-6));
+    assert!((number(&free["body"]["min_tip_over_margin_deg"]) - rows[0][13].to_degrees()).abs() < 1e-6, "{free}");
+    let (code, weak) = object(folder.path(), &["weak.toml", "--to", "4,1,0.3", "--v0", "0.5"]);
+    assert_eq!((code, weak["limit"].as_str()), (3, Some("wheel_torque")), "{weak}");
+    assert!((number(&weak["excess"]) - 0.5).abs() < 1e-6 && number(&weak["forces"]["at_m"]) >= 0.0, "{weak}");
+    // From rest the same wheels also speed up: 0.1 m/s² are 10 N more.
+    let (code, rising) =
+        object(folder.path(), &["free.toml", "--to", "4,0,0", "--v0", "0", "--vf", "0", "--acceleration", "0.1"]);
+    assert!(code == 0 && (number(&rising["forces"]["max_traction_n"]) - 110.0).abs() < 1e-6, "{rising}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use hairpin::feasibility::reach::drive::{
 use hairpin::feasibility::reach::{DriveNode, DriveRoadmap, PlanarVehicle, Reach};
 use hairpin::feasibility::steering::shooting::rough::Steps;
 use hairpin::math::random::hashed_unit;
-use hairpin::robot::rover::{Rover, RoverDescription};
+use hairpin::robot::rover::{Rover, RoverDescription, Weight, Wheels};
 use hairpin::search::{
     Aggregate, BeamSettings, ExactSettings, Found, LegGraph, OpenEnd, OpenNode, Score, Task, UniformSettings, beam,
     exact, uniform,
@@ -85,6 +85,7 @@ fn hold(site: &DriveSite, settings: &DriveSettings, drive: &Drive, told: &str) {
         let met = x.hypot(y) <= 0.01 && yaw.abs() <= 0.01 && replay.error_curvature.abs() <= 0.01;
         assert!(met, "{told}, leg {number}: {replay:?}");
         assert!(replay.max_tilt <= settings.limits.tilt, "{told}, leg {number}: {replay:?}");
+        assert!(replay.max_torque <= site.rover.wheels.torque, "{told}, leg {number}: {replay:?}");
         for segment in &leg.segments {
             let step = segment.length_m() / 200.0;
             let most = (0..=200).map(|i| segment.curvature_at(step * f64::from(i)).abs()).fold(0.0, f64::max);
@@ -318,6 +319,37 @@ fn the_underside_keeps_its_distance_and_the_vehicle_the_keep_outs() {
             }
         }
     }
+}
+
+#[test]
+fn legs_that_the_wheels_are_too_weak_for_are_refused_and_the_others_proven() {
+    let (yard, mut rover) = (cratered(), shipped("rocky8"));
+    rover.weight = Some(Weight { mass: 60.0, gravity: 3.71, rolling_resistance: 0.05 });
+    let free = KeepOuts::default();
+    let legs_with = |torque: f64| {
+        let rover = Rover { wheels: Wheels { torque, ..rover.wheels }, ..rover.clone() };
+        let site = DriveSite::new(&rover, &yard, &free);
+        let settings = careful(&rover);
+        let points = graph(&site, &settings, 60, 3);
+        let map = DriveRoadmap::new(site, &points, &START, None, &settings);
+        let legs = from_start(&map, &points);
+        legs.iter().for_each(|(_, drive)| hold(&site, &settings, drive, "weak wheels"));
+        (legs, map.tally().refused(LegRefusal::Torque))
+    };
+    let ((strong, none), (weak, refused)) = (legs_with(50.0), legs_with(1.6));
+    assert!(
+        none == 0 && refused > 2 && weak.len() > 2 && weak.len() < strong.len(),
+        "{none} {refused}, {} of {}",
+        weak.len(),
+        strong.len()
+    );
+    // Ahead of a plan that was made for stronger wheels the proof finds the limit broken.
+    let site = Site { rover: &rover, map: &yard, speed: 0.3.into(), direction: 0.0.into() };
+    let torque = |drive: &Drive| {
+        let leg = &drive.legs[0];
+        site.replay(&leg.from, &leg.to, &leg.segments).expect("a way").max_torque
+    };
+    assert!(strong.iter().any(|(_, drive)| torque(drive) > 1.6));
 }
 
 #[test]

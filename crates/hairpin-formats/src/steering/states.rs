@@ -5,7 +5,7 @@ use hairpin::campaign::states::{States, VehicleState};
 use super::Frame;
 use crate::frames::other_yaw;
 
-const STATE: [&str; 13] = [
+const STATE: [&str; 14] = [
     "t_s",
     "s_m",
     "x_m",
@@ -19,7 +19,12 @@ const STATE: [&str; 13] = [
     "direction_rad",
     "tilt_rad",
     "clearance_m",
+    "tip_over_margin_rad",
 ];
+/// Of rocker-bogies, which six wheels have.
+const JOINTS: [&str; 3] = ["joint_rocker_rad", "joint_left_bogie_rad", "joint_right_bogie_rad"];
+/// Of vehicles with a weight.
+const EFFORT: [&str; 2] = ["traction_n", "wheel_torque_n_m"];
 
 /// Where the vehicle is and how it heads, in the frame: x, y, yaw.
 fn pose(state: &VehicleState, frame: Frame) -> [f64; 3] {
@@ -30,14 +35,18 @@ fn pose(state: &VehicleState, frame: Frame) -> [f64; 3] {
     }
 }
 
-/// The path of states; without wheels there is no underside, and its clearance is empty.
+/// The path of states; without wheels there is no underside and nothing that tips, and their columns are empty. Joints and forces have
+/// columns where the vehicle has them.
 ///
 /// # Errors
 /// Memory that cannot be had.
 pub fn path_table(states: &States, frame: Frame) -> csv::Result<Vec<u8>> {
     let left = frame.left();
     let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record(STATE)?;
+    let weighs = states.states.first().is_some_and(|state| state.effort.is_some());
+    let joints: &[&str] = if states.wheels == 6 { &JOINTS } else { &[] };
+    let effort: &[&str] = if weighs { &EFFORT } else { &[] };
+    table.write_record(STATE.iter().chain(joints).chain(effort))?;
     for state in &states.states {
         let [x, y, yaw] = pose(state, frame);
         let settled = &state.settled;
@@ -55,8 +64,11 @@ pub fn path_table(states: &States, frame: Frame) -> csv::Result<Vec<u8>> {
             left * state.direction,
             state.tilt,
         ];
-        let clearance = if state.clearance.is_finite() { number(state.clearance) } else { String::new() };
-        table.write_record(numbers.map(number).into_iter().chain([clearance]))?;
+        let stands = |value: f64| if states.wheels > 0 && value.is_finite() { number(value) } else { String::new() };
+        let joints = state.settled.joints.iter().take(joints.len()).map(|joint| number(left * joint));
+        let effort = state.effort.iter().filter(|_| weighs).flat_map(|effort| [effort.traction, effort.torque]);
+        let standing = [stands(state.clearance), stands(state.tip_over_margin)];
+        table.write_record(numbers.map(number).into_iter().chain(standing).chain(joints).chain(effort.map(number)))?;
     }
     table.into_inner().map_err(|error| error.into_error().into())
 }

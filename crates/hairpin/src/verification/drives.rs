@@ -51,6 +51,8 @@ pub struct DriveTolerances {
     pub most_curvature_rate: f64,
     /// Largest angle of the body's z axis from the vertical, rad.
     pub most_tilt: f64,
+    /// Largest |torque| of each wheel, N·m; infinite where none is asked for.
+    pub most_torque: f64,
     /// Least and greatest direction of travel in the body, rad.
     pub directions: [f64; 2],
     /// Largest change of speed, m/s²; infinite where drives do not stop for changes of gear and turns in place.
@@ -140,6 +142,7 @@ pub fn verify_drives<T: Terrain>(
                 exceed("end.yaw", replay.error[2].abs(), tolerances.yaw, "rad");
                 exceed("end.curvature", replay.error_curvature.abs(), tolerances.curvature, "1/m");
                 exceed("tilt", replay.max_tilt, kept(tolerances.most_tilt), "rad");
+                exceed("wheel_torque", replay.max_torque, kept(tolerances.most_torque), "N·m");
                 note(&mut proof.position, position, number, at);
                 note(&mut proof.attitude, replay.error[2].abs(), number, at);
                 proof.steps += replay.steps;
@@ -186,6 +189,7 @@ mod tests {
         steering_rate_rad_s: f64::INFINITY,
         steered_axle_m: 1.0,
         exact: false,
+        haul: None,
     };
     const TOLERANCES: DriveTolerances = DriveTolerances {
         position: 0.01,
@@ -194,6 +198,7 @@ mod tests {
         most_curvature: 1.0,
         most_curvature_rate: 1.0,
         most_tilt: 0.5,
+        most_torque: f64::INFINITY,
         directions: [0.0, 0.0],
         most_acceleration: f64::INFINITY,
     };

@@ -1,7 +1,9 @@
 //! Replay of a drive on the ground: what was written, integrated again with suspension, slip and lag.
 
+use nalgebra::Vector3;
+
 use super::drive::{DrivePiece, LEAST_STEPS};
-use super::stand::{NoRest, Rest, Stand};
+use super::stand::{NoRest, Rest, Stand, turn};
 use super::twist::{Place, carry};
 use crate::world::terrain::{NoGround, Terrain};
 
@@ -24,6 +26,23 @@ pub struct GroundVehicle {
     pub steered_axle_m: f64,
     /// Whether the body moves as a rigid one that keeps its wheels on the ground; else vz, ωx and ωy are left out.
     pub exact: bool,
+    /// What the wheels carry and overcome, where torques are asked for.
+    pub haul: Option<Haul>,
+}
+
+/// What wheels carry and overcome, sharing it evenly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Haul {
+    /// With the load, kg.
+    pub mass_kg: f64,
+    /// m/s².
+    pub gravity_m_s2: f64,
+    /// Share of the load that rolling takes.
+    pub rolling_resistance: f64,
+    /// Driven wheels.
+    pub wheels: usize,
+    /// Of each, m.
+    pub radius_m: f64,
 }
 
 /// What a drive on the ground was asked to do; world frame.
@@ -54,6 +73,8 @@ pub struct GroundReplay {
     pub error_curvature: f64,
     /// Largest angle of the body's z axis from the vertical, rad.
     pub max_tilt: f64,
+    /// Largest |torque| of each wheel while driving, N·m; 0 without a haul.
+    pub max_torque: f64,
     /// Steps of the integrator.
     pub steps: usize,
 }
@@ -108,6 +129,7 @@ pub fn replay_ground<T: Terrain>(
     let mut state =
         [claim.start[0], claim.start[1], claim.start[2], libm::atan(claim.start_curvature * vehicle.steered_axle_m)];
     let mut rest = Rest::find(&vehicle.stand, terrain, claim.start).map_err(|no| stopped(0.0, no))?;
+    let mut max_torque = 0.0_f64;
     let (mut driven, mut max_tilt, mut steps, mut last_curvature) = (0.0, 0.0_f64, 0, claim.start_curvature);
     // The direction of the piece before; a turn in place leaves none.
     let mut last: Option<Option<f64>> = None;
@@ -143,6 +165,7 @@ pub fn replay_ground<T: Terrain>(
                     piece,
                     crab: claim.crab + claim.crab_rate * (at + 0.5 * h).clamp(0.0, drive),
                     pace: claim.pace(at, h),
+                    gains: claim.gains(at + 0.5 * h),
                 };
                 let steered = vehicle.steered(&way, state[3], s, h);
                 if let Some(end) = steered {
@@ -156,6 +179,7 @@ pub fn replay_ground<T: Terrain>(
                     let place = carried.map_err(|no| stopped(driven, no))?;
                     state = [place[0], place[1], place[2], steered.unwrap_or(angle)];
                     max_tilt = max_tilt.max(tilt(&rest));
+                    max_torque = max_torque.max(vehicle.torque(&way, &rest));
                     steps += 1;
                     continue;
                 }
@@ -172,6 +196,7 @@ pub fn replay_ground<T: Terrain>(
                 let k2 = middle.map_err(|no| stopped(driven, no))?;
                 state = moved(&state, &k2, h);
                 state[3] = steered.unwrap_or(state[3]);
+                max_torque = max_torque.max(vehicle.torque(&way, &rest));
                 steps += 1;
             }
         }
@@ -190,6 +215,7 @@ pub fn replay_ground<T: Terrain>(
         error: [state[0] - claim.end[0], state[1] - claim.end[1], libm::atan2(libm::sin(yaw), libm::cos(yaw))],
         error_curvature: last_curvature - claim.end_curvature,
         max_tilt,
+        max_torque,
         steps,
     })
 }
@@ -201,6 +227,8 @@ struct Way<'a> {
     crab: f64,
     /// Seconds a metre, in the mean over the step.
     pace: f64,
+    /// Change of the speed along it, m/s².
+    gains: f64,
 }
 
 /// Speeds below this are none, m/s, and places as near as this are one, m.
@@ -217,6 +245,15 @@ impl GroundClaim {
     fn metres_of(&self, time: f64) -> [f64; 2] {
         let speed = |knot: Option<&[f64; 2]>| knot.map_or(0.0, |[_, v]| *v);
         [time * speed(self.speed.first()), time * speed(self.speed.last())]
+    }
+
+    /// dv/dt after `s` metres, m/s²: half of what v² changes by per metre.
+    fn gains(&self, s: f64) -> f64 {
+        let around = self.speed.windows(2).find(|pair| pair[0][0] < s && s <= pair[1][0]);
+        around.map_or(0.0, |pair| {
+            let [[s0, v0], [s1, v1]] = [pair[0], pair[1]];
+            0.5 * (v1 * v1 - v0 * v0) / (s1 - s0)
+        })
     }
 
     /// Seconds a metre from `s` on for `h` metres: ds/dv² is constant between knots, and so the time is 2 Δs/(v + v′).
@@ -289,6 +326,17 @@ impl GroundVehicle {
         let ahead = ct * vx + st * sf * vy;
         let left = cf * vy;
         [cp * ahead - sp * left, sp * ahead + cp * left, cf / ct * turn, self.turned(way, state[3], s)]
+    }
+
+    /// |torque| of each wheel, N·m: m g times rise along the way and rolling resistance, and m a, shared by the wheels; 0 in place.
+    fn torque(&self, way: &Way<'_>, rest: &Rest) -> f64 {
+        let (Some(haul), DrivePiece::Arc { direction, .. }) = (&self.haul, way.piece) else { return 0.0 };
+        let body = turn(1, rest.pitch()) * turn(0, rest.roll());
+        let travel = *direction * (body * Vector3::new(libm::cos(way.crab), libm::sin(way.crab), 0.0));
+        let upright = (body * Vector3::z()).z.max(0.0);
+        let weight = haul.mass_kg * haul.gravity_m_s2;
+        let force = weight * (travel.z + haul.rolling_resistance * upright) + haul.mass_kg * way.gains;
+        (force * haul.radius_m / haul.wheels as f64).abs()
     }
 
     /// dδ per metre of steering with a time constant; without one the step's angle is known before: `steered`.

@@ -44,7 +44,7 @@ pub use clear::{ClearClaim, ClearSolid, verify_clear};
 pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive, trace_drive};
 pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{EndError, Finding, Proof, Tolerances, Worst};
-pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Stopped, replay_ground};
+pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Haul, Stopped, replay_ground};
 pub use heaviest::{HeaviestClaim, MOST_SEARCHED_AGAIN, NextClaim, PathFinding, StepClaim, TreeClaim, verify_heaviest};
 pub use proof::{open_loop_with_lag, verify};
 pub use stand::Stand;

@@ -1,9 +1,10 @@
 //! What one question may write beside its answer: the path of states, the wheels, and what the answer's JSON says of speeds,
 //! direction and controls.
 
-use hairpin::campaign::states::States;
+use hairpin::campaign::states::{States, VehicleState};
 use hairpin::feasibility::steering::shooting::families::Parameters;
 use hairpin::feasibility::steering::shooting::rough::GroundCost;
+use hairpin::robot::rover::{Effort, Weight};
 use hairpin::trajectory::{SpeedProfile, Timing};
 use hairpin_formats::atomic;
 use hairpin_formats::steering::{Asked, path_table, wheel_table};
@@ -41,7 +42,7 @@ pub(super) fn write(steer: &Steer, vehicle: &Vehicle, asked: &Asked, answered: &
     Ok(())
 }
 
-/// Adds speeds, direction of travel, controls and wheels to the object of an answer.
+/// Adds speeds, direction of travel, controls, wheels, what the body comes to, and forces to the object of an answer.
 pub(super) fn add(object: &mut Value, vehicle: &Vehicle, asked: &Asked, answered: &Answered) {
     let left = asked.frame.left();
     let direction = direction(asked);
@@ -77,6 +78,10 @@ pub(super) fn add(object: &mut Value, vehicle: &Vehicle, asked: &Asked, answered
         && let Some(states) = vehicle.follow(asked, answered, Rows::Few)
     {
         object["wheels"] = wheels(&states, vehicle.rover.wheel_names(), left);
+        object["body"] = body(&states);
+        if let Some(weight) = &vehicle.rover.weight {
+            object["forces"] = forces(&states, weight, vehicle.rover.wheels.torque);
+        }
     }
 }
 
@@ -96,6 +101,40 @@ fn named(parameters: &Parameters, left: f64) -> Value {
             json!({ "v_of_t": linear, "yaw_rate_of_t": turned(angular), "duration_s": duration })
         }
     }
+}
+
+/// The worst that the body comes to; no number where it is not known.
+fn body(states: &States) -> Value {
+    let worst = |of: fn(&VehicleState) -> f64, than: fn(f64, f64) -> f64| {
+        states.states.iter().map(of).reduce(than).filter(|value| value.is_finite())
+    };
+    let degrees = |value: Option<f64>| value.map(f64::to_degrees);
+    json!({
+        "max_tilt_deg": degrees(worst(|state| state.tilt, f64::max)),
+        "max_roll_deg": degrees(worst(|state| state.settled.roll.abs(), f64::max)),
+        "max_pitch_deg": degrees(worst(|state| state.settled.pitch.abs(), f64::max)),
+        "min_clearance_m": worst(|state| state.clearance, f64::min),
+        "min_tip_over_margin_deg": degrees(worst(|state| state.tip_over_margin, f64::min)),
+    })
+}
+
+/// What the wheels push and brake with at most, and where.
+fn forces(states: &States, weight: &Weight, limit: f64) -> Value {
+    let torque = |state: &VehicleState| state.effort.map_or(0.0, |effort| effort.torque.abs());
+    let hardest = states.states.iter().max_by(|a, b| torque(a).total_cmp(&torque(b)));
+    let most = |of: fn(&Effort) -> f64| {
+        let values = states.states.iter().filter_map(|state| state.effort.as_ref()).map(of);
+        values.fold(0.0, f64::max)
+    };
+    json!({
+        "mass_kg": weight.mass,
+        "gravity_m_s2": weight.gravity,
+        "max_traction_n": most(|effort| effort.traction),
+        "max_braking_n": most(|effort| -effort.traction),
+        "max_wheel_torque_n_m": states.peaks.torque,
+        "at_m": hardest.map(|state| state.s),
+        "wheel_torque_limit_n_m": limit.is_finite().then_some(limit),
+    })
 }
 
 fn wheels(states: &States, names: &[&str], left: f64) -> Value {

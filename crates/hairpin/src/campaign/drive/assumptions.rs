@@ -41,6 +41,13 @@ pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
             "Kinematics `exact`: plans, runs and proofs have what the suspension adds to the body's velocity (vz, ωx, ωy).".into(),
         );
     }
+    if setup.rover.wheels.torque.is_finite() {
+        said.push(format!(
+            "No wheel needs more than {} N·m while driving: quasi-static, all wheels driven and sharing evenly, without what scrubbing and \
+             turning in place take.",
+            setup.rover.wheels.torque
+        ));
+    }
     match generate.direction_deg.bounds() {
         [low, high] if low < high => said.push(format!(
             "Waypoints are passed in directions of travel between {low}° and {high}° of the body, each with its own; along a leg the \
@@ -104,6 +111,12 @@ pub(in crate::campaign) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
                  controller `{}` with hairpin's own gains knows the nominal vehicle and the map, and its pose exactly.",
                 controller.word()
             ));
+            if let Some([east, north, up]) = execute.external_force_n {
+                said.push(format!(
+                    "A steady force of ({east}, {north}, {up}) N, east, north, up, pulls at the centre of mass: to slip, torque and tip-over \
+                     margin it is a tilt of gravity. The plan does not know it."
+                ));
+            }
         }
     }
 }

@@ -52,6 +52,7 @@ pub(in crate::campaign) fn drive(
     let conditions = GroundConditions {
         latency: execute.latency_s.unwrap_or(0.0),
         noise: execute.noise,
+        external_force: execute.external_force_n.unwrap_or_default(),
         ..GroundConditions::default()
     };
     let settings =

@@ -39,10 +39,13 @@ pub(super) fn count(roadmap: &DriveRoadmap, points: &[Point3<f64>], length: usiz
         let stage = match reason {
             LegRefusal::Detour | LegRefusal::Unsolved => Stage::Reach,
             LegRefusal::MapEdge | LegRefusal::NoData | LegRefusal::NoRest => Stage::World,
-            LegRefusal::Curvature | LegRefusal::Steering | LegRefusal::Tilt | LegRefusal::Joint | LegRefusal::Belly => {
-                Stage::Limits
-            }
             LegRefusal::KeepOut => Stage::Obstacle,
+            LegRefusal::Curvature
+            | LegRefusal::Steering
+            | LegRefusal::Torque
+            | LegRefusal::Tilt
+            | LegRefusal::Joint
+            | LegRefusal::Belly => Stage::Limits,
         };
         counter.lose_many(stage, reason.says(), tally.refused(reason));
     }

@@ -7,7 +7,7 @@ use crate::robot::rover::{Kinematics, Rover, Suspension};
 use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::verification::{
-    DriveClaim, DrivePiece, DriveReplay, GroundClaim, GroundReplay, GroundVehicle, Stand, Stopped, replay_drive,
+    DriveClaim, DrivePiece, DriveReplay, GroundClaim, GroundReplay, GroundVehicle, Haul, Stand, Stopped, replay_drive,
     replay_ground,
 };
 use crate::world::terrain::ElevationMap;
@@ -195,7 +195,20 @@ pub(super) fn ground_vehicle(rover: &Rover) -> GroundVehicle {
         steering_rate_rad_s: rover.response.steering_rate,
         steered_axle_m: rover.response.steered_axle,
         exact: rover.kinematics == Kinematics::Exact,
+        haul: haul(rover),
     }
+}
+
+/// What the wheels of `rover` carry, as the replay has it.
+fn haul(rover: &Rover) -> Option<Haul> {
+    let (_, wheels, radius_m) = rover.suspension.wheels(&[0.0; 3]);
+    rover.weight.map(|weight| Haul {
+        mass_kg: weight.mass,
+        gravity_m_s2: weight.gravity,
+        rolling_resistance: weight.rolling_resistance,
+        wheels,
+        radius_m,
+    })
 }
 
 /// What a drive for a flat `query` is held to, of a vehicle that travels at `direction` to its body.

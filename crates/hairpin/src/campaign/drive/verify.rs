@@ -33,6 +33,7 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
         most_curvature: bounds.most,
         most_curvature_rate: bounds.most_rate,
         most_tilt: setup.tilt(),
+        most_torque: setup.rover.wheels.torque,
         directions: setup.directions(),
         most_acceleration: match setup.pace() {
             Pace::Constant => f64::INFINITY,

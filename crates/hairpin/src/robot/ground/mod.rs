@@ -51,6 +51,7 @@ impl Named<'_> {
             limits,
             response,
             slip: Slip::default(),
+            weight: None,
             kinematics: Kinematics::default(),
             default_speed,
             estimated: self.estimated.to_vec(),

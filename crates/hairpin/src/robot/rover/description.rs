@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::body::{BellyDescription, Body};
 use super::error::{RoverError, place, within, wrong};
+use super::forces::{ForcesDescription, Weight};
 use super::four_wheel::FourWheel;
 use super::wheels::{Steering, Wheels, WheelsDescription};
 use super::{Kinematics, Limits, Response, RockerBogie, Rover, Slip, Suspension};
@@ -70,6 +71,9 @@ pub struct RoverDescription {
     /// n: slips grow with (1 + load / mass)ⁿ; 1 if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slip_load_exponent: Option<f64>,
+    /// What it weighs and overcomes; needs `mass_kg`. With it, or with `wheels.torque_n_m`, the wheels' torque is told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forces: Option<ForcesDescription>,
 }
 
 fn is_zero(value: &f64) -> bool {
@@ -171,6 +175,8 @@ impl RoverDescription {
         let body = Body::build(&suspension, self.centre_of_mass_m.as_ref(), self.belly.as_ref(), &mut estimated)?;
         let default_speed = within("speed_m_s", self.speed_m_s.unwrap_or(SPEED), 1e-4, limits.speed.min(100.0))?;
         let wheels = Wheels::build(self.steering, &self.wheels, &suspension)?;
+        let (forces, torque) = (self.forces.as_ref(), self.wheels.torque_n_m);
+        let weight = Weight::build(forces, torque, self.mass_kg, self.load_kg, &suspension)?;
         Ok(Rover {
             name: self.name.clone(),
             caveat: self.caveat.clone(),
@@ -181,6 +187,7 @@ impl RoverDescription {
             limits,
             response,
             slip: self.slip()?,
+            weight,
             kinematics: Kinematics::default(),
             default_speed,
             estimated,

@@ -7,6 +7,7 @@ mod body;
 mod contact;
 mod description;
 mod error;
+mod forces;
 mod four_wheel;
 mod motion;
 mod rest;
@@ -23,8 +24,9 @@ pub use body::{Belly, BellyDescription, Body};
 pub use description::{RoverDescription, RoverKind};
 pub use error::RoverError;
 pub(super) use error::within;
+pub use forces::{Effort, ForcesDescription, Weight};
 pub use four_wheel::FourWheel;
-pub use motion::{Kinematics, RateSlopes, Rates, Slip, rate_slopes, rates};
+pub use motion::{Kinematics, RateSlopes, Rates, Slip, rate_slopes, rates, slip_share};
 pub use rest::{Gradient, Settled, Unsettled};
 pub use rocker_bogie::RockerBogie;
 pub use suspension::Suspension;
@@ -51,6 +53,8 @@ pub struct Rover {
     pub response: Response,
     /// How the ground gives way.
     pub slip: Slip,
+    /// What the wheels carry and overcome; `None` where no force is asked for.
+    pub weight: Option<Weight>,
     /// Which rates the motion has; not a robot's own number, but asked for with what is to be driven.
     pub kinematics: Kinematics,
     /// Speed where none is given, m/s.

@@ -83,10 +83,11 @@ impl Lean {
     }
 
     /// With slip: v (1 − s₂₀ sin(climb)/sin 20°), drift −s′₂₀ sin(side)/sin 20°; the wheels keep the path's curvature, so slip
-    /// shortens the turn as well.
-    fn commanded(&self, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip) -> Commanded {
+    /// shortens the turn as well. A force that pulls by the share `pull` of the weight along the body's x and y axes is a slope by as much
+    /// less.
+    fn commanded(&self, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip, pull: [f64; 2]) -> Commanded {
         // Rise per metre along the body's x and y axes.
-        let (rise_x, rise_y) = (-self.st, self.ct * self.sf);
+        let (rise_x, rise_y) = (-self.st - pull[0], self.ct * self.sf - pull[1]);
         let climb = sign * (direction.1 * rise_x + direction.0 * rise_y);
         let side = direction.1 * rise_y - direction.0 * rise_x;
         let progress = sign * (1.0 - slip.at_20_deg * climb / SIN_20);
@@ -144,7 +145,15 @@ impl Lean {
 #[inline]
 pub fn rates(pose: &Settled, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip) -> Rates {
     let lean = Lean::of(pose);
-    lean.source(lean.commanded(direction, sign, curvature, slip))
+    lean.source(lean.commanded(direction, sign, curvature, slip, [0.0; 2]))
+}
+
+/// Share of the commanded way that slip takes along it, s₂₀ sin(climb)/sin 20°, of a body that stands as `pose`, drives with `sign` (±1)
+/// along `direction` (sine and cosine) of itself, and is pulled by `pull` (x and y of the body, as a share of its weight); negative where
+/// it gains.
+pub fn slip_share(pose: &Settled, direction: (f64, f64), sign: f64, slip: &Slip, pull: [f64; 2]) -> f64 {
+    let Commanded([vx, vy, _]) = Lean::of(pose).commanded(direction, sign, 0.0, slip, pull);
+    1.0 - sign * (vx * direction.1 + vy * direction.0)
 }
 
 /// Derivatives of [`rates`] by roll, pitch and curvature; with ρ the rises −sinθ and cosθ sinφ of the body's axes,
@@ -155,7 +164,7 @@ pub fn rates(pose: &Settled, direction: (f64, f64), sign: f64, curvature: f64, s
 pub fn rate_slopes(pose: &Settled, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip) -> RateSlopes {
     let lean = Lean::of(pose);
     let Lean { sf, cf, st, ct } = lean;
-    let Commanded([vx, vy, turn]) = lean.commanded(direction, sign, curvature, slip);
+    let Commanded([vx, vy, turn]) = lean.commanded(direction, sign, curvature, slip, [0.0; 2]);
     let progress = vx * direction.1 + vy * direction.0;
     // Of the commanded twist, where the axes' rises change by `x` and `y`.
     let by_rises = |x: f64, y: f64| {
@@ -189,8 +198,22 @@ impl Rover {
         sign: f64,
         curvature: f64,
     ) -> Rates {
+        self.rates_under((pose, gradient), yaw, direction, (sign, curvature), [0.0; 2])
+    }
+
+    /// [`Self::rates`] while a force pulls along the body's x and y axes by `pull`, as a share of the weight: `way` is the sign and the
+    /// curvature. The ground gives way to it as to a slope.
+    #[inline]
+    pub fn rates_under(
+        &self,
+        (pose, gradient): (&Settled, &Gradient),
+        yaw: f64,
+        direction: (f64, f64),
+        (sign, curvature): (f64, f64),
+        pull: [f64; 2],
+    ) -> Rates {
         let lean = Lean::of(pose);
-        let commanded = lean.commanded(direction, sign, curvature, &self.slip);
+        let commanded = lean.commanded(direction, sign, curvature, &self.slip, pull);
         match self.kinematics {
             Kinematics::Source => lean.source(commanded),
             Kinematics::Exact => lean.exact(gradient, yaw, commanded, [0.0; 2]),

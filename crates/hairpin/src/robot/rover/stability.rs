@@ -29,6 +29,21 @@ impl Rover {
     /// # Errors
     /// [`NoGround`] below a wheel.
     pub fn tip_over_margin<T: Terrain>(&self, terrain: &T, at: [f64; 3], pose: &Settled) -> Result<f64, NoGround> {
+        self.tip_over_margin_under(terrain, at, pose, &Vector3::zeros())
+    }
+
+    /// [`Self::tip_over_margin`] while a force pulls at the centre of mass by `pull` (world axes, as a share of the weight): gravity and it
+    /// together must stay within the outline.
+    ///
+    /// # Errors
+    /// [`NoGround`] below a wheel.
+    pub fn tip_over_margin_under<T: Terrain>(
+        &self,
+        terrain: &T,
+        at: [f64; 3],
+        pose: &Settled,
+        pull: &Vector3<f64>,
+    ) -> Result<f64, NoGround> {
         let (wheels, count, radius) = self.suspension.wheels(&pose.joints);
         let body_from_world = Attitude::new(pose.roll, pose.pitch, at[2]).world_from_body.transpose();
         let origin = Vector3::new(at[0], at[1], pose.z);
@@ -39,7 +54,11 @@ impl Rover {
             let down = body_from_world * Vector3::new(hx, hy, -1.0).normalize();
             *contact = wheel + radius * down - self.body.centre_of_mass;
         }
-        Ok(margin(&contacts[..count], &(body_from_world * -Vector3::z())))
+        let mut gravity = -Vector3::z();
+        if *pull != Vector3::zeros() {
+            gravity = (gravity + pull).try_normalize(1e-12).unwrap_or(gravity);
+        }
+        Ok(margin(&contacts[..count], &(body_from_world * gravity)))
     }
 
     /// Smallest height of the body's underside over the ground below it, measured along the vertical, m; negative where

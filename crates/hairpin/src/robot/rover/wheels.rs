@@ -38,6 +38,9 @@ pub struct WheelsDescription {
     /// Largest change of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration_rad_s2: Option<f64>,
+    /// Largest torque of each wheel's motor about its axle, pushing or braking; all wheels are driven. Needs `mass_kg`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub torque_n_m: Option<f64>,
     /// Track that a skidding vehicle seems to have: more than the wheels' own, since they slip; theirs if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub effective_track_m: Option<f64>,
@@ -56,6 +59,8 @@ pub struct Wheels {
     pub speed: f64,
     /// Largest change of rolling speed, rad/s².
     pub acceleration: f64,
+    /// Largest |torque| of each, N·m.
+    pub torque: f64,
     /// Track of skidding vehicles, m.
     pub effective_track: f64,
 }
@@ -65,7 +70,8 @@ impl Default for Wheels {
     fn default() -> Self {
         let free = f64::INFINITY;
         let steering = Steering::default();
-        Self { steering, steer: free, steer_rate: free, speed: free, acceleration: free, effective_track: 0.0 }
+        let (steer, steer_rate, speed, acceleration, torque) = (free, free, free, free, free);
+        Self { steering, steer, steer_rate, speed, acceleration, torque, effective_track: 0.0 }
     }
 }
 
@@ -91,13 +97,15 @@ impl Wheels {
             steer_rate: most("wheels.steer_rate_deg_s", given.steer_rate_deg_s, 1e-3, 1e5)?.to_radians(),
             speed: most("wheels.speed_rad_s", given.speed_rad_s, 1e-4, 1e5)?,
             acceleration: most("wheels.acceleration_rad_s2", given.acceleration_rad_s2, 1e-4, 1e7)?,
+            torque: most("wheels.torque_n_m", given.torque_n_m, 1e-6, 1e7)?,
             effective_track: effective,
         })
     }
 
     /// Whether any bound is finite.
     pub fn bounded(&self) -> bool {
-        [self.steer, self.steer_rate, self.speed, self.acceleration].iter().any(|bound| bound.is_finite())
+        let bounds = [self.steer, self.steer_rate, self.speed, self.acceleration, self.torque];
+        bounds.iter().any(|bound| bound.is_finite())
     }
 }
 

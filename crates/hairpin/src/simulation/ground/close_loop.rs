@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use nalgebra::Vector3;
+
 use super::controllers::{Driver, GroundController};
 use super::guide::{Guide, Measured, Task};
 use super::plan::Plan;
@@ -37,6 +39,8 @@ pub struct GroundSortie<'a> {
 pub struct GroundConditions {
     /// A command acts this much later, s, on top of the vehicle's own latency.
     pub latency: f64,
+    /// Steady force on the vehicle, at its centre of mass, N: east, north, up. The vehicle must have a weight for it.
+    pub external_force: [f64; 3],
     /// Whether controllers see a pose with white noise: 1 cm along each axis, 0.3° of yaw, standard deviations.
     pub noise: bool,
     /// Where the run starts, in the frame of the plan's first pose: forward and left, m, and yaw, rad.
@@ -89,6 +93,8 @@ const YAW_NOISE: f64 = 0.3 * std::f64::consts::PI / 180.0;
 const PROGRESS: [f64; 2] = [0.01, std::f64::consts::PI / 180.0];
 /// Longest latency, s.
 const LONGEST_LATENCY: f64 = 60.0;
+/// Largest part of a steady force, N.
+const MOST_FORCE: f64 = 1e6;
 
 /// Drives one run: the same bytes for the same arguments.
 ///
@@ -101,8 +107,8 @@ const LONGEST_LATENCY: f64 = 60.0;
 /// The log has the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`, `speed_m_s` (of the wheels, negative in reverse),
 /// `curvature_1_m` (of the wheels), `commanded_curvature_1_m`, `slip` (share of the wheels' way that is lost), with wheels
 /// `tip_over_margin_deg` and `belly_clearance_m` (the least since the sample before), with a rocker-bogie `joint_rocker_rad`,
-/// `joint_left_bogie_rad`, `joint_right_bogie_rad`, and `travel_direction_rad` where the plan goes in another direction than straight
-/// ahead; about 3000 samples.
+/// `joint_left_bogie_rad`, `joint_right_bogie_rad`, with a weight `wheel_torque_n_m` (of each wheel), and `travel_direction_rad` where the
+/// plan goes in another direction than straight ahead; about 3000 samples.
 ///
 /// # Errors
 /// Settings, latency or a drive out of bounds; a plan along which the nominal vehicle cannot stand; a start where the true
@@ -122,12 +128,14 @@ pub fn drive(
     if let Some(off) = conditions.start_offset.iter().find(|off| off.is_nan() || off.abs() > 1e3) {
         return Err(SimulationError::new("start_offset", off.to_string(), "within ±1000"));
     }
+    let pull = pull(sortie.vehicle, &conditions.external_force)?;
     if !(sortie.clearance_radius >= 0.0 && sortie.clearance_radius.is_finite()) {
         let value = sortie.clearance_radius.to_string();
         return Err(SimulationError::new("clearance_radius", value, "finite and ≥ 0 m"));
     }
     let plan = Plan::new(sortie.nominal, sortie.terrain, sortie.drive)?;
     let mut run = Run::new(sortie, controller, conditions, &plan, latency, seed)?;
+    run.plant.pull = pull;
     let log_every = ((plan.duration / SAMPLES / run.period).round() as u64).max(1);
     let time_limit = settings.time_limit.unwrap_or(2.0 * plan.duration + 60.0);
     let crabs = sortie.drive.legs.iter().any(|leg| leg.direction != Direction::default());
@@ -154,6 +162,19 @@ pub fn drive(
         run.turn(t);
     }
     unreachable!("the time limit ends every run")
+}
+
+/// `force` (N, world axes) as a share of the vehicle's weight.
+fn pull(vehicle: &Rover, force: &[f64; 3]) -> Result<Vector3<f64>, SimulationError> {
+    let told = || format!("{force:?}");
+    if force.iter().any(|part| part.is_nan() || part.abs() > MOST_FORCE) {
+        return Err(SimulationError::new("external_force", told(), "within ±1e6 N"));
+    }
+    match &vehicle.weight {
+        Some(weight) => Ok(Vector3::from(*force) / weight.newtons()),
+        None if *force == [0.0; 3] => Ok(Vector3::zeros()),
+        None => Err(SimulationError::new("external_force", told(), "on a vehicle with a weight (forces)")),
+    }
 }
 
 fn word(lost: Lost) -> Ended {

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
-use crate::robot::rover::{Gradient, Rover, Settled, Slip, Suspension, rates};
+use crate::robot::rover::{Effort, Gradient, Rover, Settled, Suspension, slip_share};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
 
@@ -46,7 +46,8 @@ const STILL: f64 = 1e-9;
 /// State of a driving vehicle:
 /// ẋ, ẏ, ψ̇ by [`Rover::rates`] of the wheels' speed v and κ = tan(δ)/L;
 /// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; the direction of travel is what is commanded, as in plans; v and the rate ω of turns in place follow their commands with the
-/// bounded acceleration; z, φ, θ and the joints by the suspension on the ground.
+/// bounded acceleration, and v with no more than the wheels' torque leaves of it; z, φ, θ and the joints by the suspension on the ground.
+/// A steady force at the centre of mass is a tilt of gravity to slip, torque and tip-over margin.
 #[derive(Debug, Clone)]
 pub(super) struct Plant<'a> {
     pub(super) vehicle: &'a Rover,
@@ -55,6 +56,10 @@ pub(super) struct Plant<'a> {
     pub(super) direction: f64,
     /// Its sine and cosine.
     travels: (f64, f64),
+    /// Steady force at the centre of mass, world axes, as a share of the weight.
+    pub(super) pull: Vector3<f64>,
+    /// Of the last step, along the way, m/s².
+    gained: f64,
     /// East, m.
     pub(super) x: f64,
     /// North, m.
@@ -86,6 +91,8 @@ impl<'a> Plant<'a> {
             terrain,
             direction,
             travels: libm::sincos(direction),
+            pull: Vector3::zeros(),
+            gained: 0.0,
             x: start.x,
             y: start.y,
             yaw: start.yaw,
@@ -176,7 +183,8 @@ impl<'a> Plant<'a> {
     fn motion(&self, stands: (&Settled, &Gradient), yaw: f64, way: f64, bend: f64, turn: f64) -> [f64; 3] {
         let (sin, cos) = libm::sincos(yaw);
         let sign = if way < 0.0 { -1.0 } else { 1.0 };
-        let driven = self.vehicle.rates(stands, yaw, self.travels, sign, bend);
+        let pull = self.pulled(stands.0, yaw);
+        let driven = self.vehicle.rates_under(stands, yaw, self.travels, (sign, bend), [pull.x, pull.y]);
         let turned = self.vehicle.turning(stands, yaw);
         let way = way.abs();
         let (ahead, left) = (way * driven.ahead + turn * turned.ahead, way * driven.left + turn * turned.left);
@@ -200,13 +208,16 @@ impl<'a> Plant<'a> {
         let wanted = if command.turn_rate == 0.0 { self.bounded_speed(command) } else { 0.0 };
         let before = self.speed;
         self.speed += (wanted - before).clamp(-most, most);
+        self.hold_to_torque(before, h);
+        self.gained = (self.speed.abs() - before.abs()) / h;
         let standing = before.abs() < STILL && self.speed.abs() < STILL && self.vehicle.limits.turns_in_place;
         let wanted = if standing { command.turn_rate } else { 0.0 };
         // What the steered wheels may do on their circle about the middle.
         let most = most / self.vehicle.response.steered_axle;
         let turning = self.turn_rate;
         self.turn_rate += (wanted - turning).clamp(-most, most);
-        let (bounded, mean) = (self.vehicle.limits.acceleration.is_finite(), |a: f64, b: f64| 0.5 * (a + b));
+        let bounded = self.vehicle.limits.acceleration.is_finite() || self.vehicle.wheels.torque.is_finite();
+        let mean = |a: f64, b: f64| 0.5 * (a + b);
         if bounded {
             (h * mean(before, self.speed), h * mean(turning, self.turn_rate))
         } else {
@@ -214,15 +225,49 @@ impl<'a> Plant<'a> {
         }
     }
 
+    /// The speed that the wheels' torque leaves after a step of `h` s from `before`: what they have over what climbing and rolling take
+    /// speeds up, what they lack slows down. Those that cannot go on stand; their gears hold.
+    fn hold_to_torque(&mut self, before: f64, h: f64) {
+        let most = self.vehicle.most_traction();
+        if most.is_infinite() || self.speed == 0.0 {
+            return;
+        }
+        let sign = self.speed.signum();
+        let Some(effort) = self.effort(sign, 0.0) else { return };
+        let Some(mass) = self.vehicle.weight.map(|weight| weight.mass) else { return };
+        // Of a speed that changes its sign the part up to rest is braking.
+        let begun = (sign * before).max(0.0);
+        let spare = (most - effort.traction) / mass;
+        self.speed = sign * (sign * self.speed).min(begun + spare * h).max(0.0);
+    }
+
+    /// What the wheels do while they drive with `sign` and gain `acceleration` (m/s²) along their way; `None` without a weight.
+    fn effort(&self, sign: f64, acceleration: f64) -> Option<Effort> {
+        self.vehicle.effort(&self.pose, self.travels, sign, acceleration, &self.pulled(&self.pose, self.yaw))
+    }
+
+    /// Torque of each wheel, N·m; 0 where the vehicle stands, and `None` without a weight.
+    pub(super) fn torque(&self) -> Option<f64> {
+        let effort = self.effort(self.speed.signum(), self.gained)?;
+        Some(if self.speed.abs() < STILL { 0.0 } else { effort.torque })
+    }
+
+    /// The steady force in the axes of a body that stands as `pose`, as a share of the weight.
+    fn pulled(&self, pose: &Settled, yaw: f64) -> Vector3<f64> {
+        if self.pull == Vector3::zeros() {
+            return self.pull;
+        }
+        let attitude = unit_quaternion(&quaternion_from_euler(pose.roll, pose.pitch, yaw));
+        attitude.inverse() * self.pull
+    }
+
     /// Share of the wheels' way that is lost along it; negative where more is gained.
     pub(super) fn slip(&self) -> f64 {
-        let lost = Slip { side_at_20_deg: 0.0, ..self.vehicle.slip };
-        let sign = if self.speed < 0.0 { -1.0 } else { 1.0 };
-        let way = |slip: &Slip| {
-            let r = rates(&self.pose, self.travels, sign, 0.0, slip);
-            libm::hypot(r.ahead, r.left)
-        };
-        if self.speed.abs() < STILL { 0.0 } else { 1.0 - way(&lost) / way(&Slip::default()) }
+        if self.speed.abs() < STILL {
+            return 0.0;
+        }
+        let pull = self.pulled(&self.pose, self.yaw);
+        slip_share(&self.pose, self.travels, self.speed.signum(), &self.vehicle.slip, [pull.x, pull.y])
     }
 
     /// Velocity of the body's origin, m/s, world frame.
@@ -254,7 +299,7 @@ impl<'a> Plant<'a> {
             return Ok(Stands::FREE);
         }
         Ok(Stands {
-            margin: self.vehicle.tip_over_margin(self.terrain, self.place(), &self.pose)?,
+            margin: self.vehicle.tip_over_margin_under(self.terrain, self.place(), &self.pose, &self.pull)?,
             clearance: self.vehicle.belly_clearance(self.terrain, self.place(), &self.pose)?,
         })
     }

@@ -13,24 +13,28 @@ pub(super) struct Recorder {
     poses: Vec<Isometry3<f64>>,
     channels: Vec<Channel>,
     crabs: bool,
+    weighs: bool,
 }
 
 const MOTION: [&str; 7] =
     ["leg", "vx_m_s", "vy_m_s", "vz_m_s", "speed_m_s", "curvature_1_m", "commanded_curvature_1_m"];
 const DIRECTION: [&str; 1] = ["travel_direction_rad"];
+const TORQUE: [&str; 1] = ["wheel_torque_n_m"];
 const STANDING: [&str; 2] = ["tip_over_margin_deg", "belly_clearance_m"];
 const JOINTS: [&str; 3] = ["joint_rocker_rad", "joint_left_bogie_rad", "joint_right_bogie_rad"];
 
 impl Recorder {
-    /// With the channels that `vehicle` has: what a point without wheels cannot tell is left out, and the direction of travel where
-    /// nothing `crabs`.
+    /// With the channels that `vehicle` has: what a point without wheels cannot tell is left out, the direction of travel where nothing
+    /// `crabs`, and torques where nothing weighs.
     pub(super) fn new(vehicle: &Rover, crabs: bool) -> Self {
         let standing: &[&str] = if vehicle.suspension == Suspension::Level { &[] } else { &STANDING };
         let joints: &[&str] = if matches!(vehicle.suspension, Suspension::RockerBogie(_)) { &JOINTS } else { &[] };
         let direction: &[&str] = if crabs { &DIRECTION } else { &[] };
-        let names = MOTION.iter().chain(&["slip"]).chain(direction).chain(standing).chain(joints);
+        let weighs = vehicle.weight.is_some();
+        let torque: &[&str] = if weighs { &TORQUE } else { &[] };
+        let names = MOTION.iter().chain(&["slip"]).chain(direction).chain(torque).chain(standing).chain(joints);
         let channels = names.map(|name| Channel { name: (*name).into(), values: vec![] }).collect();
-        Self { times: vec![], poses: vec![], channels, crabs }
+        Self { times: vec![], poses: vec![], channels, crabs, weighs }
     }
 
     /// Appends a sample; one that is not later than the last is left out. `least` is the worst since the sample before.
@@ -49,6 +53,9 @@ impl Recorder {
         let mut values = vec![leg as f64, v.x, v.y, v.z, plant.speed, plant.curvature(), commanded, plant.slip()];
         if self.crabs {
             values.push(plant.direction);
+        }
+        if self.weighs {
+            values.push(plant.torque().unwrap_or(0.0));
         }
         if self.channels.len() > values.len() {
             let least = if least.margin.is_finite() { *least } else { plant.stands()? };

@@ -1,5 +1,7 @@
+use nalgebra::Vector3;
+
 use super::plant::{Command, Lost, Plant};
-use crate::robot::rover::{Response, Rover, RoverDescription, Slip};
+use crate::robot::rover::{Response, Rover, RoverDescription, Slip, Weight, Wheels};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::{ElevationMap, Grid, HoleRule};
 
@@ -85,6 +87,67 @@ fn speeds_follow_with_the_bounded_acceleration_and_turns_wait_for_a_stop() {
     let mut car = Plant::new(&vehicle, &level, 0.0, &Planar::default()).unwrap();
     car.advance(&turn, 5.0).unwrap();
     assert_eq!(car.yaw, 0.0);
+}
+
+/// Of 50 kg on Mars, its wheels as strong as `torque` says.
+fn heavy(torque: f64, rolling_resistance: f64) -> Rover {
+    let rover = shipped("four-wheel");
+    let weight = Some(Weight { mass: 50.0, gravity: 3.71, rolling_resistance });
+    Rover { weight, wheels: Wheels { torque, ..rover.wheels }, ..rover }
+}
+
+/// v = (F/m − g (sin α + c cos α)) t with F = n τ / r; what is too steep for that is not climbed at all.
+#[test]
+fn torque_leaves_the_acceleration_that_climbing_and_rolling_do_not_take() {
+    for slope in [0.0_f64, 0.15, 0.3, -0.2] {
+        let angle = slope.atan();
+        let hill = plane(slope, 0.0);
+        for torque in [0.8, 1.5, 2.5] {
+            let vehicle = heavy(torque, 0.05);
+            let mut plant = Plant::new(&vehicle, &hill, 0.0, &Planar { x: -2.0, ..Planar::default() }).unwrap();
+            let spare = 4.0 * torque / 0.12 / 50.0 - 3.71 * (angle.sin() + 0.05 * angle.cos());
+            plant.advance(&Command { speed: 0.4, ..GO }, 0.2).unwrap();
+            let expected = (spare * 0.2).clamp(0.0, 0.4);
+            assert!((plant.speed - expected).abs() < 1e-6, "{slope} {torque}: {} m/s, {expected}", plant.speed);
+            let told = plant.torque().expect("a weight");
+            assert!(told <= torque + 1e-6 && (spare <= 0.0) == (told == 0.0), "{slope} {torque}: {told} N·m");
+            if (0.0..0.4).contains(&expected) && expected > 0.0 {
+                assert!((told - torque).abs() < 1e-6, "all that there is: {told} of {torque}");
+            }
+            plant.advance(&Command { speed: 0.4, ..GO }, 5.0).unwrap();
+            let steady = plant.torque().expect("a weight");
+            let needed = 50.0 * 3.71 * (angle.sin() + 0.05 * angle.cos()) * 0.12 / 4.0;
+            assert!(spare <= 0.0 || (steady - needed).abs() < 1e-6, "{slope} {torque}: {steady}, not {needed}");
+        }
+    }
+    // Carried on at speed onto what is too steep for it, it comes to rest, and stays.
+    let (hill, vehicle) = (plane(0.3, 0.0), heavy(0.8, 0.0));
+    let mut plant = Plant::new(&vehicle, &hill, 0.0, &Planar::default()).unwrap();
+    plant.speed = 0.4;
+    plant.advance(&Command { speed: 0.4, ..GO }, 10.0).unwrap();
+    let spare = 4.0 * 0.8 / 0.12 / 50.0 - 3.71 * 0.3_f64.atan().sin();
+    let way = 0.4_f64.powi(2) / (-2.0 * spare) * 0.3_f64.atan().cos();
+    assert!(plant.speed == 0.0 && (plant.x - way).abs() < 2e-3, "{} m, not {way}", plant.x);
+}
+
+/// A pull of sin 20° of the weight slips as 20° do, ahead and aside, and tips by as much as it leans gravity.
+#[test]
+fn a_steady_force_is_a_tilt_of_gravity() {
+    let (level, pull) = (plane(0.0, 0.0), 20_f64.to_radians().sin());
+    let vehicle = Rover { slip: Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 }, ..heavy(f64::INFINITY, 0.0) };
+    let run = |pull: [f64; 3]| {
+        let mut plant = Plant::new(&vehicle, &level, 0.0, &Planar::default()).unwrap();
+        let free = plant.stands().unwrap().margin;
+        plant.pull = Vector3::from(pull);
+        plant.advance(&GO, 20.0).unwrap();
+        (plant.x, plant.y, plant.slip(), plant.torque().expect("a weight"), plant.stands().unwrap().margin, free)
+    };
+    let (x, y, slip, torque, ..) = run([-pull, 0.0, 0.0]);
+    assert!((x - 2.0 * 0.7).abs() < 1e-9 && y.abs() < 1e-9 && (slip - 0.3).abs() < 1e-9, "{x} {y} {slip}");
+    assert!((torque - pull * 50.0 * 3.71 * 0.12 / 4.0).abs() < 1e-9, "{torque}");
+    let (x, y, slip, torque, margin, free) = run([0.0, pull, 0.0]);
+    assert!((x - 2.0).abs() < 1e-9 && (y - 2.0 * 0.15).abs() < 1e-9 && slip == 0.0 && torque == 0.0, "{x} {y}");
+    assert!((margin - (free - pull.atan())).abs() < 1e-9, "{margin} of {free}");
 }
 
 #[test]

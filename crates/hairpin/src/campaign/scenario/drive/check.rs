@@ -37,7 +37,7 @@ impl DriveScenario {
         self.check_task(rover.as_ref(), &mut found);
         check_generate(&self.generate, rover.as_ref(), &mut found);
         self.check_score(&mut found);
-        check_execute(&self.execute, &mut found);
+        check_execute(&self.execute, rover.as_ref(), &mut found);
         check_spec(&self.spec, &mut found);
         found.0
     }
@@ -216,7 +216,7 @@ fn check_speed(speed: &SpeedSection, rover: Option<&Rover>, found: &mut Findings
     found.require(idle || !given, "generate.speed.waypoint_m_s", "given", "left out where the speed is constant");
 }
 
-fn check_execute(execute: &DriveExecute, found: &mut Findings) {
+fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Findings) {
     let both = execute.controller.is_some() && execute.command.is_some();
     let given = format!("\"{}\"", execute.command.as_deref().unwrap_or_default());
     found.require(!both, "execute.command", given, "left out where `controller` is given: one of the two");
@@ -234,6 +234,14 @@ fn check_execute(execute: &DriveExecute, found: &mut Findings) {
     }
     if let Some(latency) = execute.latency_s {
         found.from("execute.latency_s", latency, 0.0, 60.0, " s");
+    }
+    if let Some(force) = execute.external_force_n {
+        for (axis, part) in force.into_iter().enumerate() {
+            found.from(&format!("execute.external_force_n[{axis}]"), part, -1e6, 1e6, " N");
+        }
+        let weighs = rover.is_none_or(|rover| rover.weight.is_some());
+        let bound = "left out, or robot.mass_kg and robot.forces given: it acts against a weight";
+        found.require(weighs, "execute.external_force_n", format!("{force:?}"), bound);
     }
     found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
     if let Some(workers) = execute.workers {

@@ -28,6 +28,9 @@ pub struct DriveExecute {
     /// A command acts this much later; the robot's own latency if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub latency_s: Option<f64>,
+    /// Steady force at the vehicle's centre of mass, east, north, up, that the plan does not know: a tether, a tow, wind. None if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub external_force_n: Option<[f64; 3]>,
     /// Whether controllers see a noisy pose: 1 cm along each axis and 0.3° of yaw.
     pub noise: bool,
     /// Wall-clock limit per mission of `command`.
@@ -49,6 +52,7 @@ impl Default for DriveExecute {
             accept_m: 0.5,
             time_limit_s: None,
             latency_s: None,
+            external_force_n: None,
             noise: false,
             timeout_s: 60.0,
             workers: None,

@@ -43,6 +43,14 @@ impl Pace {
         }
     }
 
+    /// Hardest change of speed, m/s².
+    pub(super) fn acceleration(&self) -> f64 {
+        match self {
+            Self::Constant => 0.0,
+            Self::Ramp(slopes) | Self::Trapezoid(slopes) => slopes.acceleration,
+        }
+    }
+
     /// The speeds of `legs`, driven one after the other at `speed` (m/s) at most, which wish for `wishes` (m/s) at their ends: one more
     /// than there are legs.
     ///

@@ -19,6 +19,8 @@ pub enum LegRefusal {
     Curvature,
     /// At the commanded speed the direction of travel turns faster than the wheels are steered.
     Steering,
+    /// The wheels would need more torque than they have.
+    Torque,
     /// The body tilts more than allowed.
     Tilt,
     /// A rocker or bogie turns more than allowed.
@@ -31,7 +33,7 @@ pub enum LegRefusal {
 
 impl LegRefusal {
     /// All, in order.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Detour,
         Self::Unsolved,
         Self::MapEdge,
@@ -39,6 +41,7 @@ impl LegRefusal {
         Self::NoRest,
         Self::Curvature,
         Self::Steering,
+        Self::Torque,
         Self::Tilt,
         Self::Joint,
         Self::Belly,
@@ -55,6 +58,7 @@ impl LegRefusal {
             Self::NoRest => "pass places where the wheels find no rest",
             Self::Curvature => "bend more than allowed",
             Self::Steering => "turn their direction of travel faster than the wheels are steered",
+            Self::Torque => "need more torque than the wheels have",
             Self::Tilt => "tilt more than allowed",
             Self::Joint => "turn a joint more than allowed",
             Self::Belly => "come too near to the ground with their underside",

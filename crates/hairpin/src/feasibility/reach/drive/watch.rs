@@ -1,5 +1,7 @@
 //! Follows a drive once more, closely: does it keep its limits, and what does it demand?
 
+use nalgebra::Vector3;
+
 use super::settings::{DriveSettings, DriveSite};
 use super::tally::LegRefusal;
 use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Steps, predict_while};
@@ -130,6 +132,9 @@ impl Watcher<'_> {
         self.refused = self.kept(at, metres, cos_roll * cos_pitch, settled).err();
         self.met.roll = self.met.roll.max(settled.roll.abs());
         if metres > 0.0 {
+            if self.refused.is_none() && !self.pulls(driven) {
+                self.refused = Some(LegRefusal::Torque);
+            }
             let (rise_x, rise_y) = (-sin_pitch, cos_pitch * sin_roll);
             let (sin, cos) = libm::sincos(self.direction.at(driven.s, self.length));
             let climb = cos * rise_x + sin * rise_y;
@@ -139,6 +144,24 @@ impl Watcher<'_> {
             self.met.slip += metres * slip;
         }
         self.refused.is_none()
+    }
+
+    /// Whether the wheels have the torque that a step takes, whichever way the speed changes.
+    fn pulls(&self, driven: &Driven) -> bool {
+        let rover = self.site.rover;
+        let most = rover.most_traction();
+        if most.is_infinite() {
+            return true;
+        }
+        let direction = libm::sincos(self.direction.at(driven.s, self.length));
+        let hardest = self.settings.pace.acceleration();
+        // Room for slopes between two looks, as for the tilt.
+        let room = rover.weight.map_or(0.0, |weight| weight.newtons() * ROOM);
+        [-hardest, hardest].into_iter().all(|acceleration| {
+            let (sign, none) = (driven.step.signum(), Vector3::zeros());
+            let effort = rover.effort(&driven.settled, direction, sign, acceleration, &none);
+            effort.is_none_or(|effort| effort.traction.abs() + room <= most)
+        })
     }
 
     fn kept(&mut self, at: &Planar, metres: f64, upright: f64, settled: &Settled) -> Result<(), LegRefusal> {
