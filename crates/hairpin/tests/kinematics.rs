@@ -127,12 +127,12 @@ fn on_rough_ground_drives_end_elsewhere_and_where_the_replay_says() {
     let (craters, rolling) = (cratered(), yard(0.3, f64::INFINITY));
     let lagging =
         Response { steering_time_constant: 0.2, steering_rate: 0.5, steered_axle: 0.5, ..Response::default() };
-    // Four wheels on one body stand on three where the ground is broken, rests are then not unique, and some drives are spared.
-    for (name, yard, response, bounds, spared) in [
-        ("rocky8", &craters, None, [5e-3, 1e-3], 0),
-        ("rocky7", &craters, None, [5e-3, 1e-3], 0),
-        ("four-wheel", &rolling, None, [5e-3, 5e-3], 5),
-        ("rocky8", &craters, Some(lagging), [5e-3, 1e-3], 0),
+    // Four wheels on one body stand on three where the ground is broken, and rests are then not unique.
+    for (name, yard, response, bounds) in [
+        ("rocky8", &craters, None, [5e-3, 1e-3]),
+        ("rocky7", &craters, None, [5e-3, 1e-3]),
+        ("four-wheel", &rolling, None, [3e-3, 2e-3]),
+        ("rocky8", &craters, Some(lagging), [5e-3, 1e-3]),
     ] {
         let (mut offs, mut differs) = ([Vec::new(), Vec::new()], 0.0_f64);
         for seed in 0..30 {
@@ -165,10 +165,7 @@ fn on_rough_ground_drives_end_elsewhere_and_where_the_replay_says() {
             }
         }
         let count = offs[0].len();
-        let worst = offs.map(|mut offs| {
-            offs.sort_by(f64::total_cmp);
-            offs[count - 1 - spared]
-        });
+        let worst = offs.map(|offs| offs.into_iter().fold(0.0, f64::max));
         println!("{name}: replay {worst:.5?}, source {differs:.3}, {count}");
         let agrees = worst[0] < bounds[0] && worst[1] < bounds[1];
         assert!(count >= 20 && agrees && differs > 0.02, "{name}: replay {worst:?}, source {differs}, {count} drives");

@@ -133,7 +133,8 @@ impl Rest {
             return Ok(());
         }
         let gaps_at = |unknowns: &Unknowns| gaps(stand, terrain, place, unknowns).map_err(NoRest::Ground);
-        if let Some(inverse) = &self.inverse {
+        // A neighbour's Jacobian closes gaps as its own does; where gaps remain it is another least that it leads to.
+        if let Some(inverse) = self.inverse.as_ref().filter(|_| !matches!(stand, Stand::FourWheel { .. })) {
             let (mut unknowns, mut last) = (self.unknowns, f64::INFINITY);
             for _ in 0..BORROWED {
                 let step = inverse * gaps_at(&unknowns)?;
