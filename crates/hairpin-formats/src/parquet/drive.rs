@@ -220,6 +220,11 @@ mod tests {
         let path = folder.path().join("0000.parquet");
         write(&path, &drive).unwrap();
         assert_eq!(read(&path).unwrap(), drive);
+        // Without its end, as older folders are, a direction stays as it begins.
+        let mut constant = drive.clone();
+        constant.legs.iter_mut().for_each(|leg| leg.direction.end = f64::NAN);
+        write(&path, &constant).unwrap();
+        assert!(read(&path).unwrap().legs.iter().all(|leg| leg.direction.end == leg.direction.start));
         let broken = Drive { speed: 0.0, ..drive.clone() };
         write(&path, &broken).unwrap();
         assert!(read(&path).unwrap_err().to_string().contains("speed_m_s"));
