@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use hairpin::campaign::drive::{Site, drive_piece, flat_claim, replay_flat};
-use hairpin::feasibility::steering::shooting::rough::Steps;
+use hairpin::campaign::drive::{drive_piece, flat_claim, replay_flat};
+use hairpin::campaign::states::States;
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
 use hairpin::robot::rover::Rover;
 use hairpin::trajectory::drive::Planar;
@@ -13,7 +13,7 @@ use hairpin_formats::steering::Status;
 use super::check::{Check, Test, percent};
 use super::store;
 use super::subject::{Subject, asked, flat_queries};
-use crate::commands::steer::Vehicle;
+use crate::commands::steer::{Rows, Vehicle};
 use crate::problem::Problem;
 
 /// Errors within which a goal counts as met: m, rad, 1/m. A hundredth of all drives that are asked for here is longer.
@@ -150,19 +150,19 @@ pub(super) fn flat(subject: &Subject) -> Result<[Test; 3], Problem> {
 
 /// Solves `goals` with `rover` on the rough ground and replays every answer, as `hairpin steer` does.
 pub(super) fn on_the_ground(subject: &Subject, rover: &Rover, goals: &[(Planar, Planar)]) -> Tally {
-    let site = Site::straight(rover, &subject.ground);
     let vehicle = Vehicle::on(rover.clone(), Some(subject.ground.clone()), None);
     let mut tally = Tally { asked: goals.len(), ..Tally::default() };
     for (start, goal) in goals {
-        let answered = vehicle.answer(&asked(start, goal));
+        let question = asked(start, goal);
+        let answered = vehicle.answer(&question);
         tally.seconds.push(answered.solving.as_secs_f64());
-        let Some((solution, replay)) = &answered.drive else {
+        let Some((_, replay)) = &answered.drive else {
             tally.told += usize::from(answered.limit.is_some());
             continue;
         };
-        let path = site.predict(start, &solution.segments, Steps::default());
-        // The shortest goals are one step away.
-        tally.paths += usize::from(path.is_ok_and(|path| path.steps > 0 && path.end.x.is_finite()));
+        let path = vehicle.follow(&question, &answered, Rows::Few);
+        let finite = |states: States| states.states.iter().all(|state| state.at.x.is_finite());
+        tally.paths += usize::from(path.is_some_and(finite));
         let [x, y, yaw] = replay.error;
         let errors = [libm::hypot(x, y), yaw.abs(), replay.error_curvature.abs()];
         tally.count(errors, answered.status == Status::Ok);

@@ -17,6 +17,7 @@ mod vehicle;
 use crate::args::Steer;
 use crate::folder;
 use crate::problem::Problem;
+pub(super) use pace::Rows;
 pub(crate) use start_table::make as make_table;
 pub(super) use vehicle::Vehicle;
 

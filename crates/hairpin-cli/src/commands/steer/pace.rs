@@ -171,7 +171,7 @@ impl Pace {
 
 /// How many states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Rows {
+pub(in crate::commands) enum Rows {
     /// As many as bounds and summaries need.
     Few,
     /// As the flags ask for.

@@ -162,7 +162,7 @@ impl Vehicle {
     }
 
     /// The states of an answer's drive, on the ground or in the plane; `None` without a drive, and where the ground ends.
-    pub(super) fn follow(&self, asked: &Asked, answered: &Answered, rows: Rows) -> Option<States> {
+    pub(in crate::commands) fn follow(&self, asked: &Asked, answered: &Answered, rows: Rows) -> Option<States> {
         let (solution, _) = answered.drive.as_ref()?;
         let (profile, start) = (answered.profile?, start(asked));
         let followed = self.pace.followed(&self.rover, profile, direction(asked), &solution.segments, rows);
