@@ -183,7 +183,7 @@ pub(super) fn rough(subject: &Subject) -> Result<[Test; 3], Problem> {
             stored.words()
         ),
         "all, and none worse",
-        paths + told == asked && stored.good(),
+        paths == asked && stored.good(),
     );
     let converged = |tally: &Tally| format!("{} of {} ({:.2} %)", tally.met, tally.asked, tally.share());
     let convergence = Check::new(
