@@ -34,6 +34,10 @@ const STEEP: f64 = PI / 6.0;
 const MARGIN: f64 = 2.0;
 /// Steps of the drives whose ends are goals on the ground.
 const FINE: Steps = Steps { length: 0.005, angle: 0.005, least: 100 };
+/// Steps in which those are driven again where the body's roll or pitch differs by more than this (rad) from what was foreseen: of
+/// 10 000 drives on a Mars yard 23 do, and one of them leads nowhere.
+const FINEST: Steps = Steps { length: 0.001, angle: 0.001, least: 500 };
+const FALL: f64 = 0.05;
 /// Drives that are tried for a goal on the ground, at most: maps may be too steep or too small.
 const TRIES: usize = 100;
 
@@ -127,9 +131,13 @@ pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(
         let start = Planar { x, y, yaw: between(random, &(-PI..PI)), curvature: arc.curvature_at(0.0) };
         // Commands act late: until then the vehicle goes on as it was.
         let wait = Segment::clothoid(wait_m, start.curvature, start.curvature, Gear::Forward);
-        let driven =
-            if wait_m > 0.0 { site.predict(&start, &[wait, arc], FINE) } else { site.predict(&start, &[arc], FINE) };
-        let Ok(driven) = driven else { continue };
+        let (both, alone) = ([wait, arc], [arc]);
+        let commands: &[Segment] = if wait_m > 0.0 { &both } else { &alone };
+        let Ok(driven) = site.predict(&start, commands, FINE) else { continue };
+        // Where a body falls, a step may lead over a gap in which it has no rest at all.
+        if driven.surprise > FALL && site.predict(&start, commands, FINEST).is_err() {
+            continue;
+        }
         if driven.tilt.0 <= STEEP && inside(0).contains(&driven.end.x) && inside(1).contains(&driven.end.y) {
             goals.push((start, driven.end));
         }

@@ -185,10 +185,7 @@ pub fn replay_ground<T: Terrain>(
                 }
                 let mut rates = |state: &[f64; 4], s: f64| -> Result<[f64; 4], NoRest> {
                     let place = [state[0], state[1], state[2]];
-                    // Where the body falls over an edge, the rest it comes to is not near the one before.
-                    if rest.follow(&vehicle.stand, terrain, place).is_err() {
-                        rest = Rest::find(&vehicle.stand, terrain, place)?;
-                    }
+                    rest.carry_on(&vehicle.stand, terrain, place)?;
                     max_tilt = max_tilt.max(tilt(&rest));
                     Ok(vehicle.rates(&way, &rest, state, s))
                 };

@@ -64,6 +64,21 @@ const GUESSES: [(f64, f64); 14] = [
     (0.25, 0.1),
     (0.75, 0.1),
 ];
+/// Joints, and the angles by which they are folded before the rest of a body that falls is looked for from where it stood, in turn.
+const FALLS: [(usize, f64); 12] = [
+    (3, 0.6),
+    (3, -0.6),
+    (4, 0.6),
+    (4, -0.6),
+    (5, 0.6),
+    (5, -0.6),
+    (3, 0.3),
+    (3, -0.3),
+    (4, 0.3),
+    (4, -0.3),
+    (5, 0.3),
+    (5, -0.3),
+];
 /// Steps shorter than this end the search, m and rad.
 const CLOSED: f64 = 1e-9;
 /// Steps with the neighbour's Jacobian, and Jacobians, before the search is given up.
@@ -121,8 +136,32 @@ impl Rest {
         Err(refused)
     }
 
+    /// Brings the body to rest at `place`, near the rest it had before; where it falls over an edge, wherever it comes to rest.
+    pub(super) fn carry_on<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
+        let before = self.unknowns;
+        if self.follow(stand, terrain, place).is_ok() {
+            return Ok(());
+        }
+        let refused = match Self::find(stand, terrain, place) {
+            Ok(found) => {
+                *self = found;
+                return Ok(());
+            }
+            Err(why) => why,
+        };
+        for (joint, angle) in FALLS {
+            let mut fallen = Self { unknowns: before, inverse: None };
+            fallen.unknowns[joint] += angle;
+            if fallen.follow(stand, terrain, place).is_ok() {
+                *self = fallen;
+                return Ok(());
+            }
+        }
+        Err(refused)
+    }
+
     /// Brings the body to rest at `place`, from the rest it had before; no link of it on its head.
-    pub(super) fn follow<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
+    fn follow<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
         self.approach(stand, terrain, place)?;
         let upright = self.unknowns.rows(3, 3).iter().all(|joint| joint.abs() <= std::f64::consts::FRAC_PI_2);
         if upright { Ok(()) } else { Err(NoRest::NotFound) }

@@ -31,13 +31,13 @@ pub(super) fn carry<T: Terrain>(
     h: f64,
     body: impl Fn(&Place) -> [f64; 3],
 ) -> Result<[f64; 3], NoRest> {
-    settle(stand, terrain, rest, from)?;
+    rest.carry_on(stand, terrain, from)?;
     let (begun, origin) = (attitude(rest, from[2]), Vector3::new(from[0], from[1], rest.height()));
     let leant = Place { roll: rest.roll(), pitch: rest.pitch() };
     let mut place = from;
     let mut left = f64::INFINITY;
     for _ in 0..TRIES {
-        settle(stand, terrain, rest, place)?;
+        rest.carry_on(stand, terrain, place)?;
         let (ended, there) = (attitude(rest, place[2]), Vector3::new(place[0], place[1], rest.height()));
         let turned = small_turn(&(begun.transpose() * ended));
         // In the frame halfway between the two.
@@ -73,14 +73,6 @@ fn rotation(turn: &Vector3<f64>) -> Matrix3<f64> {
     let (sin, cos) = libm::sincos(angle);
     let across = (turn / angle).cross_matrix();
     Matrix3::identity() + sin * across + (1.0 - cos) * across * across
-}
-
-fn settle<T: Terrain>(stand: &Stand, terrain: &T, rest: &mut Rest, place: [f64; 3]) -> Result<(), NoRest> {
-    // Where the body falls over an edge, the rest it comes to is not near the one before.
-    if rest.follow(stand, terrain, place).is_err() {
-        *rest = Rest::find(stand, terrain, place)?;
-    }
-    Ok(())
 }
 
 fn attitude(rest: &Rest, yaw: f64) -> Matrix3<f64> {

@@ -22,6 +22,21 @@ pub enum Suspension {
 
 /// How far above the ground's height a search for rest begins when it found none from there, m.
 const ABOVE: f64 = 0.3;
+/// Joints, and the angles (rad) by which they are folded before the rest of a body that falls is looked for, in turn.
+const FALLS: [(usize, f64); 12] = [
+    (1, 0.6),
+    (1, -0.6),
+    (2, 0.6),
+    (2, -0.6),
+    (0, 0.6),
+    (0, -0.6),
+    (1, 0.3),
+    (1, -0.3),
+    (2, 0.3),
+    (2, -0.3),
+    (0, 0.3),
+    (0, -0.3),
+];
 /// Gaps from which one more step of Newton ends at rounding errors, m.
 const EXACT: f64 = 1e-6;
 
@@ -88,6 +103,30 @@ impl Suspension {
             );
         }
         found
+    }
+
+    /// The pose at a place near the last one, from `guess`, that one carried on: where the body falls over an edge, a rest that it comes
+    /// to. `coarse` as for [`Self::settle`].
+    ///
+    /// # Errors
+    /// [`Unsettled`]: no ground, or no rest found.
+    pub fn carry_on<T: Terrain>(
+        &self,
+        terrain: &T,
+        at: [f64; 3],
+        guess: &Settled,
+        coarse: f64,
+    ) -> Result<(Settled, Gradient), Unsettled> {
+        let found = self.settle(terrain, at, guess, coarse).or_else(|_| self.settle_cold(terrain, at));
+        if found.is_ok() || matches!(found, Err(Unsettled::NoGround(_))) || !matches!(self, Self::RockerBogie(_)) {
+            return found;
+        }
+        let fallen = |(joint, angle): (usize, f64)| {
+            let mut folded = *guess;
+            folded.joints[joint] += angle;
+            self.settle(terrain, at, &folded, EXACT).ok()
+        };
+        FALLS.into_iter().find_map(fallen).map_or(found, Ok)
     }
 
     /// Centres of the wheels in the body frame for given joints, how many there are, and their radius, m.

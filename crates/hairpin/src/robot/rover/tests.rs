@@ -1,6 +1,8 @@
 use nalgebra::Vector3;
 
 use super::*;
+use crate::math::random::{stream, unit};
+use crate::world::terrain::generate::{Recipe, generate};
 use crate::world::terrain::{Flat, Function, NoGround, Patch, Terrain};
 
 fn shipped(name: &str) -> Rover {
@@ -91,6 +93,47 @@ fn a_step_under_one_wheel_turns_rocker_and_bogie_as_by_hand() {
     let rise = (0.5 * step) / (0.288 + 0.1208);
     assert!((settled.pitch - level.pitch - 0.5 * rise).abs() < 2e-3, "{settled:?} {level:?}");
     assert!((settled.joints[0] - level.joints[0] - 0.5 * rise).abs() < 2e-3, "{settled:?} {level:?}");
+}
+
+#[test]
+fn a_body_that_falls_over_an_edge_finds_the_rest_that_there_is() {
+    let rover = shipped("rocky8");
+    let suspension = &rover.suspension;
+    let mut random = stream(7);
+    let (mut falls, mut lost) = (0, 0);
+    // Cells of 5 cm with rocks: the wheels' contacts have edges.
+    let recipe = Recipe { size_m: 20.0, cell_m: 0.05, relief_m: 0.5, rock_cover: 0.1, seed: 3, ..Recipe::default() };
+    let yard = generate(&recipe).expect("a yard");
+    for _ in 0..100 {
+        let [x, y] = [(); 2].map(|()| 3.0 + 14.0 * unit(&mut random));
+        let yaw = 2.0 * std::f64::consts::PI * unit(&mut random);
+        let Ok((mut rest, _)) = suspension.settle_cold(&yard, [x, y, yaw]) else { continue };
+        for step in 1..1000 {
+            let s = 0.002 * f64::from(step);
+            let at = [x + s * yaw.cos(), y + s * yaw.sin(), yaw];
+            let last = rest;
+            match suspension.carry_on(&yard, at, &last, 2e-3) {
+                Ok((found, _)) => rest = found,
+                Err(Unsettled::OnItsHead) => break,
+                Err(why) => {
+                    let mut guess = || {
+                        let mut by = |most: f64| most * (2.0 * unit(&mut random) - 1.0);
+                        let joints = [last.joints[0] + by(0.6), last.joints[1] + by(1.0), last.joints[2] + by(1.0)];
+                        Settled { z: last.z + by(0.1), roll: last.roll + by(0.3), pitch: last.pitch + by(0.3), joints }
+                    };
+                    let other = (0..200).find_map(|_| suspension.settle(&yard, at, &guess(), 1e-6).ok());
+                    if let Some((other, _)) = other {
+                        lost += 1;
+                        println!("at {at:?}: {why}, but {other:?} rests, after {last:?}");
+                        rest = other;
+                    }
+                }
+            }
+            falls += usize::from((0..3).any(|i| (rest.joints[i] - last.joints[i]).abs() > 0.1));
+        }
+    }
+    println!("{falls} falls, {lost} rests not found");
+    assert!(falls >= 10 && lost == 0, "{falls} falls, {lost} rests not found");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
-use crate::robot::rover::{Effort, Gradient, Rover, Settled, Suspension, slip_share};
+use crate::robot::rover::{Effort, Gradient, Rover, Settled, Suspension, Unsettled, slip_share};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
 
@@ -32,6 +32,15 @@ pub(super) enum Lost {
 impl From<NoGround> for Lost {
     fn from(_: NoGround) -> Self {
         Lost::NoGround
+    }
+}
+
+impl From<Unsettled> for Lost {
+    fn from(why: Unsettled) -> Self {
+        match why {
+            Unsettled::NoGround(_) => Self::NoGround,
+            _ => Self::NoRest,
+        }
     }
 }
 
@@ -111,15 +120,11 @@ impl<'a> Plant<'a> {
     }
 
     fn rest_from_nothing(&self) -> Result<(Settled, Gradient), Lost> {
-        use crate::robot::rover::Unsettled::{self, NoGround};
         if self.vehicle.suspension == Suspension::Level {
             // A point needs no wheels to stand, but it does need ground.
             self.terrain.patch(self.x, self.y)?;
         }
-        self.vehicle.suspension.settle_cold(self.terrain, self.place()).map_err(|why: Unsettled| match why {
-            NoGround(_) => Lost::NoGround,
-            _ => Lost::NoRest,
-        })
+        self.vehicle.suspension.settle_cold(self.terrain, self.place()).map_err(Lost::from)
     }
 
     /// κ of the wheels as they are steered, 1/m.
@@ -170,11 +175,7 @@ impl<'a> Plant<'a> {
         let guess = self.pose.moved(&self.gradient.over(moved));
         (self.pose, self.gradient) = match self.vehicle.suspension {
             Suspension::Level => self.rest_from_nothing()?,
-            _ => self
-                .vehicle
-                .suspension
-                .settle(self.terrain, self.place(), &guess, GAP)
-                .or_else(|_| self.rest_from_nothing())?,
+            _ => self.vehicle.suspension.carry_on(self.terrain, self.place(), &guess, GAP).map_err(Lost::from)?,
         };
         Ok(())
     }

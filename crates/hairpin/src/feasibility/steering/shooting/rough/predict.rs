@@ -341,10 +341,8 @@ impl Walk {
         let blocked = |cause: Cause| Blocked { after_m: self.travelled, cause };
         let suspension = &course.rover.suspension;
         let foreseen = self.carried(middle);
-        let (settled, gradient) = suspension
-            .settle(course.terrain, place, &foreseen, COARSE)
-            .or_else(|_| suspension.settle_cold(course.terrain, place))
-            .map_err(|cause| blocked(cause.into()))?;
+        let (settled, gradient) =
+            suspension.carry_on(course.terrain, place, &foreseen, COARSE).map_err(|cause| blocked(cause.into()))?;
         if settled.pitch.abs() >= ON_END {
             return Err(blocked(Cause::Overturned));
         }
