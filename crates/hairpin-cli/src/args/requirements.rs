@@ -20,6 +20,9 @@ pub(crate) struct Requirements {
     pub(crate) terrain: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) map: MapFlags,
+    /// Put rocks on that map, which cover this share of it; those of two cells and more
+    #[arg(long, value_name = "SHARE", requires = "terrain")]
+    pub(crate) rocks: Option<f64>,
     /// Queries of each large family
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(20..=1_000_000))]
     pub(crate) queries: u32,

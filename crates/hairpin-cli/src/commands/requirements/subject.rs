@@ -9,7 +9,7 @@ use hairpin::math::random::stream;
 use hairpin::robot::rover::{Response, Rover, Slip};
 use hairpin::trajectory::drive::Planar;
 use hairpin::world::terrain::generate::{Recipe, generate};
-use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, Terrain};
+use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, Rocks, Terrain, add_rocks};
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{Asked, Frame};
 
@@ -29,6 +29,9 @@ pub(super) const CRATERS: Recipe = Recipe {
     seed: 3,
 };
 
+/// Diameter to which larger rocks are cut, m.
+const LARGEST_ROCK: f64 = 1.5;
+
 /// Vehicles, ground, and how many queries.
 pub(super) struct Subject {
     /// Unity response, a point in the plane.
@@ -46,7 +49,13 @@ impl Subject {
     pub(super) fn new(asked: &Requirements) -> Result<Self, Problem> {
         let rocky8 = rover_for("rocky8")?;
         let (ground, ground_name) = match &asked.terrain {
-            Some(path) => (terrain::read(path, &asked.map, HoleRule::KeepOut)?, path.display().to_string()),
+            Some(path) => {
+                let (map, name) = (terrain::read(path, &asked.map, HoleRule::KeepOut)?, path.display().to_string());
+                match asked.rocks {
+                    Some(cover) => rocky(&map, &name, cover)?,
+                    None => (map, name),
+                }
+            }
             None => {
                 let name = format!("the generator's craters, seed {}, {} m", CRATERS.seed, CRATERS.size_m);
                 (generate(&CRATERS).map_err(Problem::input)?, name)
@@ -109,6 +118,15 @@ impl Subject {
         }
         Ok(goals)
     }
+}
+
+/// `map` with rocks that cover the share `cover` of it, and what it is then called.
+fn rocky(map: &ElevationMap, name: &str, cover: f64) -> Result<(ElevationMap, String), Problem> {
+    let (low, high) = map.extent();
+    let cell = map.grid().cell[0].max(map.grid().cell[1]);
+    let rocks = Rocks { cover, least_m: 2.0 * cell, most_m: LARGEST_ROCK, seed: 2021 };
+    let rocks = rocks.scatter(low, high).map_err(|error| Problem::input(format!("--rocks {cover}: {error}")))?;
+    Ok((add_rocks(map, &rocks), format!("{name} with {} rocks", rocks.len())))
 }
 
 pub(super) fn bounds(rover: &Rover) -> Curvatures {
