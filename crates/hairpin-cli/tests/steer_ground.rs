@@ -97,6 +97,15 @@ fn what_stands_in_the_way_is_named() {
     assert_eq!((code, &answer["status"]), (0, &Value::from("ok")), "{answer}");
     let (code, answer) = steer(folder.path(), "rocky8", &["--from", "8,5,0", "--to", "14,5,0", "--no-data", "fill"]);
     assert_eq!((code, &answer["limit"]), (3, &Value::from("map_edge")), "{answer}");
+    // The goal lies 4 m beyond; the wheels meet the edge before, and up to there it is a drive.
+    assert!((answer["excess"].as_f64().unwrap() - 4.0).abs() < 0.11, "{answer}");
+    let [stop, before] =
+        ["standstill", "goal_on_the_way"].map(|key| ["x", "y"].map(|axis| answer[key][axis].as_f64().expect(key)));
+    assert!(stop[0] > 9.0 && stop[0] < 10.0 && before[0] > 8.5 && before[0] < stop[0], "{answer}");
+    let before =
+        format!("{},{},{},{}", before[0], before[1], answer["goal_on_the_way"]["yaw"], answer["goal_on_the_way"]["kf"]);
+    let (code, answer) = steer(folder.path(), "rocky8", &["--from", "8,5,0", "--to", &before, "--no-data", "fill"]);
+    assert_eq!((code, &answer["status"]), (0, &Value::from("ok")), "{answer}");
     // A wall of 60°, over the tilt that is allowed.
     hills(folder.path(), |x, _| 1.7 * x.clamp(0.0, 3.0));
     let (code, answer) = steer(folder.path(), "rocky8", &["--from", "-3,0,0", "--to", "2,0,0"]);

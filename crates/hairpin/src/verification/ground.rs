@@ -154,8 +154,10 @@ pub fn replay_ground<T: Terrain>(
             DrivePiece::Turn { angle_rad } => (*angle_rad, (angle_rad.abs() / TURN_STEP).ceil().max(16.0) as usize),
         };
         let h = length / count as f64;
+        let metres = if own.is_some() { 1.0 } else { 0.0 };
         for i in 0..count {
             let begun = length * i as f64 / count as f64;
+            let stopped = |no| stopped(driven + metres * begun, no);
             let parts = vehicle.parts(claim.pace(driven - wait + begun, h) * h);
             let h = h / parts as f64;
             for part in 0..parts {
@@ -176,7 +178,7 @@ pub fn replay_ground<T: Terrain>(
                     let bend = libm::tan(0.5 * (state[3] + angle)) / vehicle.steered_axle_m;
                     let body = |place: &Place| vehicle.body_rates(&way, place, s + 0.5 * h, bend);
                     let carried = carry(&vehicle.stand, terrain, &mut rest, [state[0], state[1], state[2]], h, body);
-                    let place = carried.map_err(|no| stopped(driven, no))?;
+                    let place = carried.map_err(stopped)?;
                     state = [place[0], place[1], place[2], steered.unwrap_or(angle)];
                     max_tilt = max_tilt.max(tilt(&rest));
                     max_torque = max_torque.max(vehicle.torque(&way, &rest));
@@ -190,7 +192,7 @@ pub fn replay_ground<T: Terrain>(
                     Ok(vehicle.rates(&way, &rest, state, s))
                 };
                 let middle = rates(&state, s).and_then(|k1| rates(&moved(&state, &k1, 0.5 * h), s + 0.5 * h));
-                let k2 = middle.map_err(|no| stopped(driven, no))?;
+                let k2 = middle.map_err(stopped)?;
                 state = moved(&state, &k2, h);
                 state[3] = steered.unwrap_or(state[3]);
                 max_torque = max_torque.max(vehicle.torque(&way, &rest));

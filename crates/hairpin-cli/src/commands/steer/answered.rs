@@ -27,6 +27,8 @@ pub(in crate::commands) struct Answered {
     pub(in crate::commands) limit: Option<(&'static str, Option<f64>)>,
     /// Which place to keep out of that is.
     pub(super) near: Option<Near>,
+    /// The drive that the ground lets go no further, and after how many metres.
+    pub(super) stopped: Option<(Solution, f64)>,
     /// The bounds that were in force.
     pub(super) bounds: Curvatures,
     /// Curvatures that would be feasible, where those asked for are not.
@@ -47,8 +49,9 @@ impl Answered {
         bounds: Curvatures,
         solving: Duration,
     ) -> Self {
-        let (drive, near, nearest, profile, parameters, cost) = (None, None, None, None, None, None);
-        Self { status, drive, solving, limit, near, bounds, nearest, profile, parameters, cost }
+        let (drive, near, stopped, nearest, profile) = (None, None, None, None, None);
+        let (parameters, cost) = (None, None);
+        Self { status, drive, solving, limit, near, stopped, bounds, nearest, profile, parameters, cost }
     }
 }
 

@@ -7,12 +7,12 @@ use hairpin::feasibility::steering::clear::{Around, Intrusion, footprint};
 use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
 use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Goal, Precision, Query};
-use hairpin::feasibility::steering::shooting::rough::{Answer, Blocked, Cause, Settings, Status as Found};
+use hairpin::feasibility::steering::shooting::rough::{Answer, Cause, Settings, Status as Found};
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, Solution};
 use hairpin::feasibility::steering::shooting::{Control, generate};
 use hairpin::robot::rover::{Rover, Unsettled};
 use hairpin::trajectory::drive::{Planar, SegmentList};
-use hairpin::verification::{DriveReplay, GroundReplay, Stopped, replay_drive};
+use hairpin::verification::{DriveReplay, GroundReplay, replay_drive};
 use hairpin::world::terrain::{ElevationMap, HoleRule, NoGround};
 use hairpin_formats::steering::{Asked, Status};
 
@@ -81,13 +81,18 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
         near: Some(near.clone()),
         ..answered(Status::Infeasible, Some(near.limit()), drive)
     };
+    let stopped = |limit, after_m| Answered {
+        stopped: (!solution.segments.is_empty()).then_some((solution, after_m)),
+        ..answered(Status::Infeasible, Some(limit), None)
+    };
     let ground = match (&status, &replay) {
         (Found::Blocked(blocked), _) if !ran_out => {
-            return answered(Status::Infeasible, Some((way(blocked), None)), None);
+            let after_m = replay.as_ref().map_or_else(|stop| stop.after_m, |_| blocked.after_m);
+            return stopped(named(map, &goal, &blocked.cause), after_m);
         }
-        (_, Err(stopped)) if !ran_out => {
-            let limit = Some((stands_in_the_way(stopped), None));
-            return near.map_or_else(|| answered(Status::Infeasible, limit, None), |near| too_near(near, None));
+        (_, Err(stop)) if !ran_out => {
+            let limit = stop.no_ground.as_ref().map_or(("rest", None), |place| no_ground(map, &goal, place));
+            return near.map_or_else(|| stopped(limit, stop.after_m), |near| too_near(near, None));
         }
         (_, Err(_)) => return answered(Status::TimeLimit, None, None),
         (_, Ok(ground)) => ground,
@@ -178,21 +183,27 @@ fn on_the_ground(flat: &DriveReplay, ground: &GroundReplay, start: &Planar) -> D
     }
 }
 
-fn way(blocked: &Blocked) -> &'static str {
-    match blocked.cause {
-        Cause::Unsettled(Unsettled::NoGround(place)) => no_ground(&place),
-        Cause::Unsettled(_) => "rest",
-        Cause::Overturned => "tilt_rad",
+/// What stops a drive, and by how much it is exceeded where that is a length.
+fn named(map: &ElevationMap, goal: &Planar, cause: &Cause) -> (&'static str, Option<f64>) {
+    match cause {
+        Cause::Unsettled(Unsettled::NoGround(place)) => no_ground(map, goal, place),
+        Cause::Unsettled(_) => ("rest", None),
+        Cause::Overturned => ("tilt_rad", None),
     }
 }
 
-fn stands_in_the_way(stopped: &Stopped) -> &'static str {
-    stopped.no_ground.as_ref().map_or("rest", no_ground)
-}
-
-fn no_ground(place: &NoGround) -> &'static str {
+/// A place without ground; beyond the map's edge lies the goal by so many metres, or else that place.
+fn no_ground(map: &ElevationMap, goal: &Planar, place: &NoGround) -> (&'static str, Option<f64>) {
+    let (low, high) = map.extent();
+    let beyond = |at: [f64; 2]| {
+        let over = [0, 1].map(|i| (low[i] - at[i]).max(at[i] - high[i]).max(0.0));
+        libm::hypot(over[0], over[1])
+    };
     match place {
-        NoGround::OffMap { .. } => "map_edge",
-        NoGround::Hole { .. } => "no_data",
+        NoGround::OffMap { x, y } => {
+            let goal = beyond([goal.x, goal.y]);
+            ("map_edge", Some(if goal > 0.0 { goal } else { beyond([*x, *y]) }))
+        }
+        NoGround::Hole { .. } => ("no_data", None),
     }
 }

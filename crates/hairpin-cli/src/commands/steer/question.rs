@@ -46,10 +46,16 @@ pub(super) fn typed(asked: &Asked, goal: &[f64; 4]) -> [f64; 4] {
     let [x0, y0, yaw0] = asked.start.unwrap_or([0.0; 3]);
     let (sin, cos) = libm::sincos(yaw0);
     let [dx, dy, turned, curvature] = *goal;
-    let (x, y, yaw) = (x0 + cos * dx - sin * dy, y0 + sin * dx + cos * dy, yaw0 + turned);
-    match asked.frame {
-        Frame::Enu => [x, y, yaw, curvature],
-        Frame::Ned => [y, x, other_yaw(yaw), -curvature],
+    let place = [x0 + cos * dx - sin * dy, y0 + sin * dx + cos * dy, yaw0 + turned];
+    let [x, y, yaw] = seen(asked.frame, place);
+    [x, y, yaw, asked.frame.left() * curvature]
+}
+
+/// x, y and yaw on the map as `frame` has them.
+pub(super) fn seen(frame: Frame, [x, y, yaw]: [f64; 3]) -> [f64; 3] {
+    match frame {
+        Frame::Enu => [x, y, yaw],
+        Frame::Ned => [y, x, other_yaw(yaw)],
     }
 }
 

@@ -1,14 +1,18 @@
 //! What would help where a question has no answer, or one that goes a long way round.
 
+use hairpin::campaign::drive::Site;
 use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::nearest::{direct_arc, nearest};
 use hairpin::feasibility::steering::shooting::query::{Goal, Query};
+use hairpin::feasibility::steering::shooting::rough::Steps;
 use hairpin::feasibility::steering::shooting::solve::{Choices, least_length};
 use hairpin::feasibility::steering::shooting::{Control, flat::Settings};
+use hairpin::trajectory::drive::Planar;
 use hairpin_formats::steering::{Asked, Status};
 
 use super::answered::Answered;
 use super::means::Means;
+use super::pace::{direction, start};
 use super::plane::hazards;
 use super::vehicle::{Vehicle, query};
 
@@ -21,6 +25,10 @@ pub(super) struct Remedies {
     pub(super) with_turns_m: Option<f64>,
     /// The nearest goal from the start (x, y, yaw, curvature) that one arc leads to without a loop.
     pub(super) nearest: Option<[f64; 4]>,
+    /// Where the ground stops it: metres driven before, and the last place of rest, on the map.
+    pub(super) standstill: Option<(f64, Planar)>,
+    /// The farthest goal that is feasible on the way there.
+    pub(super) on_the_way: Option<[f64; 4]>,
     /// How many times longer the drive is than any would have to be.
     pub(super) detour: Option<f64>,
 }
@@ -29,6 +37,10 @@ pub(super) struct Remedies {
 const WORTH_IT: f64 = 0.7;
 /// A drive longer than any would have to be by this factor goes a long way round.
 const LONG: f64 = 1.5;
+/// Metres before a standstill at which a goal is tried, in turn.
+const BACK: [f64; 6] = [0.02, 0.1, 0.25, 0.5, 1.0, 2.0];
+/// Steps in which the way to there is told.
+const CLOSELY: Steps = Steps { length: 0.01, angle: 0.01, least: 50 };
 /// The search for the nearest goal asks hundreds of times; the precision of what it asks for.
 const SHARE: f64 = 0.1;
 
@@ -65,7 +77,37 @@ impl Vehicle {
         if short.is_none_or(|length| length > LONG * least) {
             remedies.nearest = self.nearest(&kept, &query);
         }
+        let way = self.way(asked, answered);
+        remedies.standstill = way.last().copied();
+        remedies.on_the_way = self.on_the_way(asked, &way);
         remedies
+    }
+
+    /// The way to where the ground stops a drive: places on the map, with the metres driven to them.
+    fn way(&self, asked: &Asked, answered: &Answered) -> Vec<(f64, Planar)> {
+        let (Some(map), Some((solution, after_m)), Some(speed)) = (&self.map, &answered.stopped, answered.profile)
+        else {
+            return Vec::new();
+        };
+        let site = Site { rover: &self.rover, map, speed, direction: direction(asked) };
+        let mut way = site.way(&start(asked), &solution.segments, CLOSELY);
+        // The replay looks closer than these steps.
+        way.retain(|(s, _)| s <= after_m);
+        way
+    }
+
+    /// The farthest goal on a way that is answered itself, of a few.
+    fn on_the_way(&self, asked: &Asked, way: &[(f64, Planar)]) -> Option<[f64; 4]> {
+        let (most, start, (end, _)) = (self.bounds(asked).most, start(asked), way.last()?);
+        let (sin, cos) = libm::sincos(start.yaw);
+        BACK.into_iter().find_map(|back| {
+            let (_, place) = way.iter().rfind(|(s, _)| *s <= end - back)?;
+            let (dx, dy) = (place.x - start.x, place.y - start.y);
+            let [x, y, yaw] = [cos * dx + sin * dy, cos * dy - sin * dx, place.yaw - start.yaw];
+            let kf = place.curvature.clamp(-most, most);
+            let there = Asked { goal: [x, y, yaw], kf, ..*asked };
+            (self.answer_by(&there, &self.means).status == Status::Ok).then_some([x, y, yaw, kf])
+        })
     }
 
     /// The nearest goal that one polynomial leads to and that is answered itself; other families have no quick search.

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::answered::{Answered, named};
 use super::exported;
-use super::question::{asked, pieces, stretches, typed};
+use super::question::{asked, pieces, seen, stretches, typed};
 use super::remedy::Remedies;
 use super::vehicle::Vehicle;
 use crate::args::Steer;
@@ -65,9 +65,15 @@ fn add_remedies(object: &mut Value, remedies: &Remedies, asked: &Asked) {
             object[key] = value.into();
         }
     }
-    if let Some(nearest) = &remedies.nearest {
-        let [x, y, yaw, kf] = typed(asked, nearest);
-        object["nearest_goal"] = json!({ "x": x, "y": y, "yaw": yaw, "kf": kf });
+    if let Some((after_m, at)) = &remedies.standstill {
+        let [x, y, yaw] = seen(asked.frame, [at.x, at.y, at.yaw]);
+        object["standstill"] = json!({ "after_m": after_m, "x": x, "y": y, "yaw": yaw });
+    }
+    for (key, goal) in [("nearest_goal", &remedies.nearest), ("goal_on_the_way", &remedies.on_the_way)] {
+        if let Some(goal) = goal {
+            let [x, y, yaw, kf] = typed(asked, goal);
+            object[key] = json!({ "x": x, "y": y, "yaw": yaw, "kf": kf });
+        }
     }
 }
 
@@ -78,9 +84,19 @@ fn told(remedies: &Remedies, asked: &Asked) -> Vec<String> {
         .into_iter()
         .filter_map(|(flag, metres)| Some(format!("{flag} would do it in {:.3} m", metres?)))
         .collect();
-    if let Some(nearest) = &remedies.nearest {
-        let [x, y, yaw, kf] = typed(asked, nearest);
-        lines.push(format!("nearest goal that one arc leads to: --to {x:.4},{y:.4},{yaw:.4},{kf:.4}"));
+    if let Some((after_m, at)) = &remedies.standstill {
+        let [x, y, yaw] = seen(asked.frame, [at.x, at.y, at.yaw]);
+        lines.push(format!("the ground ends the drive after {after_m:.3} m, at {x:.3},{y:.3},{yaw:.3}"));
+    }
+    let goals = [
+        ("nearest goal that one arc leads to", &remedies.nearest),
+        ("farthest feasible goal on the way there", &remedies.on_the_way),
+    ];
+    for (what, goal) in goals {
+        if let Some(goal) = goal {
+            let [x, y, yaw, kf] = typed(asked, goal);
+            lines.push(format!("{what}: --to {x:.4},{y:.4},{yaw:.4},{kf:.4}"));
+        }
     }
     lines
 }

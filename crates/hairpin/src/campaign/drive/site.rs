@@ -4,7 +4,7 @@ use crate::feasibility::steering::clear::{Around, ClearedOnGround, solve_on_grou
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, GroundCost, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
 use crate::robot::rover::{Kinematics, Rover, Suspension};
-use crate::trajectory::drive::{Motion, Planar, Segment, SegmentList, shortened};
+use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::verification::{
     DriveClaim, DrivePiece, DriveReplay, GroundClaim, GroundReplay, GroundVehicle, Haul, Stand, Stopped, replay_drive,
@@ -98,6 +98,20 @@ impl Site<'_> {
             steer,
             over,
         )
+    }
+
+    /// The places, with the metres driven to them, that `segments` lead to from `start` for as long as the body finds rest, looked at in
+    /// `steps`: the middles of those.
+    pub fn way(&self, start: &Planar, segments: &[Segment], steps: Steps) -> Vec<(f64, Planar)> {
+        let wait_m = self.rover.response.latency * self.speed.start();
+        let held = Segment::clothoid(wait_m, start.curvature, start.curvature, Gear::Forward);
+        let goes_on = wait_m > 0.0 && rough::Waiting::before(segments) == rough::Waiting::GoesOn;
+        let mut commands = SegmentList::EMPTY;
+        commands.extend(goes_on.then_some(held).into_iter().chain(self.driven(segments).iter().copied()));
+        let mut way = Vec::new();
+        // Where the ground stops it is where the way ends.
+        let _ = rough::predict(&self.course(steps), start, &commands, |driven| way.push((driven.s, driven.at)));
+        way
     }
 
     /// Commands that drive from `start` to `goal` and stay clear of places to keep out of.
