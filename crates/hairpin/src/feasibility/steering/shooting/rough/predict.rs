@@ -133,6 +133,10 @@ const EXACT: f64 = 1.0 / 3.0;
 /// Pitch from which yaw rates lose their meaning, rad.
 const ON_END: f64 = 1.396;
 
+/// Difference of roll or pitch from what was foreseen from which the body falls, rad, and parts in which such a step is looked along.
+const FALL: f64 = 0.2;
+const PARTS: u32 = 30;
+
 /// Gaps from which Newton's last step is taken, m: what it leaves moves no end point by a tenth of a millimetre.
 const COARSE: f64 = 2e-3;
 
@@ -341,16 +345,19 @@ impl Walk {
         let blocked = |cause: Cause| Blocked { after_m: self.travelled, cause };
         let suspension = &course.rover.suspension;
         let foreseen = self.carried(middle);
-        let (settled, gradient) =
+        let surprise = |found: &Settled| (found.roll - foreseen.roll).abs().max((found.pitch - foreseen.pitch).abs());
+        let (mut settled, mut gradient) =
             suspension.carry_on(course.terrain, place, &foreseen, COARSE).map_err(|cause| blocked(cause.into()))?;
+        if surprise(&settled) > FALL {
+            (settled, gradient) = self.fall(course, middle).map_err(|cause| blocked(cause.into()))?;
+        }
         if settled.pitch.abs() >= ON_END {
             return Err(blocked(Cause::Overturned));
         }
         (self.settled, self.gradient, self.looked_at) = (settled, gradient, *middle);
         let prediction = &mut self.prediction;
         prediction.steps += 1;
-        let surprise = (settled.roll - foreseen.roll).abs().max((settled.pitch - foreseen.pitch).abs());
-        prediction.surprise = prediction.surprise.max(surprise);
+        prediction.surprise = prediction.surprise.max(surprise(&settled));
         let worse = |worst: &mut (f64, f64), value: f64, at: f64| {
             if value > worst.0 {
                 *worst = (value, at);
@@ -359,6 +366,22 @@ impl Walk {
         worse(&mut prediction.tilt, tilt(&settled), self.travelled);
         worse(&mut prediction.joint, joint(&settled), self.travelled);
         Ok(())
+    }
+}
+
+impl Walk {
+    /// The rest at `there`, come to in small parts of the way from the last look: a step may lead over a gap in which there is none.
+    fn fall<T: Terrain>(&self, course: &Course<'_, T>, there: &Planar) -> Result<(Settled, Gradient), Unsettled> {
+        let from = &self.looked_at;
+        let part = [there.x - from.x, there.y - from.y, there.yaw - from.yaw].map(|way| way / f64::from(PARTS));
+        let (mut settled, mut gradient) = (self.settled, self.gradient);
+        for done in 1..=PARTS {
+            let share = f64::from(done);
+            let place = [from.x + share * part[0], from.y + share * part[1], from.yaw + share * part[2]];
+            let guess = settled.moved(&gradient.over(part));
+            (settled, gradient) = course.rover.suspension.carry_on(course.terrain, place, &guess, COARSE)?;
+        }
+        Ok((settled, gradient))
     }
 }
 

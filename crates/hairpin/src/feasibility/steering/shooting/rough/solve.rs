@@ -88,12 +88,10 @@ const GENTLER: [f64; 6] = [0.85, 1.04, 1.12, 1.25, 1.5, 2.0];
 /// what the body finds no rest on.
 const ASIDE: [f64; 6] = [0.12, -0.12, 0.25, -0.25, 0.45, -0.45];
 /// Steps in which commands are looked along again, as shares of the first ones', in turn.
-const FINER: [f64; 3] = [0.3, 0.1, 0.03];
+const FINER: [f64; 2] = [0.3, 0.1];
 /// What a prediction may be surprised by, rad, without being looked along again: a fifth of that is common on ground that is
 /// rough but not broken.
 const SMOOTH: f64 = 0.03;
-/// What it is surprised by where the body falls, rad: such a way is looked along in the finest steps too, which meet what lies between.
-const FALL: f64 = 0.2;
 
 /// Commands from `start` whose motion on the ground ends at `goal`, shaped by `steer`, the flat solver.
 ///
@@ -176,8 +174,7 @@ fn search<T: Terrain>(
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
 ) -> Answer {
     let mut answer = sought(task, settings, steer);
-    let surprise = answer.prediction.map_or(f64::INFINITY, |prediction| prediction.surprise);
-    if surprise < SMOOTH {
+    if answer.prediction.is_some_and(|prediction| prediction.surprise < SMOOTH) {
         return answer;
     }
     for finer in FINER {
@@ -187,10 +184,7 @@ fn search<T: Terrain>(
         answer.iterations += 1;
         let course = finer_course(task.course, finer);
         if confirmed(task, &course, &answer.segments) {
-            if surprise < FALL {
-                break;
-            }
-            continue;
+            break;
         }
         let found = sought(&Task { course: &course, ..*task }, settings, steer);
         let iterations = answer.iterations + found.iterations;
