@@ -130,6 +130,9 @@ fn an_arm_learns_what_its_moves_take() {
     assert!(told["trajectories"] == 14 && told["unit"] == "s", "{told}");
     assert!((70..=84).contains(&told["legs"].as_u64().unwrap()), "{told}");
     assert!(told["validation"]["r2"].as_f64().unwrap() > 0.5, "{told}");
+    let effort = json(here, &["learn", "ran", "--stress", "joint-effort", "--out", "effort.json"]);
+    assert!(effort["trajectories"] == 14 && effort["unit"] == "rad²/s³", "{effort}");
+    assert!(effort["validation"]["r2"].as_f64().unwrap() > 0.3, "{effort}");
     let learned = ["--set", "generate.cost=\"learned:m.json\"", "--set", "task.points.count=7"];
     let found =
         |out: &str, more: &[&str]| json(here, &[&["generate", "arm", "--out", out][..], &learned, more].concat());

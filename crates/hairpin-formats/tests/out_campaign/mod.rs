@@ -123,6 +123,7 @@ fn measures(deviation: f64) -> Measures {
         min_clearance: None,
         min_tip_over_margin: Some(7.25 + k as f64),
         saturation_share: Some(0.25),
+        joint_effort: Some(1.5 + k as f64),
     };
     Measures {
         max_deviation: deviation,
@@ -140,6 +141,7 @@ fn measures(deviation: f64) -> Measures {
         min_tip_over_margin: Some(7.25),
         t_tip_over_margin: 3.0,
         saturation_share: Some(0.31),
+        joint_effort: Some(7.5),
         legs: (0..3).map(leg).collect(),
         ..Measures::default()
     }

@@ -40,6 +40,8 @@ pub struct LegMeasures {
     pub min_tip_over_margin: Option<f64>,
     /// Share of rotor-time at a rotor limit, 0 … 1; `None` where the executor did not tell.
     pub saturation_share: Option<f64>,
+    /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³; `None` where their angles were not told.
+    pub joint_effort: Option<f64>,
 }
 
 /// The latest arrival at a waypoint, by its planned time.
@@ -86,6 +88,8 @@ pub struct Measures {
     pub t_tip_over_margin: f64,
     /// Share of rotor-time spent at a rotor limit, 0 … 1; `None` where the executor did not tell.
     pub saturation_share: Option<f64>,
+    /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³; `None` where their angles were not told.
+    pub joint_effort: Option<f64>,
     /// The latest arrival at a waypoint; `None` where arrivals have no planned times.
     pub latest: Option<Late>,
     /// Where the leg being flown is known from.

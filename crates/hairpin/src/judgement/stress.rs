@@ -26,11 +26,13 @@ pub enum Stress {
     Clearance,
     /// Least angle by which the body would have had to lean further to tip over, with its sign turned, degrees.
     Tilt,
+    /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³.
+    JointEffort,
 }
 
 impl Stress {
     /// All of them.
-    pub const ALL: [Stress; 8] = [
+    pub const ALL: [Stress; 9] = [
         Stress::MaxDeviation,
         Stress::MeanDeviation,
         Stress::MaxAcceleration,
@@ -39,6 +41,7 @@ impl Stress {
         Stress::Saturation,
         Stress::Clearance,
         Stress::Tilt,
+        Stress::JointEffort,
     ];
 
     /// The word in scenarios, files and on the command line.
@@ -52,6 +55,7 @@ impl Stress {
             Stress::Saturation => "saturation",
             Stress::Clearance => "clearance",
             Stress::Tilt => "tilt",
+            Stress::JointEffort => "joint-effort",
         }
     }
 
@@ -68,6 +72,7 @@ impl Stress {
             Stress::Time => "s",
             Stress::Saturation => "",
             Stress::Tilt => "°",
+            Stress::JointEffort => "rad²/s³",
         }
     }
 
@@ -82,6 +87,7 @@ impl Stress {
             Stress::Saturation => measures.saturation_share,
             Stress::Clearance => measures.min_clearance.map(|clearance| -clearance),
             Stress::Tilt => measures.min_tip_over_margin.map(|margin| -margin),
+            Stress::JointEffort => measures.joint_effort,
         }
     }
 
@@ -96,6 +102,7 @@ impl Stress {
             Stress::Saturation => leg.saturation_share,
             Stress::Clearance => leg.min_clearance.map(|clearance| -clearance),
             Stress::Tilt => leg.min_tip_over_margin.map(|margin| -margin),
+            Stress::JointEffort => leg.joint_effort,
         }
     }
 

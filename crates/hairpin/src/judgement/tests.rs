@@ -195,6 +195,27 @@ fn the_tip_over_margin_is_the_least_and_a_lower_limit() {
 }
 
 #[test]
+fn joint_effort_is_the_integral_of_squared_joint_accelerations() {
+    // q1 = t², q2 = 3 sin t: ∫ q̈² dt is 4 T and 9 (T/2 − sin 2T/4); sampled unevenly.
+    let (end, count) = (6.0_f64, 1201);
+    let times: Vec<f64> =
+        (0..count).map(|i| end * (f64::from(i) + 0.3 * f64::from(i % 2)) / f64::from(count - 1)).collect();
+    let positions: Vec<[f64; 3]> = times.iter().map(|t| [t / 0.6, 0.0, 0.0]).collect();
+    let of = |q: fn(f64) -> f64| times.iter().map(|t| q(*t)).collect::<Vec<f64>>();
+    let leg = of(|t| f64::from(u8::from(t >= 3.0)));
+    let channels = [("leg", leg), ("q1_rad", of(|t| t * t)), ("q2_rad", of(|t| 3.0 * t.sin()))];
+    let m = measure(&track(times.clone(), &positions, &channels), &square(), &Settings::default()).unwrap();
+    let until = |t: f64| 4.0 * t + 9.0 * (0.5 * t - 0.25 * (2.0 * t).sin());
+    let (first, all) = (until(3.0), until(end));
+    let [found, second] = [0, 1].map(|leg| m.legs[leg].joint_effort.unwrap());
+    assert!((found / first - 1.0).abs() < 5e-3, "{found}, not {first}");
+    assert!((second / (all - first) - 1.0).abs() < 5e-3, "{second}, not {}", all - first);
+    assert!((m.joint_effort.unwrap() - found - second).abs() < 1e-9);
+    let flown = track(seconds(3), &[[0.0; 3]; 3], &[]);
+    assert_eq!(measure(&flown, &square(), &Settings::default()).unwrap().joint_effort, None);
+}
+
+#[test]
 fn accelerations_by_velocity_and_by_position() {
     // A circle: ‖a‖ = ω² r, and the speed does not change.
     let (radius, omega, step) = (2.0, 1.5, 0.01);

@@ -186,6 +186,7 @@ pub(crate) fn worst(result: &CaseResult) -> Value {
         "t_worst_s": measures.map(|m| m.t_worst),
         "leg_worst": measures.map(|m| m.leg_worst),
         "saturation_share": measures.and_then(|m| m.saturation_share),
+        "joint_effort_rad2_s3": measures.and_then(|m| m.joint_effort),
         "ended": result.ended,
         "reruns": result.reruns.map(|reruns| {
             let share = reruns.share(CONFIDENCE);

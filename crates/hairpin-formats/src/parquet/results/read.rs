@@ -147,6 +147,10 @@ fn read_measures(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let margin = table.optional_numbers("min_tip_over_margin_deg")?;
     let t_margin = table.optional_numbers("t_tip_over_margin_s")?;
     let saturation = table.optional_numbers("saturation_share")?;
+    let effort = match has_joints(table) {
+        true => table.optional_numbers("joint_effort_rad2_s3")?,
+        false => vec![None; table.rows()],
+    };
     let late = [table.optional_numbers("max_late_s")?, table.optional_numbers("t_late_s")?];
     let leg_late = table.optional_counts("leg_late")?;
     let leg_source = words(table, "leg_source", [LegSource::Executor, LegSource::Assigned], leg_source_word)?;
@@ -182,6 +186,7 @@ fn read_measures(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 min_tip_over_margin: margin[row],
                 t_tip_over_margin: t_margin[row].unwrap_or_default(),
                 saturation_share: saturation[row],
+                joint_effort: effort[row],
                 latest: late[0][row].map(|by| Late {
                     by,
                     at: late[1][row].unwrap_or_default(),
@@ -211,6 +216,11 @@ fn words<T: Copy, const N: usize>(
     table.optional_texts(column)?.into_iter().enumerate().map(value).collect()
 }
 
+/// Whether it has the columns that are there for arms only.
+fn has_joints(table: &Table) -> bool {
+    table.names().iter().any(|name| name == "joint_effort_rad2_s3")
+}
+
 fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
     let complete = |column| complete_lists(table, column);
     let optional = |column| {
@@ -225,6 +235,10 @@ fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
     let clearance = optional("leg_min_clearance_m")?;
     let margin = optional("leg_min_tip_over_margin_deg")?;
     let saturation = optional("leg_saturation_share")?;
+    let effort = match has_joints(table) {
+        true => optional("leg_joint_effort_rad2_s3")?,
+        false => maximum.iter().map(|legs| vec![None; legs.len()]).collect(),
+    };
     same_lengths(table, "leg_mean_deviation_m", &mean, &maximum)?;
     same_lengths(table, "leg_max_acceleration_m_s2", &acceleration, &maximum)?;
     same_lengths(table, "leg_time_s", &time, &maximum)?;
@@ -232,6 +246,7 @@ fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
     same_lengths(table, "leg_min_clearance_m", &clearance, &maximum)?;
     same_lengths(table, "leg_min_tip_over_margin_deg", &margin, &maximum)?;
     same_lengths(table, "leg_saturation_share", &saturation, &maximum)?;
+    same_lengths(table, "leg_joint_effort_rad2_s3", &effort, &maximum)?;
     let leg = |row: usize, i: usize| LegMeasures {
         max_deviation: maximum[row][i],
         mean_deviation: mean[row][i],
@@ -241,6 +256,7 @@ fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
         min_clearance: clearance[row][i],
         min_tip_over_margin: margin[row][i],
         saturation_share: saturation[row][i],
+        joint_effort: effort[row][i],
     };
     Ok((0..table.rows()).map(|row| (0..maximum[row].len()).map(|i| leg(row, i)).collect()).collect())
 }

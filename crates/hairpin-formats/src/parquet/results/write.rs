@@ -71,6 +71,9 @@ fn push_rest(columns: &mut Columns, rows: &Rows) {
     columns.push("min_tip_over_margin_deg", measured(rows, &|m| m.min_tip_over_margin));
     let when = |m: &Measures| m.min_tip_over_margin.map(|_| m.t_tip_over_margin);
     columns.push("t_tip_over_margin_s", measured(rows, &when));
+    if has_joints(rows) {
+        columns.push("joint_effort_rad2_s3", measured(rows, &|m| m.joint_effort));
+    }
     columns.push("max_late_s", measured(rows, &|m| m.latest.map(|late| late.by)));
     columns.push("t_late_s", measured(rows, &|m| m.latest.map(|late| late.at)));
     let leg_late = rows.iter().map(|(_, result)| Some(result.as_ref()?.measures.as_ref()?.latest?.leg));
@@ -104,6 +107,12 @@ fn push_rest(columns: &mut Columns, rows: &Rows) {
     columns.push("message", texts(rows.iter().map(|(_, result)| result.and_then(|r| r.message.clone()))));
 }
 
+/// Whether any run told its joints.
+fn has_joints(rows: &Rows) -> bool {
+    let told = |result: &CaseResult| result.measures.as_ref().is_some_and(|m| m.joint_effort.is_some());
+    rows.iter().any(|(_, result)| result.is_some_and(told))
+}
+
 fn push_legs(columns: &mut Columns, rows: &Rows) {
     let per_leg = |value: fn(&LegMeasures) -> Option<f64>| {
         lists(rows, &move |m: &Measures| m.legs.iter().map(value).collect::<Vec<_>>())
@@ -117,6 +126,9 @@ fn push_legs(columns: &mut Columns, rows: &Rows) {
     columns.push("leg_min_clearance_m", per_leg(|leg| leg.min_clearance));
     columns.push("leg_min_tip_over_margin_deg", per_leg(|leg| leg.min_tip_over_margin));
     columns.push("leg_saturation_share", per_leg(|leg| leg.saturation_share));
+    if has_joints(rows) {
+        columns.push("leg_joint_effort_rad2_s3", per_leg(|leg| leg.joint_effort));
+    }
 }
 
 fn push_violations(columns: &mut Columns, rows: &Rows) {

@@ -62,6 +62,13 @@ pub(in crate::campaign) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tall
         cases.len(),
         search.programs,
     ));
+    if setup.scenario.generate.moves.arcs {
+        said.push(
+            "Arcs (MoveC) through a point of the path stand for two straight moves where they are proven clear and cost more, the best choice on \
+             each path; paths themselves are searched with straight moves, so that no bound is told."
+                .into(),
+        );
+    }
     if let Some(limit) = search.time_limit_s {
         said.push(format!(
             "Each search had {limit} s: where that did not suffice for the proof the gap to the bound is told."

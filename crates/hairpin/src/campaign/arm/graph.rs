@@ -165,7 +165,7 @@ fn with_learned(setup: &ArmSetup, graph: JointGraph) -> JointGraph {
     JointGraph { graph: reachability, joints, ..graph }
 }
 
-fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
+pub(super) fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
     let moves = &scenario.generate.moves;
     JointSettings {
         moves: match moves.kind {
@@ -182,7 +182,7 @@ fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
 }
 
 /// Radius of the tool's sphere with all that it is grown by, m.
-fn sphere(station: &Station, scenario: &ArmScenario) -> f64 {
+pub(super) fn sphere(station: &Station, scenario: &ArmScenario) -> f64 {
     station.tool.radius + scenario.generate.moves.clearance_mm * 1e-3 + allowed(scenario)
 }
 
@@ -222,7 +222,7 @@ fn configuration([cf1, cf4, cf6, cfx]: [i32; 4]) -> Option<Configuration> {
 ///
 /// # Errors
 /// A table of another size than the cloud, in a sentence's part.
-fn cost_of(scenario: &ArmScenario, points: usize) -> Result<Cost, String> {
+pub(super) fn cost_of(scenario: &ArmScenario, points: usize) -> Result<Cost, String> {
     match &scenario.generate.cost {
         CostSection::Named(name) => Ok(by_name(*name)),
         // What a model expects takes the place of these once the graph is known.

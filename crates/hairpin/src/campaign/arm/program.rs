@@ -19,6 +19,8 @@ pub(super) struct Way {
     pub(super) rows: Vec<usize>,
     /// Configuration at each of them; `None` in Cartesian mode, which knows no joints.
     pub(super) configurations: Vec<Option<Configuration>>,
+    /// Places of points that arcs pass instead of two straight moves, no two beside each other.
+    pub(super) arcs: Vec<usize>,
 }
 
 /// Name of the home posture in programs.
@@ -87,13 +89,22 @@ impl ArmSetup<'_> {
         let mut pick = |names: &[String]| names[(unit(&mut random) * names.len() as f64) as usize].clone();
         let home = || Move::new(Motion::AbsoluteJoint(self.home()), slow(), Zone::stop());
         program.moves.push(home());
+        let passed = |k: usize| way.arcs.contains(&k);
         for (k, (row, configuration)) in way.rows.iter().zip(&way.configurations).enumerate() {
             let target = self.target(&object_from_base, *row, *configuration);
             let (speed, zone) = (pick(&moves.speeds), pick(&moves.zones));
             let speed = Speed::predefined(&speed).unwrap_or_else(slow);
-            let zone = Zone::predefined(&zone)
-                .filter(|zone| k > 0 && k + 1 < way.rows.len() && !zone.fine && blends(k, zone.tcp));
+            if passed(k) {
+                continue;
+            }
+            // Blends beside an arc lie in no triangle that is proven.
+            let straight = k > 0 && k + 1 < way.rows.len() && !passed(k - 1) && !passed(k + 1);
+            let zone = Zone::predefined(&zone).filter(|zone| straight && !zone.fine && blends(k, zone.tcp));
             let motion = match moves.kind {
+                MoveName::Linear if k > 0 && passed(k - 1) => Motion::Circular {
+                    via: self.target(&object_from_base, way.rows[k - 1], way.configurations[k - 1]),
+                    to: target,
+                },
                 MoveName::Linear if k > 0 => Motion::Linear(target),
                 MoveName::Linear | MoveName::Joint => Motion::Joint(target),
             };

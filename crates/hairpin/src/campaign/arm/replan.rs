@@ -50,6 +50,12 @@ impl Replanner {
                 program.moves[k + 1].zone = Zone::stop();
             }
         }
+        // Arcs are proven between the points that they had; the graph knows the straight way.
+        for one in &mut program.moves {
+            if let Motion::Circular { to, .. } = &one.motion {
+                one.motion = Motion::Linear(to.clone());
+            }
+        }
         // The way from home is proven in joints.
         if let Motion::Linear(to) = &program.moves[1].motion {
             program.moves[1].motion = Motion::Joint(to.clone());

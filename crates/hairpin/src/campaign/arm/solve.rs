@@ -161,22 +161,27 @@ impl ArmSetup<'_> {
 
     fn plan(&self, graph: &ArmGraph, rows: &[usize], cost: i64, found: &Heaviest, number: usize) -> Plan {
         let station = self.station;
+        let arcs = self.arcs(graph, rows);
         let way = Way {
             rows: rows.to_vec(),
             configurations: rows.iter().map(|row| graph.configuration(self, *row)).collect(),
+            arcs: arcs.through,
         };
         let program = self.program(&way, number, |k, zone| graph.blends(self, rows, k, zone));
         let home = station.tool_at(&station.home);
-        let places = rows.iter().map(|row| station.points[*row].pose);
+        // Where moves end; arcs pass the others.
+        let ends = rows.iter().enumerate().filter(|(k, _)| !way.arcs.contains(k));
+        let places = ends.map(|(_, row)| station.points[*row].pose);
         let poses = std::iter::once(home).chain(places).chain(std::iter::once(home));
         let leg_times = self.leg_times(&program);
         Plan {
             waypoints: poses.map(|pose| pose.translation.vector.into()).collect(),
             leg_times,
             seen: Vec::new(),
-            score: cost as f64 * graph.unit,
-            // The bound of the heaviest holds for all that come after it.
-            bound: found.bound.map(|bound| bound as f64 * graph.unit).filter(|_| number == 0),
+            score: (cost + arcs.gain) as f64 * graph.unit,
+            // The bound of the heaviest holds for all that come after it; of programs with arcs none is known.
+            bound: (found.bound.map(|bound| bound as f64 * graph.unit))
+                .filter(|_| number == 0 && !self.scenario.generate.moves.arcs),
             evidence: match self.scenario.generate.mode {
                 ArmMode::Joint => Evidence::ClearAllLinks,
                 ArmMode::Cartesian => Evidence::ClearToolSphere,

@@ -178,6 +178,8 @@ pub struct CostWeights {
 pub struct MovesSection {
     /// linear: MoveL; joint: MoveJ.
     pub kind: MoveName,
+    /// Whether an arc (MoveC) through a point may stand for the two straight moves to it and from it, where it costs more.
+    pub arcs: bool,
     /// Names of speeds; where there are several, moves take them in turn by draws.
     pub speeds: Vec<String>,
     /// Names of zones, likewise.
@@ -194,6 +196,7 @@ impl Default for MovesSection {
     fn default() -> Self {
         Self {
             kind: MoveName::Linear,
+            arcs: false,
             speeds: vec!["v1000".into()],
             zones: vec!["fine".into()],
             clearance_mm: 0.0,
