@@ -272,10 +272,10 @@ fn an_arm_may_come_as_urdf() {
 #[test]
 fn arcs_stand_for_straight_moves_where_they_load_the_arm_more() {
     let place = TempDir::new().unwrap();
-    let run = |out: &str, mode: &str, arcs: &str| {
-        let [mode, arcs] = [format!("generate.mode=\"{mode}\""), format!("generate.moves.arcs={arcs}")];
+    let run = |out: &str, arcs: &str| {
+        let arcs = format!("generate.moves.arcs={arcs}");
         let few = ["--set", "task.points.count=8", "--set", "generate.search.programs=1", "--set", "execute.repeat=1"];
-        let stress = [&["stress", "arm", "--json", "--out", out, "--set", &mode, "--set", &arcs][..], &few].concat();
+        let stress = [&["stress", "arm", "--json", "--out", out, "--set", &arcs][..], &few].concat();
         let stress = hairpin(place.path(), &stress);
         assert_eq!(code(&stress), 0, "{}", String::from_utf8_lossy(&stress.stderr));
         let verified = hairpin(place.path(), &["verify", out, "--json"]);
@@ -286,12 +286,12 @@ fn arcs_stand_for_straight_moves_where_they_load_the_arm_more() {
         assert_eq!(code(&check), 0, "{}", String::from_utf8_lossy(&check.stdout));
         ["MoveC ", "MoveL "].map(|word| text.matches(word).count())
     };
-    for mode in ["joint", "cartesian"] {
-        let [[none, straight], [arcs, left]] = ["false", "true"].map(|arcs| run(&format!("{mode}-{arcs}"), mode, arcs));
-        // Each arc stands for two straight moves.
-        assert!(none == 0 && arcs > 0 && straight == left + 2 * arcs, "{mode}: {straight} → {arcs} and {left}");
+    let [[none, straight], [arcs, left]] = ["false", "true"].map(|arcs| run(arcs, arcs));
+    // Each arc stands for two straight moves.
+    assert!(none == 0 && arcs > 0 && straight == left + 2 * arcs, "{straight} → {arcs} and {left}");
+    for without in ["generate.moves.kind=\"joint\"", "generate.mode=\"cartesian\""] {
+        let arcs = ["--set", "generate.moves.arcs=true", "--set", without];
+        let refused = hairpin(place.path(), &[&["generate", "arm", "--out", "no"][..], &arcs].concat());
+        assert!(code(&refused) == 2 && String::from_utf8_lossy(&refused.stderr).contains("generate.moves.arcs"));
     }
-    let table = ["--set", "generate.moves.arcs=true", "--set", "generate.moves.kind=\"joint\""];
-    let refused = hairpin(place.path(), &[&["generate", "arm", "--out", "no"][..], &table].concat());
-    assert!(code(&refused) == 2 && String::from_utf8_lossy(&refused.stderr).contains("generate.moves.arcs"));
 }

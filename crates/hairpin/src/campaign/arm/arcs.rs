@@ -4,12 +4,11 @@
 //! proven clear and cost more than the two moves they stand for are chosen so that no two share a move and together they add most, which is exact for this
 //! path: with w_k the gain of the arc through the k-th point, best_k = max(best_{k−1}, best_{k−2} + w_k).
 
-use nalgebra::{Isometry3, Point3};
+use nalgebra::Isometry3;
 
 use super::ArmSetup;
-use super::graph::{ArmGraph, cost_of, joint_settings, sphere};
+use super::graph::{ArmGraph, cost_of, joint_settings};
 use crate::feasibility::reachability::joint::{Bodies, Circle, Motion, follow};
-use crate::feasibility::reachability::{Obstacle, Verdict};
 use crate::math::rotation::rotation_vector;
 
 /// Arcs of a path, and what they cost more than what they stand for.
@@ -25,11 +24,6 @@ pub(super) struct Arcs {
 const SAME_TURN: f64 = 1e-9;
 /// A move arrives within this of the angles that the next one begins at, rad.
 const ARRIVES: f64 = 1e-3;
-/// An arc is first covered by chords that it leaves by this at most, m, then by ones half as long, and so on.
-const FIRST_SAGITTA: f64 = 5e-4;
-const HALVINGS: u32 = 4;
-/// Room for the rounding of a circle's points, m.
-const ROUNDING: f64 = 1e-9;
 
 impl ArmSetup<'_> {
     /// The arcs that add most to the path along `rows`; none where they are not asked for.
@@ -59,10 +53,7 @@ impl ArmSetup<'_> {
         let circle = Circle::through(&a, &b, &c).ok()?;
         let cost = cost_of(scenario, station.points.len()).ok()?;
         let motion = Motion::circular(start, circle, &end.rotation);
-        let Some(postures) = &graph.postures else {
-            // Without joints only the way counts.
-            return self.is_clear(&circle).then(|| (1e6 * circle.length()).round() as i64);
-        };
+        let postures = graph.postures.as_ref()?;
         let (from, to) = (postures[rows[0]].as_ref().ok()?, postures[rows[2]].as_ref().ok()?);
         let settings = joint_settings(station, scenario);
         let bodies = Bodies::new(&station.arm, &station.tool, &station.cell, settings.clearance);
@@ -70,25 +61,6 @@ impl ArmSetup<'_> {
             follow(&station.arm, &station.tool, Some(&bodies), &motion, from, &settings.follow, &mut 0).ok()?;
         let arrives = followed.end.iter().zip(to).all(|(end, wanted)| (end - wanted).abs() <= ARRIVES);
         arrives.then(|| cost.of_move(&station.arm, &station.tool, &motion, from, 0))
-    }
-
-    /// Whether the tool's sphere is proven clear on an arc: on chords, grown by how far the arc leaves them, R (1 − cos θ/2).
-    fn is_clear(&self, circle: &Circle) -> bool {
-        let obstacles: Vec<Obstacle> =
-            self.station.cell_within_reach().parts.into_iter().map(|part| Obstacle::new(part.region)).collect();
-        let radius = circle.length() / circle.angle();
-        let sagitta = |pieces: f64| radius * (1.0 - libm::cos(0.5 * circle.angle() / pieces));
-        // 1 − cos x ≤ x²/2: so many pieces are enough.
-        let first = (circle.angle() * (radius / (8.0 * FIRST_SAGITTA)).sqrt()).ceil().max(1.0);
-        (0..=HALVINGS).any(|halvings| {
-            let pieces = first * f64::from(1u32 << halvings);
-            let room = sphere(self.station, self.scenario) + sagitta(pieces) + ROUNDING;
-            (0..pieces as u32).all(|i| {
-                let at = |i: u32| Point3::from(circle.at(f64::from(i) / pieces));
-                let (a, b) = (at(i), at(i + 1));
-                obstacles.iter().all(|obstacle| matches!(obstacle.certify(&a, &b, room), Verdict::Clear))
-            })
-        })
     }
 }
 

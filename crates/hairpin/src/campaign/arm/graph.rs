@@ -182,7 +182,7 @@ pub(super) fn joint_settings(station: &Station, scenario: &ArmScenario) -> Joint
 }
 
 /// Radius of the tool's sphere with all that it is grown by, m.
-pub(super) fn sphere(station: &Station, scenario: &ArmScenario) -> f64 {
+fn sphere(station: &Station, scenario: &ArmScenario) -> f64 {
     station.tool.radius + scenario.generate.moves.clearance_mm * 1e-3 + allowed(scenario)
 }
 

@@ -1,6 +1,6 @@
 //! The bounds of every key of an arm's scenario.
 
-use super::{ArmExecute, ArmGenerate, ArmScenario, ArmSpec, CostSection, LogClock, MoveName, PointsSource};
+use super::{ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, CostSection, LogClock, MoveName, PointsSource};
 use crate::campaign::arm::station_of;
 use crate::campaign::learn::of_arm;
 use crate::campaign::scenario::findings::Findings;
@@ -81,8 +81,8 @@ fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
     found.from("generate.moves.clearance_mm", moves.clearance_mm, 0.0, 1e4, " mm");
     found.from("generate.moves.singularity_margin_deg", moves.singularity_margin_deg, 0.0, 45.0, "°");
     let measured = matches!(generate.cost, CostSection::Table(_) | CostSection::Learned(_));
-    let bound = "false where moves go in joints, or cost what a table or a model says: neither knows arcs";
-    let known = !moves.arcs || (moves.kind == MoveName::Linear && !measured);
+    let bound = "false where moves go in joints, or cost what a table or a model says, or are planned without joints: none of these knows arcs";
+    let known = !moves.arcs || (moves.kind == MoveName::Linear && !measured && generate.mode == ArmMode::Joint);
     found.require(known, "generate.moves.arcs", "true", bound);
     let search = &generate.search;
     found.count("generate.search.programs", search.programs, 1, 1_000);
