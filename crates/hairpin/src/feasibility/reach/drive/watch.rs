@@ -10,8 +10,11 @@ use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::trajectory::{Direction, SpeedProfile};
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
 
-/// Limits are asked for at least this often.
+/// Limits are asked for at least this often, and the second time on drives that came within [`NEAR`] (rad) of one of tilt or joints: on
+/// rough ground the body leans by up to a degree more between two of the first looks.
 const STEPS: Steps = Steps { length: 0.03, angle: 0.03, least: 8 };
+const CLOSER: Steps = Steps { length: 0.003, angle: 0.003, least: 8 };
+const NEAR: f64 = 0.05;
 /// Room left below the limits of tilt and joints for what lies between two looks, rad.
 const ROOM: f64 = 2e-3;
 /// A bound of curvature counts as kept up to this share: the solver's own rounding.
@@ -43,7 +46,24 @@ pub(super) fn watch(
     speed: &SpeedProfile,
     direction: Direction,
 ) -> Result<Met, LegRefusal> {
-    let course = settings.course(site, STEPS, *speed, direction);
+    let (met, room) = looked_at(site, settings, start, motion, speed, direction, STEPS)?;
+    if room < NEAR {
+        looked_at(site, settings, start, motion, speed, direction, CLOSER)?;
+    }
+    Ok(met)
+}
+
+/// [`watch`] in given steps, and the least room that was left below the limits of tilt and joints, rad.
+fn looked_at(
+    site: &DriveSite,
+    settings: &DriveSettings,
+    start: &Planar,
+    motion: &[Segment],
+    speed: &SpeedProfile,
+    direction: Direction,
+    steps: Steps,
+) -> Result<(Met, f64), LegRefusal> {
+    let course = settings.course(site, steps, *speed, direction);
     let mut watcher = Watcher {
         site,
         settings,
@@ -54,12 +74,14 @@ pub(super) fn watch(
         met: Met::default(),
         way: 0.0,
         unlooked: f64::INFINITY,
+        turned: steps.angle,
+        room: f64::INFINITY,
         refused: None,
     };
     predict_while(&course, start, motion, |driven| watcher.look(driven)).map_err(|blocked| refusal(&blocked))?;
-    let Watcher { mut met, way, refused, .. } = watcher;
+    let Watcher { mut met, way, refused, room, .. } = watcher;
     met.slip = if way > 0.0 { met.slip / way } else { 0.0 };
-    refused.map_or(Ok(met), Err)
+    refused.map_or(Ok((met, room)), Err)
 }
 
 /// Whether the body stands within the limits at a place.
@@ -118,6 +140,10 @@ struct Watcher<'a> {
     way: f64,
     /// Metres and radians since the underside was looked at.
     unlooked: f64,
+    /// Radians of a step in place.
+    turned: f64,
+    /// Least room below the limits of tilt and joints so far, rad.
+    room: f64,
     refused: Option<LegRefusal>,
 }
 
@@ -176,8 +202,8 @@ impl Watcher<'_> {
         if self.level {
             return on_map(site.map, at);
         }
-        within(settings, upright, &settled.joints)?;
-        self.unlooked += if metres > 0.0 { metres } else { STEPS.angle };
+        self.room = self.room.min(within(settings, upright, &settled.joints)?);
+        self.unlooked += if metres > 0.0 { metres } else { self.turned };
         if self.unlooked >= BELLY_STEP {
             self.unlooked = 0.0;
             clear(site, settings, at, settled)?;
@@ -192,16 +218,18 @@ fn slip_in_force(slip: &Slip) -> Slip {
     if none { Slip { at_20_deg: 1.0, side_at_20_deg: 1.0 } } else { *slip }
 }
 
-/// Holds cos(tilt) and joint angles against the limits.
-fn within(settings: &DriveSettings, upright: f64, joints: &[f64; 3]) -> Result<(), LegRefusal> {
+/// Holds cos(tilt) and joint angles against the limits: the room that is left, rad.
+fn within(settings: &DriveSettings, upright: f64, joints: &[f64; 3]) -> Result<f64, LegRefusal> {
     let limits = &settings.limits;
-    if libm::acos(upright.clamp(-1.0, 1.0)) > limits.tilt - ROOM {
+    let tilt = limits.tilt - ROOM - libm::acos(upright.clamp(-1.0, 1.0));
+    if tilt < 0.0 {
         return Err(LegRefusal::Tilt);
     }
-    if joints.iter().any(|angle| angle.abs() > limits.joint - ROOM) {
+    let joint = limits.joint - ROOM - joints.iter().fold(0.0, |most, angle| angle.abs().max(most));
+    if joint < 0.0 {
         return Err(LegRefusal::Joint);
     }
-    Ok(())
+    Ok(tilt.min(joint))
 }
 
 /// Holds the underside's height over the ground against its limit.
