@@ -117,7 +117,6 @@ pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(
     let bounds = site.bounds();
     let (low, high) = site.map.extent();
     let inside = |i: usize| low[i] + MARGIN..high[i] - MARGIN;
-    let wait_m = site.rover.response.latency * site.speed.start();
     let mut goals = Vec::with_capacity(count);
     if (0..2).any(|i| inside(i).is_empty()) {
         return goals;
@@ -129,13 +128,10 @@ pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(
         let arc = smooth_arc(random, &bounds, &GROUND_LENGTHS, 4);
         let [x, y] = [0, 1].map(|i| between(random, &inside(i)));
         let start = Planar { x, y, yaw: between(random, &(-PI..PI)), curvature: arc.curvature_at(0.0) };
-        // Commands act late: until then the vehicle goes on as it was.
-        let wait = Segment::clothoid(wait_m, start.curvature, start.curvature, Gear::Forward);
-        let (both, alone) = ([wait, arc], [arc]);
-        let commands: &[Segment] = if wait_m > 0.0 { &both } else { &alone };
-        let Ok(driven) = site.predict(&start, commands, FINE) else { continue };
+        let commands = site.after_waiting(&start, &[arc]);
+        let Ok(driven) = site.predict(&start, &commands, FINE) else { continue };
         // Where a body falls, a step may lead over a gap in which it has no rest at all.
-        if driven.surprise > FALL && site.predict(&start, commands, FINEST).is_err() {
+        if driven.surprise > FALL && site.predict(&start, &commands, FINEST).is_err() {
             continue;
         }
         if driven.tilt.0 <= STEEP && inside(0).contains(&driven.end.x) && inside(1).contains(&driven.end.y) {

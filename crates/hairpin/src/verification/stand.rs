@@ -149,7 +149,9 @@ impl Rest {
             }
             Err(why) => why,
         };
-        for (joint, angle) in FALLS {
+        // Only they have joints to fold.
+        let folds = if matches!(stand, Stand::RockerBogie { .. }) { &FALLS[..] } else { &[] };
+        for &(joint, angle) in folds {
             let mut fallen = Self { unknowns: before, inverse: None };
             fallen.unknowns[joint] += angle;
             if fallen.follow(stand, terrain, place).is_ok() {

@@ -14,6 +14,7 @@ use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{Asked, Frame};
 
 use crate::args::Requirements;
+use crate::commands::steer::seen_from;
 use crate::commands::terrain;
 use crate::problem::Problem;
 
@@ -162,11 +163,11 @@ pub(super) fn missing(from: &Planar, to: &Planar) -> f64 {
 
 /// The question as files have it: the goal as it is seen from the start.
 pub(super) fn asked(start: &Planar, goal: &Planar) -> Asked {
-    let (sin, cos) = libm::sincos(start.yaw);
-    let (dx, dy) = (goal.x - start.x, goal.y - start.y);
+    let from = [start.x, start.y, start.yaw];
+    let [x, y] = seen_from(from, [goal.x, goal.y]);
     Asked {
-        start: Some([start.x, start.y, start.yaw]),
-        goal: [cos * dx + sin * dy, cos * dy - sin * dx, goal.yaw - start.yaw],
+        start: Some(from),
+        goal: [x, y, goal.yaw - start.yaw],
         k0: start.curvature,
         kf: goal.curvature,
         free_end: false,

@@ -18,6 +18,7 @@ use crate::args::Steer;
 use crate::folder;
 use crate::problem::Problem;
 pub(super) use pace::Rows;
+pub(super) use question::seen_from;
 pub(crate) use start_table::make as make_table;
 pub(super) use vehicle::Vehicle;
 

@@ -19,15 +19,14 @@ pub(super) fn asked(steer: &Steer, to: &str) -> Result<Asked, Problem> {
     let from = state("--from", steer.from.as_deref().unwrap_or("0,0,0"), frame)?;
     let free_end = to.split(',').count() == 3;
     let to = state("--to", to, frame)?;
-    let (sin, cos) = libm::sincos(from[2]);
-    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     // From the plain origin the heading is taken as it was typed.
     let turned = to[2] - from[2];
     let plain = frame == Frame::Enu && from == [0.0; 4];
+    let [x, y] = seen_from([from[0], from[1], from[2]], [to[0], to[1]]);
     let yaw = if plain { to[2] } else { libm::atan2(libm::sin(turned), libm::cos(turned)) };
     Ok(Asked {
         start: steer.from.is_some().then_some([from[0], from[1], from[2]]),
-        goal: [cos * dx + sin * dy, cos * dy - sin * dx, yaw],
+        goal: [x, y, yaw],
         k0: from[3],
         kf: to[3],
         free_end,
@@ -39,6 +38,13 @@ pub(super) fn asked(steer: &Steer, to: &str) -> Result<Asked, Problem> {
         max_curvature: steer.max_curvature,
         tolerance_m: steer.tolerance_m,
     })
+}
+
+/// A place of the map as it is seen from a start (x, y, yaw) on it.
+pub(in crate::commands) fn seen_from([x, y, yaw]: [f64; 3], place: [f64; 2]) -> [f64; 2] {
+    let (sin, cos) = libm::sincos(yaw);
+    let (dx, dy) = (place[0] - x, place[1] - y);
+    [cos * dx + sin * dy, cos * dy - sin * dx]
 }
 
 /// A goal from the start (x, y, yaw, curvature) as `--to` takes it.

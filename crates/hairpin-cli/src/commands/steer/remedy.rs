@@ -14,6 +14,7 @@ use super::answered::Answered;
 use super::means::Means;
 use super::pace::{direction, start};
 use super::plane::hazards;
+use super::question::seen_from;
 use super::vehicle::{Vehicle, query};
 
 /// What would do it.
@@ -99,12 +100,10 @@ impl Vehicle {
     /// The farthest goal on a way that is answered itself, of a few.
     fn on_the_way(&self, asked: &Asked, way: &[(f64, Planar)]) -> Option<[f64; 4]> {
         let (most, start, (end, _)) = (self.bounds(asked).most, start(asked), way.last()?);
-        let (sin, cos) = libm::sincos(start.yaw);
         BACK.into_iter().find_map(|back| {
             let (_, place) = way.iter().rfind(|(s, _)| *s <= end - back)?;
-            let (dx, dy) = (place.x - start.x, place.y - start.y);
-            let [x, y, yaw] = [cos * dx + sin * dy, cos * dy - sin * dx, place.yaw - start.yaw];
-            let kf = place.curvature.clamp(-most, most);
+            let [x, y] = seen_from([start.x, start.y, start.yaw], [place.x, place.y]);
+            let (yaw, kf) = (place.yaw - start.yaw, place.curvature.clamp(-most, most));
             let there = Asked { goal: [x, y, yaw], kf, ..*asked };
             (self.answer_by(&there, &self.means).status == Status::Ok).then_some([x, y, yaw, kf])
         })

@@ -8,7 +8,7 @@ use nalgebra::Isometry3;
 
 use super::ArmSetup;
 use super::graph::{ArmGraph, cost_of, joint_settings};
-use crate::feasibility::reachability::joint::{Bodies, Circle, Motion, follow};
+use crate::feasibility::reachability::joint::{Bodies, Circle, Cost, FollowSettings, Motion, moved};
 use crate::math::rotation::rotation_vector;
 
 /// Arcs of a path, and what they cost more than what they stand for.
@@ -22,8 +22,13 @@ pub(super) struct Arcs {
 
 /// Points of an arc have one orientation, within this, rad: what a controller does with that of the point on the way is its own affair.
 const SAME_TURN: f64 = 1e-9;
-/// A move arrives within this of the angles that the next one begins at, rad.
-const ARRIVES: f64 = 1e-3;
+
+/// What arcs are held against.
+struct Held<'a> {
+    bodies: Bodies<'a>,
+    follow: FollowSettings,
+    cost: Cost,
+}
 
 impl ArmSetup<'_> {
     /// The arcs that add most to the path along `rows`; none where they are not asked for.
@@ -31,19 +36,23 @@ impl ArmSetup<'_> {
         if !self.scenario.generate.moves.arcs {
             return Arcs::default();
         }
+        let (station, settings) = (self.station, joint_settings(self.station, self.scenario));
+        let Ok(cost) = cost_of(self.scenario, station.points.len()) else { return Arcs::default() };
+        let bodies = Bodies::new(&station.arm, &station.tool, &station.cell, settings.clearance);
+        let held = Held { bodies, follow: settings.follow, cost };
         let gains: Vec<Option<i64>> = (1..rows.len().saturating_sub(1))
             .map(|k| {
                 let [p, q, r] = [rows[k - 1], rows[k], rows[k + 1]];
                 let straight = |from: usize, to: usize| graph.costs[from * graph.points() + to];
-                Some(self.arc(graph, [p, q, r])? - straight(p, q)? - straight(q, r)?).filter(|gain| *gain > 0)
+                Some(self.arc(graph, &held, [p, q, r])? - straight(p, q)? - straight(q, r)?).filter(|gain| *gain > 0)
             })
             .collect();
         chosen(&gains)
     }
 
     /// What the arc over three rows costs; `None` if it is none, or not proven to be possible.
-    fn arc(&self, graph: &ArmGraph, rows: [usize; 3]) -> Option<i64> {
-        let (station, scenario) = (self.station, self.scenario);
+    fn arc(&self, graph: &ArmGraph, held: &Held, rows: [usize; 3]) -> Option<i64> {
+        let station = self.station;
         let [start, via, end] = rows.map(|row| &station.points[row].pose);
         let turned = |pose: &Isometry3<f64>| rotation_vector(&(start.rotation.inverse() * pose.rotation)).norm();
         if turned(via) > SAME_TURN || turned(end) > SAME_TURN {
@@ -51,16 +60,11 @@ impl ArmSetup<'_> {
         }
         let [a, b, c] = [start, via, end].map(|pose| pose.translation.vector);
         let circle = Circle::through(&a, &b, &c).ok()?;
-        let cost = cost_of(scenario, station.points.len()).ok()?;
         let motion = Motion::circular(start, circle, &end.rotation);
         let postures = graph.postures.as_ref()?;
         let (from, to) = (postures[rows[0]].as_ref().ok()?, postures[rows[2]].as_ref().ok()?);
-        let settings = joint_settings(station, scenario);
-        let bodies = Bodies::new(&station.arm, &station.tool, &station.cell, settings.clearance);
-        let followed =
-            follow(&station.arm, &station.tool, Some(&bodies), &motion, from, &settings.follow, &mut 0).ok()?;
-        let arrives = followed.end.iter().zip(to).all(|(end, wanted)| (end - wanted).abs() <= ARRIVES);
-        arrives.then(|| cost.of_move(&station.arm, &station.tool, &motion, from, 0))
+        moved(&station.arm, &station.tool, &held.bodies, &motion, [from, to], &held.follow, &mut 0).ok()?;
+        Some(held.cost.of_move(&station.arm, &station.tool, &motion, from, 0))
     }
 }
 

@@ -103,15 +103,21 @@ impl Site<'_> {
     /// The places, with the metres driven to them, that `segments` lead to from `start` for as long as the body finds rest, looked at in
     /// `steps`: the middles of those.
     pub fn way(&self, start: &Planar, segments: &[Segment], steps: Steps) -> Vec<(f64, Planar)> {
-        let wait_m = self.rover.response.latency * self.speed.start();
-        let held = Segment::clothoid(wait_m, start.curvature, start.curvature, Gear::Forward);
-        let goes_on = wait_m > 0.0 && rough::Waiting::before(segments) == rough::Waiting::GoesOn;
-        let mut commands = SegmentList::EMPTY;
-        commands.extend(goes_on.then_some(held).into_iter().chain(self.driven(segments).iter().copied()));
         let mut way = Vec::new();
+        let commands = self.after_waiting(start, &self.driven(segments));
         // Where the ground stops it is where the way ends.
-        let _ = rough::predict(&self.course(steps), start, &commands, |driven| way.push((driven.s, driven.at)));
+        let _ = self.trace(start, &commands, steps, |driven| way.push((driven.s, driven.at)));
         way
+    }
+
+    /// `acting` with what is driven before: commands act late, and until then a vehicle under way goes on as it was at `start`.
+    pub(in crate::campaign) fn after_waiting(&self, start: &Planar, acting: &[Segment]) -> SegmentList {
+        let wait_m = self.rover.response.latency * self.speed.start();
+        let goes_on = wait_m > 0.0 && rough::Waiting::before(acting) == rough::Waiting::GoesOn;
+        let held = Segment::clothoid(wait_m, start.curvature, start.curvature, Gear::Forward);
+        let mut commands = SegmentList::EMPTY;
+        commands.extend(goes_on.then_some(held).into_iter().chain(acting.iter().copied()));
+        commands
     }
 
     /// Commands that drive from `start` to `goal` and stay clear of places to keep out of.

@@ -46,42 +46,33 @@ pub(super) fn watch(
     speed: &SpeedProfile,
     direction: Direction,
 ) -> Result<Met, LegRefusal> {
-    let (met, room) = looked_at(site, settings, start, motion, speed, direction, STEPS)?;
+    let length = motion.iter().map(Segment::length_m).sum();
+    let look = |steps: Steps| {
+        let course = settings.course(site, steps, *speed, direction);
+        let mut watcher = Watcher {
+            site,
+            settings,
+            level: matches!(site.rover.suspension, Suspension::Level),
+            direction,
+            length,
+            slip: slip_in_force(&site.rover.slip),
+            met: Met::default(),
+            way: 0.0,
+            unlooked: f64::INFINITY,
+            turned: steps.angle,
+            room: f64::INFINITY,
+            refused: None,
+        };
+        predict_while(&course, start, motion, |driven| watcher.look(driven)).map_err(|blocked| refusal(&blocked))?;
+        let Watcher { mut met, way, refused, room, .. } = watcher;
+        met.slip = if way > 0.0 { met.slip / way } else { 0.0 };
+        refused.map_or(Ok((met, room)), Err)
+    };
+    let (met, room) = look(STEPS)?;
     if room < NEAR {
-        looked_at(site, settings, start, motion, speed, direction, CLOSER)?;
+        look(CLOSER)?;
     }
     Ok(met)
-}
-
-/// [`watch`] in given steps, and the least room that was left below the limits of tilt and joints, rad.
-fn looked_at(
-    site: &DriveSite,
-    settings: &DriveSettings,
-    start: &Planar,
-    motion: &[Segment],
-    speed: &SpeedProfile,
-    direction: Direction,
-    steps: Steps,
-) -> Result<(Met, f64), LegRefusal> {
-    let course = settings.course(site, steps, *speed, direction);
-    let mut watcher = Watcher {
-        site,
-        settings,
-        level: matches!(site.rover.suspension, Suspension::Level),
-        direction,
-        length: motion.iter().map(Segment::length_m).sum(),
-        slip: slip_in_force(&site.rover.slip),
-        met: Met::default(),
-        way: 0.0,
-        unlooked: f64::INFINITY,
-        turned: steps.angle,
-        room: f64::INFINITY,
-        refused: None,
-    };
-    predict_while(&course, start, motion, |driven| watcher.look(driven)).map_err(|blocked| refusal(&blocked))?;
-    let Watcher { mut met, way, refused, room, .. } = watcher;
-    met.slip = if way > 0.0 { met.slip / way } else { 0.0 };
-    refused.map_or(Ok((met, room)), Err)
 }
 
 /// Whether the body stands within the limits at a place.

@@ -15,4 +15,4 @@ pub use circle::{Circle, CircleError};
 pub use costs::{Cost, Trapezoid, time_law};
 pub use follow::{FollowSettings, Followed, follow};
 pub use motion::Motion;
-pub use stations::{Alternative, JointGraph, JointSettings, MoveKind, Station, joint};
+pub use stations::{Alternative, JointGraph, JointSettings, MoveKind, Station, joint, moved};

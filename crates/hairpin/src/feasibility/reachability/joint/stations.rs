@@ -4,7 +4,7 @@ use nalgebra::Isometry3;
 
 use super::bodies::Bodies;
 use super::costs::Cost;
-use super::follow::{FollowSettings, follow};
+use super::follow::{FollowSettings, Followed, follow};
 use super::motion::Motion;
 use crate::feasibility::reachability::Refusal;
 use crate::feasibility::reachability::graph::ReachabilityGraph;
@@ -93,7 +93,7 @@ pub fn joint(
     let (mut queries, mut pieces) = (0, 0u64);
     for i in 0..n {
         for j in (0..n).filter(|&j| j != i) {
-            let moved = match (&joints[i], &joints[j]) {
+            let outcome = match (&joints[i], &joints[j]) {
                 (Err(refusal), _) => Err(*refusal),
                 // A point that cannot be stood at cannot be arrived at.
                 (_, Err(refusal)) => Err(refusal.shifted(1.0)),
@@ -102,11 +102,11 @@ pub fn joint(
                         MoveKind::Linear => Motion::linear(&stations[i].pose, &stations[j].pose),
                         MoveKind::Joint => Motion::Joint { start: *from, end: *to },
                     };
-                    follow(arm, tool, Some(&bodies), &motion, from, &settings.follow, &mut queries)
-                        .and_then(|followed| arrives(&followed.end, to).map(|()| (motion, followed, *from)))
+                    moved(arm, tool, &bodies, &motion, [from, to], &settings.follow, &mut queries)
+                        .map(|followed| (motion, followed, *from))
                 }
             };
-            match moved {
+            match outcome {
                 Ok((motion, followed, from)) => {
                     pieces += u64::from(followed.pieces);
                     costs[i * n + j] = cost.of_move(arm, tool, &motion, &from, i * n + j);
@@ -127,6 +127,23 @@ pub fn joint(
     let graph = ReachabilityGraph::new(n, reasons, refusals, queries);
     let graph = graph.with_costs(cost.unit(), |i, j| costs[i * n + j]);
     JointGraph { graph, joints, from_home, to_home, pieces }
+}
+
+/// Follows `motion` between the angles of its ends, clear of `bodies`; `queries` counts as [`follow`] does.
+///
+/// # Errors
+/// What refuses it.
+pub fn moved(
+    arm: &Arm,
+    tool: &Tool,
+    bodies: &Bodies,
+    motion: &Motion,
+    [from, to]: [&Joints; 2],
+    settings: &FollowSettings,
+    queries: &mut u64,
+) -> Result<Followed, Refusal> {
+    let followed = follow(arm, tool, Some(bodies), motion, from, settings, queries)?;
+    arrives(&followed.end, to).map(|()| followed)
 }
 
 /// A move must arrive at the angles of its end point, not at others of the same pose.
