@@ -199,6 +199,11 @@ fn clouds_need_nothing_but_an_arm() {
         let told = String::from_utf8_lossy(&refused.stderr).into_owned();
         assert!(code(&refused) == 2 && told.contains(wanted), "{arguments:?}: {told}");
     }
+    // Costs that all end in zeros are proven and checked in one scale.
+    fs::write(place.path().join("line.csv"), "x_mm,y_mm,z_mm\n300,0,400\n350,0,400\n400,0,400\n").unwrap();
+    let line = ["max-load", "--cloud", "line.csv", "irb120", "--out", "line", "--json"];
+    assert_eq!(json(&hairpin(place.path(), &line))["cost"], 150.0);
+    assert_eq!(code(&hairpin(place.path(), &["verify", "line"])), 0);
     fs::write(place.path().join("far.csv"), "x_mm,y_mm,z_mm\n3000,100,400\n3500,-100,300\n").unwrap();
     let nothing = hairpin(place.path(), &["max-load", "--cloud", "far.csv", "irb120", "--json"]);
     assert_eq!((code(&nothing), &json(&nothing)["path"]), (3, &Value::Null));
@@ -268,28 +273,57 @@ fn an_arm_may_come_as_urdf() {
     assert_eq!(code(&refused), 2, "{}", String::from_utf8_lossy(&refused.stdout));
 }
 
-/// Arcs are in the program, load it more than straight moves do, and hold for those who follow them again.
+/// Arcs are moves of the graph like others: searched with it, proven heaviest with it, in the program, and held to all that by those who follow them again.
 #[test]
-fn arcs_stand_for_straight_moves_where_they_load_the_arm_more() {
+fn arcs_are_searched_with_straight_moves_and_load_the_arm_more() {
     let place = TempDir::new().unwrap();
-    let run = |out: &str, arcs: &str| {
-        let arcs = format!("generate.moves.arcs={arcs}");
-        let few = ["--set", "task.points.count=8", "--set", "generate.search.programs=1", "--set", "execute.repeat=1"];
+    let run = |out: &str| {
+        let arcs = format!("generate.moves.arcs={out}");
+        let few = ["--set", "task.points.count=8", "--set", "generate.search.programs=2", "--set", "execute.repeat=1"];
         let stress = [&["stress", "arm", "--json", "--out", out, "--set", &arcs][..], &few].concat();
         let stress = hairpin(place.path(), &stress);
         assert_eq!(code(&stress), 0, "{}", String::from_utf8_lossy(&stress.stderr));
-        let verified = hairpin(place.path(), &["verify", out, "--json"]);
-        assert_eq!(code(&verified), 0, "{}", String::from_utf8_lossy(&verified.stdout));
         let module = place.path().join(out).join("programs/0000.mod");
-        let text = fs::read_to_string(&module).unwrap();
         let check = hairpin(place.path(), &["import", module.to_str().unwrap(), "--check", "--robot", "irb120"]);
         assert_eq!(code(&check), 0, "{}", String::from_utf8_lossy(&check.stdout));
-        ["MoveC ", "MoveL "].map(|word| text.matches(word).count())
+        let proof: Value =
+            serde_json::from_str(&fs::read_to_string(place.path().join(out).join("optimum.json")).unwrap()).unwrap();
+        (fs::read_to_string(&module).unwrap(), proof)
     };
-    let [[none, straight], [arcs, left]] = ["false", "true"].map(|arcs| run(arcs, arcs));
-    // Each arc stands for two straight moves.
-    assert!(none == 0 && arcs > 0 && straight == left + 2 * arcs, "{straight} → {arcs} and {left}");
-    for without in ["generate.moves.kind=\"joint\"", "generate.mode=\"cartesian\""] {
+    let verify = || {
+        let verified = hairpin(place.path(), &["verify", "true", "--json"]);
+        (code(&verified), serde_json::from_slice::<Value>(&verified.stdout).unwrap())
+    };
+    let ((_, straight), (module, with_arcs)) = (run("false"), run("true"));
+    assert!(with_arcs["cost"].as_i64() > straight["cost"].as_i64(), "{straight} {with_arcs}");
+    let passed = with_arcs["passed"].as_array().unwrap();
+    assert!(!passed.is_empty() && module.matches("MoveC ").count() == passed.len(), "{module}");
+    assert!(!place.path().join("false/arcs.csv").exists());
+    let (fine, told) = verify();
+    assert!(fine == 0 && told["optimum"]["verified"] == true && told["checked"] == 2, "{told}");
+    // Every ordered triple is told of, with a cost or a reason; the graph that is followed again has the arcs in it.
+    let table = place.path().join("true/arcs.csv");
+    let arcs = fs::read_to_string(&table).unwrap();
+    let (free, refused): (Vec<&str>, Vec<&str>) = arcs.lines().skip(1).partition(|line| line.ends_with(','));
+    assert_eq!(free.len() + refused.len(), 8 * 7 * 6);
+    assert!(free.len() > 10 && refused.iter().all(|line| line.contains(",,")), "{arcs}");
+    let pairs = fs::read_to_string(place.path().join("true/graph.csv")).unwrap();
+    let pairs = pairs.lines().flat_map(|line| line.split(',')).filter(|cell| !cell.is_empty()).count();
+    assert!(told["graph"]["moves"].as_u64().unwrap() >= (free.len() + pairs) as u64, "{told}");
+    // An arc that costs more than was searched makes another path the heaviest.
+    let dearer = free[0].split(',').take(3).collect::<Vec<_>>().join(",");
+    fs::write(&table, arcs.replace(free[0], &format!("{dearer},99999.000,"))).unwrap();
+    let (wrong, told) = verify();
+    assert!(wrong == 1 && told["optimum"]["findings"][0].as_str().unwrap().contains("costs"), "{told}");
+    // The command for programs alone tells what is passed.
+    let few = ["--set", "task.points.count=8", "--set", "generate.moves.arcs=true"];
+    fs::write(place.path().join("p.csv"), "x_mm,y_mm,z_mm\n300,100,400\n350,-100,300\n300,50,350\n250,-150,380\n")
+        .unwrap();
+    let asked = [&["max-load", "--cloud", "p.csv", "arm", "--json"][..], &few[2..]].concat();
+    let found = hairpin(place.path(), &asked);
+    let told: Value = serde_json::from_slice(&found.stdout).unwrap();
+    assert!(code(&found) == 0 && told["proven"] == true && told["passed"].is_array(), "{told}");
+    for without in ["generate.moves.kind=\"joint\"", "generate.mode=\"cartesian\"", "generate.search.visits=2"] {
         let arcs = ["--set", "generate.moves.arcs=true", "--set", without];
         let refused = hairpin(place.path(), &[&["generate", "arm", "--out", "no"][..], &arcs].concat());
         assert!(code(&refused) == 2 && String::from_utf8_lossy(&refused.stderr).contains("generate.moves.arcs"));

@@ -93,12 +93,7 @@ impl Costs {
 
     /// A cost as the file would have it: in its unit, exactly.
     pub fn text(&self, cost: i64) -> String {
-        if self.decimals == 0 {
-            return cost.to_string();
-        }
-        let scale = i128::from(self.scale());
-        let (sign, cost) = (if cost < 0 { "-" } else { "" }, i128::from(cost).abs());
-        format!("{sign}{}.{:0width$}", cost / scale, cost % scale, width = self.decimals)
+        text(cost, self.decimals)
     }
 
     /// The smallest whole cost that is at least the decimal number `text`; `None` if that is no cost.
@@ -113,15 +108,39 @@ impl Costs {
     }
 }
 
+/// `cost` · 10^−`decimals` (at most 18), exactly and with all its digits.
+pub fn text(cost: i64, decimals: usize) -> String {
+    if decimals == 0 {
+        return cost.to_string();
+    }
+    let scale = 10i128.pow(decimals as u32);
+    let (sign, cost) = (if cost < 0 { "-" } else { "" }, i128::from(cost).abs());
+    format!("{sign}{}.{:0width$}", cost / scale, cost % scale, width = decimals)
+}
+
+/// A cell times 10^`decimals`; `None` where it is no cost, or no whole one then, or has no room in 64 bits.
+pub(crate) fn whole(cell: &str, decimals: usize) -> Option<i64> {
+    let number = Decimal::parse(cell.trim())?;
+    if number.decimals() <= decimals { number.times(decimals) } else { None }
+}
+
 /// Reads a file. Blank lines at its end are skipped, spaces around numbers too; the diagonal has no meaning but must be
 /// a cost or empty.
 ///
 /// # Errors
 /// The first thing wrong, with line and column.
 pub fn read(path: &Path) -> Result<Costs, CostsError> {
+    read_in(path, 0)
+}
+
+/// Reads a file whose whole numbers are to stand for `least` digits behind the point at least, whether or not its costs need them.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_in(path: &Path, least: usize) -> Result<Costs, CostsError> {
     let bytes = fs::read(path).map_err(|cause| CostsError::Unreadable { path: path.into(), cause })?;
     // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
-    parse(path, &String::from_utf8_lossy(&bytes))
+    parse(path, &String::from_utf8_lossy(&bytes), least)
 }
 
 /// A number as digits in front of the point, behind it, and a power of ten.
@@ -174,7 +193,7 @@ impl<'t> Decimal<'t> {
     }
 }
 
-fn parse(path: &Path, text: &str) -> Result<Costs, CostsError> {
+fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
     let lines: Vec<&str> = text.trim_start_matches('\u{feff}').trim_end().lines().collect();
     let points = lines.len();
     if points == 0 {
@@ -202,7 +221,7 @@ fn parse(path: &Path, text: &str) -> Result<Costs, CostsError> {
             }
         }
     }
-    let decimals = numbers.iter().map(|(.., number)| number.decimals()).max().unwrap_or(0);
+    let decimals = numbers.iter().map(|(.., number)| number.decimals()).max().unwrap_or(0).max(least);
     let mut costs = vec![None; points * points];
     for (row, column, cell, number) in &numbers {
         let cost = (decimals <= MOST_DECIMALS).then(|| number.times(decimals)).flatten();
@@ -222,7 +241,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Costs, String> {
-        parse(Path::new("costs.csv"), text).map_err(|error| error.to_string())
+        parse(Path::new("costs.csv"), text, 0).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -235,6 +254,8 @@ mod tests {
         let costs = read(",0.1234567890123456\n0.3,").unwrap();
         assert_eq!(costs.costs[1], Some(1_234_567_890_123_456));
         assert_eq!(costs.text(costs.costs[2].unwrap()), "0.3000000000000000");
+        let finer = parse(Path::new("costs.csv"), ",100.000\n5.000,", 3).unwrap();
+        assert_eq!((finer.decimals, finer.costs[1]), (3, Some(100_000)));
         let costs = read(",100\n5.50,").unwrap();
         assert_eq!((costs.decimals, costs.costs[1]), (1, Some(1000)));
         assert_eq!(["2", "2.01", "0", "2.1000", "-1", "x"].map(|text| costs.at_least(text)), {

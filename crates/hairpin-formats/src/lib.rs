@@ -1,5 +1,6 @@
 //! The doors of hairpin: scenario and robot files in; Parquet, JUnit, TUM, CSV and HTML out.
 
+pub mod arcs;
 pub mod atomic;
 pub mod banner;
 pub mod checksum;

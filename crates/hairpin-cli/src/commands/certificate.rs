@@ -4,17 +4,23 @@
 //! them whole); a step is `[multipliers, out, into, next]`, next `[]` (closed), `[step]` or `[choice, step with it out, step with it in]`. Where points may
 //! come several times `visits` stands in the place of scale and directed, and a step is `[prices]`, whose bound closes it, or `[prices, points, without,
 //! [[from, to, step], …]]`: a path meets none of the points (step `without`, `null` where it must), or one of the arcs leads it out of them, to number
-//! `points` where it ends. sha256 is of the object without it.
+//! `points` where it ends. sha256 is of the object without it. Where moves may pass points, `passed`
+//! stands in the place of scale, directed and steps: the points of the path that are passed; it is searched again.
 
 use hairpin::search::heaviest::{Ends, Heaviest, Next, Step, WalkProof, WalkStep};
 use hairpin::verification::{
-    HeaviestClaim, NextClaim, SplitClaim, StepClaim, TreeClaim, WalkClaim, WalkStepClaim, verify_heaviest, verify_walk,
+    HeaviestClaim, NextClaim, SplitClaim, StepClaim, TreeClaim, TriplesClaim, WalkClaim, WalkStepClaim,
+    verify_heaviest, verify_triples, verify_walk,
 };
 use hairpin_formats::checksum;
 use serde_json::{Value, json};
 
 const PATH: &str = "hairpin heaviest path 1";
 const WALK: &str = "hairpin heaviest walk 1";
+const WITH_ARCS: &str = "hairpin heaviest path with arcs 1";
+
+/// Arcs \[from, via, to\] with their costs.
+pub(crate) type Arcs = Vec<([usize; 3], i64)>;
 
 /// What a check came to.
 pub(crate) struct Checked {
@@ -37,6 +43,11 @@ pub(crate) fn object(points: usize, ends: Ends, found: &Heaviest, walk: Option<&
         object["steps"] = walk.steps.iter().map(walk_step).collect();
         return Some(object);
     }
+    if let Some(passed) = found.passed.first() {
+        object["kind"] = WITH_ARCS.into();
+        object["passed"] = json!(passed);
+        return Some(object);
+    }
     let proof = found.proof.as_ref();
     object["scale"] = json!(proof.map(|proof| proof.scale));
     object["directed"] = json!(proof.map(|proof| proof.directed));
@@ -50,12 +61,12 @@ pub(crate) fn sealed(mut object: Value) -> String {
     object.to_string()
 }
 
-/// Checks an object against the costs of a graph; `None` where it is no certificate.
-pub(crate) fn check(object: &Value, costs: Vec<Option<i64>>) -> Option<Checked> {
+/// Checks an object against the costs of a graph and its arcs, if it has any; `None` where it is no certificate of such a graph.
+pub(crate) fn check(object: &Value, costs: Vec<Option<i64>>, arcs: Option<Arcs>) -> Option<Checked> {
     let mut bare = object.clone();
     let stated = bare.as_object_mut()?.shift_remove("sha256");
     let mut checked = match object["kind"].as_str()? {
-        PATH => {
+        PATH if arcs.is_none() => {
             let claim = path_claim(object, costs)?;
             let told = verify_heaviest(&claim).into_iter();
             let told =
@@ -63,10 +74,14 @@ pub(crate) fn check(object: &Value, costs: Vec<Option<i64>>) -> Option<Checked> 
             let steps = claim.tree.as_ref().map(|tree| tree.steps.len());
             Checked { cost: claim.cost, visits: 1, steps, findings: told.collect() }
         }
-        WALK => {
+        WALK if arcs.is_none() => {
             let claim = walk_claim(object, costs)?;
             let findings = verify_walk(&claim);
             Checked { cost: claim.cost, visits: claim.visits, steps: Some(claim.steps.len()), findings }
+        }
+        WITH_ARCS => {
+            let claim = arcs_claim(object, costs, arcs?)?;
+            Checked { cost: claim.cost, visits: 1, steps: None, findings: verify_triples(&claim) }
         }
         _ => return None,
     };
@@ -160,6 +175,19 @@ fn walk_claim(object: &Value, costs: Vec<Option<i64>>) -> Option<WalkClaim> {
         path: indices(&object["path"])?,
         cost: object["cost"].as_i64()?,
         steps: object["steps"].as_array()?.iter().map(step).collect::<Option<_>>()?,
+    })
+}
+
+fn arcs_claim(object: &Value, costs: Vec<Option<i64>>, arcs: Arcs) -> Option<TriplesClaim> {
+    Some(TriplesClaim {
+        points: index(&object["points"])?,
+        costs,
+        triples: arcs,
+        start: end(&object["start"])?,
+        end: end(&object["end"])?,
+        path: indices(&object["path"])?,
+        passed: indices(&object["passed"])?,
+        cost: object["cost"].as_i64()?,
     })
 }
 

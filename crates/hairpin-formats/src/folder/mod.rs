@@ -18,7 +18,7 @@
 //! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
 //! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move; what a later campaign is held against |
-//! | `optimum.json`, `graph.csv`, `reasons.csv` | of arms: the graph, why moves are not in it, and the proof that the first program is the heaviest |
+//! | `optimum.json`, `graph.csv`, `reasons.csv`, `arcs.csv` | of arms: the graph, why moves are not in it, its arcs where it has any, and the proof that the first program is the heaviest |
 //! | `baseline.json` | of arms with `spec.regression`: the same of earlier releases |
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
 //! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
@@ -51,6 +51,8 @@ const RUNS: &str = "runs.parquet";
 const INFLUENCE: &str = "influence.json";
 /// The proof that an arm's first program is the heaviest.
 pub const OPTIMUM: &str = "optimum.json";
+/// The arcs of an arm's graph.
+pub const ARCS: &str = "arcs.csv";
 /// What every run of an arm did on every move.
 pub const MOVES: &str = "moves.json";
 /// The same of earlier releases, which this campaign is held against.

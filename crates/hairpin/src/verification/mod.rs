@@ -6,7 +6,7 @@
 //! (`body`), implicit Gauss collocation of order 12 (`gauss`). Nothing is shared with feasibility, search,
 //! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have replays of their
 //! own, in the plane (`drive`) and on the ground (`ground`); moves of arms are followed by their own equations ([`verify_arm_moves`]). That no path through a graph is heavier is checked bound by
-//! bound ([`verify_heaviest`]; [`verify_walk`] where points may come several times).
+//! bound ([`verify_heaviest`]; [`verify_walk`] where points may come several times, [`verify_triples`] where moves may pass points).
 
 mod arm;
 mod body;
@@ -21,6 +21,7 @@ mod ground;
 mod heaviest;
 mod heaviest_bound;
 mod heaviest_choices;
+mod heaviest_triples;
 mod jet;
 mod knots;
 mod pace;
@@ -35,8 +36,8 @@ mod walk;
 mod tests;
 
 pub use arm::{
-    ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm,
-    verify_arm_graph, verify_arm_moves,
+    ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm, ArmWay,
+    ArmWayClaim, verify_arm_graph, verify_arm_moves,
 };
 pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
@@ -46,6 +47,7 @@ pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{EndError, Finding, Proof, Tolerances, Worst};
 pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Haul, Stopped, replay_ground};
 pub use heaviest::{HeaviestClaim, MOST_SEARCHED_AGAIN, NextClaim, PathFinding, StepClaim, TreeClaim, verify_heaviest};
+pub use heaviest_triples::{MOST_TRIPLES_AGAIN, TriplesClaim, verify_triples};
 pub use proof::{open_loop_with_lag, verify};
 pub use stand::Stand;
 pub use walk::{SplitClaim, WalkClaim, WalkStepClaim, verify_walk};

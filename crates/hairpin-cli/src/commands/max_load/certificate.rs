@@ -34,7 +34,7 @@ pub(super) fn verify(asked: &MaxLoad, file: &Path, graph: &Graph) -> Result<u8, 
     let object: Value = serde_json::from_str(&text).map_err(|error| broken(&format!("is no JSON: {error}")))?;
     let n = graph.arcs.points();
     let costs = (0..n * n).map(|index| graph.arcs.cost(index / n, index % n)).collect();
-    let checked = certificate::check(&object, costs);
+    let checked = certificate::check(&object, costs, None);
     let checked = checked.ok_or_else(|| broken("is no certificate of a heaviest path, or a field is missing"))?;
     let findings = &checked.findings;
     let code = u8::from(!findings.is_empty());

@@ -76,8 +76,17 @@ fn tell(asked: &MaxLoad, setup: &Setup, graph: &ArmGraph, found: &Heaviest, time
             "mode": setup.scenario.reach(),
             "exit_code": code(found),
         });
+        if let Some(passed) = found.passed.first() {
+            object["passed"] = json!(passed);
+        }
         if asked.programs > 1 {
-            let paths = found.paths.iter().map(|(cost, path)| json!({ "path": path, "cost": value(*cost) }));
+            let paths = found.paths.iter().enumerate().map(|(number, (cost, path))| {
+                let mut one = json!({ "path": path, "cost": value(*cost) });
+                if let Some(passed) = found.passed.get(number) {
+                    one["passed"] = json!(passed);
+                }
+                one
+            });
             object["paths"] = paths.collect();
         }
         if let Some(out) = asked.out.as_ref().filter(|_| best.is_some()) {
@@ -98,7 +107,10 @@ fn tell(asked: &MaxLoad, setup: &Setup, graph: &ArmGraph, found: &Heaviest, time
     } else {
         found.gap_percent().map_or_else(String::new, |gap| format!("gap {gap:.4} %"))
     };
-    let rows: Vec<String> = path.iter().map(usize::to_string).collect();
+    // What an arc passes stands in brackets.
+    let passed = found.passed.first().map_or(&[][..], Vec::as_slice);
+    let row = |row: &usize| if passed.contains(row) { format!("({row})") } else { row.to_string() };
+    let rows: Vec<String> = path.iter().map(row).collect();
     console::say(&format!(
         "cost {:.3} {}, {evidence}; {:.3} s by {}, {} points, density {:.2} ({} mode)",
         value(*cost),

@@ -1,16 +1,18 @@
 //! The proof that an arm's first program is the heaviest: kept beside the graph, and checked against it by independent code.
 //!
-//! `optimum.json` is a certificate as of `max-load --certificate`, of the graph in `graph.csv` and, where home can be left for or reached from some points
-//! only, two points more: `from_home` and `to_home` say which.
+//! `optimum.json` is a certificate as of `max-load --certificate`, of the graph in `graph.csv`, of its arcs in `arcs.csv` where it has any, and, where home
+//! can be left for or reached from some points only, two points more: `from_home` and `to_home` say which. `decimals` are those of the graph's unit that its
+//! whole numbers stand for.
 
 use std::fs;
 
 use hairpin::campaign::arm::{ArmGraph, ArmSetup};
 use hairpin::campaign::{Case, Stop};
-use hairpin_formats::folder::OPTIMUM;
-use hairpin_formats::{atomic, costs};
+use hairpin_formats::folder::{ARCS, OPTIMUM};
+use hairpin_formats::{arcs, atomic, costs};
 use serde_json::{Value, json};
 
+use super::programs::decimals;
 use crate::commands::certificate;
 use crate::folder::Work;
 use crate::problem::Problem;
@@ -38,6 +40,7 @@ pub(super) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case]
     let Some(mut object) = certificate::object(question.points, question.ends, &found, walk.as_ref()) else {
         return Ok(());
     };
+    object["decimals"] = decimals(graph).into();
     if question.points > graph.points() {
         let rows = |may: &dyn Fn(usize) -> bool| (0..graph.points()).filter(|row| may(*row)).collect::<Vec<_>>();
         object["from_home"] = json!(rows(&|row| question.costs[graph.points() * question.points + row].is_some()));
@@ -67,8 +70,11 @@ fn check(work: &Work, arm: &ArmSetup, first: &Case) -> Result<Optimum, String> {
     let text =
         fs::read_to_string(work.folder.file(OPTIMUM)).map_err(|cause| format!("{OPTIMUM} cannot be read: {cause}"))?;
     let object: Value = serde_json::from_str(&text).map_err(|error| format!("{OPTIMUM} is no JSON: {error}"))?;
-    let table = costs::read(&work.folder.file("graph.csv")).map_err(|error| error.to_string())?;
+    let decimals = object["decimals"].as_u64().map_or(0, |decimals| decimals.min(18) as usize);
+    let table = costs::read_in(&work.folder.file("graph.csv"), decimals).map_err(|error| error.to_string())?;
     let n = table.points;
+    let arcs = work.folder.file(ARCS);
+    let arcs = arcs.is_file().then(|| arcs::read(&arcs, decimals)).transpose().map_err(|error| error.to_string())?;
     let rows = |key: &str| -> Option<Vec<usize>> {
         let rows = object.get(key)?.as_array()?;
         rows.iter().map(|row| usize::try_from(row.as_u64()?).ok()).collect()
@@ -85,14 +91,16 @@ fn check(work: &Work, arm: &ArmSetup, first: &Case) -> Result<Optimum, String> {
         }
         _ => table.costs.clone(),
     };
-    let checked = certificate::check(&object, costs).ok_or_else(|| format!("{OPTIMUM} is no certificate"))?;
+    let checked =
+        certificate::check(&object, costs, arcs).ok_or_else(|| format!("{OPTIMUM} is no certificate of this graph"))?;
     let mut findings: Vec<String> = checked.findings.iter().map(|what| format!("{OPTIMUM}: {what}")).collect();
     let names = |row: &Value| row.as_u64().filter(|row| (*row as usize) < n).map(|row| arm.point_name(row as usize));
     let proven: Vec<String> = object["path"].as_array().into_iter().flatten().filter_map(names).collect();
     let mut first = first.clone();
     work.folder.read_witness(&mut first).map_err(|error| error.to_string())?;
     let moves = first.program.as_ref().map_or(&[][..], |program| &program.moves);
-    let written: Vec<String> = moves.iter().filter_map(|m| m.motion.end()?.name.clone()).collect();
+    let written: Vec<String> =
+        moves.iter().flat_map(|m| m.motion.poses()).filter_map(|target| target.name.clone()).collect();
     if proven != written {
         findings.push(format!(
             "{OPTIMUM}: its path is {}, that of the program {}",

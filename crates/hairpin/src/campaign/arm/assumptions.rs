@@ -3,6 +3,7 @@
 use super::ArmSetup;
 use crate::campaign::scenario::{ArmMode, PathFrom};
 use crate::campaign::{Case, Tally};
+use crate::search::heaviest::MOST_EXACT_POINTS;
 
 /// What stands behind the moves.
 pub(in crate::campaign) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
@@ -63,11 +64,10 @@ pub(in crate::campaign) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tall
         search.programs,
     ));
     if setup.scenario.generate.moves.arcs {
-        said.push(
-            "Arcs (MoveC) through a point of the path stand for two straight moves where they are proven clear and cost more, the best choice on \
-             each path; paths themselves are searched with straight moves, so that no bound is told."
-                .into(),
-        );
+        said.push(format!(
+            "Arcs (MoveC) from a point through a second to a third are moves of the graph like straight ones, each proven clear, and searched with them: \
+             exactly among {MOST_EXACT_POINTS} points at most, home counted where only some points can be reached from it; else by annealing under a bound."
+        ));
     }
     if let Some(limit) = search.time_limit_s {
         said.push(format!(

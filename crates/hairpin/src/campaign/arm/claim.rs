@@ -10,8 +10,8 @@ use crate::campaign::scenario::MoveName;
 use crate::robot::arm::{AXES, Configuration, Joints};
 use crate::simulation::arm::{Order, Target, Zone};
 use crate::verification::{
-    ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm,
-    verify_arm_graph, verify_arm_moves,
+    ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm, ArmWay,
+    ArmWayClaim, verify_arm_graph, verify_arm_moves,
 };
 use crate::world::cell::{Region, Words};
 use crate::world::{Shape, Solid};
@@ -52,37 +52,36 @@ impl ArmSetup<'_> {
         let place = |row: usize| known.binary_search(&row).ok();
         let angles: Vec<Joints> = known.iter().filter_map(|row| postures[*row].as_ref().ok().copied()).collect();
         let poses: Vec<Isometry3<f64>> = known.iter().map(|row| self.station.points[*row].pose).collect();
+        let kind = match self.scenario.generate.moves.kind {
+            MoveName::Linear => ArmWay::Straight,
+            MoveName::Joint => ArmWay::Joints,
+        };
         let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to)));
         let free = pairs.filter(|(from, to)| from != to && graph.reachability.refusal(*from, *to).is_none());
-        let between: Vec<(usize, usize)> = free.filter_map(|(from, to)| Some((place(from)?, place(to)?))).collect();
-        let from_home = (0..n).filter(|row| graph.from_home[*row]).filter_map(place).map(|to| (known.len(), to));
-        let to_home = (0..n).filter(|row| graph.to_home[*row]).filter_map(place).map(|from| (from, known.len()));
-        let around: Vec<(usize, usize)> = from_home.chain(to_home).collect();
+        let between = free.filter_map(|(from, to)| Some(ArmWayClaim { from: place(from)?, to: place(to)?, way: kind }));
+        let arcs = graph.arcs.iter().flat_map(|arcs| &arcs.free).filter_map(|([from, via, to], _)| {
+            Some(ArmWayClaim { from: place(*from)?, to: place(*to)?, way: ArmWay::Through(place(*via)?) })
+        });
+        let home_is = known.len();
+        let from_home = (0..n).filter(|row| graph.from_home[*row]).filter_map(place);
+        let from_home = from_home.map(|to| ArmWayClaim { from: home_is, to, way: ArmWay::Joints });
+        let to_home = (0..n).filter(|row| graph.to_home[*row]).filter_map(place);
+        let to_home = to_home.map(|from| ArmWayClaim { from, to: home_is, way: ArmWay::Joints });
+        let moves: Vec<ArmWayClaim> = between.chain(arcs).chain(from_home).chain(to_home).collect();
         let with_home = [&angles[..], &[home]].concat();
         let at_home = [&poses[..], &[self.station.tool_at(&home)]].concat();
-        let straight = self.scenario.generate.moves.kind == MoveName::Linear;
         let name = |place: usize| known.get(place).map_or("home".into(), |row| self.point_name(*row));
-        let told = |moves: &[(usize, usize)], found: Vec<ArmMoveFinding>| -> Vec<String> {
-            let one = |finding: &ArmMoveFinding| {
-                let (from, to) = moves[finding.index];
-                format!("{}→{}: {} at {:.0} % of the move", name(from), name(to), finding.what, 100.0 * finding.at)
-            };
-            found.iter().map(one).collect()
+        let told = |part: &[ArmWayClaim], finding: ArmMoveFinding| {
+            let ArmWayClaim { from, to, way } = part[finding.index];
+            let via = if let ArmWay::Through(via) = way { format!("{}→", name(via)) } else { String::new() };
+            format!("{}→{via}{}: {} at {:.0} % of the move", name(from), name(to), finding.what, 100.0 * finding.at)
         };
-        let look = |moves: &[(usize, usize)], straight: bool| {
-            let parts: Vec<Vec<String>> = moves
-                .par_chunks(SHARE)
-                .map(|part| {
-                    told(
-                        part,
-                        self.claimed(&[], &[], |claim| verify_arm_graph(claim, &with_home, &at_home, straight, part)),
-                    )
-                })
-                .collect();
-            parts.concat()
+        let look = |part: &[ArmWayClaim]| -> Vec<String> {
+            let found = self.claimed(&[], &[], |claim| verify_arm_graph(claim, &with_home, &at_home, part));
+            found.into_iter().map(|finding| told(part, finding)).collect()
         };
-        let findings = [look(&between, straight), look(&around, false)].concat();
-        GraphAgain { moves: between.len() + around.len(), findings }
+        let findings: Vec<Vec<String>> = moves.par_chunks(SHARE).map(look).collect();
+        GraphAgain { moves: moves.len(), findings: findings.concat() }
     }
 
     /// Hands arm, tool, cell, `moves` and `zones` to `look`.

@@ -44,7 +44,7 @@ fn told(refusal: &Refusal, names: &[String]) -> (Stage, String) {
             (Stage::Limits, "configuration change".into())
         }
         Refusal::NoSuchConfiguration { .. } => (Stage::Limits, "no posture in the demanded configuration".into()),
-        Refusal::NoArc => (Stage::Limits, "no arc".into()),
+        Refusal::NoArc(_) | Refusal::Turned { .. } => (Stage::Limits, "no arc".into()),
         Refusal::OtherBranch { .. } => (Stage::Limits, "another configuration than most points".into()),
     }
 }

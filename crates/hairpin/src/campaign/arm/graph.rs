@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Point3};
 use super::{ArmSetup, Station};
 use crate::campaign::scenario::{ArmMode, ArmScenario, CostName, CostSection, MoveName};
 use crate::feasibility::reachability::joint::{
-    Bodies, Cost, FollowSettings, JointGraph, JointSettings, MoveKind, Station as Stand, joint,
+    ArcGraph, Bodies, Cost, FollowSettings, JointGraph, JointSettings, MoveKind, Station as Stand, arcs, joint,
 };
 use crate::feasibility::reachability::{
     CartesianSettings, Level, Obstacle, ReachabilityGraph, Refusal, Verdict, cartesian,
@@ -25,6 +25,8 @@ pub struct ArmGraph {
     pub from_home: Vec<bool>,
     /// Whether the move from each point to home is.
     pub to_home: Vec<bool>,
+    /// Arcs from point to point through a third, with costs in whole units, where the scenario takes them.
+    pub arcs: Option<ArcGraph>,
     /// What one unit is, in `unit_name`.
     pub unit: f64,
     /// The unit that users are told: `m`, `s`, `steps`, `rad²/s³`, that of their table.
@@ -132,7 +134,16 @@ fn in_space(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
     let costs = masked(reachability.matrix(), scenario);
     let (unit, unit_name) = unit_of(cost, scenario);
     let anywhere = vec![true; points.len()];
-    ArmGraph { reachability, postures: None, costs, from_home: anywhere.clone(), to_home: anywhere, unit, unit_name }
+    ArmGraph {
+        reachability,
+        postures: None,
+        costs,
+        from_home: anywhere.clone(),
+        to_home: anywhere,
+        arcs: None,
+        unit,
+        unit_name,
+    }
 }
 
 fn in_joints(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
@@ -140,13 +151,16 @@ fn in_joints(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
     let stands: Vec<Stand> = (station.points.iter())
         .map(|point| Stand { pose: point.pose, configuration: point.configuration.and_then(configuration) })
         .collect();
-    let graph = joint(&station.arm, &station.tool, &station.cell, &stands, &joint_settings(station, scenario), cost);
-    let graph = with_learned(setup, graph);
+    let (arm, tool, cell, settings) = (&station.arm, &station.tool, &station.cell, joint_settings(station, scenario));
+    let graph = with_learned(setup, joint(arm, tool, cell, &stands, &settings, cost));
+    let wanted = scenario.generate.moves.arcs;
+    let arcs = wanted.then(|| arcs(arm, tool, cell, &stands, &graph.joints, &settings, cost));
     let costs = masked(graph.graph.matrix(), scenario);
     let free = |refusals: &[Option<Refusal>]| refusals.iter().map(Option::is_none).collect();
     let (from_home, to_home) = (free(&graph.from_home), free(&graph.to_home));
     let (unit, unit_name) = unit_of(cost, scenario);
-    ArmGraph { reachability: graph.graph, postures: Some(graph.joints), costs, from_home, to_home, unit, unit_name }
+    let (reachability, postures) = (graph.graph, Some(graph.joints));
+    ArmGraph { reachability, postures, costs, from_home, to_home, arcs, unit, unit_name }
 }
 
 /// With what a learned model expects in place of the costs, where one is asked for.
@@ -165,7 +179,7 @@ fn with_learned(setup: &ArmSetup, graph: JointGraph) -> JointGraph {
     JointGraph { graph: reachability, joints, ..graph }
 }
 
-pub(super) fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
+fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
     let moves = &scenario.generate.moves;
     JointSettings {
         moves: match moves.kind {
@@ -222,7 +236,7 @@ fn configuration([cf1, cf4, cf6, cfx]: [i32; 4]) -> Option<Configuration> {
 ///
 /// # Errors
 /// A table of another size than the cloud, in a sentence's part.
-pub(super) fn cost_of(scenario: &ArmScenario, points: usize) -> Result<Cost, String> {
+fn cost_of(scenario: &ArmScenario, points: usize) -> Result<Cost, String> {
     match &scenario.generate.cost {
         CostSection::Named(name) => Ok(by_name(*name)),
         // What a model expects takes the place of these once the graph is known.

@@ -1,6 +1,5 @@
 //! Arms: a cell and a cloud of points, the reachability graph between them, and the programs that load the arm most.
 
-mod arcs;
 mod assumptions;
 mod cell;
 mod claim;

@@ -7,7 +7,8 @@ use crate::campaign::graph::{Outcome, Plan};
 use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, Evidence, Stop};
 use crate::search::heaviest::{
-    Arcs, Ends, Heaviest, HeaviestSettings, Outcome as Found, WalkProof, WalkSettings, heaviest, heaviest_walk,
+    Arcs, Ends, Heaviest, HeaviestSettings, Outcome as Found, Triples, WalkProof, WalkSettings, heaviest,
+    heaviest_walk, heaviest_with_triples,
 };
 use crate::simulation::arm as controller;
 use crate::trajectory::program::Program;
@@ -142,6 +143,11 @@ impl ArmSetup<'_> {
             proof,
             ..HeaviestSettings::default()
         };
+        if let Some(through) = &graph.arcs {
+            let triples = Triples::new(question.points, &through.free).map_err(|error| error.to_string())?;
+            let found = heaviest_with_triples(&arcs, &triples, &settings, &over).map_err(|error| error.to_string())?;
+            return Ok((found, None));
+        }
         heaviest(&arcs, &settings, &over).map(|found| (found, None)).map_err(|error| error.to_string())
     }
 
@@ -161,11 +167,11 @@ impl ArmSetup<'_> {
 
     fn plan(&self, graph: &ArmGraph, rows: &[usize], cost: i64, found: &Heaviest, number: usize) -> Plan {
         let station = self.station;
-        let arcs = self.arcs(graph, rows);
+        let passed = found.passed.get(number).map_or(&[][..], Vec::as_slice);
         let way = Way {
             rows: rows.to_vec(),
             configurations: rows.iter().map(|row| graph.configuration(self, *row)).collect(),
-            arcs: arcs.through,
+            arcs: (0..rows.len()).filter(|place| passed.contains(&rows[*place])).collect(),
         };
         let program = self.program(&way, number, |k, zone| graph.blends(self, rows, k, zone));
         let home = station.tool_at(&station.home);
@@ -178,10 +184,9 @@ impl ArmSetup<'_> {
             waypoints: poses.map(|pose| pose.translation.vector.into()).collect(),
             leg_times,
             seen: Vec::new(),
-            score: (cost + arcs.gain) as f64 * graph.unit,
-            // The bound of the heaviest holds for all that come after it; of programs with arcs none is known.
-            bound: (found.bound.map(|bound| bound as f64 * graph.unit))
-                .filter(|_| number == 0 && !self.scenario.generate.moves.arcs),
+            score: cost as f64 * graph.unit,
+            // The bound of the heaviest holds for all that come after it.
+            bound: found.bound.map(|bound| bound as f64 * graph.unit).filter(|_| number == 0),
             evidence: match self.scenario.generate.mode {
                 ArmMode::Joint => Evidence::ClearAllLinks,
                 ArmMode::Cartesian => Evidence::ClearToolSphere,

@@ -9,6 +9,7 @@ mod tally;
 
 use std::collections::HashSet;
 
+use nalgebra::Point3;
 use rayon::prelude::*;
 
 use super::graph::{Executions, Outcome, Plan, Round, fingerprint};
@@ -16,6 +17,7 @@ use super::scenario::SearchMethod;
 use super::setup::Kind;
 use super::{Case, Scenario, Setup, Stop, arm, drive, flight, in_loop, vary};
 use crate::math::random::case_seed;
+use crate::trajectory::program::{Motion, Program};
 pub use tally::{RoundTally, Tally};
 
 /// Graphs sampled per case asked for, where the scenario sets no limit.
@@ -163,6 +165,15 @@ impl<'a> Solver<'a> {
     }
 }
 
+/// What tells one case from another: its waypoints, and the points that the arcs of its program pass between them.
+fn met<'a>(waypoints: &'a [Point3<f64>], program: Option<&'a Program>) -> impl Iterator<Item = Point3<f64>> + 'a {
+    let passed = program.into_iter().flat_map(|program| &program.moves).filter_map(|one| match &one.motion {
+        Motion::Circular { via, .. } => Some(via.pose.translation.vector.into()),
+        _ => None,
+    });
+    waypoints.iter().copied().chain(passed)
+}
+
 /// Takes outcomes over in order: numbers cases, drops repetitions, keeps the tally.
 struct Collector<'a> {
     setup: &'a Setup,
@@ -173,7 +184,7 @@ struct Collector<'a> {
 
 impl<'a> Collector<'a> {
     fn new(setup: &'a Setup, known: &Known) -> Self {
-        let seen = known.cases.iter().map(|case| fingerprint(case.waypoints.iter().copied())).collect();
+        let seen = known.cases.iter().map(|case| fingerprint(met(&case.waypoints, case.program.as_ref()))).collect();
         let tally = Tally { stopped: false, ..known.tally.clone() };
         Self { setup, tally, cases: known.cases.len(), seen }
     }
@@ -197,7 +208,7 @@ impl<'a> Collector<'a> {
             if self.cases as u64 >= wanted {
                 break;
             }
-            if !self.seen.insert(fingerprint(plan.waypoints.iter().copied())) {
+            if !self.seen.insert(fingerprint(met(&plan.waypoints, plan.program.as_ref()))) {
                 self.tally.duplicates += 1;
                 continue;
             }

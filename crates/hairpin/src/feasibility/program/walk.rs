@@ -98,7 +98,7 @@ impl Walk<'_> {
                 let [a, b, c] = [&start, &via, &end].map(|pose| pose.translation.vector);
                 match Circle::through(&a, &b, &c) {
                     Ok(circle) => self.follow(index, m, to, &Way::circular(&start, circle, &end.rotation), &q),
-                    Err(_) => self.refuse(index, m, Refusal::NoArc, to.configuration, None),
+                    Err(why) => self.refuse(index, m, Refusal::NoArc(why), to.configuration, None),
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::joint::CircleError;
 use crate::robot::arm::{Margin, Singularity};
 
 /// Why a move between two points is not possible.
@@ -74,7 +75,12 @@ pub enum Refusal {
         cfx: u8,
     },
     /// Start, point on the way and end give no arc.
-    NoArc,
+    NoArc(CircleError),
+    /// The points of an arc have different orientations: what a controller does with that of the point on the way is its own affair.
+    Turned {
+        /// The larger angle between the start's orientation and another's, rad.
+        turn: f64,
+    },
     /// No posture within the limits has the configuration that the target demands.
     NoSuchConfiguration {
         /// \[cf1, cf4, cf6, cfx\] of the target.
@@ -101,7 +107,8 @@ impl Refusal {
             Self::ToolMeets { .. }
             | Self::Configuration { .. }
             | Self::OtherBranch { .. }
-            | Self::NoArc
+            | Self::NoArc(_)
+            | Self::Turned { .. }
             | Self::NoSuchConfiguration { .. }
             | Self::ArrivesOtherwise { .. } => {}
         }
@@ -115,7 +122,7 @@ impl Refusal {
             Self::OutOfReach { .. } => "reach",
             Self::JointLimit { .. } => "limit",
             Self::Singular { .. } => "singularity",
-            Self::NoArc => "arc",
+            Self::NoArc(_) | Self::Turned { .. } => "arc",
             Self::Configuration { .. }
             | Self::OtherBranch { .. }
             | Self::NoSuchConfiguration { .. }
@@ -210,7 +217,10 @@ impl fmt::Display for Told<'_> {
                 )
             }
             Refusal::OtherBranch { cfx } => write!(f, "reached in other configurations than cfx {cfx} only"),
-            Refusal::NoArc => f.write_str("start, point on the way and end give no arc"),
+            Refusal::NoArc(why) => write!(f, "no arc: {why}"),
+            Refusal::Turned { turn } => {
+                write!(f, "no arc: the orientations of its points are {:.4}° apart", turn.to_degrees())
+            }
             Refusal::NoSuchConfiguration { demanded } => {
                 write!(f, "no posture within the limits has the configuration {}", list(demanded))
             }

@@ -132,6 +132,8 @@ pub struct Heaviest {
     pub outcome: Outcome,
     /// Paths with their costs, the heaviest first: pairwise different.
     pub paths: Vec<(i64, Vec<usize>)>,
+    /// Of each path the points that its triples pass, in order; nothing where there are no triples.
+    pub passed: Vec<Vec<usize>>,
     /// No path costs more; `None` if there is no path.
     pub bound: Option<i64>,
     /// Whether the first path is proven the heaviest (all paths the heaviest ones, where more were asked for).
@@ -182,6 +184,7 @@ pub fn heaviest(
     let answer = |paths: Vec<(i64, Vec<usize>)>, bound, proven| Heaviest {
         outcome: Outcome::Found,
         paths,
+        passed: Vec::new(),
         bound,
         proven,
         method,
@@ -266,7 +269,7 @@ fn by_bounds(
 }
 
 /// Holds the answer to the cost that was asked for.
-fn wanted(mut found: Heaviest, settings: &HeaviestSettings) -> Heaviest {
+pub(super) fn wanted(mut found: Heaviest, settings: &HeaviestSettings) -> Heaviest {
     let least = settings.min_cost.unwrap_or(0);
     if found.outcome == Outcome::Found && found.paths.first().is_none_or(|(cost, _)| *cost < least) {
         let impossible = found.proven || found.bound.is_some_and(|bound| bound < least);

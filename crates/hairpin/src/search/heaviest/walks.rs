@@ -60,6 +60,7 @@ pub fn heaviest_walk(
     let nothing = |outcome, bound, proven| Heaviest {
         outcome,
         paths: Vec::new(),
+        passed: Vec::new(),
         bound,
         proven,
         method: Method::Branch,

@@ -68,25 +68,49 @@ pub fn verify_arm_moves(claim: &ArmMovesClaim) -> Vec<ArmMoveFinding> {
     findings
 }
 
-/// The first thing that does not hold on each move `(from, to)` of a graph, numbered as in `moves`: posture `postures[k]` (rad) must have the tool at
-/// `poses[k]`, and every move, in joints or straight, must lead from one posture to the other. Of `claim` its moves and zones are not looked at.
+/// A move of a graph, by the numbers of its points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ArmWayClaim {
+    /// Where it starts.
+    pub from: usize,
+    /// Where it ends.
+    pub to: usize,
+    /// How it leads there.
+    pub way: ArmWay,
+}
+
+/// How a move of a graph leads from point to point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ArmWay {
+    /// In joints.
+    Joints,
+    /// Straight.
+    Straight,
+    /// On an arc through a point.
+    Through(usize),
+}
+
+/// The first thing that does not hold on each move of a graph, numbered as in `moves`: posture `postures[k]` (rad) must have the tool at
+/// `poses[k]`, and every move must lead from one posture to the other. Of `claim` its moves and zones are not looked at.
 pub fn verify_arm_graph(
     claim: &ArmMovesClaim,
     postures: &[[f64; 6]],
     poses: &[Isometry3<f64>],
-    straight: bool,
-    moves: &[(usize, usize)],
+    moves: &[ArmWayClaim],
 ) -> Vec<ArmMoveFinding> {
     let boxes = boxes(claim);
-    let one = |(index, (from, to)): (usize, &(usize, usize))| {
+    let one = |(index, ArmWayClaim { from, to, way }): (usize, &ArmWayClaim)| {
         let found = |(at, what): Wrong| ArmMoveFinding { index, at, what };
         let (off, turn) = apart(&place(claim, &postures[*from]), &poses[*from]);
         if off > ROUNDING || turn > ROUNDING {
             return Some(found((0.0, format!("the tool is {off:.2e} m and {turn:.2e} rad off its point"))));
         }
         let target = poses[*to];
-        let way =
-            if straight { ArmMoveClaim::Straight(target) } else { ArmMoveClaim::Joints(postures[*to], Some(target)) };
+        let way = match way {
+            ArmWay::Joints => ArmMoveClaim::Joints(postures[*to], Some(target)),
+            ArmWay::Straight => ArmMoveClaim::Straight(target),
+            ArmWay::Through(via) => ArmMoveClaim::Arc(poses[*via].translation.vector.into(), target),
+        };
         match followed(claim, &boxes, &postures[*from], &way) {
             Err(lost) => Some(found(lost)),
             Ok((_, Some(wrong))) => Some(found(wrong)),

@@ -169,12 +169,12 @@ fn corners_that_are_cut_keep_their_triangle_clear() {
 
 #[test]
 fn moves_of_a_graph_lead_from_posture_to_posture() {
-    let other = [0.3, 0.25, -0.2, 0.1, 0.4, -0.1];
-    let postures = [START, other];
+    let (other, aside) = ([0.3, 0.25, -0.2, 0.1, 0.4, -0.1], [0.2, 0.0, 0.0, 0.0, 0.4, 0.0]);
+    let postures = [START, other, aside];
     let poses = postures.map(|q| tool_at(&q));
     let claim = |form| {
         let solids = [ArmSolidClaim { name: "block", tool_only: false, form }];
-        let check = |postures: &[[f64; 6]], poses: &[Isometry3<f64>], straight| {
+        let check = |postures: &[[f64; 6]], poses: &[Isometry3<f64>], way| {
             let claim = ArmMovesClaim {
                 joints: &joints(),
                 tool: Isometry3::translation(0.1, 0.0, 0.0),
@@ -185,19 +185,24 @@ fn moves_of_a_graph_lead_from_posture_to_posture() {
                 moves: &[],
                 zones: &[],
             };
-            verify_arm_graph(&claim, postures, poses, straight, &[(0, 1), (1, 0)])
+            let moves = [(0, 1), (1, 0)].map(|(from, to)| ArmWayClaim { from, to, way });
+            verify_arm_graph(&claim, postures, poses, &moves).len()
         };
         let mut turned = postures;
         turned[1][5] += 0.1;
+        let mut elsewhere = poses;
+        elsewhere[1] = poses[0];
         (
-            [true, false].map(|straight| check(&postures, &poses, straight).len()),
-            check(&postures, &[poses[0], poses[0]], true).len(),
-            check(&turned, &turned.map(|q| tool_at(&q)), true).len(),
-            check(&turned, &poses, true).len(),
+            [ArmWay::Straight, ArmWay::Joints, ArmWay::Through(2)].map(|way| check(&postures, &poses, way)),
+            check(&postures, &elsewhere, ArmWay::Straight),
+            check(&turned, &turned.map(|q| tool_at(&q)), ArmWay::Straight),
+            check(&turned, &poses, ArmWay::Straight),
         )
     };
     // All hold; a point that is elsewhere (2 finds: its own place and the arrival at it) and a posture of another pose do not.
-    assert_eq!(claim(NOWHERE), ([0, 0], 2, 0, 2));
-    let block = ArmSolidForm::Ball(poses[1].translation.vector.into(), 0.05);
-    assert_eq!(claim(block).0, [2, 2]);
+    assert_eq!(claim(NOWHERE), ([0, 0, 0], 2, 0, 2));
+    let block = |k: usize| ArmSolidForm::Ball(poses[k].translation.vector.into(), 0.02);
+    assert_eq!(claim(block(1)).0, [2, 2, 2]);
+    // In the way of the arc alone.
+    assert_eq!(claim(block(2)).0, [0, 0, 2]);
 }

@@ -5,7 +5,7 @@ use crate::campaign::arm::station_of;
 use crate::campaign::learn::of_arm;
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{FlakySection, Mistake};
-use crate::search::heaviest::MOST_VISITS;
+use crate::search::heaviest::{MOST_TRIPLE_POINTS, MOST_VISITS};
 use crate::trajectory::program::{Speed, Zone};
 
 /// More points take graphs of more than a hundred million arcs.
@@ -81,9 +81,12 @@ fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
     found.from("generate.moves.clearance_mm", moves.clearance_mm, 0.0, 1e4, " mm");
     found.from("generate.moves.singularity_margin_deg", moves.singularity_margin_deg, 0.0, 45.0, "°");
     let measured = matches!(generate.cost, CostSection::Table(_) | CostSection::Learned(_));
-    let bound = "false where moves go in joints, or cost what a table or a model says, or are planned without joints: none of these knows arcs";
-    let known = !moves.arcs || (moves.kind == MoveName::Linear && !measured && generate.mode == ArmMode::Joint);
-    found.require(known, "generate.moves.arcs", "true", bound);
+    let bound = "false where moves go in joints, or cost what a table or a model says, or are planned without joints, or points come several times: none of these knows arcs";
+    let joined = moves.kind == MoveName::Linear && generate.mode == ArmMode::Joint && generate.search.visits == 1;
+    found.require(!moves.arcs || (joined && !measured), "generate.moves.arcs", "true", bound);
+    let bound =
+        format!("false, or a cloud of {MOST_TRIPLE_POINTS} points at most: every ordered triple of them is an arc");
+    found.require(!moves.arcs || points <= MOST_TRIPLE_POINTS as u64 - 2, "generate.moves.arcs", "true", &bound);
     let search = &generate.search;
     found.count("generate.search.programs", search.programs, 1, 1_000);
     found.count("generate.search.visits", search.visits, 1, MOST_VISITS as u64);

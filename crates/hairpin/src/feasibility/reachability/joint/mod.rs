@@ -1,5 +1,6 @@
 //! Joint mode: moves of the whole arm, every link and the tool, followed in one configuration and proven between samples.
 
+mod arcs;
 mod bodies;
 mod circle;
 mod costs;
@@ -10,6 +11,7 @@ mod stations;
 #[cfg(test)]
 mod tests;
 
+pub use arcs::{ArcGraph, arcs};
 pub use bodies::{Bodies, TOOL};
 pub use circle::{Circle, CircleError};
 pub use costs::{Cost, Trapezoid, time_law};

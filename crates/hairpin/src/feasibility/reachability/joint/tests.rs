@@ -364,3 +364,49 @@ fn costs_are_those_of_closed_forms() {
         }
     }
 }
+
+#[test]
+fn arcs_that_are_free_are_clear_wherever_they_are_looked_at_and_others_say_why() {
+    let (arm, tool) = (irb120(), grip());
+    let (mut free, mut looked) = (0, [0; 4]);
+    for seed in 0..3 {
+        let mut random = stream(named_seed(9, "arcs", seed));
+        let mut points = stations(&mut random, 6);
+        // One orientation but for the last, which no arc can have.
+        let turn = points[0].pose.rotation;
+        points[..5].iter_mut().for_each(|point| point.pose.rotation = turn);
+        let ball = Shape::Sphere { center: Point3::new(0.38, 0.0, 0.3), radius: 0.05 };
+        let cell = cell(vec![Region::Shape(ball)]);
+        let settings = JointSettings { clearance: 0.005, ..JointSettings::default() };
+        let graph = joint(&arm, &tool, &cell, &points, &settings, &Cost::Distance);
+        let arcs = arcs(&arm, &tool, &cell, &points, &graph.joints, &settings, &Cost::Distance);
+        assert_eq!(arcs.free.len() + arcs.refused.len(), 6 * 5 * 4);
+        for ([a, b, c], cost) in &arcs.free {
+            let at = |k: usize| points[k].pose.translation.vector;
+            let circle = Circle::through(&at(*a), &at(*b), &at(*c)).unwrap();
+            assert_eq!(*cost, (1e6 * circle.length()).round() as i64);
+            let motion = Motion::circular(&points[*a].pose, circle, &points[*c].pose.rotation);
+            let start = graph.joints[*a].as_ref().unwrap();
+            let clearance = sampled_clearance(&arm, &tool, &cell, &motion, start);
+            assert!(clearance.is_some_and(|clearance| clearance >= 0.005 - 1e-9), "{a} {b} {c}: {clearance:?}");
+            // The way back is the same way.
+            assert!(arcs.free.iter().any(|(back, same)| *back == [*c, *b, *a] && (same - cost).abs() <= 1));
+            free += 1;
+        }
+        for (points, refusal) in &arcs.refused {
+            let reason = match refusal {
+                Refusal::Turned { .. } => 0,
+                Refusal::NoArc(_) => 1,
+                Refusal::Collides { .. } => 2,
+                _ => 3,
+            };
+            looked[reason] += 1;
+            assert!(!matches!(refusal, Refusal::Turned { .. }) || points.contains(&5));
+            assert!(
+                refusal.told(&["ball".into()]).to_string().chars().any(char::is_numeric),
+                "{refusal:?} has no number"
+            );
+        }
+    }
+    assert!(free > 20 && looked[..3].iter().all(|count| *count > 0), "{free} {looked:?}");
+}

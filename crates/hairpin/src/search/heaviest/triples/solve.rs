@@ -1,0 +1,112 @@
+//! Which method answers, and what is known of the answer.
+
+use std::collections::VecDeque;
+
+use super::anneal::annealed;
+use super::problem::Triples;
+use super::subsets::{Subsets, table_bytes};
+use super::walks::bound;
+use crate::search::heaviest::solve::wanted;
+use crate::search::heaviest::{Arcs, Heaviest, HeaviestMistake, HeaviestSettings, Method, Outcome, heaviest};
+
+/// Up to so many points the heaviest path is searched exactly, if memory allows.
+pub const MOST_EXACT_POINTS: usize = 20;
+/// Kicks of the local search that finds the path without triples from which annealing starts.
+const FIRST_KICKS: u64 = 200;
+
+/// The path of maximal total cost in which no point comes twice and triples may stand for two arcs each; points may be left out.
+///
+/// Costs of the answer's paths are with the triples that add most ([`Triples::best_on`] says which), its paths pairwise different orders of points. Up to
+/// [`MOST_EXACT_POINTS`] points it is proven; of more, paths are the best that were met, and the bound holds for the heaviest. Of `settings` count
+/// ends, the least cost, how many paths, the seed, and the bytes a table may take.
+///
+/// # Errors
+/// Ends that are no points.
+pub fn heaviest_with_triples(
+    arcs: &Arcs,
+    triples: &Triples,
+    settings: &HeaviestSettings,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Heaviest, HeaviestMistake> {
+    let (n, ends) = (arcs.points(), settings.ends);
+    ends.check(n)?;
+    assert!(triples.points() == n, "triples of the same points");
+    let exact = n <= MOST_EXACT_POINTS && table_bytes(n) <= u128::from(settings.most_bytes);
+    let exact = exact && matches!(settings.method, Method::Auto | Method::Subsets);
+    let table = if exact { Subsets::new(arcs, triples, ends, stop) } else { None };
+    let answer = |paths: Vec<(i64, Vec<usize>)>, bound, proven, method| Heaviest {
+        outcome: if paths.is_empty() && proven { Outcome::Infeasible } else { Outcome::Found },
+        paths,
+        passed: Vec::new(),
+        bound,
+        proven,
+        method,
+        nodes: 0,
+        proof: None,
+    };
+    if let Some(table) = table {
+        let paths = table.heaviest(settings.programs, stop);
+        let bound = paths.first().map(|(cost, _)| *cost);
+        return Ok(cut(arcs, triples, wanted(answer(paths, bound, true, Method::Subsets), settings)));
+    }
+    let first = first_order(arcs, triples, settings, stop)?;
+    let paths = first
+        .map_or_else(Vec::new, |first| annealed(arcs, triples, ends, (&first, settings.programs, settings.seed), stop));
+    let reached = paths.first().map_or(0, |(cost, _)| *cost);
+    let most = bound(arcs, triples, ends, reached, stop);
+    let proven = settings.programs == 1 && !paths.is_empty() && most <= reached;
+    Ok(cut(arcs, triples, wanted(answer(paths, Some(most), proven, Method::Local), settings)))
+}
+
+/// With the points that the triples of each path pass.
+fn cut(arcs: &Arcs, triples: &Triples, mut found: Heaviest) -> Heaviest {
+    let passed = |order: &[usize]| -> Vec<usize> {
+        let places = triples.best_on(arcs, order).map_or_else(Vec::new, |(_, places)| places);
+        places.into_iter().map(|place| order[place]).collect()
+    };
+    found.passed = found.paths.iter().map(|(_, order)| passed(order)).collect();
+    found
+}
+
+/// A path to begin with: the heaviest of arcs alone that local search finds, else one of few moves.
+fn first_order(
+    arcs: &Arcs,
+    triples: &Triples,
+    settings: &HeaviestSettings,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Vec<usize>>, HeaviestMistake> {
+    let quick = HeaviestSettings {
+        method: Method::Local,
+        programs: 1,
+        min_cost: None,
+        kicks: Some(FIRST_KICKS),
+        proof: false,
+        ..settings.clone()
+    };
+    let straight = heaviest(arcs, &quick, stop)?.paths.into_iter().next().map(|(_, path)| path);
+    Ok(straight.or_else(|| few_moves(arcs, triples, settings)))
+}
+
+/// A path of few moves between the ends, by breadth-first search over arcs and triples; points keep the first way that came to them, so that there may be
+/// paths where it finds none.
+fn few_moves(arcs: &Arcs, triples: &Triples, settings: &HeaviestSettings) -> Option<Vec<usize>> {
+    let (n, ends) = (arcs.points(), settings.ends);
+    let mut ways: Vec<Option<Vec<usize>>> = vec![None; n];
+    let mut open: VecDeque<usize> = (0..n).filter(|point| ends.may_start(*point)).collect();
+    open.iter().for_each(|start| ways[*start] = Some(vec![*start]));
+    while let Some(at) = open.pop_front() {
+        let way = ways[at].clone()?;
+        if ends.may_end(at) {
+            return Some(way);
+        }
+        for (to, known) in ways.iter_mut().enumerate().filter(|(_, known)| known.is_none()) {
+            let straight = arcs.cost(at, to).is_some().then(Vec::new);
+            let free = |via: &usize| !way.contains(via) && triples.cost(at, *via, to).is_some();
+            if let Some(via) = straight.or_else(|| (0..n).find(free).map(|via| vec![via])) {
+                *known = Some(way.iter().copied().chain(via).chain([to]).collect());
+                open.push_back(to);
+            }
+        }
+    }
+    None
+}
