@@ -64,6 +64,93 @@ fn a_learned_score_is_written_applied_and_refused_elsewhere() {
     refused(here, &["learn", "unflown"], &["no leg to learn from"]);
 }
 
+/// Graph, score, deviation of every case of a campaign.
+fn came_to(folder: &Path) -> Vec<(u64, f64, f64)> {
+    let kept = CampaignFolder::open(folder).unwrap();
+    let (cases, results) = (kept.read_cases().unwrap(), kept.read_results().unwrap());
+    let both = cases.iter().zip(&results);
+    both.map(|(case, result)| (case.graph, case.score, result.measures.as_ref().unwrap().max_deviation)).collect()
+}
+
+#[test]
+fn partial_trajectories_that_are_executed_lead_the_beam_to_more_stress_than_random_scores() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("q.toml"), small_hull(r#"{ method = "beam", waypoints = 90, cases = 5, executions = 25 }"#))
+        .unwrap();
+    let stress = |out: &str, controller: &str, score: &str, more: &[&str]| {
+        let (controller, score) =
+            (format!("execute.controller=\"{controller}\""), format!("generate.score=\"{score}\""));
+        let mut typed = vec!["stress", "q.toml", "--out", out, "--set", &controller, "--set", &score];
+        typed.extend(more);
+        json(here, &typed);
+        came_to(&here.join(out))
+    };
+    // Flown on from each waypoint; the last one plans over all waypoints, and is flown anew each time.
+    for controller in ["stable-waypoint", "fixed-velocity", "minimum-snap"] {
+        let (executed, drawn) = (format!("{controller}-executed"), format!("{controller}-random"));
+        let found = stress(&executed, controller, "executed", &[]);
+        let random = stress(&drawn, controller, "random", &[]);
+        assert_eq!((found.len(), random.len()), (5, 5), "{controller}");
+        for (_, score, deviation) in &found {
+            assert_eq!(score, deviation, "{controller}: the score is the judge's own number");
+        }
+        let mean = |all: &[(u64, f64, f64)]| all.iter().map(|(.., deviation)| deviation).sum::<f64>() / 5.0;
+        assert!(mean(&found) > 1.1 * mean(&random), "{controller}: {found:?} {random:?}");
+        let curves = fs::read_to_string(here.join(&executed).join("best-so-far.tsv")).unwrap();
+        for (graph, score, _) in &found {
+            let rows: Vec<Vec<f64>> = curves
+                .lines()
+                .skip(1)
+                .map(|row| row.split('\t').map(|cell| cell.parse().unwrap()).collect())
+                .filter(|row: &Vec<f64>| row[0] == *graph as f64)
+                .collect();
+            assert!(rows.iter().all(|row| row[1] <= 25.0), "{controller}: {curves}");
+            assert_eq!(rows.last().unwrap()[2], *score, "{controller}: {curves}");
+        }
+        if controller == "stable-waypoint" {
+            assert_eq!(
+                stress("one-thread", controller, "executed", &["--threads", "1"]),
+                found,
+                "threads change nothing"
+            );
+            let least = ["--set", "generate.search.executions=1"];
+            assert_eq!(stress("least", controller, "executed", &least).len(), 5, "one execution is enough for one");
+        }
+    }
+
+    // A drive is carried out from its start for each of its parts.
+    let mut typed =
+        vec!["stress", "differential-drive", "--out", "driven", "--set", "generate.search.score=\"executed\""];
+    for set in ["generate.search.waypoints=15", "generate.search.cases=2", "generate.search.executions=6"] {
+        typed.extend(["--set", set]);
+    }
+    typed.extend(["--set", "task.length=4", "--set", "execute.repeat=1"]);
+    json(here, &typed);
+    let driven = came_to(&here.join("driven"));
+    assert_eq!(driven.len(), 2);
+    for (_, score, deviation) in driven {
+        assert_eq!(score, deviation);
+    }
+
+    let no = |more: &[&str], words: &[&str]| {
+        let mut typed = vec!["generate", "q.toml", "--out", "no", "--set", "generate.score=\"executed\""];
+        more.iter().for_each(|set| typed.extend(["--set", set]));
+        refused(here, &typed, words);
+    };
+    for method in ["exact", "uniform", "in-loop"] {
+        let method = format!("generate.search.method=\"{method}\"");
+        no(&[&method], &["generate.score", "\"executed\"", "generate.search.method = \"beam\""]);
+    }
+    no(&["generate.search.per_graph=30"], &["generate.search.executions", "25", "30 … 1 000 000", "per_graph"]);
+    no(&["generate.search.stress=\"clearance\""], &["generate.search.stress", "nothing to be near to"]);
+    refused(
+        here,
+        &["stress", "q.toml", "--out", "no", "--set", "generate.score=\"executed\"", "--executor", "true"],
+        &["generate.score", "controller given"],
+    );
+}
+
 #[test]
 fn executions_in_the_loop_tell_the_stress_that_is_judged_and_beat_uniform_draws() {
     let folder = tempfile::tempdir().unwrap();
@@ -76,13 +163,7 @@ fn executions_in_the_loop_tell_the_stress_that_is_judged_and_beat_uniform_draws(
         typed.extend(more);
         json(here, &typed)
     };
-    // Graph, score, deviation of every case.
-    let came_to = |out: &str| -> Vec<(u64, f64, f64)> {
-        let kept = CampaignFolder::open(&here.join(out)).unwrap();
-        let (cases, results) = (kept.read_cases().unwrap(), kept.read_results().unwrap());
-        let both = cases.iter().zip(&results);
-        both.map(|(case, result)| (case.graph, case.score, result.measures.as_ref().unwrap().max_deviation)).collect()
-    };
+    let came_to = |out: &str| came_to(&here.join(out));
     looped("looped", &[]);
     looped("one-thread", &["--threads", "1"]);
     looped("moved", &["--set", "generate.search.move_waypoints=true"]);

@@ -50,6 +50,9 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) 
         return;
     }
     let method = match search.method {
+        SearchMethod::Beam if setup.scenario.executes() => {
+            "best-first with a beam that executes partial trajectories: scores are the stress of a nominal run, no optimum is claimed"
+        }
         SearchMethod::Beam => "best-first with a beam: no optimum is claimed",
         SearchMethod::Exact => "exact in each sampled graph, over its waypoints only",
         SearchMethod::Uniform => "uniform over the feasible trajectories of each sampled graph",

@@ -1,12 +1,14 @@
-//! Executions that a search asks for: one nominal run of a plan, in our own simulator.
+//! Executions that a search asks for: one nominal run of a plan, or of a part of one, in our own simulator.
 
 use super::flight::{self, Placement};
 use super::graph::Plan;
 use super::judge::measures_of;
 use super::learn::{LegSample, samples_of};
+use super::mission::{flight_time_limit, run_seed};
 use super::{Case, Run, Setup, execute_again, execute_run};
 use crate::judgement::{Measures, Stress};
-use crate::search::in_loop::Trial;
+use crate::search::in_loop::{Ran, Trial};
+use crate::simulation::Airborne;
 
 /// Numbers of the noise that stress is confirmed under begin here: no run and no re-run of a violation has the same.
 const CONFIRMING: usize = 1 << 20;
@@ -58,6 +60,55 @@ pub(super) fn execute_and_learn(
     let mut samples = samples_of(&case, &measures, setup.scenario.search().stress);
     samples.iter_mut().for_each(|sample| sample.trajectory = trajectory);
     Some((trial(setup, &measures)?, samples))
+}
+
+/// Whether a part of a trajectory can be executed from where its beginning has led: where controllers know of one waypoint at a time.
+pub(super) fn resumes(setup: &Setup) -> bool {
+    setup.flight().is_some_and(|setup| flight::goes_on(&setup))
+}
+
+/// Executes `plan`, the first waypoints of a trajectory of graph number `graph`, or all where it is `whole`: on from `before` or from the
+/// start; the same as [`execute`] once it is whole. Where executions do not [resume](resumes), `plan` is carried out as if it were all.
+///
+/// # Errors
+/// Legs that were executed for nothing.
+pub(super) fn execute_partial(
+    setup: &Setup,
+    graph: u64,
+    plan: &Plan,
+    before: Option<&Airborne>,
+    whole: bool,
+) -> Result<Ran<Airborne>, u64> {
+    let legs = plan.waypoints.len() as u64 - 1;
+    let Some(flying) = setup.flight().filter(|setup| flight::goes_on(setup)) else {
+        let stress = executed(setup, graph, plan).and_then(|executed| trial(setup, &executed.measures));
+        return Ok(Ran { stress: stress.ok_or(legs)?.stress, state: None, legs });
+    };
+    let case = plan.clone().case(setup.scenario.seed(), graph, 0);
+    let mut airborne = match before {
+        Some(before) => before.clone(),
+        None => {
+            let order = flight::Order {
+                waypoints: &case.waypoints,
+                profile: None,
+                accept: setup.scenario.executor().accept,
+                time_limit: flight_time_limit(&flying, flying.scenario.task.length as usize),
+                seed: run_seed(case.seed, 0),
+            };
+            flight::at_start(&flying, &order).map_err(|_| legs)?
+        }
+    };
+    let mut flown = 0;
+    for waypoint in &case.waypoints[airborne.waypoints()..] {
+        flown += u64::from(!airborne.ended());
+        airborne.fly_to(flying.world, *waypoint).map_err(|_| flown)?;
+    }
+    if whole {
+        airborne.finish(flying.world);
+    }
+    let run = Run { case: 0, run: 0, drawn: Vec::new(), outcome: Ok(airborne.flight()) };
+    let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
+    Ok(Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
 }
 
 /// How long the execution of `plan` takes, s.

@@ -2,6 +2,7 @@
 
 use nalgebra::Point3;
 
+use super::flight::FlightSetup;
 use super::planned::timed;
 use super::setup::Kind;
 use super::{Case, Mistake, Scenario, Setup, Timed, vary};
@@ -66,9 +67,7 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
     // The plan is the nominal robot's, whatever was drawn for the one that carries it out.
     let timed = timed(setup, case);
     let time_limit = match varied.kind() {
-        Kind::Flight(setup) => {
-            setup.scenario.execute.time_limit_s.unwrap_or(SECONDS_PER_WAYPOINT * case.waypoints.len() as f64)
-        }
+        Kind::Flight(setup) => flight_time_limit(&setup, case.waypoints.len()),
         Kind::Drive(setup) => {
             let planned = timed.last().map_or(0.0, |last| last.t);
             setup.scenario.execute.time_limit_s.unwrap_or(SLOWNESS * planned + SPARE_SECONDS)
@@ -80,7 +79,7 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
     Ok(Mission {
         case: case.id(),
         run,
-        seed: named_seed(case.seed, "run", run as u64),
+        seed: run_seed(case.seed, run),
         drawn,
         waypoints: case.waypoints.clone(),
         accept,
@@ -88,4 +87,14 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
         timed,
         setup: varied,
     })
+}
+
+/// The seed of run number `run` of a case.
+pub(super) fn run_seed(case_seed: u64, run: usize) -> u64 {
+    named_seed(case_seed, "run", run as u64)
+}
+
+/// Time limit of a flight over so many waypoints, s.
+pub(super) fn flight_time_limit(setup: &FlightSetup, waypoints: usize) -> f64 {
+    setup.scenario.execute.time_limit_s.unwrap_or(SECONDS_PER_WAYPOINT * waypoints as f64)
 }

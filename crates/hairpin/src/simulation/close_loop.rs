@@ -1,4 +1,4 @@
-//! Closes the loop over plant and controller, and flies a course to its end.
+//! Closes the loop over plant and controller.
 
 use multiversion::multiversion;
 use nalgebra::{Point3, Vector3};
@@ -6,9 +6,7 @@ use wide::f64x4;
 
 use super::SimulationError;
 use super::controllers::{ControllerSettings, Measured, Pilot};
-use super::course::Course;
 use super::disturbance::{Conditions, Disturbances};
-use super::hazard::Hazards;
 use super::inner_loop::InnerLoop;
 use super::lanes::vector;
 use super::plant::Plant;
@@ -16,13 +14,11 @@ use super::recorder::Recorder;
 use super::step::{Motion, Stepper};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::Quadrotor;
-use crate::trajectory::{Ended, Flight, Profile};
+use crate::trajectory::Profile;
 use crate::world::World;
 
 /// Nominal period of the rate loop, s (FlightGoggles: 960 Hz).
 const INNER_PERIOD: f64 = 0.001;
-/// Time between two looks at waypoints and hazards, s.
-const WATCH_PERIOD: f64 = 0.01;
 
 /// What flies where.
 #[derive(Debug, Clone, Copy)]
@@ -71,7 +67,7 @@ impl Default for FlySettings {
 }
 
 impl FlySettings {
-    fn check(&self) -> Result<(), SimulationError> {
+    pub(super) fn check(&self) -> Result<(), SimulationError> {
         if !(1e-5..=1e-3).contains(&self.step) {
             return Err(SimulationError::new("step", self.step.to_string(), "from 1e-5 to 1e-3 s"));
         }
@@ -88,66 +84,6 @@ impl FlySettings {
     }
 }
 
-/// Flies one run: the same bytes for the same arguments.
-///
-/// The run ends `linger` seconds after its course is over, at the time limit, or at a crash: below the ground (z < 0; a
-/// take-off from the floor may dip), the robot's clearance radius in an obstacle, body z downwards for more than
-/// 0.5 s or a state that is no longer finite (`tumble`), outside the world's sides or ceiling with `walls`. The log has
-/// the channels of [`Flight`], and body rates; `saturated` is the share of rotors at a limit since the sample before.
-///
-/// # Errors
-/// Settings out of bounds; fewer than two waypoints or one that is not finite; a profile with another number of legs; a
-/// rotor layout that cannot hover; a course without a minimum-snap curve where one is needed.
-pub fn fly(
-    sortie: &Sortie,
-    controller: &ControllerSettings,
-    conditions: &Conditions,
-    settings: &FlySettings,
-    seed: u64,
-) -> Result<Flight, SimulationError> {
-    settings.check()?;
-    conditions.check()?;
-    check_course(sortie)?;
-    let mut run = ClosedLoop::new(sortie, controller, conditions, settings, seed)?;
-    let mut course = Course::new(sortie.waypoints, settings.accept);
-    let start = sortie.waypoints[0].coords;
-    let mut hazards = Hazards::new(sortie.world, sortie.robot.clearance_radius, settings.walls, &start);
-    let mut recorder = Recorder::new((settings.time_limit / settings.log_period) as usize + 2);
-
-    let ticks = |period: f64| ((period / run.period).round() as u64).max(1);
-    let (watch_every, log_every, turn_every) =
-        (ticks(WATCH_PERIOD), ticks(settings.log_period), ticks(run.pilot.period()));
-    let (mut to_watch, mut to_log, mut to_turn) = (0, 0, 0);
-    let mut tick: u64 = 0;
-    let ended = loop {
-        let t = tick as f64 * run.period;
-        if to_watch == 0 {
-            to_watch = watch_every;
-            let position = run.position();
-            course.note(t, &position, run.pilot.schedule());
-            let ended = hazards.note(t, &position, run.up()).or(end_of_time(t, &course, settings));
-            if let Some(ended) = ended {
-                run.record(&mut recorder, t, course.leg());
-                break ended;
-            }
-        }
-        if to_log == 0 {
-            to_log = log_every;
-            run.record(&mut recorder, t, course.leg());
-        }
-        if to_turn == 0 {
-            to_turn = turn_every;
-            run.turn(turn_every as f64 * run.period, course.target());
-        }
-        let ticks = to_watch.min(to_log).min(to_turn);
-        (to_watch, to_log, to_turn) = (to_watch - ticks, to_log - ticks, to_turn - ticks);
-        tick += ticks;
-        run.fly_at(settings.simd, ticks);
-    };
-    let left_world = hazards.left_world();
-    Ok(Flight { track: recorder.into_track(), ended, left_world, reached: course.into_reached() })
-}
-
 /// Ticks of the rate loop until something else is due. Three-operand instructions save a quarter of them; nothing is
 /// contracted or reordered, so the bits are the same at either level.
 #[multiversion(targets("x86_64+avx"))]
@@ -155,41 +91,17 @@ fn fly_on(run: &mut ClosedLoop, ticks: u64) {
     run.fly_on(ticks);
 }
 
-fn end_of_time(t: f64, course: &Course, settings: &FlySettings) -> Option<Ended> {
-    let rounding = 1e-9;
-    if course.over().is_some_and(|over| t >= over + settings.linger - rounding) {
-        return Some(course.outcome());
-    }
-    (t >= settings.time_limit - rounding).then_some(Ended::Time)
-}
-
-fn check_course(sortie: &Sortie) -> Result<(), SimulationError> {
-    let points = sortie.waypoints;
-    if points.len() < 2 {
-        return Err(SimulationError::new("waypoints", points.len().to_string(), "at least two"));
-    }
-    if let Some(point) = points.iter().find(|point| !point.iter().all(|c| c.is_finite())) {
-        return Err(SimulationError::new("waypoints", format!("{:?}", point.coords.as_slice()), "finite"));
-    }
-    match sortie.profile {
-        Some(profile) if profile.legs.len() + 1 != points.len() => {
-            let found = format!("{} legs for {} waypoints", profile.legs.len(), points.len());
-            Err(SimulationError::new("profile", found, "one leg between each two waypoints"))
-        }
-        _ => Ok(()),
-    }
-}
-
 /// Plant, disturbances and loops of one run.
-struct ClosedLoop {
+#[derive(Debug, Clone)]
+pub(super) struct ClosedLoop {
     plant: Plant,
     stepper: Stepper,
     motion: Motion,
     disturbances: Disturbances,
     inner: InnerLoop,
-    pilot: Pilot,
+    pub(super) pilot: Pilot,
     /// Time between two ticks of the rate loop, s, and physics steps in it.
-    period: f64,
+    pub(super) period: f64,
     steps: u32,
     /// Rotors at a limit since the last sample, summed over ticks, and those ticks.
     at_limit: u64,
@@ -197,7 +109,7 @@ struct ClosedLoop {
 }
 
 impl ClosedLoop {
-    fn new(
+    pub(super) fn new(
         sortie: &Sortie,
         controller: &ControllerSettings,
         conditions: &Conditions,
@@ -231,12 +143,12 @@ impl ClosedLoop {
     }
 
     /// The outer loop's turn.
-    fn turn(&mut self, dt: f64, (target, hold): (Vector3<f64>, bool)) {
+    pub(super) fn turn(&mut self, dt: f64, (target, hold): (Vector3<f64>, bool)) {
         let velocity = vector(self.motion.velocity);
         self.inner.follow(self.pilot.control(dt, &Measured { position: self.position(), velocity, target, hold }));
     }
 
-    fn fly_at(&mut self, simd: Simd, ticks: u64) {
+    pub(super) fn fly_at(&mut self, simd: Simd, ticks: u64) {
         match simd {
             Simd::Widest => fly_on(self, ticks),
             Simd::Portable => self.fly_on(ticks),
@@ -285,16 +197,16 @@ impl ClosedLoop {
         (1..self.steps).for_each(|_| self.step::<DISTURBED>(speeds));
     }
 
-    fn position(&self) -> Vector3<f64> {
+    pub(super) fn position(&self) -> Vector3<f64> {
         vector(self.motion.position)
     }
 
     /// The body z axis's part along the world's; NaN for a state that is not finite.
-    fn up(&self) -> f64 {
+    pub(super) fn up(&self) -> f64 {
         if self.motion.is_finite() { self.motion.up.to_array()[2] } else { f64::NAN }
     }
 
-    fn record(&mut self, recorder: &mut Recorder, t: f64, leg: usize) {
+    pub(super) fn record(&mut self, recorder: &mut Recorder, t: f64, leg: usize) {
         let saturated = if self.ticks > 0 { self.at_limit as f64 / (4 * self.ticks) as f64 } else { 0.0 };
         (self.at_limit, self.ticks) = (0, 0);
         recorder.push(t, &self.motion, leg, saturated);

@@ -12,9 +12,12 @@ use crate::trajectory::Ended;
 /// reference's leg, whether or not it came near the waypoint: being late is what it is judged for. A waypoint is then
 /// reached if the robot comes inside the radius while one of its two legs is flown, and the run is over once the
 /// reference is over and the last waypoint reached; it ends `time` instead of `done` if any waypoint was missed.
+///
+/// A course that is open has no end yet: at its last waypoint it halts, until there is another one or it is closed.
 #[derive(Debug, Clone)]
-pub(crate) struct Course<'a> {
-    waypoints: &'a [Point3<f64>],
+pub(crate) struct Course {
+    waypoints: Vec<Point3<f64>>,
+    open: bool,
     accept: f64,
     next: usize,
     leg: usize,
@@ -22,12 +25,38 @@ pub(crate) struct Course<'a> {
     over: Option<f64>,
 }
 
-impl<'a> Course<'a> {
+impl Course {
     /// At the start, the first waypoint reached at t = 0.
-    pub(crate) fn new(waypoints: &'a [Point3<f64>], accept: f64) -> Self {
+    pub(crate) fn new(waypoints: &[Point3<f64>], accept: f64) -> Self {
         let mut reached = vec![None; waypoints.len()];
         reached[0] = Some(0.0);
-        Self { waypoints, accept, next: 1, leg: 0, reached, over: None }
+        Self { waypoints: waypoints.to_vec(), open: false, accept, next: 1, leg: 0, reached, over: None }
+    }
+
+    /// At `start`, where to go from there not known yet.
+    pub(crate) fn open(start: Point3<f64>, accept: f64) -> Self {
+        Self { open: true, ..Self::new(&[start], accept) }
+    }
+
+    /// Goes on to `waypoint`.
+    pub(crate) fn extend(&mut self, waypoint: Point3<f64>) {
+        self.waypoints.push(waypoint);
+        self.reached.push(None);
+    }
+
+    /// Number of waypoints.
+    pub(crate) fn waypoints(&self) -> usize {
+        self.waypoints.len()
+    }
+
+    /// Ends at the last waypoint.
+    pub(crate) fn close(&mut self) {
+        self.open = false;
+    }
+
+    /// Whether every waypoint of an open course was reached.
+    pub(crate) fn halts(&self) -> bool {
+        self.open && self.next == self.waypoints.len()
     }
 
     /// Takes note of the position at `t`.
@@ -51,7 +80,7 @@ impl<'a> Course<'a> {
                 self.next = if schedule.over && self.reached[last].is_some() { last + 1 } else { self.leg + 1 };
             }
         }
-        if self.next > last && self.over.is_none() {
+        if self.next > last && !self.open && self.over.is_none() {
             self.over = Some(t);
         }
     }

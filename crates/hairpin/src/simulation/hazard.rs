@@ -14,8 +14,7 @@ const FARTHEST: f64 = 1e5;
 
 /// Watches one run.
 #[derive(Debug, Clone)]
-pub(crate) struct Hazards<'a> {
-    world: &'a World,
+pub(crate) struct Hazards {
     clearance: f64,
     walls: bool,
     airborne: bool,
@@ -26,28 +25,28 @@ pub(crate) struct Hazards<'a> {
     left_world: Option<f64>,
 }
 
-impl<'a> Hazards<'a> {
+impl Hazards {
     /// Starts at `start`; obstacles are kept off by `clearance` m; `walls`: leaving the world is a crash.
-    pub(crate) fn new(world: &'a World, clearance: f64, walls: bool, start: &Vector3<f64>) -> Self {
+    pub(crate) fn new(clearance: f64, walls: bool, start: &Vector3<f64>) -> Self {
         let before = Point3::from(*start);
-        Self { world, clearance, walls, airborne: false, before, safe: None, upside_down_since: None, left_world: None }
+        Self { clearance, walls, airborne: false, before, safe: None, upside_down_since: None, left_world: None }
     }
 
-    /// Whether the run ends at `t` with the robot at `position`, its body z axis `up` in the world's z.
+    /// Whether the run in `world` ends at `t` with the robot at `position`, its body z axis `up` in the world's z.
     ///
     /// Obstacles are tested with the chord from the position noted before, and only once the robot has left the ball
     /// around an earlier position that is known to be clear, so nothing between two notes is missed but the bulge of
     /// the path over its chord (below 1 mm at 10 ms and 8 g). A world is left through its sides and its ceiling.
-    pub(crate) fn note(&mut self, t: f64, position: &Vector3<f64>, up: f64) -> Option<Ended> {
+    pub(crate) fn note(&mut self, world: &World, t: f64, position: &Vector3<f64>, up: f64) -> Option<Ended> {
         if !(position.norm_squared() < FARTHEST * FARTHEST && up.is_finite()) {
             return Some(Ended::Tumble);
         }
         let p = Point3::from(*position);
-        let outside = self.world.wall_distance(&Point3::new(p.x, p.y, p.z.max(0.0))) < 0.0;
+        let outside = world.wall_distance(&Point3::new(p.x, p.y, p.z.max(0.0))) < 0.0;
         if outside && self.left_world.is_none() {
             self.left_world = Some(t);
         }
-        if self.hits_obstacle(&p) {
+        if self.hits_obstacle(world, &p) {
             return Some(Ended::Obstacle);
         }
         self.airborne |= p.z > AIRBORNE;
@@ -66,9 +65,9 @@ impl<'a> Hazards<'a> {
         None
     }
 
-    fn hits_obstacle(&mut self, p: &Point3<f64>) -> bool {
+    fn hits_obstacle(&mut self, world: &World, p: &Point3<f64>) -> bool {
         let before = std::mem::replace(&mut self.before, *p);
-        if self.world.obstacles().is_empty() {
+        if world.obstacles().is_empty() {
             return false;
         }
         // The chord lies in the ball if both of its ends do.
@@ -76,8 +75,8 @@ impl<'a> Hazards<'a> {
         if self.safe.is_some_and(|ball| clear(ball, p) && clear(ball, &before)) {
             return false;
         }
-        self.safe = Some((*p, self.world.obstacle_distance(p) - self.clearance));
-        self.world.segment_distance(&before, p) <= self.clearance
+        self.safe = Some((*p, world.obstacle_distance(p) - self.clearance));
+        world.segment_distance(&before, p) <= self.clearance
     }
 
     /// First time outside the world, s.

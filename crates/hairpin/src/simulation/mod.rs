@@ -1,9 +1,10 @@
 //! Floor 5, the act: plants with what the claim leaves out, controllers, and the loop closed over them.
 //!
-//! One verb a kind of robot: [`fly`] flies a robot along a course, [`ground::drive`] drives a vehicle along its plan, and each says
+//! One verb a kind of robot: [`fly`] flies a robot along a course (or [`Airborne`], leg by leg), [`ground::drive`] drives a vehicle along its plan, and each says
 //! what happened. The act shares the robot's numbers with
 //! the claim and nothing else.
 
+mod airborne;
 pub mod arm;
 mod close_loop;
 mod controllers;
@@ -23,7 +24,8 @@ mod tests;
 
 use thiserror::Error;
 
-pub use close_loop::{FlySettings, Sortie, fly};
+pub use airborne::{Airborne, fly};
+pub use close_loop::{FlySettings, Sortie};
 pub use controllers::{ControllerKind, ControllerSettings, SegmentTimes};
 pub use disturbance::{Conditions, DiscreteGust, Disturbances, Gusts};
 pub use plant::{Plant, PlantState};

@@ -354,11 +354,11 @@ fn a_take_off_from_the_floor_is_no_crash() {
 fn turning_over_and_numbers_without_end_are_tumbles() {
     let world = cage();
     let at = Vector3::new(5.0, 5.0, 5.0);
-    let mut hazards = hazard::Hazards::new(&world, 0.2, false, &at);
-    assert_eq!(hazards.note(0.0, &at, -0.5), None);
-    assert_eq!(hazards.note(0.4, &at, -0.5), None);
-    assert_eq!(hazards.note(0.6, &at, -0.5), Some(Ended::Tumble));
-    assert_eq!(hazards.note(0.7, &Vector3::new(f64::NAN, 0.0, 0.0), 1.0), Some(Ended::Tumble));
+    let mut hazards = hazard::Hazards::new(0.2, false, &at);
+    assert_eq!(hazards.note(&world, 0.0, &at, -0.5), None);
+    assert_eq!(hazards.note(&world, 0.4, &at, -0.5), None);
+    assert_eq!(hazards.note(&world, 0.6, &at, -0.5), Some(Ended::Tumble));
+    assert_eq!(hazards.note(&world, 0.7, &Vector3::new(f64::NAN, 0.0, 0.0), 1.0), Some(Ended::Tumble));
     // Rotors too close to the centre to hold the body against the moments: it turns over, high above the ground.
     let mut robot = Quadrotor { moment_noise: 1e-3, ..flightgoggles() };
     for rotor in &mut robot.rotors {

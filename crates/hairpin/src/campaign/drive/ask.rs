@@ -52,9 +52,21 @@ where
     let seed = named_seed(scenario.seed, "uniform", graph);
     let length = scenario.task.length as usize;
     if scenario.task.end_m.is_some() {
-        let plan = &plan;
-        let question =
-            Question { search: section, length, points, reach, start, score, seed, lookahead, plan, also, looped };
+        let (plan, free_end) = (&plan, false);
+        let question = Question {
+            search: section,
+            length,
+            points,
+            reach,
+            start,
+            score,
+            seed,
+            lookahead,
+            plan,
+            free_end,
+            also,
+            looped,
+        };
         return Outcome::of(graph, search(&question, may_arrive));
     }
     let open = OpenEnd::new(reach, points);
@@ -68,6 +80,7 @@ where
         seed,
         lookahead: 0,
         plan: &|found| plan(open.closed(found)),
+        free_end: true,
         also: also.iter().map(|score| open.score(score, section.aggregate)).collect(),
         looped,
     };

@@ -201,6 +201,6 @@ fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
 /// What a leg's `ground` is: the score that is named or, as an input of a learned one, slope and slip.
 fn ground_score(search: &DriveSearch) -> Result<GroundScore, String> {
     let learned = search.model.is_some() || search.method == SearchMethod::Adaptive;
-    let name = if learned { LEARNED_FROM } else { &search.score };
+    let name = if learned { LEARNED_FROM } else { search.score_of_legs() };
     GroundScore::named(name).map_err(|error| error.to_string())
 }

@@ -90,6 +90,13 @@ fn first_of(scenario: &Scenario, graphs: u64) -> Result<Scenario, Mistake> {
         // What is feasible does not depend on what it does to the robot.
         draws.push(("generate.search.method".into(), "uniform".into()));
     }
+    match scenario {
+        Scenario::Flight(flight) => draws.push(("generate.score".into(), flight.generate.score_of_legs().into())),
+        Scenario::Drive(drive) => {
+            draws.push(("generate.search.score".into(), drive.generate.search.score_of_legs().into()));
+        }
+        Scenario::Arm(_) => {}
+    }
     if let Scenario::Flight(flight) = scenario {
         // As a key that is there, which can be turned.
         draws.push(("generate.timing".into(), serde_json::json!(flight.generate.timing_in_force())));

@@ -4,7 +4,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::FlightSetup;
 use crate::simulation::{
-    self, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError, Sortie,
+    self, Airborne, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError,
+    Sortie,
 };
 use crate::trajectory::{Flight, Profile};
 
@@ -25,31 +26,56 @@ pub(in crate::campaign) struct Order<'a> {
 
 /// Carries out `order`; `setup` is the run's own.
 pub(in crate::campaign) fn fly(setup: &FlightSetup, order: &Order) -> Result<Flight, SimulationError> {
-    let FlightSetup { scenario, robot, world, simd } = *setup;
-    let execute = &scenario.execute;
-    let sortie = Sortie { robot, world, waypoints: order.waypoints, profile: order.profile };
-    let controller = ControllerSettings {
+    let (sortie, settings) = (sortie(setup, order), settings(setup, order));
+    simulation::fly(&sortie, &controller(setup), &conditions(setup), &settings, order.seed)
+}
+
+/// Ready to be flown leg by leg from the first waypoint of `order`; its controller must be one that [`goes_on`].
+pub(in crate::campaign) fn at_start(setup: &FlightSetup, order: &Order) -> Result<Airborne, SimulationError> {
+    let (sortie, settings) = (sortie(setup, order), settings(setup, order));
+    Airborne::at_start(&sortie, &controller(setup), &conditions(setup), &settings, order.seed)
+}
+
+/// Whether the scenario's controller can be flown leg by leg.
+pub(in crate::campaign) fn goes_on(setup: &FlightSetup) -> bool {
+    !controller(setup).kind.plans_ahead()
+}
+
+fn sortie<'a>(setup: &FlightSetup<'a>, order: &Order<'a>) -> Sortie<'a> {
+    Sortie { robot: setup.robot, world: setup.world, waypoints: order.waypoints, profile: order.profile }
+}
+
+fn controller(setup: &FlightSetup) -> ControllerSettings {
+    let execute = &setup.scenario.execute;
+    ControllerSettings {
         kind: execute.controller_in_force().unwrap_or(ControllerKind::StableWaypoint),
         fixed_velocity: execute.fixed_velocity_m_s,
         segment_times: execute.segment_times,
-    };
-    let conditions = Conditions {
-        wind: Vector3::from(scenario.world.wind_m_s.unwrap_or_default()),
-        gusts: scenario.world.gusts.map(|gusts| Gusts { std: gusts.std_m_s, correlation: gusts.correlation_s }),
-        discrete_gust: scenario.world.discrete_gust.map(|gust| DiscreteGust {
+    }
+}
+
+fn conditions(setup: &FlightSetup) -> Conditions {
+    let world = &setup.scenario.world;
+    Conditions {
+        wind: Vector3::from(world.wind_m_s.unwrap_or_default()),
+        gusts: world.gusts.map(|gusts| Gusts { std: gusts.std_m_s, correlation: gusts.correlation_s }),
+        discrete_gust: world.discrete_gust.map(|gust| DiscreteGust {
             velocity: Vector3::from(gust.velocity_m_s),
             start: gust.start_s,
             duration: gust.duration_s,
         }),
-        noise: execute.noise,
-    };
-    let settings = FlySettings {
+        noise: setup.scenario.execute.noise,
+    }
+}
+
+fn settings(setup: &FlightSetup, order: &Order) -> FlySettings {
+    let execute = &setup.scenario.execute;
+    FlySettings {
         step: execute.step_s,
         accept: order.accept,
         time_limit: order.time_limit,
         walls: execute.walls,
-        simd,
+        simd: setup.simd,
         ..FlySettings::default()
-    };
-    simulation::fly(&sortie, &controller, &conditions, &settings, order.seed)
+    }
 }

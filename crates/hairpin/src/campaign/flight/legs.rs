@@ -27,7 +27,7 @@ pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64, loo
     match (looped.models(), &generate.model) {
         ([model, ..], _) => AnyScore::Learned(model),
         ([], Some(kept)) => AnyScore::Learned(&kept.model),
-        ([], None) => named(setup, &generate.score, graph, top_speed),
+        ([], None) => named(setup, generate.score_of_legs(), graph, top_speed),
     }
 }
 

@@ -19,7 +19,7 @@ mod witness;
 
 pub(super) use assumptions::{act, claim, verdict};
 pub(super) use deaths::deaths;
-pub(super) use fly::{Order, fly};
+pub(super) use fly::{Order, at_start, fly, goes_on};
 pub(super) use place::{Placement, place};
 pub(super) use plan::{timed, track};
 pub(super) use replan::replan;

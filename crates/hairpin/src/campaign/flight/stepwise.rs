@@ -234,6 +234,7 @@ impl<'a> Stepwise<'a> {
             seed: named_seed(self.setup.scenario.seed, "uniform", graph),
             lookahead: LOOKAHEAD,
             plan: &|found: Found<N>| Some(Plan::new(&found, points, evidence)),
+            free_end: false,
             also: beside(&self.setup, graph, self.top_speed(), &looped),
             looped,
         };

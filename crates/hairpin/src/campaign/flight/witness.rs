@@ -76,6 +76,7 @@ impl<'a> Witness<'a> {
             // The roadmap's own test is exact one step from the end, and legs are dear.
             lookahead: 0,
             plan: &plan,
+            free_end: false,
             also: beside(&self.setup, graph, top_speed, &looped),
             looped,
         };

@@ -12,11 +12,12 @@ use std::collections::HashSet;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::graph::{Executions, Outcome, Plan, Round, fingerprint};
-use super::scenario::SearchMethod;
+use super::graph::{Executions, Outcome, Partials, Plan, Round, fingerprint};
+use super::scenario::{EXECUTED, SearchMethod};
 use super::setup::Kind;
 use super::{Case, Scenario, Setup, Stop, arm, drive, flight, in_loop, vary};
 use crate::math::random::case_seed;
+use crate::simulation::Airborne;
 use crate::trajectory::program::{Motion, Program};
 pub use tally::{RoundTally, Tally};
 
@@ -156,7 +157,12 @@ impl<'a> Solver<'a> {
         let execute = |plan: &Plan, least| goes_on().and_then(|()| in_loop::execute(setup, graph, plan, least));
         let duration = |plan: &Plan| goes_on().and_then(|()| in_loop::duration(setup, graph, plan));
         let furnish = |plan: &Plan| goes_on().and_then(|()| in_loop::furnish(setup, graph, plan));
-        let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish };
+        let part = |plan: &Plan, before: Option<&Airborne>, whole| {
+            goes_on().ok_or(0u64).and_then(|()| in_loop::execute_partial(setup, graph, plan, before, whole))
+        };
+        let executed = setup.scenario.score() == EXECUTED;
+        let partial = executed.then(|| Partials { execute: &part, resumes: in_loop::resumes(setup) });
+        let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish, partial };
         match self {
             Self::Flight(solver) => solver.solve(graph, executions, round),
             Self::Drive(solver) => solver.solve(graph, executions, round),

@@ -36,7 +36,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
         let reason = Some(format!("none among the {} feasible legs of the last graph", graph.legs()));
         return Answer { proven_empty: graph.legs() == 0, reason, ..Answer::default() };
     }
-    let Looped { executions: Executions { execute, duration, furnish }, surroundings, .. } = question.looped;
+    let Looped { executions: Executions { execute, duration, furnish, .. }, surroundings, .. } = question.looped;
     let air = surroundings.filter(|surroundings| surroundings.coordinates > 0);
     let furnished = surroundings.is_some_and(|surroundings| surroundings.obstacles);
     // Obstacles are put around what is kept, in two executions each.

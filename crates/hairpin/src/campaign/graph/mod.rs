@@ -5,6 +5,7 @@ mod explore;
 mod in_loop;
 mod in_order;
 mod outcome;
+mod partial;
 mod rounds;
 mod search;
 
@@ -13,5 +14,6 @@ pub use deaths::{Deaths, Lost, Stage};
 pub(super) use explore::{Explored, GRAPHS};
 pub(super) use in_order::in_order;
 pub(super) use outcome::{Outcome, Plan, fingerprint};
+pub(super) use partial::Partials;
 pub(super) use rounds::Round;
 pub(super) use search::{Executions, Looped, Question, Surroundings, search};

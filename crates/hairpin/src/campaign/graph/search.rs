@@ -6,6 +6,7 @@ use nalgebra::Point3;
 
 use super::in_loop::by_trials;
 use super::outcome::Plan;
+use super::partial::{Partials, by_partials};
 use super::rounds::{Round, by_round};
 use crate::campaign::SeenLeg;
 use crate::campaign::learn::ScoreModel;
@@ -14,7 +15,7 @@ use crate::feasibility::reach::Reach;
 use crate::search::beam::Ended;
 use crate::search::in_loop::Trial;
 use crate::search::{
-    BeamSettings, ExactSettings, Found, LegGraph, Objective, Task, UniformSettings, beam, exact, uniform,
+    BeamOutcome, BeamSettings, ExactSettings, Found, LegGraph, Objective, Task, UniformSettings, beam, exact, uniform,
 };
 
 /// One graph and what is asked of it.
@@ -32,6 +33,8 @@ pub(in crate::campaign) struct Question<'a, N, R, O> {
     pub(in crate::campaign) lookahead: usize,
     /// The plan of what was found; `None` for what breaks a limit of whole trajectories.
     pub(in crate::campaign) plan: &'a dyn Fn(Found<N>) -> Option<Plan>,
+    /// Whether the last leg is one to the sink of a task without an end.
+    pub(in crate::campaign) free_end: bool,
     /// Scores beside this one whose optima a search in the loop starts from, or a round of an adaptive campaign is to have.
     pub(in crate::campaign) also: Vec<O>,
     pub(in crate::campaign) looped: Looped<'a>,
@@ -46,6 +49,8 @@ pub(in crate::campaign) struct Executions<'a> {
     pub(in crate::campaign) duration: &'a dyn Fn(&Plan) -> Option<f64>,
     /// A plan with the obstacles that are asked for, executed twice: without them, to see where they belong, and among them.
     pub(in crate::campaign) furnish: &'a dyn Fn(&Plan) -> Option<(Plan, Trial)>,
+    /// Of parts of trajectories, where these are to be scored by them.
+    pub(in crate::campaign) partial: Option<Partials<'a>>,
 }
 
 /// What surrounds a plan and is searched with it.
@@ -107,7 +112,10 @@ pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Obj
     may_arrive: impl Fn(&N, usize) -> bool,
 ) -> Answer {
     match question.search.method {
-        SearchMethod::Beam => by_beam(question, may_arrive),
+        SearchMethod::Beam => match question.looped.executions.partial {
+            Some(partials) => by_partials(question, &partials, may_arrive),
+            None => by_beam(question, may_arrive),
+        },
         SearchMethod::Exact => by_dynamic_program(question),
         SearchMethod::Uniform => by_uniform_draws(question),
         SearchMethod::InLoop => by_trials(question),
@@ -150,6 +158,42 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>> Question
         Answer { plans: plans.into_iter().map(|plan| Plan { bound, ..plan }).collect(), refused, ..Answer::default() }
     }
 
+    /// How the beam is to search.
+    pub(super) fn beam_settings(&self) -> BeamSettings {
+        let search = self.search;
+        BeamSettings {
+            length: self.length,
+            width: search.width as usize,
+            per_graph: search.per_graph as usize,
+            revisits: search.revisits,
+            aggregate: search.aggregate,
+            iterations: search.iterations as usize,
+            frontier: search.frontier as usize,
+            keep: BeamSettings::default().keep.map(|keep| keep.max(search.per_graph as usize)),
+            lookahead: self.lookahead,
+        }
+    }
+
+    /// The answer of the beam; `capped` says why it found nothing before its end.
+    pub(super) fn answer_of(&self, outcome: BeamOutcome<N>, capped: impl Fn() -> String) -> Answer {
+        let mut found = outcome.found;
+        found.truncate(self.search.per_graph as usize);
+        let reason = match outcome.ended {
+            _ if !found.is_empty() => None,
+            Ended::Capped => Some(capped()),
+            Ended::Exhausted { proof: true } => Some("every partial trajectory ends before the end is reached".into()),
+            _ => Some("the frontier ran empty before the end was reached".into()),
+        };
+        Answer {
+            proven_empty: found.is_empty() && outcome.ended == Ended::Exhausted { proof: true },
+            expansions: outcome.expansions,
+            dropped: outcome.dropped,
+            duplicates: outcome.duplicates,
+            reason,
+            ..self.answer(found, None)
+        }
+    }
+
     /// All legs of the graph that are on some way of the right length.
     pub(super) fn leg_graph(&self) -> LegGraph<'_, N> {
         LegGraph::explore(self.start, self.points, self.reach, self.length)
@@ -160,36 +204,10 @@ fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
 ) -> Answer {
-    let search = question.search;
-    let settings = BeamSettings {
-        length: question.length,
-        width: search.width as usize,
-        per_graph: search.per_graph as usize,
-        revisits: search.revisits,
-        aggregate: search.aggregate,
-        iterations: search.iterations as usize,
-        frontier: search.frontier as usize,
-        keep: BeamSettings::default().keep.map(|keep| keep.max(search.per_graph as usize)),
-        lookahead: question.lookahead,
-    };
     let task = Task { start: question.start, candidates: question.points, reach: question.reach };
-    let outcome = beam(&task, &question.score, may_arrive, &settings);
-    let mut found = outcome.found;
-    found.truncate(search.per_graph as usize);
-    let reason = match outcome.ended {
-        _ if !found.is_empty() => None,
-        Ended::Capped => Some(format!("{} iterations per graph were not enough", search.iterations)),
-        Ended::Exhausted { proof: true } => Some("every partial trajectory ends before the end is reached".into()),
-        _ => Some("the frontier ran empty before the end was reached".into()),
-    };
-    Answer {
-        proven_empty: found.is_empty() && outcome.ended == Ended::Exhausted { proof: true },
-        expansions: outcome.expansions,
-        dropped: outcome.dropped,
-        duplicates: outcome.duplicates,
-        reason,
-        ..question.answer(found, None)
-    }
+    let outcome = beam(&task, &question.score, may_arrive, &question.beam_settings());
+    let capped = || format!("{} iterations per graph were not enough", question.search.iterations);
+    question.answer_of(outcome, capped)
 }
 
 fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(

@@ -19,17 +19,32 @@ impl Scenario {
     /// anybody's to execute.
     ///
     /// # Errors
-    /// The method of search.
+    /// The method of search, or the score.
     pub fn check_search(&self) -> Result<(), Mistake> {
-        let method = self.search().method;
-        if !method.executes() || self.controller().is_some() {
+        if !self.executes() || self.controller().is_some() {
             return Ok(());
         }
-        Err(Mistake {
-            key: "generate.search.method".into(),
-            value: serde_json::to_string(&method).unwrap_or_default(),
-            bound: "another one, or execute.controller given: a command is not executed in the loop".into(),
-        })
+        let method = self.search().method;
+        let (key, value) = match method.executes() {
+            true => ("generate.search.method", serde_json::to_string(&method).unwrap_or_default()),
+            false => (self.score_key(), format!("\"{}\"", self.score())),
+        };
+        let bound = "another one, or execute.controller given: a command is not executed in the loop";
+        Err(Mistake { key: key.into(), value, bound: bound.into() })
+    }
+
+    /// Whether trajectories are executed while they are searched for.
+    pub(in crate::campaign) fn executes(&self) -> bool {
+        self.search().executes(self.score())
+    }
+
+    /// The key of [`Scenario::score`].
+    pub(in crate::campaign) fn score_key(&self) -> &'static str {
+        match self {
+            Self::Flight(_) => "generate.score",
+            Self::Drive(_) => "generate.search.score",
+            Self::Arm(_) => "generate.cost",
+        }
     }
 
     fn check_as_it_is(&self) -> Vec<Mistake> {

@@ -10,6 +10,9 @@ use crate::judgement::Stress;
 pub use crate::search::Aggregate;
 pub use crate::world::Sampling;
 
+/// The score that is the stress which partial trajectories were executed to.
+pub const EXECUTED: &str = "executed";
+
 /// `generate.search`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -37,7 +40,7 @@ pub struct SearchSection {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `in-loop`: executions per graph at most; `adaptive`: executions of all rounds together.
+    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
     /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
@@ -50,7 +53,7 @@ pub struct SearchSection {
     pub time_s: Option<f64>,
     /// `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them.
     pub move_waypoints: bool,
-    /// `in-loop`, `adaptive`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | clearance | tilt.
+    /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | clearance | tilt.
     pub stress: Stress,
 }
 
@@ -139,6 +142,23 @@ impl SearchSection {
         if self.method == SearchMethod::Adaptive {
             self.check_adaptive(found);
         }
+    }
+
+    /// Whether trajectories are executed while they are searched for under `score`.
+    pub fn executes(&self, score: &str) -> bool {
+        self.method.executes() || score == EXECUTED
+    }
+
+    /// What the score `executed`, the value of `key`, needs.
+    pub(super) fn check_executed(&self, key: &str, found: &mut Findings) {
+        let beam = self.method == SearchMethod::Beam;
+        let bound =
+            "another score, or generate.search.method = \"beam\": no other method grows trajectories leg by leg";
+        found.require(beam, key, format!("\"{EXECUTED}\""), bound);
+        let enough = self.executions >= self.per_graph;
+        let bound =
+            format!("{} … 1 000 000: one for each of the generate.search.per_graph trajectories", self.per_graph);
+        found.require(enough || !beam, "generate.search.executions", self.executions, &bound);
     }
 
     fn check_adaptive(&self, found: &mut Findings) {

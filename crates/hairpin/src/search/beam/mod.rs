@@ -12,6 +12,7 @@ mod run;
 #[cfg(test)]
 mod tests;
 
+use super::growth::{ByLegs, Growth};
 use super::objective::{Aggregate, Objective};
 use super::task::{Found, Task};
 use crate::feasibility::reach::Reach;
@@ -72,7 +73,7 @@ pub enum Ended {
         /// there is nothing.
         proof: bool,
     },
-    /// The iterations were used up.
+    /// The iterations were used up, or what scores does not go on.
     Capped,
 }
 
@@ -91,6 +92,8 @@ pub struct BeamOutcome<N> {
     pub evaluations: u64,
     /// Partial trajectories dropped because the frontier was full.
     pub dropped: u64,
+    /// Partial trajectories not made because they could not be scored.
+    pub unkept: u64,
     /// Partial trajectories not made because the end is out of their reach.
     pub pruned: u64,
     /// Partial trajectories not kept because as good a one has the same future.
@@ -112,7 +115,22 @@ where
     R: Reach<N> + ?Sized,
     O: Objective,
 {
-    run::Run::new(task, objective, may_arrive, settings).finish(None)
+    beam_grown(task, &mut ByLegs { objective, aggregate: settings.aggregate }, may_arrive, settings)
+}
+
+/// [`beam`] with scores that are not those of legs; `settings.aggregate` is not used.
+pub fn beam_grown<N, R, G>(
+    task: &Task<'_, N, R>,
+    growth: &mut G,
+    may_arrive: impl Fn(&N, usize) -> bool,
+    settings: &BeamSettings,
+) -> BeamOutcome<N>
+where
+    N: Copy + Eq + Ord + std::hash::Hash,
+    R: Reach<N> + ?Sized,
+    G: Growth<N>,
+{
+    run::Run::new(task, growth, may_arrive, settings).finish(None)
 }
 
 /// [`beam`], showing every iteration to `observe`.
@@ -128,5 +146,6 @@ where
     R: Reach<N> + ?Sized,
     O: Objective,
 {
-    run::Run::new(task, objective, may_arrive, settings).finish(Some(&mut observe))
+    let mut growth = ByLegs { objective, aggregate: settings.aggregate };
+    run::Run::new(task, &mut growth, may_arrive, settings).finish(Some(&mut observe))
 }

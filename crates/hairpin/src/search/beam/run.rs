@@ -4,9 +4,10 @@ use std::cmp::Ordering;
 use std::hash::Hash;
 
 use super::super::frontier::{IntervalHeap, Tree};
-use super::super::objective::{LegView, Objective};
+use super::super::growth::{Growth, Parent};
+use super::super::objective::LegView;
 use super::super::task::{Found, Task};
-use super::atlas::Atlas;
+use super::atlas::{Atlas, KnownLeg};
 use super::reduction::Reduction;
 use super::{BeamOutcome, BeamSettings, Ended};
 use crate::feasibility::reach::Reach;
@@ -37,42 +38,45 @@ fn order<M: Clone>(tree: &Tree<M>, a: &Entry, b: &Entry) -> Ordering {
     a.score.total_cmp(&b.score).then_with(|| tree.lexicographic(b.id, a.id))
 }
 
-pub(super) struct Run<'a, N, R: ?Sized, O: Objective, P> {
+pub(super) struct Run<'a, N, R: ?Sized, G: Growth<N>, P> {
     task: &'a Task<'a, N, R>,
-    objective: &'a O,
+    growth: &'a mut G,
     settings: &'a BeamSettings,
     atlas: Atlas<'a, N, R, P>,
-    tree: Tree<O::Memory>,
+    tree: Tree<G::Memory>,
     frontier: IntervalHeap<Entry>,
     reduction: Option<Reduction>,
     /// Waypoints of the partial trajectory being expanded, one bit each.
     visited: Vec<u64>,
+    /// Legs that may extend it.
+    open: Vec<usize>,
     outcome: BeamOutcome<N>,
 }
 
-impl<'a, N, R, O, P> Run<'a, N, R, O, P>
+impl<'a, N, R, G, P> Run<'a, N, R, G, P>
 where
     N: Copy + Eq + Ord + Hash,
     R: Reach<N> + ?Sized,
-    O: Objective,
+    G: Growth<N>,
     P: Fn(&N, usize) -> bool,
 {
-    pub(super) fn new(task: &'a Task<'a, N, R>, objective: &'a O, may_arrive: P, settings: &'a BeamSettings) -> Self {
-        let score = settings.aggregate.neutral();
-        let tree = Tree::new(0, 0, score, objective.start());
+    pub(super) fn new(task: &'a Task<'a, N, R>, growth: &'a mut G, may_arrive: P, settings: &'a BeamSettings) -> Self {
+        let (score, memory) = growth.start(&task.start);
+        let tree = Tree::new(0, 0, score, memory);
         let mut frontier = IntervalHeap::new();
         if settings.length >= 2 && task.candidates.len() >= 2 {
             frontier.push(Entry { score, id: 0 }, |a, b| order(&tree, a, b));
         }
         Self {
             task,
-            objective,
+            growth,
             settings,
             atlas: Atlas::new(task, may_arrive, settings.revisits, settings.length),
             tree,
             frontier,
             reduction: settings.keep.map(Reduction::new),
             visited: vec![0; task.candidates.len().div_ceil(64)],
+            open: Vec::new(),
             outcome: BeamOutcome {
                 found: Vec::new(),
                 ended: Ended::Capped,
@@ -80,6 +84,7 @@ where
                 expansions: 0,
                 evaluations: 0,
                 dropped: 0,
+                unkept: 0,
                 pruned: 0,
                 reduced: 0,
                 duplicates: 0,
@@ -112,8 +117,9 @@ where
                 let iteration = self.outcome.iterations;
                 observe(&Snapshot { iteration, selected, frontier: self.show(&frontier) });
             }
-            if self.outcome.found.len() >= self.settings.per_graph.max(1) {
-                self.outcome.ended = Ended::Complete;
+            let (found, wanted) = (self.outcome.found.len(), self.settings.per_graph.max(1));
+            if !self.growth.goes_on(found, wanted) {
+                self.outcome.ended = if found < wanted { Ended::Capped } else { Ended::Complete };
                 break;
             }
         }
@@ -151,25 +157,34 @@ where
             }
         }
         let (mut grown, mut blocked) = (false, false);
+        self.open.clear();
         for index in self.atlas.legs(parent.node) {
             let leg = *self.atlas.leg(index);
             if !settings.revisits && self.visited[leg.waypoint as usize / 64] >> (leg.waypoint % 64) & 1 == 1 {
                 blocked = true;
-                continue;
-            }
-            if !self.atlas.arrives(leg.to, steps_after, settings.lookahead.min(DEEPEST)) {
+            } else if self.atlas.arrives(leg.to, steps_after, settings.lookahead.min(DEEPEST)) {
+                self.open.push(index);
+            } else {
                 self.outcome.pruned += 1;
-                continue;
             }
-            let view = LegView {
-                candidates: self.task.candidates,
-                from: parent.waypoint,
-                to: leg.waypoint,
-                duration: leg.duration,
-                features: leg.features,
+        }
+        let (candidates, atlas) = (self.task.candidates, &self.atlas);
+        let view = |index: usize| {
+            let KnownLeg { waypoint, duration, features, .. } = *atlas.leg(index);
+            LegView { candidates, from: parent.waypoint, to: waypoint, duration, features }
+        };
+        let (score, length) = (parent.score, parent.length as usize);
+        let mut whole = Vec::new();
+        self.growth
+            .meet(&Parent { score, memory: self.tree.memory(id), length }, self.open.iter().map(|&index| view(index)));
+        for &index in &self.open {
+            let leg = *atlas.leg(index);
+            let before = Parent { score, memory: self.tree.memory(id), length };
+            let Some((score, memory)) = self.growth.extend(&before, &view(index), &atlas.node(leg.to)) else {
+                self.outcome.unkept += 1;
+                blocked = true;
+                continue;
             };
-            let (score, memory) = self.objective.extend(self.tree.memory(id), &view);
-            let score = settings.aggregate.add(parent.score, score);
             let reduction = self.reduction.as_mut();
             if reduction.is_some_and(|reduction| !reduction.admits(leg.to, parent.length + 1, score)) {
                 self.outcome.reduced += 1;
@@ -177,9 +192,14 @@ where
                 continue;
             }
             let child = self.tree.grow(id, (leg.to, leg.waypoint), leg.duration, score, memory);
-            self.frontier.push(Entry { score, id: child }, |a, b| order(&self.tree, a, b));
+            if G::AT_ONCE && length + 1 == settings.length {
+                whole.push(child);
+            } else {
+                self.frontier.push(Entry { score, id: child }, |a, b| order(&self.tree, a, b));
+            }
             grown = true;
         }
+        whole.into_iter().for_each(|child| self.complete(child));
         self.visited.fill(0);
         if !grown {
             if !blocked {
@@ -217,7 +237,7 @@ where
 
     /// Whether what is not on the frontier any more cannot reach the end, or has a kept twin with the same futures.
     fn nothing_was_lost(&self) -> bool {
-        self.outcome.dropped == 0 && (self.outcome.reduced == 0 || self.settings.revisits)
+        self.outcome.dropped + self.outcome.unkept == 0 && (self.outcome.reduced == 0 || self.settings.revisits)
     }
 
     fn show(&self, entries: &[Entry]) -> Vec<(Vec<u32>, f64)> {

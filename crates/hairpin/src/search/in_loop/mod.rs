@@ -1,11 +1,12 @@
 //! Simulation in the loop: trajectories are scored by executing them, under a budget of executions.
 //!
 //! [`evolve`] changes waypoint sequences within the legs of a graph, from the best that scores know of; [`shift`] then moves the
-//! waypoints themselves, as far as the reach set lets them; [`climb`] searches a few numbers beside them. All know executions only as a closure, which is told the
-//! stress from which on a trial is of use.
+//! waypoints themselves, as far as the reach set lets them; [`climb`] searches a few numbers beside them. They know executions only as a closure, which is told the
+//! stress from which on a trial is of use. [`Executed`] scores the partial trajectories of a beam by executing them leg by leg.
 
 mod climb;
 mod evolve;
+mod partial;
 mod regrow;
 mod shift;
 mod step;
@@ -14,6 +15,7 @@ mod tests;
 
 pub use climb::{Climbed, climb};
 pub use evolve::{EvolveSettings, Evolved, Tested, evolve};
+pub use partial::{Execute, Executed, PartialSettings, Path, Ran, Step};
 pub use shift::{ShiftSettings, Shifted, shift};
 
 /// What an execution came to.

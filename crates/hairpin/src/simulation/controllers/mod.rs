@@ -132,6 +132,11 @@ impl ControllerKind {
             ControllerKind::Anafi => "anafi",
         }
     }
+
+    /// Whether it plans over all waypoints before it flies; the others know of one at a time.
+    pub fn plans_ahead(self) -> bool {
+        matches!(self, Self::MinimumSnap | Self::Geometric)
+    }
 }
 
 /// Leg times of the minimum-snap reference.

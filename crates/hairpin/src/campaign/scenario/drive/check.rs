@@ -7,7 +7,7 @@ use super::{
 use crate::campaign::drive::{map_of, rover_of};
 use crate::campaign::learn::{KeptModel, of_drive};
 use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{FlakySection, Mistake, SearchMethod};
+use crate::campaign::scenario::{EXECUTED, FlakySection, Mistake, SearchMethod};
 use crate::feasibility::reach::drive::GroundScore;
 use crate::judgement::Stress;
 use crate::robot::rover::{Rover, Steering};
@@ -48,10 +48,12 @@ impl DriveScenario {
         let key = "generate.search.score";
         if KeptModel::file_of(score).is_some() {
             found.model(key, score, model.as_ref(), || of_drive(self));
+        } else if score == EXECUTED {
+            search.section().check_executed(key, found);
         } else if let Err(error) = GroundScore::named(score) {
-            found.require(false, key, format!("\"{score}\""), &error.to_string());
+            found.require(false, key, format!("\"{score}\""), &format!("{error}; or {EXECUTED}"));
         }
-        let near = search.stress == Stress::Clearance && search.method.executes();
+        let near = search.stress == Stress::Clearance && search.section().executes(score);
         let bound = "another one, or keep-outs given: there is nothing to be near to";
         let some = !self.world.keep_out.is_empty();
         found.require(some || !near, "generate.search.stress", "\"clearance\"", bound);

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::DirectionDeg;
 use crate::campaign::learn::KeptModel;
-use crate::campaign::scenario::{Aggregate, Sampling, SearchMethod, SearchSection};
+use crate::campaign::scenario::{Aggregate, EXECUTED, Sampling, SearchMethod, SearchSection};
 use crate::feasibility::steering::shooting::Control;
 use crate::judgement::Stress;
 use crate::robot::rover::Kinematics;
@@ -213,7 +213,7 @@ impl Default for SolverSection {
 pub struct DriveSearch {
     /// beam | exact | uniform | in-loop | adaptive.
     pub method: SearchMethod,
-    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; or learned:MODEL.
+    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; executed; or learned:MODEL.
     pub score: String,
     /// How scores of legs become the score of a trajectory.
     pub aggregate: Aggregate,
@@ -236,7 +236,7 @@ pub struct DriveSearch {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `in-loop`: executions per graph at most; `adaptive`: executions of all rounds together.
+    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
     /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
@@ -249,13 +249,16 @@ pub struct DriveSearch {
     pub time_s: Option<f64>,
     /// `in-loop`: whether waypoints are moved off their graph, as far as legs can be solved.
     pub move_waypoints: bool,
-    /// `in-loop`, `adaptive`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | clearance | tilt.
+    /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | clearance | tilt.
     pub stress: Stress,
     /// The model of a learned score.
     #[serde(skip)]
     #[schemars(skip)]
     pub model: Option<KeptModel>,
 }
+
+/// The score of a scenario that gives none, and of what is executed only in part.
+const BY_HAND: &str = "slope+slip";
 
 impl Default for DriveSearch {
     fn default() -> Self {
@@ -281,7 +284,7 @@ impl Default for DriveSearch {
         } = SearchSection::default();
         Self {
             method,
-            score: "slope+slip".into(),
+            score: BY_HAND.into(),
             aggregate,
             // Every leg is a boundary-value problem: a graph of 60 has some thousand of them within reach.
             waypoints: 60,
@@ -306,6 +309,11 @@ impl Default for DriveSearch {
 }
 
 impl DriveSearch {
+    /// The name of the score that single legs have.
+    pub fn score_of_legs(&self) -> &str {
+        if self.score == EXECUTED { BY_HAND } else { &self.score }
+    }
+
     /// The part that flights have as well.
     pub fn section(&self) -> SearchSection {
         SearchSection {

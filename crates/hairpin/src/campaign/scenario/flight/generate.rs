@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::EnvironmentSection;
 use crate::campaign::learn::KeptModel;
-use crate::campaign::scenario::SearchSection;
+use crate::campaign::scenario::{EXECUTED, SearchSection};
 
 /// `[task]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -38,7 +38,7 @@ pub struct GenerateSection {
     pub certify: bool,
     /// The search.
     pub search: SearchSection,
-    /// Name of a score, or learned:MODEL.
+    /// Name of a score, executed, or learned:MODEL.
     pub score: String,
     /// The model of a learned score.
     #[serde(skip)]
@@ -51,6 +51,9 @@ pub struct GenerateSection {
     pub environment: Option<EnvironmentSection>,
 }
 
+/// The score of a scenario that gives none, and of what is executed only in part.
+const BY_HAND: &str = "high-velocity-90";
+
 impl Default for GenerateSection {
     fn default() -> Self {
         Self {
@@ -61,7 +64,7 @@ impl Default for GenerateSection {
             velocities: 8,
             certify: false,
             search: SearchSection::default(),
-            score: "high-velocity-90".into(),
+            score: BY_HAND.into(),
             model: None,
             limits: LimitsSection::default(),
             environment: None,
@@ -70,6 +73,11 @@ impl Default for GenerateSection {
 }
 
 impl GenerateSection {
+    /// The name of the score that single legs have.
+    pub fn score_of_legs(&self) -> &str {
+        if self.score == EXECUTED { BY_HAND } else { &self.score }
+    }
+
     /// The timing in force: as given, else the paper's step of 1 s, or for `witness`, which finds next to nothing in
     /// 1 s, the shortest feasible of 0.8 … 4 s.
     pub fn timing_in_force(&self) -> Timing {

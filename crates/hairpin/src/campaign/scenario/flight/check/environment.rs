@@ -11,7 +11,7 @@ const MOST_OBSTACLES: u64 = 100;
 pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
     let search = &scenario.generate.search;
     let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);
-    if search.method.executes() && search.stress == Stress::Clearance {
+    if search.executes(&scenario.generate.score) && search.stress == Stress::Clearance {
         let some = placed.is_some() || !scenario.world.obstacles.is_empty();
         let bound = "another one, or obstacles given: there is nothing to be near to";
         found.require(some, "generate.search.stress", "\"clearance\"", bound);

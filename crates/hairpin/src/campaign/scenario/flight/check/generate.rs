@@ -3,7 +3,7 @@
 use crate::campaign::learn::{KeptModel, of_flight};
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{
-    FlightScenario, GenerateSection, LimitsSection, ReachName, SearchMethod, SearchSection, Timing,
+    EXECUTED, FlightScenario, GenerateSection, LimitsSection, ReachName, SearchMethod, SearchSection, Timing,
 };
 use crate::search::Score;
 
@@ -74,8 +74,10 @@ fn check_score(scenario: &FlightScenario, found: &mut Findings) {
     let key = "generate.score";
     if KeptModel::file_of(score).is_some() {
         found.model(key, score, model.as_ref(), || of_flight(scenario));
+    } else if score == EXECUTED {
+        scenario.generate.search.check_executed(key, found);
     } else {
-        let bound = format!("one of {}, or learned:MODEL", Score::NAMES.join(", "));
+        let bound = format!("one of {}, {EXECUTED}, or learned:MODEL", Score::NAMES.join(", "));
         found.require(Score::NAMES.contains(&score.as_str()), key, format!("\"{score}\""), &bound);
     }
 }

@@ -1,0 +1,73 @@
+//! The beam over one graph with partial trajectories that are executed leg by leg.
+
+use std::hash::Hash;
+
+use super::outcome::Plan;
+use super::search::{Answer, Question};
+use crate::feasibility::reach::Reach;
+use crate::math::random::named_seed;
+use crate::search::in_loop::{Execute, Executed, PartialSettings, Ran};
+use crate::search::{Found, Objective, Task, beam_grown};
+use crate::simulation::Airborne;
+
+/// Partial trajectories on the frontier at most: each keeps a robot in mid-air, and its log.
+const FRONTIER: usize = 1000;
+
+/// Executions of parts of trajectories.
+#[derive(Clone, Copy)]
+pub(in crate::campaign) struct Partials<'a> {
+    /// Executes a plan's waypoints as the first of a trajectory, from its start or from what was flown before; whether they are all.
+    pub(in crate::campaign) execute: &'a dyn Fn(&Plan, Option<&Airborne>, bool) -> Result<Ran<Airborne>, u64>,
+    /// Whether it can go on from what was flown before.
+    pub(in crate::campaign) resumes: bool,
+}
+
+/// Makes plans of what the beam grows, and has them executed.
+struct Carried<'q, 'a, N, R, O> {
+    question: &'q Question<'a, N, R, O>,
+    partials: &'q Partials<'a>,
+}
+
+impl<N: Copy, R, O> Execute<N> for Carried<'_, '_, N, R, O> {
+    type State = Airborne;
+
+    fn execute(
+        &mut self,
+        partial: &Found<N>,
+        from: Option<(&Airborne, usize)>,
+        whole: bool,
+    ) -> Result<Ran<Airborne>, u64> {
+        let plan = (self.question.plan)(partial.clone()).ok_or(0u64)?;
+        (self.partials.execute)(&plan, from.map(|(state, _)| state), whole)
+    }
+}
+
+pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+    question: &Question<N, R, O>,
+    partials: &Partials,
+    may_arrive: impl Fn(&N, usize) -> bool,
+) -> Answer {
+    let search = question.search;
+    let settings = PartialSettings {
+        length: question.length,
+        free_end: question.free_end,
+        executions: search.executions,
+        wanted: search.per_graph as usize,
+        width: search.width as usize,
+        resumes: partials.resumes,
+        seed: named_seed(question.seed, "partial", 0),
+    };
+    let mut executed = Executed::new(settings, &question.score, Carried { question, partials });
+    let task = Task { start: question.start, candidates: question.points, reach: question.reach };
+    let mut settings = question.beam_settings();
+    settings.frontier = settings.frontier.min(FRONTIER);
+    let outcome = beam_grown(&task, &mut executed, may_arrive, &settings);
+    let capped = || {
+        format!(
+            "neither {} iterations nor {} executions per graph led to a whole trajectory with a measure",
+            search.iterations, search.executions
+        )
+    };
+    let answer = question.answer_of(outcome, capped);
+    Answer { best_so_far: executed.into_best_so_far(), ..answer }
+}
