@@ -13,11 +13,14 @@ use crate::simulation::Airborne;
 /// Partial trajectories on the frontier at most: each keeps a robot in mid-air, and its log.
 const FRONTIER: usize = 1000;
 
+/// Executes a part; where it fails it says how many legs it executed in vain.
+type Part<'a> = &'a dyn Fn(&Plan, Option<&Airborne>, bool) -> Result<Ran<Airborne>, u64>;
+
 /// Executions of parts of trajectories.
 #[derive(Clone, Copy)]
 pub(in crate::campaign) struct Partials<'a> {
     /// Executes a plan's waypoints as the first of a trajectory, from its start or from what was flown before; whether they are all.
-    pub(in crate::campaign) execute: &'a dyn Fn(&Plan, Option<&Airborne>, bool) -> Result<Ran<Airborne>, u64>,
+    pub(in crate::campaign) execute: Part<'a>,
     /// Whether it can go on from what was flown before.
     pub(in crate::campaign) resumes: bool,
 }
