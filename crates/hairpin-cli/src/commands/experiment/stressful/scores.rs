@@ -67,21 +67,26 @@ enum Kind {
     ByHand,
     Learned,
     InLoop,
+    InLoopLearned,
     Moved,
+    MovedLearned,
 }
 
-const KINDS: [(Kind, &str); 4] = [
+const KINDS: [(Kind, &str); 6] = [
     (Kind::ByHand, "best by hand"),
     (Kind::Learned, "learned"),
     (Kind::InLoop, "in the loop"),
+    (Kind::InLoopLearned, "in the loop, from the learned"),
     (Kind::Moved, "in the loop, waypoints moved"),
+    (Kind::MovedLearned, "in the loop, waypoints moved, from the learned"),
 ];
 
 fn ways(size: &Size) -> Vec<Way> {
     let way = |name: &str, kind, method: &str, sets: &[Set]| {
         let mut all = vec![("generate.search.method", text(method))];
         all.extend_from_slice(sets);
-        Way { name: name.to_owned(), kind, sets: all, learned: kind == Kind::Learned }
+        let learned = matches!(kind, Kind::Learned | Kind::InLoopLearned | Kind::MovedLearned);
+        Way { name: name.to_owned(), kind, sets: all, learned }
     };
     let mut ways = vec![
         way("uniform", Kind::Baseline, "uniform", &[]),
@@ -95,17 +100,20 @@ fn ways(size: &Size) -> Vec<Way> {
         }
     }
     ways.push(way("learned, max", Kind::Learned, "exact", &[("generate.search.aggregate", text("max"))]));
-    let executions = |count: u64| ("generate.search.executions", count.to_string());
-    let confirm = ("generate.search.confirm", size.confirm.to_string());
-    ways.push(way(
-        &format!("in the loop, {}", size.executions),
-        Kind::InLoop,
-        "in-loop",
-        &[executions(size.executions), confirm.clone()],
-    ));
+    let in_loop = |name: &str, executions: u64, kinds: [Kind; 2], sets: &[Set]| {
+        let mut all = vec![
+            ("generate.search.executions", executions.to_string()),
+            ("generate.search.confirm", size.confirm.to_string()),
+        ];
+        all.extend_from_slice(sets);
+        let name = format!("{name}, {executions}");
+        [way(&name, kinds[0], "in-loop", &all), way(&format!("{name}, from the learned"), kinds[1], "in-loop", &all)]
+    };
+    ways.extend(in_loop("in the loop", size.executions, [Kind::InLoop, Kind::InLoopLearned], &[]));
     if size.executions_moved > 0 {
-        let sets = [executions(size.executions_moved), confirm, ("generate.search.move_waypoints", "true".into())];
-        ways.push(way(&format!("in the loop and moved, {}", size.executions_moved), Kind::Moved, "in-loop", &sets));
+        let moved = [("generate.search.move_waypoints", "true".into())];
+        let kinds = [Kind::Moved, Kind::MovedLearned];
+        ways.extend(in_loop("in the loop and moved", size.executions_moved, kinds, &moved));
     }
     ways
 }
