@@ -7,57 +7,48 @@ use std::collections::BTreeSet;
 use rand::Rng;
 use rayon::prelude::*;
 
-use super::problem::Triples;
+use super::problem::Question;
 use crate::math::random::{Stream, named_seed, stream, unit};
-use crate::search::heaviest::{Arcs, Ends};
 
-/// Chains that are annealed beside each other.
-const CHAINS: u64 = 4;
-/// Steps of a chain per point.
-const STEPS: u64 = 30_000;
+/// Chains that are annealed beside each other, by the temperatures that they begin at, as shares of the largest cost: the hot ones forget where they began, the
+/// others mend it.
+const CHAINS: [f64; 4] = [0.3, 0.1, 0.05, 0.05];
+/// The temperature at the end.
+const COLD: f64 = 2e-3;
+/// Steps of a chain per point, in its longest round.
+const STEPS: f64 = 20_000.0;
 /// Steps between two looks at the clock.
 const STEPS_A_LOOK: u64 = 256;
-/// Temperatures at the beginning and at the end, as shares of the largest cost.
-const TEMPERATURES: [f64; 2] = [0.3, 1e-3];
-
-/// The heaviest orders that were met, the heaviest first, at most `count`: `first` is among them or worse than they are.
+/// The heaviest orders that are met when chains are annealed from `first`, the heaviest first, at most `count`: `first` is among them or worse than they
+/// are. `share` of the full number of steps is taken; `seed` is the round's own.
 pub(super) fn annealed(
-    arcs: &Arcs,
-    triples: &Triples,
-    ends: Ends,
-    (first, count, seed): (&[usize], usize, u64),
+    question: &Question,
+    first: &[usize],
+    count: usize,
+    (share, seed): (f64, u64),
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Vec<(i64, Vec<usize>)> {
-    let chains = (0..CHAINS).into_par_iter().map(|chain| {
-        let mut random = stream(named_seed(seed, "anneal", chain));
-        chain_of(arcs, triples, ends, first, count, &mut random, stop)
+    let steps = (share * STEPS * question.points() as f64).ceil() as u64;
+    let chains = CHAINS.par_iter().enumerate().map(|(chain, hot)| {
+        let mut random = stream(named_seed(seed, "anneal", chain as u64));
+        chain_of(question, first, count, (steps, *hot), &mut random, stop)
     });
-    let turns = arcs.symmetric() && triples.symmetric() && ends == Ends::default();
-    let met: BTreeSet<(i64, Vec<usize>)> = chains
-        .collect::<Vec<_>>()
-        .into_iter()
-        .flatten()
-        .map(|(cost, mut order)| {
-            if turns && order.first() > order.last() {
-                order.reverse();
-            }
-            (cost, order)
-        })
-        .collect();
+    let met: Vec<BTreeSet<(i64, Vec<usize>)>> = chains.collect();
+    let met: BTreeSet<(i64, Vec<usize>)> =
+        met.into_iter().flatten().map(|(cost, order)| (cost, question.one_way(order))).collect();
     met.into_iter().rev().take(count).collect()
 }
 
 fn chain_of(
-    arcs: &Arcs,
-    triples: &Triples,
-    ends: Ends,
+    question: &Question,
     first: &[usize],
     count: usize,
+    (steps, hot): (u64, f64),
     random: &mut Stream,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> BTreeSet<(i64, Vec<usize>)> {
-    let steps = STEPS * arcs.points() as u64;
-    let mut now = Order { points: arcs.points(), path: first.to_vec() };
+    let Question { arcs, triples, .. } = question;
+    let mut now = Order { points: question.points(), path: first.to_vec() };
     // Sparse graphs hang together by orders that have no way: they are gone through, and not kept.
     let fine = arcs.largest().max(triples.largest()).max(1);
     let mut worth = triples.worth(arcs, first, fine).value;
@@ -69,14 +60,12 @@ fn chain_of(
         }
         next.path.clone_from(&now.path);
         next.change(random);
-        let allowed = next.path.first().is_some_and(|point| ends.may_start(*point))
-            && next.path.last().is_some_and(|point| ends.may_end(*point));
-        if !allowed {
+        if !question.allows(&next.path) {
             continue;
         }
         let found = triples.worth(arcs, &next.path, fine);
         let done = step as f64 / steps as f64;
-        let temperature = fine as f64 * TEMPERATURES[0] * libm::pow(TEMPERATURES[1] / TEMPERATURES[0], done);
+        let temperature = fine as f64 * hot * libm::pow(COLD / hot, done);
         if found.value >= worth || unit(random) < libm::exp((found.value - worth) as f64 / temperature) {
             worth = found.value;
             now.path.clone_from(&next.path);

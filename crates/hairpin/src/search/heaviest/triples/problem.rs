@@ -2,13 +2,42 @@
 
 use thiserror::Error;
 
-use crate::search::heaviest::Arcs;
+use crate::search::heaviest::{Arcs, Ends};
 
 /// Stands for what cannot be: two of it, or one and any sum of costs, add up to less than nothing.
 pub(super) const IMPOSSIBLE: i64 = i64::MIN / 4;
 
 /// More points than a table of triples has room for: n³ numbers in 1 GB.
 pub const MOST_TRIPLE_POINTS: usize = 500;
+
+/// What is searched.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Question<'a> {
+    pub(super) arcs: &'a Arcs,
+    pub(super) triples: &'a Triples,
+    pub(super) ends: Ends,
+}
+
+impl Question<'_> {
+    pub(super) fn points(&self) -> usize {
+        self.arcs.points()
+    }
+
+    /// The one of an order and its reverse that stands for both, where nothing tells directions apart.
+    pub(super) fn one_way(&self, mut order: Vec<usize>) -> Vec<usize> {
+        let turns = self.arcs.symmetric() && self.triples.symmetric() && self.ends == Ends::default();
+        if turns && order.first() > order.last() {
+            order.reverse();
+        }
+        order
+    }
+
+    /// Whether an order begins and ends where it may.
+    pub(super) fn allows(&self, order: &[usize]) -> bool {
+        order.first().is_some_and(|point| self.ends.may_start(*point))
+            && order.last().is_some_and(|point| self.ends.may_end(*point))
+    }
+}
 
 /// Triples that are no problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]

@@ -3,14 +3,17 @@
 use std::collections::VecDeque;
 
 use super::anneal::annealed;
-use super::problem::Triples;
+use super::problem::{Question, Triples};
 use super::subsets::{Subsets, table_bytes};
-use super::walks::bound;
+use super::walks::Prices;
+use crate::math::random::named_seed;
 use crate::search::heaviest::solve::wanted;
 use crate::search::heaviest::{Arcs, Heaviest, HeaviestMistake, HeaviestSettings, Method, Outcome, heaviest};
 
 /// Up to so many points the heaviest path is searched exactly, if memory allows.
 pub const MOST_EXACT_POINTS: usize = 20;
+/// Annealing and prices take turns, each round twice as long as the one before: who stops them early has a path that was cooled down, and a bound.
+const ROUNDS: u32 = 5;
 /// Kicks of the local search that finds the path without triples from which annealing starts.
 const FIRST_KICKS: u64 = 200;
 
@@ -33,7 +36,8 @@ pub fn heaviest_with_triples(
     assert!(triples.points() == n, "triples of the same points");
     let exact = n <= MOST_EXACT_POINTS && table_bytes(n) <= u128::from(settings.most_bytes);
     let exact = exact && matches!(settings.method, Method::Auto | Method::Subsets);
-    let table = if exact { Subsets::new(arcs, triples, ends, stop) } else { None };
+    let question = Question { arcs, triples, ends };
+    let table = if exact { Subsets::new(question, stop) } else { None };
     let answer = |paths: Vec<(i64, Vec<usize>)>, bound, proven, method| Heaviest {
         outcome: if paths.is_empty() && proven { Outcome::Infeasible } else { Outcome::Found },
         paths,
@@ -45,17 +49,30 @@ pub fn heaviest_with_triples(
         proof: None,
     };
     if let Some(table) = table {
-        let paths = table.heaviest(settings.programs, stop);
+        let (paths, complete) = table.heaviest(settings.programs, stop);
         let bound = paths.first().map(|(cost, _)| *cost);
-        return Ok(cut(arcs, triples, wanted(answer(paths, bound, true, Method::Subsets), settings)));
+        return Ok(cut(arcs, triples, wanted(answer(paths, bound, complete, Method::Subsets), settings)));
     }
-    let first = first_order(arcs, triples, settings, stop)?;
-    let paths = first
-        .map_or_else(Vec::new, |first| annealed(arcs, triples, ends, (&first, settings.programs, settings.seed), stop));
+    let mut paths: Vec<(i64, Vec<usize>)> = Vec::new();
+    if let Some(first) = first_order(arcs, triples, settings, stop)? {
+        paths.extend(triples.best_on(arcs, &first).map(|(cost, _)| (cost, first)));
+    }
+    let mut prices = Prices::new(question);
+    for round in 0..ROUNDS {
+        let share = f64::from(1 << round) / f64::from(1 << (ROUNDS - 1));
+        if let Some((_, best)) = paths.first().cloned() {
+            let seed = named_seed(settings.seed, "round", u64::from(round));
+            paths.extend(annealed(&question, &best, settings.programs, (share, seed), stop));
+            paths.sort_by(|a, b| b.cmp(a));
+            paths.dedup();
+            paths.truncate(settings.programs);
+        }
+        prices.step(0.5 * share, paths.first().map_or(0, |(cost, _)| *cost), stop);
+    }
     let reached = paths.first().map_or(0, |(cost, _)| *cost);
-    let most = bound(arcs, triples, ends, reached, stop);
-    let proven = settings.programs == 1 && !paths.is_empty() && most <= reached;
-    Ok(cut(arcs, triples, wanted(answer(paths, Some(most), proven, Method::Local), settings)))
+    let bound = prices.bound().max(reached);
+    let proven = settings.programs == 1 && !paths.is_empty() && bound <= reached;
+    Ok(cut(arcs, triples, wanted(answer(paths, Some(bound), proven, Method::Local), settings)))
 }
 
 /// With the points that the triples of each path pass.

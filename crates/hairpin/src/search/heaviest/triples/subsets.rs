@@ -5,17 +5,14 @@
 
 use std::collections::BinaryHeap;
 
-use super::problem::{IMPOSSIBLE, Triples, at_least_zero, possible};
-use crate::search::heaviest::{Arcs, Ends};
+use super::problem::{IMPOSSIBLE, Question, at_least_zero, possible};
 
 /// Sets of points between two looks at the clock.
 const SETS_A_LOOK: usize = 1024;
 
 /// b(S, i) for all S and i in S.
 pub(super) struct Subsets<'a> {
-    arcs: &'a Arcs,
-    triples: &'a Triples,
-    ends: Ends,
+    question: Question<'a>,
     points: usize,
     best: Vec<i64>,
 }
@@ -27,14 +24,10 @@ pub(super) fn table_bytes(points: usize) -> u128 {
 
 impl<'a> Subsets<'a> {
     /// Fills the table; `None` if `stop` ended it.
-    pub(super) fn new(
-        arcs: &'a Arcs,
-        triples: &'a Triples,
-        ends: Ends,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Self> {
-        let n = arcs.points();
-        let mut table = Self { arcs, triples, ends, points: n, best: vec![IMPOSSIBLE; (1 << n) * n] };
+    pub(super) fn new(question: Question<'a>, stop: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+        let Question { arcs, triples, ends } = question;
+        let n = question.points();
+        let mut table = Self { question, points: n, best: vec![IMPOSSIBLE; (1 << n) * n] };
         // What is left when the triple's last two points are met, for all pairs of points that are open.
         let mut after = vec![IMPOSSIBLE; n * n];
         for set in (1..1usize << n).rev() {
@@ -66,36 +59,36 @@ impl<'a> Subsets<'a> {
         self.best[set * self.points + last]
     }
 
-    /// The heaviest `count` orders of points with what they cost, pairwise different; backwards is the same order where nothing tells directions apart.
+    /// The heaviest `count` orders of points with what they cost, pairwise different, backwards being the same order where nothing tells directions apart;
+    /// and whether `stop` did not end it.
     ///
     /// Beginnings are looked at in the order of what they can come to, which the table knows exactly.
-    pub(super) fn heaviest(&self, count: usize, stop: &(dyn Fn() -> bool + Sync)) -> Vec<(i64, Vec<usize>)> {
-        let turns = self.arcs.symmetric() && self.triples.symmetric() && self.ends == Ends::default();
+    pub(super) fn heaviest(&self, count: usize, stop: &(dyn Fn() -> bool + Sync)) -> (Vec<(i64, Vec<usize>)>, bool) {
         let mut found: Vec<(i64, Vec<usize>)> = Vec::new();
-        let starts = (0..self.points).filter(|point| self.ends.may_start(*point));
+        let starts = (0..self.points).filter(|point| self.question.ends.may_start(*point));
         let mut open: BinaryHeap<Beginning> = starts.filter_map(|point| self.beginning(None, point)).collect();
         while let Some(top) = open.pop() {
             if top.whole {
-                let mut order = top.order;
-                if turns && order.first() > order.last() {
-                    order.reverse();
-                }
+                let order = self.question.one_way(top.order);
                 if !found.iter().any(|(_, known)| *known == order) {
                     found.push((top.bound, order));
                 }
-                if found.len() == count || stop() {
+                if found.len() == count {
                     break;
+                }
+                if stop() {
+                    return (found, false);
                 }
                 continue;
             }
             let last = top.order[top.order.len() - 1];
-            if self.ends.may_end(last) && top.ended >= 0 {
+            if self.question.ends.may_end(last) && top.ended >= 0 {
                 open.push(Beginning { bound: top.ended, whole: true, ..top.clone() });
             }
             let next = (0..self.points).filter(|point| top.set >> point & 1 == 0);
             open.extend(next.filter_map(|point| self.beginning(Some(&top), point)));
         }
-        found
+        (found, true)
     }
 
     /// `before` and one point more; `None` where it leads nowhere.
@@ -114,8 +107,9 @@ impl<'a> Subsets<'a> {
         };
         let (set, last) = (before.set | 1 << point, before.order[before.order.len() - 1]);
         let earlier = before.order.len().checked_sub(2).map(|place| before.order[place]);
-        let through = earlier.map_or(IMPOSSIBLE, |earlier| before.passing + self.triples.raw(earlier, last, point));
-        let ended = at_least_zero(through.max(before.ended + possible(self.arcs, last, point)));
+        let through =
+            earlier.map_or(IMPOSSIBLE, |earlier| before.passing + self.question.triples.raw(earlier, last, point));
+        let ended = at_least_zero(through.max(before.ended + possible(self.question.arcs, last, point)));
         let passing = before.ended;
         let bound = self.bound(set, Some(last), point, ended, passing);
         let order = before.order.iter().copied().chain([point]).collect();
@@ -126,7 +120,7 @@ impl<'a> Subsets<'a> {
     fn bound(&self, set: usize, earlier: Option<usize>, last: usize, ended: i64, passing: i64) -> i64 {
         let open = (0..self.points).filter(|point| set >> point & 1 == 0);
         let through = earlier.map_or(IMPOSSIBLE, |earlier| {
-            let row = self.triples.row(earlier, last);
+            let row = self.question.triples.row(earlier, last);
             passing + open.map(|to| row[to] + self.rest(set | 1 << to, to)).max().unwrap_or(IMPOSSIBLE).max(IMPOSSIBLE)
         });
         through.max(ended + self.rest(set, last))

@@ -5,8 +5,7 @@
 //! subgradient 1 − visits. After N. Christofides, A. Mingozzi, P. Toth, *State-space relaxation procedures for the computation of bounds to routing
 //! problems*, Networks 11 (1981).
 
-use super::problem::{IMPOSSIBLE, Triples, possible};
-use crate::search::heaviest::{Arcs, Ends};
+use super::problem::{IMPOSSIBLE, Question, possible};
 
 /// Additions that all steps together may take, about.
 const WORK: usize = 8_000_000_000;
@@ -17,51 +16,73 @@ const PATIENCE: usize = 30;
 /// Costs are scaled up to about so much: prices are whole numbers.
 const FINE: i64 = 1 << 24;
 
-/// No path of at most all points costs more. `reached` is what one is known to cost; the best prices so far are the answer where `stop` ends it, and
-/// before the first step what n − 1 of the largest costs come to.
-pub(super) fn bound(arcs: &Arcs, triples: &Triples, ends: Ends, reached: i64, stop: &(dyn Fn() -> bool + Sync)) -> i64 {
-    let walks = Walks::new(arcs, triples, ends);
-    let n = walks.points;
-    let longest = n.saturating_sub(1) as i64;
-    // A triple stands for two arcs.
-    let simple = longest * walks.largest.max((triples.largest() + 1) / 2);
-    let steps = (WORK / (n * (n * n + walks.triples.len())).max(1)).clamp(STEPS[0], STEPS[1]);
-    let scale = (FINE / (walks.largest.max(triples.largest()) + 1)).max(1);
-    let goal = (reached.max(0) * scale) as f64;
-    let (mut prices, mut best, mut best_prices) = (vec![0i64; n], simple.saturating_mul(scale), vec![0i64; n]);
-    let (mut length, mut waited) = (1.0, 0);
-    for _ in 0..steps {
-        if stop() {
-            break;
-        }
-        let (value, visits) = walks.heaviest(&prices, scale);
-        if value < best {
-            (best, waited) = (value, 0);
-            best_prices.clone_from(&prices);
-        } else {
-            waited += 1;
-        }
-        if waited == PATIENCE {
-            (length, waited) = (0.5 * length, 0);
-            prices.clone_from(&best_prices);
-            continue;
-        }
-        let against: i64 = visits.iter().map(|count| (count - 1) * (count - 1)).sum();
-        if against == 0 || best / scale <= reached {
-            break;
-        }
-        let step = length * (value as f64 - goal).max(scale as f64) / against as f64;
-        for (price, count) in prices.iter_mut().zip(&visits) {
-            *price = (*price + (step * (count - 1) as f64).round() as i64).max(0);
+/// Prices on their way down, and the best bound so far.
+pub(super) struct Prices<'a> {
+    walks: Walks<'a>,
+    /// Costs are times this here.
+    scale: i64,
+    prices: Vec<i64>,
+    best: i64,
+    best_prices: Vec<i64>,
+    /// Of the next step, and steps since the bound fell.
+    length: f64,
+    waited: usize,
+    steps: usize,
+}
+
+impl<'a> Prices<'a> {
+    /// Before the first step the bound is what n − 1 of the largest costs come to.
+    pub(super) fn new(question: Question<'a>) -> Self {
+        let walks = Walks::new(question);
+        let n = walks.points;
+        // A triple stands for two arcs.
+        let (arc, triple) = (walks.largest, question.triples.largest());
+        let simple = n.saturating_sub(1) as i64 * arc.max((triple + 1) / 2);
+        let scale = (FINE / (arc.max(triple) + 1)).max(1);
+        let steps = (WORK / (n * (n * n + walks.triples.len())).max(1)).clamp(STEPS[0], STEPS[1]);
+        let (prices, best_prices) = (vec![0; n], vec![0; n]);
+        Self { walks, scale, prices, best: simple.saturating_mul(scale), best_prices, length: 1.0, waited: 0, steps }
+    }
+
+    /// No path costs more.
+    pub(super) fn bound(&self) -> i64 {
+        self.best.div_euclid(self.scale)
+    }
+
+    /// Takes a `share` of all its steps towards `reached`, which a path is known to cost.
+    pub(super) fn step(&mut self, share: f64, reached: i64, stop: &(dyn Fn() -> bool + Sync)) {
+        let goal = (reached.max(0) * self.scale) as f64;
+        for _ in 0..((share * self.steps as f64).ceil() as usize) {
+            if stop() || self.bound() <= reached {
+                return;
+            }
+            let (value, visits) = self.walks.heaviest(&self.prices, self.scale);
+            if value < self.best {
+                (self.best, self.waited) = (value, 0);
+                self.best_prices.clone_from(&self.prices);
+            } else {
+                self.waited += 1;
+            }
+            if self.waited == PATIENCE {
+                (self.length, self.waited) = (0.5 * self.length, 0);
+                self.prices.clone_from(&self.best_prices);
+                continue;
+            }
+            let against: i64 = visits.iter().map(|count| (count - 1) * (count - 1)).sum();
+            if against == 0 {
+                return;
+            }
+            let step = self.length * (value as f64 - goal).max(self.scale as f64) / against as f64;
+            for (price, count) in self.prices.iter_mut().zip(&visits) {
+                *price = (*price + (step * (count - 1) as f64).round() as i64).max(0);
+            }
         }
     }
-    best.div_euclid(scale).max(reached)
 }
 
 /// What walks go by.
 struct Walks<'a> {
-    arcs: &'a Arcs,
-    ends: Ends,
+    question: Question<'a>,
     points: usize,
     /// \[from, via, to\] with their costs, ordered by where they end.
     triples: Vec<([usize; 3], i64)>,
@@ -69,8 +90,8 @@ struct Walks<'a> {
 }
 
 impl<'a> Walks<'a> {
-    fn new(arcs: &'a Arcs, triples: &Triples, ends: Ends) -> Self {
-        let n = arcs.points();
+    fn new(question: Question<'a>) -> Self {
+        let (arcs, triples, n) = (question.arcs, question.triples, question.points());
         let mut list = Vec::new();
         for to in 0..n {
             for from in 0..n {
@@ -79,7 +100,7 @@ impl<'a> Walks<'a> {
             }
         }
         let largest = (0..n * n).filter_map(|index| arcs.cost(index / n, index % n)).max().unwrap_or(0);
-        Self { arcs, ends, points: n, triples: list, largest }
+        Self { question, points: n, triples: list, largest }
     }
 
     /// Σλ plus the heaviest walk's cost, times `scale`, and how often it comes to each point.
@@ -88,7 +109,7 @@ impl<'a> Walks<'a> {
         // f(m, ·), and where each came from: the point before, and the one on the way.
         let mut best = vec![IMPOSSIBLE; (n + 1) * n];
         let mut came = vec![(usize::MAX, usize::MAX); (n + 1) * n];
-        for start in (0..n).filter(|point| self.ends.may_start(*point)) {
+        for start in (0..n).filter(|point| self.question.ends.may_start(*point)) {
             best[n + start] = -prices[start];
         }
         let (mut top, mut at) = (IMPOSSIBLE, (0, 0));
@@ -96,7 +117,7 @@ impl<'a> Walks<'a> {
             if m > 1 {
                 self.step(m, prices, scale, &mut best, &mut came);
             }
-            for last in (0..n).filter(|point| self.ends.may_end(*point)) {
+            for last in (0..n).filter(|point| self.question.ends.may_end(*point)) {
                 if best[m * n + last] > top {
                     (top, at) = (best[m * n + last], (m, last));
                 }
@@ -131,7 +152,7 @@ impl<'a> Walks<'a> {
         let (two, one) = (&done[(m - 2) * n..][..n], &done[(m - 1) * n..][..n]);
         for (to, (value, from)) in row.iter_mut().zip(came.iter_mut()).enumerate() {
             for (before, so_far) in one.iter().enumerate().filter(|(before, _)| *before != to) {
-                let arc = possible(self.arcs, before, to);
+                let arc = possible(self.question.arcs, before, to);
                 if arc >= 0 && so_far + scale * arc > *value {
                     (*value, *from) = (so_far + scale * arc, (before, usize::MAX));
                 }
