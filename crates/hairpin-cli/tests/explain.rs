@@ -111,4 +111,15 @@ fn drives_and_arms_have_their_own_reasons() {
     assert!(least > 100.0 && least < 1e6, "{object}");
     assert!(object["deaths"]["left"].as_u64().unwrap() > 0, "{object}");
     assert_eq!(json(here, &["explain", "demo-arm"])["exit_code"], 0);
+
+    // Where arcs are moves of the graph they are counted with them.
+    let [without, with] = ["false", "true"].map(|arcs| {
+        let arcs = format!("generate.moves.arcs={arcs}");
+        json(here, &["explain", "demo-arm", "--set", "task.points.count=6", "--set", &arcs])
+    });
+    let count = |object: &Value| object["deaths"]["asked"].as_u64().unwrap();
+    assert_eq!(count(&with), count(&without) + 6 * 5 * 4, "{with}");
+    let no_arc =
+        |object: &Value| object["deaths"]["lost"].as_array().unwrap().iter().any(|one| one["limit"] == "no arc");
+    assert!(no_arc(&with) && !no_arc(&without), "{with}");
 }

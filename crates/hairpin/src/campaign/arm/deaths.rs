@@ -5,7 +5,7 @@ use super::graph::whole_graph;
 use crate::campaign::graph::{Counter, Deaths, Stage};
 use crate::feasibility::reachability::Refusal;
 
-/// Counts the moves between all ordered pairs of points by what became of them.
+/// Counts the moves between all ordered pairs of points, and the arcs through a third, by what became of them.
 pub(in crate::campaign) fn deaths(setup: &ArmSetup) -> Deaths {
     let mut counter = Counter::default();
     if let Ok(graph) = whole_graph(setup) {
@@ -21,13 +21,24 @@ pub(in crate::campaign) fn deaths(setup: &ArmSetup) -> Deaths {
                 None => counter.keep(),
             }
         }
+        if let Some(arcs) = &graph.arcs {
+            counter.keep_many(arcs.free.len() as u64);
+            for (_, refusal) in &arcs.refused {
+                let (stage, limit) = told(refusal, &names);
+                counter.lose(stage, &limit);
+            }
+        }
         for (free, way) in [(&graph.from_home, "the way from home"), (&graph.to_home, "the way home")] {
             let refused = free.iter().filter(|free| !**free).count() as u64;
             counter.lose_many(Stage::EndPoint, way, refused);
             counter.keep_many(n as u64 - refused);
         }
     }
-    counter.deaths("moves between points, from home and back")
+    counter.deaths(if setup.scenario.generate.moves.arcs {
+        "moves and arcs between points, from home and back"
+    } else {
+        "moves between points, from home and back"
+    })
 }
 
 fn told(refusal: &Refusal, names: &[String]) -> (Stage, String) {
