@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use hairpin::campaign::learn::NAME;
 
 use super::{
-    BEST_SO_FAR, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, OPTIMUM, RESULTS, RUNS,
-    WAYPOINTS, entries,
+    ARCS, BEST_SO_FAR, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, OPTIMUM, RESULTS,
+    RUNS, WAYPOINTS, entries,
 };
 use crate::atomic::{self, WriteError};
 
@@ -41,6 +41,7 @@ impl CampaignFolder {
             INFLUENCE,
             MOVES,
             OPTIMUM,
+            ARCS,
             coverage,
             table,
             WAYPOINTS,

@@ -106,25 +106,31 @@ pub fn verify_heaviest(claim: &HeaviestClaim) -> Vec<PathFinding> {
     findings
 }
 
-fn check_path(claim: &HeaviestClaim) -> Result<(), String> {
-    let n = claim.points;
-    if n == 0 || claim.costs.len() != n * n {
-        return Err(format!("{} costs for {n} points", claim.costs.len()));
-    }
-    let (Some(first), Some(last)) = (claim.path.first(), claim.path.last()) else {
+/// Whether `path` leads from end to end, where they are fixed, over points less than `n`, to none of them twice.
+pub(super) fn loop_free(n: usize, [start, end]: [Option<usize>; 2], path: &[usize]) -> Result<(), String> {
+    let (Some(first), Some(last)) = (path.first(), path.last()) else {
         return Err("the path has no point".into());
     };
-    if claim.start.is_some_and(|start| start != *first) || claim.end.is_some_and(|end| end != *last) {
+    if start.is_some_and(|start| start != *first) || end.is_some_and(|end| end != *last) {
         return Err(format!("the path leads from {first} to {last}"));
     }
     let mut seen = vec![false; n];
-    for point in &claim.path {
+    for point in path {
         match seen.get_mut(*point) {
             None => return Err(format!("point {point} of {n}")),
             Some(true) => return Err(format!("point {point} comes twice")),
             Some(seen) => *seen = true,
         }
     }
+    Ok(())
+}
+
+fn check_path(claim: &HeaviestClaim) -> Result<(), String> {
+    let n = claim.points;
+    if n == 0 || claim.costs.len() != n * n {
+        return Err(format!("{} costs for {n} points", claim.costs.len()));
+    }
+    loop_free(n, [claim.start, claim.end], &claim.path)?;
     let mut sum = 0i128;
     for leg in claim.path.windows(2) {
         let cost = claim.costs[leg[0] * n + leg[1]].ok_or_else(|| format!("no arc {}→{}", leg[0], leg[1]))?;

@@ -3,6 +3,8 @@
 //! Shares nothing with the search, which goes backwards, ranks whole orders of points and cuts them afterwards: here a state is what was met and where the
 //! last move ended, and every move, straight or through a point, is handed on from there.
 
+use super::heaviest::loop_free;
+
 /// A path and what it is held against.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TriplesClaim {
@@ -47,20 +49,7 @@ fn check_path(claim: &TriplesClaim) -> Result<(), String> {
     if let Some((points, _)) = claim.triples.iter().find(|(points, cost)| *cost < 0 || points.iter().any(|p| *p >= n)) {
         return Err(format!("the arc {points:?} is none of {n} points, or costs less than 0"));
     }
-    let (Some(first), Some(last)) = (claim.path.first(), claim.path.last()) else {
-        return Err("the path has no point".into());
-    };
-    if claim.start.is_some_and(|start| start != *first) || claim.end.is_some_and(|end| end != *last) {
-        return Err(format!("the path leads from {first} to {last}"));
-    }
-    for (place, point) in claim.path.iter().enumerate() {
-        if *point >= n {
-            return Err(format!("point {point} of {n}"));
-        }
-        if claim.path[..place].contains(point) {
-            return Err(format!("point {point} comes twice"));
-        }
-    }
+    loop_free(n, [claim.start, claim.end], &claim.path)?;
     let (mut sum, mut at, mut met) = (0i128, 0, 0);
     while at + 1 < claim.path.len() {
         let (from, next) = (claim.path[at], claim.path[at + 1]);

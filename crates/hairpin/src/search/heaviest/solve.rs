@@ -147,6 +147,12 @@ pub struct Heaviest {
 }
 
 impl Heaviest {
+    /// Of paths of arcs, found without branching.
+    pub(super) fn found(paths: Vec<(i64, Vec<usize>)>, bound: Option<i64>, proven: bool, method: Method) -> Self {
+        let passed = Vec::new();
+        Self { outcome: Outcome::Found, paths, passed, bound, proven, method, nodes: 0, proof: None }
+    }
+
     /// 100 (bound − cost) / cost; 0 where both are 0, infinite where only the cost is.
     pub fn gap_percent(&self) -> Option<f64> {
         let (cost, bound) = (self.paths.first()?.0, self.bound?);
@@ -181,16 +187,7 @@ pub fn heaviest(
             return Ok(found);
         }
     }
-    let answer = |paths: Vec<(i64, Vec<usize>)>, bound, proven| Heaviest {
-        outcome: Outcome::Found,
-        paths,
-        passed: Vec::new(),
-        bound,
-        proven,
-        method,
-        nodes: 0,
-        proof: None,
-    };
+    let answer = |paths, bound, proven| Heaviest::found(paths, bound, proven, method);
     if let (Some(start), Some(end)) = (ends.start, ends.end)
         && start == end
     {

@@ -57,16 +57,8 @@ pub fn heaviest_walk(
         return Err(WalkMistake::Visits { visits });
     }
     fits(arcs, visits)?;
-    let nothing = |outcome, bound, proven| Heaviest {
-        outcome,
-        paths: Vec::new(),
-        passed: Vec::new(),
-        bound,
-        proven,
-        method: Method::Branch,
-        nodes: 0,
-        proof: None,
-    };
+    let nothing =
+        |outcome, bound, proven| Heaviest { outcome, ..Heaviest::found(Vec::new(), bound, proven, Method::Branch) };
     if ends.first_path(arcs).is_none() {
         return Ok((nothing(Outcome::Infeasible, None, true), None));
     }

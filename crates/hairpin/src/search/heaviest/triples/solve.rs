@@ -40,13 +40,7 @@ pub fn heaviest_with_triples(
     let table = if exact { Subsets::new(question, stop) } else { None };
     let answer = |paths: Vec<(i64, Vec<usize>)>, bound, proven, method| Heaviest {
         outcome: if paths.is_empty() && proven { Outcome::Infeasible } else { Outcome::Found },
-        paths,
-        passed: Vec::new(),
-        bound,
-        proven,
-        method,
-        nodes: 0,
-        proof: None,
+        ..Heaviest::found(paths, bound, proven, method)
     };
     if let Some(table) = table {
         let (paths, complete) = table.heaviest(settings.programs, stop);
