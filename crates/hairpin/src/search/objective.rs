@@ -73,9 +73,29 @@ pub enum Score {
         /// Whether the two parts are multiplied.
         product: bool,
     },
+    /// v_in/v_max · v_out/v_max · (1 − |α − 90°|/90°): a right angle that is entered and left fast, so that the robot is carried out of it.
+    FastCorner {
+        /// Speed that scores 1, m/s.
+        v_max: f64,
+    },
+    /// v_out / (v_in + v_max/20) · (1 − |α − 90°|/90°): a short leg, and a long one across it. A robot that passes waypoints at a distance goes on from
+    /// beside the short leg; v_max/20 keeps legs that are all but nothing from outdoing those that lead somewhere.
+    ShortLeg {
+        /// Speed that scores 1, m/s.
+        v_max: f64,
+    },
+    /// v_out/v_max · cos ε_out · |sin ε_out − sin ε_in| · (1 − |α − 180°|/180°), ε the elevation of a leg: back, and over from a climb to a
+    /// descent or the other way, with a long way across.
+    Crest {
+        /// Speed that scores 1, m/s.
+        v_max: f64,
+    },
     /// What the reach set itself found the leg to demand: [`LegFeatures::ground`].
     Ground,
 }
+
+/// Entry speed of `short-leg` that halves it, over the top speed.
+const SHORT: f64 = 0.05;
 
 /// Why there is no such score.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -96,13 +116,16 @@ pub enum ScoreMistake {
 
 impl Score {
     /// All names.
-    pub const NAMES: [&'static str; 6] = [
+    pub const NAMES: [&'static str; 9] = [
         "random",
         "high-velocity",
         "high-velocity-90",
         "high-velocity-180",
         "high-velocity-90-product",
         "high-velocity-180-product",
+        "fast-corner",
+        "short-leg",
+        "crest",
     ];
 
     /// The score called `name`. `v_max` (m/s) is the farthest sampled end ÷ step; `seed` is that of `random`.
@@ -114,6 +137,9 @@ impl Score {
             "high-velocity-180" => Score::HighVelocityTurn { v_max, turn: PI, product: false },
             "high-velocity-90-product" => Score::HighVelocityTurn { v_max, turn: FRAC_PI_2, product: true },
             "high-velocity-180-product" => Score::HighVelocityTurn { v_max, turn: PI, product: true },
+            "fast-corner" => Score::FastCorner { v_max },
+            "short-leg" => Score::ShortLeg { v_max },
+            "crest" => Score::Crest { v_max },
             _ => return Err(ScoreMistake::Unknown { name: name.into() }),
         };
         if !(v_max.is_finite() && v_max > 0.0) {
@@ -129,13 +155,21 @@ impl Objective for Score {
     fn start(&self) {}
 
     fn extend(&self, (): &(), leg: &LegView<'_>) -> (f64, ()) {
-        let LegFeatures { v_out, turn: alpha, .. } = leg.features;
+        let LegFeatures { v_in, v_out, turn: alpha, length, climb, slope_in, .. } = leg.features;
+        let sharp = |turn: f64| 1.0 - (alpha - turn).abs() / turn;
         let score = match *self {
             Score::Random { seed } => hashed_unit(seed, &[leg.from.into(), leg.to.into()]),
             Score::HighVelocity { v_max } => v_out / v_max,
             Score::HighVelocityTurn { v_max, turn, product } => {
-                let (fast, sharp) = (v_out / v_max, 1.0 - (alpha - turn).abs() / turn);
+                let (fast, sharp) = (v_out / v_max, sharp(turn));
                 if product { fast * sharp } else { fast + sharp }
+            }
+            Score::FastCorner { v_max } => v_in / v_max * (v_out / v_max) * sharp(FRAC_PI_2),
+            Score::ShortLeg { v_max } => v_out / (v_in + SHORT * v_max) * sharp(FRAC_PI_2),
+            Score::Crest { v_max } => {
+                let slope = if length > 0.0 { climb / length } else { 0.0 };
+                let across = (1.0 - slope * slope).max(0.0).sqrt();
+                v_out / v_max * across * (slope - slope_in).abs() * sharp(PI)
             }
             Score::Ground => leg.features.ground,
         };
@@ -181,7 +215,7 @@ mod tests {
 
     fn leg(v_out: f64, turn_deg: f64) -> LegFeatures {
         LegFeatures {
-            v_in: 0.0,
+            v_in: 5.0,
             v_out,
             turn: turn_deg.to_radians(),
             length: v_out,
@@ -212,6 +246,26 @@ mod tests {
             let got = score(name, leg(10.0, turn));
             assert!((got - expected).abs() < 1e-12, "{name} at {turn}°: {got}");
         }
+    }
+
+    #[test]
+    fn our_own_formulas() {
+        // v_max = 20, v_in = 5, v_out = length = 10.
+        for (name, turn, expected) in [
+            ("fast-corner", 90.0, 0.125),
+            ("fast-corner", 135.0, 0.0625),
+            ("fast-corner", 180.0, 0.0),
+            ("short-leg", 90.0, 10.0 / 6.0),
+            ("short-leg", 45.0, 5.0 / 6.0),
+        ] {
+            let got = score(name, leg(10.0, turn));
+            assert!((got - expected).abs() < 1e-12, "{name} at {turn}°: {got}");
+        }
+        // From a climb of 30° down as steeply: sines 0.5 and −0.5, and back by 120°.
+        let over = LegFeatures { climb: -5.0, slope_in: 0.5, ..leg(10.0, 120.0) };
+        let expected = 0.5 * 0.75f64.sqrt() * 2.0 / 3.0;
+        assert!((score("crest", over) - expected).abs() < 1e-12, "{}", score("crest", over));
+        assert_eq!(score("crest", LegFeatures { climb: 10.0, ..over }), 0.0, "nothing across");
     }
 
     #[test]

@@ -30,7 +30,6 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
 ) -> Answer {
     let search = question.search;
     let graph = question.leg_graph();
-    let graph = if search.revisits { graph } else { graph.without_returns(question.length).into_owned() };
     let first = first(question, &graph);
     if first.is_empty() {
         let reason = Some(format!("none among the {} feasible legs of the last graph", graph.legs()));

@@ -38,7 +38,6 @@ pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memo
     round: &Round,
 ) -> Answer {
     let graph = question.leg_graph();
-    let graph = if question.search.revisits { graph } else { graph.without_returns(question.length).into_owned() };
     let mut new = New { question, known: round.known.clone(), plans: Vec::new() };
     if !round.models.is_empty() {
         for (place, score) in std::iter::once(&question.score).chain(&question.also).enumerate() {

@@ -194,9 +194,10 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>> Question
         }
     }
 
-    /// All legs of the graph that are on some way of the right length.
+    /// All legs of the graph that are on some way of the right length; without revisits, if there are to be none, those that no such way has.
     pub(super) fn leg_graph(&self) -> LegGraph<'_, N> {
-        LegGraph::explore(self.start, self.points, self.reach, self.length)
+        let graph = LegGraph::explore(self.start, self.points, self.reach, self.length);
+        if self.search.revisits { graph } else { graph.into_without_returns(self.length) }
     }
 }
 

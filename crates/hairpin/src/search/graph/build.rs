@@ -84,7 +84,16 @@ impl<N: Copy> LegGraph<'_, N> {
     /// waypoint that their first node can be entered from. What is left are still walks, but far fewer. Itself where that was done before.
     pub fn without_returns(&self, length: usize) -> Cow<'_, Self> {
         if self.without_returns == Some(length) {
-            return Cow::Borrowed(self);
+            Cow::Borrowed(self)
+        } else {
+            Cow::Owned(self.clone().into_without_returns(length))
+        }
+    }
+
+    /// [`Self::without_returns`] of a graph that nobody needs as it was: dense graphs take hundreds of megabytes, which are cheaper kept than copied.
+    pub fn into_without_returns(self, length: usize) -> Self {
+        if self.without_returns == Some(length) {
+            return self;
         }
         const MANY: u32 = u32::MAX;
         const NONE: u32 = u32::MAX - 1;
@@ -96,56 +105,55 @@ impl<N: Copy> LegGraph<'_, N> {
                 *entry = if *entry == NONE || *entry == waypoint { waypoint } else { MANY };
             }
         }
-        let fewer = self.filtered(|from, leg| {
-            let to = self.waypoint(self.target(leg));
-            to != 0 && !self.at_end(from) && entered_from[from as usize] != to
+        let end = self.candidates.len() as u32 - 1;
+        let fewer = self.retain(|waypoints, from, to| {
+            let to = waypoints[to as usize];
+            to != 0 && waypoints[from as usize] != end && entered_from[from as usize] != to
         });
-        Cow::Owned(Self { without_returns: Some(length), ..fewer.trimmed(length) })
+        Self { without_returns: Some(length), ..fewer.trimmed(length) }
     }
 
     /// Only nodes and legs on a walk from the start to the end of at most `length` waypoints.
-    fn trimmed(&self, length: usize) -> Self {
+    fn trimmed(self, length: usize) -> Self {
         let after = self.distances_from_start();
         let before = self.distances_to_end();
         let most = length.saturating_sub(1) as u32;
-        self.filtered(|from, leg| {
-            let rest = before[self.target(leg) as usize];
-            after[from as usize].saturating_add(1).saturating_add(rest) <= most
-        })
+        self.retain(|_, from, to| after[from as usize].saturating_add(1).saturating_add(before[to as usize]) <= most)
     }
 
-    /// The legs for which `keep(from, leg)` holds, and the nodes that they lead to or start from.
-    fn filtered(&self, keep: impl Fn(u32, usize) -> bool) -> Self {
+    /// The legs for which `keep(waypoints of the nodes, from, to)` holds, and the nodes that they lead to or start from; in place.
+    fn retain(mut self, keep: impl Fn(&[u32], u32, u32) -> bool) -> Self {
         const GONE: u32 = u32::MAX;
         let mut number = vec![GONE; self.nodes()];
         number[0] = 0;
-        let mut kept = Vec::new();
+        let mut ends = Vec::with_capacity(self.nodes());
+        let mut kept = 0;
         for from in 0..self.nodes() as u32 {
-            for leg in self.legs_from(from).filter(|&leg| keep(from, leg)) {
-                (number[from as usize], number[self.target(leg) as usize]) = (0, 0);
-                kept.push((from, leg));
+            for leg in self.legs_from(from) {
+                let to = self.to[leg];
+                if keep(&self.waypoints, from, to) {
+                    (number[from as usize], number[to as usize]) = (0, 0);
+                    // Never ahead of the leg that is looked at.
+                    (self.to[kept], self.details[kept]) = (to, self.details[leg]);
+                    kept += 1;
+                }
             }
+            ends.push(kept as u32);
         }
-        let olds: Vec<u32> = (0..self.nodes() as u32).filter(|&node| number[node as usize] != GONE).collect();
-        for (new, &old) in olds.iter().enumerate() {
-            number[old as usize] = new as u32;
+        self.to.truncate(kept);
+        self.details.truncate(kept);
+        self.first.truncate(1);
+        let mut left = 0;
+        for (old, number) in number.iter_mut().enumerate().filter(|(_, number)| **number != GONE) {
+            *number = left as u32;
+            (self.nodes[left], self.waypoints[left]) = (self.nodes[old], self.waypoints[old]);
+            self.first.push(ends[old]);
+            left += 1;
         }
-        let mut first = vec![0u32; olds.len() + 1];
-        for &(from, _) in &kept {
-            first[number[from as usize] as usize + 1] += 1;
-        }
-        for node in 0..olds.len() {
-            first[node + 1] += first[node];
-        }
-        Self {
-            candidates: self.candidates,
-            nodes: olds.iter().map(|&old| self.nodes[old as usize]).collect(),
-            waypoints: olds.iter().map(|&old| self.waypoint(old)).collect(),
-            first,
-            to: kept.iter().map(|&(_, leg)| number[self.target(leg) as usize]).collect(),
-            details: kept.iter().map(|&(_, leg)| self.details[leg]).collect(),
-            without_returns: self.without_returns,
-        }
+        self.nodes.truncate(left);
+        self.waypoints.truncate(left);
+        self.to.iter_mut().for_each(|to| *to = number[*to as usize]);
+        self
     }
 
     /// Fewest legs from the start; `u32::MAX` where there is no way.
@@ -167,35 +175,19 @@ impl<N: Copy> LegGraph<'_, N> {
         distance
     }
 
-    /// Fewest legs to the end; `u32::MAX` where there is no way.
+    /// Fewest legs to the end; `u32::MAX` where there is no way. In rounds over the nodes whose distance is not known: a list of the
+    /// legs backwards would take longer, for few rounds are needed.
     fn distances_to_end(&self) -> Vec<u32> {
-        let mut first = vec![0u32; self.nodes() + 1];
-        for &to in &self.to {
-            first[to as usize + 1] += 1;
-        }
-        for node in 0..self.nodes() {
-            first[node + 1] += first[node];
-        }
-        let mut sources = vec![0u32; self.legs()];
-        let mut next = first.clone();
-        for from in 0..self.nodes() as u32 {
-            for leg in self.legs_from(from) {
-                let place = &mut next[self.target(leg) as usize];
-                sources[*place as usize] = from;
-                *place += 1;
-            }
-        }
-        let mut queue: Vec<u32> = (0..self.nodes() as u32).filter(|&node| self.at_end(node)).collect();
-        let mut distance = vec![u32::MAX; self.nodes()];
-        queue.iter().for_each(|&node| distance[node as usize] = 0);
-        let mut head = 0;
-        while let Some(&node) = queue.get(head) {
-            head += 1;
-            for &from in &sources[first[node as usize] as usize..first[node as usize + 1] as usize] {
-                if distance[from as usize] == u32::MAX {
-                    distance[from as usize] = distance[node as usize] + 1;
-                    queue.push(from);
-                }
+        let nodes = 0..self.nodes() as u32;
+        let mut distance: Vec<u32> = nodes.clone().map(|node| if self.at_end(node) { 0 } else { u32::MAX }).collect();
+        let mut open: Vec<u32> = nodes.filter(|&node| distance[node as usize] != 0).collect();
+        for round in 1.. {
+            let here = |node: &u32| self.to[self.legs_from(*node)].iter().any(|&to| distance[to as usize] == round - 1);
+            let (met, left): (Vec<u32>, Vec<u32>) = open.into_iter().partition(here);
+            met.iter().for_each(|&node| distance[node as usize] = round);
+            open = left;
+            if met.is_empty() {
+                break;
             }
         }
         distance

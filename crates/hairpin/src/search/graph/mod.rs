@@ -74,6 +74,13 @@ impl<'a, N: Copy> LegGraph<'a, N> {
         self.to[leg]
     }
 
+    /// The legs from `node` to any node at `waypoint`: rows rise with the waypoint, so the first is found by halving.
+    pub(super) fn legs_to(&self, node: u32, waypoint: u32) -> impl Iterator<Item = usize> {
+        let row = self.legs_from(node);
+        let before = self.to[row.clone()].partition_point(|&to| self.waypoint(to) < waypoint);
+        (row.start + before..row.end).take_while(move |&leg| self.waypoint(self.target(leg)) == waypoint)
+    }
+
     /// The node that a leg starts from.
     pub(super) fn source(&self, leg: u32) -> u32 {
         (self.first.partition_point(|&first| first <= leg) - 1) as u32

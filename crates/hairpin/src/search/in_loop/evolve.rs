@@ -20,6 +20,9 @@ const FRUITLESS: u32 = 300;
 const AROUND_WORST: f64 = 0.6;
 /// Share of children whose rest comes from another parent.
 const CROSSED: f64 = 0.25;
+/// Share of children with one waypoint of their parent put to another place nearby, and how many places are near.
+const NEARBY: f64 = 0.4;
+const NEAR: usize = 16;
 
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -151,6 +154,9 @@ impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F>
             return self.stretch(&mut taken, &[], count, &[]);
         }
         let parent = self.parent();
+        if unit(&mut self.rng) < NEARBY {
+            return self.nearby(parent);
+        }
         let donor = if unit(&mut self.rng) < CROSSED { self.parent() } else { parent };
         // One leg cannot be grown anew between fixed nodes, and two can only where nodes do not remember the waypoint before.
         let steps = self.rng.random_range(2.min(count)..=count.min(5));
@@ -170,6 +176,54 @@ impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F>
             !std::mem::replace(&mut used[waypoint], true)
         };
         (self.settings.revisits || child.iter().all(once)).then_some(child)
+    }
+
+    /// `parent` with one waypoint, mostly one at its worst leg, put to one of the places near it: stress hardly jumps from place to place, so what
+    /// is next to a stressful trajectory is often more so.
+    fn nearby(&mut self, parent: usize) -> Option<Vec<u32>> {
+        let Member { legs, trial } = &self.pool[parent];
+        // Waypoint k + 1 lies between the legs k and k + 1; the end stays.
+        let inner = legs.len() - 1;
+        if inner == 0 {
+            return None;
+        }
+        let moved = if unit(&mut self.rng) < AROUND_WORST {
+            let around = trial.worst_leg.min(inner) + self.rng.random_range(0..3usize);
+            around.saturating_sub(2).min(inner - 1)
+        } else {
+            self.rng.random_range(0..inner)
+        };
+        let candidates = self.graph.candidates();
+        let waypoint = |&leg: &u32| self.graph.waypoint(self.graph.target(leg as usize));
+        let here = candidates[waypoint(&legs[moved]) as usize];
+        let mut places: Vec<u32> =
+            (1..candidates.len() as u32 - 1).filter(|w| !legs.iter().any(|leg| waypoint(leg) == *w)).collect();
+        let distance = |&place: &u32| (candidates[place as usize] - here).norm_squared();
+        let near = NEAR.min(places.len());
+        if near == 0 {
+            return None;
+        }
+        if near < places.len() {
+            places.select_nth_unstable_by(near, |a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
+        }
+        places.truncate(near);
+        places.sort_unstable();
+        let place = places[self.rng.random_range(0..near)];
+        let mut child = legs[..moved].to_vec();
+        let mut node = child.last().map_or(0, |&leg| self.graph.target(leg as usize));
+        // On to the same waypoints as the parent, until its legs go on from where that leads.
+        for (&leg, wanted) in
+            legs[moved..].iter().zip(std::iter::once(place).chain(legs[moved + 1..].iter().map(waypoint)))
+        {
+            if self.graph.source(leg) == node && child.len() > moved {
+                child.extend_from_slice(&legs[child.len()..]);
+                break;
+            }
+            let leg = self.graph.legs_to(node, wanted).next()?;
+            child.push(leg as u32);
+            node = self.graph.target(leg);
+        }
+        Some(child)
     }
 
     /// One of the pool, better ones more often.

@@ -44,7 +44,7 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
             return false;
         }
         if let (1, Goal::Node(goal)) = (steps, self.goal) {
-            return self.last(row, goal, legs);
+            return self.last(node, goal, legs);
         }
         for leg in self.order(node, row) {
             self.spent += 1;
@@ -97,17 +97,10 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
         }
     }
 
-    /// The leg to the goal: rows rise with the waypoint, so it is found by halving.
-    fn last(&mut self, row: std::ops::Range<usize>, goal: u32, legs: &mut Vec<u32>) -> bool {
+    /// The leg to the goal.
+    fn last(&mut self, node: u32, goal: u32, legs: &mut Vec<u32>) -> bool {
         self.spent += 1;
-        let wanted = self.graph.waypoint(goal);
-        let (mut low, mut high) = (row.start, row.end);
-        while low < high {
-            let middle = low + (high - low) / 2;
-            if self.graph.waypoint(self.graph.target(middle)) < wanted { low = middle + 1 } else { high = middle }
-        }
-        let same = (low..row.end).take_while(|&leg| self.graph.waypoint(self.graph.target(leg)) == wanted);
-        let found = same.into_iter().find(|&leg| self.graph.target(leg) == goal);
+        let found = self.graph.legs_to(node, self.graph.waypoint(goal)).find(|&leg| self.graph.target(leg) == goal);
         legs.extend(found.map(|leg| leg as u32));
         found.is_some()
     }

@@ -4,6 +4,10 @@
 //! Every trajectory comes from a graph of its own (one best per graph), no waypoint is used twice on either side, and what is told are
 //! fresh runs with noise, which no search has seen.
 
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use hairpin::campaign::Case;
 use hairpin::campaign::experiment::lift::{Flown, Lift, lift};
 use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
@@ -27,7 +31,7 @@ struct Size {
     runs: u64,
     /// Executions per graph of the search in the loop.
     executions: u64,
-    /// The same where waypoints are moved as well; 0: left out.
+    /// The same where waypoints are moved as well.
     executions_moved: u64,
     /// Executions under noise that searches in the loop confirm a stress with.
     confirm: u64,
@@ -37,6 +41,8 @@ struct Size {
     seed: u64,
     reach: Vec<String>,
     controllers: Vec<String>,
+    /// What is measured beside the baselines.
+    kinds: Vec<Kind>,
     /// What deviations are measured from: leg | nearest-leg.
     from: String,
 }
@@ -61,8 +67,10 @@ struct Way {
     learned: bool,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 enum Kind {
+    #[serde(skip)]
     Baseline,
     ByHand,
     Learned,
@@ -70,6 +78,13 @@ enum Kind {
     InLoopLearned,
     Moved,
     MovedLearned,
+}
+
+impl Kind {
+    /// Whether what is found depends on who will fly it.
+    fn knows_controller(self) -> bool {
+        !matches!(self, Self::Baseline | Self::ByHand)
+    }
 }
 
 const KINDS: [(Kind, &str); 6] = [
@@ -110,11 +125,10 @@ fn ways(size: &Size) -> Vec<Way> {
         [way(&name, kinds[0], "in-loop", &all), way(&format!("{name}, from the learned"), kinds[1], "in-loop", &all)]
     };
     ways.extend(in_loop("in the loop", size.executions, [Kind::InLoop, Kind::InLoopLearned], &[]));
-    if size.executions_moved > 0 {
-        let moved = [("generate.search.move_waypoints", "true".into())];
-        let kinds = [Kind::Moved, Kind::MovedLearned];
-        ways.extend(in_loop("in the loop and moved", size.executions_moved, kinds, &moved));
-    }
+    let moved = [("generate.search.move_waypoints", "true".into())];
+    let kinds = [Kind::Moved, Kind::MovedLearned];
+    ways.extend(in_loop("in the loop and moved", size.executions_moved, kinds, &moved));
+    ways.retain(|way| way.kind == Kind::Baseline || size.kinds.contains(&way.kind));
     ways
 }
 
@@ -199,29 +213,45 @@ pub(in super::super) fn scores(sheet: &Sheet) -> Result<Outcome, Problem> {
     let mut measured = Vec::new();
     for reach in &size.reach {
         let mut controllers = Vec::new();
+        // Cases by way, of the ways that find the same for every controller.
+        let mut shared: HashMap<String, Vec<Case>> = HashMap::new();
         for controller in &size.controllers {
             go_on()?;
             let base = base(&size, reach, controller);
             let judge = cell::with_noise(FLIGHT_GOGGLES, &base, size.runs)?;
-            let model = cell::learned(FLIGHT_GOGGLES, &base, size.training, size.seed)?;
-            quality.push(vec![
-                reach.as_str().into(),
-                controller.as_str().into(),
-                model.legs.into(),
-                (model.polynomial.degree as usize).into(),
-                model.polynomial.penalty.into(),
-                model.validation.r2.into(),
-                model.held_out.r2.into(),
-                model.held_out.rmse.into(),
-                model.held_out.rank_correlation.into(),
-            ]);
+            let model = match ways(&size).iter().any(|way| way.learned) {
+                true => Some(cell::learned(FLIGHT_GOGGLES, &base, size.training, size.seed)?),
+                false => None,
+            };
+            if let Some(model) = &model {
+                quality.push(vec![
+                    reach.as_str().into(),
+                    controller.as_str().into(),
+                    model.legs.into(),
+                    (model.polynomial.degree as usize).into(),
+                    model.polynomial.penalty.into(),
+                    model.validation.r2.into(),
+                    model.held_out.r2.into(),
+                    model.held_out.rmse.into(),
+                    model.held_out.rank_correlation.into(),
+                ]);
+            }
             let ceiling = ceiling(&size, &base)?;
             let mut flown: Vec<(Way, Flown)> = Vec::new();
             for way in ways(&size) {
                 go_on()?;
-                let setup = cell::setup(FLIGHT_GOGGLES, &with(&base, &way.sets), way.learned.then_some(&model))?;
-                let cases = cell::cases(&setup)?;
+                let generated = || {
+                    let model = model.as_ref().filter(|_| way.learned);
+                    cell::cases(&cell::setup(FLIGHT_GOGGLES, &with(&base, &way.sets), model)?)
+                };
+                let cases = match shared.get(&way.name) {
+                    Some(cases) => Cow::Borrowed(cases),
+                    None => Cow::Owned(generated()?),
+                };
                 let [came_to] = cell::flown(&judge, &cases, [Stress::MaxDeviation])?;
+                if let (Cow::Owned(cases), false) = (cases, way.kind.knows_controller()) {
+                    shared.insert(way.name.clone(), cases);
+                }
                 flown.push((way, came_to));
             }
             let (uniform, beam) = (flown[0].1.stresses.clone(), flown[1].1.stresses.clone());
