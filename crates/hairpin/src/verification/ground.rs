@@ -93,18 +93,32 @@ const SIN_20: f64 = 0.342_020_143_325_668_7;
 /// Longest step of a turn in place, rad.
 const TURN_STEP: f64 = 0.005;
 
-/// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on its
-/// wheels at each; an exact vehicle is carried from rest to rest by the twist between them. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
-/// drive that begins in reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a
-/// turn in place, the wheels swing to what comes.
+/// [`follow_ground`] to its end.
 ///
 /// # Errors
-/// [`Stopped`] where the ground ends or the body finds no rest.
+/// As [`follow_ground`].
 pub fn replay_ground<T: Terrain>(
     pieces: &[DrivePiece],
     vehicle: &GroundVehicle,
     terrain: &T,
     claim: &GroundClaim,
+) -> Result<GroundReplay, Stopped> {
+    follow_ground(pieces, vehicle, terrain, claim, |_| {})
+}
+
+/// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on its
+/// wheels at each; an exact vehicle is carried from rest to rest by the twist between them. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
+/// drive that begins in reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a
+/// turn in place, the wheels swing to what comes. `pass` is shown x, y (m) and ψ (rad) after each step.
+///
+/// # Errors
+/// [`Stopped`] where the ground ends or the body finds no rest.
+pub(super) fn follow_ground<T: Terrain>(
+    pieces: &[DrivePiece],
+    vehicle: &GroundVehicle,
+    terrain: &T,
+    claim: &GroundClaim,
+    mut pass: impl FnMut([f64; 3]),
 ) -> Result<GroundReplay, Stopped> {
     let under_way = matches!(pieces.first(), Some(DrivePiece::Arc { direction, .. }) if *direction > 0.0);
     let [wait, held] = if under_way { claim.metres_of(vehicle.latency_s) } else { [0.0; 2] };
@@ -180,6 +194,7 @@ pub fn replay_ground<T: Terrain>(
                     let carried = carry(&vehicle.stand, terrain, &mut rest, [state[0], state[1], state[2]], h, body);
                     let place = carried.map_err(stopped)?;
                     state = [place[0], place[1], place[2], steered.unwrap_or(angle)];
+                    pass(place);
                     max_tilt = max_tilt.max(tilt(&rest));
                     max_torque = max_torque.max(vehicle.torque(&way, &rest));
                     steps += 1;
@@ -194,6 +209,7 @@ pub fn replay_ground<T: Terrain>(
                 let middle = rates(&state, s).and_then(|k1| rates(&moved(&state, &k1, 0.5 * h), s + 0.5 * h));
                 let k2 = middle.map_err(stopped)?;
                 state = moved(&state, &k2, h);
+                pass([state[0], state[1], state[2]]);
                 state[3] = steered.unwrap_or(state[3]);
                 max_torque = max_torque.max(vehicle.torque(&way, &rest));
                 steps += 1;

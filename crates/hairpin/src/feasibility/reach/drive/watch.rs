@@ -8,11 +8,11 @@ use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Step
 use crate::robot::rover::{Settled, Slip, Suspension, Unsettled};
 use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::trajectory::{Direction, SpeedProfile};
-use crate::world::terrain::{ElevationMap, NoGround, Terrain};
+use crate::world::terrain::{ElevationMap, KeepOuts, NoGround, Terrain};
 
 /// Limits are asked for at least this often, and the second time on drives that came within [`NEAR`] (rad) of one of tilt or joints: on
 /// rough ground the body leans by up to a degree more between two of the first looks.
-const STEPS: Steps = Steps { length: 0.03, angle: 0.03, least: 8 };
+pub(super) const STEPS: Steps = Steps { length: 0.03, angle: 0.03, least: 8 };
 const CLOSER: Steps = Steps { length: 0.003, angle: 0.003, least: 8 };
 const NEAR: f64 = 0.05;
 /// Room left below the limits of tilt and joints for what lies between two looks, rad.
@@ -77,7 +77,7 @@ pub(super) fn watch(
 
 /// Whether the body stands within the limits at a place.
 pub(super) fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) -> Result<(), LegRefusal> {
-    if site.keep_outs.distance(at.x, at.y) < site.radius {
+    if !keeps_out(site.keep_outs, site.radius, [at.x, at.y], 0.0) {
         return Err(LegRefusal::KeepOut);
     }
     if matches!(site.rover.suspension, Suspension::Level) {
@@ -87,6 +87,12 @@ pub(super) fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) ->
     let (settled, _) = rest.map_err(|unsettled| refusal(&Blocked { after_m: 0.0, cause: unsettled.into() }))?;
     within(settings, libm::cos(settled.roll) * libm::cos(settled.pitch), &settled.joints)?;
     clear(site, settings, at, &settled)
+}
+
+/// Whether a look at (x, y) shows that `radius` is kept from `keep_outs`: on the way to the next look, `metres` farther, the vehicle comes no
+/// nearer than by those.
+pub(super) fn keeps_out(keep_outs: &KeepOuts, radius: f64, [x, y]: [f64; 2], metres: f64) -> bool {
+    keep_outs.distance(x, y) >= radius + metres
 }
 
 /// Why the ground let nothing pass.
@@ -186,8 +192,7 @@ impl Watcher<'_> {
         if at.curvature.abs() > settings.bounds.most * KEPT {
             return Err(LegRefusal::Curvature);
         }
-        // On the way to the next look the vehicle comes no nearer than by a step.
-        if site.keep_outs.distance(at.x, at.y) < site.radius + metres {
+        if !keeps_out(site.keep_outs, site.radius, [at.x, at.y], metres) {
             return Err(LegRefusal::KeepOut);
         }
         if self.level {
