@@ -18,7 +18,9 @@ pub struct Verified {
 /// Integrates the witness of `case` by independent code, to the default tolerances of flights and the scenario's of drives.
 pub fn verify(setup: &Setup, case: &Case) -> Verified {
     let (mut proof, with_lag) = match setup.kind() {
-        Kind::Flight(setup) => flight::verify(setup.robot, case).map_or((None, None), |(proof, lag)| (Some(proof), lag)),
+        Kind::Flight(setup) => {
+            flight::verify(setup.robot, case).map_or((None, None), |(proof, lag)| (Some(proof), lag))
+        }
         Kind::Drive(setup) => (drive::verify(&setup, case), None),
         Kind::Arm(setup) => (arm::verify(&setup, case), None),
     };

@@ -161,8 +161,7 @@ mod tests {
     fn told(drive: ClearDrive, center: [f64; 2], radius: f64) -> String {
         let discs = &[ClearDisc { center, radius }];
         let extent = ([-5.0, -5.0], [5.0, 8.0]);
-        let found =
-            verify_clear_ground(&VEHICLE, &Flat, &ClearGroundClaim { drive, discs, clearance: 0.2, extent });
+        let found = verify_clear_ground(&VEHICLE, &Flat, &ClearGroundClaim { drive, discs, clearance: 0.2, extent });
         found.iter().map(|f| format!("{} {:.4} leg {}", f.field, f.value, f.leg)).collect::<Vec<_>>().join("; ")
     }
 

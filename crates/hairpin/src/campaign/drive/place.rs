@@ -50,11 +50,8 @@ pub(in crate::campaign) fn place(
     };
     let places: Vec<Point3<f64>> = (0..track.len()).map(|index| flat(&track.position(index))).collect();
     let Placed { centers, clearance, leg } = placing.in_the_way_of(track, &places)?;
-    let section = |(number, center)| KeepOutSection {
-        name: name(number),
-        circle: Some(circle(asked, center)),
-        polygon: None,
-    };
+    let section =
+        |(number, center)| KeepOutSection { name: name(number), circle: Some(circle(asked, center)), polygon: None };
     let keep_out = centers.iter().enumerate().map(section).collect();
     let among = Environment { keep_out, ..case.environment.clone().unwrap_or_default() };
     Some(Placement { among, clearance, leg })

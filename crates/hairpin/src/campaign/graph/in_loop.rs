@@ -81,9 +81,10 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
             let seed = named_seed(question.seed, "air", place as u64);
             let calm = vec![0.0; disturbance.coordinates];
             go_on(&mut best_so_far, &[trial.stress]);
-            let climbed = climb(&calm, *trial, seed, [each - 1, 1 + search.confirm], disturbance.bound, |place, least| {
-                execute(&(disturbance.put)(plan, place, time), least)
-            });
+            let climbed =
+                climb(&calm, *trial, seed, [each - 1, 1 + search.confirm], disturbance.bound, |place, least| {
+                    execute(&(disturbance.put)(plan, place, time), least)
+                });
             go_on(&mut best_so_far, &climbed.best_so_far);
             *trial = climbed.trial;
             if let Some(place) = climbed.place {

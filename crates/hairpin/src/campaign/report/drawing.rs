@@ -131,7 +131,9 @@ fn ground(setup: &DriveSetup, places: impl Iterator<Item = Point3<f64>>) -> Draw
     let step = (side / RELIEF_POINTS).max(cell[0].min(cell[1]));
     let [columns, rows] = [0, 1].map(|i| ((high[i] - low[i]) / step).floor() as usize + 1);
     let heights: Vec<Vec<f64>> = (0..rows)
-        .map(|row| (0..columns).map(|c| height_at(setup, low[0] + c as f64 * step, low[1] + row as f64 * step)).collect())
+        .map(|row| {
+            (0..columns).map(|c| height_at(setup, low[0] + c as f64 * step, low[1] + row as f64 * step)).collect()
+        })
         .collect();
     let (wheels, count, _) = setup.rover.suspension.wheels(&[0.0; 3]);
     let known = heights.iter().flatten().filter(|h| h.is_finite());

@@ -1,7 +1,7 @@
-//! A whole drive held clear of places to keep out of that were not known when its legs were solved: at the same looks, taken once.
+//! A whole drive held clear of places to keep out of that were not known when its legs were solved: at the closest of the same looks, taken once.
 
 use super::settings::{DriveSettings, DriveSite};
-use super::watch::{STEPS, keeps_out};
+use super::watch::{CLOSER, keeps_out};
 use crate::feasibility::steering::shooting::rough::{Driven, predict_while};
 use crate::trajectory::Drive;
 use crate::world::terrain::KeepOuts;
@@ -14,13 +14,13 @@ pub struct DriveLooks {
 }
 
 impl DriveLooks {
-    /// Looks along `drive`, planned without latency, leg after leg from each leg's own start, as closely as legs are looked at when they are
-    /// solved with `settings`. `None` where the ground does not carry it.
+    /// Looks along `drive`, planned without latency, leg after leg from each leg's own start, as closely as legs that
+    /// come near to something are looked at when they are solved with `settings`. `None` where the ground does not carry it.
     pub fn along(site: &DriveSite, settings: &DriveSettings, drive: &Drive) -> Option<Self> {
         let mut looks = Vec::new();
         for leg in &drive.legs {
             looks.push(([leg.from.x, leg.from.y], 0.0));
-            let course = settings.course(site, STEPS, leg.speed, leg.direction);
+            let course = settings.course(site, CLOSER, leg.speed, leg.direction);
             let look = |driven: &Driven| {
                 let metres = if driven.in_place { 0.0 } else { driven.step.abs() };
                 looks.push(([driven.at.x, driven.at.y], metres));

@@ -30,7 +30,12 @@ pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, found: &mut
         let given = scenario.execute.external_force_n.is_some() || scenario.vary.keys().any(|key| key.starts_with(own));
         found.searched_alone(key, force, given, "[execute]");
         let weighs = rover.is_none_or(|rover| rover.weight.is_some());
-        found.require(weighs, key, force, "left out, or robot.mass_kg and robot.forces given: it acts against a weight");
+        found.require(
+            weighs,
+            key,
+            force,
+            "left out, or robot.mass_kg and robot.forces given: it acts against a weight",
+        );
     }
 }
 
