@@ -37,7 +37,7 @@ pub(super) struct Placing<'a> {
     /// The solid about a centre; `None`: there is none.
     pub(super) shape: &'a dyn Fn(&Point3<f64>) -> Option<Shape>,
     /// Where it may give way to, seen from the plan towards the execution.
-    pub(super) directions: &'a dyn Fn(&Vector3<f64>) -> Vec<Unit<Vector3<f64>>>,
+    pub(super) directions: fn(&Vector3<f64>) -> Vec<Unit<Vector3<f64>>>,
     /// Whether it may stand about a centre: in the world, and all of the plan proven clear of it.
     pub(super) stands: &'a dyn Fn(&Point3<f64>, &Shape) -> bool,
 }

@@ -42,7 +42,7 @@ pub(in crate::campaign) fn place(
         gaps: &GAPS.map(|gap| beyond + gap),
         // In the plane, a disc is a ball.
         shape: &|center| Shape::sphere(center.coords.into(), asked.radius_m).ok(),
-        directions: &directions,
+        directions,
         stands: &|center, _| {
             let circle = circle(asked, center);
             on_map(setup, &circle) && claimed.keeps_out(&circle, setup.radius())

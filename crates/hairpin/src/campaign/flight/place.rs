@@ -29,7 +29,7 @@ pub(in crate::campaign) fn place(
         radius: setup.robot.clearance_radius,
         gaps: &GAPS,
         shape: &|center| shape(asked, center),
-        directions: &directions,
+        directions,
         stands: &|_, shape| inside(setup.world, shape) && leaves_clear(setup, case, shape),
     };
     let places: Vec<Point3<f64>> = (0..track.len()).map(|index| track.position(index)).collect();
