@@ -93,10 +93,13 @@ const SIN_20: f64 = 0.342_020_143_325_668_7;
 /// Longest step of a turn in place, rad.
 const TURN_STEP: f64 = 0.005;
 
-/// [`follow_ground`] to its end.
+/// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on its
+/// wheels at each; an exact vehicle is carried from rest to rest by the twist between them. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
+/// drive that begins in reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a
+/// turn in place, the wheels swing to what comes.
 ///
 /// # Errors
-/// As [`follow_ground`].
+/// [`Stopped`] where the ground ends or the body finds no rest.
 pub fn replay_ground<T: Terrain>(
     pieces: &[DrivePiece],
     vehicle: &GroundVehicle,
@@ -106,13 +109,10 @@ pub fn replay_ground<T: Terrain>(
     follow_ground(pieces, vehicle, terrain, claim, |_| {})
 }
 
-/// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on its
-/// wheels at each; an exact vehicle is carried from rest to rest by the twist between them. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
-/// drive that begins in reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a
-/// turn in place, the wheels swing to what comes. `pass` is shown x, y (m) and ψ (rad) after each step.
+/// [`replay_ground`]; `pass` is shown x, y (m) and ψ (rad) after each step.
 ///
 /// # Errors
-/// [`Stopped`] where the ground ends or the body finds no rest.
+/// As [`replay_ground`].
 pub(super) fn follow_ground<T: Terrain>(
     pieces: &[DrivePiece],
     vehicle: &GroundVehicle,
