@@ -1,4 +1,4 @@
-//! Wind, gusts and obstacles searched beside the waypoints: what was found is part of the case, wherever the case goes.
+//! Wind, gusts, forces and obstacles searched beside the waypoints: what was found is part of the case, wherever the case goes.
 
 mod commands;
 
@@ -44,7 +44,7 @@ fn wind_and_a_gust_are_found_and_go_with_their_cases() {
     looped(here, "stress", "air", &air);
     let (calm, found) = (cases(&here.join("calm")), cases(&here.join("air")));
     for (case, calm) in found.iter().zip(&calm) {
-        let Environment { wind_m_s, discrete_gust, obstacles } = case.environment.clone().unwrap();
+        let Environment { wind_m_s, discrete_gust, obstacles, .. } = case.environment.clone().unwrap();
         let gust = discrete_gust.unwrap();
         assert!(Vector3::from(wind_m_s.unwrap()).norm() < 4.0 + 1e-9 && obstacles.is_empty());
         assert!(Vector3::from(gust.velocity_m_s).norm() < 3.0 + 1e-9 && gust.duration_s == 2.0);
@@ -158,5 +158,146 @@ fn what_cannot_be_searched_is_refused() {
         let mut typed = vec!["generate", "q.toml", "--out", "no"];
         typed.extend(sets.iter().flat_map(|set| ["--set", set]));
         refused(here, &typed, words);
+    }
+}
+
+/// A car in the middle of flat ground; `search` and what else stands in `[generate]`.
+const CAR: &str = r#"
+hairpin = 1
+robot = "car"
+seed = 7
+[world]
+terrain = { generator = "flat", size_m = 30, cell_m = 0.5 }
+[task]
+start = { x_m = 15, y_m = 15 }
+length = 4
+leg_m = [2, 5]
+[generate]
+headings = 2
+speed = { profile = "trapezoid" }
+limits = { speed_m_s = 1.5, curvature_1_m = 1.0, curvature_rate_1_m2 = 1.5 }
+search = { method = "in-loop", waypoints = 24, cases = 2, executions = 14, stress = "clearance" }
+[execute]
+controller = "stanley"
+latency_s = 0.2
+"#;
+
+fn driven<'a>(command: &'a str, sets: &[&'a str]) -> Vec<&'a str> {
+    [command, "car.toml"].into_iter().chain(sets.iter().flat_map(|set| ["--set", set])).collect()
+}
+
+#[test]
+fn keep_outs_and_a_force_go_with_the_drives_that_they_were_found_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("car.toml"), CAR).unwrap();
+    let rocks = "generate.environment.obstacles={count=2,radius_m=0.3}";
+    json(here, &[&driven("stress", &[rocks])[..], &["--out", "rocks", "--threads", "2"]].concat());
+    json(here, &[&driven("generate", &[rocks])[..], &["--out", "parts", "--threads", "1"]].concat());
+    assert_eq!(json(here, &["execute", "parts"])["exit_code"], 0);
+    json(here, &["judge", "parts"]);
+    assert_same(&here.join("rocks"), &here.join("parts"));
+    let found = cases(&here.join("rocks"));
+    for (case, (score, _, clearance)) in found.iter().zip(came_to(&here.join("rocks"))) {
+        assert_eq!(case.environment.as_ref().unwrap().keep_out.len(), 2);
+        assert!((score + clearance.unwrap()).abs() < 1e-12, "{score} {clearance:?}");
+        assert!(score > -1e-9, "{score}: all the way to the rock");
+    }
+    let (code, out, _) = run(here, &["verify", "rocks"]);
+    assert!(code == 0 && out.contains("the plans of 2/2 cases are clear"), "{out}");
+    let again = json(here, &["replay", "rocks/repro/0000.json"]);
+    assert!(again["reproduces"] == true, "{again}");
+    let shrunk = json(here, &["shrink", "rocks", "--case", "0", "--budget", "12"]);
+    assert_eq!(shrunk["what"], "crash", "{shrunk}");
+    let simplified = shrunk["simplified"].to_string();
+    assert!(simplified.contains("1 of 2 keep-outs"), "{shrunk}");
+    assert!(json(here, &["replay", "rocks/repro/0000-shrunk.json"])["violates"] == true);
+    json(here, &["select", "rocks", "--cases", "1", "--out", "one"]);
+    assert!(cases(&here.join("one"))[0].environment.is_some());
+    json(here, &["export", "rocks", "--to", "waypoints"]);
+    let exported = fs::read_to_string(here.join("rocks/missions/0001.environment.json")).unwrap();
+    let exported: Environment = serde_json::from_str(&exported).unwrap();
+    assert_eq!(Some(&exported), found[1].environment.as_ref());
+    let page = fs::read_to_string(here.join("rocks/report.html")).unwrap();
+    assert!(page.contains("placed 0: disc of radius 0.30 m at (") && page.contains("up to 2 round keep-outs"));
+
+    // Searched again at another radius it is another environment.
+    json(
+        here,
+        &[&driven("stress", &["generate.environment.obstacles={count=1,radius_m=0.2}"])[..], &["--out", "small"]]
+            .concat(),
+    );
+    let (_, _, error) = run(here, &["compare", "rocks", "small"]);
+    assert!(error.contains("0000, 0001 (another environment)"), "{error}");
+
+    // A disc put on the plan's first leg is no longer clear of it.
+    let kept = CampaignFolder::open_to_write(&here.join("rocks")).unwrap();
+    let mut moved = kept.read_cases().unwrap();
+    let goal = moved[1].waypoints[1];
+    let place = &mut moved[1].environment.as_mut().unwrap().keep_out[1];
+    place.circle.as_mut().unwrap().center_m = [goal.x, goal.y];
+    kept.write_results(&moved, &[]).unwrap();
+    drop(kept);
+    let (code, out, _) = run(here, &["verify", "rocks"]);
+    assert!(code == 1 && out.contains("case 0001: environment.keep_out[1].clearance"), "{out}");
+}
+
+#[test]
+fn a_steady_force_is_found_within_its_bound_and_acts_wherever_the_drive_goes() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("car.toml"), CAR.replace("\"car\"", "\"four-wheel\"")).unwrap();
+    let own = [
+        "robot.mass_kg=20",
+        "robot.forces={gravity_m_s2=9.81,rolling_resistance=0.05}",
+        "robot.slip_at_20_deg=0.3",
+        "robot.side_slip_at_20_deg=0.3",
+        "generate.speed={}",
+        "generate.search={method=\"in-loop\",waypoints=16,cases=1,executions=30}",
+    ];
+    json(here, &[&driven("generate", &own)[..], &["--out", "calm"]].concat());
+    let pulled = [&own[..], &["generate.environment.external_force_n=30"]].concat();
+    json(here, &[&driven("stress", &pulled)[..], &["--out", "pulled"]].concat());
+    let (calm, found) = (&cases(&here.join("calm"))[0], &cases(&here.join("pulled"))[0]);
+    let force = found.environment.as_ref().unwrap().external_force_n.unwrap();
+    assert!(force[0].hypot(force[1]) < 30.0 + 1e-9 && force[0].hypot(force[1]) > 1.0 && force[2] == 0.0, "{force:?}");
+    let (score, deviation, _) = came_to(&here.join("pulled"))[0];
+    assert!((score - deviation).abs() < 1e-12 && score > 1.05 * calm.score, "{score} {deviation} {}", calm.score);
+    assert_eq!(json(here, &["verify", "pulled"])["failed"], 0);
+    let ready = r#"{"type":"ready","protocol":1,"name":"scribe"}"#;
+    let scribe = format!("read -r hello\necho '{ready}'\nread -r mission\nprintf '%s\\n' \"$mission\" >> got.json\n");
+    fs::write(here.join("scribe.sh"), scribe).unwrap();
+    let (code, out, error) = run(here, &["execute", "pulled", "--executor", "sh scribe.sh"]);
+    assert_eq!(code, 4, "{out}{error}");
+    let got = fs::read_to_string(here.join("got.json")).unwrap();
+    let told = format!("\"external_force_n\":{}", serde_json::to_string(&force).unwrap());
+    assert!(got.contains(&told), "{got}");
+}
+
+#[test]
+fn what_cannot_be_searched_beside_drives_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("car.toml"), CAR).unwrap();
+    let rocks = "generate.environment.obstacles={count=2,radius_m=0.3}";
+    let force = "generate.environment.external_force_n=10";
+    let far = "generate.search.stress=\"max-deviation\"";
+    let table: [(&[&str], &[&str]); 10] = [
+        (&[rocks, "generate.search.method=\"exact\""], &["generate.environment", "only the method `in-loop`"]),
+        (&[rocks, far], &["generate.environment.obstacles", "stress = \"clearance\"", "to a drive"]),
+        (&[], &["generate.search.stress", "nothing to be near to"]),
+        (&[far, "generate.environment={}"], &["generate.environment", "obstacles or external_force_n"]),
+        (
+            &["generate.environment.obstacles={count=0,radius_m=0.3}"],
+            &["generate.environment.obstacles.count", "1 … 100"],
+        ),
+        (&["generate.environment.obstacles={count=1,radius_m=15}"], &["obstacles.radius_m", "15", "29.5 m across"]),
+        (&["generate.environment.obstacles={count=1,size_m=[1,1,1]}"], &["size_m"]),
+        (&[far, "generate.environment.wind_m_s=3"], &["wind_m_s"]),
+        (&[far, force], &["generate.environment.external_force_n", "robot.mass_kg and robot.forces"]),
+        (&[far, force, "execute.external_force_n=[1,0,0]"], &["generate.environment.external_force_n", "[execute]"]),
+    ];
+    for (sets, words) in table {
+        refused(here, &[&driven("generate", sets)[..], &["--out", "no"]].concat(), words);
     }
 }

@@ -29,6 +29,9 @@ pub struct MissionMessage {
     seed: u64,
     robot: Robot,
     world: World,
+    /// Steady force on what drives, east, north, up, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    external_force_n: Option<[f64; 3]>,
     waypoints_m: Vec<[f64; 3]>,
     accept_m: f64,
     time_limit_s: f64,
@@ -87,6 +90,7 @@ pub fn mission_message(mission: &Mission) -> ToExecutor {
         seed: mission.seed,
         robot,
         world,
+        external_force_n: mission.setup.drive().and_then(|drive| drive.scenario.execute.external_force_n),
         waypoints_m: mission.waypoints.iter().map(|p| p.coords.into()).collect(),
         accept_m: mission.accept,
         time_limit_s: mission.time_limit,

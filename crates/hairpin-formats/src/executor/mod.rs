@@ -16,6 +16,8 @@
 //! attitude counts as unknown (channel [`ATTITUDE_UNKNOWN`]). The first pose may lie anywhere, and `done` may be claimed
 //! anywhere: the judge sees what was flown, and a `done` without the last waypoint is an unfinished mission.
 //!
+//! Missions of drives under a steady force say it in `external_force_n` (east, north, up, N).
+//!
 //! Whatever the program does wrong fails the mission it was flying and no other: the process is ended with all its
 //! children, the end of its stderr is kept, and a new one is started for the next mission.
 

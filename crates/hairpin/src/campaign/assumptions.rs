@@ -77,15 +77,10 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) 
             search.executions
         ));
     }
-    if let Some(environment) = setup.flight().and_then(|flight| flight.scenario.generate.environment) {
-        let mut searched = Vec::new();
-        searched.extend(environment.wind_m_s.map(|wind| format!("a constant wind of up to {wind} m/s")));
-        searched.extend(environment.gust_m_s.map(|gust| format!("a gust of up to {gust} m/s")));
-        searched.extend(environment.obstacles.map(|placed| format!("{} obstacles clear of the plan", placed.count)));
-        said.push(format!(
-            "Searched beside the waypoints, and part of each case: {}. The claim knows nothing of moving air.",
-            searched.join(", ")
-        ));
+    match setup.kind() {
+        Kind::Flight(setup) => said.extend(flight::searched_beside(&setup)),
+        Kind::Drive(setup) => said.extend(drive::searched_beside(&setup)),
+        Kind::Arm(_) => {}
     }
     for (number, round) in tally.rounds.iter().enumerate() {
         if let Some(reason) = &round.unlearned {

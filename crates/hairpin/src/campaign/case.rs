@@ -107,7 +107,7 @@ pub struct Case {
     pub drive: Option<Drive>,
     /// What an arm runs.
     pub program: Option<Program>,
-    /// What was found beside the waypoints of a flight.
+    /// What was found beside the waypoints of a flight or drive.
     pub environment: Option<Environment>,
 }
 

@@ -1,12 +1,12 @@
-//! What a case met beside its waypoints, where that was searched for: wind, a gust, obstacles. It is part of the case.
+//! What a case met beside its waypoints, where that was searched for: wind, a gust, a steady force, obstacles. It is part of the case.
 
 use serde::{Deserialize, Serialize};
 
 use super::Scenario;
 use super::report::number;
-use super::scenario::{DiscreteGustSection, ObstacleSection};
+use super::scenario::{DiscreteGustSection, KeepOutSection, ObstacleSection};
 
-/// Found with the waypoints of a flight; keys and units are those of `[world]`.
+/// Found with the waypoints of a flight or drive; keys and units are those of `[world]`, those of the force of `[execute]`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Environment {
@@ -16,38 +16,70 @@ pub struct Environment {
     /// One gust.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub discrete_gust: Option<DiscreteGustSection>,
-    /// Obstacles beside the world's own; the plan is clear of them.
+    /// Obstacles of a flight beside the world's own; the plan is clear of them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub obstacles: Vec<ObstacleSection>,
+    /// Places on the ground beside the world's own; the planned drive is clear of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub keep_out: Vec<KeepOutSection>,
+    /// Steady force on what drives, east, north, up.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub external_force_n: Option<[f64; 3]>,
 }
 
 impl Environment {
-    /// `scenario` with this in its world, and nothing left to be searched for there. Only flights have environments.
+    /// `scenario` with this in its world, and nothing left to be searched for there. Arms have no environments.
     pub(super) fn around(&self, scenario: &Scenario) -> Scenario {
         let mut around = scenario.clone();
-        if let Scenario::Flight(flight) = &mut around {
-            flight.world.wind_m_s = self.wind_m_s.or(flight.world.wind_m_s);
-            flight.world.discrete_gust = self.discrete_gust.or(flight.world.discrete_gust);
-            flight.world.obstacles.extend(self.obstacles.iter().cloned());
-            flight.generate.environment = None;
+        match &mut around {
+            Scenario::Flight(flight) => {
+                flight.world.wind_m_s = self.wind_m_s.or(flight.world.wind_m_s);
+                flight.world.discrete_gust = self.discrete_gust.or(flight.world.discrete_gust);
+                flight.world.obstacles.extend(self.obstacles.iter().cloned());
+                flight.generate.environment = None;
+            }
+            Scenario::Drive(drive) => {
+                drive.execute.external_force_n = self.external_force_n.or(drive.execute.external_force_n);
+                drive.world.keep_out.extend(self.keep_out.iter().cloned());
+                drive.generate.environment = None;
+            }
+            Scenario::Arm(_) => {}
         }
         around
     }
 
+    /// Whether something was placed in the way.
+    pub(super) fn is_furnished(&self) -> bool {
+        !self.obstacles.is_empty() || !self.keep_out.is_empty()
+    }
+
     /// What it is, for people.
     pub fn words(&self) -> Vec<String> {
-        let vector = |v: [f64; 3]| format!("({})", v.map(|x| number(Some(x))).join(", "));
+        let vector = |v: &[f64]| format!("({})", v.iter().map(|x| number(Some(*x))).collect::<Vec<_>>().join(", "));
         let mut words = Vec::new();
-        words.extend(self.wind_m_s.map(|wind| format!("wind {} m/s", vector(wind))));
+        words.extend(self.wind_m_s.map(|wind| format!("wind {} m/s", vector(&wind))));
         words.extend(self.discrete_gust.map(|gust| {
             let [from, to] = [gust.start_s, gust.start_s + gust.duration_s].map(|t| number(Some(t)));
-            format!("gust {} m/s, t = {from} … {to} s", vector(gust.velocity_m_s))
+            format!("gust {} m/s, t = {from} … {to} s", vector(&gust.velocity_m_s))
         }));
         words.extend(self.obstacles.iter().map(|obstacle| {
-            let ball = obstacle.sphere.map(|ball| format!("ball at {} m", vector(ball.center_m)));
-            let cuboid = obstacle.cuboid.map(|cuboid| format!("box at {} m", vector(cuboid.center_m)));
+            let ball = obstacle.sphere.map(|ball| format!("ball at {} m", vector(&ball.center_m)));
+            let cuboid = obstacle.cuboid.map(|cuboid| format!("box at {} m", vector(&cuboid.center_m)));
             format!("{}: {}", obstacle.name, ball.or(cuboid).unwrap_or_default())
+        }));
+        words.extend(self.external_force_n.map(|force| format!("steady force {} N", vector(&force))));
+        words.extend(self.keep_out.iter().map(|place| {
+            let disc = place.circle.map(|circle| {
+                format!("disc of radius {} m at {} m", number(Some(circle.radius_m)), vector(&circle.center_m))
+            });
+            format!("{}: {}", place.name, disc.unwrap_or_default())
         }));
         words
     }
+}
+
+/// Takes `vector` back to length 1 where it is longer, along itself.
+pub(super) fn into_unit_ball(vector: &mut [f64]) {
+    let norm = vector.iter().map(|x| x * x).sum::<f64>().sqrt().max(1.0);
+    vector.iter_mut().for_each(|x| *x /= norm);
 }

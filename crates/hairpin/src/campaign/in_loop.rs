@@ -1,11 +1,12 @@
 //! Executions that a search asks for: one nominal run of a plan, or of a part of one, in our own simulator.
 
-use super::flight::{self, Placement};
 use super::graph::Plan;
 use super::judge::measures_of;
 use super::learn::{LegSample, samples_of};
 use super::mission::{flight_time_limit, run_seed};
-use super::{Case, Run, Setup, execute_again, execute_run};
+use super::placement::Placement;
+use super::setup::Kind;
+use super::{Case, Environment, Run, Setup, drive, execute_again, execute_run, flight};
 use crate::judgement::{Measures, Stress};
 use crate::search::in_loop::{Ran, Trial};
 use crate::simulation::Airborne;
@@ -118,9 +119,8 @@ pub(super) fn duration(setup: &Setup, graph: u64, plan: &Plan) -> Option<f64> {
 
 /// `plan` with the obstacles that are asked for, and its execution among them; as it is where none are. `None` where there is no room for any.
 pub(super) fn furnish(setup: &Setup, graph: u64, plan: &Plan) -> Option<(Plan, Trial)> {
-    let Placement { obstacles, .. } = placement(setup, &executed(setup, graph, plan)?)?;
-    let mut plan = plan.clone();
-    plan.environment.get_or_insert_default().obstacles = obstacles;
+    let Placement { among, .. } = placement(setup, &executed(setup, graph, plan)?)?;
+    let plan = Plan { environment: Some(among), ..plan.clone() };
     let among = executed(setup, graph, &plan)?;
     Some((plan, trial(setup, &among.measures)?))
 }
@@ -135,13 +135,14 @@ fn executed(setup: &Setup, graph: u64, plan: &Plan) -> Option<Executed> {
 /// Where the obstacles that are asked for, and not there yet, would stand.
 fn placement(setup: &Setup, executed: &Executed) -> Option<Placement> {
     let Executed { case, run, .. } = executed;
-    let setup = setup.flight()?;
-    let environment =
-        setup.scenario.generate.environment.filter(|_| setup.scenario.generate.search.stress == Stress::Clearance)?;
-    let asked = environment.obstacles?;
-    let furnished = case.environment.as_ref().is_some_and(|environment| !environment.obstacles.is_empty());
-    let flight = run.outcome.as_ref().ok().filter(|_| !furnished)?;
-    flight::place(&setup, case, &flight.track, &asked)
+    let wanted = setup.scenario.search().stress == Stress::Clearance;
+    let furnished = case.environment.as_ref().is_some_and(Environment::is_furnished);
+    let track = &run.outcome.as_ref().ok().filter(|_| wanted && !furnished)?.track;
+    match setup.kind() {
+        Kind::Flight(setup) => flight::place(&setup, case, track, &setup.scenario.generate.environment?.obstacles?),
+        Kind::Drive(setup) => drive::place(&setup, case, track, setup.scenario.generate.environment?.obstacles?),
+        Kind::Arm(_) => None,
+    }
 }
 
 fn trial(setup: &Setup, measures: &Measures) -> Option<Trial> {

@@ -20,6 +20,7 @@ pub mod influence;
 pub mod judge;
 pub mod learn;
 pub mod mission;
+mod placement;
 pub mod planned;
 pub mod report;
 pub mod scenario;

@@ -17,18 +17,20 @@ pub struct Verified {
 
 /// Integrates the witness of `case` by independent code, to the default tolerances of flights and the scenario's of drives.
 pub fn verify(setup: &Setup, case: &Case) -> Verified {
-    let (proof, with_lag) = match setup.kind() {
+    let (mut proof, with_lag) = match setup.kind() {
         Kind::Flight(setup) => {
-            let (mut proof, lag) =
-                flight::verify(setup.robot, case).map_or((None, None), |(proof, lag)| (Some(proof), lag));
-            if case.environment.is_some() {
-                let findings = flight::verify_environment(&setup, case);
-                proof.get_or_insert_default().findings.extend(findings);
-            }
-            (proof, lag)
+            flight::verify(setup.robot, case).map_or((None, None), |(proof, lag)| (Some(proof), lag))
         }
         Kind::Drive(setup) => (drive::verify(&setup, case), None),
         Kind::Arm(setup) => (arm::verify(&setup, case), None),
     };
+    if case.environment.is_some() {
+        let findings = match setup.kind() {
+            Kind::Flight(setup) => flight::verify_environment(&setup, case),
+            Kind::Drive(setup) => drive::verify_environment(&setup, case),
+            Kind::Arm(_) => Vec::new(),
+        };
+        proof.get_or_insert_default().findings.extend(findings);
+    }
     Verified { case: case.number, proof, with_lag }
 }

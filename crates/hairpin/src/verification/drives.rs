@@ -23,6 +23,27 @@ pub struct DriveLegClaim {
     pub direction: [f64; 2],
 }
 
+impl DriveLegClaim {
+    /// Change of the direction of travel, rad/m.
+    fn crab_rate(&self) -> f64 {
+        let metres: f64 = self.pieces.iter().map(DrivePiece::length).sum();
+        if metres > 0.0 { (self.direction[1] - self.direction[0]) / metres } else { 0.0 }
+    }
+
+    /// What it is to do on the ground.
+    pub(super) fn ground(&self) -> GroundClaim {
+        GroundClaim {
+            start: [self.from[0], self.from[1], self.from[2]],
+            start_curvature: self.from[3],
+            crab: self.direction[0],
+            crab_rate: self.crab_rate(),
+            speed: self.speed.clone(),
+            end: [self.to[0], self.to[1], self.to[2]],
+            end_curvature: self.to[3],
+        }
+    }
+}
+
 /// What the whole drive claims.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrivesClaim<'a> {
@@ -109,9 +130,7 @@ pub fn verify_drives<T: Terrain>(
                 proof.findings.push(finding(field, value, bound, unit, number, at));
             }
         };
-        let [crab, last] = leg.direction;
-        let metres: f64 = leg.pieces.iter().map(DrivePiece::length).sum();
-        let crab_rate = if metres > 0.0 { (last - crab) / metres } else { 0.0 };
+        let ([crab, last], crab_rate) = (leg.direction, leg.crab_rate());
         let [least, greatest] = tolerances.directions;
         for (what, direction) in [("direction.start.excess", crab), ("direction.end.excess", last)] {
             exceed(what, (least - direction).max(direction - greatest), SAME, "rad");
@@ -125,16 +144,7 @@ pub fn verify_drives<T: Terrain>(
         exceed("curvature_rate", commands.max_curvature_rate, kept(tolerances.most_curvature_rate), "1/m²");
         exceed("curvature_jump", commands.max_jump, tolerances.curvature, "1/m");
         exceed("start.curvature", commands.start_error_curvature.abs(), tolerances.curvature, "1/m");
-        let ground = GroundClaim {
-            start: [leg.from[0], leg.from[1], leg.from[2]],
-            start_curvature: leg.from[3],
-            crab,
-            crab_rate,
-            speed: leg.speed.clone(),
-            end: [leg.to[0], leg.to[1], leg.to[2]],
-            end_curvature: leg.to[3],
-        };
-        match replay_ground(&leg.pieces, vehicle, terrain, &ground) {
+        match replay_ground(&leg.pieces, vehicle, terrain, &leg.ground()) {
             Err(stopped) => exceed("stopped_after", stopped.after_m, f64::NEG_INFINITY, "m"),
             Ok(replay) => {
                 let position = libm::hypot(replay.error[0], replay.error[1]);

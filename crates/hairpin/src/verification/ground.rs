@@ -106,6 +106,20 @@ pub fn replay_ground<T: Terrain>(
     terrain: &T,
     claim: &GroundClaim,
 ) -> Result<GroundReplay, Stopped> {
+    follow_ground(pieces, vehicle, terrain, claim, |_| {})
+}
+
+/// [`replay_ground`]; `pass` is shown x, y (m) and ψ (rad) after each step.
+///
+/// # Errors
+/// As [`replay_ground`].
+pub(super) fn follow_ground<T: Terrain>(
+    pieces: &[DrivePiece],
+    vehicle: &GroundVehicle,
+    terrain: &T,
+    claim: &GroundClaim,
+    mut pass: impl FnMut([f64; 3]),
+) -> Result<GroundReplay, Stopped> {
     let under_way = matches!(pieces.first(), Some(DrivePiece::Arc { direction, .. }) if *direction > 0.0);
     let [wait, held] = if under_way { claim.metres_of(vehicle.latency_s) } else { [0.0; 2] };
     let mut commands = Vec::with_capacity(pieces.len() + 1);
@@ -180,6 +194,7 @@ pub fn replay_ground<T: Terrain>(
                     let carried = carry(&vehicle.stand, terrain, &mut rest, [state[0], state[1], state[2]], h, body);
                     let place = carried.map_err(stopped)?;
                     state = [place[0], place[1], place[2], steered.unwrap_or(angle)];
+                    pass(place);
                     max_tilt = max_tilt.max(tilt(&rest));
                     max_torque = max_torque.max(vehicle.torque(&way, &rest));
                     steps += 1;
@@ -194,6 +209,7 @@ pub fn replay_ground<T: Terrain>(
                 let middle = rates(&state, s).and_then(|k1| rates(&moved(&state, &k1, 0.5 * h), s + 0.5 * h));
                 let k2 = middle.map_err(stopped)?;
                 state = moved(&state, &k2, h);
+                pass([state[0], state[1], state[2]]);
                 state[3] = steered.unwrap_or(state[3]);
                 max_torque = max_torque.max(vehicle.torque(&way, &rest));
                 steps += 1;

@@ -12,6 +12,7 @@ mod arm;
 mod body;
 mod claim;
 mod clear;
+mod clear_ground;
 mod demand;
 mod drive;
 mod drives;
@@ -42,6 +43,7 @@ pub use arm::{
 pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
 pub use clear::{ClearClaim, ClearSolid, verify_clear};
+pub use clear_ground::{ClearDisc, ClearDrive, ClearGroundClaim, verify_clear_ground};
 pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive, trace_drive};
 pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{EndError, Finding, Proof, Tolerances, Worst};

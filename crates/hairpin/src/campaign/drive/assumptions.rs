@@ -136,3 +136,17 @@ pub(in crate::campaign) fn verdict(setup: &DriveSetup, said: &mut Vec<String>) {
         );
     }
 }
+
+/// What was searched beside the waypoints.
+pub(in crate::campaign) fn searched_beside(setup: &DriveSetup) -> Option<String> {
+    let environment = setup.scenario.generate.environment?;
+    let mut searched = Vec::new();
+    searched.extend(environment.external_force_n.map(|force| format!("a steady horizontal force of up to {force} N")));
+    searched.extend(environment.obstacles.map(|placed| {
+        format!("up to {} round keep-outs of {} m radius clear of the plan", placed.count, placed.radius_m)
+    }));
+    Some(format!(
+        "Searched beside the waypoints, and part of each case: {}. Controllers see no keep-outs, and the claim knows of no force.",
+        searched.join(", ")
+    ))
+}

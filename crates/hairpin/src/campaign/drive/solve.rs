@@ -9,8 +9,10 @@ use super::ask::{Asked, Graph, ask, beside, learned};
 use super::legs::count;
 use super::replan::moved_to;
 use super::stepwise::Stepwise;
+use super::surround::{coordinates, put};
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Counter, Executions, Looped, Outcome, Plan, Round};
+use crate::campaign::environment::into_unit_ball;
+use crate::campaign::graph::{Counter, Executions, Looped, Outcome, Plan, Round, Surroundings};
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{DriveSearch, GroundReach, Manoeuvre, SearchMethod, SearchSection};
 use crate::feasibility::reach::drive::{
@@ -56,7 +58,15 @@ impl<'a> Solver<'a> {
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
         };
         let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved(graph, plan, points);
-        let looped = Looped { executions, surroundings: None, moved: &moved, round };
+        let asked = self.setup.scenario.generate.environment;
+        let put = |plan: &Plan, place: &[f64], _| asked.map_or_else(|| plan.clone(), |asked| put(&asked, plan, place));
+        let surroundings = asked.map(|asked| Surroundings {
+            coordinates: coordinates(&asked),
+            bound: &into_unit_ball,
+            put: &put,
+            obstacles: asked.obstacles.is_some(),
+        });
+        let looped = Looped { executions, surroundings, moved: &moved, round };
         let asked = Graph { search: &self.search, graph, points: &points, looped };
         match &self.stepwise {
             Some(stepwise) => stepwise.solve(&self.settings, asked),
@@ -164,7 +174,7 @@ impl<'a> Solver<'a> {
 }
 
 /// What legs may do, and how hard they are looked for.
-fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
+pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
     let (task, generate) = (&setup.scenario.task, &setup.scenario.generate);
     let may = |manoeuvre| generate.manoeuvres.contains(&manoeuvre);
     let settings = DriveSettings {

@@ -2,28 +2,21 @@
 
 use super::DriveSetup;
 use super::site::{drive_piece, ground_vehicle};
-use crate::campaign::Case;
+use crate::campaign::{Case, Environment};
 use crate::feasibility::reach::drive::Pace;
+use crate::trajectory::Drive;
 use crate::trajectory::drive::Planar;
-use crate::verification::{DriveLegClaim, DriveTolerances, DrivesClaim, Proof, verify_drives};
+use crate::verification::{
+    ClearDisc, ClearDrive, ClearGroundClaim, DriveLegClaim, DriveTolerances, DrivesClaim, Finding, Proof,
+    verify_clear_ground, verify_drives,
+};
 
 /// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that claims no
 /// witness.
 pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
     let drive = case.drive.as_ref()?;
-    let end = |at: &Planar| [at.x, at.y, at.yaw, at.curvature];
-    let legs: Vec<DriveLegClaim> = (drive.legs.iter().enumerate())
-        .map(|(number, leg)| DriveLegClaim {
-            from: end(&leg.from),
-            to: end(&leg.to),
-            pieces: leg.segments.iter().map(drive_piece).collect(),
-            speed: leg.timing().knots(),
-            direction: [leg.direction.start, leg.direction.end],
-            // What the case says, which others read.
-            duration: case.leg_times.get(number).copied().unwrap_or_else(|| drive.leg_time(number)),
-        })
-        .collect();
-    let waypoints: Vec<[f64; 2]> = case.waypoints.iter().map(|p| [p.x, p.y]).collect();
+    let legs = leg_claims(case, drive);
+    let waypoints = waypoints_of(case);
     let claim = DrivesClaim { waypoints: &waypoints, legs: &legs, speed: drive.speed, turn_rate: drive.turn_rate };
     let (solver, bounds) = (&setup.scenario.generate.solver, setup.bounds());
     let tolerances = DriveTolerances {
@@ -41,4 +34,59 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
         },
     };
     Some(verify_drives(&ground_vehicle(setup.planner), setup.map.as_ref(), &claim, &tolerances))
+}
+
+/// What does not hold of the environment of `case`: its keep-outs are discs on the map that the plan keeps the vehicle's radius from,
+/// everywhere, the force is horizontal and no larger than was asked for, and there is nothing else. Nothing for a case without one.
+pub(in crate::campaign) fn verify_environment(setup: &DriveSetup, case: &Case) -> Vec<Finding> {
+    let Some(environment) = &case.environment else { return Vec::new() };
+    let Environment { wind_m_s, discrete_gust, obstacles, keep_out, external_force_n } = environment;
+    let circles = keep_out.iter().filter(|place| place.polygon.is_none()).filter_map(|place| place.circle);
+    let discs: Vec<ClearDisc> =
+        circles.map(|circle| ClearDisc { center: circle.center_m, radius: circle.radius_m }).collect();
+    let mut findings = Vec::new();
+    let mut exceed = |field: &str, value: f64, bound: f64, unit| {
+        if value > bound || value.is_nan() {
+            findings.push(Finding { field: format!("environment.{field}"), value, bound, unit, leg: 0, at: 0.0 });
+        }
+    };
+    // What no search of drives finds is not known to be clear, or to act at all.
+    let others = keep_out.len() - discs.len() + obstacles.len();
+    exceed("obstacles", others as f64, 0.0, "");
+    exceed("wind_m_s", f64::from(u8::from(wind_m_s.is_some() || discrete_gust.is_some())), 0.0, "");
+    let [east, north, up] = external_force_n.unwrap_or_default();
+    let asked = setup.scenario.generate.environment.and_then(|asked| asked.external_force_n);
+    // A vector at its bound may be rounded beyond it.
+    let most = asked.map_or(f64::INFINITY, |most| most * (1.0 + 1e-12));
+    exceed("external_force_n", libm::hypot(east, north), most, "N");
+    exceed("external_force_n[2]", up.abs(), 0.0, "N");
+    let legs = case.drive.as_ref().map(|drive| leg_claims(case, drive));
+    let waypoints = waypoints_of(case);
+    let claim = ClearGroundClaim {
+        drive: legs.as_deref().map_or(ClearDrive::Straight(&waypoints), ClearDrive::Legs),
+        discs: &discs,
+        clearance: setup.radius(),
+        extent: setup.map.extent(),
+    };
+    findings.extend(verify_clear_ground(&ground_vehicle(setup.planner), setup.map.as_ref(), &claim));
+    findings
+}
+
+fn leg_claims(case: &Case, drive: &Drive) -> Vec<DriveLegClaim> {
+    let end = |at: &Planar| [at.x, at.y, at.yaw, at.curvature];
+    (drive.legs.iter().enumerate())
+        .map(|(number, leg)| DriveLegClaim {
+            from: end(&leg.from),
+            to: end(&leg.to),
+            pieces: leg.segments.iter().map(drive_piece).collect(),
+            speed: leg.timing().knots(),
+            direction: [leg.direction.start, leg.direction.end],
+            // What the case says, which others read.
+            duration: case.leg_times.get(number).copied().unwrap_or_else(|| drive.leg_time(number)),
+        })
+        .collect()
+}
+
+fn waypoints_of(case: &Case) -> Vec<[f64; 2]> {
+    case.waypoints.iter().map(|p| [p.x, p.y]).collect()
 }

@@ -92,3 +92,16 @@ pub(in crate::campaign) fn verdict(setup: &FlightSetup, said: &mut Vec<String>) 
         }
     }
 }
+
+/// What was searched beside the waypoints.
+pub(in crate::campaign) fn searched_beside(setup: &FlightSetup) -> Option<String> {
+    let environment = setup.scenario.generate.environment?;
+    let mut searched = Vec::new();
+    searched.extend(environment.wind_m_s.map(|wind| format!("a constant wind of up to {wind} m/s")));
+    searched.extend(environment.gust_m_s.map(|gust| format!("a gust of up to {gust} m/s")));
+    searched.extend(environment.obstacles.map(|placed| format!("{} obstacles clear of the plan", placed.count)));
+    Some(format!(
+        "Searched beside the waypoints, and part of each case: {}. The claim knows nothing of moving air.",
+        searched.join(", ")
+    ))
+}

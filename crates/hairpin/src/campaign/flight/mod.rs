@@ -17,10 +17,10 @@ mod surround;
 mod verify;
 mod witness;
 
-pub(super) use assumptions::{act, claim, verdict};
+pub(super) use assumptions::{act, claim, searched_beside, verdict};
 pub(super) use deaths::deaths;
 pub(super) use fly::{Order, at_start, fly, goes_on};
-pub(super) use place::{Placement, place};
+pub(super) use place::place;
 pub(super) use plan::{timed, track};
 pub(super) use replan::replan;
 pub use setup::FlightSetup;

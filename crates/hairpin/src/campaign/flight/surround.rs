@@ -1,5 +1,6 @@
 //! Wind and gust that are searched beside the waypoints, as numbers between −1 and 1.
 
+use crate::campaign::environment::into_unit_ball;
 use crate::campaign::graph::Plan;
 use crate::campaign::scenario::{DiscreteGustSection, EnvironmentSection};
 
@@ -12,8 +13,7 @@ pub(super) fn coordinates(asked: &EnvironmentSection) -> usize {
 pub(super) fn bound(asked: &EnvironmentSection, place: &mut [f64]) {
     let velocities = usize::from(asked.wind_m_s.is_some()) + usize::from(asked.gust_m_s.is_some());
     for velocity in place.chunks_exact_mut(3).take(velocities) {
-        let norm = velocity.iter().map(|x| x * x).sum::<f64>().sqrt().max(1.0);
-        velocity.iter_mut().for_each(|x| *x /= norm);
+        into_unit_ball(velocity);
     }
 }
 

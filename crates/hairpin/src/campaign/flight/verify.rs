@@ -55,8 +55,8 @@ pub(in crate::campaign) fn verify_environment(setup: &FlightSetup, case: &Case) 
             findings.push(Finding { field: format!("environment.{field}"), value, bound, unit, leg: 0, at: 0.0 });
         }
     };
-    // Shapes that are none of these are not placed by any search: that they are clear is not known.
-    let others = environment.obstacles.len() - solids.len();
+    // Shapes that are none of these, and what is for drives, are not placed by any search: that they are clear is not known.
+    let others = environment.obstacles.len() - solids.len() + environment.keep_out.len();
     exceed("obstacles".into(), others as f64, 0.0, "");
     for (number, solid) in solids.iter().enumerate() {
         let (centre, half) = match solid {

@@ -14,9 +14,9 @@ use crate::search::{Aggregate, ExactSettings, Found, LegGraph, Objective, Unifor
 
 /// One in so many executions is of a uniform draw.
 const DRAWN: u64 = 10;
-/// Share of the executions that go to wind and gusts where they are searched, and trajectories that are flown in them.
-const AIR: f64 = 0.4;
-const AIRED: usize = 3;
+/// Share of the executions that go to disturbances (wind, gusts, a force) where they are searched, and trajectories that are disturbed.
+const DISTURBED: f64 = 0.4;
+const MOST_DISTURBED: usize = 3;
 /// Share of the others that evolution gets where waypoints may be moved.
 const EVOLVED: f64 = 0.3;
 /// Trajectories whose waypoints are moved, and the share of the executions left that they get together: many are tried, the best go on.
@@ -36,14 +36,14 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
         return Answer { proven_empty: graph.legs() == 0, reason, ..Answer::default() };
     }
     let Looped { executions: Executions { execute, duration, furnish, .. }, surroundings, .. } = question.looped;
-    let air = surroundings.filter(|surroundings| surroundings.coordinates > 0);
+    let disturbance = surroundings.filter(|surroundings| surroundings.coordinates > 0);
     let furnished = surroundings.is_some_and(|surroundings| surroundings.obstacles);
     // Obstacles are put around what is kept, in two executions each.
     let budget = search.executions.saturating_sub(if furnished { 2 * search.per_graph } else { 0 }).max(1);
-    let in_still_air = if air.is_some() { (budget as f64 * (1.0 - AIR)).ceil() } else { budget as f64 };
+    let undisturbed = if disturbance.is_some() { (budget as f64 * (1.0 - DISTURBED)).ceil() } else { budget as f64 };
     let settings = EvolveSettings {
         length: question.length,
-        executions: ((in_still_air * if search.move_waypoints { EVOLVED } else { 1.0 }) as u64).max(1 + search.confirm),
+        executions: ((undisturbed * if search.move_waypoints { EVOLVED } else { 1.0 }) as u64).max(1 + search.confirm),
         per_trial: 1 + search.confirm,
         revisits: search.revisits,
         ..EvolveSettings::default()
@@ -62,7 +62,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
     if search.move_waypoints {
         for (stage, (most, share)) in STAGES.into_iter().enumerate() {
             let most = most.min(climbers.len());
-            let left = (in_still_air as u64).saturating_sub(best_so_far.len() as u64) as f64;
+            let left = (undisturbed as u64).saturating_sub(best_so_far.len() as u64) as f64;
             let each = (left * share) as u64 / most.max(1) as u64;
             for (place, climber) in climbers[..most].iter_mut().enumerate() {
                 let seed = named_seed(question.seed, "shift", (stage * STAGES[0].0 + place) as u64);
@@ -71,22 +71,23 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
             climbers.sort_by(|a, b| b.trial.stress.total_cmp(&a.trial.stress));
         }
     }
-    if let Some(air) = air {
-        let most = AIRED.min(climbers.len());
+    if let Some(disturbance) = disturbance {
+        let most = MOST_DISTURBED.min(climbers.len());
         // One execution of each is its duration's.
         let each = budget.saturating_sub(best_so_far.len() as u64) / most.max(1) as u64;
         for (place, Climber { plan, trial, .. }) in climbers[..most].iter_mut().enumerate() {
             let Some(time) = Some(each).filter(|each| *each > 1).and_then(|_| duration(plan)) else { continue };
             let seed = named_seed(question.seed, "air", place as u64);
-            let calm = vec![0.0; air.coordinates];
+            let calm = vec![0.0; disturbance.coordinates];
             go_on(&mut best_so_far, &[trial.stress]);
-            let climbed = climb(&calm, *trial, seed, [each - 1, 1 + search.confirm], air.bound, |place, least| {
-                execute(&(air.put)(plan, place, time), least)
-            });
+            let climbed =
+                climb(&calm, *trial, seed, [each - 1, 1 + search.confirm], disturbance.bound, |place, least| {
+                    execute(&(disturbance.put)(plan, place, time), least)
+                });
             go_on(&mut best_so_far, &climbed.best_so_far);
             *trial = climbed.trial;
             if let Some(place) = climbed.place {
-                *plan = Plan { score: trial.stress, ..(air.put)(plan, &place, time) };
+                *plan = Plan { score: trial.stress, ..(disturbance.put)(plan, &place, time) };
             }
         }
         climbers.sort_by(|a, b| b.trial.stress.total_cmp(&a.trial.stress));
@@ -99,7 +100,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Mem
         let most = best_so_far.last().copied().unwrap_or(f64::NEG_INFINITY);
         best_so_far.extend(std::iter::repeat_n(most, 2 * plans.len()));
         plans = plans.iter().filter_map(among).collect();
-        reason = plans.is_empty().then(|| "no obstacle finds room where flights leave their plan".to_string());
+        reason = plans.is_empty().then(|| "no obstacle finds room where executions leave their plan".to_string());
     }
     Answer { plans, expansions: best_so_far.len() as u64, best_so_far, reason, ..Answer::default() }
 }

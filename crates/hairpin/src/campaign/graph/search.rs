@@ -56,11 +56,11 @@ pub(in crate::campaign) struct Executions<'a> {
 /// What surrounds a plan and is searched with it.
 #[derive(Clone, Copy)]
 pub(in crate::campaign) struct Surroundings<'a> {
-    /// Numbers between −1 and 1 that say what the air does.
+    /// Numbers between −1 and 1 that say what disturbs the robot all along: the air, a force.
     pub(in crate::campaign) coordinates: usize,
     /// Puts numbers that are not allowed to the nearest that are.
     pub(in crate::campaign) bound: &'a dyn Fn(&mut [f64]),
-    /// A plan in the air that numbers say, flown for so many seconds.
+    /// A plan disturbed as numbers say, carried out for so many seconds.
     pub(in crate::campaign) put: &'a dyn Fn(&Plan, &[f64], f64) -> Plan,
     /// Whether obstacles are to be placed.
     pub(in crate::campaign) obstacles: bool,

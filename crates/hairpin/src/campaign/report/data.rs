@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point3;
 
-use super::drawing::Drawing;
+use super::drawing::{Drawing, keep_out};
 use super::solid::{Surface, surface};
 use super::text::attitude;
 use crate::campaign::scenario::DeviationFrom;
+use crate::campaign::setup::Kind;
 use crate::campaign::terms::Terms;
 use crate::campaign::{
     Case, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
@@ -205,13 +206,18 @@ pub fn shown(
     })
 }
 
-/// The obstacles that only `case` has.
+/// The obstacles and keep-outs that only `case` has.
 fn own_obstacles(setup: &Setup, case: &Case) -> Vec<Surface> {
-    let (Some(world), Ok(around)) = (setup.flight().map(|flight| flight.world), setup.around(case)) else {
-        return Vec::new();
-    };
-    let own = around.flight().map(|flight| flight.world.obstacles().iter().skip(world.obstacles().len()));
-    own.into_iter().flatten().map(surface).collect()
+    let Ok(around) = setup.around(case) else { return Vec::new() };
+    match (setup.kind(), around.kind()) {
+        (Kind::Flight(common), Kind::Flight(own)) => {
+            own.world.obstacles().iter().skip(common.world.obstacles().len()).map(surface).collect()
+        }
+        (Kind::Drive(common), Kind::Drive(own)) => {
+            own.keep_out.list().iter().skip(common.keep_out.list().len()).map(|place| keep_out(&own, place)).collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// The attitude at the stamp nearest to the worst moment, in words.

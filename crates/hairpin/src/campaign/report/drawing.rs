@@ -10,7 +10,7 @@ use crate::campaign::drive::DriveSetup;
 use crate::campaign::flight::FlightSetup;
 use crate::campaign::setup::{Kind, Setup};
 use crate::world::cell::Region;
-use crate::world::terrain::{KeepOutShape, Terrain};
+use crate::world::terrain::{KeepOut, KeepOutShape, Terrain};
 use crate::world::{Obstacle, Shape};
 
 /// A rotor, seen from above.
@@ -130,9 +130,10 @@ fn ground(setup: &DriveSetup, places: impl Iterator<Item = Point3<f64>>) -> Draw
     let cell = setup.map.grid().cell;
     let step = (side / RELIEF_POINTS).max(cell[0].min(cell[1]));
     let [columns, rows] = [0, 1].map(|i| ((high[i] - low[i]) / step).floor() as usize + 1);
-    let at = |x: f64, y: f64| setup.map.patch(x, y).map_or(f64::NAN, |patch| patch.height);
     let heights: Vec<Vec<f64>> = (0..rows)
-        .map(|row| (0..columns).map(|c| at(low[0] + c as f64 * step, low[1] + row as f64 * step)).collect())
+        .map(|row| {
+            (0..columns).map(|c| height_at(setup, low[0] + c as f64 * step, low[1] + row as f64 * step)).collect()
+        })
         .collect();
     let (wheels, count, _) = setup.rover.suspension.wheels(&[0.0; 3]);
     let known = heights.iter().flatten().filter(|h| h.is_finite());
@@ -141,7 +142,7 @@ fn ground(setup: &DriveSetup, places: impl Iterator<Item = Point3<f64>>) -> Draw
     Drawing {
         low: Point3::new(low[0], low[1], bottom),
         size: Vector3::new(high[0] - low[0], high[1] - low[1], (top - bottom).max(0.5)),
-        obstacles: keep_outs(setup, &at, bottom),
+        obstacles: setup.keep_out.list().iter().map(|place| keep_out(setup, place)).collect(),
         rotors: Vec::new(),
         wheels: wheels[..count].iter().map(|wheel| [wheel.x, wheel.y]).collect(),
         radius: setup.rover.suspension.outer_radius(),
@@ -149,28 +150,26 @@ fn ground(setup: &DriveSetup, places: impl Iterator<Item = Point3<f64>>) -> Draw
     }
 }
 
-/// Keep-outs as flat shapes a little over the ground around them.
-fn keep_outs(setup: &DriveSetup, at: &impl Fn(f64, f64) -> f64, bottom: f64) -> Vec<Surface> {
-    let shape = |shape: &KeepOutShape| -> Vec<[f64; 2]> {
-        match shape {
-            KeepOutShape::Circle { center_m: [x, y], radius_m } => (0..AROUND)
-                .map(|i| {
-                    let (sin, cos) = libm::sincos(TAU * i as f64 / AROUND as f64);
-                    [x + radius_m * cos, y + radius_m * sin]
-                })
-                .collect(),
-            KeepOutShape::Polygon { points_m } => points_m.clone(),
-        }
+/// A keep-out as a flat shape a little over the ground at its outline.
+pub(super) fn keep_out(setup: &DriveSetup, place: &KeepOut) -> Surface {
+    let corners: Vec<[f64; 2]> = match &place.shape {
+        KeepOutShape::Circle { center_m: [x, y], radius_m } => (0..AROUND)
+            .map(|i| {
+                let (sin, cos) = libm::sincos(TAU * i as f64 / AROUND as f64);
+                [x + radius_m * cos, y + radius_m * sin]
+            })
+            .collect(),
+        KeepOutShape::Polygon { points_m } => points_m.clone(),
     };
-    let places = setup.keep_out.list().iter();
-    places
-        .map(|place| {
-            let corners = shape(&place.shape);
-            let height = corners.iter().map(|[x, y]| at(*x, *y)).filter(|h| h.is_finite()).fold(bottom, f64::max);
-            let vertices: Vec<Point3<f64>> = corners.iter().map(|[x, y]| Point3::new(*x, *y, height + 0.05)).collect();
-            // A fan: exact for convex shapes; the outline is drawn from the corners.
-            let triangles = (1..vertices.len().saturating_sub(1) as u32).map(|i| [0, i, i + 1]).collect();
-            Surface { name: place.name.clone(), vertices, triangles }
-        })
-        .collect()
+    let heights = corners.iter().map(|[x, y]| height_at(setup, *x, *y)).filter(|h| h.is_finite());
+    let height = heights.reduce(f64::max).unwrap_or(0.0);
+    let vertices: Vec<Point3<f64>> = corners.iter().map(|[x, y]| Point3::new(*x, *y, height + 0.05)).collect();
+    // A fan: exact for convex shapes; the outline is drawn from the corners.
+    let triangles = (1..vertices.len().saturating_sub(1) as u32).map(|i| [0, i, i + 1]).collect();
+    Surface { name: place.name.clone(), vertices, triangles }
+}
+
+/// Height of the ground, m; NaN where nothing is known.
+fn height_at(setup: &DriveSetup, x: f64, y: f64) -> f64 {
+    setup.map.patch(x, y).map_or(f64::NAN, |patch| patch.height)
 }

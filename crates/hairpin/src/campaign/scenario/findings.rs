@@ -1,7 +1,11 @@
 //! What checks of scenarios find, and the few questions that most keys are asked.
 
-use super::{Mistake, SearchMethod};
+use super::{Mistake, SearchMethod, SearchSection};
 use crate::campaign::learn::{KeptModel, Subject};
+use crate::judgement::Stress;
+
+/// Each is tried against every leg for every execution.
+const MOST_PLACED: u64 = 100;
 
 /// The mistakes found so far, with the few questions that most keys are asked.
 #[derive(Default)]
@@ -68,6 +72,30 @@ impl Findings {
                 self.require(false, "generate.search.method", "\"adaptive\"", &bound);
             }
         }
+    }
+
+    /// Whether `generate.environment` is searched, and for something: `some`, or else `keys` are to be given.
+    pub(super) fn environment(&mut self, search: &SearchSection, some: bool, keys: &str) {
+        let key = "generate.environment";
+        let in_loop = search.method == SearchMethod::InLoop;
+        self.require(in_loop, key, "given", "left out: only the method `in-loop` searches the environment");
+        self.require(some, key, "{}", &format!("given {keys}"));
+    }
+
+    /// Whether `count` obstacles of an environment are for the stress that is searched; `execution`: a flight or a drive.
+    pub(super) fn placed(&mut self, search: &SearchSection, count: u64, execution: &str) {
+        let key = "generate.environment.obstacles";
+        let bound = format!(
+            "left out, or generate.search.stress = \"clearance\": obstacles do nothing else to a {execution} but end it"
+        );
+        self.require(search.stress == Stress::Clearance, key, "given", &bound);
+        self.count(&format!("{key}.count"), count, 1, MOST_PLACED);
+    }
+
+    /// Whether what is searched under `key` stands nowhere else: given in its own place, or varied there.
+    pub(super) fn searched_alone(&mut self, key: &str, value: f64, given: bool, place: &str) {
+        let bound = format!("left out: what is searched takes the place of what is given in {place} or varied");
+        self.require(!given, key, value, &bound);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Shrinking: a violating case reduced to the shortest feasible one that still violates in the same way.
 //!
-//! Waypoints first (delta debugging), then what the run met beside them (drawn values, wind, gusts, noise, obstacles), then
+//! Waypoints first (delta debugging), then what the run met beside them (drawn values, wind, gusts, forces, noise, obstacles), then
 //! the lengths of legs. Every candidate is planned anew and must be feasible by the same claim as the case's own evidence
 //! before it is run; it is judged by the same spec.
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::DirectionDeg;
+use super::{DirectionDeg, DriveEnvironmentSection};
 use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::{Aggregate, EXECUTED, Sampling, SearchMethod, SearchSection};
 use crate::feasibility::steering::shooting::Control;
@@ -37,6 +37,9 @@ pub struct DriveGenerate {
     pub solver: SolverSection,
     /// The search.
     pub search: DriveSearch,
+    /// What of the environment is searched for stress, too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub environment: Option<DriveEnvironmentSection>,
 }
 
 impl Default for DriveGenerate {
@@ -53,6 +56,7 @@ impl Default for DriveGenerate {
             limits: DriveLimits::default(),
             solver: SolverSection::default(),
             search: DriveSearch::default(),
+            environment: None,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod check;
 mod direction;
+mod environment;
 mod execute;
 mod generate;
 mod keep_out;
@@ -19,6 +20,7 @@ use crate::robot::ground::{CarDescription, DifferentialDriveDescription};
 use crate::robot::rover::RoverDescription;
 
 pub use direction::DirectionDeg;
+pub use environment::*;
 pub use execute::*;
 pub use generate::*;
 pub use keep_out::*;

@@ -1,6 +1,7 @@
 //! `witness` for ground vehicles: a roadmap of headed waypoints, whose legs are solved boundary-value drives.
 
 mod judge;
+mod looks;
 mod pace;
 mod roadmap;
 mod sample;
@@ -11,6 +12,7 @@ mod tally;
 mod watch;
 mod ways;
 
+pub use looks::DriveLooks;
 pub use pace::{Pace, Slopes};
 pub use roadmap::{DriveNode, DriveRoadmap};
 pub use sample::{GroundSampling, TooFewPlaces, sample_ground};

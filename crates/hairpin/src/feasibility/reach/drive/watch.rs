@@ -8,12 +8,12 @@ use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Step
 use crate::robot::rover::{Settled, Slip, Suspension, Unsettled};
 use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::trajectory::{Direction, SpeedProfile};
-use crate::world::terrain::{ElevationMap, NoGround, Terrain};
+use crate::world::terrain::{ElevationMap, KeepOuts, NoGround, Terrain};
 
-/// Limits are asked for at least this often, and the second time on drives that came within [`NEAR`] (rad) of one of tilt or joints: on
-/// rough ground the body leans by up to a degree more between two of the first looks.
+/// Limits are asked for at least this often, and the second time on drives that came within [`NEAR`] (rad) of one of tilt or joints, for on
+/// rough ground the body leans by up to a degree more between two of the first looks, or within a step of a keep-out.
 const STEPS: Steps = Steps { length: 0.03, angle: 0.03, least: 8 };
-const CLOSER: Steps = Steps { length: 0.003, angle: 0.003, least: 8 };
+pub(super) const CLOSER: Steps = Steps { length: 0.003, angle: 0.003, least: 8 };
 const NEAR: f64 = 0.05;
 /// Room left below the limits of tilt and joints for what lies between two looks, rad.
 const ROOM: f64 = 2e-3;
@@ -61,15 +61,17 @@ pub(super) fn watch(
             unlooked: f64::INFINITY,
             turned: steps.angle,
             room: f64::INFINITY,
+            last_look: steps == CLOSER,
+            beside: false,
             refused: None,
         };
         predict_while(&course, start, motion, |driven| watcher.look(driven)).map_err(|blocked| refusal(&blocked))?;
-        let Watcher { mut met, way, refused, room, .. } = watcher;
+        let Watcher { mut met, way, refused, room, beside, .. } = watcher;
         met.slip = if way > 0.0 { met.slip / way } else { 0.0 };
-        refused.map_or(Ok((met, room)), Err)
+        refused.map_or(Ok((met, room < NEAR || beside)), Err)
     };
-    let (met, room) = look(STEPS)?;
-    if room < NEAR {
+    let (met, near) = look(STEPS)?;
+    if near {
         look(CLOSER)?;
     }
     Ok(met)
@@ -77,7 +79,7 @@ pub(super) fn watch(
 
 /// Whether the body stands within the limits at a place.
 pub(super) fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) -> Result<(), LegRefusal> {
-    if site.keep_outs.distance(at.x, at.y) < site.radius {
+    if !keeps_out(site.keep_outs, site.radius, [at.x, at.y], 0.0) {
         return Err(LegRefusal::KeepOut);
     }
     if matches!(site.rover.suspension, Suspension::Level) {
@@ -87,6 +89,12 @@ pub(super) fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) ->
     let (settled, _) = rest.map_err(|unsettled| refusal(&Blocked { after_m: 0.0, cause: unsettled.into() }))?;
     within(settings, libm::cos(settled.roll) * libm::cos(settled.pitch), &settled.joints)?;
     clear(site, settings, at, &settled)
+}
+
+/// Whether a look at (x, y) shows that `radius` is kept from `keep_outs`: on the way to the next look, `metres` farther, the vehicle comes no
+/// nearer than by those.
+pub(super) fn keeps_out(keep_outs: &KeepOuts, radius: f64, [x, y]: [f64; 2], metres: f64) -> bool {
+    keep_outs.distance(x, y) >= radius + metres
 }
 
 /// Why the ground let nothing pass.
@@ -135,6 +143,10 @@ struct Watcher<'a> {
     turned: f64,
     /// Least room below the limits of tilt and joints so far, rad.
     room: f64,
+    /// Whether nobody looks more closely.
+    last_look: bool,
+    /// Whether it came within a step of a keep-out.
+    beside: bool,
     refused: Option<LegRefusal>,
 }
 
@@ -186,9 +198,12 @@ impl Watcher<'_> {
         if at.curvature.abs() > settings.bounds.most * KEPT {
             return Err(LegRefusal::Curvature);
         }
-        // On the way to the next look the vehicle comes no nearer than by a step.
-        if site.keep_outs.distance(at.x, at.y) < site.radius + metres {
-            return Err(LegRefusal::KeepOut);
+        let keeps_out = |metres: f64| keeps_out(site.keep_outs, site.radius, [at.x, at.y], metres);
+        if !keeps_out(metres) {
+            if self.last_look || !keeps_out(0.0) {
+                return Err(LegRefusal::KeepOut);
+            }
+            self.beside = true;
         }
         if self.level {
             return on_map(site.map, at);

@@ -2,11 +2,8 @@
 
 use super::world::vector;
 use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{EnvironmentSection, FlightScenario, PlacedSection, SearchMethod};
+use crate::campaign::scenario::{EnvironmentSection, FlightScenario, PlacedSection};
 use crate::judgement::Stress;
-
-/// Each is tried against every leg for every execution.
-const MOST_OBSTACLES: u64 = 100;
 
 pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
     let search = &scenario.generate.search;
@@ -18,25 +15,22 @@ pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
     }
     let Some(environment) = &scenario.generate.environment else { return };
     let key = "generate.environment";
-    let in_loop = search.method == SearchMethod::InLoop;
-    found.require(in_loop, key, "given", "left out: only the method `in-loop` searches the environment");
     let EnvironmentSection { wind_m_s, gust_m_s, gust_s, obstacles } = *environment;
     let some = wind_m_s.is_some() || gust_m_s.is_some() || obstacles.is_some();
-    found.require(some, key, "{}", "given wind_m_s, gust_m_s or obstacles");
+    found.environment(search, some, "wind_m_s, gust_m_s or obstacles");
     found.above(&format!("{key}.gust_s"), gust_s, 0.0, 1000.0, " s");
     let varied = |fixed: &str| scenario.vary.keys().any(|varied| varied.starts_with(fixed));
-    let both = "left out: what is searched takes the place of what is given in [world] or varied";
     if let Some(wind) = wind_m_s {
         let key = format!("{key}.wind_m_s");
         found.above(&key, wind, 0.0, 100.0, " m/s");
         let given = scenario.world.wind_m_s.is_some() || varied("world.wind_m_s");
-        found.require(!given, &key, wind, both);
+        found.searched_alone(&key, wind, given, "[world]");
     }
     if let Some(gust) = gust_m_s {
         let key = format!("{key}.gust_m_s");
         found.above(&key, gust, 0.0, 100.0, " m/s");
         let given = scenario.world.discrete_gust.is_some() || varied("world.discrete_gust");
-        found.require(!given, &key, gust, both);
+        found.searched_alone(&key, gust, given, "[world]");
     }
     if let Some(placed) = &obstacles {
         check_obstacles(scenario, placed, found);
@@ -45,9 +39,7 @@ pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
 
 fn check_obstacles(scenario: &FlightScenario, placed: &PlacedSection, found: &mut Findings) {
     let key = "generate.environment.obstacles";
-    let bound = "left out, or generate.search.stress = \"clearance\": obstacles do nothing else to a flight but end it";
-    found.require(scenario.generate.search.stress == Stress::Clearance, key, "given", bound);
-    found.count(&format!("{key}.count"), placed.count, 1, MOST_OBSTACLES);
+    found.placed(&scenario.generate.search, placed.count, "flight");
     let one = placed.radius_m.is_some() != placed.size_m.is_some();
     found.require(one, key, "a table", "exactly one of radius_m and size_m");
     let size = scenario.world.size_m.unwrap_or([f64::INFINITY; 3]);

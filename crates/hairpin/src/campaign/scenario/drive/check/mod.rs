@@ -1,5 +1,7 @@
 //! The bounds of every key of a drive.
 
+mod environment;
+
 use super::{
     ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSearch, DriveSpec, GroundReach,
     Manoeuvre, ProfileName, SpeedSection,
@@ -9,7 +11,6 @@ use crate::campaign::learn::{KeptModel, of_drive};
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{EXECUTED, FlakySection, Mistake, SearchMethod};
 use crate::feasibility::reach::drive::GroundScore;
-use crate::judgement::Stress;
 use crate::robot::rover::{Rover, Steering};
 use crate::world::terrain::Terrain;
 
@@ -37,6 +38,7 @@ impl DriveScenario {
         self.check_task(rover.as_ref(), &mut found);
         check_generate(&self.generate, rover.as_ref(), &mut found);
         self.check_score(&mut found);
+        environment::check(self, rover.as_ref(), &mut found);
         check_execute(&self.execute, rover.as_ref(), &mut found);
         check_spec(&self.spec, &mut found);
         found.0
@@ -53,10 +55,6 @@ impl DriveScenario {
         } else if let Err(error) = GroundScore::named(score) {
             found.require(false, key, format!("\"{score}\""), &format!("{error}; or {EXECUTED}"));
         }
-        let near = search.stress == Stress::Clearance && search.section().executes(score);
-        let bound = "another one, or keep-outs given: there is nothing to be near to";
-        let some = !self.world.keep_out.is_empty();
-        found.require(some || !near, "generate.search.stress", "\"clearance\"", bound);
         found.rounds(*method, (key, score), self.vary.keys());
     }
 

@@ -1,0 +1,51 @@
+//! Bounds of `generate.environment`, and what it goes with.
+
+use crate::campaign::scenario::findings::Findings;
+use crate::campaign::scenario::{DriveEnvironmentSection, DriveScenario, PlacedDiscsSection};
+use crate::judgement::Stress;
+use crate::robot::rover::Rover;
+use crate::world::terrain::ElevationMap;
+
+/// The largest force that may be searched, N.
+const MOST_FORCE: f64 = 1e6;
+
+pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, found: &mut Findings) {
+    let search = scenario.generate.search.section();
+    let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);
+    if search.executes(&scenario.generate.search.score) && search.stress == Stress::Clearance {
+        let some = placed.is_some() || !scenario.world.keep_out.is_empty();
+        let bound = "another one, or keep-outs given: there is nothing to be near to";
+        found.require(some, "generate.search.stress", "\"clearance\"", bound);
+    }
+    let Some(environment) = &scenario.generate.environment else { return };
+    let DriveEnvironmentSection { obstacles, external_force_n } = *environment;
+    found.environment(&search, obstacles.is_some() || external_force_n.is_some(), "obstacles or external_force_n");
+    if let Some(placed) = obstacles {
+        found.placed(&search, placed.count, "drive");
+        check_radius(placed, scenario.world.terrain.map.as_deref(), found);
+    }
+    if let Some(force) = external_force_n {
+        let (key, own) = ("generate.environment.external_force_n", "execute.external_force_n");
+        found.above(key, force, 0.0, MOST_FORCE, " N");
+        let given = scenario.execute.external_force_n.is_some() || scenario.vary.keys().any(|key| key.starts_with(own));
+        found.searched_alone(key, force, given, "[execute]");
+        let weighs = rover.is_none_or(|rover| rover.weight.is_some());
+        found.require(
+            weighs,
+            key,
+            force,
+            "left out, or robot.mass_kg and robot.forces given: it acts against a weight",
+        );
+    }
+}
+
+fn check_radius(placed: PlacedDiscsSection, map: Option<&ElevationMap>, found: &mut Findings) {
+    let side = map.map_or(f64::INFINITY, |map| {
+        let (low, high) = map.extent();
+        (high[0] - low[0]).min(high[1] - low[1])
+    });
+    let key = "generate.environment.obstacles.radius_m";
+    let fits = placed.radius_m > 0.0 && placed.radius_m.is_finite() && 2.0 * placed.radius_m < side;
+    let across = if side.is_finite() { format!(", which is {side} m across") } else { String::new() };
+    found.require(fits, key, placed.radius_m, &format!("> 0 and less than half the map{across}"));
+}
