@@ -1,14 +1,15 @@
 //! Evolution of waypoint sequences within the legs of a graph.
 //!
 //! A pool holds the most stressful trajectories executed so far. A child takes its parent's beginning, a stretch of legs grown
-//! anew, and the rest from the same parent or another one of the pool; most stretches lie around the leg that the parent owes its
-//! stress to. Each child is feasible, for every leg is one of the graph, and is executed once.
+//! anew, and the rest from the same parent or another one of the pool; or it puts one of its parent's waypoints to a place nearby. Most changes
+//! lie around the leg that the parent owes its stress to. Each child is feasible, for every leg is one of the graph, and is executed once.
 
 use std::collections::HashSet;
 
 use rand::RngExt;
 
 use super::Trial;
+use super::nearby::nearby;
 use super::regrow::{Goal, Regrow};
 use crate::math::random::{Stream, stream, unit};
 use crate::search::graph::LegGraph;
@@ -20,9 +21,8 @@ const FRUITLESS: u32 = 300;
 const AROUND_WORST: f64 = 0.6;
 /// Share of children whose rest comes from another parent.
 const CROSSED: f64 = 0.25;
-/// Share of children with one waypoint of their parent put to another place nearby, and how many places are near.
+/// Share of children with one waypoint of their parent put to another place nearby.
 const NEARBY: f64 = 0.4;
-const NEAR: usize = 16;
 
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -178,52 +178,20 @@ impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F>
         (self.settings.revisits || child.iter().all(once)).then_some(child)
     }
 
-    /// `parent` with one waypoint, mostly one at its worst leg, put to one of the places near it: stress hardly jumps from place to place, so what
-    /// is next to a stressful trajectory is often more so.
+    /// `parent` with one waypoint, mostly one at its worst leg, put to one of the places near it.
     fn nearby(&mut self, parent: usize) -> Option<Vec<u32>> {
         let Member { legs, trial } = &self.pool[parent];
         // Waypoint k + 1 lies between the legs k and k + 1; the end stays.
-        let inner = legs.len() - 1;
+        let inner = legs.len().saturating_sub(1);
         if inner == 0 {
             return None;
         }
         let moved = if unit(&mut self.rng) < AROUND_WORST {
-            let around = trial.worst_leg.min(inner) + self.rng.random_range(0..3usize);
-            around.saturating_sub(2).min(inner - 1)
+            (trial.worst_leg.min(inner) + self.rng.random_range(0..3usize)).saturating_sub(2).min(inner - 1)
         } else {
             self.rng.random_range(0..inner)
         };
-        let candidates = self.graph.candidates();
-        let waypoint = |&leg: &u32| self.graph.waypoint(self.graph.target(leg as usize));
-        let here = candidates[waypoint(&legs[moved]) as usize];
-        let mut places: Vec<u32> =
-            (1..candidates.len() as u32 - 1).filter(|w| !legs.iter().any(|leg| waypoint(leg) == *w)).collect();
-        let distance = |&place: &u32| (candidates[place as usize] - here).norm_squared();
-        let near = NEAR.min(places.len());
-        if near == 0 {
-            return None;
-        }
-        if near < places.len() {
-            places.select_nth_unstable_by(near, |a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
-        }
-        places.truncate(near);
-        places.sort_unstable();
-        let place = places[self.rng.random_range(0..near)];
-        let mut child = legs[..moved].to_vec();
-        let mut node = child.last().map_or(0, |&leg| self.graph.target(leg as usize));
-        // On to the same waypoints as the parent, until its legs go on from where that leads.
-        for (&leg, wanted) in
-            legs[moved..].iter().zip(std::iter::once(place).chain(legs[moved + 1..].iter().map(waypoint)))
-        {
-            if self.graph.source(leg) == node && child.len() > moved {
-                child.extend_from_slice(&legs[child.len()..]);
-                break;
-            }
-            let leg = self.graph.legs_to(node, wanted).next()?;
-            child.push(leg as u32);
-            node = self.graph.target(leg);
-        }
-        Some(child)
+        nearby(self.graph, legs, moved, &mut self.rng)
     }
 
     /// One of the pool, better ones more often.

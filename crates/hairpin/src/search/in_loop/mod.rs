@@ -6,6 +6,7 @@
 
 mod climb;
 mod evolve;
+mod nearby;
 mod partial;
 mod regrow;
 mod shift;

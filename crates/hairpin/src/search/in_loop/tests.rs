@@ -7,8 +7,8 @@ use crate::search::objective::{Aggregate, Score};
 use crate::search::small::{Octahedron, START, enumerate, points};
 use crate::search::task::{Found, Task};
 
-const SMALL: Octahedron = Octahedron::WIDE;
-const LENGTH: usize = 6;
+pub(super) const SMALL: Octahedron = Octahedron::WIDE;
+pub(super) const LENGTH: usize = 6;
 
 /// A stress that no leg alone tells: how sharply two long legs meet, largest over the trajectory.
 fn hidden(points: &[Point3<f64>], waypoints: &[u32]) -> Trial {

@@ -33,8 +33,8 @@ struct Size {
     executions: u64,
     /// The same where waypoints are moved as well.
     executions_moved: u64,
-    /// Executions under noise that searches in the loop confirm a stress with.
-    confirm: u64,
+    /// Executions under noise that those confirm a stress with: within a graph they cost more than they find.
+    confirm_moved: u64,
     /// Uniform trajectories whose worst is the ceiling; 0: left out.
     ceiling: u64,
     length: u64,
@@ -116,16 +116,16 @@ fn ways(size: &Size) -> Vec<Way> {
     }
     ways.push(way("learned, max", Kind::Learned, "exact", &[("generate.search.aggregate", text("max"))]));
     let in_loop = |name: &str, executions: u64, kinds: [Kind; 2], sets: &[Set]| {
-        let mut all = vec![
-            ("generate.search.executions", executions.to_string()),
-            ("generate.search.confirm", size.confirm.to_string()),
-        ];
+        let mut all = vec![("generate.search.executions", executions.to_string())];
         all.extend_from_slice(sets);
         let name = format!("{name}, {executions}");
         [way(&name, kinds[0], "in-loop", &all), way(&format!("{name}, from the learned"), kinds[1], "in-loop", &all)]
     };
     ways.extend(in_loop("in the loop", size.executions, [Kind::InLoop, Kind::InLoopLearned], &[]));
-    let moved = [("generate.search.move_waypoints", "true".into())];
+    let moved = [
+        ("generate.search.move_waypoints", "true".into()),
+        ("generate.search.confirm", size.confirm_moved.to_string()),
+    ];
     let kinds = [Kind::Moved, Kind::MovedLearned];
     ways.extend(in_loop("in the loop and moved", size.executions_moved, kinds, &moved));
     ways.retain(|way| way.kind == Kind::Baseline || size.kinds.contains(&way.kind));
