@@ -57,11 +57,11 @@ fn near<N: Copy>(graph: &LegGraph<'_, N>, legs: &[u32], waypoint: u32, rng: &mut
 
 #[cfg(test)]
 mod tests {
+    use super::super::regrow::{Goal, Regrow};
     use super::super::tests::{LENGTH, SMALL};
     use super::*;
     use crate::math::random::stream;
     use crate::search::small::{START, points};
-    use crate::search::uniform::Sampler;
 
     #[test]
     fn one_waypoint_moves_to_a_place_nearby_and_the_way_stays_feasible() {
@@ -69,10 +69,12 @@ mod tests {
         for seed in 0..40 {
             let points = points(seed, 30, 11.0);
             let graph = LegGraph::explore(START, &points, &SMALL, LENGTH);
-            let Some(sampler) = Sampler::new(&graph, LENGTH) else { continue };
-            let (mut rng, mut legs) = (stream(seed), Vec::new());
+            let mut rng = stream(seed);
             for draw in 0..200 {
-                sampler.draw(&mut rng, &mut legs);
+                let (mut legs, mut taken) = (Vec::new(), vec![false; points.len()]);
+                if !Regrow::new(&graph, Goal::End, &mut taken, &mut rng).grow(0, LENGTH - 1, &mut legs) {
+                    continue;
+                }
                 let moved = draw % (LENGTH - 2);
                 let Some(changed) = nearby(&graph, &legs, moved, &mut rng) else { continue };
                 let waypoints = |legs: &[u32]| graph.found(legs, 0.0).waypoints;
