@@ -129,20 +129,8 @@ fn from_segment(p: &[f64; 2], [a, b]: &[[f64; 2]; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verification::{DrivePiece, Stand};
+    use crate::verification::DrivePiece;
     use crate::world::terrain::Flat;
-
-    const VEHICLE: GroundVehicle = GroundVehicle {
-        stand: Stand::Level,
-        slip_at_20_deg: 0.0,
-        side_slip_at_20_deg: 0.0,
-        latency_s: 0.0,
-        steering_time_constant_s: 0.0,
-        steering_rate_rad_s: f64::INFINITY,
-        steered_axle_m: 1.0,
-        exact: false,
-        haul: None,
-    };
 
     /// From (0, 0) half round (0, 2) to (0, 4), in one leg.
     fn half_circle() -> DriveLegClaim {
@@ -161,7 +149,11 @@ mod tests {
     fn told(drive: ClearDrive, center: [f64; 2], radius: f64) -> String {
         let discs = &[ClearDisc { center, radius }];
         let extent = ([-5.0, -5.0], [5.0, 8.0]);
-        let found = verify_clear_ground(&VEHICLE, &Flat, &ClearGroundClaim { drive, discs, clearance: 0.2, extent });
+        let found = verify_clear_ground(
+            &GroundVehicle::LEVEL,
+            &Flat,
+            &ClearGroundClaim { drive, discs, clearance: 0.2, extent },
+        );
         found.iter().map(|f| format!("{} {:.4} leg {}", f.field, f.value, f.leg)).collect::<Vec<_>>().join("; ")
     }
 

@@ -187,20 +187,8 @@ fn check_joint(proof: &mut Proof, claim: &DrivesClaim, number: usize, at: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verification::Stand;
     use crate::world::terrain::Flat;
 
-    const VEHICLE: GroundVehicle = GroundVehicle {
-        stand: Stand::Level,
-        slip_at_20_deg: 0.0,
-        side_slip_at_20_deg: 0.0,
-        latency_s: 0.0,
-        steering_time_constant_s: 0.0,
-        steering_rate_rad_s: f64::INFINITY,
-        steered_axle_m: 1.0,
-        exact: false,
-        haul: None,
-    };
     const TOLERANCES: DriveTolerances = DriveTolerances {
         position: 0.01,
         yaw: 0.01,
@@ -248,7 +236,7 @@ mod tests {
     fn prove_within(legs: &[DriveLegClaim], tolerances: &DriveTolerances) -> Proof {
         let waypoints = [[0.0, 0.0], [2.0, 2.0], [0.0, 4.0]];
         let claim = DrivesClaim { waypoints: &waypoints, legs, speed: 1.0, turn_rate: 1.0 };
-        verify_drives(&VEHICLE, &Flat, &claim, tolerances)
+        verify_drives(&GroundVehicle::LEVEL, &Flat, &claim, tolerances)
     }
 
     /// The same half circle by a body that does not turn: what turns is the direction in which it travels.

@@ -30,6 +30,22 @@ pub struct GroundVehicle {
     pub haul: Option<Haul>,
 }
 
+#[cfg(test)]
+impl GroundVehicle {
+    /// It stands level, does all at once and never slips.
+    pub(super) const LEVEL: Self = Self {
+        stand: Stand::Level,
+        slip_at_20_deg: 0.0,
+        side_slip_at_20_deg: 0.0,
+        latency_s: 0.0,
+        steering_time_constant_s: 0.0,
+        steering_rate_rad_s: f64::INFINITY,
+        steered_axle_m: 1.0,
+        exact: false,
+        haul: None,
+    };
+}
+
 /// What wheels carry and overcome, sharing it evenly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Haul {

@@ -18,7 +18,7 @@ const DRAWN: u64 = 10;
 const DISTURBED: f64 = 0.4;
 const MOST_DISTURBED: usize = 3;
 /// Share of the others that evolution gets where waypoints may be moved.
-const EVOLVED: f64 = 0.3;
+const EVOLVED: f64 = 0.2;
 /// Trajectories whose waypoints are moved, and the share of the executions left that they get together: many are tried, the best go on.
 const STAGES: [(usize, f64); 3] = [(6, 0.4), (2, 0.4), (1, 1.0)];
 /// First and largest step of a moved waypoint, as shares of the mean leg.

@@ -2,8 +2,10 @@
 //!
 //! A (1+1) evolution strategy: a few neighbouring waypoints are moved by a normal step, what is not feasible costs nothing and is drawn
 //! again, what is executed and no less stressful is kept. The step grows by half on success and shrinks so that one success in
-//! five keeps it. Some steps draw a waypoint towards its neighbour instead, by a factor that is even in its logarithm: legs of every length
-//! are tried. Source: Rechenberg, Evolutionsstrategie, 1973.
+//! five keeps it. Source: Rechenberg, Evolutionsstrategie, 1973.
+//!
+//! Steps alone end at the peak that is next. So most changes put one waypoint anew about a neighbour instead, in any direction, or draw a few
+//! towards one, at distances that are even in their logarithm: legs of every length, turns of every angle and waypoints that crowd are tried.
 
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
@@ -16,9 +18,13 @@ use crate::math::random::{Stream, standard_normals, stream, unit};
 const DRAWS: u32 = 60;
 /// Steps are taken back to half of the largest below this share of it.
 const SMALLEST: f64 = 1e-3;
-/// Share of steps that shorten a leg, and the smallest factor that they do it by.
-const SHORTENED: f64 = 0.2;
+/// Share of changes that put a waypoint somewhere else about a neighbour, and of those that draw a few towards one.
+const PLACED: f64 = 0.5;
+const DRAWN_TOGETHER: f64 = 0.2;
+/// Smallest factor of a distance: of the longest leg where a waypoint is put anew, of the present one where waypoints are drawn towards another.
 const LEAST_FACTOR: f64 = 0.05;
+/// Share of changes around the worst leg.
+const AROUND_WORST: f64 = 0.7;
 
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,25 +105,32 @@ pub fn shift<P>(
     best
 }
 
-/// `points` with a few of those before `last` moved, the first never; mostly those at the worst leg.
+/// `points` with one or a few of those before `last` changed, the first never; mostly those at the worst leg.
 fn moved(points: &[Point3<f64>], worst_leg: usize, last: usize, step: f64, rng: &mut Stream) -> Vec<Point3<f64>> {
-    let mut moved = points.to_vec();
-    let shortens = unit(rng) < SHORTENED;
-    let count = if shortens { 1 } else { rng.random_range(1..=3usize).min(last - 1) };
-    let begin = if unit(rng) < 0.7 {
+    let kind = unit(rng);
+    let places = kind < PLACED;
+    let count = if places { 1 } else { rng.random_range(1..=3usize).min(last - 1) };
+    let begin = if unit(rng) < AROUND_WORST {
         let around = worst_leg + rng.random_range(0..=3usize);
         around.saturating_sub(2).clamp(1, last - count)
     } else {
         rng.random_range(1..=last - count)
     };
-    if shortens {
-        let neighbour = if begin + 1 < points.len() && unit(rng) < 0.5 { begin + 1 } else { begin - 1 };
-        let factor = libm::pow(LEAST_FACTOR, unit(rng));
-        moved[begin] = points[neighbour] + (points[begin] - points[neighbour]) * factor;
+    let mut moved = points.to_vec();
+    let changed = &mut moved[begin..begin + count];
+    if kind >= PLACED + DRAWN_TOGETHER {
+        changed.iter_mut().for_each(|point| *point += Vector3::from(standard_normals::<3>(rng)) * step);
+        return moved;
+    }
+    let after = begin + count < points.len() && unit(rng) < 0.5;
+    let neighbour = points[if after { begin + count } else { begin - 1 }];
+    let factor = libm::pow(LEAST_FACTOR, unit(rng));
+    if places {
+        let longest = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+        let way = Vector3::from(standard_normals::<3>(rng));
+        changed[0] = neighbour + way * (factor * longest / way.norm().max(f64::MIN_POSITIVE));
     } else {
-        for point in &mut moved[begin..begin + count] {
-            *point += Vector3::from(standard_normals::<3>(rng)) * step;
-        }
+        changed.iter_mut().for_each(|point| *point = neighbour + (*point - neighbour) * factor);
     }
     moved
 }

@@ -113,8 +113,8 @@ fn ways(size: &Size) -> Vec<Way> {
             let sets = [("generate.score", text(score)), aggregate_set.clone()];
             ways.push(way(&format!("{score}, {aggregate}"), Kind::ByHand, "exact", &sets));
         }
+        ways.push(way(&format!("learned, {aggregate}"), Kind::Learned, "exact", &[aggregate_set]));
     }
-    ways.push(way("learned, max", Kind::Learned, "exact", &[("generate.search.aggregate", text("max"))]));
     let in_loop = |name: &str, executions: u64, kinds: [Kind; 2], sets: &[Set]| {
         let mut all = vec![("generate.search.executions", executions.to_string())];
         all.extend_from_slice(sets);
