@@ -1,0 +1,66 @@
+//! The ways to generate that are compared.
+
+use hairpin::search::Score;
+
+use super::super::cell::{self, Set, text};
+use super::kinds::Kind;
+use super::size::Size;
+
+/// A way to generate: its name, the kind that it counts among, and its keys.
+pub(super) struct Way {
+    pub(super) name: String,
+    pub(super) kind: Kind,
+    pub(super) sets: Vec<Set>,
+    pub(super) learned: bool,
+}
+
+/// The ways of `size`, the two baselines first.
+pub(super) fn ways(size: &Size) -> Vec<Way> {
+    let way = |name: &str, kind, method: &str, sets: &[Set]| {
+        let mut all = vec![("generate.search.method", text(method))];
+        all.extend_from_slice(sets);
+        let learned = matches!(kind, Kind::Learned | Kind::InLoopLearned | Kind::MovedLearned);
+        Way { name: name.to_owned(), kind, sets: all, learned }
+    };
+    let mut ways = vec![
+        way("uniform", Kind::Baseline, "uniform", &[]),
+        way("random beam", Kind::Baseline, "beam", &[("generate.score", text("random"))]),
+    ];
+    for aggregate in ["sum", "max"] {
+        let aggregate_set = ("generate.search.aggregate", text(aggregate));
+        for score in Score::NAMES.into_iter().filter(|name| *name != "random") {
+            let sets = [("generate.score", text(score)), aggregate_set.clone()];
+            ways.push(way(&format!("{score}, {aggregate}"), Kind::ByHand, "exact", &sets));
+        }
+        ways.push(way(&format!("learned, {aggregate}"), Kind::Learned, "exact", &[aggregate_set]));
+    }
+    let in_loop = |name: &str, executions: u64, kinds: [Kind; 2], sets: &[Set]| {
+        let mut all = vec![("generate.search.executions", executions.to_string())];
+        all.extend_from_slice(sets);
+        let name = format!("{name}, {executions}");
+        [way(&name, kinds[0], "in-loop", &all), way(&format!("{name}, from the learned"), kinds[1], "in-loop", &all)]
+    };
+    ways.extend(in_loop("in the loop", size.executions, [Kind::InLoop, Kind::InLoopLearned], &[]));
+    let moved = [
+        ("generate.search.move_waypoints", "true".into()),
+        ("generate.search.confirm", size.confirm_moved.to_string()),
+    ];
+    let kinds = [Kind::Moved, Kind::MovedLearned];
+    ways.extend(in_loop("in the loop and moved", size.executions_moved, kinds, &moved));
+    ways.retain(|way| way.kind == Kind::Baseline || size.kinds.contains(&way.kind));
+    ways
+}
+
+/// The keys of all cells of a feasible set and a controller.
+pub(super) fn base(size: &Size, reach: &str, controller: &str) -> Vec<Set> {
+    vec![
+        ("seed", size.seed.to_string()),
+        ("task.length", size.length.to_string()),
+        ("generate.reach", text(reach)),
+        cell::resolution(reach),
+        ("generate.search.cases", size.graphs.to_string()),
+        ("execute.controller", text(controller)),
+        ("execute.segment_times", text("sqrt-length")),
+        ("spec.deviation.from", text(&size.from)),
+    ]
+}
