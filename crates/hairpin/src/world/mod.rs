@@ -18,6 +18,7 @@ use thiserror::Error;
 
 pub use bounds::Bounds;
 pub use obstacle::{Obstacle, Shape};
+pub(crate) use sample::short_way;
 pub use sample::{Sampling, SamplingError, sample_free};
 pub use solid::Solid;
 

@@ -1,16 +1,19 @@
 //! Learned scores: the stress of executed legs, as a polynomial of what a search sees of them.
 
+mod fit;
 mod kept;
+mod legs;
 mod model;
 mod moves;
 mod resample;
 mod samples;
 mod score;
 
+pub(super) use fit::LEAST_TRAJECTORIES;
 pub use kept::{KeptModel, NAME};
 pub(super) use kept::{of_arm, of_drive, of_flight, subject};
-pub(super) use model::LEAST_TRAJECTORIES;
-pub use model::{Feature, HeldOut, LegSample, ModelMistake, ScoreModel, Subject};
+pub use legs::LegSample;
+pub use model::{Feature, HeldOut, ModelMistake, ScoreModel, Subject};
 pub use moves::{MoveFeatures, MoveSample};
 pub(super) use samples::samples_of;
 pub use samples::{learn, learn_moves, leg_samples, move_samples};

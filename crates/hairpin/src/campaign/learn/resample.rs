@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rand::RngExt;
 
-use super::model::rows;
+use super::fit::rows;
 use super::{LegSample, ScoreModel};
 use crate::math::random::stream;
 use crate::math::ridge::{NoFit, PolynomialRidge};

@@ -132,15 +132,19 @@ impl Polytope {
     }
 }
 
+/// A loop and not [`Iterator::all`], which the kernels' vector instructions are not handed down to where it is not inlined.
 #[inline(always)]
 fn holds(groups: &[Group], x: &Vector3<f64>) -> bool {
-    groups.iter().all(|[nx, ny, nz, b]| {
+    for [nx, ny, nz, b] in groups {
         let mut holds = true;
         for i in 0..GROUP {
             holds &= nx[i] * x.x + ny[i] * x.y + nz[i] * x.z <= b[i];
         }
-        holds
-    })
+        if !holds {
+            return false;
+        }
+    }
+    true
 }
 
 kernel! {

@@ -10,8 +10,8 @@ use super::tally::LegRefusal;
 use super::watch::stands;
 use crate::math::random::{stream, unit};
 use crate::trajectory::drive::Planar;
-use crate::world::Sampling;
 use crate::world::terrain::Terrain;
+use crate::world::{Sampling, short_way};
 
 /// How places are spread.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +23,7 @@ pub struct GroundSampling {
     /// Centre (x, y) and radius, m, of the disc they are spread over; `None`: the whole map. Waypoints that lie many legs
     /// apart have few legs between them.
     pub around: Option<([f64; 2], f64)>,
-    /// Independent, or a Sobol sequence.
+    /// Independent, in clusters, or a Sobol sequence.
     pub sampling: Sampling,
     /// Seed.
     pub seed: u64,
@@ -71,6 +71,7 @@ pub fn sample_ground(
     let most = asked.count.saturating_mul(1000).saturating_add(10_000);
     let most = if asked.sampling == Sampling::Sobol { most.min(SOBOL_LENGTH) } else { most };
     let mut random = stream(asked.seed);
+    let spacing = libm::sqrt((high[0] - low[0]) * (high[1] - low[1]) / asked.count as f64);
     let scramble = (asked.seed ^ (asked.seed >> 32)) as u32;
     let mut told = TooFewPlaces { wanted: asked.count, found: 0, draws: 0, blocked: 0, without_ground: 0, steep: 0 };
     let mut places = Vec::new();
@@ -78,16 +79,23 @@ pub fn sample_ground(
         if places.len() == asked.count {
             break;
         }
-        let shares = match asked.sampling {
-            Sampling::Uniform => [unit(&mut random), unit(&mut random)],
-            Sampling::Sobol => {
+        let inside = |shares: [f64; 2]| [0, 1].map(|i| low[i] + shares[i] * (high[i] - low[i]));
+        let [x, y] = match (asked.sampling, asked.sampling.beside(index, places.len(), &mut random)) {
+            (_, Some(other)) => {
+                let other: &Point3<f64> = &places[other];
+                let [along, across] = short_way(spacing, &mut random);
+                [other.x + along, other.y + across]
+            }
+            (Sampling::Uniform | Sampling::Clustered, None) => inside([unit(&mut random), unit(&mut random)]),
+            (Sampling::Sobol, None) => {
                 let [x, y, ..] = sobol_burley::sample_4d(index as u32, 0, scramble);
-                [f64::from(x), f64::from(y)]
+                inside([f64::from(x), f64::from(y)])
             }
         };
-        let [x, y] = [0, 1].map(|i| low[i] + shares[i] * (high[i] - low[i]));
         let outside = |(center, radius): ([f64; 2], f64)| libm::hypot(x - center[0], y - center[1]) > radius;
-        if asked.around.is_some_and(outside) {
+        if asked.around.is_some_and(outside)
+            || [x, y].iter().zip(low.iter().zip(&high)).any(|(at, (low, high))| at < low || at > high)
+        {
             continue;
         }
         told.draws += 1;

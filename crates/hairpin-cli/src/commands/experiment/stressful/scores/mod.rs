@@ -24,7 +24,7 @@ use super::cell::{self, FLIGHT_GOGGLES, Set, text, with};
 use crate::problem::Problem;
 use lifts::{Measured, figure, figure_name, summary};
 use size::{Printed, Size};
-use ways::{Way, base, ways};
+use ways::{Way, base, sampling, ways};
 
 /// The worst of many uniform trajectories, each executed once without noise.
 fn ceiling(size: &Size, base: &[Set]) -> Result<Option<f64>, Problem> {
@@ -80,7 +80,10 @@ pub(in super::super) fn scores(sheet: &Sheet) -> Result<Outcome, Problem> {
             let base = base(&size, reach, controller);
             let judge = cell::with_noise(FLIGHT_GOGGLES, &base, size.runs)?;
             let model = match ways(&size).iter().any(|way| way.learned) {
-                true => Some(cell::learned(FLIGHT_GOGGLES, &base, size.training, size.seed)?),
+                true => {
+                    let base = with(&base, &[sampling(&size)]);
+                    Some(cell::learned(FLIGHT_GOGGLES, &base, size.training, size.seed)?)
+                }
                 false => None,
             };
             if let Some(model) = &model {

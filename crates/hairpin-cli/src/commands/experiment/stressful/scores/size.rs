@@ -23,6 +23,10 @@ pub(super) struct Size {
     /// Uniform trajectories whose worst is the ceiling; 0: left out.
     pub(super) ceiling: u64,
     pub(super) length: u64,
+    /// Waypoints sampled for each graph.
+    pub(super) waypoints: u64,
+    /// How those are spread that are searched and learned from; the baselines' are uniform.
+    pub(super) sampling: String,
     pub(super) seed: u64,
     pub(super) reach: Vec<String>,
     pub(super) controllers: Vec<String>,

@@ -19,6 +19,9 @@ pub(super) fn ways(size: &Size) -> Vec<Way> {
     let way = |name: &str, kind, method: &str, sets: &[Set]| {
         let mut all = vec![("generate.search.method", text(method))];
         all.extend_from_slice(sets);
+        if kind != Kind::Baseline {
+            all.push(sampling(size));
+        }
         let learned = matches!(kind, Kind::Learned | Kind::InLoopLearned | Kind::MovedLearned);
         Way { name: name.to_owned(), kind, sets: all, learned }
     };
@@ -51,6 +54,11 @@ pub(super) fn ways(size: &Size) -> Vec<Way> {
     ways
 }
 
+/// How waypoints are spread that are searched and learned from.
+pub(super) fn sampling(size: &Size) -> Set {
+    ("generate.search.sampling", text(&size.sampling))
+}
+
 /// The keys of all cells of a feasible set and a controller.
 pub(super) fn base(size: &Size, reach: &str, controller: &str) -> Vec<Set> {
     vec![
@@ -59,6 +67,7 @@ pub(super) fn base(size: &Size, reach: &str, controller: &str) -> Vec<Set> {
         ("generate.reach", text(reach)),
         cell::resolution(reach),
         ("generate.search.cases", size.graphs.to_string()),
+        ("generate.search.waypoints", size.waypoints.to_string()),
         ("execute.controller", text(controller)),
         ("execute.segment_times", text("sqrt-length")),
         ("spec.deviation.from", text(&size.from)),
