@@ -132,6 +132,32 @@ fn eight_waypoints_over_craters_are_found_and_replayed() {
 }
 
 #[test]
+fn places_in_clusters_lie_closer_and_are_stood_on_all_the_same() {
+    let (yard, rover) = (cratered(), shipped("rocky8"));
+    let free = KeepOuts::default();
+    let site = DriveSite::new(&rover, &yard, &free);
+    let settings = careful(&rover);
+    let places = |sampling: Sampling| {
+        let around = Some(([START.x, START.y], 10.0));
+        let asked = GroundSampling { count: 60, margin: 1.0, around, sampling, seed: 2 };
+        sample_ground(&site, &settings, &asked).expect("places")
+    };
+    let apart = |points: &[Point3<f64>]| {
+        let nearest = |at: usize| {
+            let others = points.iter().enumerate().filter(|(other, _)| *other != at);
+            others.map(|(_, other)| (other.xy() - points[at].xy()).norm()).fold(f64::INFINITY, f64::min)
+        };
+        let mut nearest: Vec<f64> = (0..points.len()).map(nearest).collect();
+        nearest.sort_by(f64::total_cmp);
+        nearest[points.len() / 2]
+    };
+    let (uniform, clustered) = (places(Sampling::Uniform), places(Sampling::Clustered));
+    assert!(apart(&clustered) < 0.75 * apart(&uniform), "{} and {} m", apart(&clustered), apart(&uniform));
+    assert!(clustered.iter().all(|p| (p.x - START.x).hypot(p.y - START.y) <= 10.0));
+    assert_eq!(clustered, places(Sampling::Clustered));
+}
+
+#[test]
 fn the_same_seed_gives_the_same_drive_and_another_another() {
     let (yard, rover) = (cratered(), shipped("rocky8"));
     let free = KeepOuts::default();

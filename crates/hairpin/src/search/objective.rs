@@ -84,6 +84,13 @@ pub enum Score {
         /// Speed that scores 1, m/s.
         v_max: f64,
     },
+    /// n(v_out)² · (1 − |α − 180°|/180°) + n(v_in)² · v_out/v_max · |sin ε_out| · (1 − |α − 90°|/90°), n(u) = min(u/v, v/u), v = v_max/16:
+    /// back by a leg so short that the acceptance radius lets both its ends pass at once, and from there a long climb or dive across it.
+    /// Two legs make one such place, so it is for sums.
+    CutCorner {
+        /// Speed that scores 1, m/s.
+        v_max: f64,
+    },
     /// v_out/v_max · cos ε_out · |sin ε_out − sin ε_in| · (1 − |α − 180°|/180°), ε the elevation of a leg: back, and over from a climb to a
     /// descent or the other way, with a long way across.
     Crest {
@@ -96,6 +103,8 @@ pub enum Score {
 
 /// Entry speed of `short-leg` that halves it, over the top speed.
 const SHORT: f64 = 0.05;
+/// Speed of the short leg that `cut-corner` looks for, over the top speed: 1.75 m in a step of 1 s at 28 m/s, beside an acceptance radius of 1 m.
+const CUT: f64 = 1.0 / 16.0;
 
 /// Why there is no such score.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -116,7 +125,7 @@ pub enum ScoreMistake {
 
 impl Score {
     /// All names.
-    pub const NAMES: [&'static str; 9] = [
+    pub const NAMES: [&'static str; 10] = [
         "random",
         "high-velocity",
         "high-velocity-90",
@@ -125,6 +134,7 @@ impl Score {
         "high-velocity-180-product",
         "fast-corner",
         "short-leg",
+        "cut-corner",
         "crest",
     ];
 
@@ -139,6 +149,7 @@ impl Score {
             "high-velocity-180-product" => Score::HighVelocityTurn { v_max, turn: PI, product: true },
             "fast-corner" => Score::FastCorner { v_max },
             "short-leg" => Score::ShortLeg { v_max },
+            "cut-corner" => Score::CutCorner { v_max },
             "crest" => Score::Crest { v_max },
             _ => return Err(ScoreMistake::Unknown { name: name.into() }),
         };
@@ -157,6 +168,7 @@ impl Objective for Score {
     fn extend(&self, (): &(), leg: &LegView<'_>) -> (f64, ()) {
         let LegFeatures { v_in, v_out, turn: alpha, length, climb, slope_in, .. } = leg.features;
         let sharp = |turn: f64| 1.0 - (alpha - turn).abs() / turn;
+        let slope = || if length > 0.0 { climb / length } else { 0.0 };
         let score = match *self {
             Score::Random { seed } => hashed_unit(seed, &[leg.from.into(), leg.to.into()]),
             Score::HighVelocity { v_max } => v_out / v_max,
@@ -166,8 +178,16 @@ impl Objective for Score {
             }
             Score::FastCorner { v_max } => v_in / v_max * (v_out / v_max) * sharp(FRAC_PI_2),
             Score::ShortLeg { v_max } => v_out / (v_in + SHORT * v_max) * sharp(FRAC_PI_2),
+            Score::CutCorner { v_max } => {
+                let near = |speed: f64| {
+                    let share = speed / (CUT * v_max);
+                    let share = share.min(1.0 / share);
+                    share * share
+                };
+                near(v_out) * sharp(PI) + near(v_in) * (v_out / v_max) * slope().abs() * sharp(FRAC_PI_2)
+            }
             Score::Crest { v_max } => {
-                let slope = if length > 0.0 { climb / length } else { 0.0 };
+                let slope = slope();
                 let across = (1.0 - slope * slope).max(0.0).sqrt();
                 v_out / v_max * across * (slope - slope_in).abs() * sharp(PI)
             }
@@ -266,6 +286,12 @@ mod tests {
         let expected = 0.5 * 0.75f64.sqrt() * 2.0 / 3.0;
         assert!((score("crest", over) - expected).abs() < 1e-12, "{}", score("crest", over));
         assert_eq!(score("crest", LegFeatures { climb: 10.0, ..over }), 0.0, "nothing across");
+        // 1.25 m/s is what it looks for: into the short leg by a half turn, out of one of twice that speed by a climb of 30°.
+        let short = LegFeatures { v_out: 1.25, length: 1.25, ..leg(1.25, 180.0) };
+        assert!((score("cut-corner", short) - 1.0).abs() < 1e-12, "{}", score("cut-corner", short));
+        let out = LegFeatures { v_in: 2.5, climb: 5.0, ..leg(10.0, 90.0) };
+        let expected = 0.125 * 0.125 * 0.5 + 0.25 * 0.5 * 0.5;
+        assert!((score("cut-corner", out) - expected).abs() < 1e-12, "{}", score("cut-corner", out));
     }
 
     #[test]

@@ -245,7 +245,7 @@ fn a_mesh_without_shared_vertices_is_closed_too() {
 fn samples_are_free_and_repeat() {
     let obstacle = Obstacle { name: "mast".into(), shape: Shape::cuboid([12.0, 8.0, 5.0], [2.0, 2.0, 10.0]).unwrap() };
     let world = World::new(Vector3::repeat(30.0), 2.0, vec![obstacle]).unwrap();
-    for sampling in [Sampling::Uniform, Sampling::Sobol] {
+    for sampling in [Sampling::Uniform, Sampling::Clustered, Sampling::Sobol] {
         let points = sample_free(&world, 500, 3.0, sampling, 7).unwrap();
         assert_eq!(points.len(), 500);
         assert!(points.iter().all(|p| world.is_free(p, 3.0)));
@@ -266,6 +266,23 @@ fn sobol_is_more_even_than_uniform() {
         cells.iter().map(|count| (count - 16).pow(2)).sum::<i32>()
     };
     assert!(spread(Sampling::Sobol) * 4 < spread(Sampling::Uniform));
+}
+
+#[test]
+fn clusters_have_short_legs_that_uniform_points_hardly_have() {
+    let world = World::new(Vector3::repeat(30.0), 0.0, vec![]).unwrap();
+    let spacing = 30.0 / 250f64.cbrt();
+    let close = |sampling| {
+        let points = sample_free(&world, 250, 0.0, sampling, 5).unwrap();
+        let nearest = |at: usize| {
+            let others = points.iter().enumerate().filter(|(other, _)| *other != at);
+            others.map(|(_, other)| (other - points[at]).norm()).fold(f64::INFINITY, f64::min)
+        };
+        (0..points.len()).filter(|at| nearest(*at) < 0.4 * spacing).count()
+    };
+    // Uniform: 1 − exp(−4π/3 · 0.4³) = 24 %. Clusters: of the half that lies about others ln(4)/ln(10) = 60 %, and those that they lie about.
+    let (uniform, clustered) = (close(Sampling::Uniform), close(Sampling::Clustered));
+    assert!((40..=80).contains(&uniform) && (120..=190).contains(&clustered), "{uniform} and {clustered} of 250");
 }
 
 #[test]

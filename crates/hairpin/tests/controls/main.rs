@@ -11,7 +11,7 @@ use hairpin::feasibility::steering::shooting::families::{Answer, Parameters, Pro
 use hairpin::feasibility::steering::shooting::flat::{self, Cost, Status};
 use hairpin::feasibility::steering::shooting::rough;
 use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome};
-use hairpin::feasibility::steering::shooting::{Control, Curvatures, Goal, Precision, Query, generate};
+use hairpin::feasibility::steering::shooting::{Control, Goal, Precision, Query, generate};
 use hairpin::math::random::{Stream, stream};
 use hairpin::robot::rover::{Response, Rover, RoverDescription, Slip};
 use hairpin::trajectory::drive::{Gear, Motion, Segment};
