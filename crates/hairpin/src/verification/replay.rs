@@ -43,16 +43,23 @@ const FIRST_STEP: f64 = 0.2;
 const GAIN: f64 = 64.0;
 /// Steps per leg at most.
 const MOST_STEPS: usize = 8192;
+/// Places of a leg between which its speed is taken to have one minimum at most.
+const PLACES: usize = 64;
+/// Slower than this share of the fastest place is a standstill.
+const STANDSTILL: f64 = 1e-3;
 
 impl Flyer<'_> {
     /// Flies `leg` from `start` and from `chained`.
     pub(super) fn replay(&self, leg: &Leg, start: &State, chained: &State) -> Result<Replay, Trouble> {
         let mut steps = (leg.duration / FIRST_STEP).ceil().clamp(2.0, MOST_STEPS as f64) as usize;
-        let mut coarse = self.fly(leg, start, &self.commands(leg, steps)?, |_, _| {});
+        let standstills = standstills(leg);
+        let times = times(leg, steps, &standstills);
+        let mut coarse = self.fly(start, &times, &self.commands(leg, &times)?, |_, _| {});
         let mut change = f64::INFINITY;
         while steps <= MOST_STEPS / 2 {
             steps *= 2;
-            let commands = self.commands(leg, steps)?;
+            let times = self::times(leg, steps, &standstills);
+            let commands = self.commands(leg, &times)?;
             let mut path = (0.0, 0.0);
             let observe = |tau: f64, state: &State| {
                 let claimed = leg.taylor(tau);
@@ -61,11 +68,11 @@ impl Flyer<'_> {
                     path = (distance, tau);
                 }
             };
-            let fine = self.fly(leg, start, &commands, observe);
+            let fine = self.fly(start, &times, &commands, observe);
             if let (Some(coarse), Some(fine)) = (&coarse, &fine) {
                 change = coarse.iter().zip(fine).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 if change <= GAIN * self.accuracy {
-                    let chained = self.fly(leg, chained, &commands, |_, _| {});
+                    let chained = self.fly(chained, &times, &commands, |_, _| {});
                     let chained = chained.ok_or(Trouble::Steps(steps, change))?;
                     return Ok(Replay { end: *fine, chained, path, steps });
                 }
@@ -75,32 +82,30 @@ impl Flyer<'_> {
         Err(Trouble::Steps(steps, change))
     }
 
-    /// Squared rotor speeds at every stage of every step.
-    fn commands(&self, leg: &Leg, steps: usize) -> Result<Vec<[[f64; 4]; STAGES]>, Trouble> {
-        let h = leg.duration / steps as f64;
-        let mut commands = vec![[[0.0; 4]; STAGES]; steps];
-        for (step, stages) in commands.iter_mut().enumerate() {
+    /// Squared rotor speeds at every stage of the steps between `times`.
+    fn commands(&self, leg: &Leg, times: &[f64]) -> Result<Vec<[[f64; 4]; STAGES]>, Trouble> {
+        let of_step = |step: &[f64]| {
+            let mut stages = [[0.0; 4]; STAGES];
             for (squares, node) in stages.iter_mut().zip(&self.gauss.nodes) {
-                let tau = (step as f64 + node) * h;
-                *squares = self.squares(leg, tau)?;
+                *squares = self.squares(leg, step[0] + node * (step[1] - step[0]))?;
             }
-        }
-        Ok(commands)
+            Ok(stages)
+        };
+        times.windows(2).map(of_step).collect()
     }
 
     fn fly(
         &self,
-        leg: &Leg,
         start: &State,
+        times: &[f64],
         commands: &[[[f64; 4]; STAGES]],
         mut observe: impl FnMut(f64, &State),
     ) -> Option<State> {
-        let h = leg.duration / commands.len() as f64;
         let (mut state, mut slopes) = (*start, None);
-        for (step, stages) in commands.iter().enumerate() {
+        for (step, stages) in times.windows(2).zip(commands) {
             let derivative = |stage: usize, x: &State| self.mixer.derivative(self.body, x, &stages[stage]);
-            state = self.gauss.step(&state, h, &mut slopes, derivative)?;
-            observe((step + 1) as f64 * h, &state);
+            state = self.gauss.step(&state, step[1] - step[0], &mut slopes, derivative)?;
+            observe(step[1], &state);
         }
         Some(state)
     }
@@ -110,12 +115,12 @@ impl Flyer<'_> {
     pub(super) fn replay_with_lag(&self, leg: &Leg, start: &State, speeds: &mut [f64; 4]) -> Result<State, Trouble> {
         let lag = self.body.rotor_time_constant;
         let steps = (leg.duration / (0.5 * lag)).ceil().clamp(2.0, MOST_STEPS as f64) as usize;
-        let h = leg.duration / steps as f64;
-        let commands = self.commands(leg, steps)?;
+        let times = times(leg, steps, &standstills(leg));
+        let commands = self.commands(leg, &times)?;
         let (mut state, mut slopes) = ([0.0; 22], None);
         state[..18].copy_from_slice(start);
         state[18..].copy_from_slice(speeds);
-        for stages in &commands {
+        for (step, stages) in times.windows(2).zip(&commands) {
             let derivative = |stage: usize, x: &[f64; 22]| {
                 let mut out = [0.0; 22];
                 let squares: [f64; 4] = std::array::from_fn(|rotor| square(x[18 + rotor]));
@@ -127,7 +132,8 @@ impl Flyer<'_> {
                 }
                 out
             };
-            state = self.gauss.step(&state, h, &mut slopes, derivative).ok_or(Trouble::Steps(steps, f64::INFINITY))?;
+            let next = self.gauss.step(&state, step[1] - step[0], &mut slopes, derivative);
+            state = next.ok_or(Trouble::Steps(steps, f64::INFINITY))?;
         }
         speeds.copy_from_slice(&state[18..]);
         let mut end = [0.0; 18];
@@ -140,4 +146,41 @@ impl Flyer<'_> {
         let found = demand(self.body, &self.mixer, leg, tau).map_err(|singular| Trouble::Singular(tau, singular))?;
         Ok(found.squares)
     }
+}
+
+/// Where `leg` stands still between its ends: a leg along a line that sets out backwards does. Drag turns round there at once, and with it, by a
+/// jump, the torque that the demand asks for, which no step may straddle.
+fn standstills(leg: &Leg) -> Vec<f64> {
+    let part = |tau: f64| {
+        let taylor = leg.taylor(tau);
+        // The second Taylor coefficient is half the acceleration: only the sign is used.
+        let speed = taylor.iter().map(|axis| square(axis[1])).sum::<f64>().sqrt();
+        (speed, taylor.iter().map(|axis| axis[1] * axis[2]).sum::<f64>())
+    };
+    let place = |k: usize| leg.duration * k as f64 / PLACES as f64;
+    let fastest = (0..=PLACES).map(|k| part(place(k)).0).fold(0.0, f64::max);
+    let mut found = Vec::new();
+    for k in 0..PLACES {
+        let (mut low, mut high) = (place(k), place(k + 1));
+        if part(low).1 < 0.0 && part(high).1 >= 0.0 {
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if part(middle).1 < 0.0 { low = middle } else { high = middle }
+            }
+            if part(high).0 < STANDSTILL * fastest && high < leg.duration {
+                found.push(high);
+            }
+        }
+    }
+    found
+}
+
+/// The ends of `steps` steps over `leg`: even, but for those that are nearest to a standstill, which lie there.
+fn times(leg: &Leg, steps: usize, standstills: &[f64]) -> Vec<f64> {
+    let mut times: Vec<f64> = (0..=steps).map(|step| leg.duration * step as f64 / steps as f64).collect();
+    for at in standstills {
+        let nearest = (at / leg.duration * steps as f64).round().clamp(1.0, steps as f64 - 1.0);
+        times[nearest as usize] = *at;
+    }
+    times
 }

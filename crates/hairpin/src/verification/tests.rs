@@ -102,6 +102,25 @@ fn prove(body: &Body, (waypoints, legs): &Flown) -> Proof {
     verify(body, &Claim { waypoints, legs }, &Tolerances::default())
 }
 
+/// Drag turns round at once where a leg along a line, set out on backwards, stands still; no step of the integration may straddle that.
+#[test]
+fn legs_that_turn_back_along_their_line_are_proven() {
+    for body in [flightgoggles(), plus()] {
+        for seed in 0..4 {
+            let mut random = stream(seed);
+            let way = Vector3::from([(); 3].map(|_| random.random_range(-1.0..1.0))).normalize();
+            let [first, second] = [Vector3::repeat(3.0), Vector3::repeat(3.0) - way * 4.0];
+            let points = [first, second, second + way, second + way * 3.0].map(|point| [point.x, point.y, point.z]);
+            let speeds = [0.0, -1.9, 0.4, 0.0].map(|speed| way * speed);
+            let durations = [3.5, 1.3, 3.0];
+            let leg = |k: usize| join(&body, (points[k], speeds[k]), (points[k + 1], speeds[k + 1]), durations[k]);
+            let proof = prove(&body, &(points.to_vec(), (0..3).map(leg).collect()));
+            assert!(proof.ok(), "seed {seed}: {:?}", proof.findings);
+            assert!(proof.position.value < 1e-8, "seed {seed}: {proof:?}");
+        }
+    }
+}
+
 #[test]
 fn honest_flights_are_proven_far_inside_the_tolerances() {
     for body in [flightgoggles(), plus()] {
