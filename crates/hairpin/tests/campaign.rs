@@ -4,7 +4,7 @@ mod campaigns;
 
 use campaigns::{ENDLESS, asked, check_witness, distance_to_hull, from_mast, run, setup};
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Evidence, Setup, generate, verdict};
+use hairpin::campaign::{Case, Evidence, Setup, generate, optima, verdict};
 use hairpin::feasibility::reach::sampling;
 use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::Quadrotor;
@@ -96,6 +96,26 @@ fn the_exact_search_is_never_beaten_on_the_same_graph() {
         }
         assert!(compared > 0, "{reach}");
     }
+}
+
+#[test]
+fn optima_of_several_scores_are_those_of_one_search_each() {
+    let names = ["high-velocity", "crest"];
+    let shared = optima(&setup("flightgoggles", 6, asked("hull", "beam", 3)), &names, &ENDLESS).expect("optima");
+    assert_eq!(shared.len(), 4);
+    for optimum in &shared {
+        let mut alone = asked("hull", "exact", 3);
+        alone["score"] = json!(names[optimum.score]);
+        alone["search"]["aggregate"] = json!(optimum.aggregate);
+        let (cases, _) = run(&setup("flightgoggles", 6, alone.clone()), &Known::default());
+        assert_eq!(optimum.cases, cases, "{alone}");
+        let own = optima(&setup("flightgoggles", 6, alone), &[], &ENDLESS).expect("optima");
+        let own = own.iter().find(|own| own.aggregate == optimum.aggregate).expect("both aggregates");
+        assert_eq!(own.cases, cases, "the scenario's own");
+    }
+    assert_ne!(shared[0].cases, shared[2].cases, "the scores differ");
+    let unknown = optima(&setup("flightgoggles", 6, asked("hull", "beam", 3)), &["fast"], &ENDLESS);
+    assert!(unknown.is_err_and(|error| error.contains("`fast`")));
 }
 
 #[test]

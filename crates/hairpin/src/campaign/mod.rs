@@ -41,7 +41,7 @@ pub use coverage::{Coverage, Grid};
 pub use curve::Curve;
 pub use environment::Environment;
 pub use execute::{execute, execute_again, execute_run};
-pub use generate::{Known, RoundTally, Tally, generate};
+pub use generate::{Known, Optimum, RoundTally, Tally, generate, optima};
 pub use influence::{Influence, RunDeviation, influences};
 pub use judge::{how_obtained, judge, judge_runs, verdict};
 pub use mission::{Mission, mission, mission_again};

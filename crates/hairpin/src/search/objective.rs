@@ -138,6 +138,11 @@ impl Score {
         "crest",
     ];
 
+    /// The names of those that say what is stressful.
+    pub fn by_hand() -> impl Iterator<Item = &'static str> {
+        Self::NAMES.into_iter().filter(|name| *name != "random")
+    }
+
     /// The score called `name`. `v_max` (m/s) is the farthest sampled end ÷ step; `seed` is that of `random`.
     pub fn named(name: &str, seed: u64, v_max: f64) -> Result<Self, ScoreMistake> {
         let score = match name {

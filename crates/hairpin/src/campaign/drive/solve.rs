@@ -12,7 +12,7 @@ use super::stepwise::Stepwise;
 use super::surround::{coordinates, put};
 use crate::campaign::Evidence;
 use crate::campaign::environment::into_unit_ball;
-use crate::campaign::graph::{Counter, Executions, Looped, Outcome, Plan, Round, Surroundings};
+use crate::campaign::graph::{Counter, Executions, Looped, Outcome, Plan, Surroundings, Wanted};
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{DriveSearch, GroundReach, Manoeuvre, SearchMethod, SearchSection};
 use crate::feasibility::reach::drive::{
@@ -52,7 +52,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Searches graph number `graph`; `executions` are for searches in the loop, `round` for adaptive campaigns.
-    pub(in crate::campaign) fn solve(&self, graph: u64, executions: Executions, round: Option<&Round>) -> Outcome {
+    pub(in crate::campaign) fn solve(&self, graph: u64, executions: Executions, wanted: Wanted) -> Outcome {
         let points = match self.sample(graph) {
             Ok(points) => points,
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
@@ -66,7 +66,7 @@ impl<'a> Solver<'a> {
             put: &put,
             obstacles: asked.obstacles.is_some(),
         });
-        let looped = Looped { executions, surroundings, moved: &moved, round };
+        let looped = Looped { executions, surroundings, moved: &moved, wanted };
         let asked = Graph { search: &self.search, graph, points: &points, looped };
         match &self.stepwise {
             Some(stepwise) => stepwise.solve(&self.settings, asked),

@@ -1,7 +1,7 @@
 //! What flights are searched with: the judge of legs, and the score.
 
 use super::FlightSetup;
-use crate::campaign::graph::Looped;
+use crate::campaign::graph::{Looped, Wanted};
 use crate::campaign::learn::AnyScore;
 use crate::feasibility::Limits;
 use crate::feasibility::steering::{LegJudge, ProofSettings};
@@ -24,6 +24,9 @@ pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
 /// The score for graph number `graph`, the scenario's or the first model of a round; `top_speed` (m/s) scores 1.
 pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64, looped: &Looped<'a>) -> AnyScore<'a> {
     let generate = &setup.scenario.generate;
+    if let Wanted::Optima([name, ..]) = looped.wanted {
+        return named(setup, name, graph, top_speed);
+    }
     match (looped.models(), &generate.model) {
         ([model, ..], _) => AnyScore::Learned(model),
         ([], Some(kept)) => AnyScore::Learned(&kept.model),
@@ -31,19 +34,22 @@ pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64, loo
     }
 }
 
-/// The scores beside it: a round's other models, or those by hand whose optima a search in the loop starts from.
+/// The scores beside it: a round's other models, the others whose optima are wanted, or those by hand that a search in the loop starts from.
 pub(super) fn beside<'a>(
     setup: &FlightSetup<'a>,
     graph: u64,
     top_speed: f64,
     looped: &Looped<'a>,
 ) -> Vec<AnyScore<'a>> {
-    if looped.round.is_some() {
-        return looped.models().iter().skip(1).map(AnyScore::Learned).collect();
+    let named = |name: &&str| named(setup, name, graph, top_speed);
+    match looped.wanted {
+        Wanted::Round(round) => round.models.iter().skip(1).map(AnyScore::Learned).collect(),
+        Wanted::Optima(names) => names.iter().skip(1).map(named).collect(),
+        Wanted::Cases => {
+            let own = &setup.scenario.generate.score;
+            Score::by_hand().filter(|name| *name != own).map(|name| named(&name)).collect()
+        }
     }
-    let names = ["high-velocity", "high-velocity-90", "high-velocity-180"];
-    let others = names.into_iter().filter(|name| *name != setup.scenario.generate.score);
-    others.map(|name| named(setup, name, graph, top_speed)).collect()
 }
 
 fn named<'a>(setup: &FlightSetup<'a>, name: &str, graph: u64, top_speed: f64) -> AnyScore<'a> {

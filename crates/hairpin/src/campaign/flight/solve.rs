@@ -6,7 +6,7 @@ use super::certificates::Certifier;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
 use super::{FlightSetup, graph, surround};
-use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Round, Surroundings};
+use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Surroundings, Wanted};
 use crate::campaign::scenario::ReachName;
 use crate::feasibility::certify::Certificate;
 
@@ -47,7 +47,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Searches graph number `graph`; `executions` are for searches in the loop, `round` for adaptive campaigns.
-    pub(in crate::campaign) fn solve(&self, graph: u64, executions: Executions, round: Option<&Round>) -> Outcome {
+    pub(in crate::campaign) fn solve(&self, graph: u64, executions: Executions, wanted: Wanted) -> Outcome {
         let points = match graph::sample(&self.setup, graph) {
             Ok(points) => points,
             Err(error) => return Outcome { graphs: 1, reason: Some(error.to_string()), ..Outcome::default() },
@@ -64,7 +64,7 @@ impl<'a> Solver<'a> {
             put: &put,
             obstacles: asked.obstacles.is_some(),
         });
-        let looped = Looped { executions, surroundings, moved: &|plan, points| self.moved(plan, points), round };
+        let looped = Looped { executions, surroundings, moved: &|plan, points| self.moved(plan, points), wanted };
         let mut outcome = match &self.set {
             Set::Stepwise(set) => set.solve(graph, &points, looped),
             Set::Witness(set) => set.solve(graph, &points, looped),

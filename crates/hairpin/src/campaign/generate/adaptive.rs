@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::{GRAPHS_PER_CASE, Known, RoundTally, Solver, Tally};
 use crate::campaign::curve::Curve;
-use crate::campaign::graph::{Outcome, Plan, Round, fingerprint};
+use crate::campaign::graph::{Outcome, Plan, Round, Wanted, fingerprint};
 use crate::campaign::learn::{LegSample, ScoreModel, learn};
 use crate::campaign::scenario::SearchSection;
 use crate::campaign::{Case, Setup, Stop, in_loop};
@@ -147,7 +147,7 @@ impl Campaign<'_> {
             let (first, last) = (self.tally.units, units.min(self.tally.units + batch));
             let outcomes: Vec<Outcome> = (first..last)
                 .into_par_iter()
-                .map(|graph| self.solver.solve(self.setup, graph, Some(&round), self.stop))
+                .map(|graph| self.solver.solve(self.setup, graph, Wanted::Round(&round), self.stop))
                 .collect();
             for (outcome, number) in outcomes.into_iter().zip(first..) {
                 if self.graphs.len() == wanted {
@@ -188,7 +188,8 @@ impl Campaign<'_> {
                 let whole = of(share, place);
                 let draws = of(draws, place).min(whole);
                 let round = Round { number, optima: whole - draws, draws, models: &models, known: &graph.known };
-                self.goes_on(number).then(|| self.solver.solve(self.setup, graph.number, Some(&round), self.stop))
+                self.goes_on(number)
+                    .then(|| self.solver.solve(self.setup, graph.number, Wanted::Round(&round), self.stop))
             })
             .collect();
         let mut todo = Vec::new();

@@ -5,6 +5,7 @@
 //! and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
 
 mod adaptive;
+mod optima;
 mod tally;
 
 use std::collections::HashSet;
@@ -12,13 +13,14 @@ use std::collections::HashSet;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::graph::{Executions, Outcome, Partials, Plan, Round, fingerprint};
+use super::graph::{Executions, Outcome, Partials, Plan, Wanted, fingerprint};
 use super::scenario::{EXECUTED, SearchMethod};
 use super::setup::Kind;
 use super::{Case, Scenario, Setup, Stop, arm, drive, flight, in_loop, vary};
 use crate::math::random::case_seed;
 use crate::simulation::Airborne;
 use crate::trajectory::program::{Motion, Program};
+pub use optima::{Optimum, optima};
 pub use tally::{RoundTally, Tally};
 
 /// Graphs sampled per case asked for, where the scenario sets no limit.
@@ -85,8 +87,9 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
         let outcomes: Vec<Option<Outcome>> = (first..last)
             .into_par_iter()
             .map(|unit| {
-                (!(stop.cancelled)())
-                    .then(|| if varied { drawn_case(setup, unit, stop) } else { solver.solve(setup, unit, None, stop) })
+                (!(stop.cancelled)()).then(|| {
+                    if varied { drawn_case(setup, unit, stop) } else { solver.solve(setup, unit, Wanted::Cases, stop) }
+                })
             })
             .collect();
         for outcome in outcomes {
@@ -122,7 +125,7 @@ fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
     };
     let mut total = Outcome::default();
     for attempt in 0..GRAPHS_PER_CASE {
-        let outcome = solver.solve(drawn, case * GRAPHS_PER_CASE + attempt, None, stop);
+        let outcome = solver.solve(drawn, case * GRAPHS_PER_CASE + attempt, Wanted::Cases, stop);
         let done = !outcome.plans.is_empty();
         total.add(outcome);
         if done {
@@ -150,9 +153,8 @@ impl<'a> Solver<'a> {
         })
     }
 
-    /// Searches graph number `graph` of `setup`, which this was made for, for the `round` of an adaptive campaign or as the scenario asks;
-    /// `stop` ends what has no bound in counts.
-    fn solve(&self, setup: &Setup, graph: u64, round: Option<&Round>, stop: &Stop) -> Outcome {
+    /// Searches graph number `graph` of `setup`, which this was made for, for what is `wanted`; `stop` ends what has no bound in counts.
+    fn solve(&self, setup: &Setup, graph: u64, wanted: Wanted, stop: &Stop) -> Outcome {
         let goes_on = || (!(stop.cancelled)()).then_some(());
         let execute = |plan: &Plan, least| goes_on().and_then(|()| in_loop::execute(setup, graph, plan, least));
         let duration = |plan: &Plan| goes_on().and_then(|()| in_loop::duration(setup, graph, plan));
@@ -164,8 +166,8 @@ impl<'a> Solver<'a> {
         let partial = executed.then(|| Partials { execute: &part, resumes: in_loop::resumes(setup) });
         let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish, partial };
         match self {
-            Self::Flight(solver) => solver.solve(graph, executions, round),
-            Self::Drive(solver) => solver.solve(graph, executions, round),
+            Self::Flight(solver) => solver.solve(graph, executions, wanted),
+            Self::Drive(solver) => solver.solve(graph, executions, wanted),
             Self::Arm(solver) => solver.solve(stop),
         }
     }

@@ -5,12 +5,13 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
+use super::optima::optima;
 use super::outcome::Plan;
 use super::search::{Answer, Executions, Looped, Question};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::in_loop::{EvolveSettings, ShiftSettings, Tested, Trial, climb, evolve, shift};
-use crate::search::{Aggregate, ExactSettings, Found, LegGraph, Objective, UniformSettings, exact, uniform};
+use crate::search::{Aggregate, Found, LegGraph, Objective, UniformSettings, uniform};
 
 /// One in so many executions is of a uniform draw.
 const DRAWN: u64 = 10;
@@ -135,19 +136,7 @@ fn first<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     graph: &LegGraph<'_, N>,
 ) -> Vec<Found<N>> {
     let search = question.search;
-    let mut first = Vec::new();
-    for score in std::iter::once(&question.score).chain(&question.also) {
-        for aggregate in [Aggregate::Max, Aggregate::Sum] {
-            let settings = ExactSettings {
-                length: question.length,
-                best: 1,
-                revisits: search.revisits,
-                aggregate,
-                ..ExactSettings::default()
-            };
-            first.extend(exact(graph, score, &settings).found);
-        }
-    }
+    let mut first: Vec<Found<N>> = optima(question, graph).flat_map(|outcome| outcome.found).collect();
     let drawn = UniformSettings {
         length: question.length,
         wanted: search.executions.div_ceil(DRAWN) as usize,

@@ -5,6 +5,7 @@ use std::hash::Hash;
 use nalgebra::Point3;
 
 use super::in_loop::by_trials;
+use super::optima::by_optima;
 use super::outcome::Plan;
 use super::partial::{Partials, by_partials};
 use super::rounds::{Round, by_round};
@@ -74,14 +75,27 @@ pub(in crate::campaign) struct Looped<'a> {
     pub(in crate::campaign) surroundings: Option<Surroundings<'a>>,
     /// A plan with other waypoints, as many; `None` where they are not feasible.
     pub(in crate::campaign) moved: Move<'a>,
-    /// The round of an adaptive campaign.
-    pub(in crate::campaign) round: Option<&'a Round<'a>>,
+    pub(in crate::campaign) wanted: Wanted<'a>,
+}
+
+/// What is wanted of a graph.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::campaign) enum Wanted<'a> {
+    /// What the scenario's method finds.
+    Cases,
+    /// What the round of an adaptive campaign is to execute.
+    Round(&'a Round<'a>),
+    /// The optimum of each score with one of these names, or of the scenario's own if there are none, under both aggregates.
+    Optima(&'a [&'a str]),
 }
 
 impl<'a> Looped<'a> {
     /// The models that a round searches under.
     pub(in crate::campaign) fn models(&self) -> &'a [ScoreModel] {
-        self.round.map_or(&[], |round| round.models)
+        match self.wanted {
+            Wanted::Round(round) => round.models,
+            _ => &[],
+        }
     }
 }
 
@@ -111,6 +125,17 @@ pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Obj
     question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
 ) -> Answer {
+    match question.looped.wanted {
+        Wanted::Cases => by_method(question, may_arrive),
+        Wanted::Round(round) => by_round(question, round),
+        Wanted::Optima(_) => by_optima(question),
+    }
+}
+
+fn by_method<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+    question: &Question<N, R, O>,
+    may_arrive: impl Fn(&N, usize) -> bool,
+) -> Answer {
     match question.search.method {
         SearchMethod::Beam => match question.looped.executions.partial {
             Some(partials) => by_partials(question, &partials, may_arrive),
@@ -119,11 +144,8 @@ pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Obj
         SearchMethod::Exact => by_dynamic_program(question),
         SearchMethod::Uniform => by_uniform_draws(question),
         SearchMethod::InLoop => by_trials(question),
-        SearchMethod::Adaptive => match question.looped.round {
-            Some(round) => by_round(question, round),
-            // Whoever only asks what is feasible.
-            None => by_uniform_draws(question),
-        },
+        // Its rounds are wanted one by one; here is whoever only asks what is feasible.
+        SearchMethod::Adaptive => by_uniform_draws(question),
     }
 }
 
@@ -151,7 +173,7 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>> Question
     }
 
     /// The answer with the plans of `found`, the best first, and a proven upper bound of the score.
-    fn answer(&self, found: Vec<Found<N>>, bound: Option<f64>) -> Answer {
+    pub(super) fn answer(&self, found: Vec<Found<N>>, bound: Option<f64>) -> Answer {
         let count = found.len();
         let plans: Vec<Plan> = found.into_iter().filter_map(|found| self.planned(found)).collect();
         let refused = count - plans.len();

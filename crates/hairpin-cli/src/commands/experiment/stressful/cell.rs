@@ -2,7 +2,7 @@
 
 use hairpin::campaign::experiment::lift::Flown;
 use hairpin::campaign::learn::{KeptModel, ScoreModel};
-use hairpin::campaign::{self, Case, Known, Scenario, Setup, Stop};
+use hairpin::campaign::{self, Case, Known, Optimum, Scenario, Setup, Stop};
 use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
 use hairpin_formats::scenario::scenario_for;
@@ -58,6 +58,13 @@ pub(super) fn cases(setup: &Setup) -> Result<Vec<Case>, Problem> {
     let _ = campaign::generate(setup, &Known::default(), &stop(), &mut |new, _| cases.extend_from_slice(new));
     super::super::go_on()?;
     Ok(cases)
+}
+
+/// The optima of the scores by hand called `names`, or of the one that `setup` has, in its graphs.
+pub(super) fn optima(setup: &Setup, names: &[&str]) -> Result<Vec<Optimum>, Problem> {
+    let optima = campaign::optima(setup, names, &stop()).map_err(Problem::input)?;
+    super::super::go_on()?;
+    Ok(optima)
 }
 
 /// The setup that judges: the flights of `base` with noise, `runs` each.

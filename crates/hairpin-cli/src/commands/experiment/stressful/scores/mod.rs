@@ -12,8 +12,9 @@ mod ways;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use hairpin::campaign::Case;
 use hairpin::campaign::experiment::lift::{Flown, lift};
+use hairpin::campaign::learn::ScoreModel;
+use hairpin::campaign::{Case, Optimum};
 use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
 use hairpin_formats::experiment::Sheet;
@@ -22,9 +23,10 @@ use hairpin_formats::figure::{Cell, Table};
 use super::super::{Outcome, go_on};
 use super::cell::{self, FLIGHT_GOGGLES, Set, text, with};
 use crate::problem::Problem;
+use kinds::Kind;
 use lifts::{Measured, figure, figure_name, summary};
 use size::{Printed, Size};
-use ways::{Way, base, sampling, ways};
+use ways::{Finds, Way, base, by_hand, sampling, ways};
 
 /// The worst of many uniform trajectories, each executed once without noise.
 fn ceiling(size: &Size, base: &[Set]) -> Result<Option<f64>, Problem> {
@@ -39,6 +41,11 @@ fn ceiling(size: &Size, base: &[Set]) -> Result<Option<f64>, Problem> {
     let setup = cell::setup(FLIGHT_GOGGLES, &with(base, &sets), None)?;
     let [flown] = cell::flown(&setup, &cell::cases(&setup)?, [Stress::MaxDeviation])?;
     Ok(flown.stresses.into_iter().reduce(f64::max))
+}
+
+/// The optima of the scores by hand called `names`, or of `model`, in the graphs of `base`.
+fn optima(base: &[Set], size: &Size, names: &[&str], model: Option<&ScoreModel>) -> Result<Vec<Optimum>, Problem> {
+    cell::optima(&cell::setup(FLIGHT_GOGGLES, &with(base, &[sampling(size)]), model)?, names)
 }
 
 /// Per controller, the largest deviation with each score relative to no score, beside the paper's.
@@ -70,16 +77,21 @@ pub(in super::super) fn scores(sheet: &Sheet) -> Result<Outcome, Problem> {
         "held_out_error_m",
         "held_out_rank",
     ]);
+    let ways = ways(&size);
     let mut measured = Vec::new();
     for reach in &size.reach {
         let mut controllers = Vec::new();
         // Cases by way, of the ways that find the same for every controller.
-        let mut shared: HashMap<String, Vec<Case>> = HashMap::new();
+        let mut shared: HashMap<&str, Vec<Case>> = HashMap::new();
+        let by_hand = match size.controllers.first().filter(|_| size.kinds.contains(&Kind::ByHand)) {
+            Some(any) => optima(&base(&size, reach, any), &size, &by_hand(), None)?,
+            None => Vec::new(),
+        };
         for controller in &size.controllers {
             go_on()?;
             let base = base(&size, reach, controller);
             let judge = cell::with_noise(FLIGHT_GOGGLES, &base, size.runs)?;
-            let model = match ways(&size).iter().any(|way| way.learned) {
+            let model = match ways.iter().any(|way| way.learned) {
                 true => {
                     let base = with(&base, &[sampling(&size)]);
                     Some(cell::learned(FLIGHT_GOGGLES, &base, size.training, size.seed)?)
@@ -99,21 +111,31 @@ pub(in super::super) fn scores(sheet: &Sheet) -> Result<Outcome, Problem> {
                     model.held_out.rank_correlation.into(),
                 ]);
             }
+            let learned = match size.kinds.contains(&Kind::Learned) {
+                true => optima(&base, &size, &[], model.as_ref())?,
+                false => Vec::new(),
+            };
             let ceiling = ceiling(&size, &base)?;
-            let mut flown: Vec<(Way, Flown)> = Vec::new();
-            for way in ways(&size) {
+            let mut flown: Vec<(&Way, Flown)> = Vec::new();
+            for way in &ways {
                 go_on()?;
-                let generated = || {
-                    let model = model.as_ref().filter(|_| way.learned);
-                    cell::cases(&cell::setup(FLIGHT_GOGGLES, &with(&base, &way.sets), model)?)
-                };
-                let cases = match shared.get(&way.name) {
-                    Some(cases) => Cow::Borrowed(cases),
-                    None => Cow::Owned(generated()?),
+                let cases = match &way.finds {
+                    Finds::Optimum { score, aggregate } => {
+                        let optima = if way.learned { &learned } else { &by_hand };
+                        let own = |found: &&Optimum| found.score == *score && found.aggregate == *aggregate;
+                        Cow::Borrowed(optima.iter().find(own).map_or(&[][..], |found| &found.cases))
+                    }
+                    Finds::Keys(sets) => match shared.get(&*way.name) {
+                        Some(cases) => Cow::Borrowed(&**cases),
+                        None => {
+                            let model = model.as_ref().filter(|_| way.learned);
+                            Cow::Owned(cell::cases(&cell::setup(FLIGHT_GOGGLES, &with(&base, sets), model)?)?)
+                        }
+                    },
                 };
                 let [came_to] = cell::flown(&judge, &cases, [Stress::MaxDeviation])?;
                 if let (Cow::Owned(cases), false) = (cases, way.kind.knows_controller()) {
-                    shared.insert(way.name.clone(), cases);
+                    shared.insert(&way.name, cases);
                 }
                 flown.push((way, came_to));
             }
@@ -152,8 +174,11 @@ pub(in super::super) fn scores(sheet: &Sheet) -> Result<Outcome, Problem> {
              feasible trajectories, with 95 % bootstrap intervals; scores are learned from {} executions in other graphs.",
             size.from, size.length, size.graphs, size.runs, size.training
         ),
-        "No waypoint is used twice, on either side; minimum snap has times by the square root of the leg's length."
-            .into(),
+        format!(
+            "A graph has {} waypoints, {} where it is searched and uniform under the baselines; none is used twice, on either side. Minimum \
+             snap has times by the square root of the leg's length.",
+            size.waypoints, size.sampling
+        ),
     ];
     Ok(Outcome { tables: vec![("summary", summary), ("lifts", rows), ("models", quality)], figures, notes })
 }

@@ -1,17 +1,30 @@
 //! The ways to generate that are compared.
 
-use hairpin::search::Score;
+use hairpin::search::{Aggregate, Score};
 
 use super::super::cell::{self, Set, text};
 use super::kinds::Kind;
 use super::size::Size;
 
-/// A way to generate: its name, the kind that it counts among, and its keys.
+/// A way to generate: its name, the kind that it counts among, and what finds its cases.
 pub(super) struct Way {
     pub(super) name: String,
     pub(super) kind: Kind,
-    pub(super) sets: Vec<Set>,
+    pub(super) finds: Finds,
     pub(super) learned: bool,
+}
+
+/// What finds the cases of a way.
+pub(super) enum Finds {
+    /// The scenario with these keys.
+    Keys(Vec<Set>),
+    /// The optimum in every graph of one of the scores by hand, by its place among them, or of the learned one.
+    Optimum { score: usize, aggregate: Aggregate },
+}
+
+/// The names of the scores by hand.
+pub(super) fn by_hand() -> Vec<&'static str> {
+    Score::by_hand().collect()
 }
 
 /// The ways of `size`, the two baselines first.
@@ -22,20 +35,21 @@ pub(super) fn ways(size: &Size) -> Vec<Way> {
         if kind != Kind::Baseline {
             all.push(sampling(size));
         }
-        let learned = matches!(kind, Kind::Learned | Kind::InLoopLearned | Kind::MovedLearned);
-        Way { name: name.to_owned(), kind, sets: all, learned }
+        let learned = matches!(kind, Kind::InLoopLearned | Kind::MovedLearned);
+        Way { name: name.to_owned(), kind, finds: Finds::Keys(all), learned }
     };
     let mut ways = vec![
         way("uniform", Kind::Baseline, "uniform", &[]),
         way("random beam", Kind::Baseline, "beam", &[("generate.score", text("random"))]),
     ];
-    for aggregate in ["sum", "max"] {
-        let aggregate_set = ("generate.search.aggregate", text(aggregate));
-        for score in Score::NAMES.into_iter().filter(|name| *name != "random") {
-            let sets = [("generate.score", text(score)), aggregate_set.clone()];
-            ways.push(way(&format!("{score}, {aggregate}"), Kind::ByHand, "exact", &sets));
-        }
-        ways.push(way(&format!("learned, {aggregate}"), Kind::Learned, "exact", &[aggregate_set]));
+    for (word, aggregate) in [("sum", Aggregate::Sum), ("max", Aggregate::Max)] {
+        let optimum = |name: &str, kind, score| {
+            let finds = Finds::Optimum { score, aggregate };
+            Way { name: format!("{name}, {word}"), kind, finds, learned: kind == Kind::Learned }
+        };
+        let by_hand = by_hand().into_iter().enumerate();
+        ways.extend(by_hand.map(|(score, name)| optimum(name, Kind::ByHand, score)));
+        ways.push(optimum("learned", Kind::Learned, 0));
     }
     let in_loop = |name: &str, executions: u64, kinds: [Kind; 2], sets: &[Set]| {
         let mut all = vec![("generate.search.executions", executions.to_string())];

@@ -1,0 +1,50 @@
+//! The optimum of every score over one graph, which is built once for all of them.
+
+use std::hash::Hash;
+
+use super::search::{Answer, Question};
+use crate::feasibility::reach::Reach;
+use crate::search::{Aggregate, ExactOutcome, ExactSettings, LegGraph, Objective, exact};
+
+/// How legs add up, in the order of the optima of one score.
+pub(in crate::campaign) const AGGREGATES: [Aggregate; 2] = [Aggregate::Max, Aggregate::Sum];
+
+/// Of every score of the question, its own first, the optimum under each of [`AGGREGATES`].
+pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+    question: &'q Question<N, R, O>,
+    graph: &'q LegGraph<'_, N>,
+) -> impl Iterator<Item = ExactOutcome<N>> {
+    let scores = std::iter::once(&question.score).chain(&question.also);
+    scores.flat_map(move |score| {
+        AGGREGATES.map(|aggregate| {
+            let settings = ExactSettings {
+                length: question.length,
+                best: 1,
+                revisits: question.search.revisits,
+                aggregate,
+                ..ExactSettings::default()
+            };
+            exact(graph, score, &settings)
+        })
+    })
+}
+
+/// The plans of [`optima`] in their order; none at all where one is missing, so that no score has graphs that another has not.
+pub(super) fn by_optima<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+    question: &Question<N, R, O>,
+) -> Answer {
+    let graph = question.leg_graph();
+    let mut all = Answer::default();
+    for outcome in optima(question, &graph) {
+        let proven_empty = outcome.found.is_empty() && outcome.bound.is_none();
+        let Answer { mut plans, refused, .. } = question.answer(outcome.found, outcome.bound);
+        all.expansions += outcome.expansions;
+        let Some(plan) = plans.pop() else {
+            let reason =
+                Some(format!("a score has no optimum among the {} feasible legs of the last graph", graph.legs()));
+            return Answer { plans, refused, proven_empty, reason, ..all };
+        };
+        all.plans.push(plan);
+    }
+    all
+}
