@@ -4,7 +4,7 @@ use std::hash::Hash;
 
 use super::search::{Answer, Question};
 use crate::feasibility::reach::Reach;
-use crate::search::{Aggregate, ExactOutcome, ExactSettings, LegGraph, Objective, exact};
+use crate::search::{Aggregate, ExactOutcome, ExactSearch, ExactSettings, LegGraph, Objective};
 
 /// How legs add up, in the order of the optima of one score.
 pub(in crate::campaign) const AGGREGATES: [Aggregate; 2] = [Aggregate::Max, Aggregate::Sum];
@@ -14,19 +14,15 @@ pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Me
     question: &'q Question<N, R, O>,
     graph: &'q LegGraph<'_, N>,
 ) -> impl Iterator<Item = ExactOutcome<N>> {
+    let settings = ExactSettings {
+        length: question.length,
+        best: 1,
+        revisits: question.search.revisits,
+        ..ExactSettings::default()
+    };
+    let search = ExactSearch::new(graph, settings);
     let scores = std::iter::once(&question.score).chain(&question.also);
-    scores.flat_map(move |score| {
-        AGGREGATES.map(|aggregate| {
-            let settings = ExactSettings {
-                length: question.length,
-                best: 1,
-                revisits: question.search.revisits,
-                aggregate,
-                ..ExactSettings::default()
-            };
-            exact(graph, score, &settings)
-        })
-    })
+    scores.flat_map(move |score| search.best(score, AGGREGATES))
 }
 
 /// The plans of [`optima`] in their order; none at all where one is missing, so that no score has graphs that another has not.

@@ -12,6 +12,7 @@ mod tests;
 use std::borrow::Cow;
 use std::collections::HashSet;
 
+use self::best_first::BestFirst;
 use super::graph::{Count, LegGraph};
 use super::objective::{Aggregate, Objective};
 use super::task::Found;
@@ -68,26 +69,65 @@ where
     N: Copy,
     O: Objective<Memory = ()>,
 {
-    let graph = if settings.revisits { Cow::Borrowed(graph) } else { graph.without_returns(settings.length) };
-    let graph = &*graph;
-    let walks = match settings.length {
-        0 | 1 => Count::Exact(0),
-        length => graph.counts_by_length(length)[length],
-    };
-    if walks.is_zero() {
-        return ExactOutcome { found: Vec::new(), proven: 0, bound: None, walks, expansions: 0 };
+    let [outcome] = ExactSearch::new(graph, settings.clone()).best(objective, [settings.aggregate]);
+    outcome
+}
+
+/// Searches of one graph for several scores: what they share is done once.
+#[derive(Debug)]
+pub struct ExactSearch<'g, 'a, N: Copy> {
+    graph: Cow<'g, LegGraph<'a, N>>,
+    settings: ExactSettings,
+    walks: Count,
+    near_start: Vec<Vec<u32>>,
+}
+
+impl<'g, 'a, N: Copy> ExactSearch<'g, 'a, N> {
+    /// Prepares searches of `graph`, of whose `settings` those count that are not about scores.
+    pub fn new(graph: &'g LegGraph<'a, N>, settings: ExactSettings) -> Self {
+        let graph = if settings.revisits { Cow::Borrowed(graph) } else { graph.without_returns(settings.length) };
+        let walks = match settings.length {
+            0 | 1 => Count::Exact(0),
+            length => graph.counts_by_length(length)[length],
+        };
+        let near_start = graph.near_start(settings.length);
+        Self { graph, settings, walks, near_start }
     }
-    let scores = graph.scores(objective);
-    let values = graph.values(settings.length, &scores, settings.aggregate);
-    let mut search = best_first::best_first(graph, &scores, &values, settings);
-    let proven = search.found.len();
-    if search.open_bound.is_some() && proven < settings.best.max(1) {
-        let (more, expansions) = descent::descent(graph, &scores, &values, settings);
-        search.expansions += expansions;
-        let known: HashSet<Vec<u32>> = search.found.iter().map(|found| found.waypoints.clone()).collect();
-        let new = more.into_iter().filter(|found| !known.contains(&found.waypoints));
-        search.found.extend(new.take(settings.best.max(1) - proven));
+
+    /// The best trajectories under `objective`, by each of `aggregates`.
+    pub fn best<O: Objective<Memory = ()>, const K: usize>(
+        &self,
+        objective: &O,
+        aggregates: [Aggregate; K],
+    ) -> [ExactOutcome<N>; K] {
+        let walks = self.walks;
+        if walks.is_zero() {
+            return aggregates.map(|_| ExactOutcome {
+                found: Vec::new(),
+                proven: 0,
+                bound: None,
+                walks,
+                expansions: 0,
+            });
+        }
+        let scores = self.graph.scores(objective);
+        aggregates.map(|aggregate| self.by(&scores, ExactSettings { aggregate, ..self.settings.clone() }))
     }
-    let bound = if proven > 0 { search.found.first().map(|found| found.score) } else { search.open_bound };
-    ExactOutcome { found: search.found, proven, bound, walks, expansions: search.expansions }
+
+    fn by(&self, scores: &[f64], settings: ExactSettings) -> ExactOutcome<N> {
+        let (graph, settings) = (&*self.graph, &settings);
+        let values = graph.values(settings.length, scores, settings.aggregate, &self.near_start);
+        let mut search = best_first::best_first(graph, scores, &values, settings);
+        let proven = search.found.len();
+        if search.open_bound.is_some() && proven < settings.best.max(1) {
+            let (more, expansions) = descent::descent(graph, scores, &values, settings);
+            search.expansions += expansions;
+            let known: HashSet<Vec<u32>> = search.found.iter().map(|found| found.waypoints.clone()).collect();
+            let new = more.into_iter().filter(|found| !known.contains(&found.waypoints));
+            search.found.extend(new.take(settings.best.max(1) - proven));
+        }
+        let bound = if proven > 0 { search.found.first().map(|found| found.score) } else { search.open_bound };
+        let BestFirst { found, expansions, .. } = search;
+        ExactOutcome { found, proven, bound, walks: self.walks, expansions }
+    }
 }

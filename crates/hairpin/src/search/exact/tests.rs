@@ -4,6 +4,9 @@ use super::super::objective::{LegView, Score};
 use super::super::small::{Octahedron, START, enumerate, points};
 use super::super::task::Task;
 use super::*;
+use crate::feasibility::reach::{Leg, LegFeatures};
+use crate::math::random::hashed_unit;
+use nalgebra::Point3;
 
 const SMALL: Octahedron = Octahedron::WIDE;
 
@@ -101,4 +104,39 @@ fn worthless_legs_make_trajectories_too() {
         }
     }
     assert!(tested > 10, "{tested}");
+}
+
+#[test]
+fn a_narrow_beginning_is_no_different() {
+    // From the start to 1, between 1 and 2 as often as one likes, then through a thicket to the end: forwards, by another program.
+    const END: u32 = 23;
+    let points: Vec<Point3<f64>> = (0..=END).map(|i| Point3::new(f64::from(i), 0.0, 0.0)).collect();
+    let thicket = 3..=END;
+    let mut pairs = vec![(0, 1), (1, 2), (2, 1)];
+    pairs.extend(thicket.clone().map(|to| (2, to)));
+    pairs.extend(thicket.flat_map(|from| (3..=END).filter(move |to| *to != from).map(move |to| (from, to))));
+    let features = LegFeatures::default();
+    let legs: Vec<(u32, Leg<u32>)> =
+        pairs.iter().map(|&(from, to)| (from, Leg { to, waypoint: to, duration: 1.0, features })).collect();
+    for length in 4..12 {
+        let graph = LegGraph::from_legs(0, &points, &legs, length);
+        for (seed, aggregate) in (0..20).flat_map(|seed| [(seed, Aggregate::Sum), (seed, Aggregate::Max)]) {
+            let mut best = vec![None; points.len()];
+            best[0] = Some(aggregate.neutral());
+            for _ in 1..length {
+                let mut next = vec![None; points.len()];
+                for &(from, to) in &pairs {
+                    let Some(so_far) = best[from as usize] else { continue };
+                    let value = aggregate.add(so_far, hashed_unit(seed, &[from.into(), to.into()]));
+                    let here = &mut next[to as usize];
+                    *here = Some(here.map_or(value, |old: f64| old.max(value)));
+                }
+                best = next;
+            }
+            let settings = ExactSettings { length, aggregate, revisits: true, ..Default::default() };
+            let outcome = exact(&graph, &Score::Random { seed }, &settings);
+            let expected = best[END as usize].expect("a way");
+            assert!(outcome.proven == 1 && close(outcome.found[0].score, expected), "{length} {seed} {aggregate:?}");
+        }
+    }
 }

@@ -16,7 +16,7 @@ use super::task::Found;
 use crate::feasibility::reach::LegFeatures;
 pub(super) use count::Layer;
 pub use count::{Count, Counts};
-pub use value::Values;
+pub(super) use value::Values;
 
 /// Nodes and legs in compressed rows; node 0 is the start's. Only what a walk from the start can meet is in it.
 #[derive(Debug, Clone)]
