@@ -84,9 +84,15 @@ pub enum Score {
         /// Speed that scores 1, m/s.
         v_max: f64,
     },
-    /// n(v_out)² · (1 − |α − 180°|/180°) + n(v_in)² · v_out/v_max · |sin ε_out| · (1 − |α − 90°|/90°), n(u) = min(u/v, v/u), v = v_max/16:
-    /// back by a leg so short that the acceptance radius lets both its ends pass at once, and from there a long climb or dive across it.
-    /// Two legs make one such place, so it is for sums.
+    /// (v_out/v_max)² + 1 − |α − 90°|/90°: a few legs as long as they can be, for what many long ones would add, and right angles all along.
+    HighEnergyTurn {
+        /// Speed that scores 1, m/s.
+        v_max: f64,
+    },
+    /// (n(v_out)² · min(v_in/(0.3 v_max), 1) · (1 − |α − 180°|/180°))⁴ + (1.4 n(v_in)² · v_out/v_max · |sin ε_out| · (1 − |α − 90°|/90°))⁴,
+    /// n(u) = min(u/v, v/u), v = v_max/16: fast into a leg back that is so short that the acceptance radius lets both its ends pass at once, and
+    /// from there a long climb or dive across it. Two legs make one such place, so it is for sums; of fourth powers, since one place with both
+    /// legs right strays farther than several with both half right.
     CutCorner {
         /// Speed that scores 1, m/s.
         v_max: f64,
@@ -105,6 +111,10 @@ pub enum Score {
 const SHORT: f64 = 0.05;
 /// Speed of the short leg that `cut-corner` looks for, over the top speed: 1.75 m in a step of 1 s at 28 m/s, beside an acceptance radius of 1 m.
 const CUT: f64 = 1.0 / 16.0;
+/// Speed over the top speed from which a way into the short leg is fast enough.
+const FAST: f64 = 0.3;
+/// Makes the way out of the short leg count about as much as the way in: a climb or dive of 45° at the top speed scores 1.
+const OUT: f64 = 1.4;
 
 /// Why there is no such score.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -125,13 +135,14 @@ pub enum ScoreMistake {
 
 impl Score {
     /// All names.
-    pub const NAMES: [&'static str; 10] = [
+    pub const NAMES: [&'static str; 11] = [
         "random",
         "high-velocity",
         "high-velocity-90",
         "high-velocity-180",
         "high-velocity-90-product",
         "high-velocity-180-product",
+        "high-energy-90",
         "fast-corner",
         "short-leg",
         "cut-corner",
@@ -152,6 +163,7 @@ impl Score {
             "high-velocity-180" => Score::HighVelocityTurn { v_max, turn: PI, product: false },
             "high-velocity-90-product" => Score::HighVelocityTurn { v_max, turn: FRAC_PI_2, product: true },
             "high-velocity-180-product" => Score::HighVelocityTurn { v_max, turn: PI, product: true },
+            "high-energy-90" => Score::HighEnergyTurn { v_max },
             "fast-corner" => Score::FastCorner { v_max },
             "short-leg" => Score::ShortLeg { v_max },
             "cut-corner" => Score::CutCorner { v_max },
@@ -181,6 +193,7 @@ impl Objective for Score {
                 let (fast, sharp) = (v_out / v_max, sharp(turn));
                 if product { fast * sharp } else { fast + sharp }
             }
+            Score::HighEnergyTurn { v_max } => (v_out / v_max).powi(2) + sharp(FRAC_PI_2),
             Score::FastCorner { v_max } => v_in / v_max * (v_out / v_max) * sharp(FRAC_PI_2),
             Score::ShortLeg { v_max } => v_out / (v_in + SHORT * v_max) * sharp(FRAC_PI_2),
             Score::CutCorner { v_max } => {
@@ -189,7 +202,9 @@ impl Objective for Score {
                     let share = share.min(1.0 / share);
                     share * share
                 };
-                near(v_out) * sharp(PI) + near(v_in) * (v_out / v_max) * slope().abs() * sharp(FRAC_PI_2)
+                let back = near(v_out) * (v_in / (FAST * v_max)).min(1.0) * sharp(PI);
+                let across = OUT * near(v_in) * (v_out / v_max) * slope().abs() * sharp(FRAC_PI_2);
+                back.powi(4) + across.powi(4)
             }
             Score::Crest { v_max } => {
                 let slope = slope();
@@ -277,6 +292,8 @@ mod tests {
     fn our_own_formulas() {
         // v_max = 20, v_in = 5, v_out = length = 10.
         for (name, turn, expected) in [
+            ("high-energy-90", 90.0, 1.25),
+            ("high-energy-90", 135.0, 0.75),
             ("fast-corner", 90.0, 0.125),
             ("fast-corner", 135.0, 0.0625),
             ("fast-corner", 180.0, 0.0),
@@ -291,11 +308,13 @@ mod tests {
         let expected = 0.5 * 0.75f64.sqrt() * 2.0 / 3.0;
         assert!((score("crest", over) - expected).abs() < 1e-12, "{}", score("crest", over));
         assert_eq!(score("crest", LegFeatures { climb: 10.0, ..over }), 0.0, "nothing across");
-        // 1.25 m/s is what it looks for: into the short leg by a half turn, out of one of twice that speed by a climb of 30°.
+        // 1.25 m/s is what it looks for, and 6 m/s are fast: into the short leg by a half turn, out of one of twice that speed by a climb of 30°.
         let short = LegFeatures { v_out: 1.25, length: 1.25, ..leg(1.25, 180.0) };
-        assert!((score("cut-corner", short) - 1.0).abs() < 1e-12, "{}", score("cut-corner", short));
+        let expected = (5.0f64 / 6.0).powi(4);
+        assert!((score("cut-corner", short) - expected).abs() < 1e-12, "{}", score("cut-corner", short));
+        assert!((score("cut-corner", LegFeatures { v_in: 7.0, ..short }) - 1.0).abs() < 1e-12, "no faster than fast");
         let out = LegFeatures { v_in: 2.5, climb: 5.0, ..leg(10.0, 90.0) };
-        let expected = 0.125 * 0.125 * 0.5 + 0.25 * 0.5 * 0.5;
+        let expected = (0.125f64 * 0.125 * 2.5 / 6.0 * 0.5).powi(4) + (1.4f64 * 0.25 * 0.5 * 0.5).powi(4);
         assert!((score("cut-corner", out) - expected).abs() < 1e-12, "{}", score("cut-corner", out));
     }
 
