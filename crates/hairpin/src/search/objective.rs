@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::feasibility::reach::LegFeatures;
+use crate::math::power::{power, square};
 use crate::math::random::hashed_unit;
 
 /// A leg as a score sees it: the joint of waypoint `from` and waypoint `to`.
@@ -193,7 +194,7 @@ impl Objective for Score {
                 let (fast, sharp) = (v_out / v_max, sharp(turn));
                 if product { fast * sharp } else { fast + sharp }
             }
-            Score::HighEnergyTurn { v_max } => (v_out / v_max).powi(2) + sharp(FRAC_PI_2),
+            Score::HighEnergyTurn { v_max } => square(v_out / v_max) + sharp(FRAC_PI_2),
             Score::FastCorner { v_max } => v_in / v_max * (v_out / v_max) * sharp(FRAC_PI_2),
             Score::ShortLeg { v_max } => v_out / (v_in + SHORT * v_max) * sharp(FRAC_PI_2),
             Score::CutCorner { v_max } => {
@@ -204,7 +205,7 @@ impl Objective for Score {
                 };
                 let back = near(v_out) * (v_in / (FAST * v_max)).min(1.0) * sharp(PI);
                 let across = OUT * near(v_in) * (v_out / v_max) * slope().abs() * sharp(FRAC_PI_2);
-                back.powi(4) + across.powi(4)
+                power(back, 4) + power(across, 4)
             }
             Score::Crest { v_max } => {
                 let slope = slope();
