@@ -24,7 +24,7 @@ pub use ddmin::ddmin;
 pub use exact::{ExactOutcome, ExactSearch, ExactSettings, exact};
 pub use graph::{Count, LegGraph};
 pub use growth::{ByLegs, Growth, Parent};
-pub use objective::{Aggregate, LegView, Objective, Score, ScoreMistake};
+pub use objective::{Additive, Aggregate, LegView, Objective, Score, ScoreMistake};
 pub use open_end::{OpenEnd, OpenNode, OpenScore};
 pub use task::{Found, Task};
 pub use uniform::{UniformOutcome, UniformSettings, uniform};

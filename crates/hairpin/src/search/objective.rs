@@ -27,7 +27,7 @@ pub struct LegView<'a> {
 }
 
 /// A score, built up leg by leg. What it remembers of a partial trajectory travels with it, so that extending one
-/// never starts again from its first waypoint. `exact` takes objectives with `Memory = ()`.
+/// never starts again from its first waypoint. [`super::exact`] takes those that are [`Additive`].
 ///
 /// Any `Fn(&LegView) -> f64` is an objective without memory.
 pub trait Objective {
@@ -40,6 +40,38 @@ pub trait Objective {
     /// The score of `leg` alone, flown after what `memory` remembers, and the memory after it. Larger is more
     /// stressful; NaN counts as −∞.
     fn extend(&self, memory: &Self::Memory, leg: &LegView<'_>) -> (f64, Self::Memory);
+}
+
+/// A score of which the best can be proven: a leg's is its own part and what the leg before left to it.
+///
+/// ```text
+/// score of leg k = own(leg k) + left(leg k − 1),     left(leg 0) = 0
+/// ```
+pub trait Additive: Objective {
+    /// What the leg scores whatever was flown before it.
+    fn own(&self, leg: &LegView<'_>) -> f64;
+
+    /// What it adds to the score of the leg after it.
+    fn left(&self, leg: &LegView<'_>) -> f64 {
+        let _ = leg;
+        0.0
+    }
+
+    /// [`Self::own`] and [`Self::left`] of many legs.
+    fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+        legs.iter().map(|leg| [self.own(leg), self.left(leg)]).collect()
+    }
+
+    /// Whether the last leg is one to the sink of a task without an end: nothing is left to it.
+    fn has_sink(&self) -> bool {
+        false
+    }
+}
+
+impl<F: Fn(&LegView<'_>) -> f64> Additive for F {
+    fn own(&self, leg: &LegView<'_>) -> f64 {
+        self(leg)
+    }
 }
 
 impl<F: Fn(&LegView<'_>) -> f64> Objective for F {
@@ -200,8 +232,7 @@ impl Objective for Score {
             Score::CutCorner { v_max } => {
                 let near = |speed: f64| {
                     let share = speed / (CUT * v_max);
-                    let share = share.min(1.0 / share);
-                    share * share
+                    square(share.min(1.0 / share))
                 };
                 let back = near(v_out) * (v_in / (FAST * v_max)).min(1.0) * sharp(PI);
                 let across = OUT * near(v_in) * (v_out / v_max) * slope().abs() * sharp(FRAC_PI_2);
@@ -215,6 +246,12 @@ impl Objective for Score {
             Score::Ground => leg.features.ground,
         };
         (score, ())
+    }
+}
+
+impl Additive for Score {
+    fn own(&self, leg: &LegView<'_>) -> f64 {
+        self.extend(&(), leg).0
     }
 }
 

@@ -5,7 +5,7 @@
 
 use nalgebra::Point3;
 
-use super::objective::{Aggregate, LegView, Objective};
+use super::objective::{Additive, Aggregate, LegView, Objective};
 use super::task::{Found, Task};
 use crate::feasibility::reach::{Leg, LegFeatures, Reach};
 
@@ -119,8 +119,37 @@ impl<O: Objective> Objective for OpenScore<'_, O> {
         if leg.to == self.sink {
             return (self.aggregate.neutral(), memory.clone());
         }
-        let candidates = &leg.candidates[..self.sink as usize];
-        self.objective.extend(memory, &LegView { candidates, ..*leg })
+        self.objective.extend(memory, &self.inner(leg))
+    }
+}
+
+impl<O: Additive> Additive for OpenScore<'_, O> {
+    fn own(&self, leg: &LegView<'_>) -> f64 {
+        if leg.to == self.sink { self.aggregate.neutral() } else { self.objective.own(&self.inner(leg)) }
+    }
+
+    fn left(&self, leg: &LegView<'_>) -> f64 {
+        if leg.to == self.sink { 0.0 } else { self.objective.left(&self.inner(leg)) }
+    }
+
+    fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+        let to_sink = [self.aggregate.neutral(), 0.0];
+        let inner: Vec<LegView<'_>> =
+            legs.iter().filter(|leg| leg.to != self.sink).map(|leg| self.inner(leg)).collect();
+        let mut parts = self.objective.parts(&inner).into_iter();
+        let part = |leg: &LegView<'_>| if leg.to == self.sink { None } else { parts.next() };
+        legs.iter().map(part).map(|part| part.unwrap_or(to_sink)).collect()
+    }
+
+    fn has_sink(&self) -> bool {
+        true
+    }
+}
+
+impl<O> OpenScore<'_, O> {
+    /// `leg` without the sink behind the graph's own candidates.
+    fn inner<'l>(&self, leg: &LegView<'l>) -> LegView<'l> {
+        LegView { candidates: &leg.candidates[..self.sink as usize], ..*leg }
     }
 }
 

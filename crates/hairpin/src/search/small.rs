@@ -69,7 +69,7 @@ pub(super) fn points(seed: u64, count: usize, size: f64) -> Vec<Point3<f64>> {
 pub(super) const START: StepNode = StepNode { previous: 0, current: 0 };
 
 /// Every trajectory of `length` waypoints to the end with its score, best first, ties by waypoint index.
-pub(super) fn enumerate<O: Objective<Memory = ()>, R: Reach<StepNode>>(
+pub(super) fn enumerate<O: Objective, R: Reach<StepNode>>(
     task: &Task<'_, StepNode, R>,
     objective: &O,
     kind: (usize, bool, Aggregate),
@@ -80,16 +80,16 @@ pub(super) fn enumerate<O: Objective<Memory = ()>, R: Reach<StepNode>>(
 }
 
 /// The same to any waypoint: plain recursion.
-pub(super) fn enumerate_open<O: Objective<Memory = ()>, R: Reach<StepNode>>(
+pub(super) fn enumerate_open<O: Objective, R: Reach<StepNode>>(
     task: &Task<'_, StepNode, R>,
     objective: &O,
     kind: (usize, bool, Aggregate),
 ) -> Vec<(Vec<u32>, f64)> {
-    fn walk<O: Objective<Memory = ()>, R: Reach<StepNode>>(
+    fn walk<O: Objective, R: Reach<StepNode>>(
         task: &Task<'_, StepNode, R>,
         objective: &O,
         (length, revisits, aggregate): (usize, bool, Aggregate),
-        (node, path, score): (StepNode, &mut Vec<u32>, f64),
+        (node, path, score, memory): (StepNode, &mut Vec<u32>, f64, O::Memory),
         all: &mut Vec<(Vec<u32>, f64)>,
     ) {
         if path.len() == length {
@@ -103,15 +103,16 @@ pub(super) fn enumerate_open<O: Objective<Memory = ()>, R: Reach<StepNode>>(
                 let Leg { to, waypoint, duration, features } = leg;
                 let from = node.current;
                 let view = LegView { candidates: task.candidates, from, to: waypoint, duration, features };
-                let score = aggregate.add(score, objective.extend(&(), &view).0);
+                let (own, memory) = objective.extend(&memory, &view);
+                let score = aggregate.add(score, own);
                 path.push(waypoint);
-                walk(task, objective, (length, revisits, aggregate), (to, path, score), all);
+                walk(task, objective, (length, revisits, aggregate), (to, path, score, memory), all);
                 path.pop();
             }
         }
     }
     let mut all = Vec::new();
-    let first = (task.start, &mut vec![0], kind.2.neutral());
+    let first = (task.start, &mut vec![0], kind.2.neutral(), objective.start());
     walk(task, objective, kind, first, &mut all);
     all.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
     all

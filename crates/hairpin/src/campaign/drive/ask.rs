@@ -9,7 +9,7 @@ use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{DriveScenario, SearchSection};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
-use crate::search::{Found, Objective, OpenEnd};
+use crate::search::{Additive, Found, OpenEnd};
 
 /// One graph, and how it is searched.
 #[derive(Clone, Copy)]
@@ -45,7 +45,7 @@ pub(super) fn ask<N, R, O>(
 where
     N: Copy + Eq + Ord + Hash,
     R: Reach<N>,
-    O: Objective<Memory = ()>,
+    O: Additive,
 {
     let Asked { scenario, graph, reach, start, score, also, lookahead } = asked;
     let Graph { search: section, graph, points, looped } = graph;

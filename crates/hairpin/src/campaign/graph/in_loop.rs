@@ -11,7 +11,7 @@ use super::search::{Answer, Executions, Looped, Question};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::in_loop::{EvolveSettings, ShiftSettings, Tested, Trial, climb, evolve, shift};
-use crate::search::{Aggregate, Found, LegGraph, Objective, UniformSettings, uniform};
+use crate::search::{Additive, Aggregate, Found, LegGraph, UniformSettings, uniform};
 
 /// One in so many executions is of a uniform draw.
 const DRAWN: u64 = 10;
@@ -26,9 +26,7 @@ const STAGES: [(usize, f64); 3] = [(6, 0.4), (2, 0.4), (1, 1.0)];
 const STEP: f64 = 0.15;
 const LARGEST_STEP: f64 = 0.3;
 
-pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
-    question: &Question<N, R, O>,
-) -> Answer {
+pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
     let search = question.search;
     let graph = question.leg_graph();
     let first = first(question, &graph);
@@ -131,7 +129,7 @@ impl Climber {
 }
 
 /// What evolution starts from: every score's optima under both aggregates, and uniform draws.
-fn first<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+fn first<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     graph: &LegGraph<'_, N>,
 ) -> Vec<Found<N>> {

@@ -4,13 +4,13 @@ use std::hash::Hash;
 
 use super::search::{Answer, Question};
 use crate::feasibility::reach::Reach;
-use crate::search::{Aggregate, ExactOutcome, ExactSearch, ExactSettings, LegGraph, Objective};
+use crate::search::{Additive, Aggregate, ExactOutcome, ExactSearch, ExactSettings, LegGraph};
 
 /// How legs add up, in the order of the optima of one score.
 pub(in crate::campaign) const AGGREGATES: [Aggregate; 2] = [Aggregate::Max, Aggregate::Sum];
 
 /// Of every score of the question, its own first, the optimum under each of [`AGGREGATES`].
-pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &'q Question<N, R, O>,
     graph: &'q LegGraph<'_, N>,
 ) -> impl Iterator<Item = ExactOutcome<N>> {
@@ -26,9 +26,7 @@ pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Me
 }
 
 /// The plans of [`optima`] in their order; none at all where one is missing, so that no score has graphs that another has not.
-pub(super) fn by_optima<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
-    question: &Question<N, R, O>,
-) -> Answer {
+pub(super) fn by_optima<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
     let graph = question.leg_graph();
     let mut all = Answer::default();
     for outcome in optima(question, &graph) {

@@ -7,7 +7,7 @@ use super::search::{Answer, Question};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::in_loop::{Execute, Executed, PartialSettings, Ran};
-use crate::search::{Found, Objective, Task, beam_grown};
+use crate::search::{Additive, Found, Task, beam_grown};
 use crate::simulation::Airborne;
 
 /// Partial trajectories on the frontier at most: each keeps a robot in mid-air, and its log.
@@ -45,7 +45,7 @@ impl<N: Copy, R, O> Execute<N> for Carried<'_, '_, N, R, O> {
     }
 }
 
-pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     partials: &Partials,
     may_arrive: impl Fn(&N, usize) -> bool,

@@ -8,7 +8,7 @@ use super::search::{Answer, Question};
 use crate::campaign::learn::ScoreModel;
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
-use crate::search::{Aggregate, ExactSettings, Found, LegGraph, Objective, UniformSettings, exact, uniform};
+use crate::search::{Additive, Aggregate, ExactSettings, Found, LegGraph, UniformSettings, exact, uniform};
 
 /// A score is asked for so many of its best at first, and then for this multiple of them …
 const MORE: usize = 4;
@@ -33,7 +33,7 @@ pub(in crate::campaign) struct Round<'a> {
 }
 
 /// Trajectories that were not executed yet. What models cannot give is drawn, so that a round is as large as it was asked for.
-pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     round: &Round,
 ) -> Answer {
@@ -62,7 +62,7 @@ struct New<'q, 'a, N, R, O> {
     plans: Vec<Plan>,
 }
 
-impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>> New<'_, '_, N, R, O> {
+impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> New<'_, '_, N, R, O> {
     /// Takes up to `wanted` of `found` that are not known; how many there were.
     fn take(&mut self, found: Vec<Found<N>>, wanted: usize) -> usize {
         let before = self.plans.len();

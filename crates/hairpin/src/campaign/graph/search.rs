@@ -16,7 +16,7 @@ use crate::feasibility::reach::Reach;
 use crate::search::beam::Ended;
 use crate::search::in_loop::Trial;
 use crate::search::{
-    BeamOutcome, BeamSettings, ExactSettings, Found, LegGraph, Objective, Task, UniformSettings, beam, exact, uniform,
+    Additive, BeamOutcome, BeamSettings, ExactSettings, Found, LegGraph, Task, UniformSettings, beam, exact, uniform,
 };
 
 /// One graph and what is asked of it.
@@ -121,7 +121,7 @@ pub(in crate::campaign) struct Answer {
 }
 
 /// Searches one graph. `may_arrive(node, steps)` is necessary for the end to be reached from `node` in `steps` legs.
-pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
 ) -> Answer {
@@ -132,7 +132,7 @@ pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Obj
     }
 }
 
-fn by_method<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+fn by_method<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
 ) -> Answer {
@@ -149,7 +149,7 @@ fn by_method<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     }
 }
 
-impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>> Question<'_, N, R, O> {
+impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> Question<'_, N, R, O> {
     /// The plan of `found`, with what the search saw of its legs.
     pub(super) fn planned(&self, found: Found<N>) -> Option<Plan> {
         let seen = self.seen(&found);
@@ -223,7 +223,7 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>> Question
     }
 }
 
-fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
+fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
 ) -> Answer {
@@ -233,9 +233,7 @@ fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
     question.answer_of(outcome, capped)
 }
 
-fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
-    question: &Question<N, R, O>,
-) -> Answer {
+fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
     let search = question.search;
     let graph = question.leg_graph();
     let settings = ExactSettings {
@@ -255,9 +253,7 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memor
     Answer { proven_empty, expansions: outcome.expansions, reason, ..question.answer(outcome.found, outcome.bound) }
 }
 
-fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Objective<Memory = ()>>(
-    question: &Question<N, R, O>,
-) -> Answer {
+fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
     let search = question.search;
     let graph = question.leg_graph();
     let settings = UniformSettings {

@@ -2,14 +2,12 @@
 
 use super::legs::{self, LegSample};
 use super::moves::{MoveFeatures, MoveSample};
+use super::parts::{Pairs, Parts};
 use super::{Feature, HeldOut, ScoreModel, Subject};
+use crate::campaign::SeenLeg;
 use crate::judgement::{Stress, rank_correlation};
-use crate::math::ridge::{NoFit, PolynomialRidge, Rows};
+use crate::math::ridge::{NoFit, Rows};
 
-/// Folds of the cross-validation.
-const FOLDS: usize = 10;
-/// Degrees tried.
-const MOST_DEGREE: u32 = 4;
 /// Every so many trajectories one is held out.
 const HELD_OUT: usize = 5;
 /// Trajectories that a model needs at least: as many as leave one for every fold when some are held out.
@@ -24,7 +22,7 @@ impl ScoreModel {
     /// # Errors
     /// [`NoFit`]: fewer than 13 trajectories, numbers that are none, legs that are all the same.
     pub fn learn(stress: Stress, subject: Subject, samples: &[LegSample]) -> Result<Self, NoFit> {
-        Self::fit(stress, subject, legs::named(), &rows(samples))
+        Self::fit(stress, subject, legs::named(), &pairs(samples))
     }
 
     /// Learns the stress of an arm's moves in the same way; its trajectories are programs.
@@ -37,15 +35,16 @@ impl ScoreModel {
             values: samples.iter().map(|sample| sample.stress).collect(),
             groups: samples.iter().map(|sample| sample.program).collect(),
         };
-        Self::fit(stress, subject, MoveFeatures::named(), &rows)
+        let before = vec![None; samples.len()];
+        Self::fit(stress, subject, MoveFeatures::named(), &Pairs { rows, before })
     }
 
-    fn fit(stress: Stress, subject: Subject, features: Vec<Feature>, all: &Rows) -> Result<Self, NoFit> {
-        let (seen, unseen) = split(all);
-        let (tested, _) = PolynomialRidge::choose(&seen, MOST_DEGREE, FOLDS)?;
+    fn fit(stress: Stress, subject: Subject, features: Vec<Feature>, all: &Pairs) -> Result<Self, NoFit> {
+        let (seen, unseen) = all.split(HELD_OUT, HELD_OUT - 1);
+        let (tested, _) = Parts::choose(&seen)?;
         let held_out = held_out(&tested, &unseen);
-        let (polynomial, validation) = PolynomialRidge::choose(all, MOST_DEGREE, FOLDS)?;
-        let mut trajectories = all.groups.clone();
+        let (Parts { own, before }, validation) = Parts::choose(all)?;
+        let mut trajectories = all.rows.groups.clone();
         trajectories.dedup();
         Ok(Self {
             score_model: 1,
@@ -56,46 +55,33 @@ impl ScoreModel {
             validation,
             held_out,
             trajectories: trajectories.len(),
-            legs: all.values.len(),
-            training_hash: hash(all),
-            polynomial,
+            legs: all.rows.values.len(),
+            training_hash: hash(&all.rows),
+            polynomial: own,
+            before,
         })
     }
 }
 
-pub(super) fn rows(samples: &[LegSample]) -> Rows {
-    Rows {
-        inputs: samples.iter().map(|sample| legs::inputs(&sample.features, sample.duration).to_vec()).collect(),
+pub(super) fn pairs(samples: &[LegSample]) -> Pairs {
+    let inputs = |leg: &SeenLeg| legs::inputs(&leg.features, leg.duration).to_vec();
+    let rows = Rows {
+        inputs: samples.iter().map(|sample| inputs(&sample.seen)).collect(),
         values: samples.iter().map(|sample| sample.stress).collect(),
         groups: samples.iter().map(|sample| sample.trajectory).collect(),
-    }
+    };
+    Pairs { rows, before: samples.iter().map(|sample| sample.before.as_ref().map(inputs)).collect() }
 }
 
-/// Trajectories that are seen, and every fifth, which is not.
-fn split(all: &Rows) -> (Rows, Rows) {
-    let mut place = 0;
-    let mut last = None;
-    let (mut seen, mut unseen) = (Rows::default(), Rows::default());
-    for ((inputs, value), group) in all.inputs.iter().zip(&all.values).zip(&all.groups) {
-        if last.is_some_and(|last| last != *group) {
-            place += 1;
-        }
-        last = Some(*group);
-        let part = if place % HELD_OUT == HELD_OUT - 1 { &mut unseen } else { &mut seen };
-        part.inputs.push(inputs.clone());
-        part.values.push(*value);
-        part.groups.push(*group);
-    }
-    (seen, unseen)
-}
-
-fn held_out(fitted: &PolynomialRidge, unseen: &Rows) -> HeldOut {
+fn held_out(fitted: &Parts, unseen: &Pairs) -> HeldOut {
+    let Pairs { rows: unseen, before } = unseen;
     let n = unseen.values.len().max(1) as f64;
     let mean = unseen.values.iter().sum::<f64>() / n;
     let (mut squares, mut spread) = (0.0, 0.0);
     let mut largest: Vec<(usize, f64, f64)> = Vec::new();
-    for ((inputs, value), group) in unseen.inputs.iter().zip(&unseen.values).zip(&unseen.groups) {
-        let told = fitted.value(inputs);
+    let inputs = unseen.inputs.iter().zip(before);
+    for (((inputs, before), value), group) in inputs.zip(&unseen.values).zip(&unseen.groups) {
+        let told = fitted.value(inputs, before.as_deref());
         squares += (value - told) * (value - told);
         spread += (value - mean) * (value - mean);
         match largest.last_mut() {
@@ -150,7 +136,8 @@ mod tests {
                 let climb = v * (unit(&mut rng) - 0.5);
                 let features = LegFeatures { v_in: 2.0, v_out: v, turn, length: v, climb, ..LegFeatures::default() };
                 let stress = 0.2 * v * turn + 0.1 * unit(&mut rng);
-                LegSample { trajectory: leg / 9, features, duration: 1.0, stress }
+                let seen = SeenLeg { features, duration: 1.0 };
+                LegSample { trajectory: leg / 9, seen, before: None, stress }
             })
             .collect()
     }
@@ -162,11 +149,42 @@ mod tests {
         assert!(model.validation.r2 > 0.99 && model.held_out.r2 > 0.99, "{model:?}");
         assert!(model.held_out.rank_correlation.unwrap() > 0.9);
         let leg = LegFeatures { v_in: 2.0, v_out: 8.0, turn: 2.0, length: 8.0, climb: 0.1, ..LegFeatures::default() };
-        assert!((model.expected(&leg, 1.0) - 3.25).abs() < 0.1, "{}", model.expected(&leg, 1.0));
+        assert!((model.own(&leg, 1.0) - 3.25).abs() < 0.1, "{}", model.own(&leg, 1.0));
+        assert_eq!((&model.before, model.left(&leg, 1.0)), (&None, 0.0));
         let again = ScoreModel::learn(Stress::MaxDeviation, subject(), &samples(60)).unwrap();
         assert_eq!(model, again);
         let text = serde_json::to_string(&model).unwrap();
         assert_eq!(serde_json::from_str::<ScoreModel>(&text).unwrap(), model);
+    }
+
+    #[test]
+    fn what_the_leg_before_leaves_is_learned_where_it_helps() {
+        let alone = samples(60);
+        let mut behind = alone.clone();
+        for (k, sample) in behind.iter_mut().enumerate() {
+            sample.before = (k % 9 > 0).then(|| alone[k - 1].seen);
+            if k % 9 == 0 {
+                sample.seen.features.v_in = 0.0; // from rest, as every trajectory begins
+            }
+        }
+        // Legs that leave nothing are told better without.
+        let model = ScoreModel::learn(Stress::MaxDeviation, subject(), &behind).unwrap();
+        assert!(model.before.is_none() && model.validation.r2 > 0.99);
+        for sample in &mut behind {
+            sample.stress += sample.before.map_or(0.0, |before| 0.3 * before.features.v_out * before.features.turn);
+        }
+        let model = ScoreModel::learn(Stress::MaxDeviation, subject(), &behind).unwrap();
+        assert!(model.validation.r2 > 0.98 && model.held_out.r2 > 0.98, "{model:?}");
+        let left = |v_out: f64, turn: f64| {
+            model.left(&LegFeatures { v_in: 2.0, v_out, turn, length: v_out, ..LegFeatures::default() }, 1.0)
+        };
+        assert!((left(8.0, 2.5) - left(2.0, 0.5) - 5.7).abs() < 0.3, "{}", left(8.0, 2.5) - left(2.0, 0.5));
+        let text = serde_json::to_string(&model).unwrap();
+        assert_eq!(serde_json::from_str::<ScoreModel>(&text).unwrap(), model);
+        let mut broken = model;
+        broken.before.as_mut().unwrap().weights.pop();
+        let told = broken.check(&subject()).unwrap_err().to_string();
+        assert!(told.starts_with("before.weights: "), "{told}");
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod kept;
 mod legs;
 mod model;
 mod moves;
+mod parts;
 mod resample;
 mod samples;
 mod score;

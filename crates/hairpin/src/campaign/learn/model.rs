@@ -7,7 +7,7 @@ use super::legs;
 use super::moves::{ARM_MOVES, MoveFeatures};
 use crate::feasibility::reach::LegFeatures;
 use crate::judgement::Stress;
-use crate::math::ridge::{PolynomialRidge, Validation, monomials_of};
+use crate::math::ridge::{LANES, PolynomialRidge, Validation, monomials_of};
 
 /// A feature of legs that models are made of.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -73,6 +73,9 @@ pub struct ScoreModel {
     pub training_hash: String,
     /// The polynomial.
     pub polynomial: PolynomialRidge,
+    /// Of the leg before, with the same inputs: what it leaves to the leg, beside the other one's value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub before: Option<PolynomialRidge>,
 }
 
 /// Why a model cannot serve.
@@ -102,9 +105,11 @@ pub enum ModelMistake {
         /// Those of legs.
         wanted: String,
     },
-    /// Its polynomial is broken.
-    #[error("polynomial.{field}: {found}; must be {bound}")]
+    /// A polynomial is broken.
+    #[error("{part}.{field}: {found}; must be {bound}")]
     Polynomial {
+        /// Which one.
+        part: &'static str,
         /// The key.
         field: &'static str,
         /// What stands there.
@@ -141,13 +146,15 @@ impl ScoreModel {
             };
             return Err(ModelMistake::Features { found: told(&self.features), wanted: told(&wanted) });
         }
-        self.check_polynomial()
+        self.check_polynomial("polynomial", &self.polynomial)?;
+        self.before.as_ref().map_or(Ok(()), |before| self.check_polynomial("before", before))
     }
 
-    fn check_polynomial(&self) -> Result<(), ModelMistake> {
-        let wrong =
-            |field, found: String, bound: &str| Err(ModelMistake::Polynomial { field, found, bound: bound.to_owned() });
-        let PolynomialRidge { degree, centre, scale, range, powers, weights, intercept, .. } = &self.polynomial;
+    fn check_polynomial(&self, part: &'static str, polynomial: &PolynomialRidge) -> Result<(), ModelMistake> {
+        let wrong = |field, found: String, bound: &str| {
+            Err(ModelMistake::Polynomial { part, field, found, bound: bound.to_owned() })
+        };
+        let PolynomialRidge { degree, centre, scale, range, powers, weights, intercept, .. } = polynomial;
         let inputs = self.features.len();
         let per_input = format!("{inputs} numbers");
         for (field, length) in [("centre", centre.len()), ("scale", scale.len()), ("range", range.len())] {
@@ -174,9 +181,28 @@ impl ScoreModel {
         Ok(())
     }
 
-    /// The stress expected of a leg, in [`Self::unit`].
-    pub fn expected(&self, leg: &LegFeatures, duration: f64) -> f64 {
+    /// The stress expected of a leg, in [`Self::unit`], but for what the leg before leaves to it.
+    pub fn own(&self, leg: &LegFeatures, duration: f64) -> f64 {
         self.polynomial.value(&legs::inputs(leg, duration))
+    }
+
+    /// What a leg leaves to the stress of the one after it, in [`Self::unit`].
+    pub fn left(&self, leg: &LegFeatures, duration: f64) -> f64 {
+        self.before.as_ref().map_or(0.0, |before| before.value(&legs::inputs(leg, duration)))
+    }
+
+    /// [`Self::own`] and [`Self::left`] of many legs with their durations.
+    pub(in crate::campaign) fn parts<'l>(&self, legs: impl Iterator<Item = (&'l LegFeatures, f64)>) -> Vec<[f64; 2]> {
+        let inputs: Vec<_> = legs.map(|(leg, duration)| legs::inputs(leg, duration)).collect();
+        let mut parts = Vec::with_capacity(inputs.len());
+        for some in inputs.chunks(LANES) {
+            // The last ones are told once more where there are fewer.
+            let rows = std::array::from_fn(|lane| some[lane.min(some.len() - 1)].as_slice());
+            let own = self.polynomial.values(rows);
+            let left = self.before.as_ref().map_or([0.0; LANES], |before| before.values(rows));
+            parts.extend(own.into_iter().zip(left).take(some.len()).map(|(own, left)| [own, left]));
+        }
+        parts
     }
 
     /// The stress expected of a move of an arm, in [`Self::unit`].

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use rand::RngExt;
 
-use super::fit::rows;
+use super::fit::pairs;
+use super::parts::Parts;
 use super::{LegSample, ScoreModel};
 use crate::math::random::stream;
-use crate::math::ridge::{NoFit, PolynomialRidge};
+use crate::math::ridge::NoFit;
 
 impl ScoreModel {
     /// The model of `samples` resampled: as many trajectories drawn with replacement, degree and penalty as they are.
@@ -29,8 +30,9 @@ impl ScoreModel {
         let mut random = stream(seed);
         let draws = (0..trajectories.len()).map(|_| trajectories[random.random_range(0..trajectories.len())]);
         let drawn: Vec<LegSample> = draws.flatten().copied().collect();
-        let (degree, penalty) = (self.polynomial.degree, self.polynomial.penalty);
-        Ok(Self { polynomial: PolynomialRidge::of(&rows(&drawn), degree, penalty)?, ..self.clone() })
+        let like = Parts { own: self.polynomial.clone(), before: self.before.clone() };
+        let Parts { own, before } = like.refitted(&pairs(&drawn))?;
+        Ok(Self { polynomial: own, before, ..self.clone() })
     }
 }
 
@@ -38,6 +40,7 @@ impl ScoreModel {
 mod tests {
     use super::super::Subject;
     use super::*;
+    use crate::campaign::SeenLeg;
     use crate::feasibility::reach::LegFeatures;
     use crate::judgement::Stress;
     use crate::math::random::unit;
@@ -50,7 +53,8 @@ mod tests {
                 let v_out = 6.0 * unit(&mut random);
                 let features = LegFeatures { v_in: 1.0, v_out, turn: 0.5, length: 3.0, ..LegFeatures::default() };
                 let stress = 0.3 * v_out * v_out + unit(&mut random);
-                LegSample { trajectory: leg / 5, features, duration: 1.0, stress }
+                let seen = SeenLeg { features, duration: 1.0 };
+                LegSample { trajectory: leg / 5, seen, before: None, stress }
             })
             .collect();
         let subject = Subject {
@@ -62,8 +66,8 @@ mod tests {
         let model = ScoreModel::learn(Stress::MaxDeviation, subject, &samples).unwrap();
         let others: Vec<ScoreModel> = (0..20).map(|seed| model.resampled(&samples, seed).unwrap()).collect();
         assert_eq!(others[3], model.resampled(&samples, 3).unwrap());
-        let leg = LegFeatures { v_out: 3.0, ..samples[0].features };
-        let told = |model: &ScoreModel| model.expected(&leg, 1.0);
+        let leg = LegFeatures { v_out: 3.0, ..samples[0].seen.features };
+        let told = |model: &ScoreModel| model.own(&leg, 1.0);
         let (mean, all) = (told(&model), others.iter().map(told).collect::<Vec<f64>>());
         assert!(all.iter().all(|one| (one - mean).abs() < 0.3), "{mean} {all:?}");
         assert!(all.iter().any(|one| *one != mean), "draws differ");

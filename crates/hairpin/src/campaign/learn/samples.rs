@@ -20,14 +20,10 @@ pub fn leg_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> 
 /// The legs of `case` with the stress that was measured on them.
 pub(in crate::campaign) fn samples_of(case: &Case, measures: &Measures, stress: Stress) -> Vec<LegSample> {
     let mut samples = Vec::new();
-    for (seen, leg) in case.seen.iter().zip(&measures.legs) {
+    let before = std::iter::once(None).chain(case.seen.iter().copied().map(Some));
+    for ((seen, before), leg) in case.seen.iter().zip(before).zip(&measures.legs) {
         let stress = stress.of_leg(leg).filter(|value| value.is_finite() && leg.time > 0.0);
-        samples.extend(stress.map(|stress| LegSample {
-            trajectory: case.number,
-            features: seen.features,
-            duration: seen.duration,
-            stress,
-        }));
+        samples.extend(stress.map(|stress| LegSample { trajectory: case.number, seen: *seen, before, stress }));
     }
     samples
 }

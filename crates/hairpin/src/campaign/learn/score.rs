@@ -1,7 +1,7 @@
 //! A score by name or by a model.
 
 use super::ScoreModel;
-use crate::search::{LegView, Objective, Score};
+use crate::search::{Additive, LegView, Objective, Score};
 
 /// What a scenario scores legs by.
 #[derive(Debug, Clone, Copy)]
@@ -13,14 +13,37 @@ pub(in crate::campaign) enum AnyScore<'a> {
 }
 
 impl Objective for AnyScore<'_> {
-    type Memory = ();
+    /// What the last leg leaves to the next.
+    type Memory = f64;
 
-    fn start(&self) {}
+    fn start(&self) -> f64 {
+        0.0
+    }
 
-    fn extend(&self, (): &(), leg: &LegView<'_>) -> (f64, ()) {
+    fn extend(&self, before: &f64, leg: &LegView<'_>) -> (f64, f64) {
+        (self.own(leg) + before, self.left(leg))
+    }
+}
+
+impl Additive for AnyScore<'_> {
+    fn own(&self, leg: &LegView<'_>) -> f64 {
         match self {
-            Self::Named(score) => score.extend(&(), leg),
-            Self::Learned(model) => (model.expected(&leg.features, leg.duration), ()),
+            Self::Named(score) => score.own(leg),
+            Self::Learned(model) => model.own(&leg.features, leg.duration),
+        }
+    }
+
+    fn left(&self, leg: &LegView<'_>) -> f64 {
+        match self {
+            Self::Named(score) => score.left(leg),
+            Self::Learned(model) => model.left(&leg.features, leg.duration),
+        }
+    }
+
+    fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+        match self {
+            Self::Named(score) => score.parts(legs),
+            Self::Learned(model) => model.parts(legs.iter().map(|leg| (&leg.features, leg.duration))),
         }
     }
 }

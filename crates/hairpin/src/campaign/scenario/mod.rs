@@ -59,13 +59,17 @@ impl<'de> Deserialize<'de> for Scenario {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         use serde::de::Error;
         let value = serde_json::Value::deserialize(deserializer)?;
-        let kind = value.get("robot").and_then(|robot| robot.get("kind")).and_then(|kind| kind.as_str());
-        match RobotKind::of_word(kind) {
-            RobotKind::Ground => serde_json::from_value(value).map(Self::Drive),
-            RobotKind::Arm => serde_json::from_value(value).map(Self::Arm),
-            RobotKind::Flyer => serde_json::from_value(value).map(Self::Flight),
-        }
-        .map_err(D::Error::custom)
+        read(value).map_err(D::Error::custom)
+    }
+}
+
+/// Not generic, so that the readers of all sections are compiled once, with this crate.
+fn read(value: serde_json::Value) -> serde_json::Result<Scenario> {
+    let kind = value.get("robot").and_then(|robot| robot.get("kind")).and_then(|kind| kind.as_str());
+    match RobotKind::of_word(kind) {
+        RobotKind::Ground => serde_json::from_value(value).map(Scenario::Drive),
+        RobotKind::Arm => serde_json::from_value(value).map(Scenario::Arm),
+        RobotKind::Flyer => serde_json::from_value(value).map(Scenario::Flight),
     }
 }
 

@@ -18,8 +18,8 @@ mod tests;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use monomials::monomials_of;
-use monomials::{MOST_INPUTS, MOST_MONOMIALS, dot, monomials};
+pub use monomials::{LANES, monomials_of};
+use monomials::{MOST_INPUTS, MOST_MONOMIALS, dot, monomials, polynomials, standardise};
 use sums::Sums;
 
 /// Penalties tried, each ten times the one before, relative to the variance 1 of every monomial.
@@ -157,11 +157,10 @@ impl PolynomialRidge {
 
     fn fit(rows: &Rows, standard: &Standard, degree: u32, penalty: f64) -> Result<Self, NoFit> {
         let powers = monomials_of(&standard.scale, degree).ok_or(NoFit::Degree { degree })?;
-        let mut sums = Sums::new(powers.len());
-        let mut monomials = [0.0; MOST_MONOMIALS];
-        for (inputs, &value) in rows.inputs.iter().zip(&rows.values) {
-            sums.add(standard.monomials(inputs, degree, &mut monomials), value);
-        }
+        let sums = Sums::over(powers.len(), 0..rows.values.len(), |row, monomials| {
+            standard.monomials(&rows.inputs[row], degree, monomials);
+            rows.values[row]
+        });
         let (weights, intercept) = sums.solve(penalty);
         let Standard { centre, scale, range } = standard.clone();
         Ok(Self { degree, penalty, centre, scale, range, powers, weights, intercept })
@@ -177,19 +176,27 @@ impl PolynomialRidge {
     /// # Panics
     /// If their number is not [`Self::inputs`].
     pub fn value(&self, inputs: &[f64]) -> f64 {
-        assert_eq!(inputs.len(), self.centre.len(), "as many inputs as were fitted");
+        self.values([inputs; LANES])[0]
+    }
+
+    /// The values at several `inputs`, each the same to the bit as [`Self::value`].
+    ///
+    /// # Panics
+    /// If the number of one is not [`Self::inputs`].
+    pub fn values(&self, inputs: [&[f64]; LANES]) -> [f64; LANES] {
+        assert!(inputs.iter().all(|inputs| inputs.len() == self.centre.len()), "as many inputs as were fitted");
         // Searches ask millions of times: what is not needed is not cleared.
         if self.weights.len() <= SMALL {
-            self.value_in::<SMALL>(inputs)
+            self.values_in::<SMALL>(inputs)
         } else {
-            self.value_in::<MOST_MONOMIALS>(inputs)
+            self.values_in::<MOST_MONOMIALS>(inputs)
         }
     }
 
-    fn value_in<const N: usize>(&self, inputs: &[f64]) -> f64 {
-        let mut buffer = [0.0; N];
-        let monomials = monomials(inputs, &self.centre, &self.scale, &self.range, self.degree, &mut buffer);
-        self.intercept + dot(&self.weights, monomials)
+    fn values_in<const N: usize>(&self, inputs: [&[f64]; LANES]) -> [f64; LANES] {
+        let mut buffer = [[0.0; LANES]; N];
+        let count = standardise(inputs, &self.centre, &self.scale, &self.range, &mut buffer);
+        polynomials(count, self.degree, &self.weights, &mut buffer).map(|sum| self.intercept + sum)
     }
 }
 
@@ -233,8 +240,11 @@ impl Standard {
         correlation.abs() > 1.0 - 1e-12
     }
 
-    fn monomials<'m>(&self, inputs: &[f64], degree: u32, out: &'m mut [f64; MOST_MONOMIALS]) -> &'m [f64] {
-        monomials(inputs, &self.centre, &self.scale, &self.range, degree, out)
+    /// Writes the monomials at `inputs` and gives those that there are.
+    fn monomials<'m>(&self, inputs: &[f64], degree: u32, out: &'m mut [[f64; 1]]) -> &'m [f64] {
+        let count = standardise([inputs], &self.centre, &self.scale, &self.range, out);
+        let end = monomials(count, degree, out);
+        out[..end].as_flattened()
     }
 }
 
@@ -246,12 +256,16 @@ fn cross_validate(
     fold_of: &[usize],
     folds: usize,
 ) -> [f64; PENALTIES.len()] {
-    let mut buffer = [0.0; MOST_MONOMIALS];
+    let mut buffer = [[0.0]; MOST_MONOMIALS];
     let count = standard.monomials(&rows.inputs[0], degree, &mut buffer).len();
-    let mut parts = vec![Sums::new(count); folds];
-    for (row, inputs) in rows.inputs.iter().enumerate() {
-        parts[fold_of[row]].add(standard.monomials(inputs, degree, &mut buffer), rows.values[row]);
-    }
+    let of_fold = |fold| {
+        let rows_of_fold = (0..rows.values.len()).filter(|row| fold_of[*row] == fold);
+        Sums::over(count, rows_of_fold, |row, monomials| {
+            standard.monomials(&rows.inputs[row], degree, monomials);
+            rows.values[row]
+        })
+    };
+    let parts: Vec<Sums> = (0..folds).map(of_fold).collect();
     let mut all = Sums::new(count);
     parts.iter().for_each(|part| all.include(part));
     let fits: Vec<Vec<(Vec<f64>, f64)>> = parts

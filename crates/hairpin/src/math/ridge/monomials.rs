@@ -11,23 +11,28 @@ pub(super) fn standardised(x: f64, centre: f64, scale: f64, [least, greatest]: [
     if scale > 0.0 { ((x - centre) / scale).clamp(least, greatest) } else { 0.0 }
 }
 
-/// All monomials of total degree 1 to `degree` in the standardised inputs, in the order of [`monomials_of`]. Those of one degree are,
-/// input after input, the input times those of the degree before that have no earlier input: a run at the end of their block.
-pub(super) fn monomials<'m>(
-    inputs: &[f64],
+/// Puts the inputs of rows that are looked at together into `z`, standardised, those without a scale left out; how many there are.
+pub(super) fn standardise<const L: usize>(
+    inputs: [&[f64]; L],
     centre: &[f64],
     scale: &[f64],
     range: &[[f64; 2]],
-    degree: u32,
-    out: &'m mut [f64],
-) -> &'m [f64] {
+    z: &mut [[f64; L]],
+) -> usize {
     let mut count = 0;
-    for i in (0..inputs.len()).filter(|&i| scale[i] > 0.0) {
-        out[count] = standardised(inputs[i], centre[i], scale[i], range[i]);
+    for i in (0..centre.len()).filter(|&i| scale[i] > 0.0) {
+        z[count] = inputs.map(|inputs| standardised(inputs[i], centre[i], scale[i], range[i]));
         count += 1;
     }
-    let mut starts = [0; MOST_INPUTS];
-    (0..count).for_each(|i| starts[i] = i);
+    count
+}
+
+/// All monomials of total degree 1 to `degree` in the first `count` numbers of `out`, which are the standardised inputs, in the order of
+/// [`monomials_of`]; how many. Those of one degree are, input after input, the input times those of the degree before that have no earlier
+/// input: a run at the end of their block.
+#[inline(always)]
+pub(super) fn monomials<const L: usize>(count: usize, degree: u32, out: &mut [[f64; L]]) -> usize {
+    let mut starts: [usize; MOST_INPUTS] = std::array::from_fn(|i| i);
     let mut end = count;
     for _ in 1..degree {
         let (known, new) = out.split_at_mut(end);
@@ -37,13 +42,50 @@ pub(super) fn monomials<'m>(
             let run = &known[starts[i]..];
             starts[i] = end + length;
             for (out, monomial) in new[length..].iter_mut().zip(run) {
-                *out = z * monomial;
+                for lane in 0..L {
+                    out[lane] = z[lane] * monomial[lane];
+                }
             }
             length += run.len();
         }
         end += length;
     }
-    &out[..end]
+    end
+}
+
+/// Rows whose values are told together: a lane each.
+pub const LANES: usize = 4;
+
+/// Σ w_j m_j(z) of every lane; the first `count` of `buffer` are z, the others are written to.
+pub(super) fn polynomials(count: usize, degree: u32, weights: &[f64], buffer: &mut [[f64; LANES]]) -> [f64; LANES] {
+    let mut sums = [0.0; LANES];
+    weighted(Simd::Widest, count, degree, weights, buffer, &mut sums);
+    sums
+}
+
+kernel! {
+    /// Σ w_j m_j(z) of every lane, the first `count` of `out` being z, in four sums.
+    fn weighted(count: usize, degree: u32, weights: &[f64], out: &mut [[f64; LANES]], sums: &mut [f64; LANES]) {
+        let end = monomials(count, degree, out);
+        let mut parts = [[0.0; LANES]; 4];
+        let mut rows = out[..end].chunks_exact(4);
+        let mut of_rows = weights[..end].chunks_exact(4);
+        for (rows, weights) in rows.by_ref().zip(of_rows.by_ref()) {
+            for part in 0..4 {
+                for lane in 0..LANES {
+                    parts[part][lane] += weights[part] * rows[part][lane];
+                }
+            }
+        }
+        for (row, weight) in rows.remainder().iter().zip(of_rows.remainder()) {
+            for lane in 0..LANES {
+                parts[0][lane] += weight * row[lane];
+            }
+        }
+        for lane in 0..LANES {
+            sums[lane] = (parts[0][lane] + parts[1][lane]) + (parts[2][lane] + parts[3][lane]);
+        }
+    }
 }
 
 /// a·b in eight sums, the same on every machine.
@@ -95,4 +137,40 @@ fn each(scale: &[f64], left: u32, input: usize, powers: &mut Vec<u32>, all: &mut
         each(scale, left - power, input + 1, powers, all);
     }
     powers[input] = 0;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{stream, unit};
+
+    #[test]
+    fn every_simd_level_gives_the_same_bits() {
+        let mut random = stream(2);
+        let mut numbers = |count: usize| -> Vec<f64> { (0..count).map(|_| 2.0 * unit(&mut random) - 1.0).collect() };
+        for (count, degree, end) in [(8, 4, 494), (7, 3, 119), (1, 1, 1), (3, 2, 9)] {
+            let weights = numbers(end);
+            let mut buffer = vec![[0.0; LANES]; end];
+            buffer[..count].as_flattened_mut().copy_from_slice(&numbers(count * LANES));
+            let told = [Simd::Widest, Simd::Portable].map(|simd| {
+                let mut sums = [0.0; LANES];
+                weighted(simd, count, degree, &weights, &mut buffer.clone(), &mut sums);
+                sums
+            });
+            assert_eq!(told[0].map(f64::to_bits), told[1].map(f64::to_bits), "{count} inputs, degree {degree}");
+            // Lane by lane it is the sum over the monomials of that lane alone.
+            let lane: Vec<[f64; 1]> = buffer.iter().map(|row| [row[2]]).collect();
+            let mut alone = lane.clone();
+            assert_eq!(monomials(count, degree, &mut alone), end);
+            let sum: f64 = alone.iter().zip(&weights).map(|([monomial], weight)| monomial * weight).sum();
+            assert!((told[0][2] - sum).abs() < 1e-12 * end as f64, "{} {sum}", told[0][2]);
+            let (a, b) = (numbers(end), numbers(end));
+            let dots = [Simd::Widest, Simd::Portable].map(|simd| {
+                let mut sum = 0.0;
+                sum_of_products(simd, &a, &b, &mut sum);
+                sum.to_bits()
+            });
+            assert_eq!(dots[0], dots[1]);
+        }
+    }
 }

@@ -2,6 +2,24 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::math::simd::{Simd, kernel};
+
+/// Rows whose products are added at a time: a column is read and written once for all of them.
+const BLOCK: usize = 4;
+
+kernel! {
+    /// Adds each of `rows` to `sums`, times its first number, one row after the other.
+    fn add_multiples(sums: &mut [f64], rows: [&[f64]; BLOCK]) {
+        let first = rows.map(|row| row[0]);
+        let rows = rows.map(|row| &row[..sums.len()]);
+        for (i, sum) in sums.iter_mut().enumerate() {
+            for row in 0..BLOCK {
+                *sum += rows[row][i] * first[row];
+            }
+        }
+    }
+}
+
 /// Sums over rows that a fit needs.
 #[derive(Clone)]
 pub(super) struct Sums {
@@ -23,16 +41,41 @@ impl Sums {
         }
     }
 
-    pub(super) fn add(&mut self, monomials: &[f64], value: f64) {
-        self.count += 1.0;
-        self.value += value;
-        for (j, &b) in monomials.iter().enumerate() {
-            self.monomials[j] += b;
-            self.with_value[j] += b * value;
-            // One triangle; the other follows when it is solved.
-            for (i, &a) in monomials.iter().enumerate().skip(j) {
-                self.products[(i, j)] += a * b;
+    /// Sums over rows; `write` puts the monomials of one into the buffer given and gives its value.
+    pub(super) fn over<R>(
+        monomials: usize,
+        rows: impl Iterator<Item = R>,
+        write: impl Fn(R, &mut [[f64; 1]]) -> f64,
+    ) -> Self {
+        let mut sums = Self::new(monomials);
+        let mut block = vec![vec![0.0; monomials]; BLOCK];
+        let mut filled = 0;
+        for row in rows {
+            let value = write(row, block[filled].as_chunks_mut().0);
+            sums.count += 1.0;
+            sums.value += value;
+            for (j, &monomial) in block[filled].iter().enumerate() {
+                sums.monomials[j] += monomial;
+                sums.with_value[j] += monomial * value;
             }
+            filled += 1;
+            if filled == BLOCK {
+                sums.add_products(&block);
+                filled = 0;
+            }
+        }
+        block[filled..].iter_mut().for_each(|row| row.fill(0.0));
+        if filled > 0 {
+            sums.add_products(&block);
+        }
+        sums
+    }
+
+    /// One triangle; the other follows when it is solved.
+    fn add_products(&mut self, block: &[Vec<f64>]) {
+        let size = self.monomials.len();
+        for (j, column) in self.products.as_mut_slice().chunks_exact_mut(size.max(1)).enumerate() {
+            add_multiples(Simd::Widest, &mut column[j..], std::array::from_fn(|row| &block[row][j..]));
         }
     }
 
@@ -80,5 +123,36 @@ impl Sums {
         let weights: Vec<f64> = (0..size).map(|j| scaled[j] * inverse[j]).collect();
         let intercept = value - weights.iter().zip(mean.iter()).map(|(weight, mean)| weight * mean).sum::<f64>();
         (weights, intercept)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{stream, unit};
+
+    #[test]
+    fn sums_are_those_of_the_rows_one_after_the_other_at_every_simd_level() {
+        let mut random = stream(3);
+        for (rows, monomials) in [(1, 1), (4, 7), (30, 13), (43, 1)] {
+            let all: Vec<Vec<f64>> =
+                (0..rows).map(|_| (0..monomials).map(|_| 2.0 * unit(&mut random) - 1.0).collect()).collect();
+            let sums = Sums::over(monomials, all.iter(), |row, out| {
+                out.as_flattened_mut().copy_from_slice(row);
+                row[0]
+            });
+            for (i, j) in (0..monomials).flat_map(|j| (j..monomials).map(move |i| (i, j))) {
+                let expected = all.iter().fold(0.0, |sum, row| sum + row[i] * row[j]);
+                assert_eq!(sums.products[(i, j)].to_bits(), expected.to_bits(), "{rows} rows, {i}, {j}");
+            }
+            assert_eq!((sums.count, sums.value), (rows as f64, all.iter().map(|row| row[0]).sum()));
+        }
+        let rows: [Vec<f64>; BLOCK] = std::array::from_fn(|_| (0..29).map(|_| unit(&mut random)).collect());
+        let told = [Simd::Widest, Simd::Portable].map(|simd| {
+            let mut sums = vec![0.5; 29];
+            add_multiples(simd, &mut sums, std::array::from_fn(|row| rows[row].as_slice()));
+            sums
+        });
+        assert_eq!(told[0], told[1]);
     }
 }

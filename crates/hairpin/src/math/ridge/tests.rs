@@ -60,8 +60,10 @@ fn monomials_are_products_by_their_powers() {
     assert_eq!(z[3], 1.5);
     for degree in 1..=5 {
         let powers = monomials_of(&scale, degree).unwrap();
-        let mut buffer = [0.0; MOST_MONOMIALS];
-        let told = monomials(&inputs, &centre, &scale, &range, degree, &mut buffer);
+        let mut buffer = [[0.0]; MOST_MONOMIALS];
+        let count = standardise([&inputs], &centre, &scale, &range, &mut buffer);
+        let end = monomials(count, degree, &mut buffer);
+        let told = buffer[..end].as_flattened();
         assert_eq!(told.len(), powers.len());
         for (told, powers) in told.iter().zip(&powers) {
             let product: f64 = z.iter().zip(powers).map(|(z, &power)| z.powi(power as i32)).product();
@@ -110,4 +112,20 @@ fn what_cannot_be_fitted_is_told() {
     assert_eq!(steep, Err(NoFit::Degree { degree: 40 }));
     let flat = Rows { inputs: vec![vec![1.0, 2.0]; 200], ..good };
     assert_eq!(PolynomialRidge::choose(&flat, 3, 10), Err(NoFit::Constant));
+}
+
+#[test]
+fn values_told_together_are_those_told_alone() {
+    let mut random = stream(7);
+    for degree in [1, 4] {
+        let some = rows(200, 0.0, 8, |x| x[0] * x[1] + x[2]);
+        let fitted = PolynomialRidge::of(&some, degree, 1e-3).unwrap();
+        for _ in 0..50 {
+            let inputs: [Vec<f64>; LANES] = std::array::from_fn(|_| {
+                vec![12.0 * unit(&mut random), 5.0 - unit(&mut random), 1e4 + unit(&mut random)]
+            });
+            let together = fitted.values(std::array::from_fn(|lane| inputs[lane].as_slice()));
+            assert_eq!(together.map(f64::to_bits), std::array::from_fn(|lane| fitted.value(&inputs[lane]).to_bits()));
+        }
+    }
 }

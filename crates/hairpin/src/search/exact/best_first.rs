@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::HashSet;
 
 use super::super::frontier::{IntervalHeap, Tree};
-use super::super::graph::{LegGraph, Values};
+use super::super::graph::{LegGraph, LegScores, Values};
 use super::super::task::Found;
 use super::ExactSettings;
 
@@ -17,7 +17,7 @@ struct Entry {
 }
 
 /// By bound, then the longer (so that equal bounds are followed to their end), then by waypoint index.
-fn order(tree: &Tree<()>, a: &Entry, b: &Entry) -> Ordering {
+fn order(tree: &Tree<f64>, a: &Entry, b: &Entry) -> Ordering {
     let by_bound = a.bound.total_cmp(&b.bound).then(a.length.cmp(&b.length));
     by_bound.then_with(|| tree.lexicographic(b.id, a.id))
 }
@@ -32,15 +32,16 @@ pub(super) struct BestFirst<N> {
 
 pub(super) fn best_first<N: Copy>(
     graph: &LegGraph<'_, N>,
-    scores: &[f64],
+    scores: &LegScores,
     values: &Values,
     settings: &ExactSettings,
 ) -> BestFirst<N> {
     let aggregate = settings.aggregate;
-    let mut tree = Tree::new(0, 0, aggregate.neutral(), ());
+    // What the last leg leaves to the next is remembered.
+    let mut tree = Tree::new(0, 0, aggregate.neutral(), 0.0);
     let mut queue = IntervalHeap::new();
     let mut result = BestFirst { found: Vec::new(), open_bound: None, expansions: 0 };
-    if let Some(bound) = values.best(0, settings.length - 1) {
+    if let Some(bound) = values.best((aggregate.neutral(), 0.0), 0, settings.length - 1) {
         queue.push(Entry { bound, length: 1, id: 0 }, |a, b| order(&tree, a, b));
     }
     let mut known = HashSet::new();
@@ -65,18 +66,20 @@ pub(super) fn best_first<N: Copy>(
         if !settings.revisits {
             tree.backwards(entry.id).for_each(|p| visited[p.waypoint as usize] = true);
         }
-        let mut grown = false;
+        let (mut grown, before) = (false, *tree.memory(entry.id));
         for leg in graph.legs_from(partial.node) {
             let to = graph.target(leg);
-            let Some(rest) = values.best(to, settings.length - 1 - entry.length as usize) else { continue };
             if visited[graph.waypoint(to) as usize] {
                 continue;
             }
-            let score = aggregate.add(partial.score, scores[leg]);
+            let legs = settings.length - 1 - entry.length as usize;
+            let score = aggregate.add(partial.score, scores.own(leg) + before);
+            let left = scores.left(leg, legs);
+            let Some(bound) = values.best((score, left), to, legs) else { continue };
             // Rounding must not lift a bound above that of what it continues.
-            let bound = aggregate.add(score, rest).min(entry.bound);
+            let bound = bound.min(entry.bound);
             let place = (to, graph.waypoint(to));
-            let id = tree.grow(entry.id, place, graph.duration(leg), score, ());
+            let id = tree.grow(entry.id, place, graph.duration(leg), score, left);
             queue.push(Entry { bound, length: entry.length + 1, id }, |a, b| order(&tree, a, b));
             grown = true;
         }
@@ -91,7 +94,7 @@ pub(super) fn best_first<N: Copy>(
     result
 }
 
-fn trajectory<N: Copy>(graph: &LegGraph<'_, N>, tree: &Tree<()>, id: u32) -> Found<N> {
+fn trajectory<N: Copy>(graph: &LegGraph<'_, N>, tree: &Tree<f64>, id: u32) -> Found<N> {
     let mut nodes: Vec<u32> = tree.backwards(id).map(|p| p.node).collect();
     let mut leg_times: Vec<f64> = tree.backwards(id).map(|p| p.duration).collect();
     nodes.reverse();

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use rustc_hash::FxBuildHasher;
 
-use super::super::graph::{LegGraph, Values};
+use super::super::graph::{LegGraph, LegScores, Values};
 use super::super::task::Found;
 use super::ExactSettings;
 use crate::math::random::hashed_unit;
@@ -14,6 +14,8 @@ use crate::math::random::hashed_unit;
 struct Label {
     bound: f64,
     score: f64,
+    /// What its last leg leaves to the next.
+    left: f64,
     node: u32,
     /// The label it continues, in the layer before, and the leg.
     parent: u32,
@@ -22,18 +24,19 @@ struct Label {
     set: u64,
 }
 
-/// Best first, distinct; and the labels expanded. Of two labels at one node with the same waypoints visited the worse
-/// is dominated: whatever completes it completes the better one as well.
+/// Best first, distinct; and the labels expanded. Of two labels at one node with the same waypoints visited the one of the lower bound is
+/// left out: whatever completes it completes the other one as well.
 pub(super) fn descent<N: Copy>(
     graph: &LegGraph<'_, N>,
-    scores: &[f64],
+    scores: &LegScores,
     values: &Values,
     settings: &ExactSettings,
 ) -> (Vec<Found<N>>, u64) {
     let width = settings.width.max(settings.best).max(1);
     let words = graph.candidates().len().div_ceil(64);
     let keys: Vec<u64> = (0..graph.candidates().len() as u64).map(key).collect();
-    let start = Label { bound: 0.0, score: settings.aggregate.neutral(), node: 0, parent: 0, leg: 0, set: keys[0] };
+    let neutral = settings.aggregate.neutral();
+    let start = Label { bound: 0.0, score: neutral, left: 0.0, node: 0, parent: 0, leg: 0, set: keys[0] };
     let mut layers = vec![vec![start]];
     let mut visited = vec![0u64; words];
     visited[0] = 1;
@@ -48,17 +51,17 @@ pub(super) fn descent<N: Copy>(
             for leg in graph.legs_from(label.node) {
                 let to = graph.target(leg);
                 let waypoint = graph.waypoint(to) as usize;
-                let Some(rest) = values.best(to, steps_after) else { continue };
                 if visited[waypoint / 64] >> (waypoint % 64) & 1 == 1 {
                     continue;
                 }
-                let score = settings.aggregate.add(label.score, scores[leg]);
-                let bound = settings.aggregate.add(score, rest);
+                let score = settings.aggregate.add(label.score, scores.own(leg) + label.left);
+                let left = scores.left(leg, steps_after);
+                let Some(bound) = values.best((score, left), to, steps_after) else { continue };
                 let set = label.set ^ keys[waypoint];
-                let new = Label { bound, score, node: to, parent: parent as u32, leg: leg as u32, set };
+                let new = Label { bound, score, left, node: to, parent: parent as u32, leg: leg as u32, set };
                 let place = *seen.entry((to, set)).or_insert(next.len() as u32) as usize;
                 match next.get_mut(place) {
-                    Some(old) if old.score >= score => {}
+                    Some(old) if (old.bound, old.score) >= (bound, score) => {}
                     Some(old) => *old = new,
                     None => next.push(new),
                 }

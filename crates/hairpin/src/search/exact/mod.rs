@@ -13,8 +13,8 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 
 use self::best_first::BestFirst;
-use super::graph::{Count, LegGraph};
-use super::objective::{Aggregate, Objective};
+use super::graph::{Count, LegGraph, LegScores};
+use super::objective::{Additive, Aggregate};
 use super::task::Found;
 
 /// What is asked for.
@@ -63,11 +63,11 @@ impl<N> ExactOutcome<N> {
     }
 }
 
-/// The best trajectories of `graph` under a score that is additive over legs.
+/// The best trajectories of `graph` under a score that is additive over legs, or over pairs of them.
 pub fn exact<N, O>(graph: &LegGraph<'_, N>, objective: &O, settings: &ExactSettings) -> ExactOutcome<N>
 where
     N: Copy,
-    O: Objective<Memory = ()>,
+    O: Additive,
 {
     let [outcome] = ExactSearch::new(graph, settings.clone()).best(objective, [settings.aggregate]);
     outcome
@@ -95,11 +95,7 @@ impl<'g, 'a, N: Copy> ExactSearch<'g, 'a, N> {
     }
 
     /// The best trajectories under `objective`, by each of `aggregates`.
-    pub fn best<O: Objective<Memory = ()>, const K: usize>(
-        &self,
-        objective: &O,
-        aggregates: [Aggregate; K],
-    ) -> [ExactOutcome<N>; K] {
+    pub fn best<O: Additive, const K: usize>(&self, objective: &O, aggregates: [Aggregate; K]) -> [ExactOutcome<N>; K] {
         let walks = self.walks;
         if walks.is_zero() {
             return aggregates.map(|_| ExactOutcome {
@@ -114,7 +110,7 @@ impl<'g, 'a, N: Copy> ExactSearch<'g, 'a, N> {
         aggregates.map(|aggregate| self.by(&scores, ExactSettings { aggregate, ..self.settings.clone() }))
     }
 
-    fn by(&self, scores: &[f64], settings: ExactSettings) -> ExactOutcome<N> {
+    fn by(&self, scores: &LegScores, settings: ExactSettings) -> ExactOutcome<N> {
         let (graph, settings) = (&*self.graph, &settings);
         let values = graph.values(settings.length, scores, settings.aggregate, &self.near_start);
         let mut search = best_first::best_first(graph, scores, &values, settings);

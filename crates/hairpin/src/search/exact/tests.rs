@@ -1,7 +1,8 @@
 //! The optimum against brute force, with and without revisits, and what is said where it is not proven.
 
-use super::super::objective::{LegView, Score};
-use super::super::small::{Octahedron, START, enumerate, points};
+use super::super::objective::{LegView, Objective, Score};
+use super::super::open_end::OpenEnd;
+use super::super::small::{Octahedron, START, enumerate, enumerate_open, points};
 use super::super::task::Task;
 use super::*;
 use crate::feasibility::reach::{Leg, LegFeatures};
@@ -47,6 +48,78 @@ fn the_best_are_those_of_brute_force() {
         }
     }
     assert!(compared > 5_000, "{compared}");
+}
+
+/// A number per leg, and another that the leg leaves to the next.
+struct Leaving {
+    seed: u64,
+}
+
+impl Objective for Leaving {
+    type Memory = f64;
+
+    fn start(&self) -> f64 {
+        0.0
+    }
+
+    fn extend(&self, before: &f64, leg: &LegView<'_>) -> (f64, f64) {
+        (self.own(leg) + before, self.left(leg))
+    }
+}
+
+impl Additive for Leaving {
+    fn own(&self, leg: &LegView<'_>) -> f64 {
+        hashed_unit(self.seed, &[leg.from.into(), leg.to.into()])
+    }
+
+    fn left(&self, leg: &LegView<'_>) -> f64 {
+        2.0 * hashed_unit(self.seed + 1, &[leg.from.into(), leg.to.into()]) - 0.5
+    }
+}
+
+#[test]
+fn what_legs_leave_to_the_next_is_searched_as_brute_force_finds_it() {
+    let (mut compared, mut open) = (0, 0);
+    for seed in 0..40 {
+        let points = points(seed, 9, 11.0);
+        let task = Task { start: START, candidates: &points, reach: &SMALL };
+        let sink = OpenEnd::new(SMALL, &points);
+        for (length, revisits) in [(2, false), (3, true), (5, false), (5, true)] {
+            for aggregate in [Aggregate::Sum, Aggregate::Max] {
+                let score = Leaving { seed };
+                let graph = LegGraph::explore(START, &points, task.reach, length);
+                let told = format!("seed {seed} length {length} revisits {revisits} {aggregate:?}");
+                // The beam that takes over where the proof is given up never comes back to a waypoint.
+                let few = if revisits { 50_000 } else { 1 };
+                for (best, expansions) in [(1, 50_000), (7, 50_000), (1, few)] {
+                    let settings = ExactSettings { length, best, revisits, aggregate, expansions, width: 10_000 };
+                    let all = enumerate(&task, &score, (length, revisits, aggregate));
+                    let outcome = exact(&graph, &score, &settings);
+                    assert_eq!(outcome.found.len(), all.len().min(best), "{told}");
+                    assert!(outcome.bound.is_none_or(|bound| bound >= all[0].1 - 1e-12), "{told}");
+                    for (found, (_, expected)) in outcome.found.iter().zip(&all) {
+                        assert!(close(found.score, *expected), "{told}: {} {expected}", found.score);
+                        assert!(all.iter().any(|(walk, s)| *walk == found.waypoints && close(*s, found.score)));
+                        compared += 1;
+                    }
+                    open += usize::from(outcome.proven < outcome.found.len());
+
+                    // To a sink, to which nothing is left.
+                    let all = enumerate_open(&task, &score, (length, revisits, aggregate));
+                    let settings = ExactSettings { length: length + 1, ..settings };
+                    let start = sink.task(START).start;
+                    let graph = LegGraph::explore(start, sink.candidates(), &sink, length + 1);
+                    let outcome = exact(&graph, &sink.score(&score, aggregate), &settings);
+                    assert_eq!(outcome.found.len(), all.len().min(best), "{told}, free end");
+                    for (found, (_, expected)) in outcome.found.iter().zip(&all) {
+                        assert!(close(found.score, *expected), "{told}, free end: {} {expected}", found.score);
+                        compared += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(compared > 1_000 && open > 50, "{compared} {open}");
 }
 
 #[test]

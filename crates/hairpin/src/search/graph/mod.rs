@@ -11,12 +11,12 @@ use std::ops::Range;
 
 use nalgebra::Point3;
 
-use super::objective::{LegView, Objective};
+use super::objective::{Additive, LegView};
 use super::task::Found;
 use crate::feasibility::reach::LegFeatures;
 pub(super) use count::Layer;
 pub use count::{Count, Counts};
-pub(super) use value::Values;
+pub(super) use value::{LegScores, Values};
 
 /// Nodes and legs in compressed rows; node 0 is the start's. Only what a walk from the start can meet is in it.
 #[derive(Debug, Clone)]
@@ -116,12 +116,18 @@ impl<'a, N: Copy> LegGraph<'a, N> {
     }
 
     /// The score of every leg.
-    pub(super) fn scores<O: Objective<Memory = ()>>(&self, objective: &O) -> Vec<f64> {
-        let mut scores = Vec::with_capacity(self.legs());
+    pub(super) fn scores<O: Additive>(&self, objective: &O) -> LegScores {
+        let (mut own, mut left) = (Vec::with_capacity(self.legs()), Vec::with_capacity(self.legs()));
+        let mut views = Vec::new();
         for node in 0..self.nodes() as u32 {
-            scores.extend(self.legs_from(node).map(|leg| objective.extend(&(), &self.view(node, leg)).0));
+            views.clear();
+            views.extend(self.legs_from(node).map(|leg| self.view(node, leg)));
+            for [of_leg, to_next] in objective.parts(&views) {
+                own.push(of_leg);
+                left.push(to_next);
+            }
         }
-        scores
+        LegScores::new(own, left, objective.has_sink())
     }
 
     /// The trajectory along `legs` from the start.

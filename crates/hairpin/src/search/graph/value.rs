@@ -3,11 +3,50 @@
 use super::super::objective::Aggregate;
 use super::LegGraph;
 
+/// The scores of a graph's legs under one [`super::super::objective::Additive`].
+#[derive(Debug, Clone)]
+pub(in crate::search) struct LegScores {
+    own: Vec<f64>,
+    /// What a leg leaves to the one after it; `None` where no leg leaves anything.
+    left: Option<Vec<f64>>,
+    sink: bool,
+}
+
+impl LegScores {
+    /// `own` and `left` of every leg; `sink`: the last leg is left nothing.
+    pub(in crate::search) fn new(mut own: Vec<f64>, mut left: Vec<f64>, sink: bool) -> Self {
+        for score in own.iter_mut().chain(&mut left).filter(|score| score.is_nan()) {
+            *score = f64::NEG_INFINITY;
+        }
+        let left = left.iter().any(|left| *left != 0.0).then_some(left);
+        Self { own, left, sink }
+    }
+
+    /// The score of `leg` without what was left to it.
+    pub(in crate::search) fn own(&self, leg: usize) -> f64 {
+        self.own[leg]
+    }
+
+    /// What `leg` leaves to the first of the `legs` that come after it.
+    pub(in crate::search) fn left(&self, leg: usize, legs: usize) -> f64 {
+        self.left.as_ref().filter(|_| self.inherits(legs)).map_or(0.0, |left| left[leg])
+    }
+
+    /// Whether anything is left to the first of the last `legs`.
+    fn inherits(&self, legs: usize) -> bool {
+        legs > usize::from(self.sink)
+    }
+}
+
 /// Best aggregated score of the walks of exactly s legs from a node to the end, for every s and every node that a walk of the whole length
 /// meets with s legs to go.
 #[derive(Debug, Clone)]
 pub(in crate::search) struct Values {
-    layers: Vec<Vec<f64>>,
+    aggregate: Aggregate,
+    /// Of all legs, the first of which is left nothing; under [`Aggregate::Max`] where legs leave something: of all legs but the first.
+    rest: Vec<Vec<f64>>,
+    /// Under [`Aggregate::Max`] where legs leave something: of the first leg, left nothing; that of no legs is empty.
+    first: Option<Vec<Vec<f64>>>,
 }
 
 /// No walk. Not −∞: a trajectory of worthless legs still is one.
@@ -18,10 +57,19 @@ const LANES: usize = 4;
 const FEW: usize = 16;
 
 impl Values {
-    /// Best score from `node` to the end in `legs` legs; `None` if there is no such walk.
-    pub(in crate::search) fn best(&self, node: u32, legs: usize) -> Option<f64> {
-        let value = self.layers[legs][node as usize];
-        (!value.is_nan()).then_some(value)
+    /// The best that a partial trajectory becomes that scored `score` so far, stands at `node`, and whose last leg left `left` to the first of the
+    /// `legs` that it still needs; `None` if there is no such walk.
+    pub(in crate::search) fn best(&self, (score, left): (f64, f64), node: u32, legs: usize) -> Option<f64> {
+        let rest = self.rest[legs][node as usize];
+        if rest.is_nan() {
+            return None;
+        }
+        let score = match (&self.first, self.aggregate) {
+            (Some(first), _) if legs > 0 => self.aggregate.add(score, left + first[legs][node as usize]),
+            (None, Aggregate::Sum) => self.aggregate.add(score, left),
+            _ => score,
+        };
+        Some(self.aggregate.add(score, rest))
     }
 }
 
@@ -40,49 +88,76 @@ impl<N: Copy> LegGraph<'_, N> {
         layers
     }
 
-    /// The dynamic program for trajectories of `length` waypoints, `scores` per leg:
-    /// V₀ = neutral at the end, V_s(v) = max over legs v→w of score ⊕ V_{s−1}(w). `near_start` is [`Self::near_start`].
+    /// The dynamic program for trajectories of `length` waypoints. `near_start` is [`Self::near_start`].
+    ///
+    /// ```text
+    /// V₀ = neutral at the end,   V_s(v) = max over legs v→w of own ⊕ V_{s−1}(w),   with what legs leave:
+    /// Sum:  V_s(v) = max over legs v→w of own + left + V_{s−1}(w)       (left: if there is a leg after it)
+    /// Max:  F_s(v) = max over legs v→w of own,   V_s(v) = max over legs v→w of max(left + F_{s−1}(w), V_{s−1}(w))
+    /// ```
     pub(in crate::search) fn values(
         &self,
         length: usize,
-        scores: &[f64],
+        scores: &LegScores,
         aggregate: Aggregate,
         near_start: &[Vec<u32>],
     ) -> Values {
         let at_end = |node| if self.at_end(node) { aggregate.neutral() } else { NO_WALK };
-        let mut layers: Vec<Vec<f64>> = vec![(0..self.nodes() as u32).map(at_end).collect()];
-        while layers.len() < length {
-            let near = near_start.get(length - 1 - layers.len()).map(Vec::as_slice);
-            layers.push(match aggregate {
-                Aggregate::Sum => {
-                    self.layer_of_values(&layers, scores, near, |rest, leg| Aggregate::Sum.add(rest, leg))
+        let mut rest: Vec<Vec<f64>> = vec![(0..self.nodes() as u32).map(at_end).collect()];
+        let mut first = (scores.left.is_some() && aggregate == Aggregate::Max).then(|| vec![Vec::new()]);
+        let both = scores.left.as_ref().filter(|_| aggregate == Aggregate::Sum);
+        let both: Option<Vec<f64>> =
+            both.map(|left| scores.own.iter().zip(left).map(|(own, left)| aggregate.add(*own, *left)).collect());
+        while rest.len() < length {
+            let after = &rest[rest.len() - 1];
+            let near = near_start.get(length - 1 - rest.len()).map(Vec::as_slice);
+            let layer = match (aggregate, &mut first, &scores.left) {
+                (Aggregate::Sum, ..) => {
+                    let last = !scores.inherits(rest.len() - 1);
+                    let scores = both.as_ref().filter(|_| !last).unwrap_or(&scores.own);
+                    self.layer_of_values(rest.len(), after, scores, near, |_, rest, leg| Aggregate::Sum.add(rest, leg))
                 }
-                Aggregate::Max => {
-                    self.layer_of_values(&layers, scores, near, |rest, leg| Aggregate::Max.add(rest, leg))
+                (Aggregate::Max, Some(first), Some(left)) => {
+                    let own = self.layer_of_values(rest.len(), after, &scores.own, near, |_, _, leg| leg);
+                    let next = &first[rest.len() - 1];
+                    let layer = if rest.len() == 1 {
+                        let none = |value: &f64| if value.is_nan() { NO_WALK } else { aggregate.neutral() };
+                        own.iter().map(none).collect()
+                    } else {
+                        self.layer_of_values(rest.len(), after, left, near, |to, rest, leg| {
+                            Aggregate::Max.add(rest, leg + next[to as usize])
+                        })
+                    };
+                    first.push(own);
+                    layer
                 }
-            });
+                (Aggregate::Max, ..) => self.layer_of_values(rest.len(), after, &scores.own, near, |_, rest, leg| {
+                    Aggregate::Max.add(rest, leg)
+                }),
+            };
+            rest.push(layer);
         }
-        Values { layers }
+        Values { aggregate, rest, first }
     }
 
-    /// The layer before `layers`, of the `nodes` given or of all; `add` is compiled into the loop.
+    /// The layer of walks of `legs` legs, before that of one leg less, of the `nodes` given or of all; `add` is compiled into the loop.
     fn layer_of_values(
         &self,
-        layers: &[Vec<f64>],
+        legs: usize,
+        after: &[f64],
         scores: &[f64],
         nodes: Option<&[u32]>,
-        add: impl Fn(f64, f64) -> f64,
+        add: impl Fn(u32, f64, f64) -> f64,
     ) -> Vec<f64> {
-        let after = &layers[layers.len() - 1];
         let best = |node| {
             let mut row = self.legs_from(node);
-            if layers.len() == 1 {
+            if legs == 1 {
                 // The end is the last waypoint: no leg before those to it ends a walk.
                 row.start = row.clone().rev().take_while(|&leg| self.at_end(self.to[leg])).last().unwrap_or(row.end);
             }
             let value = |(&to, &score): (&u32, &f64)| {
                 let rest = after[to as usize];
-                if rest.is_nan() { NO_WALK } else { add(rest, score) }
+                if rest.is_nan() { NO_WALK } else { add(to, rest, score) }
             };
             let (to, scores) = (self.to[row.clone()].chunks_exact(LANES), scores[row].chunks_exact(LANES));
             let left = to.remainder().iter().zip(scores.remainder()).map(value).fold(NO_WALK, f64::max);

@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 use crate::math::random::hashed_unit;
 use crate::search::growth::{Growth, Parent};
-use crate::search::objective::{LegView, Objective};
+use crate::search::objective::{Additive, LegView};
 use crate::search::task::Found;
 
 /// What is asked for.
@@ -114,7 +114,7 @@ pub struct Executed<'o, O, E> {
     best_so_far: Vec<f64>,
 }
 
-impl<'o, O: Objective<Memory = ()>, E> Executed<'o, O, E> {
+impl<'o, O: Additive, E> Executed<'o, O, E> {
     /// With nothing executed yet.
     pub fn new(settings: PartialSettings, objective: &'o O, execute: E) -> Self {
         let mut executed = Self {
@@ -240,7 +240,7 @@ fn found<N: Copy, S>(path: &Path<N, S>) -> Found<N> {
 impl<N, O, E> Growth<N> for Executed<'_, O, E>
 where
     N: Copy,
-    O: Objective<Memory = ()>,
+    O: Additive,
     E: Execute<N>,
 {
     type Memory = Path<N, E::State>;
@@ -264,7 +264,7 @@ where
         self.barren = matches!(self.stress(parent.memory, false), Err(Unscored::Failed));
         let (objective, seed) = (self.objective, self.settings.seed);
         let drawn = |leg: &LegView| hashed_unit(seed, &[leg.from.into(), leg.to.into(), done]);
-        let both: Vec<[f64; 2]> = legs.map(|leg| [objective.extend(&(), &leg).0, drawn(&leg)]).collect();
+        let both: Vec<[f64; 2]> = legs.map(|leg| [objective.own(&leg), drawn(&leg)]).collect();
         let share = self.share(done);
         self.chosen.resize(both.len(), both.len() <= share);
         if both.len() > share {
