@@ -27,7 +27,7 @@ pub struct LegView<'a> {
 }
 
 /// A score, built up leg by leg. What it remembers of a partial trajectory travels with it, so that extending one
-/// never starts again from its first waypoint. [`super::exact`] takes those that are [`Additive`].
+/// never starts again from its first waypoint. [`super::exact()`] takes those that are [`Additive`].
 ///
 /// Any `Fn(&LegView) -> f64` is an objective without memory.
 pub trait Objective {

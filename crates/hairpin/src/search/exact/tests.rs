@@ -69,6 +69,7 @@ impl Objective for Leaving {
 
 impl Additive for Leaving {
     fn own(&self, leg: &LegView<'_>) -> f64 {
+        assert!((leg.to as usize) < leg.candidates.len(), "a sink is nobody's business but the search's");
         hashed_unit(self.seed, &[leg.from.into(), leg.to.into()])
     }
 
