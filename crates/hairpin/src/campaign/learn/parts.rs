@@ -92,11 +92,8 @@ impl Parts {
                 Ok(errors.sum())
             })
             .collect();
-        let n = pairs.rows.values.len() as f64;
-        let (mse, mean) = (errors?.iter().sum::<f64>() / n, pairs.rows.values.iter().sum::<f64>() / n);
-        let variance = pairs.rows.values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / n;
-        let r2 = if variance > 0.0 { 1.0 - mse / variance } else { 0.0 };
-        Ok(Validation { folds: FOLDS, r2, rmse: libm::sqrt(mse) })
+        let values = &pairs.rows.values;
+        Ok(Validation::of(FOLDS, errors?.iter().sum::<f64>() / values.len() as f64, values))
     }
 }
 

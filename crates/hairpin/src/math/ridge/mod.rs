@@ -118,6 +118,15 @@ pub struct Validation {
     pub rmse: f64,
 }
 
+impl Validation {
+    /// From the mean squared error `error` of what was told of `values`.
+    pub fn of(folds: usize, error: f64, values: &[f64]) -> Self {
+        let variance = variance(values);
+        let r2 = if variance > 0.0 { 1.0 - error / variance } else { 0.0 };
+        Self { folds, r2, rmse: libm::sqrt(error) }
+    }
+}
+
 impl PolynomialRidge {
     /// Fits `rows` with the degree (1 to `most_degree`) and the penalty whose mean squared error over `folds` folds is the
     /// least; the first of equals. Groups are dealt to folds in the order in which they appear.
@@ -126,7 +135,6 @@ impl PolynomialRidge {
     /// [`NoFit`].
     pub fn choose(rows: &Rows, most_degree: u32, folds: usize) -> Result<(Self, Validation), NoFit> {
         let fold_of = check(rows, folds)?;
-        let variance = variance(&rows.values);
         let standard = Standard::of(&rows.inputs)?;
         let mut best: Option<(f64, u32, f64)> = None;
         for degree in 1..=most_degree.max(1) {
@@ -142,8 +150,7 @@ impl PolynomialRidge {
         }
         let (error, degree, penalty) = best.ok_or(NoFit::Constant)?;
         let fitted = Self::fit(rows, &standard, degree, penalty)?;
-        let r2 = if variance > 0.0 { 1.0 - error / variance } else { 0.0 };
-        Ok((fitted, Validation { folds, r2, rmse: libm::sqrt(error) }))
+        Ok((fitted, Validation::of(folds, error, &rows.values)))
     }
 
     /// Fits `rows` with this degree and penalty.
