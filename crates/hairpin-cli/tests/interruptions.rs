@@ -142,7 +142,7 @@ fn a_kill_between_the_files_of_a_checkpoint_costs_nothing() {
 #[test]
 fn ctrl_c_once_keeps_what_is_done_and_resume_finishes_it() {
     let folder = tempfile::tempdir().unwrap();
-    let long = [&SMALL[..], &["--set", "execute.repeat=60", "--threads", "1"]].concat();
+    let long = [&SMALL[..], &["--set", "execute.repeat=20", "--threads", "1"]].concat();
     run(folder.path(), &[&long[..], &["--out", "calm"]].concat());
     let stopped = [&long[..], &["--out", "stopped", "--resume", "-v"]].concat();
 
@@ -161,11 +161,11 @@ fn ctrl_c_once_keeps_what_is_done_and_resume_finishes_it() {
     let (code, error) = end(child);
     assert!(code == Some(130) && error.contains("--resume goes on"), "{code:?}: {error}");
     let kept = files_in(&flights);
-    assert!((3..240).contains(&kept), "{kept}");
+    assert!((3..80).contains(&kept), "{kept}");
     assert_whole(&folder.path().join("stopped"));
 
     let (code, _, error) = run(folder.path(), &stopped);
-    assert!([0, 1].contains(&code) && files_in(&flights) == 240, "{error}");
+    assert!([0, 1].contains(&code) && files_in(&flights) == 80, "{error}");
     assert_same(&folder.path().join("calm"), &folder.path().join("stopped"));
 }
 
