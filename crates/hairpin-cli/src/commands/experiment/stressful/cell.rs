@@ -15,8 +15,11 @@ pub(super) const FLIGHT_GOGGLES: &str = "paper-minimum-snap";
 /// The one of the Anafi's stand-in.
 pub(super) const ANAFI: &str = "paper-anafi";
 
-/// Rounds that scores are learned in, and trajectories per graph in each.
-const ROUNDS: u64 = 5;
+/// Scores are learned in so many rounds, if each then has at least so many executions: what the round before taught decides what a round
+/// executes, and many small rounds get farther than few large ones.
+const ROUNDS: u64 = 15;
+const LEAST_PER_ROUND: u64 = 13;
+/// Trajectories per graph and round.
 const PER_GRAPH_AND_ROUND: u64 = 3;
 
 /// A dotted key and its TOML value.
@@ -84,14 +87,15 @@ pub(super) fn flown<const N: usize>(
 /// A model of the largest deviation per leg, learned in rounds from `executions` nominal runs of trajectories of other graphs than those
 /// of `seed`: uniform ones at first, then mostly the worst ones that the model of the rounds before knows of.
 pub(super) fn learned(scenario: &str, base: &[Set], executions: u64, seed: u64) -> Result<ScoreModel, Problem> {
-    let graphs = executions.div_ceil(ROUNDS * PER_GRAPH_AND_ROUND);
+    let rounds = (executions / LEAST_PER_ROUND).clamp(1, ROUNDS);
+    let graphs = executions.div_ceil(rounds * PER_GRAPH_AND_ROUND);
     let sets = [
         ("seed", (named_seed(seed, "training", 0) >> 1).to_string()),
         ("generate.search.method", text("adaptive")),
         ("generate.search.aggregate", text("max")),
         ("generate.search.cases", graphs.to_string()),
         ("generate.search.executions", executions.to_string()),
-        ("generate.search.rounds", ROUNDS.to_string()),
+        ("generate.search.rounds", rounds.to_string()),
     ];
     let setup = setup(scenario, &with(base, &sets), None)?;
     let tally = campaign::generate(&setup, &Known::default(), &stop(), &mut |_, _| {});
