@@ -134,6 +134,15 @@ fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
     drop(kept);
     let (code, out, _) = run(here, &["verify", "balls"]);
     assert!(code == 1 && out.contains("case 0000: environment.obstacles[0].clearance"), "{out}");
+
+    // A box that is a little higher than was asked for is none of those that were.
+    let kept = CampaignFolder::open_to_write(&here.join("boxes")).unwrap();
+    let mut higher = kept.read_cases().unwrap();
+    higher[0].environment.as_mut().unwrap().obstacles[0].cuboid.as_mut().unwrap().size_m[2] = 2.000_001;
+    kept.write_results(&higher, &[]).unwrap();
+    drop(kept);
+    let (code, out, _) = run(here, &["verify", "boxes"]);
+    assert!(code == 1 && out.contains("case 0000: environment.obstacles[0].size_m[2]"), "{out}");
 }
 
 #[test]

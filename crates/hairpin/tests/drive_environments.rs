@@ -158,6 +158,20 @@ fn a_disc_in_the_way_of_the_plan_or_off_the_map_is_refused() {
     assert_eq!(fields(&other), "environment.external_force_n[2]");
     let windy = |case: &mut Case| case.environment.as_mut().expect("an environment").wind_m_s = Some([1.0, 0.0, 0.0]);
     assert_eq!(fields(&windy), "environment.wind_m_s");
+    // Two of 0.3 m were asked for: none may be larger, and there may be no third.
+    let sized = |radius_m: f64| {
+        move |case: &mut Case| {
+            let place = &mut case.environment.as_mut().expect("an environment").keep_out[0];
+            place.circle.as_mut().expect("a disc").radius_m = radius_m;
+        }
+    };
+    assert_eq!(fields(&sized(0.3f64.next_down())), "");
+    assert!(fields(&sized(0.3f64.next_up())).starts_with("environment.keep_out[0].radius_m"));
+    let third = |case: &mut Case| {
+        let places = &mut case.environment.as_mut().expect("an environment").keep_out;
+        places.push(places[0].clone());
+    };
+    assert_eq!(fields(&third), "environment.keep_out");
 }
 
 #[test]

@@ -37,7 +37,8 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
 }
 
 /// What does not hold of the environment of `case`: its keep-outs are discs on the map that the plan keeps the vehicle's radius from,
-/// everywhere, the force is horizontal and no larger than was asked for, and there is nothing else. Nothing for a case without one.
+/// everywhere, no more and no larger ones than were asked for; the force is horizontal and no larger than was asked for; and there is nothing
+/// else. Nothing for a case without one.
 pub(in crate::campaign) fn verify_environment(setup: &DriveSetup, case: &Case) -> Vec<Finding> {
     let Some(environment) = &case.environment else { return Vec::new() };
     let Environment { wind_m_s, discrete_gust, obstacles, keep_out, external_force_n } = environment;
@@ -55,11 +56,17 @@ pub(in crate::campaign) fn verify_environment(setup: &DriveSetup, case: &Case) -
     exceed("obstacles", others as f64, 0.0, "");
     exceed("wind_m_s", f64::from(u8::from(wind_m_s.is_some() || discrete_gust.is_some())), 0.0, "");
     let [east, north, up] = external_force_n.unwrap_or_default();
-    let asked = setup.scenario.generate.environment.and_then(|asked| asked.external_force_n);
+    let asked = setup.scenario.generate.environment.unwrap_or_default();
     // A vector at its bound may be rounded beyond it.
-    let most = asked.map_or(f64::INFINITY, |most| most * (1.0 + 1e-12));
+    let most = asked.external_force_n.map_or(f64::INFINITY, |most| most * (1.0 + 1e-12));
     exceed("external_force_n", libm::hypot(east, north), most, "N");
     exceed("external_force_n[2]", up.abs(), 0.0, "N");
+    if let Some(placed) = asked.obstacles {
+        exceed("keep_out", discs.len() as f64, placed.count as f64, "");
+        for (number, disc) in discs.iter().enumerate() {
+            exceed(&format!("keep_out[{number}].radius_m"), disc.radius, placed.radius_m, "m");
+        }
+    }
     let legs = case.drive.as_ref().map(|drive| leg_claims(case, drive));
     let waypoints = waypoints_of(case);
     let claim = ClearGroundClaim {

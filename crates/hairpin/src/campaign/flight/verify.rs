@@ -38,7 +38,7 @@ fn body_of(robot: &Quadrotor) -> Body {
 }
 
 /// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere, they are in the world,
-/// and wind and gust are no faster than was asked for. Nothing for a case without one.
+/// no more and no larger than was asked for, and wind and gust are no faster. Nothing for a case without one.
 pub(in crate::campaign) fn verify_environment(setup: &FlightSetup, case: &Case) -> Vec<Finding> {
     let Some(environment) = &case.environment else { return Vec::new() };
     let mut findings = Vec::new();
@@ -69,6 +69,22 @@ pub(in crate::campaign) fn verify_environment(setup: &FlightSetup, case: &Case) 
         exceed(format!("obstacles[{number}].outside"), outside, 0.0, "m");
     }
     let asked = setup.scenario.generate.environment.unwrap_or_default();
+    if let Some(placed) = asked.obstacles {
+        exceed("obstacles".into(), solids.len() as f64, placed.count as f64, "");
+        for (number, solid) in solids.iter().enumerate() {
+            // A shape that was not asked for has no size at all.
+            match solid {
+                ClearSolid::Ball(_, radius) => {
+                    exceed(format!("obstacles[{number}].radius_m"), *radius, placed.radius_m.unwrap_or_default(), "m");
+                }
+                ClearSolid::Box(_, size) => {
+                    for (axis, (edge, most)) in size.iter().zip(placed.size_m.unwrap_or_default()).enumerate() {
+                        exceed(format!("obstacles[{number}].size_m[{axis}]"), *edge, most, "m");
+                    }
+                }
+            }
+        }
+    }
     let speed = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     // A vector at its bound may be rounded beyond it.
     let most = |bound: Option<f64>| bound.map_or(f64::INFINITY, |bound| bound * (1.0 + 1e-12));
