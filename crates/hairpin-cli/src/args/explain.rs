@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use super::numbers::{LARGEST_SEED, seconds};
 use super::{Kernels, Threads};
 
 /// Searches a fixed number of graphs, counts where candidates for legs are lost, by limit, and where nothing is feasible
@@ -14,13 +15,13 @@ pub(crate) struct Explain {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,
     /// Root seed, instead of the scenario's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=super::LARGEST_SEED), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED), allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
     /// Graphs that are sampled and searched; with every change the same ones
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     pub(crate) graphs: u64,
     /// Seconds after which no further change is tried
-    #[arg(long, value_name = "S", value_parser = super::seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) time_limit: Option<f64>,
     /// One JSON object on stdout
     #[arg(long)]

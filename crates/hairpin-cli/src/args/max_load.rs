@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{LARGEST_SEED, Threads, seconds};
+use super::Threads;
+use super::numbers::{LARGEST_SEED, seconds};
 
 /// The path through a graph that costs most, in which no point comes twice (or --visits). Points may be left out; ends are free unless fixed.
 ///

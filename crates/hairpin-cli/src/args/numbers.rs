@@ -3,6 +3,16 @@
 /// Longest time limit, ms: eleven days.
 const LONGEST_MS: f64 = 1e9;
 
+/// Whole numbers of TOML end here, and the seed is written to scenario.toml.
+pub(super) const LARGEST_SEED: u64 = i64::MAX as u64;
+
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds >= 0.0 => Ok(seconds),
+        _ => Err("must be a number of seconds ≥ 0".into()),
+    }
+}
+
 pub(super) fn milliseconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(ms) if (0.0..=LONGEST_MS).contains(&ms) => Ok(ms),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Kernels;
+use super::numbers::seconds;
 
 /// Drops waypoints, leaves out wind, gusts, noise, obstacles and varied values, and shortens legs, as long as the run violates the
 /// same limit. Every candidate is feasible by the same claim as the case before it is executed. Interrupted or out of
@@ -21,7 +22,7 @@ pub(crate) struct Shrink {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) budget: u64,
     /// Seconds after which it stops with the smallest so far
-    #[arg(long, value_name = "S", value_parser = super::seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) time_limit: Option<f64>,
     /// File to write; repro/CASE-shrunk.json in OUT if not given
     #[arg(long, value_name = "FILE")]

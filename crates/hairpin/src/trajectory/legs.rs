@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::direction::Direction;
 use super::drive::{Motion, Planar, Segment};
-use super::speed::{SpeedProfile, Timing};
+use super::speed::SpeedProfile;
+use super::timing::Timing;
 
 /// One leg of a [`Drive`]: what is commanded from one waypoint to the next.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

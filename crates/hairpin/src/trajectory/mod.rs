@@ -9,6 +9,7 @@ pub mod planned_path;
 pub mod profile;
 pub mod program;
 pub mod speed;
+pub mod timing;
 pub mod track;
 
 pub use direction::Direction;
@@ -16,5 +17,6 @@ pub use flight::{Ended, Flight};
 pub use legs::{Drive, DriveLeg, Passing};
 pub use planned_path::{PlannedMove, PlannedPath};
 pub use profile::{Profile, ProfileLeg};
-pub use speed::{SpeedError, SpeedProfile, Speeds, Timing};
+pub use speed::{SpeedError, SpeedProfile, Speeds};
+pub use timing::Timing;
 pub use track::{ATTITUDE_UNKNOWN, Channel, Track, TrackError};

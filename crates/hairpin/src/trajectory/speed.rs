@@ -1,9 +1,7 @@
-//! Speed along a drive: constant, a ramp, or a trapezoid, and the time that each makes of the metres.
+//! Speed along a stretch: constant, a ramp, or a trapezoid, and the time that each makes of the metres.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-
-use super::drive::{MOST_SEGMENTS, Motion, Segment};
 
 /// How speed depends on time, m/s. Where a drive stops on the way (to change gear or to turn in place) ramps and trapezoids
 /// stop there too; a constant speed knows no stops.
@@ -109,7 +107,7 @@ impl SpeedProfile {
     }
 
     /// The speeds of a stretch of `length` metres, ≥ 0, that is driven from `start` to `end`, which are the profile's own or 0.
-    fn between(&self, start: f64, end: f64, length: f64) -> Speeds {
+    pub(super) fn between(&self, start: f64, end: f64, length: f64) -> Speeds {
         let (cruise, acceleration) = match *self {
             Self::Constant { speed } => {
                 return Speeds::of([(length, speed, speed), (0.0, speed, speed), (0.0, speed, speed)]);
@@ -250,139 +248,15 @@ impl Speeds {
         let first = self.phases[0].time(self.phases[0].length);
         [first, first + self.phases[1].time(self.phases[1].length)]
     }
-}
 
-/// Speed and time along a whole drive, with its stops.
-#[derive(Debug, Clone, Copy)]
-pub struct Timing {
-    stretches: [(f64, Speeds); MOST_SEGMENTS],
-    len: usize,
-    constant: Option<f64>,
-    length: f64,
-}
-
-impl Timing {
-    /// The timing of `segments`, [`MOST_SEGMENTS`] at most, under `profile`.
-    pub fn new(profile: &SpeedProfile, segments: &[Segment]) -> Self {
-        let rest = SpeedProfile::from(1.0).over(0.0);
-        let length = segments.iter().map(Segment::length_m).sum();
-        let mut timing = Self { stretches: [(0.0, rest); MOST_SEGMENTS], len: 0, constant: None, length };
-        if let SpeedProfile::Constant { speed } = *profile {
-            timing.constant = Some(speed);
-            return timing;
+    /// Metres, counted on from `s`, and the speed there, at both ends of every phase; v² is linear between.
+    pub(super) fn knots_from(&self, mut s: f64) -> [[f64; 2]; 6] {
+        let mut knots = [[0.0; 2]; 6];
+        for (ends, phase) in knots.chunks_exact_mut(2).zip(self.phases) {
+            ends[0] = [s, phase.from];
+            s += phase.length;
+            ends[1] = [s, phase.to];
         }
-        // Stretches: lengths, each but the first begun after a stop.
-        let mut gear = None;
-        let mut stopped_first = false;
-        let mut stops_last = false;
-        for segment in segments {
-            match segment.motion {
-                Motion::Turn { .. } => {
-                    gear = None;
-                    stopped_first |= timing.len == 0;
-                    stops_last = true;
-                }
-                Motion::Arc { length_m, .. } => {
-                    stops_last = false;
-                    if gear != Some(segment.gear) && timing.len < MOST_SEGMENTS {
-                        timing.stretches[timing.len].0 = 0.0;
-                        timing.len += 1;
-                    }
-                    gear = Some(segment.gear);
-                    timing.stretches[timing.len - 1].0 += length_m;
-                }
-            }
-        }
-        if timing.len <= 1 && !stopped_first && !stops_last && profile.is_constant() {
-            timing.constant = Some(profile.start());
-            return timing;
-        }
-        for index in 0..timing.len {
-            let length = timing.stretches[index].0;
-            let start = if index == 0 && !stopped_first { profile.start() } else { 0.0 };
-            let end = if index + 1 == timing.len && !stops_last { profile.end() } else { 0.0 };
-            timing.stretches[index].1 = profile.between(start, end, length);
-        }
-        timing
-    }
-
-    /// The stretch that holds `s`, where in it that is, and the seconds before it.
-    fn stretch_at(&self, s: f64) -> Option<(&Speeds, f64, f64)> {
-        let (mut s, mut time) = (s, 0.0);
-        for (index, (length, speeds)) in self.stretches[..self.len].iter().enumerate() {
-            if s < *length || index + 1 == self.len {
-                return Some((speeds, s.min(*length), time));
-            }
-            s -= length;
-            time += speeds.duration();
-        }
-        None
-    }
-
-    /// Metres of the drive.
-    pub fn length(&self) -> f64 {
-        self.length
-    }
-
-    /// Whether the speed is the same all along.
-    pub fn is_constant(&self) -> bool {
-        self.constant.is_some()
-    }
-
-    /// Speed after `s` metres, m/s.
-    pub fn speed_at(&self, s: f64) -> f64 {
-        self.constant.unwrap_or_else(|| self.stretch_at(s).map_or(0.0, |(speeds, s, _)| speeds.speed_at(s)))
-    }
-
-    /// dv/dt after `s` metres, m/s².
-    pub fn acceleration_at(&self, s: f64) -> f64 {
-        self.constant
-            .map_or_else(|| self.stretch_at(s).map_or(0.0, |(speeds, s, _)| speeds.acceleration_at(s)), |_| 0.0)
-    }
-
-    /// Seconds of driving after `s` metres; turns in place take more.
-    pub fn time_at(&self, s: f64) -> f64 {
-        match self.constant {
-            Some(speed) => s / speed,
-            None => self.stretch_at(s).map_or(0.0, |(speeds, s, before)| before + speeds.time_at(s)),
-        }
-    }
-
-    /// Seconds from `s` to `s + h` metres.
-    pub fn time_over(&self, s: f64, h: f64) -> f64 {
-        match self.constant {
-            Some(speed) => h / speed,
-            None => self.time_at(s + h) - self.time_at(s),
-        }
-    }
-
-    /// Speed at the end of the drive, m/s.
-    pub fn end_speed(&self) -> f64 {
-        self.speed_at(self.length)
-    }
-
-    /// Largest |dv/dt|, m/s².
-    pub fn hardest(&self) -> f64 {
-        self.stretches[..self.len].iter().map(|(_, speeds)| speeds.hardest()).fold(0.0, f64::max)
-    }
-
-    /// Metres with the speed there, v² linear between: what another integration needs to know.
-    pub fn knots(&self) -> Vec<[f64; 2]> {
-        if let Some(speed) = self.constant {
-            return vec![[0.0, speed]];
-        }
-        let mut knots = Vec::new();
-        let mut s = 0.0;
-        for (length, speeds) in &self.stretches[..self.len] {
-            let mut here = s;
-            for phase in speeds.phases {
-                knots.push([here, phase.from]);
-                here += phase.length;
-                knots.push([here, phase.to]);
-            }
-            s += length;
-        }
-        knots.dedup();
         knots
     }
 }
@@ -390,7 +264,6 @@ impl Timing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trajectory::drive::Gear;
 
     const TRAPEZOID: SpeedProfile = SpeedProfile::Trapezoid { start: 0.0, cruise: 2.0, end: 1.0, acceleration: 0.5 };
 
@@ -428,38 +301,6 @@ mod tests {
             }
             assert!((speeds.place_at(1e9) - length).abs() < 1e-12);
         }
-    }
-
-    #[test]
-    fn drives_stop_where_gears_change_and_vehicles_turn() {
-        let turn = Segment { motion: Motion::Turn { angle_rad: 1.0 }, gear: Gear::Forward };
-        let drive = [
-            Segment::straight(3.0, Gear::Forward),
-            Segment::straight(5.0, Gear::Forward),
-            Segment::straight(6.0, Gear::Reverse),
-            turn,
-            Segment::straight(7.0, Gear::Reverse),
-        ];
-        let timing =
-            Timing::new(&SpeedProfile::Trapezoid { start: 1.0, cruise: 1.5, end: 0.5, acceleration: 0.5 }, &drive);
-        for (s, expected) in [(0.0, 1.0), (3.0, 1.5), (14.0, 0.0), (17.0, 1.5), (21.0, 0.5)] {
-            assert!((timing.speed_at(s) - expected).abs() < 1e-6, "{s}: {}", timing.speed_at(s));
-        }
-        assert!(timing.speed_at(8.0) < 1e-6 && timing.speed_at(8.0 - 1e-9) < 1e-3);
-        let parts: f64 = (0..210).map(|i| timing.time_over(0.1 * f64::from(i), 0.1)).sum();
-        assert!((parts - timing.time_at(21.0)).abs() < 1e-9 && (timing.hardest() - 0.5).abs() < 1e-12);
-        let knots = timing.knots();
-        assert!(
-            knots.windows(2).all(|pair| pair[0][0] <= pair[1][0]) && knots.last() == Some(&[21.0, 0.5]),
-            "{knots:?}"
-        );
-        // The same speed all along, but for the stops.
-        let stopping = SpeedProfile::Trapezoid { start: 1.5, cruise: 1.5, end: 1.5, acceleration: 0.5 };
-        let timing = Timing::new(&stopping, &drive);
-        assert!(timing.speed_at(8.0 - 1e-9) < 1e-3 && timing.speed_at(4.0) == 1.5 && !timing.is_constant());
-        assert!(Timing::new(&stopping, &drive[..2]).is_constant());
-        let even = Timing::new(&0.5.into(), &drive);
-        assert_eq!((even.time_at(21.0), even.speed_at(8.0), even.hardest()), (42.0, 0.5, 0.0));
     }
 
     #[test]

@@ -1,0 +1,188 @@
+//! The pipeline's own commands: `stress`, and each of its steps alone.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::numbers::{LARGEST_SEED, seconds};
+use super::{Kernels, Threads};
+
+/// What every command that begins a campaign takes.
+#[derive(Debug, Args)]
+pub(crate) struct Campaign {
+    /// Scenario file, or the name of a shipped scenario or robot
+    pub(crate) scenario: String,
+    /// Campaign folder; out/NAME of the scenario if not given
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Root seed, instead of the scenario's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED), allow_negative_numbers = true)]
+    pub(crate) seed: Option<u64>,
+    /// Override one scenario key: dotted key, TOML value; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// Go on with an interrupted campaign (same arguments, same --out)
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Replace the campaign in --out
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Seconds after which generation stops and keeps what exists
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub(crate) time_limit: Option<f64>,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+    #[command(flatten)]
+    pub(crate) kernels: Kernels,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Stress {
+    #[command(flatten)]
+    pub(crate) campaign: Campaign,
+    /// Program that flies the missions (sets execute.command); see examples/executors
+    #[arg(long, value_name = "COMMAND")]
+    pub(crate) executor: Option<String>,
+    #[command(flatten)]
+    pub(crate) saved: Saved,
+}
+
+/// Saved violations that are run first.
+#[derive(Debug, Args)]
+pub(crate) struct Saved {
+    /// Run the repro files of this folder first, by this campaign's robot, execute and spec; without it those that the
+    /// campaign folder has
+    #[arg(long, value_name = "DIR")]
+    pub(crate) repro: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Generate {
+    #[command(flatten)]
+    pub(crate) campaign: Campaign,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Execute {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// Fly these waypoint files (CSV: x_m,y_m,z_m) instead of the folder's cases
+    #[arg(long, value_name = "DIR")]
+    pub(crate) missions: Option<PathBuf>,
+    /// Program that flies the missions (sets execute.command); see examples/executors
+    #[arg(long, value_name = "COMMAND")]
+    pub(crate) executor: Option<String>,
+    #[command(flatten)]
+    pub(crate) saved: Saved,
+    /// Of arms: logs of a real controller instead of runs of ours, `*` for CASE-RUN (sets execute.logs): 'nightly/*.csv'
+    #[arg(long, value_name = "PATTERN", conflicts_with_all = ["missions", "executor"])]
+    pub(crate) logs: Option<String>,
+    /// Run every violation N times again with other noise (sets execute.flaky.reruns): how often does it come again?
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) rerun_violations: Option<u32>,
+    /// Override one key of execute, vary or spec; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// Keep the runs that are there
+    #[arg(long, conflicts_with = "missions")]
+    pub(crate) resume: bool,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+    #[command(flatten)]
+    pub(crate) kernels: Kernels,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Judge {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// Override one key of spec; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Verify {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// One JSON object on stdout: checked, failed, worst
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Replay {
+    /// repro/CASE.json of a campaign folder
+    #[arg(value_name = "REPRO")]
+    pub(crate) file: PathBuf,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) kernels: Kernels,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Export {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// Formats, separated by commas; the files go into the campaign folder
+    #[arg(long, value_enum, value_delimiter = ',', required = true)]
+    pub(crate) to: Vec<Format>,
+    /// One JSON object on stdout: the files
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Formats of `export`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// missions/CASE.csv: x_m,y_m,z_m
+    Waypoints,
+    /// missions/CASE.geodetic.csv: lat_deg,lon_deg,alt_amsl_m,relative_alt_m by the scenario's world.origin
+    Geodetic,
+    /// CASE.planned.csv and CASE-RUN.csv: poses in time, quaternions w first
+    Csv,
+    /// Of arms: CASE.mod, CASE_slow.mod for the first run, and CASE.pgf, which names the module
+    Rapid,
+    /// Of arms: CASE.script for Universal Robots
+    Urscript,
+    /// Of arms: CASE.src and CASE.dat for KUKA
+    Krl,
+    /// Of arms: CASE.joint_trajectory.json, the planned joints every 10 ms as a ROS 2 message
+    JointTrajectory,
+    /// Of arms: arc_clock.mod, which clocks every move of the graph on the controller; then `hairpin import arc_ms.log`
+    ArcClock,
+    /// CASE.ref.tum and CASE.exec.tum: planned motion and worst run on the same stamps, not aligned
+    Tum,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReportArguments {
+    /// Campaign folder
+    #[arg(value_name = "OUT")]
+    pub(crate) folder: PathBuf,
+    /// Open it in the browser
+    #[arg(long)]
+    pub(crate) open: bool,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
