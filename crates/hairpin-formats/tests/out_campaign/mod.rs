@@ -122,6 +122,7 @@ fn measures(deviation: f64) -> Measures {
         overshoot: 0.1 * k as f64,
         min_clearance: None,
         min_tip_over_margin: Some(7.25 + k as f64),
+        max_tilt: Some(20.5 + k as f64),
         saturation_share: Some(0.25),
         joint_effort: Some(1.5 + k as f64),
     };
@@ -140,6 +141,8 @@ fn measures(deviation: f64) -> Measures {
         t_clearance: 2.0,
         min_tip_over_margin: Some(7.25),
         t_tip_over_margin: 3.0,
+        max_tilt: Some(22.5),
+        t_tilt: 4.0,
         saturation_share: Some(0.31),
         joint_effort: Some(7.5),
         legs: (0..3).map(leg).collect(),

@@ -8,7 +8,7 @@ use super::deviation::{deviations, legs_flown};
 use super::settings::{JudgementError, Settings};
 use super::{AccelerationSource, LegMeasures, Measures};
 use crate::math::segment::nearest_point;
-use crate::trajectory::Track;
+use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 
 /// Measures `track` against the polyline through `waypoints`.
 ///
@@ -22,6 +22,7 @@ use crate::trajectory::Track;
 ///   ends), or the second divided difference of positions where they are missing; speed rate: |‖v_i+1‖ − ‖v_i−1‖| over
 ///   the same time;
 /// - tip-over margin: least value of the channel `tip_over_margin_deg`;
+/// - tilt: 2 asin √(q_x² + q_y²), the angle between the body's upward axis and the world's; not of tracks with joints, whose pose is a tool's;
 /// - saturation: mean over time of the channel `saturated`;
 /// - joint effort: Σ_i h_i Σ_k q̈_k², q̈ the second divided difference of the channels `q1_rad`, `q2_rad` …: with a recording's noise of σ it
 ///   has about 6σ²/Δ⁴ a second and joint too much.
@@ -51,6 +52,9 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
     measure_clearance(&mut measures, track.times(), &positions, &legs, settings);
     if let Some(margins) = track.channel("tip_over_margin_deg") {
         measure_tip_over(&mut measures, track.times(), margins, &legs);
+    }
+    if track.channel(ATTITUDE_UNKNOWN).is_none() && track.channel("q1_rad").is_none() {
+        measure_tilt(&mut measures, track, &legs);
     }
     if let Some(saturated) = track.channel("saturated") {
         let mean = |leg: Option<usize>| {
@@ -229,6 +233,24 @@ fn measure_tip_over(measures: &mut Measures, times: &[f64], margins: &[f64], leg
         if measures.min_tip_over_margin.is_none_or(|least| margin < least) {
             (measures.min_tip_over_margin, measures.t_tip_over_margin) = (Some(margin), times[i]);
         }
+    }
+}
+
+fn measure_tilt(measures: &mut Measures, track: &Track, legs: &[usize]) {
+    let mut worst = (-1.0, 0.0);
+    let mut of_legs = vec![-1.0_f64; measures.legs.len()];
+    for ((pose, &time), &leg) in track.poses().iter().zip(track.times()).zip(legs) {
+        let q = pose.rotation.quaternion();
+        let squared = q.i * q.i + q.j * q.j;
+        of_legs[leg] = of_legs[leg].max(squared);
+        if squared > worst.0 {
+            worst = (squared, time);
+        }
+    }
+    let angle = |squared: f64| (squared >= 0.0).then(|| 2.0 * libm::asin(squared.sqrt().min(1.0)).to_degrees());
+    (measures.max_tilt, measures.t_tilt) = (angle(worst.0), worst.1);
+    for (leg, squared) in measures.legs.iter_mut().zip(of_legs) {
+        leg.max_tilt = angle(squared);
     }
 }
 

@@ -38,6 +38,8 @@ pub struct LegMeasures {
     pub min_clearance: Option<f64>,
     /// Smallest angle by which the body would have had to lean further to tip over, degrees; `None` where it was not told.
     pub min_tip_over_margin: Option<f64>,
+    /// Largest angle of the body's upward axis from the world's, degrees; `None` of arms and where no attitude was told.
+    pub max_tilt: Option<f64>,
     /// Share of rotor-time at a rotor limit, 0 … 1; `None` where the executor did not tell.
     pub saturation_share: Option<f64>,
     /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³; `None` where their angles were not told.
@@ -86,6 +88,10 @@ pub struct Measures {
     pub min_tip_over_margin: Option<f64>,
     /// When it was reached, s.
     pub t_tip_over_margin: f64,
+    /// Largest angle of the body's upward axis from the world's, degrees; `None` of arms and where no attitude was told.
+    pub max_tilt: Option<f64>,
+    /// When it was reached, s.
+    pub t_tilt: f64,
     /// Share of rotor-time spent at a rotor limit, 0 … 1; `None` where the executor did not tell.
     pub saturation_share: Option<f64>,
     /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³; `None` where their angles were not told.

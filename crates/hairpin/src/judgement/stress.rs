@@ -24,7 +24,8 @@ pub enum Stress {
     Saturation,
     /// Least distance from obstacles, with its sign turned, m.
     Clearance,
-    /// Least angle by which the body would have had to lean further to tip over, with its sign turned, degrees.
+    /// Of what stands on the ground the least angle by which it would have had to lean further to tip over, with its sign turned; of what
+    /// flies the largest angle of its upward axis from the world's; degrees.
     Tilt,
     /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³.
     JointEffort,
@@ -86,7 +87,7 @@ impl Stress {
             Stress::Overshoot => Some(measures.max_overshoot()),
             Stress::Saturation => measures.saturation_share,
             Stress::Clearance => measures.min_clearance.map(|clearance| -clearance),
-            Stress::Tilt => measures.min_tip_over_margin.map(|margin| -margin),
+            Stress::Tilt => measures.min_tip_over_margin.map(|margin| -margin).or(measures.max_tilt),
             Stress::JointEffort => measures.joint_effort,
         }
     }
@@ -101,7 +102,7 @@ impl Stress {
             Stress::Overshoot => Some(leg.overshoot),
             Stress::Saturation => leg.saturation_share,
             Stress::Clearance => leg.min_clearance.map(|clearance| -clearance),
-            Stress::Tilt => leg.min_tip_over_margin.map(|margin| -margin),
+            Stress::Tilt => leg.min_tip_over_margin.map(|margin| -margin).or(leg.max_tilt),
             Stress::JointEffort => leg.joint_effort,
         }
     }

@@ -1,9 +1,9 @@
 //! Measures on tracks whose answers are known, and the spec.
 
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 
 use super::*;
-use crate::trajectory::{Channel, Ended, Flight, Track};
+use crate::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 
 /// A track through `positions` at `times` with named channels.
 fn track(times: Vec<f64>, positions: &[[f64; 3]], channels: &[(&str, Vec<f64>)]) -> Track {
@@ -192,6 +192,38 @@ fn the_tip_over_margin_is_the_least_and_a_lower_limit() {
     }
     let unknown = track(seconds(3), &positions, &[]);
     assert_eq!(measure(&unknown, &square(), &Settings::default()).unwrap().min_tip_over_margin, None);
+}
+
+#[test]
+fn tilt_is_the_angle_of_the_upward_axis_and_neither_heading_nor_a_tool_s() {
+    // Yawed by any angle, then leaned by a known one about a level axis.
+    let (yaws, leans) = ([0.3, 2.0, -1.2, 0.5], [10.0_f64, 35.0, 20.0, 179.0]);
+    let flown = |channels: &[(&str, Vec<f64>)]| {
+        let poses = yaws.iter().zip(leans).enumerate().map(|(i, (yaw, lean))| {
+            let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), *yaw)
+                * UnitQuaternion::from_axis_angle(
+                    &Unit::new_normalize(Vector3::new(0.6, -0.8, 0.0)),
+                    lean.to_radians(),
+                );
+            Isometry3::from_parts([i as f64, 0.0, 0.0].into(), about)
+        });
+        let channels = channels.iter().map(|(name, values)| Channel { name: (*name).into(), values: values.clone() });
+        let leg = Channel { name: "leg".into(), values: vec![0.0, 0.0, 1.0, 1.0] };
+        Track::new(seconds(4), poses.collect(), channels.chain([leg]).collect()).unwrap()
+    };
+    let told = |channels: &[(&str, Vec<f64>)]| measure(&flown(channels), &square(), &Settings::default()).unwrap();
+    let m = told(&[]);
+    assert!((m.max_tilt.unwrap() - 179.0).abs() < 1e-9 && m.t_tilt == 3.0, "{:?}", m.max_tilt);
+    let legs: Vec<f64> = m.legs.iter().map(|leg| leg.max_tilt.unwrap()).collect();
+    assert!((legs[0] - 35.0).abs() < 1e-12 && (legs[1] - 179.0).abs() < 1e-9, "{legs:?}");
+    assert_eq!((Stress::Tilt.of(&m), Stress::Tilt.worst_leg(&m)), (m.max_tilt, Some(1)));
+    // What stands on the ground is told by how near it is to toppling.
+    let m = told(&[("tip_over_margin_deg", vec![30.0, 7.2, 9.0, 8.0])]);
+    assert_eq!((Stress::Tilt.of(&m), Stress::Tilt.worst_leg(&m)), (Some(-7.2), Some(0)));
+    for no_body in ["q1_rad", ATTITUDE_UNKNOWN] {
+        let m = told(&[(no_body, vec![1.0; 4])]);
+        assert_eq!((m.max_tilt, m.legs[0].max_tilt, Stress::Tilt.of(&m)), (None, None, None), "{no_body}");
+    }
 }
 
 #[test]

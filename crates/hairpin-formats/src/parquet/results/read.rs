@@ -121,7 +121,7 @@ fn read_results(table: &Table, cases: &[Case]) -> Result<Vec<Option<CaseResult>>
 
 /// How often violations came again; tables of older versions do not say.
 fn read_reruns(table: &Table) -> Result<Vec<Option<Reruns>>, TableError> {
-    if !table.names().iter().any(|name| name == "reruns") {
+    if !has_column(table, "reruns") {
         return Ok(vec![None; table.rows()]);
     }
     let (of, violated) = (table.optional_counts("reruns")?, table.optional_counts("rerun_violations")?);
@@ -146,11 +146,10 @@ fn read_measures(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let clearance = table.optional_numbers("min_clearance_m")?;
     let margin = table.optional_numbers("min_tip_over_margin_deg")?;
     let t_margin = table.optional_numbers("t_tip_over_margin_s")?;
+    let tilt = optional_column(table, "max_tilt_deg")?;
+    let t_tilt = optional_column(table, "t_tilt_s")?;
     let saturation = table.optional_numbers("saturation_share")?;
-    let effort = match has_joints(table) {
-        true => table.optional_numbers("joint_effort_rad2_s3")?,
-        false => vec![None; table.rows()],
-    };
+    let effort = optional_column(table, "joint_effort_rad2_s3")?;
     let late = [table.optional_numbers("max_late_s")?, table.optional_numbers("t_late_s")?];
     let leg_late = table.optional_counts("leg_late")?;
     let leg_source = words(table, "leg_source", [LegSource::Executor, LegSource::Assigned], leg_source_word)?;
@@ -185,6 +184,8 @@ fn read_measures(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 t_clearance,
                 min_tip_over_margin: margin[row],
                 t_tip_over_margin: t_margin[row].unwrap_or_default(),
+                max_tilt: tilt[row],
+                t_tilt: t_tilt[row].unwrap_or_default(),
                 saturation_share: saturation[row],
                 joint_effort: effort[row],
                 latest: late[0][row].map(|by| Late {
@@ -216,9 +217,16 @@ fn words<T: Copy, const N: usize>(
     table.optional_texts(column)?.into_iter().enumerate().map(value).collect()
 }
 
-/// Whether it has the columns that are there for arms only.
-fn has_joints(table: &Table) -> bool {
-    table.names().iter().any(|name| name == "joint_effort_rad2_s3")
+fn has_column(table: &Table, column: &str) -> bool {
+    table.names().iter().any(|name| name == column)
+}
+
+/// A column that tables of other robots, or of older versions, do not have.
+fn optional_column(table: &Table, column: &str) -> Result<Vec<Option<f64>>, TableError> {
+    match has_column(table, column) {
+        true => table.optional_numbers(column),
+        false => Ok(vec![None; table.rows()]),
+    }
 }
 
 fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
@@ -235,16 +243,19 @@ fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
     let clearance = optional("leg_min_clearance_m")?;
     let margin = optional("leg_min_tip_over_margin_deg")?;
     let saturation = optional("leg_saturation_share")?;
-    let effort = match has_joints(table) {
-        true => optional("leg_joint_effort_rad2_s3")?,
-        false => maximum.iter().map(|legs| vec![None; legs.len()]).collect(),
+    let or_none = |column| match has_column(table, column) {
+        true => optional(column),
+        false => Ok(maximum.iter().map(|legs| vec![None; legs.len()]).collect()),
     };
+    let tilt = or_none("leg_max_tilt_deg")?;
+    let effort = or_none("leg_joint_effort_rad2_s3")?;
     same_lengths(table, "leg_mean_deviation_m", &mean, &maximum)?;
     same_lengths(table, "leg_max_acceleration_m_s2", &acceleration, &maximum)?;
     same_lengths(table, "leg_time_s", &time, &maximum)?;
     same_lengths(table, "leg_overshoot_m", &overshoot, &maximum)?;
     same_lengths(table, "leg_min_clearance_m", &clearance, &maximum)?;
     same_lengths(table, "leg_min_tip_over_margin_deg", &margin, &maximum)?;
+    same_lengths(table, "leg_max_tilt_deg", &tilt, &maximum)?;
     same_lengths(table, "leg_saturation_share", &saturation, &maximum)?;
     same_lengths(table, "leg_joint_effort_rad2_s3", &effort, &maximum)?;
     let leg = |row: usize, i: usize| LegMeasures {
@@ -255,6 +266,7 @@ fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
         overshoot: overshoot[row][i],
         min_clearance: clearance[row][i],
         min_tip_over_margin: margin[row][i],
+        max_tilt: tilt[row][i],
         saturation_share: saturation[row][i],
         joint_effort: effort[row][i],
     };

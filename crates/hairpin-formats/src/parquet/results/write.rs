@@ -71,6 +71,8 @@ fn push_rest(columns: &mut Columns, rows: &Rows) {
     columns.push("min_tip_over_margin_deg", measured(rows, &|m| m.min_tip_over_margin));
     let when = |m: &Measures| m.min_tip_over_margin.map(|_| m.t_tip_over_margin);
     columns.push("t_tip_over_margin_s", measured(rows, &when));
+    columns.push("max_tilt_deg", measured(rows, &|m| m.max_tilt));
+    columns.push("t_tilt_s", measured(rows, &|m| m.max_tilt.map(|_| m.t_tilt)));
     if has_joints(rows) {
         columns.push("joint_effort_rad2_s3", measured(rows, &|m| m.joint_effort));
     }
@@ -125,6 +127,7 @@ fn push_legs(columns: &mut Columns, rows: &Rows) {
     columns.push("leg_overshoot_m", per_leg(|leg| Some(leg.overshoot)));
     columns.push("leg_min_clearance_m", per_leg(|leg| leg.min_clearance));
     columns.push("leg_min_tip_over_margin_deg", per_leg(|leg| leg.min_tip_over_margin));
+    columns.push("leg_max_tilt_deg", per_leg(|leg| leg.max_tilt));
     columns.push("leg_saturation_share", per_leg(|leg| leg.saturation_share));
     if has_joints(rows) {
         columns.push("leg_joint_effort_rad2_s3", per_leg(|leg| leg.joint_effort));

@@ -163,6 +163,7 @@ pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {
         metric("total time", "s", limits.total_time, |m| Some(m.total_time)),
         metric("clearance", "m", limits.clearance, |m| m.min_clearance),
         metric("tip-over margin", "°", limits.tip_over_margin, |m| m.min_tip_over_margin),
+        metric("tilt", "°", None, |m| m.max_tilt),
         metric("latest arrival", "ms", limits.late.map(|late| 1e3 * late), |m| m.latest.map(|late| 1e3 * late.by)),
         metric("saturation", "%", None, |m| m.saturation_share.map(|share| 100.0 * share)),
         metric("joint effort", "rad²/s³", None, |m| m.joint_effort),
