@@ -161,7 +161,7 @@ impl Comparison {
 /// A metric: its column, its value, and whether more of it is worse.
 type Metric = (&'static str, fn(&Measures) -> Option<f64>, bool);
 
-const METRICS: [Metric; 11] = [
+const METRICS: [Metric; 10] = [
     ("max_deviation_m", |m| Some(m.max_deviation), true),
     ("mean_deviation_m", |m| Some(m.mean_deviation), true),
     ("max_overshoot_m", |m| Some(m.max_overshoot()), true),
@@ -169,7 +169,6 @@ const METRICS: [Metric; 11] = [
     ("total_time_s", |m| Some(m.total_time), true),
     ("min_clearance_m", |m| m.min_clearance, false),
     ("min_tip_over_margin_deg", |m| m.min_tip_over_margin, false),
-    ("max_tilt_deg", |m| m.max_tilt, true),
     ("saturation_share", |m| m.saturation_share, true),
     ("joint_effort_rad2_s3", |m| m.joint_effort, true),
     ("max_late_s", |m| m.latest.map(|late| late.by), true),
