@@ -73,11 +73,12 @@ fn rounds_beat_as_many_uniform_draws_in_the_same_graphs() {
     }
     let tally = kept.read_tally().unwrap();
     assert_eq!(
-        tally.rounds.iter().map(|round| (round.executions, round.drawn)).collect::<Vec<_>>(),
-        [(100, 100), (100, 20), (100, 20)]
+        tally.rounds.iter().map(|round| (round.executions, round.drawn, round.by_hand)).collect::<Vec<_>>(),
+        [(100, 100, 0), (100, 10, 10), (100, 10, 10)]
     );
     for round in &tally.rounds[1..] {
         assert!(round.chosen_mean.unwrap() > 1.2 * round.drawn_mean.unwrap(), "{round:?}");
+        assert!(round.by_hand_mean.unwrap() > round.drawn_mean.unwrap(), "{round:?}");
     }
     assert_eq!(drawn["generation"]["rounds"].as_array().unwrap().len(), 1);
 

@@ -59,22 +59,24 @@ fn rounds(rounds: &[RoundTally]) -> String {
         "round",
         "executions",
         "of these drawn",
+        "by hand",
         "R²",
         "ρ of the largest",
         "mean drawn",
+        "mean by hand",
         "mean chosen",
         "largest so far",
         "mean of the graphs",
     ];
     let head: String = head.iter().map(|name| format!("<th scope=\"col\">{name}</th>")).collect();
     let row = |(place, round): (usize, &RoundTally)| {
-        let numbers =
-            [round.r2, round.rank_correlation, round.drawn_mean, round.chosen_mean, round.largest, round.mean_largest];
+        let means = [round.drawn_mean, round.by_hand_mean, round.chosen_mean];
+        let numbers = [&[round.r2, round.rank_correlation][..], &means, &[round.largest, round.mean_largest]].concat();
         let numbers: String = numbers.iter().map(|value| format!("<td>{}</td>", number(*value))).collect();
         let note = round.unlearned.as_ref().map_or(String::new(), |why| format!(" (learned nothing: {})", escape(why)));
         format!(
-            "<tr><th scope=\"row\">{place}{note}</th><td>{}</td><td>{}</td>{numbers}</tr>",
-            round.executions, round.drawn
+            "<tr><th scope=\"row\">{place}{note}</th><td>{}</td><td>{}</td><td>{}</td>{numbers}</tr>",
+            round.executions, round.drawn, round.by_hand
         )
     };
     format!(

@@ -43,7 +43,10 @@ pub(super) fn beside<'a>(
 ) -> Vec<AnyScore<'a>> {
     let named = |name: &&str| named(setup, name, graph, top_speed);
     match looped.wanted {
-        Wanted::Round(round) => round.models.iter().skip(1).map(AnyScore::Learned).collect(),
+        Wanted::Round(round) => {
+            let models = round.models.iter().skip(1).map(AnyScore::Learned);
+            models.chain(Score::by_hand().map(|name| named(&name))).collect()
+        }
         Wanted::Optima(names) => names.iter().skip(1).map(named).collect(),
         Wanted::Cases => {
             let own = &setup.scenario.generate.score;

@@ -2,7 +2,8 @@
 //!
 //! The first round draws uniformly. Each later one fits the stress of all legs executed so far, takes every graph's best under the
 //! model, and under models of resampled trajectories, which differ where little is known (bootstrapped Thompson sampling); a share of its
-//! executions stays uniform, so that no model sees stressful legs alone. Whatever runs on several threads is taken over in order.
+//! executions no model chooses: every second of them is an optimum of a score by hand, the others stay uniform, so that no model sees
+//! stressful legs alone. Whatever runs on several threads is taken over in order.
 
 use std::collections::HashSet;
 
@@ -34,8 +35,15 @@ struct Todo {
     /// Place of its graph.
     graph: usize,
     plan: Plan,
-    /// Whether it was drawn uniformly.
-    drawn: bool,
+    origin: Origin,
+}
+
+/// Where a trajectory comes from.
+#[derive(Clone, Copy, PartialEq)]
+enum Origin {
+    Model,
+    ByHand,
+    Drawn,
 }
 
 struct Campaign<'a> {
@@ -97,11 +105,12 @@ impl Campaign<'_> {
             })
             .collect();
         self.executed += results.len() as u64;
-        let mut sums = [(0.0, 0_u64); 2];
-        for (Todo { graph, plan, drawn }, result) in todo.into_iter().zip(results) {
+        let mut sums = [(0.0, 0_u64); 3];
+        for (Todo { graph, plan, origin }, result) in todo.into_iter().zip(results) {
             let Some(result) = result else { continue };
             told.executions += 1;
-            told.drawn += u64::from(drawn);
+            told.drawn += u64::from(origin == Origin::Drawn);
+            told.by_hand += u64::from(origin == Origin::ByHand);
             let graph = &mut self.graphs[graph];
             graph.known.insert(fingerprint(plan.waypoints.iter().copied()));
             graph.curve.push(result.as_ref().map(|(trial, _)| trial.stress));
@@ -109,7 +118,7 @@ impl Campaign<'_> {
                 told.failed += 1;
                 continue;
             };
-            let (sum, count) = &mut sums[usize::from(drawn)];
+            let (sum, count) = &mut sums[origin as usize];
             (*sum, *count) = (*sum + trial.stress, *count + 1);
             self.samples.extend(samples);
             let place = graph.kept.partition_point(|kept| kept.score >= trial.stress);
@@ -117,7 +126,7 @@ impl Campaign<'_> {
             graph.kept.truncate(self.search.per_graph as usize);
         }
         let mean = |(sum, count): (f64, u64)| (count > 0).then(|| sum / count as f64);
-        [told.chosen_mean, told.drawn_mean] = sums.map(mean);
+        [told.chosen_mean, told.by_hand_mean, told.drawn_mean] = sums.map(mean);
         let largest: Vec<f64> = self.graphs.iter().filter_map(|graph| Some(graph.kept.first()?.score)).collect();
         told.largest = largest.iter().copied().reduce(f64::max);
         told.mean_largest = mean((largest.iter().sum(), largest.len() as u64));
@@ -140,7 +149,7 @@ impl Campaign<'_> {
         let share = dealt(self.search.executions, self.search.rounds, 0);
         let known = HashSet::new();
         let most = share.div_ceil(wanted as u64) as usize;
-        let round = Round { number: 0, optima: 0, draws: most, models: &[], known: &known };
+        let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: most, models: &[], known: &known };
         let batch = 2 * rayon::current_num_threads() as u64;
         let mut todo = Vec::new();
         while self.tally.units < units && self.graphs.len() < wanted && self.goes_on(0) {
@@ -164,7 +173,7 @@ impl Campaign<'_> {
                 let graph = self.graphs.len();
                 let own = dealt(share, wanted as u64, graph as u64) as usize;
                 let plans = outcome.plans.into_iter().take(own);
-                todo.extend(plans.map(|(_, plan)| Todo { graph, plan, drawn: true }));
+                todo.extend(plans.map(|(_, plan)| Todo { graph, plan, origin: Origin::Drawn }));
                 let curve = Curve { graph: number, ..Curve::default() };
                 self.graphs.push(Graph { number, known: HashSet::new(), kept: Vec::new(), curve });
             }
@@ -178,7 +187,8 @@ impl Campaign<'_> {
         let share = dealt(search.executions, search.rounds, number);
         let draws = libm::round(search.explore * share as f64) as u64;
         // Where graphs get different numbers they are others every round.
-        let of = |total: u64, place: usize| dealt(total, graphs, (place as u64 + number) % graphs) as usize;
+        let turn = |place: usize| (place as u64 + number) % graphs;
+        let of = |total: u64, place: usize| dealt(total, graphs, turn(place)) as usize;
         let most = share.saturating_sub(draws).div_ceil(graphs) as usize;
         let models = if draws < share { self.models(number, most.clamp(1, MODELS), told) } else { Vec::new() };
         let outcomes: Vec<Option<Outcome>> = (0..self.graphs.len())
@@ -186,17 +196,31 @@ impl Campaign<'_> {
             .map(|place| {
                 let graph = &self.graphs[place];
                 let whole = of(share, place);
-                let draws = of(draws, place).min(whole);
-                let round = Round { number, optima: whole - draws, draws, models: &models, known: &graph.known };
+                let free = of(draws, place).min(whole);
+                let by_hand = every_second(draws, graphs, turn(place)).min(free as u64) as usize;
+                let round = Round {
+                    number,
+                    place: place as u64,
+                    optima: whole - free,
+                    by_hand,
+                    draws: free - by_hand,
+                    models: &models,
+                    known: &graph.known,
+                };
                 self.goes_on(number)
                     .then(|| self.solver.solve(self.setup, graph.number, Wanted::Round(&round), self.stop))
             })
             .collect();
         let mut todo = Vec::new();
         for (graph, outcome) in outcomes.into_iter().enumerate() {
-            let Some(Outcome { plans, chosen, .. }) = outcome else { continue };
+            let Some(Outcome { plans, chosen, by_hand, .. }) = outcome else { continue };
+            let origin = |place: usize| match place {
+                _ if place < chosen => Origin::Model,
+                _ if place < chosen + by_hand => Origin::ByHand,
+                _ => Origin::Drawn,
+            };
             let plans = plans.into_iter().enumerate();
-            todo.extend(plans.map(|(place, (_, plan))| Todo { graph, plan, drawn: place >= chosen }));
+            todo.extend(plans.map(|(place, (_, plan))| Todo { graph, plan, origin: origin(place) }));
         }
         todo
     }
@@ -248,13 +272,22 @@ impl Campaign<'_> {
 
 /// What place `place` of `parts` gets of `total`: as evenly as whole numbers allow.
 fn dealt(total: u64, parts: u64, place: u64) -> u64 {
-    let until = |place: u64| (u128::from(total) * u128::from(place) / u128::from(parts)) as u64;
-    until(place + 1) - until(place)
+    until(total, parts, place + 1) - until(total, parts, place)
+}
+
+/// How many of what place `place` gets are every second of all.
+fn every_second(total: u64, parts: u64, place: u64) -> u64 {
+    until(total, parts, place + 1) / 2 - until(total, parts, place) / 2
+}
+
+/// What the places before `place` get together.
+fn until(total: u64, parts: u64, place: u64) -> u64 {
+    (u128::from(total) * u128::from(place) / u128::from(parts)) as u64
 }
 
 #[cfg(test)]
 mod tests {
-    use super::dealt;
+    use super::{dealt, every_second};
 
     #[test]
     fn all_is_dealt_and_evenly() {
@@ -263,6 +296,9 @@ mod tests {
             assert_eq!(shares.iter().map(|share| u128::from(*share)).sum::<u128>(), u128::from(total));
             let (least, most) = (shares.iter().min().unwrap(), shares.iter().max().unwrap());
             assert!(most - least <= 1, "{shares:?}");
+            let halves: Vec<u64> = (0..parts).map(|place| every_second(total, parts, place)).collect();
+            assert_eq!(halves.iter().map(|half| u128::from(*half)).sum::<u128>(), u128::from(total / 2));
+            assert!(halves.iter().zip(&shares).all(|(half, share)| half <= share), "{halves:?}");
         }
     }
 }

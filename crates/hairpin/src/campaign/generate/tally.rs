@@ -61,10 +61,14 @@ pub struct RoundTally {
     pub executions: u64,
     /// Of these, the uniform draws.
     pub drawn: u64,
+    /// Of these, optima of scores by hand.
+    pub by_hand: u64,
     /// Executions that failed, or whose stress could not be measured.
     pub failed: u64,
     /// Mean stress of its uniform draws; `None` where there were none.
     pub drawn_mean: Option<f64>,
+    /// Mean stress of its optima of scores by hand; `None` where there were none.
+    pub by_hand_mean: Option<f64>,
     /// Mean stress of what models chose; `None` where there was nothing.
     pub chosen_mean: Option<f64>,
     /// The largest stress of any graph, up to its end.

@@ -81,6 +81,8 @@ pub(in crate::campaign) struct Outcome {
     pub(in crate::campaign) duplicates: u64,
     /// Of a round of an adaptive campaign: how many of the plans, from the first, models chose.
     pub(in crate::campaign) chosen: usize,
+    /// How many of them, after those, are optima of scores by hand.
+    pub(in crate::campaign) by_hand: usize,
     /// Of searches in the loop: the largest stress after each execution, of every graph that was executed in.
     pub(in crate::campaign) curves: Vec<Curve>,
     /// Why there is no plan.
@@ -100,6 +102,7 @@ impl Outcome {
             dropped: answer.dropped,
             duplicates: answer.duplicates,
             chosen: answer.chosen,
+            by_hand: answer.by_hand,
             curves: (!answer.best_so_far.is_empty())
                 .then(|| Curve::of(graph, &answer.best_so_far))
                 .into_iter()

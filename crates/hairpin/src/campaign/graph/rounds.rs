@@ -1,8 +1,9 @@
-//! What a round of an adaptive campaign has executed in one graph: the best under models, and uniform draws.
+//! What a round of an adaptive campaign has executed in one graph: the best under models, optima of scores by hand, and uniform draws.
 
 use std::collections::HashSet;
 use std::hash::Hash;
 
+use super::optima::AGGREGATES;
 use super::outcome::{Plan, fingerprint};
 use super::search::{Answer, Question};
 use crate::campaign::learn::ScoreModel;
@@ -14,6 +15,8 @@ use crate::search::{Additive, Aggregate, ExactSettings, Found, LegGraph, Uniform
 const MORE: usize = 4;
 /// … as long as all are known, up to so many.
 const MOST_BEST: usize = 256;
+/// From one round to the next a graph passes over so many scores by hand, or the same of them would meet the same graphs.
+const NEXT_BY_HAND: u64 = 7;
 /// Uniform draws are repeated with twice as many as long as too few are new, so often.
 const REDRAWS: u32 = 6;
 
@@ -22,8 +25,12 @@ const REDRAWS: u32 = 6;
 pub(in crate::campaign) struct Round<'a> {
     /// From 0. The first one draws what the method `uniform` does.
     pub(in crate::campaign) number: u64,
+    /// Place of the graph among those of the campaign: where it begins with the scores by hand.
+    pub(in crate::campaign) place: u64,
     /// Trajectories wanted that are best under the models, each in turn.
     pub(in crate::campaign) optima: usize,
+    /// Trajectories wanted that are best under scores by hand; drawn where there are no such scores.
+    pub(in crate::campaign) by_hand: usize,
     /// Uniform draws wanted beside them.
     pub(in crate::campaign) draws: usize,
     /// Scores of legs.
@@ -39,21 +46,30 @@ pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
 ) -> Answer {
     let graph = question.leg_graph();
     let mut new = New { question, known: round.known.clone(), plans: Vec::new() };
+    // The question's own score is the first model, if there is one.
+    let (models, by_hand) = question.also.split_at(round.models.len().saturating_sub(1));
     if !round.models.is_empty() {
-        for (place, score) in std::iter::once(&question.score).chain(&question.also).enumerate() {
-            let scores = 1 + question.also.len();
-            new.best(&graph, score, (round.optima + scores - 1 - place) / scores);
+        for (place, score) in std::iter::once(&question.score).chain(models).enumerate() {
+            let scores = 1 + models.len();
+            new.best(&graph, score, question.search.aggregate, (round.optima + scores - 1 - place) / scores);
         }
     }
     let chosen = new.plans.len();
-    let wanted = round.optima + round.draws - chosen;
+    let first = NEXT_BY_HAND.wrapping_mul(round.number).wrapping_add(round.place);
+    let scores = (by_hand.len() * AGGREGATES.len()) as u64;
+    for turn in (0..round.by_hand as u64).filter(|_| scores > 0) {
+        let turn = (first.wrapping_add(turn) % scores) as usize;
+        new.best(&graph, &by_hand[turn / AGGREGATES.len()], AGGREGATES[turn % AGGREGATES.len()], 1);
+    }
+    let by_hand = new.plans.len() - chosen;
+    let wanted = round.optima + round.by_hand + round.draws - new.plans.len();
     let empty = new.draw(&graph, round.number, wanted);
     let reason = match (new.plans.is_empty(), empty) {
         (false, _) => None,
         (true, true) => Some(format!("none among the {} feasible legs of the last graph", graph.legs())),
         (true, false) => Some("all draws used a waypoint twice, or broke a limit".into()),
     };
-    Answer { proven_empty: empty, plans: new.plans, chosen, reason, ..Answer::default() }
+    Answer { proven_empty: empty, plans: new.plans, chosen, by_hand, reason, ..Answer::default() }
 }
 
 struct New<'q, 'a, N, R, O> {
@@ -79,7 +95,7 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> New<'_, '_, N, R, O> {
     }
 
     /// The best `wanted` under `score`.
-    fn best(&mut self, graph: &LegGraph<'_, N>, score: &O, mut wanted: usize) {
+    fn best(&mut self, graph: &LegGraph<'_, N>, score: &O, aggregate: Aggregate, mut wanted: usize) {
         let search = self.question.search;
         let mut best = wanted;
         while wanted > 0 {
@@ -87,7 +103,7 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> New<'_, '_, N, R, O> {
                 length: self.question.length,
                 best,
                 revisits: search.revisits,
-                aggregate: search.aggregate,
+                aggregate,
                 ..ExactSettings::default()
             };
             let found = exact(graph, score, &settings).found;

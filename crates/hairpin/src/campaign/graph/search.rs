@@ -114,6 +114,8 @@ pub(in crate::campaign) struct Answer {
     pub(in crate::campaign) duplicates: u64,
     /// How many of the plans, from the first, a round's models chose.
     pub(in crate::campaign) chosen: usize,
+    /// How many, after those, are optima of scores by hand.
+    pub(in crate::campaign) by_hand: usize,
     /// The largest stress after each execution in the loop.
     pub(in crate::campaign) best_so_far: Vec<f64>,
     /// Why nothing was found.

@@ -46,7 +46,7 @@ pub struct SearchSection {
     pub confirm: u64,
     /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly.
     pub rounds: u64,
-    /// `adaptive`: share of every later round's executions that is drawn uniformly, whatever the model says.
+    /// `adaptive`: share of every later round's executions that no model chooses: half of them drawn uniformly, half optima of scores by hand.
     pub explore: f64,
     /// `adaptive`: time for executing and learning beside `executions`; what is found then depends on the clock.
     #[serde(skip_serializing_if = "Option::is_none")]
