@@ -78,3 +78,32 @@ fn metrics_and_the_follow_up_are_told_and_drawn() {
         assert!(folder.path().join(format!("out/follow-up/{name}.svg")).is_file(), "{name}");
     }
 }
+
+#[test]
+fn scores_are_compared_in_the_graphs_of_each_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let reach = "reach=[\"hull\", { set = \"hull\", waypoints = 120, sampling = \"clustered\" }]";
+    let sets = ["graphs=3", "runs=1", "ceiling=6", "length=6", "waypoints=150", "kinds=[\"by-hand\"]", reach];
+    let one = ["controllers=[\"stable-waypoint\"]"];
+    let sets: Vec<&str> = sets.iter().chain(&one).flat_map(|set| ["--set", set]).collect();
+    let answer = json(folder.path(), &[&["experiment", "scores"], &sets[..]].concat());
+    let summary = answer["tables"]["summary"].as_array().unwrap();
+    let of_graphs = |row: &serde_json::Value| ["reach", "waypoints", "sampling"].map(|key| row[key].to_string());
+    assert_eq!(of_graphs(&summary[0]), ["\"hull\"", "150", "\"uniform\""], "{answer}");
+    assert_eq!(of_graphs(&summary[1]), ["\"hull\"", "120", "\"clustered\""], "{answer}");
+    let lifts = answer["tables"]["lifts"].as_array().unwrap();
+    for best in summary {
+        let own = lifts.iter().filter(|row| of_graphs(row) == of_graphs(best));
+        let by_hand = own.filter(|row| !["uniform", "random beam"].contains(&row["way"].as_str().unwrap()));
+        let largest = by_hand.map(|row| row["lift_percent"].as_f64().unwrap()).fold(f64::NEG_INFINITY, f64::max);
+        assert_eq!(best["stable_waypoint_percent"].as_f64(), Some(largest), "{best}");
+        let figure = format!("hull-{}-{}.svg", best["waypoints"], best["sampling"].as_str().unwrap());
+        assert!(fs::read_to_string(folder.path().join("out/scores").join(figure)).unwrap().contains("best by hand"));
+    }
+    refused(
+        folder.path(),
+        &["experiment", "scores", "--set", "reach=[{ waypoints = 120 }]"],
+        &["name of a reach set", "set"],
+    );
+    refused(folder.path(), &["experiment", "scores", "--set", "reach=[\"hall\"]"], &["hall", "hull"]);
+}

@@ -24,7 +24,7 @@ struct Outcome {
     /// Written as NAME.csv, the first one printed as well.
     tables: Vec<(&'static str, Table)>,
     /// Written as NAME.svg.
-    figures: Vec<(&'static str, Figure)>,
+    figures: Vec<(String, Figure)>,
     /// Sentences below the table: conditions, and what was left out.
     notes: Vec<String>,
 }

@@ -113,7 +113,7 @@ pub(in super::super) fn figure_7(sheet: &Sheet) -> Result<Outcome, Problem> {
         "{} instances a size, one thread, clock on the wall. Where the proof took more than {} s the bound stands in for the optimum.",
         size.instances, size.proof_limit_s
     )];
-    Ok(Outcome { tables: vec![("figure-7", table)], figures: vec![("figure-7", figure)], notes })
+    Ok(Outcome { tables: vec![("figure-7", table)], figures: vec![("figure-7".into(), figure)], notes })
 }
 
 /// Cost of the heaviest path that is known after `seconds`, and whether it is proven by then.

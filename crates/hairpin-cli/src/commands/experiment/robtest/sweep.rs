@@ -147,5 +147,5 @@ fn swept(size: &Size, places: Vec<Place>, name: &'static str, label: &str) -> Re
          heaviest path leaves out.",
         size.instances, size.proof_limit_s
     )];
-    Ok(Outcome { tables: vec![(name, table)], figures: vec![(name, figure)], notes })
+    Ok(Outcome { tables: vec![(name, table)], figures: vec![(name.into(), figure)], notes })
 }

@@ -128,7 +128,7 @@ pub(in super::super) fn table_1(sheet: &Sheet) -> Result<Outcome, Problem> {
         ),
         format!("The paper's numbers are from an Intel i7 at 2.6 GHz, a limit of {} s.", printed.limit_s),
     ];
-    Ok(Outcome { tables: vec![("table-1", table)], figures: vec![("table-1", figure)], notes })
+    Ok(Outcome { tables: vec![("table-1", table)], figures: vec![("table-1".into(), figure)], notes })
 }
 
 /// Adds one instance.

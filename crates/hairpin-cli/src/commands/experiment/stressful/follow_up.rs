@@ -116,7 +116,8 @@ pub(in super::super) fn follow_up(sheet: &Sheet) -> Result<Outcome, Problem> {
             (100.0 * way.flown.timed_out).into(),
         ]);
     }
-    let mut figures = vec![("figure-9", boxes(&ways, ways[1].flown.mean())), ("figure-11", shares(&ways))];
+    let mut figures =
+        vec![("figure-9".into(), boxes(&ways, ways[1].flown.mean())), ("figure-11".into(), shares(&ways))];
     if let Some((name, case)) = worst(&ways) {
         figures.extend(views(&judge, name, case));
     }
@@ -185,7 +186,7 @@ fn worst(ways: &[Way]) -> Option<(&'static str, &Case)> {
 }
 
 /// The flight of `case` beside its waypoints: from above, and from the side.
-fn views(judge: &Setup, name: &str, case: &Case) -> Vec<(&'static str, Figure)> {
+fn views(judge: &Setup, name: &str, case: &Case) -> Vec<(String, Figure)> {
     let Ok(flight) = execute_run(judge, case, 0).outcome else { return Vec::new() };
     let track = &flight.track;
     let flown: Vec<_> = (0..track.times().len()).map(|index| track.position(index)).collect();
@@ -202,7 +203,7 @@ fn views(judge: &Setup, name: &str, case: &Case) -> Vec<(&'static str, Figure)> 
             ],
         }
     };
-    vec![("figure-10-top", view("from above", [0, 1])), ("figure-10-side", view("from the side", [0, 2]))]
+    vec![("figure-10-top".into(), view("from above", [0, 1])), ("figure-10-side".into(), view("from the side", [0, 2]))]
 }
 
 #[cfg(test)]

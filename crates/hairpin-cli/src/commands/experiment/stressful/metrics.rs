@@ -80,7 +80,7 @@ pub(in super::super) fn metrics(sheet: &Sheet) -> Result<Outcome, Problem> {
             row.push(skewness(values).into());
             table.push(row);
         }
-        figures.push((file(stress), histogram(sets, label, size.bars)));
+        figures.push((file(stress).into(), histogram(sets, label, size.bars)));
     }
     let notes = vec![
         format!(

@@ -125,7 +125,7 @@ pub(in super::super) fn yields(sheet: &Sheet) -> Result<Outcome, Problem> {
             printed.hours
         ),
     ];
-    Ok(Outcome { tables: vec![("yields", table)], figures: vec![("yields", figure)], notes })
+    Ok(Outcome { tables: vec![("yields", table)], figures: vec![("yields".into(), figure)], notes })
 }
 
 /// Witness legs choose their time; the others have the paper's step.

@@ -4,11 +4,12 @@ use hairpin::campaign::experiment::lift::Lift;
 use hairpin_formats::figure::{Axis, Cell, Figure, Marks, Point, Scale, Series, Table};
 
 use super::kinds::{KINDS, Kind};
-use super::size::{Printed, Size};
+use super::size::{Graphs, Printed, Size};
+use super::tables::{OF_GRAPHS, of_graphs};
 
 /// Lifts of one feasible set: per controller, per way.
 pub(super) struct Measured {
-    pub(super) reach: String,
+    pub(super) graphs: Graphs,
     /// By controller: ways with their lift over uniform trajectories.
     pub(super) controllers: Vec<(String, Vec<(Kind, Lift)>)>,
 }
@@ -28,8 +29,9 @@ impl Measured {
 
 /// Mean lifts over the controllers, the best way of a kind for each.
 pub(super) fn summary(size: &Size, printed: &Printed, measured: &[Measured]) -> Table {
-    let columns: Vec<String> = ["reach", "kind"]
+    let columns: Vec<String> = OF_GRAPHS
         .into_iter()
+        .chain(["kind"])
         .map(str::to_owned)
         .chain(size.controllers.iter().map(|controller| format!("{}_percent", controller.replace('-', "_"))))
         .chain(["mean_percent".to_owned(), "paper_mean_percent".to_owned()])
@@ -43,7 +45,8 @@ pub(super) fn summary(size: &Size, printed: &Printed, measured: &[Measured]) -> 
             if best.iter().all(Option::is_none) {
                 continue;
             }
-            let mut row: Vec<Cell> = vec![measured.reach.as_str().into(), name.into()];
+            let mut row = Vec::from(of_graphs(&measured.graphs));
+            row.push(name.into());
             row.extend(best.iter().map(|lift| Cell::from(lift.map(|lift| 100.0 * lift.value))));
             row.push((100.0 * mean).into());
             row.push(match kind {
@@ -55,16 +58,6 @@ pub(super) fn summary(size: &Size, printed: &Printed, measured: &[Measured]) -> 
         }
     }
     table
-}
-
-/// What the figure of `reach` is called.
-pub(super) fn figure_name(reach: &str) -> &'static str {
-    match reach {
-        "published" => "published",
-        "hull" => "hull",
-        "witness" => "witness",
-        _ => "lifts",
-    }
 }
 
 /// The lifts as bars, the paper's among them.
@@ -89,7 +82,7 @@ pub(super) fn figure(measured: &Measured, printed: &Printed) -> Figure {
     });
     series.push(Series { name: "paper: best by hand".into(), marks: Marks::Bars(of_paper.collect()) });
     Figure {
-        title: format!("Largest deviation over that of uniform trajectories, feasible set `{}`", measured.reach),
+        title: format!("Largest deviation over that of uniform trajectories, feasible set `{}`", measured.graphs.reach),
         x: Axis { label: "controller".into(), scale: Scale::Names(names) },
         y: Axis { label: "lift of the mean, %".into(), scale: Scale::Linear },
         series,

@@ -23,17 +23,71 @@ pub(super) struct Size {
     /// Uniform trajectories whose worst is the ceiling; 0: left out.
     pub(super) ceiling: u64,
     pub(super) length: u64,
-    /// Waypoints sampled for each graph.
-    pub(super) waypoints: u64,
-    /// How those are spread that are searched and learned from; the baselines' are uniform.
-    pub(super) sampling: String,
+    /// Waypoints sampled for each graph, where `reach` does not say.
+    waypoints: u64,
+    /// How those are spread that are searched and learned from, where `reach` does not say; the baselines' are uniform.
+    sampling: String,
     pub(super) seed: u64,
-    pub(super) reach: Vec<String>,
+    reach: Vec<Asked>,
     pub(super) controllers: Vec<String>,
     /// What is measured beside the baselines.
     pub(super) kinds: Vec<Kind>,
     /// What deviations are measured from: leg | nearest-leg.
     pub(super) from: String,
+}
+
+/// A feasible set: its name, or what is special to it as well.
+#[derive(Debug, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "the name of a reach set, or { set, waypoints, sampling }, of which only the set is needed"
+)]
+enum Asked {
+    Name(String),
+    Own(OwnGraphs),
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OwnGraphs {
+    set: String,
+    waypoints: Option<u64>,
+    sampling: Option<String>,
+}
+
+/// The graphs of a feasible set.
+#[derive(Debug, Clone)]
+pub(super) struct Graphs {
+    /// The feasible set.
+    pub(super) reach: String,
+    /// Waypoints sampled for each graph.
+    pub(super) waypoints: u64,
+    /// How those are spread that are searched and learned from; the baselines' are uniform.
+    pub(super) sampling: String,
+}
+
+impl Size {
+    /// The graphs of every feasible set.
+    pub(super) fn graphs(&self) -> impl Iterator<Item = Graphs> {
+        self.reach.iter().map(|asked| {
+            let (set, waypoints, sampling) = match asked {
+                Asked::Name(set) => (set, None, None),
+                Asked::Own(own) => (&own.set, own.waypoints, own.sampling.clone()),
+            };
+            Graphs {
+                reach: set.clone(),
+                waypoints: waypoints.unwrap_or(self.waypoints),
+                sampling: sampling.unwrap_or_else(|| self.sampling.clone()),
+            }
+        })
+    }
+}
+
+impl Graphs {
+    /// A name for files.
+    pub(super) fn name(&self) -> String {
+        format!("{}-{}-{}", self.reach, self.waypoints, self.sampling)
+    }
 }
 
 /// The paper's numbers.

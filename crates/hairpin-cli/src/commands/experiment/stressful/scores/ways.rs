@@ -4,7 +4,7 @@ use hairpin::search::{Aggregate, Score};
 
 use super::super::cell::{self, Set, text};
 use super::kinds::Kind;
-use super::size::Size;
+use super::size::{Graphs, Size};
 
 /// A way to generate: its name, the kind that it counts among, and what finds its cases.
 pub(super) struct Way {
@@ -27,13 +27,13 @@ pub(super) fn by_hand() -> Vec<&'static str> {
     Score::by_hand().collect()
 }
 
-/// The ways of `size`, the two baselines first.
-pub(super) fn ways(size: &Size) -> Vec<Way> {
+/// The ways of `size` in `graphs`, the two baselines first.
+pub(super) fn ways(size: &Size, graphs: &Graphs) -> Vec<Way> {
     let way = |name: &str, kind, method: &str, sets: &[Set]| {
         let mut all = vec![("generate.search.method", text(method))];
         all.extend_from_slice(sets);
         if kind != Kind::Baseline {
-            all.push(sampling(size));
+            all.push(sampling(graphs));
         }
         let learned = matches!(kind, Kind::InLoopLearned | Kind::MovedLearned);
         Way { name: name.to_owned(), kind, finds: Finds::Keys(all), learned }
@@ -69,19 +69,19 @@ pub(super) fn ways(size: &Size) -> Vec<Way> {
 }
 
 /// How waypoints are spread that are searched and learned from.
-pub(super) fn sampling(size: &Size) -> Set {
-    ("generate.search.sampling", text(&size.sampling))
+pub(super) fn sampling(graphs: &Graphs) -> Set {
+    ("generate.search.sampling", text(&graphs.sampling))
 }
 
 /// The keys of all cells of a feasible set and a controller.
-pub(super) fn base(size: &Size, reach: &str, controller: &str) -> Vec<Set> {
+pub(super) fn base(size: &Size, graphs: &Graphs, controller: &str) -> Vec<Set> {
     vec![
         ("seed", size.seed.to_string()),
         ("task.length", size.length.to_string()),
-        ("generate.reach", text(reach)),
-        cell::resolution(reach),
+        ("generate.reach", text(&graphs.reach)),
+        cell::resolution(&graphs.reach),
         ("generate.search.cases", size.graphs.to_string()),
-        ("generate.search.waypoints", size.waypoints.to_string()),
+        ("generate.search.waypoints", graphs.waypoints.to_string()),
         ("execute.controller", text(controller)),
         ("execute.segment_times", text("sqrt-length")),
         ("spec.deviation.from", text(&size.from)),
