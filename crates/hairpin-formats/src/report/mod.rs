@@ -1,13 +1,18 @@
 //! `report.html`: one file that opens offline in any browser, with plotly.js inside. Without JavaScript it still has
 //! the verdict, the table and the worst case's top and side view.
 
+mod cases;
 mod data;
+mod escape;
 mod more;
 mod page;
 mod progress;
 mod regression;
 mod relief;
+mod setup;
+mod spread;
 mod svg;
+mod worst;
 
 use std::path::Path;
 

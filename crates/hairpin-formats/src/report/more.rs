@@ -3,7 +3,7 @@
 use hairpin::campaign::coverage::Axis;
 use hairpin::campaign::report::ReportData;
 
-use super::page::escape;
+use super::escape::escape;
 
 /// Confidence of the shares' intervals.
 const CONFIDENCE: f64 = 0.95;

@@ -3,7 +3,7 @@
 use hairpin::campaign::report::{ReportData, number};
 use hairpin::campaign::{Curve, RoundTally};
 
-use super::page::escape;
+use super::escape::escape;
 use crate::figure::{Axis, Figure, Marks, Point, Scale, Series};
 
 /// Places along the curves.

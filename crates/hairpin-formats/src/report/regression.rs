@@ -3,7 +3,7 @@
 use hairpin::campaign::report::ReportData;
 use hairpin::judgement::moves::{Metric, MoveComparison, Outcome, ProgramComparison, Regression, Trend};
 
-use super::page::escape;
+use super::escape::escape;
 
 /// Rows of each table at most; all are in the answer of `judge --json`.
 const ROWS: usize = 100;
