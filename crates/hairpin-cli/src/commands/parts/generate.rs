@@ -4,12 +4,13 @@ use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::graph_of;
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Kind, Stop, Tally, learn, planned};
+use hairpin::campaign::{Case, Kind, Stop, Tally, learn};
 use hairpin::world::terrain::Terrain;
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::model_text;
 
-use super::programs::keep_graph;
+use super::graph::keep_graph;
+use super::keep::keep_cases;
 use crate::folder::Work;
 use crate::interrupt::{self, Deadline};
 use crate::problem::Problem;
@@ -41,7 +42,7 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     let tally = hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
         cases.extend_from_slice(new);
         if at.elapsed() > CHECKPOINT && trouble.is_none() {
-            trouble = save(work, &cases, saved, tally).err();
+            trouble = keep_cases(work, &cases, saved, tally).err();
             (saved, at) = (cases.len(), Instant::now());
         }
     });
@@ -49,7 +50,7 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     if let Some(problem) = trouble {
         return Err(problem);
     }
-    save(work, &cases, saved, &tally)?;
+    keep_cases(work, &cases, saved, &tally)?;
     work.folder.write_curves(work.setup.scenario.search().stress, &tally.curves)?;
     if let Some(model) = &tally.model {
         atomic::write(&work.folder.file(learn::NAME), model_text(model).as_bytes())?;
@@ -92,18 +93,6 @@ fn known(work: &Work) -> Result<Known, Problem> {
     Ok(known)
 }
 
-/// Writes the cases from number `from` of the list on, the tables of all, and the tally that belongs to them. Each file
-/// says no more than those before it: a kill in between leaves cases too many, never too few.
-pub(super) fn save(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {
-    for case in &cases[from..] {
-        let planned = planned(&work.setup, case);
-        let planned = planned.map_err(|error| Problem::input(format!("case {}: {error}", case.id())))?;
-        work.folder.write_planned(case.number, &planned)?;
-    }
-    work.folder.write_new_cases(cases, from)?;
-    Ok(work.folder.write_tally(tally)?)
-}
-
 /// Puts waypoint lists that were made elsewhere in the place of the folder's cases. A list that equals a case of the
 /// folder keeps that case's plan and evidence.
 pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>)]) -> Result<(), Problem> {
@@ -134,5 +123,5 @@ pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>
     let names = missions.iter().map(|(name, _)| name.clone());
     let tally = Tally { complete: true, missions: names.collect(), ..Tally::default() };
     work.folder.forget_cases()?;
-    save(work, &cases, 0, &tally)
+    keep_cases(work, &cases, 0, &tally)
 }

@@ -3,7 +3,9 @@
 mod answer;
 mod execute;
 mod generate;
+mod graph;
 mod judge;
+mod keep;
 pub(crate) mod optimum;
 mod programs;
 mod recorded;

@@ -12,7 +12,7 @@ use hairpin_formats::folder::{ARCS, OPTIMUM};
 use hairpin_formats::{arcs, atomic, costs};
 use serde_json::{Value, json};
 
-use super::programs::decimals;
+use super::graph::decimals;
 use crate::commands::certificate;
 use crate::folder::Work;
 use crate::problem::Problem;

@@ -1,50 +1,13 @@
-//! What only arms leave in a campaign folder: the graph, and why moves are not in it.
-
-use std::fmt::Write as _;
+//! Programs that were found without generating a campaign.
 
 use hairpin::campaign::arm::{ArmGraph, ArmSetup};
 use hairpin::campaign::{Case, Stop, Tally};
-use hairpin::feasibility::reachability::joint::ArcGraph;
-use hairpin_formats::folder::ARCS;
-use hairpin_formats::{arcs, atomic, costs};
 
+use super::graph::keep_graph;
+use super::keep::keep_cases;
+use super::optimum;
 use crate::folder::Work;
 use crate::problem::Problem;
-
-/// Writes `graph.csv` (costs in the graph's unit, row = from, empty where there is no move), `reasons.csv`, and `arcs.csv` where there are arcs.
-pub(crate) fn keep_graph(work: &Work, arm: &ArmSetup, graph: &ArmGraph) -> Result<(), Problem> {
-    let (n, decimals, names) = (graph.points(), decimals(graph), arm.part_names());
-    let mut table = String::new();
-    for from in 0..n {
-        let cells =
-            (0..n).map(|to| graph.costs[from * n + to].map_or_else(String::new, |cost| costs::text(cost, decimals)));
-        let row: Vec<String> = cells.collect();
-        table.push_str(&row.join(","));
-        table.push('\n');
-    }
-    let mut reasons = String::from("from,to,reason\n");
-    let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to)));
-    for (from, to) in pairs {
-        if let Some(refusal) = graph.reachability.refusal(from, to) {
-            let sentence = refusal.told(&names).to_string().replace('"', "\"\"");
-            writeln!(reasons, "{from},{to},\"{sentence}\"").expect("strings take everything");
-        }
-    }
-    atomic::write(&work.folder.file("graph.csv"), table.as_bytes())?;
-    atomic::write(&work.folder.file("reasons.csv"), reasons.as_bytes())?;
-    let Some(ArcGraph { free, refused }) = &graph.arcs else { return Ok(()) };
-    let refused = refused.iter().map(|(points, refusal)| (*points, Err(refusal.told(&names).to_string())));
-    let mut all: Vec<([usize; 3], Result<i64, String>)> =
-        free.iter().map(|(points, cost)| (*points, Ok(*cost))).chain(refused).collect();
-    all.sort_by_key(|(points, _)| *points);
-    let rows = all.iter().map(|(points, outcome)| (*points, outcome.as_ref().copied().map_err(String::as_str)));
-    Ok(atomic::write(&work.folder.file(ARCS), arcs::text(rows, decimals).as_bytes())?)
-}
-
-/// Digits behind the point of the graph's unit: units are powers of ten, so that costs are written as they are searched, without rounding.
-pub(super) fn decimals(graph: &ArmGraph) -> usize {
-    (0..=18).find(|power| 10_i64.pow(*power) as f64 * graph.unit > 0.5).unwrap_or(18) as usize
-}
 
 /// Writes the programs that were found, as `generate` would.
 pub(crate) fn keep_programs(
@@ -55,7 +18,7 @@ pub(crate) fn keep_programs(
     stop: &Stop,
 ) -> Result<(), Problem> {
     keep_graph(work, arm, graph)?;
-    super::optimum::keep(work, arm, graph, cases, stop)?;
+    optimum::keep(work, arm, graph, cases, stop)?;
     let tally = Tally { complete: true, graphs: 1, units: 1, solved: u64::from(!cases.is_empty()), ..Tally::default() };
-    super::generate::save(work, cases, 0, &tally)
+    keep_cases(work, cases, 0, &tally)
 }

@@ -6,6 +6,7 @@ mod claim;
 mod clock;
 mod deaths;
 mod execute;
+mod frame;
 mod graph;
 mod judge;
 mod moves;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::station::frame_of;
+use super::frame::frame_of;
 use crate::campaign::scenario::{ArmScenario, CloudPoint, DrawnPoints, Mistake, PointsFrame, PointsSource};
 use crate::math::random::{Stream, named_seed, stream, unit};
 use crate::robot::arm::{WorkObject, unit_quaternion_of};

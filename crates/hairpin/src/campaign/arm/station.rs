@@ -1,12 +1,13 @@
 //! What a scenario of an arm describes: the arm with its tool, the cell around it, and the points of the cloud.
 
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::{Isometry3, Vector3};
 
 use super::cell::cell_of;
+use super::frame::{frame_of, mistake};
 use super::graph::stands;
 use super::points::{CellPoint, points_of};
-use crate::campaign::scenario::{ArmScenario, FrameSection, Mistake};
-use crate::robot::arm::{Arm, ArmError, Joints, Tool, WorkObject, unit_quaternion_of};
+use crate::campaign::scenario::{ArmScenario, Mistake};
+use crate::robot::arm::{Arm, Joints, Tool, WorkObject};
 use crate::world::cell::{Cell, Part, Region};
 
 /// An arm in its cell.
@@ -102,17 +103,4 @@ impl Station {
         let last = chain.flange.translation.vector.norm() + self.tool.tcp.translation.vector.norm();
         (Vector3::new(0.0, 0.0, shoulder.z), libm::hypot(shoulder.x, shoulder.y) + links + last)
     }
-}
-
-/// `parent_from_frame` of a section.
-///
-/// # Errors
-/// `key.mm`, `key.q1_q4`.
-pub(super) fn frame_of(key: &str, section: &FrameSection) -> Result<Isometry3<f64>, Mistake> {
-    let turn = unit_quaternion_of("q1_q4", section.q1_q4).map_err(|error| mistake(key, error))?;
-    Ok(Isometry3::from_parts(Translation3::from(Vector3::from(section.mm) * 1e-3), turn))
-}
-
-fn mistake(table: &str, error: ArmError) -> Mistake {
-    Mistake { key: format!("{table}.{}", error.field), value: error.value, bound: error.bound }
 }
