@@ -1,5 +1,6 @@
 //! A drive over several waypoints: the commands of each leg, and the speeds at which they are driven.
 
+use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
 use super::direction::Direction;
@@ -29,6 +30,13 @@ pub struct Passing {
     pub at: Planar,
     /// Direction of travel in the body, rad: 0 along x, left positive.
     pub direction: f64,
+}
+
+impl Passing {
+    /// The same at another place: heading, curvature and direction of travel stay.
+    pub fn moved_to(self, place: &Point3<f64>) -> Self {
+        Self { at: Planar { x: place.x, y: place.y, ..self.at }, ..self }
+    }
 }
 
 impl DriveLeg {

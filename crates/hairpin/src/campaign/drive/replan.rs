@@ -7,7 +7,6 @@ use super::solve::Solver;
 use super::stepwise::Stepwise;
 use crate::campaign::Case;
 use crate::trajectory::Passing;
-use crate::trajectory::drive::Planar;
 use crate::world::terrain::Terrain;
 
 /// `case` over `points` (m; heights are the ground's), of which the k-th was its waypoint number `indices[k]` and is passed as that was, if
@@ -26,7 +25,7 @@ pub(in crate::campaign) fn replan(
         let passings: Vec<Passing> = indices
             .iter()
             .zip(&waypoints)
-            .map(|(index, p)| Some(moved_to(p, drive.passing(*index)?)))
+            .map(|(index, p)| Some(drive.passing(*index)?.moved_to(p)))
             .collect::<Option<_>>()?;
         let drive = Solver::new(*setup).ok()?.through(case.graph, &passings)?;
         let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
@@ -38,9 +37,4 @@ pub(in crate::campaign) fn replan(
     let set = Stepwise::new(*setup).ok()?;
     let feasible = waypoints.first() == case.waypoints.first() && set.follows(&waypoints).is_some();
     feasible.then(|| undriven(vec![set.step(); waypoints.len() - 1]))
-}
-
-/// `passing` at another place.
-pub(super) fn moved_to(place: &Point3<f64>, passing: Passing) -> Passing {
-    Passing { at: Planar { x: place.x, y: place.y, ..passing.at }, ..passing }
 }

@@ -7,7 +7,6 @@ use nalgebra::Point3;
 use super::DriveSetup;
 use super::ask::{Asked, Graph, ask, beside, learned};
 use super::legs::count;
-use super::replan::moved_to;
 use super::stepwise::Stepwise;
 use super::surround::{coordinates, put};
 use crate::campaign::Evidence;
@@ -83,7 +82,7 @@ impl<'a> Solver<'a> {
         }
         let old = plan.drive.as_ref()?;
         let passings: Option<Vec<Passing>> =
-            waypoints.iter().enumerate().map(|(index, p)| Some(moved_to(p, old.passing(index)?))).collect();
+            waypoints.iter().enumerate().map(|(index, p)| Some(old.passing(index)?.moved_to(p))).collect();
         let drive = self.through(graph, &passings?)?;
         let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
         // No search saw its legs.

@@ -5,9 +5,11 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
+use super::answer::Answer;
+use super::executions::Executions;
 use super::optima::optima;
-use super::outcome::Plan;
-use super::search::{Answer, Executions, Looped, Question};
+use super::plan::Plan;
+use super::question::{Looped, Question};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::in_loop::{EvolveSettings, ShiftSettings, Tested, Trial, climb, evolve, shift};

@@ -1,21 +1,26 @@
 //! One sampled graph: what is asked of it, and what it gives.
 
+mod answer;
 mod deaths;
+mod executions;
 mod explore;
 mod in_loop;
 mod in_order;
 mod optima;
 mod outcome;
 mod partial;
+mod plan;
+mod question;
 mod rounds;
 mod search;
 
 pub(super) use deaths::Counter;
 pub use deaths::{Deaths, Lost, Stage};
+pub(super) use executions::{Executions, Partials, Surroundings};
 pub(super) use explore::{Explored, GRAPHS};
 pub(super) use in_order::in_order;
 pub(super) use optima::AGGREGATES;
-pub(super) use outcome::{Outcome, Plan, fingerprint};
-pub(super) use partial::Partials;
-pub(super) use rounds::Round;
-pub(super) use search::{Executions, Looped, Question, Surroundings, Wanted, search};
+pub(super) use outcome::Outcome;
+pub(super) use plan::{Plan, fingerprint};
+pub(super) use question::{Looped, Question, Round, Wanted};
+pub(super) use search::search;

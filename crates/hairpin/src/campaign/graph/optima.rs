@@ -2,7 +2,8 @@
 
 use std::hash::Hash;
 
-use super::search::{Answer, Question};
+use super::answer::Answer;
+use super::question::Question;
 use crate::feasibility::reach::Reach;
 use crate::search::{Additive, Aggregate, ExactOutcome, ExactSearch, ExactSettings, LegGraph};
 

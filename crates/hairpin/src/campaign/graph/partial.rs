@@ -2,8 +2,9 @@
 
 use std::hash::Hash;
 
-use super::outcome::Plan;
-use super::search::{Answer, Question};
+use super::answer::Answer;
+use super::executions::Partials;
+use super::question::Question;
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::in_loop::{Execute, Executed, PartialSettings, Ran};
@@ -12,18 +13,6 @@ use crate::simulation::Airborne;
 
 /// Partial trajectories on the frontier at most: each keeps a robot in mid-air, and its log.
 const FRONTIER: usize = 1000;
-
-/// Executes a part; where it fails it says how many legs it executed in vain.
-type Part<'a> = &'a dyn Fn(&Plan, Option<&Airborne>, bool) -> Result<Ran<Airborne>, u64>;
-
-/// Executions of parts of trajectories.
-#[derive(Clone, Copy)]
-pub(in crate::campaign) struct Partials<'a> {
-    /// Executes a plan's waypoints as the first of a trajectory, from its start or from what was flown before; whether they are all.
-    pub(in crate::campaign) execute: Part<'a>,
-    /// Whether it can go on from what was flown before.
-    pub(in crate::campaign) resumes: bool,
-}
 
 /// Makes plans of what the beam grows, and has them executed.
 struct Carried<'q, 'a, N, R, O> {

@@ -3,10 +3,10 @@
 use std::collections::HashSet;
 use std::hash::Hash;
 
+use super::answer::Answer;
 use super::optima::AGGREGATES;
-use super::outcome::{Plan, fingerprint};
-use super::search::{Answer, Question};
-use crate::campaign::learn::ScoreModel;
+use super::plan::{Plan, fingerprint};
+use super::question::{Question, Round};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::{Additive, Aggregate, ExactSettings, Found, LegGraph, UniformSettings, exact, uniform};
@@ -19,25 +19,6 @@ const MOST_BEST: usize = 256;
 const NEXT_BY_HAND: u64 = 7;
 /// Uniform draws are repeated with twice as many as long as too few are new, so often.
 const REDRAWS: u32 = 6;
-
-/// One round.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::campaign) struct Round<'a> {
-    /// From 0. The first one draws what the method `uniform` does.
-    pub(in crate::campaign) number: u64,
-    /// Place of the graph among those of the campaign: where it begins with the scores by hand.
-    pub(in crate::campaign) place: u64,
-    /// Trajectories wanted that are best under the models, each in turn.
-    pub(in crate::campaign) optima: usize,
-    /// Trajectories wanted that are best under scores by hand; drawn where there are no such scores.
-    pub(in crate::campaign) by_hand: usize,
-    /// Uniform draws wanted beside them.
-    pub(in crate::campaign) draws: usize,
-    /// Scores of legs.
-    pub(in crate::campaign) models: &'a [ScoreModel],
-    /// Fingerprints of what was executed before.
-    pub(in crate::campaign) known: &'a HashSet<[u8; 16]>,
-}
 
 /// Trajectories that were not executed yet. What models cannot give is drawn, so that a round is as large as it was asked for.
 pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(

@@ -1,0 +1,79 @@
+//! A trajectory that a graph gave.
+
+use nalgebra::Point3;
+
+use crate::campaign::{Case, Environment, Evidence, SeenLeg};
+use crate::math::random::case_seed;
+use crate::search::Found;
+use crate::trajectory::Drive;
+use crate::trajectory::Profile;
+use crate::trajectory::program::Program;
+
+/// A trajectory that a graph gave.
+#[derive(Debug, Clone)]
+pub(in crate::campaign) struct Plan {
+    pub(in crate::campaign) waypoints: Vec<Point3<f64>>,
+    pub(in crate::campaign) leg_times: Vec<f64>,
+    pub(in crate::campaign) seen: Vec<SeenLeg>,
+    pub(in crate::campaign) score: f64,
+    pub(in crate::campaign) bound: Option<f64>,
+    pub(in crate::campaign) evidence: Evidence,
+    pub(in crate::campaign) certified: Option<&'static str>,
+    pub(in crate::campaign) profile: Option<Profile>,
+    pub(in crate::campaign) drive: Option<Drive>,
+    pub(in crate::campaign) program: Option<Program>,
+    /// What was found beside the waypoints.
+    pub(in crate::campaign) environment: Option<Environment>,
+}
+
+impl Plan {
+    /// What was found among `points`, on `evidence`.
+    pub(in crate::campaign) fn new<N>(found: &Found<N>, points: &[Point3<f64>], evidence: Evidence) -> Self {
+        Self {
+            waypoints: found.waypoints.iter().map(|&index| points[index as usize]).collect(),
+            leg_times: found.leg_times.clone(),
+            seen: Vec::new(),
+            score: found.score,
+            bound: None,
+            evidence,
+            certified: None,
+            profile: None,
+            drive: None,
+            program: None,
+            environment: None,
+        }
+    }
+
+    /// Case `number` of a campaign under the root seed, found in graph number `graph`.
+    pub(in crate::campaign) fn case(self, root: u64, graph: u64, number: usize) -> Case {
+        Case {
+            number,
+            seed: case_seed(root, number as u64),
+            graph,
+            waypoints: self.waypoints,
+            leg_times: self.leg_times,
+            seen: self.seen,
+            score: self.score,
+            bound: self.bound,
+            evidence: self.evidence,
+            certified: self.certified,
+            profile: self.profile,
+            drive: self.drive,
+            program: self.program,
+            environment: self.environment,
+        }
+    }
+}
+
+/// 128 bits of BLAKE3 over the coordinates: equal waypoint lists are one trajectory.
+pub(in crate::campaign) fn fingerprint(waypoints: impl IntoIterator<Item = Point3<f64>>) -> [u8; 16] {
+    let mut hasher = blake3::Hasher::new();
+    for waypoint in waypoints {
+        for coordinate in waypoint.iter() {
+            hasher.update(&coordinate.to_le_bytes());
+        }
+    }
+    let mut short = [0; 16];
+    short.copy_from_slice(&hasher.finalize().as_bytes()[..16]);
+    short
+}
