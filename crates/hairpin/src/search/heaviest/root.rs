@@ -7,9 +7,9 @@ use super::choices::{Choices, IN, Made, OPEN, OUT};
 use super::first_multipliers::first_multipliers;
 use super::local::Local;
 use super::problem::{Arcs, Ends};
+use super::question::{HeaviestSettings, Method};
 use super::record::{Next, Recorder};
 use super::relaxation::{Relaxation, path_of};
-use super::solve::{HeaviestSettings, Method};
 use crate::math::random::{named_seed, stream};
 
 /// Candidates of each point while multipliers are far from good.

@@ -4,8 +4,9 @@
 //! shortest path problem, Management Science 18 (1972): of the paths that begin with v₀ … v_k, the best one P = v₀ … v_m is taken out by
 //! parting the others by how long they go with it: with v₀ … v_j, but not on to v_{j+1}, for j = k … m.
 
+use super::one::one;
 use super::problem::{Arcs, Ends};
-use super::solve::{Heaviest, HeaviestMistake, HeaviestSettings, Outcome, heaviest};
+use super::question::{Heaviest, HeaviestMistake, HeaviestSettings, Outcome};
 
 /// Paths that begin in one way and do not go on in some others.
 struct Part {
@@ -140,7 +141,7 @@ fn solve(
         proof: false,
         ..settings.clone()
     };
-    let found = heaviest(&smaller, &settings, stop)?;
+    let found = one(&smaller, &settings, stop)?;
     *nodes += found.nodes;
     part.proven = found.proven;
     part.bound = done + (found.bound.unwrap_or(0) - 1).max(0);

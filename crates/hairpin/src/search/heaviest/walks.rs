@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::problem::{Arcs, ArcsMistake, Ends};
-use super::solve::{Heaviest, Method, Outcome};
+use super::question::{Heaviest, Method, Outcome};
 use super::walk::{Region, Search, WalkProof};
 
 /// More often no point is let come: sums of costs must stay in 64 bits.

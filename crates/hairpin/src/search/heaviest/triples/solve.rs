@@ -7,7 +7,7 @@ use super::problem::{Question, Triples};
 use super::subsets::{Subsets, table_bytes};
 use super::walks::Prices;
 use crate::math::random::named_seed;
-use crate::search::heaviest::solve::wanted;
+use crate::search::heaviest::question::wanted;
 use crate::search::heaviest::{Arcs, Heaviest, HeaviestMistake, HeaviestSettings, Method, Outcome, heaviest};
 
 /// Up to so many points the heaviest path is searched exactly, if memory allows.

@@ -16,6 +16,7 @@ mod mirror;
 mod miss;
 mod settings;
 pub mod start_table;
+mod tabulate;
 mod task;
 
 #[cfg(test)]

@@ -8,17 +8,15 @@ use thiserror::Error;
 
 use super::arc::Free;
 use super::ends::Ends;
-use super::forward::{self, Curve};
-use super::settings::Settings;
 use crate::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
 
 /// Goals along x, along y and of headings.
 pub const NODES: [usize; 3] = [33, 17, 16];
 /// The least x, and the distance between nodes, in radii.
-const BEHIND: f64 = 4.0;
-const APART: f64 = 0.5;
+pub(super) const BEHIND: f64 = 4.0;
+pub(super) const APART: f64 = 0.5;
 /// Between headings, rad; the first is −π.
-const TURN: f64 = std::f64::consts::TAU / NODES[2] as f64;
+pub(super) const TURN: f64 = std::f64::consts::TAU / NODES[2] as f64;
 /// Lengths of neighbours that are of one kind differ by less than this, in radii.
 const ALIKE: f64 = 1.5;
 
@@ -80,25 +78,6 @@ pub fn steering(bounds: &Curvatures) -> f64 {
 }
 
 impl StartTable {
-    /// The arcs that the solver finds by itself within `bounds`, one for each node.
-    ///
-    /// # Errors
-    /// [`StartTableError::Steering`] where `bounds` are no vehicle's.
-    pub fn generate(bounds: &Curvatures) -> Result<Self, StartTableError> {
-        let steering = checked_steering(steering(bounds))?;
-        let unit = Curvatures { most: 1.0, most_rate: steering };
-        let mut entries = vec![NONE; ENTRIES];
-        for (index, entry) in entries.iter_mut().enumerate() {
-            let query = Query { start_curvature: 0.0, goal: goal(index) };
-            let settings = Settings { iterations: 40, ..Settings::default() };
-            if let Some(Curve::Arc(ends, free)) = forward::best(&query, &unit, &settings) {
-                let [c0, c1, c2] = free.shape;
-                *entry = [c0, c1, c2, free.length, ends.turn].map(|value| value as f32);
-            }
-        }
-        Ok(Self { steering, entries })
-    }
-
     /// A table that was written: most_rate/most², and the entries in the order of [`Self::entries`].
     ///
     /// # Errors
@@ -190,18 +169,6 @@ impl StartTable {
     }
 }
 
-fn checked_steering(value: f64) -> Result<f64, StartTableError> {
+pub(super) fn checked_steering(value: f64) -> Result<f64, StartTableError> {
     if (1e-6..=1e6).contains(&value) { Ok(value) } else { Err(StartTableError::Steering { value }) }
-}
-
-/// The goal of a node, in radii.
-fn goal(index: usize) -> Goal {
-    let (heading, place) = (index % NODES[2], index / NODES[2]);
-    let (row, column) = (place % NODES[1], place / NODES[1]);
-    Goal {
-        x: column as f64 * APART - BEHIND,
-        y: row as f64 * APART,
-        yaw: (heading as f64 - 0.5 * NODES[2] as f64) * TURN,
-        curvature: 0.0,
-    }
 }
