@@ -21,7 +21,7 @@ pub mod uniform;
 
 pub use beam::{BeamOutcome, BeamSettings, beam, beam_grown};
 pub use ddmin::ddmin;
-pub use exact::{ExactOutcome, ExactSearch, ExactSettings, exact};
+pub use exact::{ExactOutcome, ExactSearch, ExactSettings, Ranking, Scored, exact};
 pub use graph::{Count, LegGraph};
 pub use growth::{ByLegs, Growth, Parent};
 pub use objective::{Additive, Aggregate, LegView, Objective, Score, ScoreMistake};

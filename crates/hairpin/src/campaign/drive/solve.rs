@@ -11,11 +11,12 @@ use super::stepwise::Stepwise;
 use super::surround::{coordinates, put};
 use crate::campaign::Evidence;
 use crate::campaign::environment::into_unit_ball;
-use crate::campaign::graph::{Counter, Executions, Looped, Outcome, Plan, Surroundings, Wanted};
+use crate::campaign::graph::{Counter, Executions, Looped, Outcome, Plan, Remembered, Surroundings, Wanted};
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{DriveSearch, GroundReach, Manoeuvre, SearchMethod, SearchSection};
 use crate::feasibility::reach::drive::{
-    DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres, sample_ground,
+    DriveLegs, DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres,
+    sample_ground,
 };
 use crate::feasibility::steering::shooting::families;
 use crate::math::random::named_seed;
@@ -36,6 +37,8 @@ pub(in crate::campaign) struct Solver<'a> {
     search: SearchSection,
     /// The reach set, where it is another than `witness`.
     stepwise: Option<Stepwise<'a>>,
+    /// Of the graphs that rounds come back to.
+    remembered: Remembered<DriveLegs>,
 }
 
 impl<'a> Solver<'a> {
@@ -47,7 +50,8 @@ impl<'a> Solver<'a> {
             GroundReach::Witness => None,
             GroundReach::None | GroundReach::Sphere | GroundReach::Hull => Some(Stepwise::new(setup)?),
         };
-        Ok(Self { setup, settings, search: setup.scenario.generate.search.section(), stepwise })
+        let search = setup.scenario.generate.search.section();
+        Ok(Self { setup, settings, search, stepwise, remembered: Remembered::default() })
     }
 
     /// Searches graph number `graph`; `executions` are for searches in the loop, `round` for adaptive campaigns.
@@ -149,7 +153,11 @@ impl<'a> Solver<'a> {
 
     fn by_roadmap(&self, graph: Graph) -> Outcome {
         let points = graph.points;
-        let roadmap = self.roadmap(graph.graph, points);
+        let (number, again) = (graph.graph, matches!(graph.looped.wanted, Wanted::Round(_)));
+        let mut roadmap = self.roadmap(number, points);
+        if let Some(legs) = self.remembered.take(number) {
+            roadmap = roadmap.knowing(legs);
+        }
         let plan = |found: Found<_>| {
             let drive = roadmap.drive(&found.nodes)?;
             // With stops, which the search does not see before it knows what follows what.
@@ -163,6 +171,11 @@ impl<'a> Solver<'a> {
         let mut outcome = ask(asked, |node, steps| roadmap.may_arrive(node, steps), plan);
         if outcome.plans.is_empty() {
             outcome.reason = Some(roadmap.tally().to_string());
+        }
+        if again {
+            let legs = roadmap.into_legs();
+            let bytes = legs.bytes();
+            self.remembered.keep(number, legs, bytes);
         }
         outcome
     }

@@ -5,10 +5,10 @@ use nalgebra::Point3;
 use super::FlightSetup;
 use super::legs::{beside, judge, score};
 use crate::campaign::Evidence;
-use crate::campaign::graph::{Looped, Outcome, Plan, Question, search};
+use crate::campaign::graph::{Looped, Outcome, Plan, Question, Remembered, Wanted, search};
 use crate::campaign::scenario::Timing;
 use crate::feasibility::certify::{Certificate, certify};
-use crate::feasibility::reach::{Roadmap, RoadmapSettings, WitnessNode};
+use crate::feasibility::reach::{Roadmap, RoadmapSettings, WitnessLegs, WitnessNode};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::math::random::named_seed;
 use crate::search::Found;
@@ -18,6 +18,8 @@ pub(super) struct Witness<'a> {
     setup: FlightSetup<'a>,
     judge: LegJudge,
     timing: LegTiming,
+    /// Of the graphs that rounds come back to.
+    remembered: Remembered<WitnessLegs>,
 }
 
 impl<'a> Witness<'a> {
@@ -29,7 +31,7 @@ impl<'a> Witness<'a> {
             Timing { leg_time_s: Some([shortest, longest]), .. } => LegTiming::ladder(shortest, longest),
             Timing { .. } => return Err("`timing` names neither leg_time_s nor step_s".into()),
         };
-        Ok(Self { setup, judge: judge(&setup)?, timing })
+        Ok(Self { setup, judge: judge(&setup)?, timing, remembered: Remembered::default() })
     }
 
     /// The shortest leg time tried, s.
@@ -57,7 +59,11 @@ impl<'a> Witness<'a> {
     /// Searches graph number `graph` over `points`.
     pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
         let scenario = self.setup.scenario;
-        let roadmap = self.roadmap(graph, points);
+        let again = matches!(looped.wanted, Wanted::Round(_));
+        let mut roadmap = self.roadmap(graph, points);
+        if let Some(legs) = self.remembered.take(graph) {
+            roadmap = roadmap.knowing(legs);
+        }
         let longest = scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
         let plan = |found: Found<WitnessNode>| {
             let profile = roadmap.profile(&found.nodes).ok()?;
@@ -80,6 +86,12 @@ impl<'a> Witness<'a> {
             also: beside(&self.setup, graph, top_speed, &looped),
             looped,
         };
-        Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)))
+        let outcome = Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)));
+        if again {
+            let legs = roadmap.into_legs();
+            let bytes = legs.bytes();
+            self.remembered.keep(graph, legs, bytes);
+        }
+        outcome
     }
 }

@@ -75,7 +75,7 @@ pub(super) fn generate(
     let begun = (stop.clock)();
     let (graphs, samples, tally) = (Vec::new(), Vec::new(), Tally::default());
     let mut campaign = Campaign { setup, solver, stop, search, begun, graphs, samples, executed: 0, tally };
-    for round in 0..campaign.search.rounds {
+    for round in 0..campaign.search.adaptive_rounds() {
         if round > 0 && campaign.graphs.is_empty() || (stop.cancelled)() {
             break;
         }
@@ -137,7 +137,7 @@ impl Campaign<'_> {
 
     /// Whether executions of round `number` may begin: neither stopped, nor is the round's share of the time used up.
     fn goes_on(&self, number: u64) -> bool {
-        let share = (number + 1) as f64 / self.search.rounds as f64;
+        let share = (number + 1) as f64 / self.search.adaptive_rounds() as f64;
         let late = self.search.time_s.is_some_and(|time| (self.stop.clock)() - self.begun >= share * time);
         !late && !(self.stop.cancelled)()
     }
@@ -146,7 +146,7 @@ impl Campaign<'_> {
     fn first(&mut self) -> Vec<Todo> {
         let wanted = self.search.adaptive_graphs() as usize;
         let units = self.search.graphs.unwrap_or(self.search.cases.saturating_mul(GRAPHS_PER_CASE));
-        let share = dealt(self.search.executions, self.search.rounds, 0);
+        let share = dealt(self.search.executions, self.search.adaptive_rounds(), 0);
         let known = HashSet::new();
         let most = share.div_ceil(wanted as u64) as usize;
         let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: most, models: &[], known: &known };
@@ -184,7 +184,7 @@ impl Campaign<'_> {
     /// What round `number` executes, by what all before it have taught.
     fn next(&self, number: u64, told: &mut RoundTally) -> Vec<Todo> {
         let (graphs, search) = (self.graphs.len() as u64, &self.search);
-        let share = dealt(search.executions, search.rounds, number);
+        let share = dealt(search.executions, search.adaptive_rounds(), number);
         let draws = libm::round(search.explore * share as f64) as u64;
         // Where graphs get different numbers they are others every round.
         let turn = |place: usize| (place as u64 + number) % graphs;

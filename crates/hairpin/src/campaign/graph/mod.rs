@@ -11,6 +11,7 @@ mod outcome;
 mod partial;
 mod plan;
 mod question;
+mod remembered;
 mod rounds;
 mod search;
 
@@ -23,4 +24,5 @@ pub(super) use optima::AGGREGATES;
 pub(super) use outcome::Outcome;
 pub(super) use plan::{Plan, fingerprint};
 pub(super) use question::{Looped, Question, Round, Wanted};
+pub(super) use remembered::Remembered;
 pub(super) use search::search;

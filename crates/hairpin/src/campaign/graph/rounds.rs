@@ -1,5 +1,6 @@
 //! What a round of an adaptive campaign has executed in one graph: the best under models, optima of scores by hand, and uniform draws.
 
+use std::cell::LazyCell;
 use std::collections::HashSet;
 use std::hash::Hash;
 
@@ -9,7 +10,7 @@ use super::plan::{Plan, fingerprint};
 use super::question::{Question, Round};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
-use crate::search::{Additive, Aggregate, ExactSettings, Found, LegGraph, UniformSettings, exact, uniform};
+use crate::search::{Additive, Aggregate, ExactSearch, ExactSettings, Found, LegGraph, UniformSettings, uniform};
 
 /// A score is asked for so many of its best at first, and then for this multiple of them …
 const MORE: usize = 4;
@@ -26,13 +27,17 @@ pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     round: &Round,
 ) -> Answer {
     let graph = question.leg_graph();
+    let settings =
+        ExactSettings { length: question.length, revisits: question.search.revisits, ..ExactSettings::default() };
+    // A first round only draws.
+    let search = LazyCell::new(|| ExactSearch::new(&graph, settings));
     let mut new = New { question, known: round.known.clone(), plans: Vec::new() };
     // The question's own score is the first model, if there is one.
     let (models, by_hand) = question.also.split_at(round.models.len().saturating_sub(1));
     if !round.models.is_empty() {
         for (place, score) in std::iter::once(&question.score).chain(models).enumerate() {
             let scores = 1 + models.len();
-            new.best(&graph, score, question.search.aggregate, (round.optima + scores - 1 - place) / scores);
+            new.best(&search, score, question.search.aggregate, (round.optima + scores - 1 - place) / scores);
         }
     }
     let chosen = new.plans.len();
@@ -40,7 +45,7 @@ pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     let scores = (by_hand.len() * AGGREGATES.len()) as u64;
     for turn in (0..round.by_hand as u64).filter(|_| scores > 0) {
         let turn = (first.wrapping_add(turn) % scores) as usize;
-        new.best(&graph, &by_hand[turn / AGGREGATES.len()], AGGREGATES[turn % AGGREGATES.len()], 1);
+        new.best(&search, &by_hand[turn / AGGREGATES.len()], AGGREGATES[turn % AGGREGATES.len()], 1);
     }
     let by_hand = new.plans.len() - chosen;
     let wanted = round.optima + round.by_hand + round.draws - new.plans.len();
@@ -76,18 +81,15 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> New<'_, '_, N, R, O> {
     }
 
     /// The best `wanted` under `score`.
-    fn best(&mut self, graph: &LegGraph<'_, N>, score: &O, aggregate: Aggregate, mut wanted: usize) {
-        let search = self.question.search;
+    fn best(&mut self, search: &ExactSearch<'_, '_, N>, score: &O, aggregate: Aggregate, mut wanted: usize) {
+        if wanted == 0 {
+            return;
+        }
+        let scored = search.scored(score);
+        let ranking = scored.by(aggregate);
         let mut best = wanted;
         while wanted > 0 {
-            let settings = ExactSettings {
-                length: self.question.length,
-                best,
-                revisits: search.revisits,
-                aggregate,
-                ..ExactSettings::default()
-            };
-            let found = exact(graph, score, &settings).found;
+            let found = ranking.best(best).found;
             let all = found.len() < best;
             wanted -= self.take(found, wanted);
             best *= MORE;

@@ -44,8 +44,10 @@ pub struct SearchSection {
     pub executions: u64,
     /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
-    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly.
-    pub rounds: u64,
+    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not given, as many
+    /// as the executions allow, 15 at most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rounds: Option<u64>,
     /// `adaptive`: share of every later round's executions that no model chooses: half of them drawn uniformly, half optima of scores by hand.
     pub explore: f64,
     /// `adaptive`: time for executing and learning beside `executions`; what is found then depends on the clock.
@@ -73,7 +75,7 @@ impl Default for SearchSection {
             graphs: None,
             executions: 200,
             confirm: 0,
-            rounds: 4,
+            rounds: None,
             explore: 0.2,
             time_s: None,
             move_waypoints: false,
@@ -107,11 +109,24 @@ impl SearchMethod {
 
 /// Every round of an adaptive campaign keeps its legs: at ten legs a trajectory, a million rows to fit.
 const MOST_LEARNED: u64 = 100_000;
+/// Rounds at most, where the scenario does not say: what a round taught decides what the next one executes, so that many small ones get
+/// farther than few large ones; but each fits its models anew.
+const MOST_ROUNDS: u64 = 15;
 
 impl SearchSection {
     /// Graphs that an adaptive campaign executes in.
     pub fn adaptive_graphs(&self) -> u64 {
         self.cases.div_ceil(self.per_graph.max(1))
+    }
+
+    /// Executions that a round needs: one in each graph, and enough to learn from.
+    fn least_per_round(&self) -> u64 {
+        self.adaptive_graphs().max(LEAST_TRAJECTORIES as u64)
+    }
+
+    /// Rounds of an adaptive campaign.
+    pub fn adaptive_rounds(&self) -> u64 {
+        self.rounds.unwrap_or_else(|| (self.executions / self.least_per_round()).clamp(1, MOST_ROUNDS))
     }
 
     /// Bounds of all that does not depend on what moves: but for `waypoints`.
@@ -127,7 +142,9 @@ impl SearchSection {
         if let Some(graphs) = self.graphs {
             found.count("generate.search.graphs", graphs, 1, 1_000_000_000);
         }
-        found.count("generate.search.rounds", self.rounds, 1, 1_000);
+        if let Some(rounds) = self.rounds {
+            found.count("generate.search.rounds", rounds, 1, 1_000);
+        }
         found.from("generate.search.explore", self.explore, 0.0, 1.0, "");
         if let Some(time) = self.time_s {
             found.above("generate.search.time_s", time, 0.0, 1e6, " s");
@@ -163,12 +180,11 @@ impl SearchSection {
 
     fn check_adaptive(&self, found: &mut Findings) {
         let graphs = self.adaptive_graphs();
-        let first = graphs.max(LEAST_TRAJECTORIES as u64);
-        let least = first.saturating_mul(self.rounds);
+        let least = self.least_per_round().saturating_mul(self.adaptive_rounds());
+        let rounds = self.rounds.map_or("each round".into(), |rounds| format!("each of {rounds} rounds"));
         let bound = format!(
-            "{least} … {MOST_LEARNED} for the method `adaptive`: in each of {} rounds one in each of {graphs} graphs, and \
-             {LEAST_TRAJECTORIES} to learn from",
-            self.rounds
+            "{least} … {MOST_LEARNED} for the method `adaptive`: in {rounds} one in each of {graphs} graphs, and \
+             {LEAST_TRAJECTORIES} to learn from"
         );
         let fine = (least..=MOST_LEARNED).contains(&self.executions);
         found.require(fine, "generate.search.executions", self.executions, &bound);

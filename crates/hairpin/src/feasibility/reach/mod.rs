@@ -33,7 +33,7 @@ pub use planar_runs::PlanarVehicle;
 pub use polytope::{NoPolytope, Polytope};
 pub use sphere::Sphere;
 pub use step::{StepReach, StepSet, StepSettings};
-pub use witness::{Roadmap, RoadmapLeg, RoadmapSettings, WitnessNode};
+pub use witness::{Roadmap, RoadmapLeg, RoadmapSettings, WitnessLegs, WitnessNode};
 
 /// What a score sees of a leg, from its first waypoint. For step-wise sets speeds are leg ÷ step, for `witness`
 /// those at the leg's ends. On a flyer's first leg `v_in` = 0 and `turn` = 0.

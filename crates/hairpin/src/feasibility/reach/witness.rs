@@ -4,7 +4,7 @@
 mod tests;
 
 use std::cell::{OnceCell, RefCell};
-use std::rc::Rc;
+use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
@@ -63,6 +63,18 @@ struct Judged {
     rung: u32,
 }
 
+/// The legs of a [`Roadmap`] that were judged so far; they serve every roadmap that is drawn alike.
+#[derive(Debug)]
+pub struct WitnessLegs(Vec<Option<Arc<[Judged]>>>);
+
+impl WitnessLegs {
+    /// Memory that they take, about.
+    pub fn bytes(&self) -> usize {
+        let legs: usize = self.0.iter().flatten().map(|legs| legs.len()).sum();
+        self.0.len() * size_of::<Option<Arc<[Judged]>>>() + legs * size_of::<Judged>()
+    }
+}
+
 /// The waypoint states of one graph and the legs between them, judged when first asked for and kept. One graph is one
 /// task on one thread.
 #[derive(Debug)]
@@ -74,7 +86,7 @@ pub struct Roadmap<'a> {
     /// First state of every waypoint, and the number of states.
     first: Vec<u32>,
     rungs: Vec<f64>,
-    kept: RefCell<Vec<Option<Rc<[Judged]>>>>,
+    kept: RefCell<Vec<Option<Arc<[Judged]>>>>,
     /// Which states have a leg to the end.
     arrivals: OnceCell<Vec<bool>>,
     /// Distance of every waypoint to the nearest from which the end is one leg away, m.
@@ -109,6 +121,20 @@ impl<'a> Roadmap<'a> {
         let kept = RefCell::new(vec![None; states.len()]);
         let (arrivals, approach) = (OnceCell::new(), OnceCell::new());
         Self { judge, points: points.to_vec(), states, first, rungs, kept, arrivals, approach }
+    }
+
+    /// The same, with `legs` of one that was drawn alike.
+    ///
+    /// # Panics
+    /// If it has another number of states.
+    pub fn knowing(self, legs: WitnessLegs) -> Self {
+        assert_eq!(legs.0.len(), self.states.len(), "legs of another roadmap");
+        Self { kept: RefCell::new(legs.0), ..self }
+    }
+
+    /// The legs that were judged.
+    pub fn into_legs(self) -> WitnessLegs {
+        WitnessLegs(self.kept.into_inner())
     }
 
     /// The node at rest at the start.
@@ -227,9 +253,9 @@ impl<'a> Roadmap<'a> {
         (to - from).norm() / self.judge.limits().max_speed
     }
 
-    fn kept_legs(&self, from: usize) -> Rc<[Judged]> {
+    fn kept_legs(&self, from: usize) -> Arc<[Judged]> {
         if let Some(legs) = &self.kept.borrow()[from] {
-            return Rc::clone(legs);
+            return Arc::clone(legs);
         }
         let own = self.place(from as u32).0 as usize;
         let longest = self.rungs.last().copied().unwrap_or(0.0);
@@ -243,8 +269,8 @@ impl<'a> Roadmap<'a> {
                 legs.extend(self.shortest(from, state as usize, fastest).map(|rung| Judged { state, rung }));
             }
         }
-        let legs: Rc<[Judged]> = legs.into();
-        self.kept.borrow_mut()[from] = Some(Rc::clone(&legs));
+        let legs: Arc<[Judged]> = legs.into();
+        self.kept.borrow_mut()[from] = Some(Arc::clone(&legs));
         legs
     }
 

@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 
 use self::best_first::BestFirst;
-use super::graph::{Count, LegGraph, LegScores};
+use super::graph::{Count, LegGraph, LegScores, Values};
 use super::objective::{Additive, Aggregate};
 use super::task::Found;
 
@@ -96,34 +96,63 @@ impl<'g, 'a, N: Copy> ExactSearch<'g, 'a, N> {
 
     /// The best trajectories under `objective`, by each of `aggregates`.
     pub fn best<O: Additive, const K: usize>(&self, objective: &O, aggregates: [Aggregate; K]) -> [ExactOutcome<N>; K] {
-        let walks = self.walks;
-        if walks.is_zero() {
-            return aggregates.map(|_| ExactOutcome {
-                found: Vec::new(),
-                proven: 0,
-                bound: None,
-                walks,
-                expansions: 0,
-            });
-        }
-        let scores = self.graph.scores(objective);
-        aggregates.map(|aggregate| self.by(&scores, ExactSettings { aggregate, ..self.settings.clone() }))
+        let scored = self.scored(objective);
+        aggregates.map(|aggregate| scored.by(aggregate).best(self.settings.best))
     }
 
-    fn by(&self, scores: &LegScores, settings: ExactSettings) -> ExactOutcome<N> {
-        let (graph, settings) = (&*self.graph, &settings);
-        let values = graph.values(settings.length, scores, settings.aggregate, &self.near_start);
-        let mut search = best_first::best_first(graph, scores, &values, settings);
+    /// The legs under `objective`.
+    pub fn scored<O: Additive>(&self, objective: &O) -> Scored<'_, 'g, 'a, N> {
+        Scored { search: self, scores: (!self.walks.is_zero()).then(|| self.graph.scores(objective)) }
+    }
+}
+
+/// The legs of a graph under one score.
+#[derive(Debug)]
+pub struct Scored<'s, 'g, 'a, N: Copy> {
+    search: &'s ExactSearch<'g, 'a, N>,
+    /// `None` where there is no trajectory.
+    scores: Option<LegScores>,
+}
+
+impl<N: Copy> Scored<'_, '_, '_, N> {
+    /// What trajectories can become whose legs add up as `aggregate` says.
+    pub fn by(&self, aggregate: Aggregate) -> Ranking<'_, N> {
+        let ExactSearch { graph, settings, walks, near_start } = self.search;
+        let of = |scores| (scores, graph.values(settings.length, scores, aggregate, near_start));
+        let settings = ExactSettings { aggregate, ..settings.clone() };
+        Ranking { graph, settings, walks: *walks, known: self.scores.as_ref().map(of) }
+    }
+}
+
+/// The trajectories of a graph in the order of their scores: asking for more of them does over only what is different.
+#[derive(Debug)]
+pub struct Ranking<'s, N: Copy> {
+    graph: &'s LegGraph<'s, N>,
+    settings: ExactSettings,
+    walks: Count,
+    /// Scores of legs, and the best that is still to come after them.
+    known: Option<(&'s LegScores, Values)>,
+}
+
+impl<N: Copy> Ranking<'_, N> {
+    /// The `count` best; 0 is taken as 1.
+    pub fn best(&self, count: usize) -> ExactOutcome<N> {
+        let (graph, walks, best) = (self.graph, self.walks, count.max(1));
+        let Some((scores, values)) = &self.known else {
+            return ExactOutcome { found: Vec::new(), proven: 0, bound: None, walks, expansions: 0 };
+        };
+        let settings = &ExactSettings { best, ..self.settings.clone() };
+        let mut search = best_first::best_first(graph, scores, values, settings);
         let proven = search.found.len();
-        if search.open_bound.is_some() && proven < settings.best.max(1) {
-            let (more, expansions) = descent::descent(graph, scores, &values, settings);
+        if search.open_bound.is_some() && proven < best {
+            let (more, expansions) = descent::descent(graph, scores, values, settings);
             search.expansions += expansions;
             let known: HashSet<Vec<u32>> = search.found.iter().map(|found| found.waypoints.clone()).collect();
             let new = more.into_iter().filter(|found| !known.contains(&found.waypoints));
-            search.found.extend(new.take(settings.best.max(1) - proven));
+            search.found.extend(new.take(best - proven));
         }
         let bound = if proven > 0 { search.found.first().map(|found| found.score) } else { search.open_bound };
         let BestFirst { found, expansions, .. } = search;
-        ExactOutcome { found, proven, bound, walks: self.walks, expansions }
+        ExactOutcome { found, proven, bound, walks, expansions }
     }
 }

@@ -244,8 +244,10 @@ pub struct DriveSearch {
     pub executions: u64,
     /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
-    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly.
-    pub rounds: u64,
+    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not given, as many
+    /// as the executions allow, 15 at most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rounds: Option<u64>,
     /// `adaptive`: share of every later round's executions that is drawn uniformly, whatever the model says.
     pub explore: f64,
     /// `adaptive`: time for executing and learning beside `executions`; what is found then depends on the clock.

@@ -14,7 +14,7 @@ mod ways;
 
 pub use looks::DriveLooks;
 pub use pace::{Pace, Slopes};
-pub use roadmap::{DriveNode, DriveRoadmap};
+pub use roadmap::{DriveLegs, DriveNode, DriveRoadmap};
 pub use sample::{GroundSampling, TooFewPlaces, sample_ground};
 pub use settings::{DriveLimits, DriveSettings, DriveSite, Manoeuvres};
 pub use straight::StraightLegs;

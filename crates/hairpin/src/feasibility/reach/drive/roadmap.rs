@@ -2,7 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 use std::f64::consts::{PI, TAU};
-use std::rc::Rc;
+use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 
@@ -34,6 +34,21 @@ struct Kept {
     solved: Solved,
 }
 
+/// The legs of a [`DriveRoadmap`] that were solved so far; they serve every roadmap that is drawn alike.
+#[derive(Debug)]
+pub struct DriveLegs(Vec<Option<Arc<[Kept]>>>);
+
+impl DriveLegs {
+    /// Memory that they take, about.
+    pub fn bytes(&self) -> usize {
+        let legs = || self.0.iter().flatten().flat_map(|legs| legs.iter());
+        let segments: usize = legs().map(|leg| leg.solved.segments.len()).sum();
+        self.0.len() * size_of::<Option<Arc<[Kept]>>>()
+            + legs().count() * size_of::<Kept>()
+            + segments * size_of::<Segment>()
+    }
+}
+
 /// The headed waypoints of one graph and the legs between them. One graph is one task on one thread.
 ///
 /// A leg is a drive that the boundary-value solver found on the map: its predicted motion ends in the next waypoint's
@@ -50,7 +65,7 @@ pub struct DriveRoadmap<'a> {
     states: Vec<Planar>,
     /// First state of every waypoint, and the number of states.
     first: Vec<u32>,
-    kept: RefCell<Vec<Option<Rc<[Kept]>>>>,
+    kept: RefCell<Vec<Option<Arc<[Kept]>>>>,
     tally: Cell<DriveTally>,
 }
 
@@ -90,6 +105,20 @@ impl<'a> DriveRoadmap<'a> {
         Self { site, settings, points, directions, states, first, kept, tally: Cell::default() }
     }
 
+    /// The same, with `legs` of one that was drawn alike; its tally is of those that it solves itself.
+    ///
+    /// # Panics
+    /// If it has another number of states.
+    pub fn knowing(self, legs: DriveLegs) -> Self {
+        assert_eq!(legs.0.len(), self.states.len(), "legs of another roadmap");
+        Self { kept: RefCell::new(legs.0), ..self }
+    }
+
+    /// The legs that were solved.
+    pub fn into_legs(self) -> DriveLegs {
+        DriveLegs(self.kept.into_inner())
+    }
+
     /// The node at the start.
     pub fn start(&self) -> DriveNode {
         DriveNode { waypoint: 0, heading: 0 }
@@ -127,7 +156,7 @@ impl<'a> DriveRoadmap<'a> {
         let states: Vec<usize> = nodes.iter().map(|node| self.state(node)).collect();
         // Nothing leaves the last: its legs need not be solved.
         let leaving = &states[..states.len().saturating_sub(1)];
-        let kept: Vec<Rc<[Kept]>> = leaving.iter().map(|&state| self.kept_legs(state)).collect();
+        let kept: Vec<Arc<[Kept]>> = leaving.iter().map(|&state| self.kept_legs(state)).collect();
         let mut legs = Vec::with_capacity(nodes.len().saturating_sub(1));
         for (pair, kept) in states.windows(2).zip(&kept) {
             let leg = kept.iter().find(|leg| leg.state as usize == pair[1])?;
@@ -234,9 +263,9 @@ impl<'a> DriveRoadmap<'a> {
         apart(&self.points[a], &self.points[b])
     }
 
-    fn kept_legs(&self, from: usize) -> Rc<[Kept]> {
+    fn kept_legs(&self, from: usize) -> Arc<[Kept]> {
         if let Some(legs) = &self.kept.borrow()[from] {
-            return Rc::clone(legs);
+            return Arc::clone(legs);
         }
         let own = self.node(from as u32).waypoint as usize;
         let mut tally = self.tally.get();
@@ -254,8 +283,8 @@ impl<'a> DriveRoadmap<'a> {
             }
         }
         self.tally.set(tally);
-        let legs: Rc<[Kept]> = legs.into();
-        self.kept.borrow_mut()[from] = Some(Rc::clone(&legs));
+        let legs: Arc<[Kept]> = legs.into();
+        self.kept.borrow_mut()[from] = Some(Arc::clone(&legs));
         legs
     }
 }
