@@ -31,8 +31,15 @@ pub(crate) fn simd(kernels: &Kernels) -> Simd {
     if kernels.portable { Simd::Portable } else { Simd::Widest }
 }
 
-/// Resolves the scenario and makes or takes up its folder.
-pub(crate) fn begin(campaign: &Campaign, executor: Option<&str>) -> Result<Work, Problem> {
+/// A campaign that may begin: nothing is written yet.
+pub(crate) struct Planned {
+    pub(crate) path: PathBuf,
+    pub(crate) setup: Setup,
+    resume: bool,
+}
+
+/// Resolves the scenario, and whether its folder may be made or taken up.
+pub(crate) fn plan(campaign: &Campaign, executor: Option<&str>) -> Result<Planned, Problem> {
     take_threads(&campaign.threads);
     let mut sets = split(&campaign.sets)?;
     sets.extend(campaign.seed.map(|seed| ("seed".to_owned(), seed.to_string())));
@@ -43,9 +50,22 @@ pub(crate) fn begin(campaign: &Campaign, executor: Option<&str>) -> Result<Work,
     let setup = Setup::new(scenario)?.with_simd(simd(&campaign.kernels));
     setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
-    let work = Work { folder: make(&path, &setup, campaign.resume, campaign.force)?, setup };
-    tracing::info!("campaign folder {}", work.folder.path().display());
-    Ok(work)
+    may_make(&path, &setup, campaign.resume, campaign.force)?;
+    Ok(Planned { path, setup, resume: campaign.resume })
+}
+
+impl Planned {
+    /// Makes or takes up its folder.
+    pub(crate) fn begin(self) -> Result<Work, Problem> {
+        let work = Work { folder: create(&self.path, &self.setup, self.resume)?, setup: self.setup };
+        tracing::info!("campaign folder {}", work.folder.path().display());
+        Ok(work)
+    }
+}
+
+/// Resolves the scenario and makes or takes up its folder.
+pub(crate) fn begin(campaign: &Campaign, executor: Option<&str>) -> Result<Work, Problem> {
+    plan(campaign, executor)?.begin()
 }
 
 /// Logs are named relative to the scenario file: the campaign's own lies in `folder`.
@@ -64,6 +84,12 @@ pub(crate) fn as_logs(folder: &Path, pattern: &str) -> (String, String) {
 
 /// Makes `path` the folder of a campaign, or takes it up again.
 pub(crate) fn make(path: &Path, setup: &Setup, resume: bool, force: bool) -> Result<CampaignFolder, Problem> {
+    may_make(path, setup, resume, force)?;
+    create(path, setup, resume)
+}
+
+/// Whether `path` can become the folder of a campaign, or be taken up again.
+fn may_make(path: &Path, setup: &Setup, resume: bool, force: bool) -> Result<(), Problem> {
     if let Ok(old) = CampaignFolder::open(path) {
         if !resume && !force {
             return Err(Problem::input(format!(
@@ -82,12 +108,16 @@ pub(crate) fn make(path: &Path, setup: &Setup, resume: bool, force: bool) -> Res
             same_level(&old, setup.simd)?;
         }
     }
+    Ok(())
+}
+
+fn create(path: &Path, setup: &Setup, resume: bool) -> Result<CampaignFolder, Problem> {
     let folder = CampaignFolder::create(path, if resume { Existing::Resume } else { Existing::Replace })?;
     write_scenario(&folder, &setup.scenario, setup.simd.level())?;
     Ok(folder)
 }
 
-/// Opens a campaign folder for the next part, its scenario changed by `sets` in the tables `allowed`. Its SIMD level stays:
+/// Opens a campaign folder for the next part, its scenario changed by `sets` in the tables `allowed`; [`keep_changes`] writes it. Its SIMD level stays:
 /// a part that runs kernels (`flown`) goes on at it, or not at all.
 pub(crate) fn open(
     path: &Path,
@@ -116,10 +146,13 @@ pub(crate) fn open(
             (false, Some(_)) => {}
         }
     }
-    if !sets.is_empty() {
-        write_scenario(&folder, &setup.scenario, level.as_deref().unwrap_or(setup.simd.level()))?;
-    }
     Ok(Work { folder, setup })
+}
+
+/// Writes the scenario of `work` as [`open`] changed it.
+pub(crate) fn keep_changes(work: &Work) -> Result<(), Problem> {
+    let level = level(&work.folder)?;
+    write_scenario(&work.folder, &work.setup.scenario, level.as_deref().unwrap_or(work.setup.simd.level()))
 }
 
 /// The first key of the folder's scenario that `sets` change.

@@ -22,19 +22,29 @@ pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
         unchanged(execute, &sets)?;
     }
     let work = folder::open(&execute.folder, &sets, &["execute", "vary", "spec"], Some(&execute.kernels))?;
-    if let Some(missions) = &missions {
-        parts::adopt(&work, missions)?;
-    } else if !work.folder.has_cases() {
+    if missions.is_none() && !work.folder.has_cases() {
         let path = execute.folder.display();
         return Err(Problem::input(format!("{path} has no cases yet: hairpin generate, or --missions DIR")));
     }
-    let cases = work.folder.read_cases()?;
+    // Whatever can be refused is refused before anything is lost.
+    let replayed = parts::replay_saved(&work.setup, work.folder.path(), execute.saved.repro.as_deref())?;
+    let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
+    parts::check_recordings(&work, kept.as_deref().unwrap_or_default())?;
+    if !sets.is_empty() {
+        folder::keep_changes(&work)?;
+    }
+    let cases = match (&missions, kept) {
+        (None, Some(cases)) => cases,
+        (missions, _) => {
+            parts::adopt(&work, missions.as_deref().unwrap_or_default())?;
+            work.folder.read_cases()?
+        }
+    };
     // What was judged was judged on other runs, or on fewer. Where this cannot be written, the runs stay with it.
     work.folder.write_results(&cases, &[])?;
     if !execute.resume {
         work.folder.forget_runs()?;
     }
-    let replayed = parts::replay_saved(&work, execute.saved.repro.as_deref())?;
     let Flown { runs, failed, attitude_unknown } = parts::execute(&work, &cases)?;
     let (sentence, code) = if failed == 0 {
         (format!("EXECUTED {runs} runs of {} cases", cases.len()), 0)

@@ -8,9 +8,13 @@ use crate::problem::Problem;
 /// Runs the command.
 pub(crate) fn run(judge: &Judge) -> Result<u8, Problem> {
     folder::take_threads(&judge.threads);
-    let work = folder::open(&judge.folder, &folder::split(&judge.sets)?, &["spec"], None)?;
+    let sets = folder::split(&judge.sets)?;
+    let work = folder::open(&judge.folder, &sets, &["spec"], None)?;
     let cases = work.folder.read_cases()?;
     let tally = work.folder.read_tally()?;
+    if !sets.is_empty() {
+        folder::keep_changes(&work)?;
+    }
     let judgement = parts::judge(&work, &cases, &tally)?;
     let asked = tally.asked(work.setup.scenario.search().cases);
     let answer = Answer { work: &work, asked, cases: &cases, judgement: &judgement, replayed: &[] };

@@ -8,9 +8,11 @@ use crate::problem::Problem;
 
 /// Runs the command.
 pub(crate) fn run(stress: &Stress) -> Result<u8, Problem> {
-    let work = folder::begin(&stress.campaign, stress.executor.as_deref())?;
+    let planned = folder::plan(&stress.campaign, stress.executor.as_deref())?;
     let deadline = Deadline::after(stress.campaign.time_limit);
-    let replayed = parts::replay_saved(&work, stress.saved.repro.as_deref())?;
+    // Before anything of an older campaign in the folder is replaced: a saved case may turn out to be none.
+    let replayed = parts::replay_saved(&planned.setup, &planned.path, stress.saved.repro.as_deref())?;
+    let work = planned.begin()?;
     campaign(&work, deadline, &replayed, stress.campaign.json)
 }
 

@@ -268,6 +268,7 @@ fn rerun_words(results: &[CaseResult], confidence: f64) -> Option<String> {
         .filter_map(|result| Some((result, result.reruns?)))
         .filter(|(_, reruns)| reruns.of > 0)
         .collect();
+    let failed = results.iter().filter(|result| result.status == Status::Fail).count();
     let always = again.iter().filter(|(_, reruns)| reruns.violated == reruns.of).count();
     let share = |reruns: &Reruns| reruns.violated as f64 / reruns.of as f64;
     let (result, least) = again.iter().min_by(|a, b| share(&a.1).total_cmp(&share(&b.1)))?;
@@ -278,12 +279,16 @@ fn rerun_words(results: &[CaseResult], confidence: f64) -> Option<String> {
         let (k, n) = (least.violated, least.of);
         words += &format!(", least often {:04}, {k}/{n} [{low:.1}, {high:.1}] %", result.case);
     }
+    // A limit that became tighter since makes violations of what was not one.
+    if failed > again.len() {
+        words += &format!(", {} not run again", failed - again.len());
+    }
     Some(words)
 }
 
 /// `simulated, anafi stand-in, minimum-snap`, or the executor's command; of logs `hardware, irb120, nightly/*.csv`.
 pub fn how_obtained(setup: &Setup) -> Vec<String> {
-    if let Some(logs) = setup.arm().and_then(|arm| arm.scenario.execute.logs.as_deref()) {
+    if let Some(logs) = setup.recordings() {
         // What was recorded was no stand-in, only what it is held against is computed with one.
         let logs = logs.trim_start_matches("../");
         return vec!["hardware".into(), setup.robot_name().into(), logs.into()];

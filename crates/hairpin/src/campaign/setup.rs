@@ -135,6 +135,11 @@ impl Setup {
         }
     }
 
+    /// The logs whose recordings are the runs, where nothing is executed.
+    pub fn recordings(&self) -> Option<&str> {
+        self.arm().and_then(|arm| arm.scenario.execute.logs.as_deref())
+    }
+
     /// The robot's name.
     pub fn robot_name(&self) -> &str {
         match &self.machine {

@@ -54,9 +54,8 @@ impl Job<'_> {
 /// Flies all runs of `cases` that are not in the folder yet, and violations as often again as the scenario asks for.
 pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
-    let logs = work.setup.arm().and_then(|arm| Some((arm, arm.scenario.execute.logs.clone()?)));
-    if let Some((arm, pattern)) = logs {
-        super::recorded::take_in(work, &arm, &pattern, cases)?;
+    if let (Some(arm), Some(pattern)) = (work.setup.arm(), work.setup.recordings()) {
+        super::recorded::take_in(work, &arm, pattern, cases)?;
         return write_table(&work.folder, cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run))));
     }
     let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));
@@ -212,6 +211,13 @@ fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
 
 /// Flies one run: for `replay`.
 pub(crate) fn fly_one(setup: &Setup, case: &Case, run: usize) -> Result<Run, Problem> {
+    if let Some(logs) = setup.recordings() {
+        return Err(Problem::input(format!(
+            "`execute.logs` = \"{logs}\": case {} was recorded, and a recording cannot be made again here; leave the key out for the virtual \
+             controller",
+            case.id()
+        )));
+    }
     let Some((command, limits)) = command_of(setup)? else { return Ok(execute_run(setup, case, run)) };
     let flown = Mutex::new(None);
     let make = |_| mission(setup, case, run).map_err(|mistake| mistake.to_string());

@@ -42,7 +42,7 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     let tally = hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
         cases.extend_from_slice(new);
         if at.elapsed() > CHECKPOINT && trouble.is_none() {
-            trouble = keep_cases(work, &cases, saved, tally).err();
+            trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
             (saved, at) = (cases.len(), Instant::now());
         }
     });
@@ -50,7 +50,7 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     if let Some(problem) = trouble {
         return Err(problem);
     }
-    keep_cases(work, &cases, saved, &tally)?;
+    keep_cases(work, &cases, saved, &unfinished(&tally))?;
     work.folder.write_curves(work.setup.scenario.search().stress, &tally.curves)?;
     if let Some(model) = &tally.model {
         atomic::write(&work.folder.file(learn::NAME), model_text(model).as_bytes())?;
@@ -59,15 +59,23 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
         && let Ok(graph) = graph_of(&arm)
     {
         keep_graph(work, &arm, &graph)?;
-        super::optimum::keep(work, &arm, &graph, &cases, &stop)?;
+        // What is claimed is proven, however late it is.
+        super::optimum::keep(work, &arm, &graph, &cases, &Stop { cancelled: &interrupt::asked, ..stop })?;
         // What a controller reads is what is executed and judged: numbers as the module has them.
         cases = work.folder.read_cases()?;
     }
     if interrupt::asked() {
         return Err(Problem::Interrupted(format!("stopped after {} cases; --resume goes on", cases.len())));
     }
+    // The last of all files: with it there is nothing left to do.
+    work.folder.write_tally(&tally)?;
     tracing::info!("{} cases from {} graphs", cases.len(), tally.graphs);
     Ok((cases, tally))
+}
+
+/// The tally of a generation that goes on: cases may come, and what is made of all of them is not there.
+fn unfinished(tally: &Tally) -> Tally {
+    Tally { complete: false, stopped: true, ..tally.clone() }
 }
 
 /// What an interrupted generation left: the tally, which is written last, and the cases that it counts. Cases beyond it

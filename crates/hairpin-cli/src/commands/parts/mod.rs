@@ -17,5 +17,6 @@ pub(crate) use execute::{Flown, attitude_unknown, execute, fly_one};
 pub(crate) use generate::{adopt, generate};
 pub(crate) use judge::{Judgement, judge, report, with_moves};
 pub(crate) use programs::keep_programs;
+pub(crate) use recorded::check_recordings;
 pub(crate) use repro::{Repro, ShrunkFrom};
 pub(crate) use saved::{Replayed, replay_saved, with_saved};

@@ -13,8 +13,26 @@ use crate::problem::Problem;
 /// Broken logs that are told one by one.
 const TOLD: usize = 10;
 
+/// Whether the logs that the scenario names, if it names any, are the runs of `cases`.
+///
+/// # Errors
+/// Those that are missing, too many, or cannot be used.
+pub(crate) fn check_recordings(work: &Work, cases: &[Case]) -> Result<(), Problem> {
+    match (work.setup.arm(), work.setup.recordings()) {
+        (Some(arm), Some(pattern)) => read(work, &arm, pattern, cases).map(drop),
+        _ => Ok(()),
+    }
+}
+
 /// Reads the logs that `pattern` names and writes them as runs: all of them, or none where one cannot be used.
 pub(super) fn take_in(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<(), Problem> {
+    for run in read(work, arm, pattern, cases)? {
+        work.folder.write_run(&run)?;
+    }
+    Ok(())
+}
+
+fn read(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<Vec<Run>, Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
     let files = recordings::find(work.folder.path(), pattern, cases, repeat).map_err(|wrong| refuse(&wrong))?;
     let jobs: Vec<((usize, usize), PathBuf)> = files.into_iter().collect();
@@ -28,10 +46,7 @@ pub(super) fn take_in(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]
     if !wrong.is_empty() {
         return Err(refuse(&wrong));
     }
-    for run in runs.into_iter().flatten() {
-        work.folder.write_run(&run)?;
-    }
-    Ok(())
+    Ok(runs.into_iter().flatten().collect())
 }
 
 fn refuse(wrong: &[RecordingError]) -> Problem {

@@ -2,14 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{self, CaseResult, Scenario, Setup, Status};
+use hairpin::campaign::{self, Case, CaseResult, Scenario, Setup, Status};
 use hairpin_formats::scenario;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::{Repro, fly_one};
 use crate::console;
-use crate::folder::Work;
 use crate::interrupt;
 use crate::problem::Problem;
 
@@ -19,22 +18,48 @@ pub(crate) struct Replayed {
     result: CaseResult,
 }
 
-/// Runs the repro files of `folder`, or of the campaign's own folder where none is named, as robot, `execute` and `spec` of the campaign
-/// now are, in the conditions in which they were saved; and tells of them on stderr.
+/// Runs the repro files of `named`, or of the folder `campaign` where none is named, as robot, `execute` and `spec` of `setup` now are, in
+/// the conditions in which they were saved; and tells of them on stderr. Nothing in `campaign` changes.
 ///
 /// # Errors
-/// A folder that is named and has none; a file that is no repro file, or of another kind of robot.
-pub(crate) fn replay_saved(work: &Work, folder: Option<&Path>) -> Result<Vec<Replayed>, Problem> {
-    let own = work.folder.file("repro");
-    let files = files(folder.unwrap_or(&own));
-    if let (Some(folder), true) = (folder, files.is_empty()) {
-        return Err(Problem::input(format!("--repro {}: there is no repro file (*.json) in it", folder.display())));
+/// A folder that is named and has none; a file that is no repro file or, in a folder that is named, of another kind of robot; recordings,
+/// which cannot be made again.
+pub(crate) fn replay_saved(setup: &Setup, campaign: &Path, named: Option<&Path>) -> Result<Vec<Replayed>, Problem> {
+    let own = campaign.join("repro");
+    let files = files(named.unwrap_or(&own));
+    if let Some(folder) = named {
+        let refuse = |why: &str| Err(Problem::input(format!("--repro {}: {why}", folder.display())));
+        if files.is_empty() {
+            return refuse("there is no repro file (*.json) in it");
+        }
+        if setup.recordings().is_some() {
+            return refuse("this campaign's runs are recordings (execute.logs), and none can be made of saved cases");
+        }
+    } else if setup.recordings().is_some() {
+        return Ok(Vec::new());
     }
-    let run = |file: &PathBuf| if interrupt::asked() { Ok(None) } else { replay(work, file).map(Some) };
+    let saved: Result<Vec<Saved>, Problem> = files.iter().map(|file| Saved::read(setup, file)).collect();
+    let (ours, others): (Vec<Saved>, Vec<Saved>) = saved?.into_iter().partition(|saved| saved.setup.is_some());
+    match (others.first(), named) {
+        (None, _) => {}
+        (Some(other), Some(_)) => {
+            return Err(Problem::input(format!(
+                "{}: is of another kind of robot than this campaign",
+                other.file.display()
+            )));
+        }
+        (Some(other), None) => console::warn(&format!(
+            "Warning: {} of {} saved cases are of another kind of robot and left out: {}",
+            others.len(),
+            files.len(),
+            other.file.display()
+        )),
+    }
+    let run = |saved: &Saved| if interrupt::asked() { Ok(None) } else { saved.replay() };
     // One executor of the user's at a time, as each keeps its own.
-    let replayed: Result<Vec<Option<Replayed>>, Problem> = match work.setup.scenario.executor().command {
-        None => files.par_iter().map(run).collect(),
-        Some(_) => files.iter().map(run).collect(),
+    let replayed: Result<Vec<Option<Replayed>>, Problem> = match setup.scenario.executor().command {
+        None => ours.par_iter().map(run).collect(),
+        Some(_) => ours.iter().map(run).collect(),
     };
     let replayed: Vec<Replayed> = replayed?.into_iter().flatten().collect();
     if !replayed.is_empty() {
@@ -52,20 +77,37 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-fn replay(work: &Work, file: &Path) -> Result<Replayed, Problem> {
-    let repro = Repro::read(file)?;
-    let refuse = |why: String| Problem::input(format!("{}: {why}", file.display()));
-    let mut scenario = repro.scenario.clone();
-    scenario::attach(&mut scenario, file.parent().unwrap_or(Path::new("")))?;
-    if !adopt(&mut scenario, &work.setup.scenario) {
-        return Err(refuse("is of another kind of robot than this campaign".into()));
+/// A saved case, read and understood.
+struct Saved {
+    file: PathBuf,
+    repro: Repro,
+    case: Case,
+    /// What it is run with now; `None` where it is of another kind of robot.
+    setup: Option<Setup>,
+}
+
+impl Saved {
+    fn read(now: &Setup, file: &Path) -> Result<Self, Problem> {
+        let repro = Repro::read(file)?;
+        let refuse = |why: String| Problem::input(format!("{}: {why}", file.display()));
+        let case = repro.case().map_err(refuse)?;
+        let mut scenario = repro.scenario.clone();
+        scenario::attach(&mut scenario, file.parent().unwrap_or(Path::new("")))?;
+        let setup = if adopt(&mut scenario, &now.scenario) {
+            let setup = Setup::new(scenario).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
+            Some(setup.with_simd(now.simd))
+        } else {
+            None
+        };
+        Ok(Self { file: file.into(), repro, case, setup })
     }
-    let setup = Setup::new(scenario).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
-    let setup = setup.with_simd(work.setup.simd);
-    let case = repro.case().map_err(refuse)?;
-    let flown = fly_one(&setup, &case, repro.run)?;
-    let result = campaign::judge(&setup, &case, std::slice::from_ref(&flown))?;
-    Ok(Replayed { file: file.into(), result })
+
+    fn replay(&self) -> Result<Option<Replayed>, Problem> {
+        let Some(setup) = &self.setup else { return Ok(None) };
+        let flown = fly_one(setup, &self.case, self.repro.run)?;
+        let result = campaign::judge(setup, &self.case, std::slice::from_ref(&flown))?;
+        Ok(Some(Replayed { file: self.file.clone(), result }))
+    }
 }
 
 /// Takes over who executes and what is within spec; the noise stays that of the saved run. Whether both are of one kind.

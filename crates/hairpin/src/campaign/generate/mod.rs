@@ -37,9 +37,9 @@ pub struct Known {
 
 /// `known` without the cases that its tally does not count, as a kill between the writing of both may leave them.
 pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
-    if scenario.search().method == SearchMethod::Adaptive {
-        // What a round chooses depends on all before it: there is no place to go on from.
-        let done = !known.tally.stopped && !known.tally.rounds.is_empty();
+    if scenario.search().method == SearchMethod::Adaptive || matches!(scenario, Scenario::Arm(_)) {
+        // What a round chooses depends on all before it, and an arm's graph is one search: there is no place to go on from.
+        let done = !known.tally.stopped && known.tally.units > 0;
         return if done { known } else { Known::default() };
     }
     let varied = varies(scenario);
@@ -105,6 +105,8 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
                 break;
             }
         }
+        // An arm's search gives its best so far where it is stopped.
+        collector.tally.stopped |= matches!(solver, Solver::Arm(_)) && (stop.cancelled)();
         (stop.progress)(collector.cases, wanted as usize);
     }
     collector.finish(wanted);
@@ -227,6 +229,6 @@ impl<'a> Collector<'a> {
     }
 
     fn finish(&mut self, wanted: u64) {
-        self.tally.complete = self.cases as u64 >= wanted;
+        self.tally.complete = self.cases as u64 >= wanted && !self.tally.stopped;
     }
 }

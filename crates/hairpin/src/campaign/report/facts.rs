@@ -52,10 +52,7 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
     let executor = match (scenario.controller(), scenario.executor().command) {
         (Some(controller), _) => format!("{controller}, simulated"),
         (None, Some(command)) => format!("`{command}`"),
-        (None, None) => setup
-            .arm()
-            .and_then(|arm| arm.scenario.execute.logs.clone())
-            .map_or("none".into(), |logs| format!("logs `{logs}`, hardware")),
+        (None, None) => setup.recordings().map_or("none".into(), |logs| format!("logs `{logs}`, hardware")),
     };
     let (world, task) = match setup.kind() {
         Kind::Flight(setup) => (cage(&setup), flight_task(&setup)),
