@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{Scenario, Setup};
+use hairpin::campaign::{Scenario, Setup, vary};
 use hairpin::math::simd::Simd;
 use hairpin_formats::atomic;
 use hairpin_formats::folder::{CampaignFolder, Existing};
@@ -138,6 +138,15 @@ pub(crate) fn open(
     let level = level(&folder)?;
     let setup = Setup::new(read(&folder, sets)?)?.with_simd(simd_of(level.as_deref()));
     check_command(&setup.scenario)?;
+    let plans = |scenario: &Scenario| {
+        let of_plans = scenario.vary().iter().filter(|(key, _)| vary::shapes_the_plan(key));
+        of_plans.map(|(key, drawn)| (key.clone(), drawn.clone())).collect::<Vec<_>>()
+    };
+    if !sets.is_empty() && plans(&setup.scenario) != plans(&read(&folder, &[])?) {
+        return Err(Problem::input(
+            "--set vary: the folder's trajectories were drawn by its keys under `task` and `generate`; these must stay",
+        ));
+    }
     if let Some(kernels) = flown {
         // The users' own programs run none of our kernels.
         match (kernels.portable, setup.scenario.executor().command) {

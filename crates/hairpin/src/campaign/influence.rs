@@ -17,7 +17,7 @@ pub struct RunDeviation {
     pub run: usize,
     /// Largest deviation, m.
     pub max_deviation: f64,
-    /// Values drawn for `[vary]`, by key; none for run 0.
+    /// Values drawn for `[vary]`, by key; for run 0 only those of the case's plan.
     pub drawn: Vec<(String, Value)>,
     /// Of arms: what it did on each move.
     pub moves: Option<Measured>,
@@ -34,17 +34,18 @@ pub struct Influence {
     pub runs: usize,
 }
 
-/// Of every number under the scenario's `[vary]` that is drawn per run, the largest |ρ| first. Run 0 counts with its
-/// nominal values where the scenario has them. Keys that choose between words, or that did not vary, have no rank; nor
+/// Of every number under the scenario's `[vary]`, the largest |ρ| first. What was not drawn (for run 0, for the plan of case 0) counts with its
+/// nominal value where the scenario has one. Keys that choose between words, or that did not vary, have no rank; nor
 /// have those of `spec`, which judge a flight and do not move it.
 pub fn influences(scenario: &Scenario, runs: &[RunDeviation]) -> Vec<Influence> {
     let nominal = vary::as_value(scenario);
     let mut found = Vec::new();
-    for key in scenario.vary().keys().filter(|key| !vary::shapes_the_plan(key) && !key.starts_with("spec.")) {
+    for key in scenario.vary().keys().filter(|key| !key.starts_with("spec.")) {
         let fallback = KeyPath::parse(key).and_then(|path| path.get(&nominal).cloned());
         let values = |run: &RunDeviation| -> Vec<(String, f64)> {
             let drawn = run.drawn.iter().find(|(name, _)| name == key).map(|(_, value)| value);
-            let value = drawn.or(if run.run == 0 { fallback.as_ref() } else { None });
+            let nominal = run.run == 0 || vary::shapes_the_plan(key);
+            let value = drawn.or(if nominal { fallback.as_ref() } else { None });
             value.map_or_else(Vec::new, |value| numbers(key, value))
         };
         let rows: Vec<(Vec<(String, f64)>, f64)> = runs.iter().map(|run| (values(run), run.max_deviation)).collect();

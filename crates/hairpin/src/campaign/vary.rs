@@ -69,6 +69,18 @@ pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario,
     Ok(drawn)
 }
 
+/// The scenario of a case's plan: with the values that were drawn for it in place of the nominal ones, and only runs left to vary.
+///
+/// # Errors
+/// As [`apply`].
+pub fn settle(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario, Mistake> {
+    let of_plan: Vec<(String, Value)> = draws.iter().filter(|(key, _)| shapes_the_plan(key)).cloned().collect();
+    let mut settled = apply(scenario, &of_plan)?;
+    *settled.vary_mut() = scenario.vary().clone();
+    settled.vary_mut().retain(|key, _| !shapes_the_plan(key));
+    Ok(settled)
+}
+
 /// Whether a key is drawn per case, when trajectories are generated, rather than per run.
 pub fn shapes_the_plan(key: &str) -> bool {
     key.starts_with("task.") || key.starts_with("generate.")
@@ -168,7 +180,15 @@ mod tests {
         let keys: Vec<_> = draw(&scenario, 7, 1).into_iter().map(|(key, _)| key).collect();
         let per_run = ["execute.controller", "robot.mass_kg", "world.obstacles[0].box.center_m", "world.wind_m_s"];
         assert_eq!(keys, per_run);
-        assert_eq!(draw_for_case(&scenario, 7, 3)[0].0, "task.length");
+        let of_case = draw_for_case(&scenario, 7, 3);
+        assert_eq!(of_case[0].0, "task.length");
+        // The plan is as it was drawn; what is drawn for its runs is the same as before.
+        let settled = settle(&scenario, &[of_case.clone(), draw(&scenario, 7, 1)].concat()).unwrap();
+        assert_eq!(
+            (settled.length().map(Value::from), &settled.flight().unwrap().robot),
+            (Some(of_case[0].1.clone()), &scenario.flight().unwrap().robot)
+        );
+        assert_eq!((draw(&settled, 7, 1), draw_for_case(&settled, 7, 3)), (draw(&scenario, 7, 1), Vec::new()));
     }
 
     #[test]

@@ -4,6 +4,7 @@ use hairpin::campaign::arm::Moves;
 use hairpin::campaign::{
     self, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Status, Tally,
     report::{Shown, worst_first},
+    vary,
 };
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::{Outcome, Regression};
@@ -56,7 +57,13 @@ pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgem
                 )));
             }
             attitude_unknown.fetch_add(runs.iter().any(super::attitude_unknown).into(), Ordering::Relaxed);
-            let (mut result, deviations) = campaign::judge_runs(&work.setup, case, &runs)?;
+            let (mut result, mut deviations) = campaign::judge_runs(&work.setup, case, &runs)?;
+            // Missions that were made elsewhere were planned by other scenarios.
+            if tally.missions.is_empty() {
+                let of_plan = vary::draw_for_case(&work.setup.scenario, case.seed, case.number);
+                let all = deviations.iter_mut().map(|run| &mut run.drawn).chain([&mut result.drawn]);
+                all.for_each(|drawn| drawn.extend_from_slice(&of_plan));
+            }
             if result.status == Status::Fail {
                 result.reruns = reruns(work, case)?;
             }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup};
+use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup, vary};
 use hairpin::trajectory::Drive;
 use hairpin::trajectory::{Profile, ProfileLeg};
 use hairpin_formats::{atomic, rapid};
@@ -94,6 +94,12 @@ pub(crate) struct Leg {
     coefficients: [[f64; 8]; 3],
 }
 
+/// What a case was made by: what it has beside its waypoints is part of its world, and its plan is as it was drawn.
+fn scenario_of(setup: &Setup, case: &Case, result: &CaseResult) -> Scenario {
+    let around = setup.around(case).map_or_else(|_| setup.scenario.clone(), |setup| setup.scenario.clone());
+    vary::settle(&around, &result.drawn).unwrap_or(around)
+}
+
 impl Repro {
     /// The worst run of `result`.
     pub(crate) fn of(setup: &Setup, case: &Case, result: &CaseResult) -> Self {
@@ -118,8 +124,7 @@ impl Repro {
             drive: case.drive.clone(),
             program: case.program.as_ref().and_then(|program| rapid::module(program, &[]).ok()),
             shrunk: None,
-            // What it has beside its waypoints is part of its world.
-            scenario: setup.around(case).map_or_else(|_| setup.scenario.clone(), |setup| setup.scenario.clone()),
+            scenario: scenario_of(setup, case, result),
         }
     }
 

@@ -103,7 +103,7 @@ pub fn shrink(
 /// that the same run number draws it again and the plan stays the nominal robot's.
 fn pinned(scenario: &Scenario, case: &Case, result: &CaseResult) -> Result<Scenario, Mistake> {
     let mut pinned = vary::apply(scenario, &vary::draw_for_case(scenario, case.seed, case.number))?;
-    for (key, value) in &result.drawn {
+    for (key, value) in result.drawn.iter().filter(|(key, _)| !vary::shapes_the_plan(key)) {
         let only =
             Distribution { uniform: None, normal: None, choice: Some(vec![value.clone()]), min: None, max: None };
         pinned.vary_mut().insert(key.clone(), only);
