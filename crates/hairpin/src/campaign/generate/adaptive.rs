@@ -20,6 +20,11 @@ use crate::math::random::named_seed;
 /// Models of a round, the one of all trajectories included: what else is executed are second bests.
 const MODELS: usize = 8;
 
+/// Share of the first round's time in which graphs are found.
+const FINDING: f64 = 0.5;
+/// Executions in each graph that are asked for at a time where time is limited: finding more than can be executed would use it up.
+const AT_A_TIME: u64 = 8;
+
 /// One graph that trajectories are executed in.
 struct Graph {
     number: u64,
@@ -86,8 +91,37 @@ pub(super) fn generate(
 
 impl Campaign<'_> {
     fn round(&mut self, number: u64) {
+        let share = dealt(self.search.executions, self.search.adaptive_rounds(), number);
         let mut told = RoundTally::default();
-        let todo = if number == 0 { self.first() } else { self.next(number, &mut told) };
+        let models = if number == 0 { Vec::new() } else { self.models(number, share, &mut told) };
+        let most = match self.search.time_s {
+            None => share,
+            Some(_) => AT_A_TIME * self.search.adaptive_graphs(),
+        };
+        let mut sums = [(0.0, 0_u64); 3];
+        for part in 0..share.div_ceil(most) {
+            let share = most.min(share - part * most);
+            let todo = match (number, part) {
+                (0, 0) => self.first(share),
+                _ => self.next((number, part), share, &models),
+            };
+            self.execute(number, todo, &mut told, &mut sums);
+            if !self.goes_on(number) {
+                break;
+            }
+        }
+        let mean = |(sum, count): (f64, u64)| (count > 0).then(|| sum / count as f64);
+        [told.chosen_mean, told.by_hand_mean, told.drawn_mean] = sums.map(mean);
+        let largest: Vec<f64> = self.graphs.iter().filter_map(|graph| Some(graph.kept.first()?.score)).collect();
+        told.largest = largest.iter().copied().reduce(f64::max);
+        told.mean_largest = mean((largest.iter().sum(), largest.len() as u64));
+        self.tally.expansions += told.executions;
+        self.tally.rounds.push(told);
+        (self.stop.progress)(self.tally.expansions as usize, self.search.executions as usize);
+    }
+
+    /// Executes `todo` in round `number`; stresses are added to `sums`, by origin.
+    fn execute(&mut self, number: u64, todo: Vec<Todo>, told: &mut RoundTally, sums: &mut [(f64, u64); 3]) {
         let results: Vec<Option<_>> = todo
             .par_iter()
             .enumerate()
@@ -105,7 +139,6 @@ impl Campaign<'_> {
             })
             .collect();
         self.executed += results.len() as u64;
-        let mut sums = [(0.0, 0_u64); 3];
         for (Todo { graph, plan, origin }, result) in todo.into_iter().zip(results) {
             let Some(result) = result else { continue };
             told.executions += 1;
@@ -125,34 +158,29 @@ impl Campaign<'_> {
             graph.kept.insert(place, Plan { score: trial.stress, bound: None, ..plan });
             graph.kept.truncate(self.search.per_graph as usize);
         }
-        let mean = |(sum, count): (f64, u64)| (count > 0).then(|| sum / count as f64);
-        [told.chosen_mean, told.by_hand_mean, told.drawn_mean] = sums.map(mean);
-        let largest: Vec<f64> = self.graphs.iter().filter_map(|graph| Some(graph.kept.first()?.score)).collect();
-        told.largest = largest.iter().copied().reduce(f64::max);
-        told.mean_largest = mean((largest.iter().sum(), largest.len() as u64));
-        self.tally.expansions += told.executions;
-        self.tally.rounds.push(told);
-        (self.stop.progress)(self.tally.expansions as usize, self.search.executions as usize);
     }
 
     /// Whether executions of round `number` may begin: neither stopped, nor is the round's share of the time used up.
     fn goes_on(&self, number: u64) -> bool {
-        let share = (number + 1) as f64 / self.search.adaptive_rounds() as f64;
-        let late = self.search.time_s.is_some_and(|time| (self.stop.clock)() - self.begun >= share * time);
-        !late && !(self.stop.cancelled)()
+        self.in_time((number + 1) as f64) && !(self.stop.cancelled)()
     }
 
-    /// Finds as many graphs as cases are asked for, in the order of their numbers, and draws in each.
-    fn first(&mut self) -> Vec<Todo> {
+    /// Whether the time of so many rounds is not used up.
+    fn in_time(&self, rounds: f64) -> bool {
+        let share = rounds / self.search.adaptive_rounds() as f64;
+        self.search.time_s.is_none_or(|time| (self.stop.clock)() - self.begun < share * time)
+    }
+
+    /// Finds as many graphs as cases are asked for, in the order of their numbers, and draws in each, `share` in all.
+    fn first(&mut self, share: u64) -> Vec<Todo> {
         let wanted = self.search.adaptive_graphs() as usize;
         let units = self.search.graphs.unwrap_or(self.search.cases.saturating_mul(GRAPHS_PER_CASE));
-        let share = dealt(self.search.executions, self.search.adaptive_rounds(), 0);
         let known = HashSet::new();
         let most = share.div_ceil(wanted as u64) as usize;
         let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: most, models: &[], known: &known };
         let batch = 2 * rayon::current_num_threads() as u64;
         let mut todo = Vec::new();
-        while self.tally.units < units && self.graphs.len() < wanted && self.goes_on(0) {
+        while self.tally.units < units && self.graphs.len() < wanted && self.goes_on(0) && self.in_time(FINDING) {
             let (first, last) = (self.tally.units, units.min(self.tally.units + batch));
             let outcomes: Vec<Outcome> = (first..last)
                 .into_par_iter()
@@ -181,30 +209,33 @@ impl Campaign<'_> {
         todo
     }
 
-    /// What round `number` executes, by what all before it have taught.
-    fn next(&self, number: u64, told: &mut RoundTally) -> Vec<Todo> {
+    /// What part of round `number` executes, `share` in all, by what all rounds before it have taught.
+    fn next(&self, (number, part): (u64, u64), share: u64, models: &[ScoreModel]) -> Vec<Todo> {
         let (graphs, search) = (self.graphs.len() as u64, &self.search);
-        let share = dealt(search.executions, search.adaptive_rounds(), number);
-        let draws = libm::round(search.explore * share as f64) as u64;
+        if graphs == 0 {
+            return Vec::new();
+        }
+        let draws = if number == 0 { share } else { self.unchosen(share) };
         // Where graphs get different numbers they are others every round.
         let turn = |place: usize| (place as u64 + number) % graphs;
         let of = |total: u64, place: usize| dealt(total, graphs, turn(place)) as usize;
-        let most = share.saturating_sub(draws).div_ceil(graphs) as usize;
-        let models = if draws < share { self.models(number, most.clamp(1, MODELS), told) } else { Vec::new() };
         let outcomes: Vec<Option<Outcome>> = (0..self.graphs.len())
             .into_par_iter()
             .map(|place| {
                 let graph = &self.graphs[place];
                 let whole = of(share, place);
                 let free = of(draws, place).min(whole);
-                let by_hand = every_second(draws, graphs, turn(place)).min(free as u64) as usize;
+                // A first round only draws.
+                let by_hand = if number == 0 { 0 } else { every_second(draws, graphs, turn(place)) };
+                let by_hand = by_hand.min(free as u64) as usize;
                 let round = Round {
-                    number,
+                    // Every part draws others.
+                    number: number + part * search.adaptive_rounds(),
                     place: place as u64,
                     optima: whole - free,
                     by_hand,
                     draws: free - by_hand,
-                    models: &models,
+                    models,
                     known: &graph.known,
                 };
                 self.goes_on(number)
@@ -225,8 +256,18 @@ impl Campaign<'_> {
         todo
     }
 
-    /// Up to `count` models, the first of all trajectories; none where they teach nothing.
-    fn models(&self, number: u64, count: usize, told: &mut RoundTally) -> Vec<ScoreModel> {
+    /// Of `share` executions of a later round, those that no model chooses.
+    fn unchosen(&self, share: u64) -> u64 {
+        libm::round(self.search.explore * share as f64) as u64
+    }
+
+    /// The models that round `number` chooses its `share` of executions by, the first of all trajectories; none where they teach nothing.
+    fn models(&self, number: u64, share: u64, told: &mut RoundTally) -> Vec<ScoreModel> {
+        let chosen = share.saturating_sub(self.unchosen(share));
+        if chosen == 0 || self.graphs.is_empty() {
+            return Vec::new();
+        }
+        let count = (chosen.div_ceil(self.graphs.len() as u64) as usize).clamp(1, MODELS);
         let model = match learn(self.setup, self.search.stress, &self.samples) {
             Ok(model) => model,
             Err(reason) => {
@@ -249,6 +290,8 @@ impl Campaign<'_> {
             Ok(model) => self.tally.model = Some(Box::new(model)),
             Err(reason) => self.tally.unlearned = Some(reason.to_string()),
         }
+        // Where time was too short for anything, it was not found out whether anything is feasible.
+        let in_vain = self.search.time_s.is_some() && self.tally.expansions == 0 && !self.in_time(FINDING);
         let mut cases = Vec::new();
         for Graph { number, kept, curve, .. } in self.graphs {
             self.tally.curves.push(curve);
@@ -258,7 +301,7 @@ impl Campaign<'_> {
                 }
             }
         }
-        self.tally.stopped = (self.stop.cancelled)();
+        self.tally.stopped = (self.stop.cancelled)() || in_vain;
         self.tally.complete = !self.tally.stopped && cases.len() >= wanted;
         if !cases.is_empty() {
             self.tally.nothing = None;
