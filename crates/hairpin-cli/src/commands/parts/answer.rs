@@ -2,6 +2,7 @@
 
 use hairpin::campaign::report::{COLUMNS, cells, violation, worst_first};
 use hairpin::campaign::{Case, CaseResult, Status};
+use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::{Metric, Outcome, Regression};
 use hairpin_formats::header::Header;
 use serde_json::{Value, json};
@@ -44,18 +45,18 @@ impl Answer<'_> {
             if !self.judgement.influences.is_empty() {
                 console::say("rank correlation of what was varied with the largest deviation, over all runs\n");
             }
-            console::say(&self.judgement.verdict.sentence);
+            console::say(&self.verdict().sentence);
             point_to_explain(self.work, self.judgement.verdict.exit_code);
             let report = self.work.folder.path().join("report.html");
             if report.is_file() {
                 console::warn(&format!("report: {}", report.display()));
             }
         }
-        self.exit_code()
+        self.verdict().exit_code
     }
 
-    fn exit_code(&self) -> u8 {
-        with_saved(self.judgement.verdict.exit_code, self.replayed)
+    fn verdict(&self) -> Verdict {
+        with_saved(&self.judgement.verdict, self.replayed)
     }
 
     fn header(&self) -> Header {
@@ -107,8 +108,8 @@ impl Answer<'_> {
             paths["best_so_far"] = curve;
         }
         json!({
-            "verdict": self.judgement.verdict.sentence,
-            "exit_code": self.exit_code(),
+            "verdict": self.verdict().sentence,
+            "exit_code": self.verdict().exit_code,
             "counts": {
                 "asked": self.asked,
                 "cases": self.cases.len(),

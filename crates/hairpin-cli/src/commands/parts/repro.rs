@@ -17,8 +17,8 @@ const MOST_WAYPOINTS: usize = 10_000;
 const FARTHEST_M: f64 = 20_000.0;
 /// Ten times the longest leg that a scenario can ask for.
 const LONGEST_LEG_S: f64 = 600.0;
-/// A kilometre at a centimetre a second.
-const LONGEST_DRIVE_S: f64 = 1e5;
+/// Ten kilometres at the least speed that a scenario can ask for.
+const LONGEST_DRIVE_S: f64 = 1e7;
 
 /// One run that violates the spec, and all that it takes to fly it again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

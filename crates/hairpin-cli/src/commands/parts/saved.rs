@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{self, Case, CaseResult, Scenario, Setup, Status};
+use hairpin::judgement::Verdict;
 use hairpin_formats::scenario;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -143,13 +144,19 @@ impl Replayed {
     }
 }
 
-/// The exit code of a command that came to `code` and ran `replayed` before: a saved case that violates still is a violation.
-pub(crate) fn with_saved(code: u8, replayed: &[Replayed]) -> u8 {
-    let any = |status: Status| replayed.iter().any(|one| one.result.status == status);
-    match code {
-        0 | 3 | 5 if any(Status::Fail) => 1,
-        0 if any(Status::ExecutorFailed) => 4,
-        code => code,
+/// The verdict of a command that came to `verdict` and ran `replayed` before: a saved case that violates still is a violation.
+pub(crate) fn with_saved(verdict: &Verdict, replayed: &[Replayed]) -> Verdict {
+    let count = |status: Status| replayed.iter().filter(|one| one.result.status == status).count();
+    let (failed, unrun, of) = (count(Status::Fail), count(Status::ExecutorFailed), replayed.len());
+    let Verdict { sentence, exit_code } = verdict;
+    match exit_code {
+        0 | 3 | 5 if failed > 0 => {
+            Verdict { sentence: format!("FAIL {failed}/{of} saved cases violate; {sentence}"), exit_code: 1 }
+        }
+        0 if unrun > 0 => {
+            Verdict { sentence: format!("EXECUTOR FAILED {unrun}/{of} saved cases; {sentence}"), exit_code: 4 }
+        }
+        _ => verdict.clone(),
     }
 }
 

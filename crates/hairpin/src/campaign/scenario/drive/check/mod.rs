@@ -132,13 +132,15 @@ fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
     for (key, value, most, unit) in [
         ("curvature_1_m", limits.curvature_1_m, 1e3, " 1/m"),
         ("curvature_rate_1_m2", limits.curvature_rate_1_m2, 1e6, " 1/m²"),
-        // Beside the robot's own, which holds where this is higher.
-        ("speed_m_s", limits.speed_m_s, 100.0, " m/s"),
         ("tilt_deg", limits.tilt_deg, 89.0, "°"),
     ] {
         if let Some(value) = value {
             found.above(&format!("generate.limits.{key}"), value, 0.0, most, unit);
         }
+    }
+    if let Some(speed) = limits.speed_m_s {
+        // Beside the robot's own, which holds where this is higher. Slower, and a drive would be days of samples.
+        found.from("generate.limits.speed_m_s", speed, 1e-3, 100.0, " m/s");
     }
     if let Some(clearance) = limits.belly_clearance_m {
         found.from("generate.limits.belly_clearance_m", clearance, 0.0, 10.0, " m");
