@@ -121,8 +121,9 @@ fn rounds_are_the_same_on_any_number_of_threads_and_begin_anew_where_they_were_s
     assert_eq!((told["exit_code"].as_u64(), &told["counts"]["cases"]), (Some(5), &Value::from(0)), "{told}");
     assert!(told["verdict"].as_str().unwrap().starts_with("INCONCLUSIVE 0/2"), "{told}");
     // More than there is time for: what is executed is dealt to all graphs, and the time is kept.
-    let more = ["--set", "generate.search.executions=90000", "--set", "generate.search.rounds=3"];
-    let told = with("long", &[&["--set", "generate.search.time_s=1.5"], &more[..]].concat());
+    let more = ["generate.search.executions=90000", "generate.search.rounds=3", "generate.search.time_s=1.5"];
+    let more: Vec<&str> = more.iter().flat_map(|set| ["--set", set]).collect();
+    let told = adaptive(here, "generate", "long", &[&small, &more[..]].concat());
     let rounds = told["generation"]["rounds"].as_array().unwrap();
     assert!(rounds.len() == 3 && rounds.iter().all(|round| round["executions"].as_u64().unwrap() > 0), "{told}");
     assert_eq!(told["counts"]["cases"], 2, "{told}");

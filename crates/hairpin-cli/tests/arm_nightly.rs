@@ -101,7 +101,15 @@ fn logs_are_judged_like_runs_of_ours() {
         report.contains("Recorded on a real controller (hardware)") && report.contains("Clocks: arrivals of 6 runs")
     );
     let (code, text) = told(place, &["replay", "out/tilted/repro/0000.json"]);
-    assert!(code == 4 && text.contains("execute.logs"), "{text}");
+    assert!(code == 2 && text.contains("execute.logs"), "{text}");
+    // The next night begins with nothing: saved cases are of recordings, too.
+    cell(place, "logs = \"nightly/irb_*.csv\"");
+    let (code, text) = told(place, &["stress", "arm.toml", "--out", "out/tilted", "--force"]);
+    assert!(code == 0 && text.contains("PASS 2/2 (hardware") && !text.contains("saved cases first"), "{text}");
+    let (code, text) = told(place, &["execute", "out/tilted", "--logs", "nightly/irb_0000-*.csv"]);
+    assert!(code == 2 && text.contains("0001"), "{text}");
+    let (code, text) = told(place, &["judge", "out/tilted"]);
+    assert!(code == 0 && text.contains("nightly/irb_*.csv"), "{text}");
 }
 
 #[test]

@@ -4,7 +4,8 @@ mod commands;
 
 use std::fs;
 
-use commands::{SMALL, assert_same, json, run};
+use commands::{SMALL, assert_same, contents, json, refused, run};
+use hairpin_formats::folder::CampaignFolder;
 use serde_json::Value;
 
 #[test]
@@ -160,4 +161,64 @@ fn a_time_limit_keeps_what_exists() {
     let object = json(folder.path(), &arguments);
     assert_eq!(object["exit_code"], 0);
     assert!(object["counts"]["cases"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn wrong_input_costs_no_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    run(here, &[&SMALL[..], &["--out", "a"]].concat());
+    let before = contents(&here.join("a"));
+    refused(here, &["execute", "a", "--repro", "nowhere", "--set", "execute.repeat=2"], &["nowhere", "no repro file"]);
+    fs::create_dir(here.join("mine")).unwrap();
+    fs::write(here.join("mine/0000.json"), "{").unwrap();
+    refused(here, &[&SMALL[..], &["--out", "a", "--force", "--repro", "mine"]].concat(), &["0000.json", "no repro"]);
+    refused(here, &["execute", "a", "--repro", "mine"], &["0000.json"]);
+    let plans = "vary.\"task.length\"={choice=[5,6]}";
+    refused(here, &["execute", "a", "--set", plans], &["`task` and `generate`", "must stay"]);
+    assert_eq!(contents(&here.join("a")), before);
+
+    // Another kind of robot in the same folder: what was saved of the first is left out, and stays.
+    let (code, ..) = run(here, &["judge", "a", "--set", "spec.deviation.max_m=0.001"]);
+    assert_eq!(code, 1);
+    let saved = fs::read_dir(here.join("a/repro")).unwrap().count();
+    let drive = ["stress", "differential-drive", "--out", "a", "--force", "--set", "generate.search.cases=1"];
+    let drive = [&drive[..], &["--set", "execute.repeat=1", "--set", "task.length=3"]].concat();
+    refused(here, &[&drive[..], &["--repro", "a/repro"]].concat(), &["another kind of robot"]);
+    let (code, _, error) = run(here, &drive);
+    assert!(code < 2 && error.contains("of another kind of robot and left out"), "{code}: {error}");
+    assert!(saved > 0 && fs::read_dir(here.join("a/repro")).unwrap().count() >= saved);
+}
+
+#[test]
+fn values_drawn_for_plans_are_kept_and_ranked() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let vary = "vary={\"task.length\"={choice=[4,7]},\"robot.mass_kg\"={uniform=[0.9,1.1]}}";
+    let sets = ["--set", vary, "--set", "execute.repeat=2", "--set", "spec.deviation.max_m=0.001"];
+    let told = json(here, &[&SMALL[..], &["--out", "a", "--set", "generate.search.cases=6"], &sets].concat());
+    let keys: Vec<&str> =
+        told["influences"].as_array().unwrap().iter().map(|one| one["key"].as_str().unwrap()).collect();
+    assert!(keys.contains(&"task.length") && keys.contains(&"robot.mass_kg"), "{told}");
+    let kept = CampaignFolder::open(&here.join("a")).unwrap();
+    let (cases, results) = (kept.read_cases().unwrap(), kept.read_results().unwrap());
+    for (case, result) in cases.iter().zip(&results) {
+        let drawn = result.drawn.iter().find(|(key, _)| key == "task.length").map(|(_, value)| value.clone());
+        // Case 0 is nominal.
+        assert_eq!(drawn, (case.number > 0).then(|| case.waypoints.len().into()), "case {}", case.number);
+        let repro = fs::read_to_string(here.join(format!("a/repro/{:04}.json", case.number))).unwrap();
+        let repro: Value = serde_json::from_str(&repro).unwrap();
+        assert_eq!(repro["scenario"]["task"]["length"], case.waypoints.len(), "case {}", case.number);
+        let vary = repro["scenario"]["vary"].as_object().unwrap();
+        assert_eq!(vary.keys().collect::<Vec<_>>(), ["robot.mass_kg"]);
+        let again = json(here, &["replay", &format!("a/repro/{:04}.json", case.number)]);
+        assert_eq!(again["reproduces"], true, "{again}");
+    }
+    // With other words for it: missions made elsewhere were drawn by nobody.
+    run(here, &["export", "a", "--to", "waypoints"]);
+    json(here, &["execute", "a", "--missions", "a/missions"]);
+    let told = json(here, &["judge", "a"]);
+    let keys: Vec<&str> =
+        told["influences"].as_array().unwrap().iter().map(|one| one["key"].as_str().unwrap()).collect();
+    assert!(!keys.contains(&"task.length") && keys.contains(&"robot.mass_kg"), "{told}");
 }

@@ -236,3 +236,30 @@ fn a_second_process_is_told_that_the_folder_is_in_use() {
     run(folder.path(), &[&SMALL[..], &WITH_EXECUTOR, &["--out", "calm"]].concat());
     assert_same(&folder.path().join("calm"), &folder.path().join("a"));
 }
+
+#[test]
+fn a_stopped_search_of_an_arms_graph_is_done_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let asked = ["stress", "irb120", "--set", "task.points.count=10", "--set", "execute.repeat=1"];
+    let asked = [&asked[..], &["--set", "generate.search.programs=3", "--seed", "5"]].concat();
+    run(here, &[&asked[..], &["--out", "calm"]].concat());
+    assert!(here.join("calm/optimum.json").is_file());
+    for moment in ["0.001", "0.01"] {
+        let stopped = [&asked[..], &["--out", "stopped", "--resume"]].concat();
+        run(here, &[&stopped[..], &["--time-limit", moment]].concat());
+        run(here, &stopped);
+        assert_same(&here.join("calm"), &here.join("stopped"));
+        fs::remove_dir_all(here.join("stopped")).unwrap();
+    }
+    // As a kill leaves it before the last file is written: the proof is not there yet, and nothing says that all is.
+    run(here, &[&asked[..], &["--out", "killed"]].concat());
+    let tally = here.join("killed/generation.json");
+    let text = fs::read_to_string(&tally).unwrap().replace("\"stopped\": false", "\"stopped\": true");
+    fs::write(&tally, text.replace("\"complete\": true", "\"complete\": false")).unwrap();
+    for name in ["optimum.json", "reasons.csv", "graph.csv"] {
+        fs::remove_file(here.join("killed").join(name)).unwrap();
+    }
+    run(here, &[&asked[..], &["--out", "killed", "--resume"]].concat());
+    assert_same(&here.join("calm"), &here.join("killed"));
+}

@@ -52,6 +52,8 @@ fn a_learned_score_is_written_applied_and_refused_elsewhere() {
     };
     refused(here, &apply(&["--set", "robot=\"crazyflie\""]), &["generate.score", "flightgoggles", "crazyflie"]);
     refused(here, &apply(&["--set", "robot.mass_kg=1.1"]), &["generate.score", "robot_hash"]);
+    // What varies between runs is not what is searched.
+    learned("varied", &["--set", "vary={\"robot.mass_kg\"={uniform=[0.9,1.1]}}"]);
     refused(here, &apply(&["--set", "generate.reach=\"witness\""]), &["leg over step", "at the leg's ends"]);
     let text = fs::read_to_string(here.join("m.json")).unwrap();
     fs::write(here.join("m.json"), text.replace("\"score_model\": 1", "\"score_model\": 2")).unwrap();

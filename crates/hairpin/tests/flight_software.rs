@@ -168,7 +168,8 @@ const NOT_ON_BOARD: &[&str] = &[
 /// Made once, before: the map's table and its errors in words, the vehicle's name; whole missions, which no solver makes.
 const MADE_BEFORE: &[(&str, &[&str])] = &[
     ("world/terrain/map.rs", &["Vec<", "Vec::", "vec![", "String", ".to_string()", ".collect"]),
-    ("shooting/flat/start_table.rs", &["Vec<", "vec!["]),
+    ("shooting/flat/start_table.rs", &["Vec<"]),
+    ("shooting/flat/tabulate.rs", &["vec!["]),
     ("robot/rover/mod.rs", &["String", "Vec<"]),
     ("robot/rover/body.rs", &["Vec<", "format!"]),
     ("robot/rover/error.rs", &["String", "format!", ".to_string()"]),

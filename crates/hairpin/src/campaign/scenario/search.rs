@@ -44,8 +44,8 @@ pub struct SearchSection {
     pub executions: u64,
     /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
-    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not given, as many
-    /// as the executions allow, 15 at most.
+    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not given, one
+    /// for 45 executions, at least 4 where there are enough, at most 15.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rounds: Option<u64>,
     /// `adaptive`: share of every later round's executions that no model chooses: half of them drawn uniformly, half optima of scores by hand.
@@ -109,9 +109,11 @@ impl SearchMethod {
 
 /// Every round of an adaptive campaign keeps its legs: at ten legs a trajectory, a million rows to fit.
 const MOST_LEARNED: u64 = 100_000;
-/// Rounds at most, where the scenario does not say: what a round taught decides what the next one executes, so that many small ones get
-/// farther than few large ones; but each fits its models anew.
-const MOST_ROUNDS: u64 = 15;
+/// Executions of a round where the scenario does not say how many there are: what a round taught decides what the next one executes, so that
+/// many small ones get farther than few large ones, as long as each has something to teach.
+const PER_ROUND: u64 = 45;
+/// Rounds then, where there are enough executions for them.
+const ROUNDS: [u64; 2] = [4, 15];
 
 impl SearchSection {
     /// Graphs that an adaptive campaign executes in.
@@ -126,7 +128,9 @@ impl SearchSection {
 
     /// Rounds of an adaptive campaign.
     pub fn adaptive_rounds(&self) -> u64 {
-        self.rounds.unwrap_or_else(|| (self.executions / self.least_per_round()).clamp(1, MOST_ROUNDS))
+        let [least, most] = ROUNDS;
+        let enough = (self.executions / self.least_per_round()).max(1);
+        self.rounds.unwrap_or_else(|| (self.executions / PER_ROUND).clamp(least, most).min(enough))
     }
 
     /// Bounds of all that does not depend on what moves: but for `waypoints`.
@@ -190,5 +194,20 @@ impl SearchSection {
         found.require(fine, "generate.search.executions", self.executions, &bound);
         let bound = "false: the method `adaptive` stays on its graphs' legs, which are what it learns of";
         found.require(!self.move_waypoints, "generate.search.move_waypoints", true, bound);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounds_follow_from_executions() {
+        let rounds = |cases, executions, rounds| {
+            SearchSection { cases, executions, rounds, ..SearchSection::default() }.adaptive_rounds()
+        };
+        let of_six = [12, 26, 52, 200, 360, 900].map(|executions| rounds(6, executions, None));
+        assert_eq!(of_six, [1, 2, 4, 4, 8, 15]);
+        assert_eq!((rounds(100, 250, None), rounds(100, 250, Some(7))), (2, 7));
     }
 }

@@ -244,8 +244,8 @@ pub struct DriveSearch {
     pub executions: u64,
     /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
-    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not given, as many
-    /// as the executions allow, 15 at most.
+    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not given, one
+    /// for 45 executions, at least 4 where there are enough, at most 15.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rounds: Option<u64>,
     /// `adaptive`: share of every later round's executions that is drawn uniformly, whatever the model says.
