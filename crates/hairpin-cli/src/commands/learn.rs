@@ -1,7 +1,7 @@
 //! `hairpin learn`: a score from executed legs.
 
-use hairpin::campaign::Case;
 use hairpin::campaign::learn::{learn, learn_moves, leg_samples, move_samples};
+use hairpin::campaign::{Case, Kind};
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::model_text;
 use rayon::prelude::*;
@@ -72,7 +72,11 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
              of their largest {rank}",
             validation.r2, validation.rmse, held_out.trajectories, held_out.r2, held_out.rmse,
         ));
-        let key = if work.setup.arm().is_some() { "generate.cost" } else { "generate.score" };
+        let key = match work.setup.kind() {
+            Kind::Flight(_) => "generate.score",
+            Kind::Drive(_) => "generate.search.score",
+            Kind::Arm(_) => "generate.cost",
+        };
         console::say(&format!("use it: {key} = \"learned:{}\"", asked.out.display()));
     }
     Ok(0)
