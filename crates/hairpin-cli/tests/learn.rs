@@ -62,6 +62,8 @@ fn a_learned_score_is_written_applied_and_refused_elsewhere() {
     refused(here, &apply(&[]), &["m.json", "cannot be read"]);
     json(here, &["generate", "q.toml", "--out", "unflown"]);
     refused(here, &["learn", "unflown"], &["no leg to learn from"]);
+    json(here, &["select", "flown", "--cases", "11", "--out", "eleven"]);
+    refused(here, &["learn", "eleven"], &["11 trajectories", "12 are needed in all"]);
 }
 
 /// Graph, score, deviation of every case of a campaign.
