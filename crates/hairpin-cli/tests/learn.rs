@@ -50,7 +50,11 @@ fn a_learned_score_is_written_applied_and_refused_elsewhere() {
         typed.extend(more);
         typed
     };
-    refused(here, &apply(&["--set", "robot=\"crazyflie\""]), &["generate.score", "flightgoggles", "crazyflie"]);
+    refused(
+        here,
+        &apply(&["--set", "robot=\"crazyflie\""]),
+        &["`generate.score` = \"learned:m.json\"", "flightgoggles", "crazyflie"],
+    );
     refused(here, &apply(&["--set", "robot.mass_kg=1.1"]), &["generate.score", "robot_hash"]);
     refused(here, &apply(&["--set", "generate.reach=\"witness\""]), &["leg over step", "at the leg's ends"]);
     let text = fs::read_to_string(here.join("m.json")).unwrap();
@@ -216,6 +220,13 @@ fn an_arm_learns_what_its_moves_take() {
     let other = [&["generate", "arm", "--out", "other", "--set", "robot=\"irb1200\""][..], &learned].concat();
     refused(here, &other, &["learned on robot `irb120`"]);
     let blind = [&["generate", "arm", "--out", "blind", "--set", "generate.mode=\"cartesian\""][..], &learned].concat();
-    let (code, told, _) = run(here, &blind);
-    assert!(code == 3 && told.contains("needs joints"), "{told}");
+    refused(here, &blind, &["`generate.cost` = \"learned:m.json\"", "cartesian", "need joints"]);
+    for cost in ["\"joint-effort\"", "{ distance = 1.0 }"] {
+        let (mode, cost) = ("generate.mode=\"cartesian\"", format!("generate.cost={cost}"));
+        refused(
+            here,
+            &["explain", "arm", "--set", mode, "--set", &cost],
+            &["generate.cost", "cartesian", "distance or a table"],
+        );
+    }
 }
