@@ -72,5 +72,12 @@ fn what_cannot_be_paired_is_told_by_name() {
     assert!(error.contains("spec.deviation.max_m") && error.contains("each folder's own spec"), "{error}");
     run(here, &[&SMALL[..], &["--seed", "99", "--out", "c"]].concat());
     refused(here, &["compare", "a", "c"], &["another seed", "--missions"]);
+    // Pairs whose runs all failed say nothing, and do not pass.
+    copy(&here.join("a"), &here.join("broken"));
+    run(here, &["execute", "broken", "--executor", "false"]);
+    run(here, &["judge", "broken"]);
+    let object = json(here, &["compare", "a", "broken"]);
+    assert_eq!((&object["exit_code"], names(&object, "undecided").len()), (&5.into(), 4), "{object}");
+    assert!(object["verdict"].as_str().unwrap().starts_with("INCONCLUSIVE: none of 4 pairs "), "{object}");
     refused(here, &["compare", "a", "missing"], &["not a campaign folder"]);
 }

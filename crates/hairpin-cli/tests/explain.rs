@@ -60,6 +60,11 @@ fn a_flight_that_is_too_slow_for_its_end_needs_speed_or_waypoints() {
         "{verdict}"
     );
     holds(here, &slow, "generate.limits.max_speed_m_s", &object);
+    // What people read is what was tried, not rounded back to where nothing is feasible.
+    for one in object["changes"].as_array().unwrap().iter().filter(|one| one["to"].is_f64()) {
+        let (_, told) = one["words"].as_str().unwrap().split_once(" → ").unwrap();
+        assert_eq!(told.split(' ').next().unwrap().parse::<f64>().unwrap(), one["to"].as_f64().unwrap(), "{one}");
+    }
     let length = change(&object, "task.length").unwrap();
     assert!(length["words"] == format!("length {}", length["to"]) && length["to"].as_u64().unwrap() > 4, "{length}");
     let relative: Vec<f64> =

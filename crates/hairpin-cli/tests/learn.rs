@@ -50,7 +50,11 @@ fn a_learned_score_is_written_applied_and_refused_elsewhere() {
         typed.extend(more);
         typed
     };
-    refused(here, &apply(&["--set", "robot=\"crazyflie\""]), &["generate.score", "flightgoggles", "crazyflie"]);
+    refused(
+        here,
+        &apply(&["--set", "robot=\"crazyflie\""]),
+        &["`generate.score` = \"learned:m.json\"", "flightgoggles", "crazyflie"],
+    );
     refused(here, &apply(&["--set", "robot.mass_kg=1.1"]), &["generate.score", "robot_hash"]);
     // What varies between runs is not what is searched.
     learned("varied", &["--set", "vary={\"robot.mass_kg\"={uniform=[0.9,1.1]}}"]);
@@ -64,6 +68,8 @@ fn a_learned_score_is_written_applied_and_refused_elsewhere() {
     refused(here, &apply(&[]), &["m.json", "cannot be read"]);
     json(here, &["generate", "q.toml", "--out", "unflown"]);
     refused(here, &["learn", "unflown"], &["no leg to learn from"]);
+    json(here, &["select", "flown", "--cases", "11", "--out", "eleven"]);
+    refused(here, &["learn", "eleven"], &["11 trajectories", "12 are needed in all"]);
 }
 
 /// Graph, score, deviation of every case of a campaign.
@@ -216,6 +222,13 @@ fn an_arm_learns_what_its_moves_take() {
     let other = [&["generate", "arm", "--out", "other", "--set", "robot=\"irb1200\""][..], &learned].concat();
     refused(here, &other, &["learned on robot `irb120`"]);
     let blind = [&["generate", "arm", "--out", "blind", "--set", "generate.mode=\"cartesian\""][..], &learned].concat();
-    let (code, told, _) = run(here, &blind);
-    assert!(code == 3 && told.contains("needs joints"), "{told}");
+    refused(here, &blind, &["`generate.cost` = \"learned:m.json\"", "cartesian", "need joints"]);
+    for cost in ["\"joint-effort\"", "{ distance = 1.0 }"] {
+        let (mode, cost) = ("generate.mode=\"cartesian\"", format!("generate.cost={cost}"));
+        refused(
+            here,
+            &["explain", "arm", "--set", mode, "--set", &cost],
+            &["generate.cost", "cartesian", "distance or a table"],
+        );
+    }
 }

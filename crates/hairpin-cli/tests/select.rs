@@ -42,6 +42,10 @@ fn a_choice_is_a_campaign_folder_of_its_own() {
     let all = json(here, &["judge", "all"]);
     assert_eq!(stress["selected"]["worst"], all["worst"]["max_deviation_m"]);
 
+    // One case has no other to be far from: it is the most stressful.
+    let one = json(here, &["select", "all", "--cases", "1", "--out", "one"]);
+    assert_eq!((&one["cases"][0], &one["selected"]), (&all["worst"]["case"], &one["most_stressful"]), "{one}");
+
     // Every other command takes it; the cases keep number, seed, plan and runs.
     let judged = json(here, &["judge", "stress"]);
     assert_eq!((&judged["counts"]["asked"], &judged["counts"]["cases"]), (&3.into(), &3.into()), "{judged}");
@@ -61,7 +65,7 @@ fn a_choice_is_a_campaign_folder_of_its_own() {
     let generated = ["generate", "demo-quadrotor", "--set", "generate.search.cases=2", "--out", "plans"];
     run(here, &generated);
     refused(here, &["select", "plans", "--cases", "1", "--by", "coverage", "--out", "x"], &["hairpin execute plans"]);
-    assert_eq!(json(here, &["select", "plans", "--cases", "1", "--out", "one"])["selected"]["cases"], 1);
+    assert_eq!(json(here, &["select", "plans", "--cases", "1", "--out", "planned"])["selected"]["cases"], 1);
 }
 
 #[test]

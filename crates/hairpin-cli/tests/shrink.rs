@@ -120,5 +120,11 @@ fn what_cannot_be_shrunk_is_said() {
     let here = folder.path();
     run(here, &[&SMALL[..], &["--out", "a", "--set", "spec.deviation.max_m=50"]].concat());
     refused(here, &["shrink", "a", "--case", "0"], &["case 0000 does not violate", "nothing to shrink"]);
-    refused(here, &["shrink", "a", "--case", "77"], &["--case 77", "0 … 3"]);
+    refused(here, &["shrink", "a", "--case", "77"], &["--case 77", "cases 0000, 0001, 0002, 0003"]);
+    // A choice keeps its numbers, and a folder without cases is told to have none.
+    let worst = json(here, &["select", "a", "--cases", "1", "--by", "stress", "--out", "one"])["cases"][0].clone();
+    let told = format!("the case {} alone", worst.as_str().unwrap());
+    refused(here, &["shrink", "one", "--case", "77"], &["--case 77", &told]);
+    run(here, &[&SMALL[..], &["--out", "none", "--set", "generate.limits.max_speed_m_s=0.01"]].concat());
+    refused(here, &["shrink", "none", "--case", "0"], &["--case 0", "no cases"]);
 }

@@ -14,7 +14,10 @@ use crate::{console, folder::look};
 /// Names and differing keys that a line has room for; `--json` has all.
 const TOLD: usize = 8;
 
-/// Runs the command: 0, or 1 on newly failing cases and, where that was asked for, on regression.
+/// Exit code where pairs there are, and none of them could be compared.
+const INCONCLUSIVE: u8 = 5;
+
+/// Runs the command: 0, or 1 on newly failing cases and, where that was asked for, on regression; 5 where no pair could be compared.
 pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
     let (a, b) = (look(&asked.a)?, look(&asked.b)?);
     let differences = folder::differences(&a.setup.scenario, &b.setup.scenario);
@@ -38,7 +41,8 @@ pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
         )));
     }
     let regression = asked.fail_on == FailOn::Regression && compared.regresses();
-    let code = u8::from(!compared.newly_failing.is_empty() || regression);
+    let worse = u8::from(!compared.newly_failing.is_empty() || regression);
+    let code = if compared.inconclusive() { INCONCLUSIVE } else { worse };
     if asked.json {
         let mut object = json!(compared);
         object["verdict"] = json!(compared.sentence());

@@ -1,7 +1,8 @@
 //! `hairpin learn`: a score from executed legs.
 
-use hairpin::campaign::Case;
 use hairpin::campaign::learn::{learn, learn_moves, leg_samples, move_samples};
+use hairpin::campaign::{Case, Kind};
+use hairpin::math::ridge::NoFit;
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::model_text;
 use rayon::prelude::*;
@@ -18,7 +19,8 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
     let cases = work.folder.read_cases()?;
     let table = work.folder.read_runs_table()?;
     let place = asked.folder.display();
-    let found = |samples: usize, what: &str| match samples {
+    let what = if work.setup.arm().is_some() { "move" } else { "leg" };
+    let found = |samples: usize| match samples {
         0 => Err(Problem::input(format!(
             "{place}: no {what} to learn from: cases need {what}s that a search saw, executions, and {} measured on them",
             stress.word()
@@ -29,15 +31,21 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
     let learned = if work.setup.arm().is_some() {
         let of_case = |case: &Case| Ok(move_samples(&work.setup, case, &runs(case)?, stress));
         let samples = cases.par_iter().map(of_case).collect::<Result<Vec<_>, Problem>>()?.concat();
-        found(samples.len(), "move")?;
+        found(samples.len())?;
         learn_moves(&work.setup, stress, &samples)
     } else {
         let of_case = |case: &Case| Ok(leg_samples(&work.setup, case, &runs(case)?, stress));
         let samples = cases.par_iter().map(of_case).collect::<Result<Vec<_>, Problem>>()?.concat();
-        found(samples.len(), "leg")?;
+        found(samples.len())?;
         learn(&work.setup, stress, &samples)
     };
-    let model = learned.map_err(|error| Problem::input(format!("{place}: {error}")))?;
+    let model = learned.map_err(|error| match error {
+        NoFit::Groups { groups, needed } => Problem::input(format!(
+            "{place}: {groups} trajectories with executed {what}s; {needed} are needed in all: every fifth is held out, and ten folds \
+             are made of the others"
+        )),
+        error => Problem::input(format!("{place}: {error}")),
+    })?;
     atomic::write(&asked.out, model_text(&model).as_bytes())?;
     let (validation, held_out) = (model.validation, model.held_out);
     if asked.json {
@@ -72,7 +80,11 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
              of their largest {rank}",
             validation.r2, validation.rmse, held_out.trajectories, held_out.r2, held_out.rmse,
         ));
-        let key = if work.setup.arm().is_some() { "generate.cost" } else { "generate.score" };
+        let key = match work.setup.kind() {
+            Kind::Flight(_) => "generate.score",
+            Kind::Drive(_) => "generate.search.score",
+            Kind::Arm(_) => "generate.cost",
+        };
         console::say(&format!("use it: {key} = \"learned:{}\"", asked.out.display()));
     }
     Ok(0)

@@ -18,6 +18,9 @@ use crate::interrupt;
 use crate::problem::Problem;
 use answers::Answers;
 
+/// Names that a sentence has room for.
+const TOLD: usize = 12;
+
 /// Runs the command: 0 when there is a smaller case, or none can be.
 pub(crate) fn run(asked: &Shrink) -> Result<u8, Problem> {
     let work = folder::open(&asked.folder, &[], &[], Some(&asked.kernels))?;
@@ -49,15 +52,26 @@ pub(crate) fn run(asked: &Shrink) -> Result<u8, Problem> {
 fn violating(work: &Work, asked: &Shrink) -> Result<(Case, CaseResult), Problem> {
     let folder = asked.folder.display();
     let cases = work.folder.read_cases()?;
-    let last = cases.len().saturating_sub(1);
+    let there = named(&cases);
     let case = cases.into_iter().find(|case| case.number == asked.case);
-    let case = case.ok_or_else(|| Problem::input(format!("--case {}: {folder} has cases 0 … {last}", asked.case)))?;
+    let case = case.ok_or_else(|| Problem::input(format!("--case {}: {folder} has {there}", asked.case)))?;
     let result = work.folder.read_results()?.into_iter().find(|result| result.case == case.number);
     let result = result.ok_or_else(|| Problem::input(format!("not judged yet: hairpin judge {folder}")))?;
     if result.violations.is_empty() {
         return Err(Problem::input(format!("case {} does not violate: there is nothing to shrink", case.id())));
     }
     Ok((case, result))
+}
+
+/// `the cases 0001, 0003, 0004`; of many the first ones and the last.
+fn named(cases: &[Case]) -> String {
+    let names: Vec<String> = cases.iter().map(Case::id).collect();
+    match names.as_slice() {
+        [] => "no cases".into(),
+        [one] => format!("the case {one} alone"),
+        [some @ .., last] if names.len() > TOLD => format!("the cases {}, … {last}", some[..TOLD - 1].join(", ")),
+        all => format!("the cases {}", all.join(", ")),
+    }
 }
 
 fn repro(work: &Work, shrunk: &Shrunk, before: &CaseResult, waypoints: usize, runs: u64) -> Result<Repro, Problem> {

@@ -26,7 +26,7 @@ pub(super) fn read(scenario: &mut Scenario, base: &Path) -> Result<(), Wrong> {
     let wrong = |bound: String| (key.to_owned(), score.clone(), bound);
     let bytes = read_file(&base.join(file)).map_err(|why| wrong(format!("`{file}` cannot be read: {why}")))?;
     let read: ScoreModel = serde_json::from_slice(&bytes).map_err(|error| wrong(format!("`{file}`: {error}")))?;
-    *model = Some(KeptModel { model: read.into(), bytes: bytes.into() });
+    *model = Some(KeptModel { model: read.into(), bytes: bytes.into(), given: score.clone() });
     *score = KeptModel::score();
     Ok(())
 }

@@ -77,8 +77,24 @@ impl Comparison {
         self.metrics.iter().any(|metric| metric.change == "worse")
     }
 
-    /// `better 812, worse 31, newly failing 2; newly passing 1, unchanged 154`.
+    /// Whether there are pairs, and not one of them could be compared: nothing is known of B against A then.
+    pub fn inconclusive(&self) -> bool {
+        self.pairs > 0 && self.undecided.len() == self.pairs
+    }
+
+    /// `better 812, worse 31, newly failing 2; newly passing 1, unchanged 154`; INCONCLUSIVE where nothing could be
+    /// compared.
     pub fn sentence(&self) -> String {
+        if self.inconclusive() {
+            let unpaired = match self.unpaired.len() {
+                0 => String::new(),
+                unpaired => format!("; not paired {unpaired}"),
+            };
+            return format!(
+                "INCONCLUSIVE: none of {} pairs could be compared: in A or B the executor failed or the data are inconclusive{unpaired}",
+                self.pairs
+            );
+        }
         let mut sentence = format!(
             "better {}, worse {}, newly failing {}; newly passing {}, unchanged {}",
             self.better,
@@ -274,6 +290,19 @@ mod tests {
             found.sentence(),
             "better 1, worse 2, newly failing 1; newly passing 1, unchanged 1, not compared 1, not paired 2"
         );
+        // Where no pair can be compared that is said, and is not the same as nothing worse.
+        assert!(!found.inconclusive());
+        let mut broken = b.clone();
+        broken.iter_mut().for_each(|(_, result)| result.status = Status::ExecutorFailed);
+        let none = compare(&a, &broken, 1e-9);
+        assert!(none.inconclusive() && none.undecided.len() == 7, "{none:?}");
+        assert!(
+            none.sentence().starts_with("INCONCLUSIVE: none of 7 pairs could be compared: "),
+            "{}",
+            none.sentence()
+        );
+        assert!(none.sentence().ends_with("; not paired 2"), "{}", none.sentence());
+        assert!(!compare(&a, &[], 1e-9).inconclusive(), "without pairs there is nothing to be inconclusive about");
         // A change within the tolerance is none.
         assert_eq!(compare(&a, &b, 0.15).unchanged, 4);
     }

@@ -123,19 +123,22 @@ impl Trial<'_> {
             Turn::Number { now, unit, .. } => {
                 let to = to.as_f64().unwrap_or(*now);
                 let least = if now.abs() >= 100.0 { 0 } else { 1 };
-                // As many as tell both apart, and show what the smaller one is.
-                let small = |d: &usize| format!("{:.d$}", now.abs().min(to.abs()), d = *d).parse().unwrap_or(0.0);
-                let near =
-                    |d: &usize| (small(d) - now.abs().min(to.abs())).abs() <= PRECISION * now.abs().min(to.abs());
-                let apart = |d: &usize| format!("{now:.d$}", d = *d) != format!("{to:.d$}", d = *d);
-                let decimals = (least..9).find(|d| near(d) && apart(d)).unwrap_or(9);
-                format!("{name} {now:.decimals$} → {to:.decimals$} {unit}").trim_end().to_owned()
+                format!("{name} {} → {} {unit}", whole_number(*now, least), whole_number(to, least))
+                    .trim_end()
+                    .to_owned()
             }
             Turn::Either { .. } => format!("{name} {to}"),
             Turn::Whole { .. } => format!("{name} {from} → {to}"),
             Turn::Switch { words, .. } => words.clone(),
         }
     }
+}
+
+/// `value` with all of its decimals, and at least so many: what is told is what was tried, and may be typed.
+fn whole_number(value: f64, least: usize) -> String {
+    let told = format!("{value}");
+    let decimals = told.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    format!("{value:.*}", decimals.max(least))
 }
 
 /// `value` with three digits, away from `from`.
@@ -180,6 +183,15 @@ mod tests {
             ("task.points.count", "points"),
         ] {
             assert_eq!(name(key), told);
+        }
+    }
+
+    #[test]
+    fn what_is_told_is_what_was_tried() {
+        for (value, least, told) in
+            [(3.93, 1, "3.93"), (1.0, 1, "1.0"), (0.22, 1, "0.22"), (1240.0, 0, "1240"), (0.00123, 1, "0.00123")]
+        {
+            assert_eq!(whole_number(value, least), told);
         }
     }
 

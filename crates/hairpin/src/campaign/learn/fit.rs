@@ -10,8 +10,9 @@ use crate::math::ridge::{NoFit, Rows};
 
 /// Every so many trajectories one is held out.
 const HELD_OUT: usize = 5;
-/// Trajectories that a model needs at least: as many as leave one for every fold when some are held out.
-pub(in crate::campaign) const LEAST_TRAJECTORIES: usize = 13;
+/// Trajectories that a model needs at least: as many as leave one for every fold when some are held out, which of these are the fifth and
+/// the tenth.
+const LEAST_TRAJECTORIES: usize = 12;
 
 impl ScoreModel {
     /// Learns the stress of legs.
@@ -20,7 +21,7 @@ impl ScoreModel {
     /// fifths of the trajectories is tested on the last fifth.
     ///
     /// # Errors
-    /// [`NoFit`]: fewer than 13 trajectories, numbers that are none, legs that are all the same.
+    /// [`NoFit`]: fewer than 12 trajectories, numbers that are none, legs that are all the same.
     pub fn learn(stress: Stress, subject: Subject, samples: &[LegSample]) -> Result<Self, NoFit> {
         Self::fit(stress, subject, legs::named(), &pairs(samples))
     }
@@ -40,12 +41,15 @@ impl ScoreModel {
     }
 
     fn fit(stress: Stress, subject: Subject, features: Vec<Feature>, all: &Pairs) -> Result<Self, NoFit> {
+        let mut trajectories = all.rows.groups.clone();
+        trajectories.dedup();
+        if trajectories.len() < LEAST_TRAJECTORIES {
+            return Err(NoFit::Groups { groups: trajectories.len(), needed: LEAST_TRAJECTORIES });
+        }
         let (seen, unseen) = all.split(HELD_OUT, HELD_OUT - 1);
         let (tested, _) = Parts::choose(&seen)?;
         let held_out = held_out(&tested, &unseen);
         let (Parts { own, before }, validation) = Parts::choose(all)?;
-        let mut trajectories = all.rows.groups.clone();
-        trajectories.dedup();
         Ok(Self {
             score_model: 1,
             stress,
@@ -207,8 +211,10 @@ mod tests {
 
     #[test]
     fn too_few_trajectories_are_told() {
-        let told = ScoreModel::learn(Stress::Time, subject(), &samples(9)).unwrap_err();
-        assert!(matches!(told, NoFit::Groups { .. }), "{told}");
+        // All of them are counted, those that would be held out too.
+        let told = ScoreModel::learn(Stress::Time, subject(), &samples(11)).unwrap_err();
+        assert_eq!(told, NoFit::Groups { groups: 11, needed: 12 });
+        assert_eq!(ScoreModel::learn(Stress::Time, subject(), &samples(12)).unwrap().trajectories, 12);
         assert!(ScoreModel::learn(Stress::Time, subject(), &[]).is_err());
     }
 }

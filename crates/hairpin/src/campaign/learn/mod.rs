@@ -10,7 +10,6 @@ mod resample;
 mod samples;
 mod score;
 
-pub(super) use fit::LEAST_TRAJECTORIES;
 pub use kept::{KeptModel, NAME};
 pub(super) use kept::{of_arm, of_drive, of_flight, subject};
 pub use legs::LegSample;

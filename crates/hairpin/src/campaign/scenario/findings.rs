@@ -47,7 +47,7 @@ impl Findings {
 
     /// Whether a score that a model is asked for has one, of the legs of `subject`.
     pub(super) fn model(&mut self, key: &str, score: &str, model: Option<&KeptModel>, subject: impl Fn() -> Subject) {
-        let value = format!("\"{score}\"");
+        let value = format!("\"{}\"", model.map_or(score, |kept| &kept.given));
         match model.map(|kept| kept.model.check(&subject())) {
             Some(Ok(())) => {}
             Some(Err(mistake)) => {

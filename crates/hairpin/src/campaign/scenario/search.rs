@@ -4,7 +4,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
-use crate::campaign::learn::LEAST_TRAJECTORIES;
 use crate::judgement::Stress;
 
 pub use crate::search::Aggregate;
@@ -109,6 +108,8 @@ impl SearchMethod {
 
 /// Every round of an adaptive campaign keeps its legs: at ten legs a trajectory, a million rows to fit.
 const MOST_LEARNED: u64 = 100_000;
+/// Executions that a round needs at least to learn from: one more than a model does, so that one that fails does not cost the round.
+const LEAST_PER_ROUND: u64 = 13;
 /// Executions of a round where the scenario does not say how many there are: what a round taught decides what the next one executes, so that
 /// many small ones get farther than few large ones, as long as each has something to teach.
 const PER_ROUND: u64 = 45;
@@ -123,7 +124,7 @@ impl SearchSection {
 
     /// Executions that a round needs: one in each graph, and enough to learn from.
     fn least_per_round(&self) -> u64 {
-        self.adaptive_graphs().max(LEAST_TRAJECTORIES as u64)
+        self.adaptive_graphs().max(LEAST_PER_ROUND)
     }
 
     /// Rounds of an adaptive campaign.
@@ -188,7 +189,7 @@ impl SearchSection {
         let rounds = self.rounds.map_or("each round".into(), |rounds| format!("each of {rounds} rounds"));
         let bound = format!(
             "{least} … {MOST_LEARNED} for the method `adaptive`: in {rounds} one in each of {graphs} graphs, and \
-             {LEAST_TRAJECTORIES} to learn from"
+             {LEAST_PER_ROUND} to learn from"
         );
         let fine = (least..=MOST_LEARNED).contains(&self.executions);
         found.require(fine, "generate.search.executions", self.executions, &bound);

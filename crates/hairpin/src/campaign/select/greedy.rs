@@ -14,7 +14,8 @@ pub(super) fn heaviest(weights: &[f64], count: usize) -> Vec<usize> {
 /// most to half of the weights and the whole of the distances, which is at least half of the best for distances that are a
 /// metric (Borodin, Lee, Ye: Max-sum diversification, monotone submodular functions and dynamic updates, 2012).
 pub(super) fn dispersed(weights: &[f64], distance: impl Fn(usize, usize) -> f64, count: usize) -> Vec<usize> {
-    let per_weight = 0.5 * (count.saturating_sub(1)) as f64;
+    // One item has no pairs: its weight alone decides.
+    let per_weight = 0.5 * (count.saturating_sub(1)).max(1) as f64;
     let mut gains: Vec<f64> = weights.iter().map(|weight| 0.5 * per_weight * weight).collect();
     let mut left: BTreeSet<usize> = (0..weights.len()).collect();
     let mut chosen = Vec::with_capacity(count);
@@ -62,6 +63,11 @@ mod tests {
             .filter(|bits| bits.count_ones() as usize == count)
             .map(|bits| (0..n).filter(|i| bits >> i & 1 == 1).collect())
             .collect()
+    }
+
+    #[test]
+    fn one_item_is_the_heaviest() {
+        assert_eq!(dispersed(&[0.2, 0.1, 0.9, 0.9], |_, _| 1.0, 1), [2]);
     }
 
     #[test]

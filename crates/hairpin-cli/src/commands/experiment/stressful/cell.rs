@@ -46,7 +46,8 @@ pub(super) fn setup(scenario: &str, sets: &[Set], model: Option<&ScoreModel>) ->
     let mut scenario = scenario_for(scenario, &sets)?;
     if let (Scenario::Flight(flight), Some(model)) = (&mut scenario, model) {
         flight.generate.score = KeptModel::score();
-        flight.generate.model = Some(KeptModel { model: model.clone().into(), bytes: [].into() });
+        let given = KeptModel::score();
+        flight.generate.model = Some(KeptModel { model: model.clone().into(), bytes: [].into(), given });
     }
     Ok(Setup::new(scenario)?)
 }

@@ -1,6 +1,8 @@
 //! The bounds of every key of an arm's scenario.
 
-use super::{ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, CostSection, LogClock, MoveName, PointsSource};
+use super::{
+    ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, CostName, CostSection, LogClock, MoveName, PointsSource,
+};
 use crate::campaign::arm::station_of;
 use crate::campaign::learn::of_arm;
 use crate::campaign::scenario::findings::Findings;
@@ -65,6 +67,9 @@ fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
         let some = all.iter().any(|(_, weight)| *weight > 0.0);
         found.require(some, "generate.cost", "no weight", "one weight > 0 at least");
     }
+    let placed = matches!(generate.cost, CostSection::Named(CostName::Distance) | CostSection::Table(_));
+    let bound = "distance or a table where generate.mode = \"cartesian\": all others need joints, which that mode does not plan";
+    found.require(placed || generate.mode == ArmMode::Joint, "generate.cost", told_cost(&generate.cost), bound);
     let moves = &generate.moves;
     found.require(!moves.speeds.is_empty(), "generate.moves.speeds", "[]", "one name at least, such as v1000");
     for (index, name) in moves.speeds.iter().enumerate() {
@@ -101,6 +106,14 @@ fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
             let bound = format!("a row of the cloud, 0 … {}", points.saturating_sub(1));
             found.require(row < points, &format!("generate.search.{key}"), row, &bound);
         }
+    }
+}
+
+/// A cost as the scenario gives it.
+fn told_cost(cost: &CostSection) -> String {
+    match cost {
+        CostSection::Learned(cost) => format!("\"{}\"", cost.model.as_ref().map_or(&cost.score, |kept| &kept.given)),
+        CostSection::Named(_) | CostSection::Table(_) | CostSection::Weighted(_) => format!("\"{}\"", cost.word()),
     }
 }
 
