@@ -53,11 +53,11 @@ fn send_lines(mut stdout: impl BufRead, sender: &SyncSender<Line>) {
 
 /// The end of a child's stderr.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Tail(Arc<Mutex<VecDeque<u8>>>);
+pub(crate) struct Tail(Arc<Mutex<VecDeque<u8>>>);
 
 impl Tail {
     /// Reads `stderr` in a thread of its own until it closes. The receiver closes with it.
-    pub(super) fn follow(stderr: impl Read + Send + 'static) -> (Self, Receiver<()>) {
+    pub(crate) fn follow(stderr: impl Read + Send + 'static) -> (Self, Receiver<()>) {
         let tail = Self::default();
         let (open, closed) = sync_channel(0);
         let writer = tail.clone();
@@ -84,7 +84,7 @@ impl Tail {
     }
 
     /// What is kept, as text.
-    pub(super) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let (front, back) = kept.as_slices();
         String::from_utf8_lossy(&[front, back].concat()).into_owned()

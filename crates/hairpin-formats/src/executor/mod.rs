@@ -32,8 +32,10 @@ mod tests;
 mod worker;
 
 pub use failure::{Failed, Failure};
+pub(crate) use lines::Tail;
 pub use message::{EndReason, FromExecutor, PoseMessage, TimedMessage, ToExecutor, mission_message};
 pub use pool::fly_all;
 pub use process::kill_all;
+pub(crate) use process::{end, start};
 pub use recording::{ATTITUDE_UNKNOWN, PoseError, Recording};
 pub use worker::{Command, CommandError, Limits, Worker};

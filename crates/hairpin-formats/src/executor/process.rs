@@ -13,7 +13,7 @@ static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 
 /// Starts `command` in a process group of its own: Ctrl-C on the terminal is for hairpin, which ends its executors in order,
 /// and a shell's or launcher's children can be ended with it.
-pub(super) fn start(command: &mut std::process::Command) -> io::Result<Child> {
+pub(crate) fn start(command: &mut std::process::Command) -> io::Result<Child> {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
     let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
@@ -35,7 +35,7 @@ pub fn kill_all() {
 
 /// Waits at most `patience` for the child to exit by itself, asks the group to terminate, waits at most `grace`, kills
 /// what is left of the group. The exit status is that of the child.
-pub(super) fn end(child: &mut Child, patience: Duration, grace: Duration) -> Option<ExitStatus> {
+pub(crate) fn end(child: &mut Child, patience: Duration, grace: Duration) -> Option<ExitStatus> {
     if !exits_within(child, patience) {
         signal(child, Ending::Terminate);
         exits_within(child, grace);

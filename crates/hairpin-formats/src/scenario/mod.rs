@@ -12,6 +12,7 @@ mod set;
 mod shape;
 mod terrain;
 mod tree;
+mod user_score;
 mod write;
 
 use std::path::Path;
@@ -121,7 +122,8 @@ pub fn arm_scenario_for(cell: &str, points: &Path, sets: &[(String, String)]) ->
 /// # Errors
 /// A file cannot be read, or is another one.
 pub fn attach(scenario: &mut Scenario, folder: &Path) -> Result<(), Report> {
-    if let Err((key, value, bound)) = learned::attach(scenario, folder) {
+    let scores = learned::attach(scenario, folder).and_then(|()| user_score::attach(scenario, folder));
+    if let Err((key, value, bound)) = scores {
         let mut report = Report::default();
         report.complain_of_file(&value, &format!("`{key}` = {value:?}: {bound}"));
         return Err(report);
@@ -185,7 +187,8 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
         }
         Scenario::Arm(arm) => cell::resolve(arm, base, &root, report),
     }
-    if let Err((key, value, bound)) = learned::read(&mut scenario, base) {
+    let scores = learned::read(&mut scenario, base).and_then(|()| user_score::read(&mut scenario, base));
+    if let Err((key, value, bound)) = scores {
         let message = format!("`{key}` = {value:?}: {bound}");
         report.complain(&place_of(&root, &key), &key, &value, &bound, message);
     }

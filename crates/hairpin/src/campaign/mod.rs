@@ -31,6 +31,7 @@ pub mod start_table;
 pub mod states;
 pub mod stop;
 mod terms;
+pub mod user_score;
 pub mod vary;
 pub mod verify;
 
@@ -50,4 +51,5 @@ pub use scenario::{Distribution, Mistake, Scenario};
 pub use setup::{Kind, Setup};
 pub use shrink::{ShrinkError, Shrunk, shrink};
 pub use stop::Stop;
+pub use user_score::{LegScorer, UserScore};
 pub use verify::{Verified, verify};

@@ -34,9 +34,11 @@ pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario,
     match (scenario, &mut drawn) {
         (Scenario::Flight(old), Scenario::Flight(new)) if new.generate.score == old.generate.score => {
             new.generate.model = old.generate.model.clone();
+            new.generate.user_score = old.generate.user_score.clone();
         }
         (Scenario::Drive(old), Scenario::Drive(new)) if new.generate.search.score == old.generate.search.score => {
             new.generate.search.model = old.generate.search.model.clone();
+            new.generate.search.user_score = old.generate.search.user_score.clone();
         }
         _ => {}
     }

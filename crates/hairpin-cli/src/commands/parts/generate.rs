@@ -31,8 +31,10 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     let mut trouble = None;
     let bar = console::progress("generate", 0);
     let begun = Instant::now();
+    let user_score = work.setup.scenario.user_score();
+    let score_trouble = || user_score.and_then(|user| user.scorer.trouble());
     let stop = Stop {
-        cancelled: &|| interrupt::asked() || deadline.passed(),
+        cancelled: &|| interrupt::asked() || deadline.passed() || score_trouble().is_some(),
         progress: &|done, of| {
             bar.set_length(of as u64);
             bar.set_position(done as u64);
@@ -49,6 +51,9 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     bar.finish_and_clear();
     if let Some(problem) = trouble {
         return Err(problem);
+    }
+    if let Some(trouble) = score_trouble() {
+        return Err(Problem::input(format!("`{}` = {trouble}", work.setup.scenario.score_key())));
     }
     keep_cases(work, &cases, saved, &unfinished(&tally))?;
     work.folder.write_curves(work.setup.scenario.search().stress, &tally.curves)?;

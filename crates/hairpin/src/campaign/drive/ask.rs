@@ -87,10 +87,12 @@ where
     Outcome::of(graph, search(&question, OpenEnd::<&R>::may_arrive))
 }
 
-/// What was learned of legs: by rounds before this one, or by the scenario's model.
+/// What was learned of legs, by rounds before this one or by the scenario's model, or what the user's own program says of them.
 pub(super) fn learned<'a>(scenario: &'a DriveScenario, looped: &Looped<'a>) -> Option<AnyScore<'a>> {
-    let kept = scenario.generate.search.model.as_ref().map(|kept| &*kept.model);
-    looped.models().first().or(kept).map(AnyScore::Learned)
+    let search = &scenario.generate.search;
+    let kept = search.model.as_ref().map(|kept| &*kept.model);
+    let learned = looped.models().first().or(kept).map(AnyScore::Learned);
+    learned.or(search.user_score.as_ref().map(AnyScore::User))
 }
 
 /// A round's other models.

@@ -222,7 +222,7 @@ pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
 
 /// What a leg's `ground` is: the score that is named or, as an input of a learned one, slope and slip.
 fn ground_score(search: &DriveSearch) -> Result<GroundScore, String> {
-    let learned = search.model.is_some() || search.method == SearchMethod::Adaptive;
+    let learned = search.model.is_some() || search.user_score.is_some() || search.method == SearchMethod::Adaptive;
     let name = if learned { LEARNED_FROM } else { search.score_of_legs() };
     GroundScore::named(name).map_err(|error| error.to_string())
 }

@@ -1,6 +1,7 @@
 //! A score by name or by a model.
 
 use super::ScoreModel;
+use crate::campaign::user_score::UserScore;
 use crate::search::{Additive, LegView, Objective, Score};
 
 /// What a scenario scores legs by.
@@ -10,6 +11,19 @@ pub(in crate::campaign) enum AnyScore<'a> {
     Named(Score),
     /// One that was learned.
     Learned(&'a ScoreModel),
+    /// One of the user's own.
+    User(&'a UserScore),
+}
+
+impl AnyScore<'_> {
+    /// [`Additive::own`] and [`Additive::left`].
+    fn both(&self, leg: &LegView<'_>) -> [f64; 2] {
+        match self {
+            Self::Named(score) => [score.own(leg), score.left(leg)],
+            Self::Learned(model) => [model.own(&leg.features, leg.duration), model.left(&leg.features, leg.duration)],
+            Self::User(user) => user.scorer.parts(&[*leg])[0],
+        }
+    }
 }
 
 impl Objective for AnyScore<'_> {
@@ -21,29 +35,25 @@ impl Objective for AnyScore<'_> {
     }
 
     fn extend(&self, before: &f64, leg: &LegView<'_>) -> (f64, f64) {
-        (self.own(leg) + before, self.left(leg))
+        let [own, left] = self.both(leg);
+        (own + before, left)
     }
 }
 
 impl Additive for AnyScore<'_> {
     fn own(&self, leg: &LegView<'_>) -> f64 {
-        match self {
-            Self::Named(score) => score.own(leg),
-            Self::Learned(model) => model.own(&leg.features, leg.duration),
-        }
+        self.both(leg)[0]
     }
 
     fn left(&self, leg: &LegView<'_>) -> f64 {
-        match self {
-            Self::Named(score) => score.left(leg),
-            Self::Learned(model) => model.left(&leg.features, leg.duration),
-        }
+        self.both(leg)[1]
     }
 
     fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         match self {
             Self::Named(score) => score.parts(legs),
             Self::Learned(model) => model.parts(legs.iter().map(|leg| (&leg.features, leg.duration))),
+            Self::User(user) => user.scorer.parts(legs),
         }
     }
 }

@@ -39,7 +39,7 @@ impl Scenario {
     }
 
     /// The key of [`Scenario::score`].
-    pub(in crate::campaign) fn score_key(&self) -> &'static str {
+    pub fn score_key(&self) -> &'static str {
         match self {
             Self::Flight(_) => "generate.score",
             Self::Drive(_) => "generate.search.score",

@@ -1,6 +1,7 @@
 //! What checks of scenarios find, and the few questions that most keys are asked.
 
 use super::{Mistake, SearchMethod, SearchSection};
+use crate::campaign::UserScore;
 use crate::campaign::learn::{KeptModel, Subject};
 use crate::judgement::Stress;
 
@@ -57,6 +58,11 @@ impl Findings {
         }
     }
 
+    /// Whether a score of the user's own was read.
+    pub(super) fn user_score(&mut self, key: &str, score: &str, user: Option<&UserScore>) {
+        self.require(user.is_some(), key, format!("\"{score}\""), "read with its scenario");
+    }
+
     /// Whether rounds can learn. `score`: the key of the score, and its value.
     pub(super) fn rounds<'k>(
         &mut self,
@@ -65,8 +71,9 @@ impl Findings {
         mut varied: impl Iterator<Item = &'k String>,
     ) {
         if method == SearchMethod::Adaptive {
-            let bound = "one that is not learned: the method `adaptive` learns its own, from its own executions";
-            self.require(KeptModel::file_of(value).is_none(), score, format!("\"{value}\""), bound);
+            let bound = "one of those that have names: the method `adaptive` learns its own, from its own executions";
+            let free = KeptModel::file_of(value).is_none() && UserScore::file_of(value).is_none();
+            self.require(free, score, format!("\"{value}\""), bound);
             if let Some(varied) = varied.find(|key| key.starts_with("task.") || key.starts_with("generate.")) {
                 let bound = format!("another one, or `{varied}` not varied: rounds learn from cases of one plan");
                 self.require(false, "generate.search.method", "\"adaptive\"", &bound);

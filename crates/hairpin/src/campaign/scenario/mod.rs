@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::campaign::learn;
+use crate::campaign::user_score::{self, UserScore};
 
 mod arm;
 mod check;
@@ -140,20 +141,35 @@ impl Scenario {
         }
     }
 
+    /// The score of the user's own, if that is what it scores by.
+    pub fn user_score(&self) -> Option<&UserScore> {
+        match self {
+            Self::Flight(scenario) => scenario.generate.user_score.as_ref(),
+            Self::Drive(scenario) => scenario.generate.search.user_score.as_ref(),
+            Self::Arm(_) => None,
+        }
+    }
+
     /// Names and contents of the files that a resolved scenario keeps in its campaign's folder: its map, its cloud, its costs, its baseline,
     /// its model.
     pub fn files(&self) -> Vec<(&str, &[u8])> {
         let kept = match self {
             Self::Flight(scenario) => {
                 let model = scenario.generate.model.as_ref();
-                vec![(Some(learn::NAME), model.map(|kept| &*kept.bytes))]
+                let user = scenario.generate.user_score.as_ref();
+                vec![
+                    (Some(learn::NAME), model.map(|kept| &*kept.bytes)),
+                    (Some(user_score::NAME), user.map(|user| &*user.bytes)),
+                ]
             }
             Self::Drive(scenario) => {
                 let terrain = &scenario.world.terrain;
                 let model = scenario.generate.search.model.as_ref();
+                let user = scenario.generate.search.user_score.as_ref();
                 vec![
                     (terrain.file.as_deref(), terrain.bytes.as_deref()),
                     (Some(learn::NAME), model.map(|kept| &*kept.bytes)),
+                    (Some(user_score::NAME), user.map(|user| &*user.bytes)),
                 ]
             }
             Self::Arm(scenario) => {

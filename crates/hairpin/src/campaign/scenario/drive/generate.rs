@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{DirectionDeg, DriveEnvironmentSection};
+use crate::campaign::UserScore;
 use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::{Aggregate, EXECUTED, Sampling, SearchMethod, SearchSection};
 use crate::feasibility::steering::shooting::Control;
@@ -261,6 +262,10 @@ pub struct DriveSearch {
     #[serde(skip)]
     #[schemars(skip)]
     pub model: Option<KeptModel>,
+    /// The score of the user's own.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub user_score: Option<UserScore>,
 }
 
 /// The score of a scenario that gives none, and of what is executed only in part.
@@ -310,6 +315,7 @@ impl Default for DriveSearch {
             move_waypoints,
             stress,
             model: None,
+            user_score: None,
         }
     }
 }

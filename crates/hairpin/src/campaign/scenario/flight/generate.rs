@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::EnvironmentSection;
+use crate::campaign::UserScore;
 use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::{EXECUTED, SearchSection};
 
@@ -44,6 +45,10 @@ pub struct GenerateSection {
     #[serde(skip)]
     #[schemars(skip)]
     pub model: Option<KeptModel>,
+    /// The score of the user's own.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub user_score: Option<UserScore>,
     /// Limits beside the robot's own.
     pub limits: LimitsSection,
     /// What of the environment is searched for stress, too.
@@ -66,6 +71,7 @@ impl Default for GenerateSection {
             search: SearchSection::default(),
             score: BY_HAND.into(),
             model: None,
+            user_score: None,
             limits: LimitsSection::default(),
             environment: None,
         }

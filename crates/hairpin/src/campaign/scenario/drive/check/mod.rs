@@ -6,6 +6,7 @@ use super::{
     ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSearch, DriveSpec, GroundReach,
     Manoeuvre, ProfileName, SpeedSection,
 };
+use crate::campaign::UserScore;
 use crate::campaign::drive::{map_of, rover_of};
 use crate::campaign::learn::{KeptModel, of_drive};
 use crate::campaign::scenario::findings::Findings;
@@ -50,6 +51,8 @@ impl DriveScenario {
         let key = "generate.search.score";
         if KeptModel::file_of(score).is_some() {
             found.model(key, score, model.as_ref(), || of_drive(self));
+        } else if UserScore::file_of(score).is_some() {
+            found.user_score(key, score, search.user_score.as_ref());
         } else if score == EXECUTED {
             search.section().check_executed(key, found);
         } else if let Err(error) = GroundScore::named(score) {

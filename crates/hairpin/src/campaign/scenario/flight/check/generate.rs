@@ -1,5 +1,6 @@
 //! Bounds of `[generate]`.
 
+use crate::campaign::UserScore;
 use crate::campaign::learn::{KeptModel, of_flight};
 use crate::campaign::scenario::findings::Findings;
 use crate::campaign::scenario::{
@@ -74,10 +75,12 @@ fn check_score(scenario: &FlightScenario, found: &mut Findings) {
     let key = "generate.score";
     if KeptModel::file_of(score).is_some() {
         found.model(key, score, model.as_ref(), || of_flight(scenario));
+    } else if UserScore::file_of(score).is_some() {
+        found.user_score(key, score, scenario.generate.user_score.as_ref());
     } else if score == EXECUTED {
         scenario.generate.search.check_executed(key, found);
     } else {
-        let bound = format!("one of {}, {EXECUTED}, or learned:MODEL", Score::NAMES.join(", "));
+        let bound = format!("one of {}, {EXECUTED}, learned:MODEL, or python:FILE", Score::NAMES.join(", "));
         found.require(Score::NAMES.contains(&score.as_str()), key, format!("\"{score}\""), &bound);
     }
 }

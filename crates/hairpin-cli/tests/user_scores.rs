@@ -1,0 +1,108 @@
+//! Scores of the user's own: Python files that tell legs apart.
+
+mod commands;
+
+use std::fs;
+use std::path::Path;
+
+use commands::{assert_same, json, refused, small_hull};
+use hairpin::campaign::Case;
+use hairpin_formats::folder::CampaignFolder;
+
+const SEARCH: &str = r#"{ method = "exact", waypoints = 60, cases = 3 }
+score = "python:my score.py""#;
+
+fn begin(here: &Path, score: &str) {
+    fs::write(here.join("q.toml"), small_hull(SEARCH)).unwrap();
+    fs::write(here.join("my score.py"), score).unwrap();
+}
+
+fn cases(folder: &Path) -> Vec<Case> {
+    CampaignFolder::open(folder).unwrap().read_cases().unwrap()
+}
+
+fn lengths(case: &Case) -> Vec<f64> {
+    case.waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect()
+}
+
+#[test]
+fn exact_and_beam_take_scores_of_the_users() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    // What it prints is no answer.
+    begin(here, "import math\nprint('hello')\ndef score(leg):\n    return math.dist(leg['from_m'], leg['to_m'])\n");
+    let exact = json(here, &["generate", "q.toml", "--out", "exact"]);
+    assert_eq!(exact["counts"]["cases"], 3, "{exact}");
+    let (found, beam) = (cases(&here.join("exact")), ["--set", "generate.search.method=\"beam\""]);
+    json(here, &[&["generate", "q.toml", "--out", "beam"][..], &beam].concat());
+    for (best, other) in found.iter().zip(cases(&here.join("beam"))) {
+        assert!((best.score - lengths(best).iter().sum::<f64>()).abs() < 1e-9, "{best:?}");
+        assert!(best.gap() == Some(0.0) && best.score >= other.score - 1e-9, "{} {}", best.score, other.score);
+        assert!((other.score - lengths(&other).iter().sum::<f64>()).abs() < 1e-9);
+    }
+    // Legs of a step are as long as they are fast: the score by hand that says the same finds the same.
+    let named = ["--set", "generate.score=\"high-velocity\""];
+    json(here, &[&["generate", "q.toml", "--out", "named"][..], &named].concat());
+    let waypoints = |folder: &str| cases(&here.join(folder)).into_iter().map(|case| case.waypoints).collect::<Vec<_>>();
+    assert_eq!(waypoints("exact"), waypoints("named"));
+
+    // A folder stands alone: the file is in it. Threads change nothing.
+    json(here, &["generate", "q.toml", "--out", "one", "--threads", "1"]);
+    assert_same(&here.join("exact"), &here.join("one"));
+    fs::rename(here.join("my score.py"), here.join("moved.py")).unwrap();
+    assert!(here.join("exact/score.py").is_file());
+    json(here, &["execute", "exact"]);
+    json(here, &["judge", "exact"]);
+}
+
+#[test]
+fn what_a_leg_leaves_to_the_next_is_added() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    begin(here, "def score(leg):\n    return 0\ndef left(leg):\n    return leg['length_m']\n");
+    json(here, &["generate", "q.toml", "--out", "a"]);
+    for case in cases(&here.join("a")) {
+        let all = lengths(&case);
+        let told: f64 = all[..all.len() - 1].iter().sum();
+        assert!((case.score - told).abs() < 1e-9 && case.gap() == Some(0.0), "{}: {told}", case.score);
+    }
+}
+
+#[test]
+fn drives_are_scored_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("mine.py"), "def score(leg):\n    return -leg['length_m']\n").unwrap();
+    let sets = ["search.score=\"python:mine.py\"", "search.method=\"exact\"", "search.waypoints=16", "search.cases=1"];
+    let sets: Vec<String> = sets.iter().map(|set| format!("generate.{set}")).chain(["task.length=3".into()]).collect();
+    let mut typed = vec!["generate", "differential-drive", "--out", "a"];
+    typed.extend(sets.iter().flat_map(|set| ["--set", set]));
+    json(here, &typed);
+    let case = &cases(&here.join("a"))[0];
+    let along: f64 = case.waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+    assert!((case.score + along).abs() < 1e-6, "{} {along}", case.score);
+}
+
+#[test]
+fn what_goes_wrong_is_told_with_file_and_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let generate = ["generate", "q.toml", "--out", "a", "--force"];
+    for (text, words) in [
+        ("def score(leg):\n    return 1 / 0\n", &["my score.py", "line 2", "ZeroDivisionError"][..]),
+        ("def score(leg):\n    return leg['speed']\n", &["line 2", "KeyError: 'speed'"]),
+        ("def score(leg):\n    return 'much'\n", &["generate.score", "could not convert"]),
+        ("def score(leg)\n", &["line 1", "SyntaxError"]),
+        ("import sys\nsys.exit(3)\n", &["generate.score", "SystemExit: 3"]),
+        ("def score(leg):\n    return float('nan')\n", &["nan is no finite number, of the leg", "'climb_m'"]),
+        ("x = 1\n", &["it defines no function score(leg)"]),
+    ] {
+        begin(here, text);
+        refused(here, &generate, words);
+    }
+    fs::remove_file(here.join("my score.py")).unwrap();
+    refused(here, &generate, &["generate.score", "my score.py", "cannot be read"]);
+    begin(here, "def score(leg):\n    return 1\n");
+    let adaptive = ["--set", "generate.search.method=\"adaptive\""];
+    refused(here, &[&generate[..], &adaptive].concat(), &["generate.score", "learns its own"]);
+}

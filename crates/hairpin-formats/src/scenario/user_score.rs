@@ -1,0 +1,217 @@
+//! Scores of the user's own: the Python file that `score = "python:FILE"` names.
+//!
+//! The file defines `score(leg)` and, if legs leave something to the next, `left(leg)`; `leg` is a dictionary. Both must be functions of
+//! the leg alone. Python runs beside hairpin, one process for each thread that asks; nothing of the file runs before a leg is scored.
+
+use std::collections::HashMap;
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::mpsc::Receiver;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use hairpin::campaign::user_score::NAME;
+use hairpin::campaign::{LegScorer, Scenario, UserScore};
+use hairpin::search::LegView;
+use serde_json::json;
+
+use super::Wrong;
+use super::resolve::read_file;
+use crate::executor::{self, Tail};
+
+/// Asks the user's functions.
+const DRIVER: &str = include_str!("score.py");
+/// Legs whose scores are kept, so that one that is asked for again costs no question.
+const MOST_KNOWN: usize = 1 << 20;
+/// What its last words are waited for, and what it is given to end.
+const AFTERMATH: Duration = Duration::from_millis(300);
+
+/// Reads the score of the user's own that `scenario` scores by, if it does. A resolved scenario's is [`NAME`].
+pub(super) fn read(scenario: &mut Scenario, base: &Path) -> Result<(), Wrong> {
+    let (key, score, user) = match scenario {
+        Scenario::Flight(scenario) => {
+            let generate = &mut scenario.generate;
+            ("generate.score", &mut generate.score, &mut generate.user_score)
+        }
+        Scenario::Drive(scenario) => {
+            let search = &mut scenario.generate.search;
+            ("generate.search.score", &mut search.score, &mut search.user_score)
+        }
+        Scenario::Arm(_) => return Ok(()),
+    };
+    let Some(file) = UserScore::file_of(score) else { return Ok(()) };
+    let path = base.join(file);
+    let wrong = |bound: String| (key.to_owned(), score.clone(), bound);
+    let bytes = read_file(&path).map_err(|why| wrong(format!("`{file}` cannot be read: {why}")))?;
+    *user = Some(UserScore { bytes: bytes.into(), scorer: Arc::new(PythonScore::new(path, score)) });
+    *score = UserScore::score();
+    Ok(())
+}
+
+/// As [`read`], for a resolved scenario that lies in `folder`, as beside a repro file, or in the folder above.
+pub(super) fn attach(scenario: &mut Scenario, folder: &Path) -> Result<(), Wrong> {
+    let above = folder.join("..");
+    read(scenario, if folder.join(NAME).is_file() { folder } else { &above })
+}
+
+/// What is known of a leg, as bits.
+type Key = [u64; 14];
+
+struct PythonScore {
+    path: PathBuf,
+    /// As the scenario names it.
+    given: String,
+    /// Those that nobody asks just now.
+    idle: Mutex<Vec<Worker>>,
+    known: Mutex<HashMap<Key, [f64; 2]>>,
+    trouble: Mutex<Option<String>>,
+}
+
+/// A running Python.
+struct Worker {
+    child: Child,
+    asked: ChildStdin,
+    answers: BufReader<ChildStdout>,
+    log: Tail,
+    log_closed: Receiver<()>,
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        let _ = executor::end(&mut self.child, Duration::ZERO, AFTERMATH);
+    }
+}
+
+impl PythonScore {
+    fn new(path: PathBuf, given: &str) -> Self {
+        let (idle, known, trouble) = (Mutex::default(), Mutex::default(), Mutex::default());
+        Self { path, given: given.to_owned(), idle, known, trouble }
+    }
+
+    fn ask(&self, legs: &[&LegView<'_>]) -> Result<Vec<[f64; 2]>, String> {
+        let idle = held(&self.idle).pop();
+        let mut worker = idle.map_or_else(|| Worker::start(&self.path), Ok)?;
+        let answer = worker.ask(legs)?;
+        held(&self.idle).push(worker);
+        Ok(answer)
+    }
+}
+
+impl Worker {
+    fn start(path: &Path) -> Result<Self, String> {
+        let mut python = Command::new("python3");
+        python.args(["-c", DRIVER]).arg(path).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = executor::start(&mut python).map_err(|error| format!("python3 cannot be started: {error}"))?;
+        let (Some(asked), Some(answers), Some(log)) = (child.stdin.take(), child.stdout.take(), child.stderr.take())
+        else {
+            unreachable!("all three streams were asked to be pipes")
+        };
+        let (log, log_closed) = Tail::follow(log);
+        Ok(Self { child, asked, answers: BufReader::new(answers), log, log_closed })
+    }
+
+    fn ask(&mut self, legs: &[&LegView<'_>]) -> Result<Vec<[f64; 2]>, String> {
+        let told: Vec<_> = legs.iter().map(|leg| as_json(leg)).collect();
+        let mut line = String::new();
+        let spoken = serde_json::to_writer(&mut self.asked, &told)
+            .map_err(std::io::Error::from)
+            .and_then(|()| self.asked.write_all(b"\n"))
+            .and_then(|()| self.asked.flush())
+            .and_then(|()| self.answers.read_line(&mut line));
+        match (spoken, serde_json::from_str::<Vec<[f64; 2]>>(&line)) {
+            (Ok(_), Ok(parts)) if parts.len() == legs.len() => Ok(parts),
+            _ => Err(self.last_words()),
+        }
+    }
+
+    /// What it wrote to stderr before it ended.
+    fn last_words(&mut self) -> String {
+        // It closes when all is read, or the process is not going to end.
+        let _ = self.log_closed.recv_timeout(AFTERMATH);
+        let text = self.log.text();
+        let last = text.lines().next_back().unwrap_or_default().replace(|c: char| c.is_control(), " ");
+        if last.is_empty() { "it ended without an answer".into() } else { last }
+    }
+}
+
+fn as_json(leg: &LegView<'_>) -> serde_json::Value {
+    let place = |index: u32| leg.candidates[index as usize].coords.as_slice().to_vec();
+    let f = &leg.features;
+    json!([
+        f.v_in,
+        f.v_out,
+        f.turn,
+        f.length,
+        f.climb,
+        f.slope_in,
+        f.ground,
+        leg.duration,
+        place(leg.from),
+        place(leg.to),
+        place(0),
+        place(leg.candidates.len() as u32 - 1),
+    ])
+}
+
+fn key(leg: &LegView<'_>) -> Key {
+    let f = &leg.features;
+    let [from, to] = [leg.from, leg.to].map(|index| leg.candidates[index as usize]);
+    [
+        f.v_in,
+        f.v_out,
+        f.turn,
+        f.length,
+        f.climb,
+        f.slope_in,
+        f.ground,
+        leg.duration,
+        from.x,
+        from.y,
+        from.z,
+        to.x,
+        to.y,
+        to.z,
+    ]
+    .map(f64::to_bits)
+}
+
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl LegScorer for PythonScore {
+    fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+        if held(&self.trouble).is_some() {
+            return vec![[f64::NAN; 2]; legs.len()];
+        }
+        let keys: Vec<Key> = legs.iter().map(key).collect();
+        let mut parts: Vec<Option<[f64; 2]>> = {
+            let known = held(&self.known);
+            keys.iter().map(|key| known.get(key).copied()).collect()
+        };
+        let unknown: Vec<usize> = (0..legs.len()).filter(|place| parts[*place].is_none()).collect();
+        if !unknown.is_empty() {
+            match self.ask(&unknown.iter().map(|place| &legs[*place]).collect::<Vec<_>>()) {
+                Ok(answers) => {
+                    let mut known = held(&self.known);
+                    if known.len() + answers.len() > MOST_KNOWN {
+                        known.clear();
+                    }
+                    for (place, answer) in unknown.into_iter().zip(answers) {
+                        known.insert(keys[place], answer);
+                        parts[place] = Some(answer);
+                    }
+                }
+                Err(why) => {
+                    held(&self.trouble).get_or_insert(format!("{}: {why}", self.given));
+                }
+            }
+        }
+        parts.into_iter().map(|part| part.unwrap_or([f64::NAN; 2])).collect()
+    }
+
+    fn trouble(&self) -> Option<String> {
+        held(&self.trouble).clone()
+    }
+}
