@@ -5,7 +5,7 @@ mod commands;
 use std::fs;
 use std::path::Path;
 
-use commands::{json, refused, run, small_hull};
+use commands::{json, refused, small_hull};
 use hairpin_formats::folder::CampaignFolder;
 
 /// What is searched.
