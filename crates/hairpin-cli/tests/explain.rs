@@ -122,6 +122,16 @@ fn drives_and_arms_have_their_own_reasons() {
     assert!(object["deaths"]["left"].as_u64().unwrap() > 0, "{object}");
     assert_eq!(json(here, &["explain", "demo-arm"])["exit_code"], 0);
 
+    // A clearance that no place has is no mistake in the number of points.
+    let wide = ["demo-arm", "--set", "generate.moves.clearance_mm=400"];
+    let object = json(here, &[&["explain"], &wide[..]].concat());
+    assert!(object["exit_code"] == 3 && object["deaths"]["asked"] == 0, "{object}");
+    assert!(object["verdict"].as_str().unwrap().contains("generate.moves.clearance_mm = 400"), "{object}");
+    let least = change(&object, "generate.moves.clearance_mm").unwrap();
+    assert!(least["to"].as_f64().unwrap() < 400.0, "{object}");
+    let (code, out, _) = run(here, &[&["generate"], &wide[..], &["--out", "wide"]].concat());
+    assert!(code == 3 && out.contains("generate.moves.clearance_mm = 400"), "{out}");
+
     // Keep-outs are left out like obstacles.
     let out = ["explain", "demo-arm", "--set", "world.obstacles=[]", "--set", "world.keep_out_mm=[\"z > 0\"]"];
     let given = [&out[..], &["--set", "task.points=[[300,0,400],[300,100,300]]"]].concat();
