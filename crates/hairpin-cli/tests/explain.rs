@@ -76,6 +76,11 @@ fn a_flight_that_is_too_slow_for_its_end_needs_speed_or_waypoints() {
     assert_eq!(asked, counted + object["deaths"]["left"].as_u64().unwrap());
     assert!(lost(&object, "limits") > asked / 2, "{object}");
 
+    // A key that is off by a unit or two is found as well.
+    let far =
+        json(here, &[&slow[..], &["--set", "generate.limits.max_speed_m_s=0.1", "--set", "task.length=12"]].concat());
+    holds(here, &[&slow[..], &["--set", "task.length=12"]].concat(), "generate.limits.max_speed_m_s", &far);
+
     // Where something is feasible, nothing has to change.
     let (code, out, _) = run(here, &FLIGHT);
     assert!(code == 0 && out.lines().last().unwrap().starts_with("FEASIBLE (hull): "), "{out}");
@@ -116,6 +121,25 @@ fn drives_and_arms_have_their_own_reasons() {
     assert!(least > 100.0 && least < 1e6, "{object}");
     assert!(object["deaths"]["left"].as_u64().unwrap() > 0, "{object}");
     assert_eq!(json(here, &["explain", "demo-arm"])["exit_code"], 0);
+
+    // A clearance that no place has is no mistake in the number of points.
+    let wide = ["demo-arm", "--set", "generate.moves.clearance_mm=400"];
+    let object = json(here, &[&["explain"], &wide[..]].concat());
+    assert!(object["exit_code"] == 3 && object["deaths"]["asked"] == 0, "{object}");
+    assert!(object["verdict"].as_str().unwrap().contains("generate.moves.clearance_mm = 400"), "{object}");
+    let least = change(&object, "generate.moves.clearance_mm").unwrap();
+    assert!(least["to"].as_f64().unwrap() < 400.0, "{object}");
+    let (code, out, _) = run(here, &[&["generate"], &wide[..], &["--out", "wide"]].concat());
+    assert!(code == 3 && out.contains("generate.moves.clearance_mm = 400"), "{out}");
+
+    // Keep-outs are left out like obstacles.
+    let out = ["explain", "demo-arm", "--set", "world.obstacles=[]", "--set", "world.keep_out_mm=[\"z > 0\"]"];
+    let given = [&out[..], &["--set", "task.points=[[300,0,400],[300,100,300]]"]].concat();
+    let object = json(here, &given);
+    assert_eq!(
+        (&object["exit_code"], &change(&object, "world.keep_out_mm").unwrap()["words"]),
+        (&3.into(), &"no keep-outs".into())
+    );
 
     // Where arcs are moves of the graph they are counted with them.
     let [without, with] = ["false", "true"].map(|arcs| {

@@ -75,6 +75,13 @@ fn flights_drives_and_programs_say_what_they_exercised() {
     run(here, &[&SMALL[..], &["--out", "flight"]].concat());
     run(here, &["stress", "demo-rover", "--set", "generate.search.cases=1", "--out", "drive"]);
     run(here, &["stress", "demo-arm", "--out", "arm"]);
+    // Stress is told with its unit, of arms in mm.
+    for (name, unit) in [("flight", " m,"), ("arm", " mm,")] {
+        let (_, out, _) = run(here, &["select", name, "--cases", "1", "--out", &format!("one-{name}")]);
+        let told = out.lines().find(|line| line.starts_with("SELECTED 1 of ")).unwrap_or_else(|| panic!("{out}"));
+        assert!(told.split(" spread").next().unwrap().ends_with(unit), "{told}");
+        assert!(out.contains(&format!("worst{}", &unit[..unit.len() - 1])), "{out}");
+    }
     let table = fs::read_to_string(here.join("flight/coverage.tsv")).unwrap();
     assert!(table.starts_with(
         "speed_from_m_s\tspeed_to_m_s\tturn_from_deg\tturn_to_deg\tclimb_from_deg\tclimb_to_deg\tcases\n"

@@ -116,6 +116,30 @@ fn several_mistakes_are_told_at_once() {
 }
 
 #[test]
+fn keys_that_vary_are_told_the_nearest_one_too() {
+    for (around, key, words) in [
+        ("quadrotor", "robot.mas_kg", "no `robot.mas_kg`: did you mean `mass_kg`? valid in `robot`: "),
+        ("quadrotor", "world.obstacles[0].box.sise_m", "did you mean `size_m`? valid in `world.obstacles[0].box`: "),
+        ("quadrotor", "exeute.controller", "no `exeute`: did you mean `execute`? valid: hairpin, "),
+        // Of several kinds of robots the keys of the one that there is.
+        ("car", "robot.max_speed_m_s", "did you mean `speed_m_s`? valid in `robot`: "),
+        ("car", "robot.wheelbas_m", "did you mean `wheelbase_m`? valid in `robot`: "),
+        ("differential-drive", "robot.wheelbase_m", "no `robot.wheelbase_m`: "),
+        ("car", "execute.latncy_s", "did you mean `latency_s`? valid in `execute`: "),
+        ("arm", "generate.moves.clearance", "did you mean `clearance_mm`? valid in `generate.moves`: "),
+    ] {
+        let wall = ("world.obstacles", "[{ name = \"wall\", box = { center_m = [9, 5, 5], size_m = [1, 1, 1] } }]");
+        let drawn = (format!("vary.\"{key}\""), "{ uniform = [1, 2] }");
+        let walled = key.starts_with("world").then_some((wall.0.to_owned(), wall.1));
+        let sets: Vec<_> = walled.into_iter().chain([drawn]).map(|(key, value)| (key, value.to_owned())).collect();
+        let told = hairpin_formats::scenario::scenario_for(around, &sets).unwrap_err();
+        let [one] = told.complaints() else { panic!("{told}") };
+        assert!(one.field == format!("vary.\"{key}\"") && one.message.contains(words), "{told}");
+        assert!(!one.message.contains("untagged"), "{told}");
+    }
+}
+
+#[test]
 fn machines_get_fields() {
     let told = with("length = 10", "length = 1").to_json();
     let length = &told[0];

@@ -64,7 +64,7 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
         });
         console::say(&answer.to_string());
     } else {
-        let unit = if model.unit.is_empty() { String::new() } else { format!(" {}", model.unit) };
+        let error = |rmse: f64| told_error(rmse, &model.unit, work.setup.arm().is_some());
         let rank = held_out.rank_correlation.map_or("none".into(), |rank| format!("{rank:.2}"));
         console::say(&format!(
             "{}: {} of {} legs of {} trajectories, degree {}, penalty {:e}",
@@ -76,9 +76,13 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
             model.polynomial.penalty,
         ));
         console::say(&format!(
-            "cross-validation: R² {:.3}, error {:.3}{unit}; {} trajectories held out: R² {:.3}, error {:.3}{unit}, rank correlation \
-             of their largest {rank}",
-            validation.r2, validation.rmse, held_out.trajectories, held_out.r2, held_out.rmse,
+            "cross-validation: R² {:.3}, error {}; {} trajectories held out: R² {:.3}, error {}, rank correlation of their largest \
+             {rank}",
+            validation.r2,
+            error(validation.rmse),
+            held_out.trajectories,
+            held_out.r2,
+            error(held_out.rmse),
         ));
         let key = match work.setup.kind() {
             Kind::Flight(_) => "generate.score",
@@ -88,4 +92,30 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
         console::say(&format!("use it: {key} = \"learned:{}\"", asked.out.display()));
     }
     Ok(0)
+}
+
+/// An error with three significant digits and its unit; of arms, whose users count in mm, in mm.
+fn told_error(rmse: f64, unit: &str, arm: bool) -> String {
+    let (error, unit) = if arm && unit == "m" { (1e3 * rmse, "mm") } else { (rmse, unit) };
+    let decimals = if error > 0.0 { (2.0 - libm::log10(error).floor()).clamp(0.0, 12.0) as usize } else { 0 };
+    format!("{error:.decimals$} {unit}").trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_have_digits_that_say_something() {
+        for (rmse, unit, arm, told) in [
+            (0.4123, "m", false, "0.412 m"),
+            (0.000_214, "m", true, "0.214 mm"),
+            (0.000_214, "m", false, "0.000214 m"),
+            (1234.5, "rad²/s³", true, "1234 rad²/s³"),
+            (0.012, "", false, "0.0120"),
+            (0.0, "s", false, "0 s"),
+        ] {
+            assert_eq!(told_error(rmse, unit, arm), told);
+        }
+    }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use hairpin::campaign::learn::NAME;
 use hairpin::campaign::report::number;
-use hairpin::campaign::select::{By, Candidate, Choice, Measured};
+use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, Grid, Setup, Tally, vary};
 use hairpin_formats::folder::CampaignFolder;
 use rayon::prelude::*;
@@ -51,13 +51,14 @@ pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
     let names: Vec<String> = places.iter().map(|place| cases[*place].id()).collect();
     let cells = Grid::of(&work.setup).cells();
     let [found, stressful, whole] = &measured;
+    let stress = Stress::of(&work, &candidates);
     let sentence = format!(
         "SELECTED {count} of {} cases: stress {}, spread {:.2}, {} of {cells} cells; the {count} most stressful: {}, {:.2}, {}",
         cases.len(),
-        number(Some(found.stress)),
+        stress.with_unit(found.stress),
         found.spread,
         found.cells,
-        number(Some(stressful.stress)),
+        stress.with_unit(stressful.stress),
         stressful.spread,
         stressful.cells,
     );
@@ -69,12 +70,42 @@ pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
         });
         console::say(&object.to_string());
     } else {
-        tell(&measured, by);
+        tell(&measured, by, &stress);
         console::say(&format!("in the order of choice: {}", names.join(", ")));
         console::say(&sentence);
         console::warn(&format!("folder: {}", folder.path().display()));
     }
     Ok(0)
+}
+
+/// How stress is told: deviations in m, those of arms in mm as everywhere; scores, of cases that were not executed, have no unit.
+struct Stress {
+    factor: f64,
+    unit: &'static str,
+}
+
+impl Stress {
+    fn of(work: &Work, candidates: &[Candidate]) -> Self {
+        let (factor, unit) = match (select::measured(candidates), work.setup.arm().is_some()) {
+            (false, _) => (1.0, ""),
+            (true, false) => (1.0, "m"),
+            (true, true) => (1e3, "mm"),
+        };
+        Self { factor, unit }
+    }
+
+    fn number(&self, value: f64) -> String {
+        number(Some(self.factor * value))
+    }
+
+    fn with_unit(&self, value: f64) -> String {
+        self.headed(&self.number(value))
+    }
+
+    /// `words` with the unit behind them, if there is one.
+    fn headed(&self, words: &str) -> String {
+        format!("{words} {}", self.unit).trim_end().to_owned()
+    }
 }
 
 fn same_place(a: &Path, b: &Path) -> bool {
@@ -145,14 +176,17 @@ fn write(work: &Work, asked: &Select, chosen: &[Case]) -> Result<CampaignFolder,
     Ok(new.folder)
 }
 
-fn tell(measured: &[Measured; 3], by: By) {
-    let header = ["", "cases", "mean stress", "worst", "spread", "nearest pair", "cells"].map(str::to_owned).to_vec();
+fn tell(measured: &[Measured; 3], by: By, stress: &Stress) {
+    let header = ["", "cases", "mean stress", "worst", "spread", "nearest pair", "cells"];
+    let header = header
+        .map(|name| if name == "mean stress" || name == "worst" { stress.headed(name) } else { name.into() })
+        .to_vec();
     let rows = ["chosen", "most stressful", "all"].iter().zip(measured).map(|(name, one)| {
         vec![
             (*name).to_owned(),
             one.cases.to_string(),
-            number(Some(one.stress)),
-            number(Some(one.worst)),
+            stress.number(one.stress),
+            stress.number(one.worst),
             format!("{:.3}", one.spread),
             format!("{:.3}", one.nearest),
             one.cells.to_string(),

@@ -197,8 +197,9 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
     }
     for mistake in scenario.check() {
         let place = place_of(&root, &mistake.key);
-        let message = format!("`{}` = {}: must be {}", mistake.key, mistake.value, mistake.bound);
-        report.complain(&place, &mistake.key, &mistake.value, &format!("must be {}", mistake.bound), message);
+        let bound = shape::unknown_in_vary(&schema, &root, &mistake.key).unwrap_or(mistake.bound);
+        let message = format!("`{}` = {}: must be {bound}", mistake.key, mistake.value);
+        report.complain(&place, &mistake.key, &mistake.value, &format!("must be {bound}"), message);
     }
     Some(scenario)
 }

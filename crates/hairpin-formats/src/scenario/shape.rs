@@ -1,10 +1,14 @@
 //! Whether a tree has the shape of the types: keys, types, words. The JSON Schema of the types is the yardstick, so
 //! that nothing is said twice, and every mistake of a file is told at once.
 
+mod vary;
+
 use serde_json::Value;
 
 use super::report::Report;
 use super::tree::{Kind, Node, below};
+
+pub(super) use vary::unknown_in_vary;
 
 /// Compares `node`, at the dotted key `path`, with `schema`; mistakes go to `report`.
 pub(super) fn check(schema: &Value, node: &Node, path: &str, report: &mut Report) {
@@ -159,17 +163,21 @@ impl<'s> Shape<'s> {
     }
 
     fn unknown_key(&mut self, schema: &Value, name: &str, node: &Node, path: &str) {
-        let known = schema["properties"].as_object();
-        let here: Vec<&str> = known.into_iter().flat_map(|known| known.keys()).map(String::as_str).collect();
-        let list = here.join(", ");
-        let mut elsewhere = Vec::new();
-        self.find_key(self.root, name, "", 0, &mut elsewhere);
-        let meant = nearest(name, here.iter().copied()).map(str::to_owned).or(elsewhere.into_iter().next());
-        let hint = meant.map_or(String::new(), |key| format!("did you mean `{key}`? "));
+        let (hint, list) = self.instead_of(schema, name);
         let place = node.key.as_ref().unwrap_or(&node.place);
         let message = format!("unknown key `{path}`: {hint}valid here: {list}");
         let bound = if hint.is_empty() { "no such key".into() } else { hint.trim_end().to_owned() };
         self.report.complain(place, path, &node.describe(), &bound, message);
+    }
+
+    /// The key that `name`, which `schema` has not, was meant to be, as a question, and the keys that it has.
+    fn instead_of(&self, schema: &Value, name: &str) -> (String, String) {
+        let known = schema["properties"].as_object();
+        let here: Vec<&str> = known.into_iter().flat_map(|known| known.keys()).map(String::as_str).collect();
+        let mut elsewhere = Vec::new();
+        self.find_key(self.root, name, "", 0, &mut elsewhere);
+        let meant = nearest(name, here.iter().copied()).map(str::to_owned).or(elsewhere.into_iter().next());
+        (meant.map_or(String::new(), |key| format!("did you mean `{key}`? ")), here.join(", "))
     }
 
     /// Where else in the file a key of this name is known.

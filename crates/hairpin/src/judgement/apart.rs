@@ -1,10 +1,13 @@
 //! Numbers that must be seen to differ.
 
-/// Two numbers with as many decimals as it takes to see that they differ: at least `least`.
+/// Two numbers with as many decimals as it takes to see that they differ, and how far a value below zero is below it: at least `least`.
 pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {
+    // Of −0 too: what is nothing has no sign.
+    let value = if value.abs() < 1e-12 { 0.0 } else { value };
     for decimals in least..12 {
         let pair = (format!("{value:.decimals$}"), format!("{limit:.decimals$}"));
-        if pair.0 != pair.1 || value == limit {
+        let shown = value >= 0.0 || pair.0.bytes().any(|digit| (b'1'..=b'9').contains(&digit));
+        if shown && (pair.0 != pair.1 || value == limit) {
             return pair;
         }
     }
@@ -18,6 +21,8 @@ mod tests {
     #[test]
     fn digits_show_the_difference() {
         assert_eq!(apart(0.500_04, 0.5, 2), ("0.50004".into(), "0.50000".into()));
+        assert_eq!(apart(-0.002, 0.25, 2), ("-0.002".into(), "0.250".into()));
+        assert_eq!(apart(-0.0, 0.25, 2), ("0.00".into(), "0.25".into()));
         assert_eq!(apart(0.65, 0.5, 2), ("0.65".into(), "0.50".into()));
     }
 }

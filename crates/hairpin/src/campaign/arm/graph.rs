@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Point3};
 
+use super::points::DRAWS;
 use super::{ArmSetup, Station};
 use crate::campaign::scenario::{ArmMode, ArmScenario, CostName, CostSection, MoveName};
 use crate::feasibility::reachability::joint::{
@@ -96,9 +97,12 @@ pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
 /// The graph of `setup`, whether or not it has a way.
 ///
 /// # Errors
-/// A table of costs of another size, in a sentence's part.
+/// No point could be drawn, or a table of costs of another size, in a sentence's part.
 pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
     let (station, scenario) = (setup.station, setup.scenario);
+    if station.points.is_empty() {
+        return Err(nowhere(scenario));
+    }
     let cost = cost_of(scenario, station.points.len())?;
     let learned = matches!(scenario.generate.cost, CostSection::Learned(_));
     if scenario.generate.mode == ArmMode::Cartesian && (learned || !matches!(cost, Cost::Distance | Cost::Table(_))) {
@@ -124,6 +128,17 @@ impl ArmSetup<'_> {
             .next()
             .map_or_else(String::new, |(row, refusal)| format!("{}: {}", self.point_name(row), refusal.told(&names)))
     }
+}
+
+/// Why no point could be drawn.
+fn nowhere(scenario: &ArmScenario) -> String {
+    let clearance = scenario.generate.moves.clearance_mm;
+    let beside =
+        scenario.spec.path.map_or(String::new(), |limit| format!(" and the {} mm of spec.path.max_mm", limit.max_mm));
+    format!(
+        "no point can be drawn: of {DRAWS} places within reach the arm can stand at none, and come to it from home, with \
+         generate.moves.clearance_mm = {clearance}{beside} kept from all that is in the cell"
+    )
 }
 
 fn in_space(setup: &ArmSetup, cost: &Cost) -> ArmGraph {

@@ -19,13 +19,13 @@ pub struct CellPoint {
 }
 
 /// Draws per point that is asked for: in a cell where fewer than one in so many fits, the cell is at fault.
-const DRAWS: usize = 20_000;
+pub(super) const DRAWS: usize = 20_000;
 
 /// The points of a resolved scenario. `fits` says whether the arm can stand at a drawn pose, and `reach` is the ball (centre and
 /// radius, m, base frame) that it can stand in.
 ///
 /// # Errors
-/// The key of a point that is no point, or no place left for drawn ones.
+/// The key of a point that is no point, or places for some of the drawn ones only.
 pub(super) fn points_of(
     scenario: &ArmScenario,
     work_object: &WorkObject,
@@ -76,7 +76,7 @@ fn at(place: Vector3<f64>, turn: UnitQuaternion<f64>) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(place), turn)
 }
 
-/// Uniform in the ball, those that fit.
+/// Uniform in the ball, those that fit; none where none of so many draws fits.
 fn draw(
     seed: u64,
     drawn: &DrawnPoints,
@@ -92,6 +92,9 @@ fn draw(
         if fits(&pose) {
             points.push(CellPoint { pose, configuration: None });
             left = DRAWS;
+        } else if left == 0 && points.is_empty() {
+            // Not the count is at fault: the search tells that nothing is feasible, and why.
+            return Ok(points);
         } else if left == 0 {
             return Err(Mistake {
                 key: "task.points.count".into(),

@@ -59,22 +59,42 @@ impl Trial<'_> {
         Some(Change { key: self.knob.key, words: self.words(&from, &to), from, to, relative })
     }
 
+    /// The scenario with `value` at the key; none where no scenario may have it.
+    fn with(&self, value: &Value) -> Option<Setup> {
+        let draws = [(self.knob.key.to_owned(), value.clone())];
+        Setup::new(vary::apply(&self.setup.scenario, &draws).ok()?).ok()
+    }
+
     /// Whether something is feasible with `value` at the key.
     fn helps(&self, value: &Value) -> bool {
         if (self.stop.cancelled)() {
             return false;
         }
-        let draws = [(self.knob.key.to_owned(), value.clone())];
-        // Values that no scenario may have do not help.
-        let Ok(scenario) = vary::apply(&self.setup.scenario, &draws) else { return false };
-        let Ok(changed) = Setup::new(scenario) else { return false };
+        let Some(changed) = self.with(value) else { return false };
         searched(&changed.with_simd(self.setup.simd), false, self.stop).solved > 0
+    }
+
+    /// As far from `now` towards `loosest` as the key's own bounds let it be.
+    fn bounded(&self, now: f64, loosest: f64) -> f64 {
+        let may_be = |value: f64| self.with(&json!(rounded(now, value))).is_some();
+        if may_be(loosest) {
+            return loosest;
+        }
+        let (mut within, mut beyond) = (now, loosest);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (within + beyond);
+            if may_be(middle) { within = middle } else { beyond = middle }
+        }
+        within
     }
 
     /// The value nearest to `now` that helps: steps that double on the way to `loosest`, then bisection of the last one.
     fn number(&self, now: f64, loosest: f64) -> Option<f64> {
-        let whole_way = loosest - now;
-        let mut share = (0.1 * now / whole_way).abs().clamp(1e-3, 0.25);
+        let whole_way = self.bounded(now, loosest) - now;
+        if whole_way == 0.0 {
+            return None;
+        }
+        let mut share = (0.1 * now / whole_way).abs().clamp(1e-4, 0.25);
         let mut short = 0.0;
         while !self.helps(&json!(rounded(now, now + share * whole_way))) {
             if share >= 1.0 {

@@ -27,8 +27,8 @@ pub(super) enum Turn {
     Switch { value: Value, words: String },
 }
 
-/// Farthest from its value that a number is turned, where nothing else bounds it.
-const FARTHEST: f64 = 16.0;
+/// Farthest that a number is turned, in multiples of its value, where nothing else bounds it: who mistakes a unit is off by as much.
+const FARTHEST: f64 = 1000.0;
 
 /// The keys of a scenario, those first that are thought of first.
 pub(super) fn knobs(setup: &Setup) -> Vec<Knob> {
@@ -129,6 +129,7 @@ fn of_arm(scenario: &ArmScenario) -> Vec<Knob> {
     };
     let allowed = scenario.spec.path.map(|limit| limit.max_mm);
     let obstacles = !scenario.world.obstacles.is_empty();
+    let keep_outs = !scenario.world.keep_out_mm.is_empty();
     let (clearance, margin) = (moves.clearance_mm, moves.singularity_margin_deg);
     [
         (clearance > 0.0).then(|| number("generate.moves.clearance_mm", clearance, 0.0, "mm")).flatten(),
@@ -139,6 +140,7 @@ fn of_arm(scenario: &ArmScenario) -> Vec<Knob> {
         search.start.and_then(|_| switch("generate.search.start", Value::Null, "any first point")),
         search.end.and_then(|_| switch("generate.search.end", Value::Null, "any last point")),
         obstacles.then(|| switch("world.obstacles", json!([]), "no obstacles")).flatten(),
+        keep_outs.then(|| switch("world.keep_out_mm", json!([]), "no keep-outs")).flatten(),
         switch("generate.moves.kind", json!("joint"), "joint moves"),
         drawn,
     ]

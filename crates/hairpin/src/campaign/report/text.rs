@@ -5,10 +5,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::campaign::CaseResult;
 use crate::judgement::Violation;
 
-/// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing.
+/// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing. Nothing is never less than
+/// nothing: what these digits do not show has no sign.
 pub fn number(value: Option<f64>) -> String {
     match value {
         None => "–".into(),
+        Some(v) if v.abs() < 0.000_005 => "0.00".into(),
         Some(v) if v != 0.0 && v.abs() < 0.00995 => format!("{v:.5}"),
         Some(v) if v.abs() < 99.995 => format!("{v:.2}"),
         Some(v) if v.abs() < 999.95 => format!("{v:.1}"),
@@ -135,6 +137,8 @@ mod tests {
     #[test]
     fn numbers_keep_what_a_screen_shows() {
         assert_eq!(number(Some(0.654)), "0.65");
+        assert_eq!((number(Some(-0.0)), number(Some(-1e-12))), ("0.00".into(), "0.00".into()));
+        assert_eq!(number(Some(-0.004)), "-0.00400");
         assert_eq!(number(Some(123.44)), "123.4");
         assert_eq!(number(Some(1234.4)), "1234");
         assert_eq!(number(None), "–");

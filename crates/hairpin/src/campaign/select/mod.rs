@@ -73,6 +73,11 @@ impl Candidate {
     }
 }
 
+/// Whether all of `candidates` were executed and measured: their stress is a deviation, m, then.
+pub fn measured(candidates: &[Candidate]) -> bool {
+    candidates.iter().all(|candidate| !candidate.behaviour.is_empty())
+}
+
 fn behaviour(m: &Measures) -> Vec<f64> {
     vec![
         m.max_deviation,
@@ -135,7 +140,7 @@ impl<'a> Choice<'a> {
     pub fn new(candidates: &'a [Candidate]) -> Self {
         let stress = unit(&candidates.iter().map(|c| c.stress).collect::<Vec<_>>());
         let n = candidates.len();
-        let behaved = candidates.iter().all(|c| !c.behaviour.is_empty());
+        let behaved = measured(candidates);
         let measures = candidates.first().map_or(0, |c| c.behaviour.len());
         let columns: Vec<Vec<f64>> = if behaved {
             (0..measures).map(|m| unit(&candidates.iter().map(|c| c.behaviour[m]).collect::<Vec<_>>())).collect()
