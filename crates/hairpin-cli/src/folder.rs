@@ -99,7 +99,9 @@ fn may_make(path: &Path, setup: &Setup, resume: bool, force: bool) -> Result<(),
         }
         if resume {
             let before = read(&old, &[])?;
-            if let Some(key) = first_difference(&before, &setup.scenario) {
+            let files = || before.files().into_iter().zip(setup.scenario.files());
+            let file = || files().find(|(before, now)| before != now).map(|((name, _), _)| name.to_owned());
+            if let Some(key) = first_difference(&before, &setup.scenario).or_else(file) {
                 return Err(Problem::input(format!(
                     "--resume: `{key}` is not what it was when {} was begun: give the same arguments, or another --out",
                     path.display()

@@ -178,16 +178,15 @@ fn wrong_input_costs_no_run() {
     refused(here, &["execute", "a", "--set", plans], &["`task` and `generate`", "must stay"]);
     assert_eq!(contents(&here.join("a")), before);
 
-    // Another kind of robot in the same folder: what was saved of the first is left out, and stays.
+    // Another kind of robot in the same folder: what was saved of the first is left out.
     let (code, ..) = run(here, &["judge", "a", "--set", "spec.deviation.max_m=0.001"]);
     assert_eq!(code, 1);
-    let saved = fs::read_dir(here.join("a/repro")).unwrap().count();
+    assert!(here.join("a/repro/0000.json").is_file());
     let drive = ["stress", "differential-drive", "--out", "a", "--force", "--set", "generate.search.cases=1"];
     let drive = [&drive[..], &["--set", "execute.repeat=1", "--set", "task.length=3"]].concat();
     refused(here, &[&drive[..], &["--repro", "a/repro"]].concat(), &["another kind of robot"]);
     let (code, _, error) = run(here, &drive);
     assert!([0, 1, 5].contains(&code) && error.contains("of another kind of robot and left out"), "{code}: {error}");
-    assert!(saved > 0 && fs::read_dir(here.join("a/repro")).unwrap().count() >= saved);
 }
 
 #[test]

@@ -49,6 +49,9 @@ fn exact_and_beam_take_scores_of_the_users() {
     // A folder stands alone: the file is in it. Threads change nothing.
     json(here, &["generate", "q.toml", "--out", "one", "--threads", "1"]);
     assert_same(&here.join("exact"), &here.join("one"));
+    let text = fs::read_to_string(here.join("my score.py")).unwrap();
+    fs::write(here.join("my score.py"), text.replace("return ", "return -")).unwrap();
+    refused(here, &["generate", "q.toml", "--out", "exact", "--resume"], &["`score.py` is not what it was"]);
     fs::rename(here.join("my score.py"), here.join("moved.py")).unwrap();
     assert!(here.join("exact/score.py").is_file());
     json(here, &["execute", "exact"]);

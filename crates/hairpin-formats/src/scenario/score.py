@@ -5,11 +5,6 @@ import os
 import sys
 import traceback
 
-NAMES = (
-    "v_in_m_s", "v_out_m_s", "turn_rad", "length_m", "climb_m", "slope_in", "ground", "duration_s",
-    "from_m", "to_m", "start_m", "end_m",
-)
-
 
 def number(value, leg):
     if not math.isfinite(float(value)):
@@ -30,8 +25,7 @@ def main(path):
     if not callable(score):
         raise TypeError("it defines no function score(leg)")
     for line in sys.stdin:
-        legs = [dict(zip(NAMES, leg)) for leg in json.loads(line)]
-        parts = [[number(score(leg), leg), number(left(leg), leg) if left else 0.0] for leg in legs]
+        parts = [[number(score(leg), leg), number(left(leg), leg) if left else 0.0] for leg in json.loads(line)]
         print(json.dumps(parts), file=answers, flush=True)
 
 

@@ -11,10 +11,8 @@ use std::sync::mpsc::Receiver;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use hairpin::campaign::user_score::NAME;
+use hairpin::campaign::user_score::{LegFacts, NAME};
 use hairpin::campaign::{LegScorer, Scenario, UserScore};
-use hairpin::search::LegView;
-use serde_json::json;
 
 use super::Wrong;
 use super::resolve::read_file;
@@ -56,7 +54,7 @@ pub(super) fn attach(scenario: &mut Scenario, folder: &Path) -> Result<(), Wrong
 }
 
 /// What is known of a leg, as bits.
-type Key = [u64; 14];
+type Key = [u64; 20];
 
 struct PythonScore {
     path: PathBuf,
@@ -89,7 +87,7 @@ impl PythonScore {
         Self { path, given: given.to_owned(), idle, known, trouble }
     }
 
-    fn ask(&self, legs: &[&LegView<'_>]) -> Result<Vec<[f64; 2]>, String> {
+    fn ask(&self, legs: &[&LegFacts]) -> Result<Vec<[f64; 2]>, String> {
         let idle = held(&self.idle).pop();
         let mut worker = idle.map_or_else(|| Worker::start(&self.path), Ok)?;
         let answer = worker.ask(legs)?;
@@ -111,14 +109,15 @@ impl Worker {
         Ok(Self { child, asked, answers: BufReader::new(answers), log, log_closed })
     }
 
-    fn ask(&mut self, legs: &[&LegView<'_>]) -> Result<Vec<[f64; 2]>, String> {
-        let told: Vec<_> = legs.iter().map(|leg| as_json(leg)).collect();
+    fn ask(&mut self, legs: &[&LegFacts]) -> Result<Vec<[f64; 2]>, String> {
         let mut line = String::new();
-        let spoken = serde_json::to_writer(&mut self.asked, &told)
-            .map_err(std::io::Error::from)
-            .and_then(|()| self.asked.write_all(b"\n"))
-            .and_then(|()| self.asked.flush())
-            .and_then(|()| self.answers.read_line(&mut line));
+        // A line at once: a pipe takes every write for itself.
+        let spoken = serde_json::to_vec(legs).map_err(std::io::Error::from).and_then(|mut question| {
+            question.push(b'\n');
+            self.asked.write_all(&question)?;
+            self.asked.flush()?;
+            self.answers.read_line(&mut line)
+        });
         match (spoken, serde_json::from_str::<Vec<[f64; 2]>>(&line)) {
             (Ok(_), Ok(parts)) if parts.len() == legs.len() => Ok(parts),
             _ => Err(self.last_words()),
@@ -135,45 +134,15 @@ impl Worker {
     }
 }
 
-fn as_json(leg: &LegView<'_>) -> serde_json::Value {
-    let place = |index: u32| leg.candidates[index as usize].coords.as_slice().to_vec();
-    let f = &leg.features;
-    json!([
-        f.v_in,
-        f.v_out,
-        f.turn,
-        f.length,
-        f.climb,
-        f.slope_in,
-        f.ground,
-        leg.duration,
-        place(leg.from),
-        place(leg.to),
-        place(0),
-        place(leg.candidates.len() as u32 - 1),
-    ])
-}
-
-fn key(leg: &LegView<'_>) -> Key {
-    let f = &leg.features;
-    let [from, to] = [leg.from, leg.to].map(|index| leg.candidates[index as usize]);
-    [
-        f.v_in,
-        f.v_out,
-        f.turn,
-        f.length,
-        f.climb,
-        f.slope_in,
-        f.ground,
-        leg.duration,
-        from.x,
-        from.y,
-        from.z,
-        to.x,
-        to.y,
-        to.z,
-    ]
-    .map(f64::to_bits)
+fn key(leg: &LegFacts) -> Key {
+    let LegFacts { v_in_m_s, v_out_m_s, turn_rad, length_m, climb_m, slope_in, ground, duration_s, .. } = *leg;
+    let places = [leg.from_m, leg.to_m, leg.start_m, leg.end_m];
+    let mut key = [0; 20];
+    let numbers = [v_in_m_s, v_out_m_s, turn_rad, length_m, climb_m, slope_in, ground, duration_s];
+    for (bits, number) in key.iter_mut().zip(numbers.iter().chain(places.as_flattened())) {
+        *bits = number.to_bits();
+    }
+    key
 }
 
 fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -181,7 +150,7 @@ fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl LegScorer for PythonScore {
-    fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+    fn parts(&self, legs: &[LegFacts]) -> Vec<[f64; 2]> {
         if held(&self.trouble).is_some() {
             return vec![[f64::NAN; 2]; legs.len()];
         }
