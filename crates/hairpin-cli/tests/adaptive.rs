@@ -130,6 +130,19 @@ fn rounds_are_the_same_on_any_number_of_threads_and_begin_anew_where_they_were_s
 }
 
 #[test]
+fn what_a_graph_used_up_left_of_the_executions_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    adaptive(here, "stress", "few", &["--set", "generate.search.waypoints=50", "--set", "generate.search.cases=1"]);
+    let rounds = CampaignFolder::open(&here.join("few")).unwrap().read_tally().unwrap().rounds;
+    let made: u64 = rounds.iter().map(|round| round.executions).sum();
+    assert!(0 < made && made < 300, "{made}");
+    let sentence = format!("{made} of the search's 300 executions were made: its graphs gave no further trajectories.");
+    let report = fs::read_to_string(here.join("few/report.html")).unwrap();
+    assert!(report.contains(&sentence), "{sentence}");
+}
+
+#[test]
 fn what_cannot_work_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();

@@ -82,6 +82,14 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) 
         Kind::Drive(setup) => said.extend(drive::searched_beside(&setup)),
         Kind::Arm(_) => {}
     }
+    let made: u64 = tally.rounds.iter().map(|round| round.executions).sum();
+    if search.method == SearchMethod::Adaptive && made < search.executions && search.time_s.is_none() && !tally.stopped
+    {
+        said.push(format!(
+            "{made} of the search's {} executions were made: its graphs gave no further trajectories.",
+            search.executions
+        ));
+    }
     for (number, round) in tally.rounds.iter().enumerate() {
         if let Some(reason) = &round.unlearned {
             said.push(format!("Round {number} of the search learned nothing and drew uniformly: {reason}."));
