@@ -185,11 +185,12 @@ fn ctrl_c_twice_ends_at_once_and_takes_the_users_program_along() {
     let folder = tempfile::tempdir().unwrap();
     // It flies the first mission, then neither flies nor minds being asked to end.
     let stubborn = "import os, signal, time\n    signal.signal(signal.SIGTERM, signal.SIG_IGN)\n    \
-                    if os.path.exists('pid'): time.sleep(600)\n    print(os.getpid(), file=open('pid', 'w'))";
+                    if os.path.exists('pid'): open('idle', 'w').close(); time.sleep(600)\n    \
+                    print(os.getpid(), file=open('pid', 'w'))";
     executor(folder.path(), stubborn);
     let asked = [&SMALL[..], &WITH_EXECUTOR, &["--out", "a", "--resume"]].concat();
     let mut child = begin(folder.path(), &asked);
-    wait_until("the first flight", || files_in(&folder.path().join("a/executions")) == 1);
+    wait_until("the second flight", || folder.path().join("idle").is_file());
     ctrl_c(&child);
     hear(&mut child, "Ctrl-C again quits at once");
     ctrl_c(&child);
