@@ -6,7 +6,7 @@ mod knobs;
 use serde::Serialize;
 
 use super::generate::Known;
-use super::{Mistake, Scenario, Setup, Stop, Tally, arm, drive, flight, generate, judge};
+use super::{Mistake, Scenario, Setup, Stop, Tally, arm, drive, flight, generate, verdict};
 use crate::campaign::setup::Kind;
 use crate::judgement::Verdict;
 
@@ -73,7 +73,7 @@ impl Explanation {
             ([], false) => "none of one key alone".into(),
             (words, _) => words.join(", or "),
         };
-        judge::nothing_feasible(setup, &self.tally, Some(&change))
+        verdict::nothing_feasible(setup, &self.tally, Some(&change))
     }
 }
 

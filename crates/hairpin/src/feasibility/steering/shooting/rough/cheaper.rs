@@ -16,7 +16,8 @@ use nalgebra::SMatrix;
 
 use super::cost::{Along, GroundCost};
 use super::model::Model;
-use super::predict::{Prediction, predict};
+use super::outcome::Prediction;
+use super::predict::predict;
 use super::refine::{Change, Task, UNKNOWNS, changed, divided, refine, tangent, within_bounds};
 use crate::trajectory::drive::{Segment, SegmentList};
 use crate::world::terrain::Terrain;

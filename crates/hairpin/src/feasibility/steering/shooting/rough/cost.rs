@@ -1,6 +1,8 @@
 //! What a motion on the ground costs, and what may be asked to become small along it.
 
-use super::predict::{Course, Driven, predict};
+use super::course::Course;
+use super::outcome::Driven;
+use super::predict::predict;
 use crate::robot::rover::{Settled, Slip};
 use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::world::terrain::Terrain;

@@ -4,10 +4,16 @@
 //! The flat solver stays the one that shapes paths and keeps their bounds. What the ground changes is put into its goal:
 //! find the flat goal g so that the controls that reach g in the plane reach the true goal on the ground.
 
+mod answer;
+mod bend_on;
 mod cheaper;
 mod cost;
+mod course;
+mod frame;
+mod learn_goal;
 mod miss;
 mod model;
+mod outcome;
 mod predict;
 mod refine;
 mod solve;
@@ -17,7 +23,10 @@ mod wait;
 #[cfg(test)]
 mod tests;
 
+pub use answer::{Answer, Settings, Status};
 pub use cost::{GroundCost, cost_along};
-pub use predict::{Blocked, Cause, Course, Driven, Prediction, Steps, predict, predict_while, tilt};
-pub use solve::{Answer, Settings, Status, solve, solve_until};
+pub use course::{Course, Steps};
+pub use outcome::{Blocked, Cause, Driven, Prediction};
+pub use predict::{predict, predict_while, tilt};
+pub use solve::{solve, solve_until};
 pub use wait::Waiting;

@@ -4,131 +4,13 @@
 //! at the step's middle, whose pose is extrapolated from the step before; second order, as the midpoint rule. Exact kinematics need the
 //! gradient of the pose as well, which jumps at the borders of the map's cells: what it foresaw wrongly is made good at the next look.
 
-use thiserror::Error;
-
+use super::course::Course;
+use super::outcome::{Blocked, Cause, Driven, Prediction};
 use super::steering_lag::SteeringLag;
-use crate::robot::rover::{Gradient, Kinematics, Rates, Rover, Settled, Unsettled};
+use crate::robot::rover::{Gradient, Rates, Rover, Settled, Unsettled};
+use crate::trajectory::Timing;
 use crate::trajectory::drive::{Motion, Planar, Segment};
-use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::world::terrain::Terrain;
-
-/// What happened on the way.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Prediction {
-    /// Where it ended; the curvature is the steering's, not the command's.
-    pub end: Planar,
-    /// Largest angle of the body's z axis from the vertical, rad, and after how many metres.
-    pub tilt: (f64, f64),
-    /// Largest |rocker or bogie angle|, rad, and after how many metres.
-    pub joint: (f64, f64),
-    /// Largest difference between roll or pitch as they were foreseen from the step before and as they were found, rad: small on
-    /// smooth ground, large where the body falls from one rest to another.
-    pub surprise: f64,
-    /// Settled poses that were solved.
-    pub steps: u32,
-}
-
-/// Why a motion could not be followed to its end, and where.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("after {after_m:.2} m: {cause}")]
-pub struct Blocked {
-    /// Metres of commanded travel before.
-    pub after_m: f64,
-    /// What stopped it.
-    pub cause: Cause,
-}
-
-/// What ends a prediction early.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum Cause {
-    /// No ground, or no rest on it.
-    #[error(transparent)]
-    Unsettled(#[from] Unsettled),
-    /// The body stands on end: pitch of 80° or more.
-    #[error("the body stands on end")]
-    Overturned,
-}
-
-/// One moment of a motion, as an observer gets it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Driven {
-    /// Metres of commanded travel so far.
-    pub s: f64,
-    /// Radians turned in place so far, whichever way.
-    pub turned: f64,
-    /// Metres driven, + forward, or radians turned in place, + to the left, of the step: half of it is done here.
-    pub step: f64,
-    /// Whether it is one of a turn in place.
-    pub in_place: bool,
-    /// Pose over the ground at the middle of a step.
-    pub at: Planar,
-    /// How the body stands.
-    pub settled: Settled,
-    /// How that changes with its place.
-    pub gradient: Gradient,
-}
-
-/// How commands are integrated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Steps {
-    /// Longest step of an arc, m; exact kinematics take three for each.
-    pub length: f64,
-    /// Longest step of a turn in place, rad.
-    pub angle: f64,
-    /// Fewest steps of a segment.
-    pub least: u32,
-}
-
-impl Default for Steps {
-    /// 6 cm and 3°: the ground of elevation maps for wheels is not finer.
-    fn default() -> Self {
-        Self { length: 0.06, angle: 0.05, least: 8 }
-    }
-}
-
-impl Steps {
-    /// These for paths whose curvature changes by up to `most_rate` (1/m²): where that is more than 1, shorter in proportion, so
-    /// that it changes by no more a step; a tenth at most, for vehicles whose wheels are turned at once.
-    #[must_use]
-    pub fn for_rate(self, most_rate: f64) -> Self {
-        Self { length: self.length / most_rate.clamp(1.0, 10.0), ..self }
-    }
-
-    /// These for steering that takes `metres` of the way to follow a jump, its time constant times the speed: no more than a third of
-    /// that, where it is any; a tenth at most.
-    #[must_use]
-    pub fn for_lag(self, metres: f64) -> Self {
-        let length = if metres > 0.0 { self.length.min((metres / 3.0).max(0.1 * self.length)) } else { self.length };
-        Self { length, ..self }
-    }
-}
-
-/// What stays the same along a prediction.
-pub struct Course<'a, T> {
-    /// The vehicle.
-    pub rover: &'a Rover,
-    /// What it drives on.
-    pub terrain: &'a T,
-    /// Speed along what is driven; time matters only to latency and lag.
-    pub speed: SpeedProfile,
-    /// Direction of travel in the body: 0 straight on, otherwise crab.
-    pub direction: Direction,
-    /// How finely.
-    pub steps: Steps,
-}
-
-impl<T> Course<'_, T> {
-    /// Longest step of an arc, m.
-    fn step(&self) -> f64 {
-        match self.rover.kinematics {
-            Kinematics::Source => self.steps.length,
-            Kinematics::Exact => EXACT * self.steps.length,
-        }
-    }
-}
-
-/// Share of the steps that exact kinematics take: their rates change as the ground bends, the source's as it slopes.
-const EXACT: f64 = 1.0 / 3.0;
 
 /// Pitch from which yaw rates lose their meaning, rad.
 const ON_END: f64 = 1.396;

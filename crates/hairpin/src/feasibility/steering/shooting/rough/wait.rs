@@ -1,6 +1,8 @@
 //! What a vehicle does until the first command acts.
 
-use super::predict::{Blocked, Course, predict};
+use super::course::Course;
+use super::outcome::Blocked;
+use super::predict::predict;
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 use crate::world::terrain::Terrain;
 

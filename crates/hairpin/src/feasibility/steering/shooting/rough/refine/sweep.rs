@@ -3,7 +3,7 @@
 use nalgebra::SMatrix;
 
 use super::pieces::{Change, PIECES, UNKNOWNS, bend};
-use crate::feasibility::steering::shooting::rough::predict::Driven;
+use crate::feasibility::steering::shooting::rough::outcome::Driven;
 use crate::trajectory::drive::{Planar, Segment};
 
 /// How the end, (x, y, ψ, κ), moves with a change.
@@ -87,7 +87,8 @@ impl Sweep {
 mod tests {
     use super::super::pieces::{changed, divided};
     use super::*;
-    use crate::feasibility::steering::shooting::rough::predict::{Course, Steps, predict};
+    use crate::feasibility::steering::shooting::rough::course::{Course, Steps};
+    use crate::feasibility::steering::shooting::rough::predict::predict;
     use crate::robot::rover::RoverDescription;
     use crate::trajectory::drive::{Gear, SegmentList};
     use crate::world::terrain::Flat;

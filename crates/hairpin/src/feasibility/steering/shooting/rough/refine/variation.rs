@@ -13,7 +13,8 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::pieces::{PIECES, UNKNOWNS};
 use super::sweep::{Tangent, bent_at, ends_of};
-use crate::feasibility::steering::shooting::rough::predict::{Course, Driven};
+use crate::feasibility::steering::shooting::rough::course::Course;
+use crate::feasibility::steering::shooting::rough::outcome::Driven;
 use crate::robot::rover::{Rates, rate_slopes, rates};
 use crate::trajectory::drive::Segment;
 
@@ -74,7 +75,8 @@ impl<'a, 'c, T> Variation<'a, 'c, T> {
 mod tests {
     use super::super::pieces::{Change, changed, divided};
     use super::*;
-    use crate::feasibility::steering::shooting::rough::predict::{Steps, predict};
+    use crate::feasibility::steering::shooting::rough::course::Steps;
+    use crate::feasibility::steering::shooting::rough::predict::predict;
     use crate::robot::rover::{Rover, RoverDescription, Slip};
     use crate::trajectory::Direction;
     use crate::trajectory::drive::{Gear, Planar, SegmentList};
