@@ -16,6 +16,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Distribution, RobotSource};
+use crate::campaign::{learn, user_score};
 use crate::robot::ground::{CarDescription, DifferentialDriveDescription};
 use crate::robot::rover::RoverDescription;
 
@@ -55,6 +56,20 @@ pub struct DriveScenario {
     /// What is within spec.
     #[serde(default)]
     pub spec: DriveSpec,
+}
+
+impl DriveScenario {
+    /// Names and contents of the files that it may have, where it has them.
+    pub(super) fn files(&self) -> Vec<(Option<&str>, Option<&[u8]>)> {
+        let terrain = &self.world.terrain;
+        let model = self.generate.search.model.as_ref();
+        let user = self.generate.search.user_score.as_ref();
+        vec![
+            (terrain.file.as_deref(), terrain.bytes.as_deref()),
+            (Some(learn::NAME), model.map(|kept| &*kept.bytes)),
+            (Some(user_score::NAME), user.map(|user| &*user.bytes)),
+        ]
+    }
 }
 
 /// A ground vehicle as a file has it, told apart by `kind`.
