@@ -1,63 +1,19 @@
 //! The path of states of a drive, with what its wheels do: sampled in time, and held to the bounds of speeds and joints.
 
-use nalgebra::Vector3;
+mod peaks;
+mod vehicle_state;
+mod walk;
 
-use crate::feasibility::steering::shooting::rough::{Blocked, Course, Steps, predict, tilt};
-use crate::robot::rover::{Effort, Response, Rover, Settled, Slip, Twist, WheelMotion};
+use self::vehicle_state::sampled;
+use self::walk::Walk;
+use crate::feasibility::steering::shooting::rough::{Blocked, Course, Steps, predict};
+use crate::robot::rover::{Response, Rover, Slip};
 use crate::trajectory::drive::{Gear, Planar, Segment, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::world::terrain::{Flat, Terrain};
 
-/// One moment of a drive.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct VehicleState {
-    /// Since the drive began, s; turns in place take their time.
-    pub time: f64,
-    /// Metres driven.
-    pub s: f64,
-    /// Over the ground; the curvature is the steering's.
-    pub at: Planar,
-    /// How the body stands: height, roll, pitch, joints.
-    pub settled: Settled,
-    /// Speed along the path, m/s; negative in reverse, 0 in turns in place.
-    pub speed: f64,
-    /// Direction of travel in the body, rad.
-    pub direction: f64,
-    /// Angle of the body's z axis from the vertical, rad.
-    pub tilt: f64,
-    /// Height of the underside over the ground, m; infinite without wheels, negative where it would touch.
-    pub clearance: f64,
-    /// Angle by which the body must lean further to tip over, rad; π/2 without wheels.
-    pub tip_over_margin: f64,
-    /// What the wheels push or brake with; `None` without a weight.
-    pub effort: Option<Effort>,
-    /// Steer angle (rad) and rolling speed (rad/s) of each wheel.
-    pub wheels: [WheelState; 6],
-}
-
-/// One wheel at one moment.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct WheelState {
-    /// rad, left positive.
-    pub steer: f64,
-    /// rad/s, forward positive.
-    pub speed: f64,
-}
-
-/// The largest that wheels do along a drive.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct WheelPeaks {
-    /// |steer angle|, rad.
-    pub steer: f64,
-    /// Its rate while driving, rad/s; where the vehicle stands its wheels may swing.
-    pub steer_rate: f64,
-    /// |rolling speed|, rad/s.
-    pub speed: f64,
-    /// Its change, rad/s², where speed is a function of time.
-    pub acceleration: f64,
-    /// |torque| of each, N·m, while driving.
-    pub torque: f64,
-}
+pub use peaks::WheelPeaks;
+pub use vehicle_state::{VehicleState, WheelState};
 
 /// How a drive is followed.
 #[derive(Debug, Clone, Copy)]
@@ -181,167 +137,10 @@ impl Followed<'_> {
     }
 }
 
-/// A drive under way.
-struct Walk<'a, 'f, T> {
-    followed: &'a Followed<'f>,
-    timing: &'a Timing,
-    terrain: &'a T,
-    states: Vec<VehicleState>,
-    /// What the wheels did a moment ago, and whether that was in the same stretch.
-    before: Option<([WheelMotion; 6], f64)>,
-    peaks: WheelPeaks,
-}
-
-impl<T: Terrain> Walk<'_, '_, T> {
-    fn add(&mut self, driven: &crate::feasibility::steering::shooting::rough::Driven) {
-        let Followed { rover, turn_rate, direction, .. } = *self.followed;
-        let time = self.timing.time_at(driven.s) + driven.turned / turn_rate;
-        let sign = driven.step.signum();
-        let delta = direction.at(driven.s, self.timing.length());
-        let (twist, pace) = if driven.in_place {
-            (Twist { turn: sign, ..Twist::IN_PLACE }, turn_rate)
-        } else {
-            (Twist::along(delta, driven.at.curvature, sign), self.timing.speed_at(driven.s))
-        };
-        let mode = if driven.in_place { 0.0 } else { sign };
-        let last = self.before.as_ref().map(|(motions, _)| motions);
-        let (motions, count) = rover.wheel_motions(&twist, &driven.settled.joints, last);
-        let radius = rover.suspension.wheels(&[0.0; 3]).2;
-        let mut wheels = [WheelState::default(); 6];
-        for (wheel, motion) in wheels[..count].iter_mut().zip(&motions) {
-            *wheel = WheelState { steer: motion.steer, speed: motion.rolls * pace / radius };
-        }
-        self.measure(&wheels[..count], time, mode);
-        let at = [driven.at.x, driven.at.y, driven.at.yaw];
-        // Turned in place nothing is climbed, and what scrubs is not known.
-        let gains = self.timing.acceleration_at(driven.s);
-        let effort = rover.effort(&driven.settled, libm::sincos(delta), sign, gains, &Vector3::zeros());
-        let effort = effort.map(|effort| if driven.in_place { Effort::default() } else { effort });
-        self.peaks.torque = self.peaks.torque.max(effort.map_or(0.0, |effort| effort.torque.abs()));
-        self.states.push(VehicleState {
-            time,
-            s: driven.s,
-            at: driven.at,
-            settled: driven.settled,
-            speed: mode * pace,
-            direction: delta,
-            tilt: tilt(&driven.settled),
-            clearance: rover.belly_clearance(self.terrain, at, &driven.settled).unwrap_or(f64::NAN),
-            tip_over_margin: rover.tip_over_margin(self.terrain, at, &driven.settled).unwrap_or(f64::NAN),
-            effort,
-            wheels,
-        });
-        self.before = Some((motions, mode));
-    }
-
-    /// Keeps the largest of what the wheels do; rates between moments of one stretch.
-    fn measure(&mut self, wheels: &[WheelState], time: f64, mode: f64) {
-        let peaks = &mut self.peaks;
-        for wheel in wheels {
-            peaks.steer = peaks.steer.max(wheel.steer.abs());
-            peaks.speed = peaks.speed.max(wheel.speed.abs());
-        }
-        let same = self.before.as_ref().is_some_and(|(_, before)| *before == mode);
-        let Some(last) = self.states.last().filter(|_| same && mode != 0.0) else { return };
-        let elapsed = time - last.time;
-        if elapsed <= 0.0 {
-            return;
-        }
-        for (wheel, before) in wheels.iter().zip(&last.wheels) {
-            peaks.steer_rate = peaks.steer_rate.max((wheel.steer - before.steer).abs() / elapsed);
-            peaks.acceleration = peaks.acceleration.max((wheel.speed - before.speed).abs() / elapsed);
-        }
-    }
-}
-
-impl WheelPeaks {
-    /// The larger of both, one by one.
-    fn or(&self, other: &Self) -> Self {
-        Self {
-            steer: self.steer.max(other.steer),
-            steer_rate: self.steer_rate.max(other.steer_rate),
-            speed: self.speed.max(other.speed),
-            acceleration: self.acceleration.max(other.acceleration),
-            torque: self.torque.max(other.torque),
-        }
-    }
-
-    /// The first bound of the vehicle's wheels that is exceeded, by its name and by how much, in rad, s and N·m.
-    pub fn broken(&self, rover: &Rover) -> Option<(&'static str, f64)> {
-        /// What sampling and rounding may add.
-        const ROUNDING: f64 = 1e-6;
-        let bounds = &rover.wheels;
-        let found = [
-            ("steer_angle", self.steer, bounds.steer),
-            ("steer_rate", self.steer_rate, bounds.steer_rate),
-            ("wheel_speed", self.speed, bounds.speed),
-            ("wheel_acceleration", self.acceleration, bounds.acceleration),
-            ("wheel_torque", self.torque, bounds.torque),
-        ];
-        let over = found.into_iter().find(|(_, value, bound)| value.is_nan() || *value > bound * (1.0 + ROUNDING));
-        over.map(|(name, value, bound)| (name, value - bound))
-    }
-}
-
-/// `states` at every `step` seconds, linear between, and at both ends.
-fn sampled(states: &[VehicleState], step: f64) -> Vec<VehicleState> {
-    let (Some(first), Some(last)) = (states.first(), states.last()) else { return Vec::new() };
-    let mut sampled = vec![*first];
-    let mut pairs = states.windows(2).peekable();
-    // Rows that would come within rounding of the end are the end.
-    let count = (last.time / step - 1e-6).ceil().max(1.0) as usize;
-    for i in 1..count {
-        let time = i as f64 * step;
-        while pairs.next_if(|pair| pair[1].time < time).is_some() {}
-        let Some(pair) = pairs.peek() else { break };
-        sampled.push(between(&pair[0], &pair[1], time));
-    }
-    sampled.push(*last);
-    sampled
-}
-
-fn between(a: &VehicleState, b: &VehicleState, time: f64) -> VehicleState {
-    let share = if b.time > a.time { (time - a.time) / (b.time - a.time) } else { 0.0 };
-    let mix = |a: f64, b: f64| a + share * (b - a);
-    let at = Planar {
-        x: mix(a.at.x, b.at.x),
-        y: mix(a.at.y, b.at.y),
-        yaw: mix(a.at.yaw, b.at.yaw),
-        curvature: mix(a.at.curvature, b.at.curvature),
-    };
-    let settled = Settled {
-        z: mix(a.settled.z, b.settled.z),
-        roll: mix(a.settled.roll, b.settled.roll),
-        pitch: mix(a.settled.pitch, b.settled.pitch),
-        joints: std::array::from_fn(|i| mix(a.settled.joints[i], b.settled.joints[i])),
-    };
-    let wheel = |i: usize| WheelState {
-        steer: mix(a.wheels[i].steer, b.wheels[i].steer),
-        speed: mix(a.wheels[i].speed, b.wheels[i].speed),
-    };
-    VehicleState {
-        time,
-        s: mix(a.s, b.s),
-        at,
-        settled,
-        // Where a vehicle turns back its speed jumps.
-        speed: if a.speed * b.speed > 0.0 { mix(a.speed, b.speed) } else { b.speed },
-        direction: mix(a.direction, b.direction),
-        tilt: mix(a.tilt, b.tilt),
-        clearance: if a.clearance.is_finite() { mix(a.clearance, b.clearance) } else { b.clearance },
-        tip_over_margin: mix(a.tip_over_margin, b.tip_over_margin),
-        effort: a
-            .effort
-            .zip(b.effort)
-            .map(|(a, b)| Effort { traction: mix(a.traction, b.traction), torque: mix(a.torque, b.torque) }),
-        wheels: std::array::from_fn(wheel),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::rover::{RoverDescription, Weight};
+    use crate::robot::rover::{Effort, RoverDescription, Weight};
     use crate::trajectory::drive::Motion;
 
     fn rover(latency: f64) -> Rover {
