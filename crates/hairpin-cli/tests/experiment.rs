@@ -107,3 +107,66 @@ fn scores_are_compared_in_the_graphs_of_each_set() {
     );
     refused(folder.path(), &["experiment", "scores", "--set", "reach=[\"hall\"]"], &["hall", "hull"]);
 }
+
+/// `experiment NAME` with `sets`.
+fn asked(folder: &std::path::Path, name: &str, sets: &[&str]) -> serde_json::Value {
+    let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+    json(folder, &[&["experiment", name], &sets[..]].concat())
+}
+
+#[test]
+fn yields_tell_which_trajectories_have_a_witness() {
+    let folder = tempfile::tempdir().unwrap();
+    let sets = ["seconds=0.3", "lengths=[5]", "reach=[\"sphere\", \"hull\"]", "certified=3"];
+    let answer = asked(folder.path(), "yields", &sets);
+    let rows = answer["tables"]["yields"].as_array().unwrap();
+    assert_eq!(rows.len(), 2, "{answer}");
+    for row in rows {
+        let number = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key} of {row}"));
+        assert!(number("trajectories") >= 1.0 && (1.0..=3.0).contains(&number("certified")), "{row}");
+        // A witness that may take a step a leg may take its own time as well.
+        assert!(number("witnessed_in_step_percent") <= number("witnessed_percent"), "{row}");
+        assert!(row["witness_slower_by"].is_null() || number("witness_slower_by") > 0.25, "{row}");
+    }
+    assert!(fs::read_to_string(folder.path().join("out/yields/yields.svg")).unwrap().contains("sphere"));
+}
+
+#[test]
+fn what_was_learned_here_is_flown_by_another_simulator() {
+    let folder = tempfile::tempdir().unwrap();
+    refused(folder.path(), &["experiment", "transfer"], &["executor", "experiments/with-rotorpy"]);
+    let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
+    let executor = format!("executor=\"python3 '{minimal}'\"");
+    let sets = ["cases=3", "training=26", "length=5", "waypoints=60", "simulator=\"a point\"", &executor];
+    let answer = asked(folder.path(), "transfer", &sets);
+    let rows = answer["tables"]["transfer"].as_array().unwrap();
+    let names: Vec<&str> = rows.iter().map(|row| row["simulator"].as_str().unwrap()).collect();
+    assert_eq!(names, ["hairpin, geometric", "a point"], "{answer}");
+    let trajectories = answer["tables"]["trajectories"].as_array().unwrap();
+    for (row, key) in rows.iter().zip(["hairpin_m", "other_m"]) {
+        assert_eq!(row["trajectories"], 6, "{row}");
+        for way in ["uniform", "learned"] {
+            let own = trajectories.iter().filter(|trajectory| trajectory["way"] == way);
+            let values: Vec<f64> = own.map(|trajectory| trajectory[key].as_f64().unwrap()).collect();
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            assert!((mean - row[format!("{way}_m")].as_f64().unwrap()).abs() < 1e-9, "{row} {values:?}");
+        }
+    }
+    assert!(folder.path().join("out/transfer/transfer.svg").is_file());
+    let broken = ["cases=3", "training=26", "length=5", "waypoints=60", "executor=\"false\""];
+    let sets: Vec<&str> = broken.iter().flat_map(|set| ["--set", set]).collect();
+    refused(folder.path(), &[&["experiment", "transfer"], &sets[..]].concat(), &["other simulator"]);
+}
+
+#[test]
+fn requirements_of_rovers_are_a_table_beside_the_sources() {
+    let folder = tempfile::tempdir().unwrap();
+    let answer = asked(folder.path(), "rover-requirements", &["queries=20"]);
+    let [requirements, tests] = ["requirements", "tests"].map(|name| answer["tables"][name].as_array().unwrap());
+    assert_eq!((requirements.len(), tests.len()), (17, 19), "{answer}");
+    let convergence = tests.iter().find(|test| test["id"] == "R2").unwrap();
+    assert_eq!((&convergence["result"], &convergence["source"]), (&"met".into(), &"passed, August 2007".into()));
+    let figure = fs::read_to_string(folder.path().join("out/rover-requirements/times.svg")).unwrap();
+    assert!(figure.contains("rocky8, rough ground") && figure.contains("R-5"));
+    refused(folder.path(), &["experiment", "rover-requirements", "--set", "queries=3"], &["queries", "20"]);
+}

@@ -35,6 +35,8 @@ pub(crate) enum ExperimentName {
     Scores,
     /// ISSTA 2020, figures 9 to 11: a learned score on the Anafi's stand-in, tests over a limit, the worst flight
     FollowUp,
+    /// A score that was learned here, in another simulator: its program speaks the executor protocol
+    Transfer,
     /// RobTest, table I: seconds for the graph, depth-first search and the proof of the optimum
     #[value(name = "robtest-table-1")]
     RobtestTable1,
@@ -47,4 +49,6 @@ pub(crate) enum ExperimentName {
     RobtestClusters,
     /// RobTest, threat: costs that are no distances
     RobtestCosts,
+    /// Rough terrain trajectory generator, 2006: its requirements and the tests of its results document
+    RoverRequirements,
 }

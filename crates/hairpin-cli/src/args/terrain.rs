@@ -31,7 +31,7 @@ pub(crate) struct ShowTerrain {
 }
 
 /// What an elevation map's file does not say of itself.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct MapFlags {
     /// Edge of a cell, m, where the map's file does not say it (PNG, raw, NumPy)
     #[arg(long, value_name = "M", value_parser = positive, requires = "terrain")]

@@ -4,6 +4,7 @@
 //! written and printed is decided here, once.
 
 mod robtest;
+mod rover;
 mod stressful;
 
 use std::path::{Path, PathBuf};
@@ -41,11 +42,13 @@ pub(crate) fn run(asked: &Experiment) -> Result<u8, Problem> {
         ExperimentName::Metrics => stressful::metrics(&sheet),
         ExperimentName::Scores => stressful::scores(&sheet),
         ExperimentName::FollowUp => stressful::follow_up(&sheet),
+        ExperimentName::Transfer => stressful::transfer(&sheet),
         ExperimentName::RobtestTable1 => robtest::table_1(&sheet),
         ExperimentName::RobtestFigure7 => robtest::figure_7(&sheet),
         ExperimentName::RobtestObstacles => robtest::obstacles(&sheet),
         ExperimentName::RobtestClusters => robtest::clusters(&sheet),
         ExperimentName::RobtestCosts => robtest::costs(&sheet),
+        ExperimentName::RoverRequirements => rover::requirements(&sheet),
     }?;
     let folder = asked.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let files = write(&folder, &outcome)?;

@@ -163,7 +163,7 @@ fn fly_with(
     landed: &(dyn Fn(&Job, Run) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
 ) {
-    let workers = work.setup.scenario.executor().workers.map_or_else(rayon::current_num_threads, |n| n as usize);
+    let workers = workers(&work.setup);
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result| {
         let job = &missing[index];
@@ -209,25 +209,39 @@ fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
     Ok(Some((command, Limits { mission, ..Limits::default() })))
 }
 
-/// Flies one run: for `replay`.
+/// Flies one run, without a folder.
 pub(crate) fn fly_one(setup: &Setup, case: &Case, run: usize) -> Result<Run, Problem> {
-    if let Some(logs) = setup.recordings() {
+    let runs = fly_each(setup, std::slice::from_ref(case), run)?;
+    runs.into_iter().next().ok_or_else(|| Problem::Interrupted("stopped".into()))
+}
+
+/// Flies run number `run` of each of `cases`, in their order, without a folder.
+pub(crate) fn fly_each(setup: &Setup, cases: &[Case], run: usize) -> Result<Vec<Run>, Problem> {
+    if let (Some(logs), Some(case)) = (setup.recordings(), cases.first()) {
         return Err(Problem::input(format!(
             "`execute.logs` = \"{logs}\": case {} was recorded, and a recording cannot be made again here; leave the key out for the virtual \
              controller",
             case.id()
         )));
     }
-    let Some((command, limits)) = command_of(setup)? else { return Ok(execute_run(setup, case, run)) };
-    let flown = Mutex::new(None);
-    let make = |_| mission(setup, case, run).map_err(|mistake| mistake.to_string());
-    let landed = |_, result: Result<_, Failed>| {
+    let Some((command, limits)) = command_of(setup)? else {
+        return Ok(cases.par_iter().map(|case| execute_run(setup, case, run)).collect());
+    };
+    let flown = Mutex::new(vec![None; cases.len()]);
+    let make = |index: usize| mission(setup, &cases[index], run).map_err(|mistake| mistake.to_string());
+    let landed = |index: usize, result: Result<_, Failed>| {
         if let Err(failed) = &result {
             console::warn(failed.stderr.trim_end());
         }
-        *flown.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(as_run(setup, case, run, result));
+        flown.lock().unwrap_or_else(std::sync::PoisonError::into_inner)[index] =
+            Some(as_run(setup, &cases[index], run, result));
     };
-    fly_all(&command, limits, 1, 1, &make, &landed, &interrupt::asked);
-    let run = flown.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    run.ok_or_else(|| Problem::Interrupted("stopped".into()))
+    fly_all(&command, limits, workers(setup), cases.len(), &make, &landed, &interrupt::asked);
+    let runs = flown.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    runs.into_iter().collect::<Option<_>>().ok_or_else(|| Problem::Interrupted("stopped".into()))
+}
+
+/// How many programs of the user's run side by side.
+fn workers(setup: &Setup) -> usize {
+    setup.scenario.executor().workers.map_or_else(rayon::current_num_threads, |n| n as usize)
 }

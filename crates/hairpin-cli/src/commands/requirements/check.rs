@@ -2,20 +2,20 @@
 
 /// A measured value in words, its bound, and whether it keeps it.
 #[derive(Debug, Clone)]
-pub(super) struct Check {
-    pub(super) measured: String,
-    pub(super) bound: String,
-    pub(super) passed: bool,
+pub(crate) struct Check {
+    pub(crate) measured: String,
+    pub(crate) bound: String,
+    pub(crate) passed: bool,
 }
 
 /// A test of the results document.
 #[derive(Debug, Clone)]
-pub(super) struct Test {
-    pub(super) id: &'static str,
+pub(crate) struct Test {
+    pub(crate) id: &'static str,
     /// The requirement that it covers.
-    pub(super) requirement: &'static str,
-    pub(super) what: String,
-    pub(super) check: Check,
+    pub(crate) requirement: &'static str,
+    pub(crate) what: String,
+    pub(crate) check: Check,
 }
 
 impl Check {

@@ -4,7 +4,7 @@ use hairpin::campaign::drive::Site;
 use hairpin::feasibility::steering::shooting::rough::Settings;
 
 use super::check::{Check, Test};
-use super::regression::on_the_ground;
+use super::regression::{Times, on_the_ground};
 use super::store;
 use super::subject::Subject;
 use crate::problem::Problem;
@@ -13,7 +13,7 @@ use crate::problem::Problem;
 const SHARE: f64 = 99.0;
 
 /// R11: goals on rough ground that the late vehicle has driven to, solved for it and, for comparison, for the vehicle without dynamics.
-pub(super) fn compensated(subject: &Subject) -> Result<Test, Problem> {
+pub(super) fn compensated(subject: &Subject) -> Result<(Test, Times), Problem> {
     let goals = subject.goals(&subject.late, (subject.queries / 2).max(20), 34)?;
     let tally = on_the_ground(subject, &subject.late, &goals);
     let late = Site::straight(&subject.late, &subject.ground);
@@ -43,5 +43,6 @@ pub(super) fn compensated(subject: &Subject) -> Result<Test, Problem> {
         tally.share() >= SHARE && median > 0.05 && stored.good(),
     );
     let what = "rough ground with delay, lag and slip: predicted and compensated".into();
-    Ok(Test { id: "R11", requirement: "R-12", what, check })
+    let times = Times { of: "rocky8 with dynamics, rough ground", seconds: tally.seconds };
+    Ok((Test { id: "R11", requirement: "R-12", what, check }, times))
 }

@@ -14,7 +14,8 @@ mod suspension;
 
 use serde_json::{Value, json};
 
-use self::check::{Check, Test};
+pub(crate) use self::check::{Check, Test};
+pub(crate) use self::regression::{MEAN_MS, Times};
 use self::subject::Subject;
 use crate::args::Requirements;
 use crate::commands::bench::memory::resident;
@@ -22,7 +23,7 @@ use crate::console;
 use crate::problem::Problem;
 
 /// A requirement in own words, with the tests that cover it.
-type Requirement = (&'static str, &'static str, &'static [&'static str]);
+pub(crate) type Requirement = (&'static str, &'static str, &'static [&'static str]);
 
 const REQUIREMENTS: [Requirement; 17] = [
     ("R-1", "controls and a path of states from boundary states, vehicle and controls", &["R1", "R4"]),
@@ -44,38 +45,73 @@ const REQUIREMENTS: [Requirement; 17] = [
     ("R-17", "running over the time limit is detected", &["R15"]),
 ];
 
+/// What a run of the test plan found.
+pub(crate) struct Measured {
+    /// What the numbers are of.
+    pub(crate) notes: Vec<String>,
+    pub(crate) requirements: Vec<(Requirement, Check)>,
+    pub(crate) tests: Vec<Test>,
+    /// How long queries took.
+    pub(crate) times: Vec<Times>,
+    example: example::Example,
+}
+
+impl Measured {
+    /// Runs the test plan. To be called before anything else, so that the process holds nothing yet.
+    pub(crate) fn now(asked: &Requirements) -> Result<Self, Problem> {
+        let before = resident("RssAnon:");
+        let (subject, footprint) = footprint::measured(asked, before)?;
+        let (flat, on_flat) = regression::flat(&subject)?;
+        let (rough, on_rough) = regression::rough(&subject)?;
+        let (compensated, late) = dynamics::compensated(&subject)?;
+        let mut tests = Vec::from(flat);
+        tests.extend(rough);
+        tests.extend(footprint);
+        tests.push(interfaces::loads(&subject));
+        tests.push(suspension::stands(&subject)?);
+        tests.push(compensated);
+        tests.push(interfaces::switches_controls());
+        tests.push(interfaces::switches_vehicles(&subject)?);
+        tests.extend(anytime::within(&subject));
+        tests.push(reliability::states(&subject)?);
+        tests.push(reliability::controls());
+        tests.push(reliability::vehicles());
+        tests.push(reliability::convergence(&subject));
+        let requirements = REQUIREMENTS.iter().map(|requirement| (*requirement, Check::of(requirement.2, &tests)));
+        Ok(Self {
+            notes: subject.notes(),
+            requirements: requirements.collect(),
+            tests,
+            times: [on_flat].into_iter().chain(on_rough).chain([late]).collect(),
+            example: example::Example::new()?,
+        })
+    }
+
+    fn met(&self) -> bool {
+        self.requirements.iter().all(|(_, check)| check.passed)
+            && self.tests.iter().all(|test| test.check.passed)
+            && self.example.solved()
+    }
+
+    /// How many of both there are, and how many passed.
+    pub(crate) fn counted(&self) -> String {
+        let passed = self.tests.iter().filter(|test| test.check.passed).count();
+        let met = self.requirements.iter().filter(|(_, check)| check.passed).count();
+        format!("{met} of {} requirements met, {passed} of {} tests passed", self.requirements.len(), self.tests.len())
+    }
+}
+
 /// Runs the command: 0 when every requirement is met, 1 when one is not.
 pub(crate) fn run(asked: &Requirements) -> Result<u8, Problem> {
-    // Before anything else, so that the process holds nothing yet.
-    let before = resident("RssAnon:");
     if let Some(folder) = &asked.write_regression {
         return store::write(&Subject::new(asked)?, folder);
     }
-    let (subject, footprint) = footprint::measured(asked, before)?;
-    let mut tests = Vec::from(regression::flat(&subject)?);
-    tests.extend(regression::rough(&subject)?);
-    tests.extend(footprint);
-    tests.push(interfaces::loads(&subject));
-    tests.push(suspension::stands(&subject)?);
-    tests.push(dynamics::compensated(&subject)?);
-    tests.push(interfaces::switches_controls());
-    tests.push(interfaces::switches_vehicles(&subject)?);
-    tests.extend(anytime::within(&subject));
-    tests.push(reliability::states(&subject)?);
-    tests.push(reliability::controls());
-    tests.push(reliability::vehicles());
-    tests.push(reliability::convergence(&subject));
-    let requirements: Vec<(Requirement, Check)> =
-        REQUIREMENTS.iter().map(|requirement| (*requirement, Check::of(requirement.2, &tests))).collect();
-    let example = example::Example::new()?;
-    let met = requirements.iter().all(|(_, check)| check.passed)
-        && tests.iter().all(|test| test.check.passed)
-        && example.solved();
-    let code = u8::from(!met);
+    let measured = Measured::now(asked)?;
+    let code = u8::from(!measured.met());
     if asked.json {
-        console::say(&object(&subject, &requirements, &tests, &example, code).to_string());
+        console::say(&object(&measured, code).to_string());
     } else {
-        in_words(&subject, &requirements, &tests, &example);
+        in_words(&measured);
     }
     Ok(code)
 }
@@ -84,8 +120,9 @@ fn word(passed: bool) -> String {
     if passed { "PASS".into() } else { "FAIL".into() }
 }
 
-fn in_words(subject: &Subject, requirements: &[(Requirement, Check)], tests: &[Test], example: &example::Example) {
-    subject.notes().iter().for_each(|note| console::say(note));
+fn in_words(measured: &Measured) {
+    let Measured { notes, requirements, tests, example, .. } = measured;
+    notes.iter().for_each(|note| console::say(note));
     console::say("\nRequirements");
     for ((id, text, _), check) in requirements {
         console::say(&format!(
@@ -106,23 +143,11 @@ fn in_words(subject: &Subject, requirements: &[(Requirement, Check)], tests: &[T
     }
     console::say("\nThe source's example program");
     example.lines().iter().for_each(|line| console::say(line));
-    let failed = tests.iter().filter(|test| !test.check.passed).count();
-    let met = requirements.iter().filter(|(_, check)| check.passed).count();
-    console::say(&format!(
-        "\n{met} of {} requirements met, {} of {} tests passed",
-        requirements.len(),
-        tests.len() - failed,
-        tests.len()
-    ));
+    console::say(&format!("\n{}", measured.counted()));
 }
 
-fn object(
-    subject: &Subject,
-    requirements: &[(Requirement, Check)],
-    tests: &[Test],
-    example: &example::Example,
-    code: u8,
-) -> Value {
+fn object(measured: &Measured, code: u8) -> Value {
+    let Measured { notes, requirements, tests, example, .. } = measured;
     let judged = |check: &Check| json!({ "measured": check.measured, "bound": check.bound, "passed": check.passed });
     let mut rows = Vec::new();
     for ((id, text, covered), check) in requirements {
@@ -138,7 +163,7 @@ fn object(
         results.push(row);
     }
     json!({
-        "subject": subject.notes(),
+        "subject": notes,
         "requirements": rows,
         "tests": results,
         "example": example.object(),

@@ -4,7 +4,7 @@ use rand::RngExt;
 use rayon::prelude::*;
 
 use crate::campaign::judge::measures_of;
-use crate::campaign::{Case, Setup, Stop, execute_run};
+use crate::campaign::{Case, Run, Setup, Stop, execute_run};
 use crate::judgement::{Measures, Statistics, Stress};
 use crate::math::random::stream;
 use crate::trajectory::Ended;
@@ -36,16 +36,26 @@ impl Flown {
         let flown: Option<Vec<Runs>> = cases
             .par_iter()
             .map(|case| {
-                let run = |run| {
-                    let run = execute_run(setup, case, run);
-                    let measures = measures_of(setup, case, &run)?;
-                    Some((measures, run.outcome.ok().map(|flight| flight.ended)))
-                };
+                let run = |run| measured(setup, case, execute_run(setup, case, run));
                 (!(stop.cancelled)()).then(|| (0..repeat).filter_map(run).collect())
             })
             .collect();
         let flown = flown?;
         Some(stresses.map(|stress| Self::by(stress, &flown)))
+    }
+
+    /// What `runs` of `cases`, whoever flew them, came to by each of `stresses`.
+    pub fn by_runs<const N: usize>(
+        setup: &Setup,
+        cases: &[Case],
+        runs: Vec<Vec<Run>>,
+        stresses: [Stress; N],
+    ) -> [Self; N] {
+        let of_case = |(case, runs): (&Case, Vec<Run>)| -> Runs {
+            runs.into_iter().filter_map(|run| measured(setup, case, run)).collect()
+        };
+        let flown: Vec<Runs> = cases.iter().zip(runs).map(of_case).collect();
+        stresses.map(|stress| Self::by(stress, &flown))
     }
 
     fn by(stress: Stress, flown: &[Runs]) -> Self {
@@ -76,6 +86,11 @@ impl Flown {
     pub fn median(&self) -> f64 {
         Statistics::of(&self.stresses).map_or(f64::NAN, |told| told.median)
     }
+}
+
+fn measured(setup: &Setup, case: &Case, run: Run) -> Option<(Measures, Option<Ended>)> {
+    let measures = measures_of(setup, case, &run)?;
+    Some((measures, run.outcome.ok().map(|flight| flight.ended)))
 }
 
 /// Mean over mean − 1, with its interval.

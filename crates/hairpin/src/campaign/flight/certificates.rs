@@ -14,6 +14,22 @@ const QUICKEST: f64 = 0.25;
 /// … to this multiple of it.
 const SLOWEST: f64 = 10.0;
 
+/// The step of step-wise sets, s.
+fn step(setup: &FlightSetup) -> f64 {
+    setup.scenario.generate.timing_in_force().step_s.unwrap_or(1.0)
+}
+
+impl FlightSetup<'_> {
+    /// Whether there is a witness of `waypoints` whose legs all take the step, as step-wise sets have it; a certificate may take other
+    /// times.
+    ///
+    /// # Errors
+    /// A rotor layout without a flatness map, in a sentence's part.
+    pub fn certificate_in_step(&self, waypoints: &[Point3<f64>]) -> Result<Certificate, String> {
+        Ok(Certifier::timed(self, LegTiming::Step(step(self)))?.answer(waypoints))
+    }
+}
+
 /// Certifies plans under the scenario's limits.
 pub(super) struct Certifier {
     judge: LegJudge,
@@ -25,9 +41,13 @@ impl Certifier {
     /// # Errors
     /// As [`judge`].
     pub(super) fn new(setup: &FlightSetup) -> Result<Self, String> {
-        let step = setup.scenario.generate.timing_in_force().step_s.unwrap_or(1.0);
+        let step = step(setup);
+        Self::timed(setup, LegTiming::ladder(QUICKEST * step, SLOWEST * step))
+    }
+
+    fn timed(setup: &FlightSetup, timing: LegTiming) -> Result<Self, String> {
         let longest_flight = setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
-        Ok(Self { judge: judge(setup)?, timing: LegTiming::ladder(QUICKEST * step, SLOWEST * step), longest_flight })
+        Ok(Self { judge: judge(setup)?, timing, longest_flight })
     }
 
     /// The answer for `waypoints`.
