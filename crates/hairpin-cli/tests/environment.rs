@@ -145,6 +145,20 @@ fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
     assert!(code == 1 && out.contains("case 0000: environment.obstacles[0].size_m[2]"), "{out}");
 }
 
+/// A witness that `certify` finds leaves the straight legs: what is placed has to be clear of it.
+#[test]
+fn obstacles_are_clear_of_the_witness_that_is_certified() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let balls = "generate.environment.obstacles={count=2,radius_m=0.5}";
+    let sets = ["generate.search.stress=\"clearance\"", balls, "generate.certify=true"];
+    looped(here, "generate", "certified", &sets);
+    let found = cases(&here.join("certified"));
+    assert!(found.iter().all(|case| case.profile.is_some() && case.environment.is_some()));
+    let verified = json(here, &["verify", "certified"]);
+    assert_eq!((&verified["checked"], &verified["failed"]), (&2.into(), &0.into()), "{verified}");
+}
+
 #[test]
 fn what_cannot_be_searched_is_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -153,7 +167,9 @@ fn what_cannot_be_searched_is_refused() {
     let wind = "generate.environment.wind_m_s=4.0";
     let near = "generate.search.stress=\"clearance\"";
     let balls = "generate.environment.obstacles={count=2,radius_m=0.5}";
-    let table: [(&[&str], &[&str]); 8] = [
+    let table: [(&[&str], &[&str]); 10] = [
+        (&[near, balls, "generate.search.executions=2"], &["generate.search.executions", "≥ 3 with obstacles"]),
+        (&["generate.search.stress=\"joint-effort\""], &["joint-effort", "a flight is measured by"]),
         (&[wind, "generate.search.method=\"exact\""], &["generate.environment", "only the method `in-loop`"]),
         (&[wind, "world.wind_m_s=[1,0,0]"], &["generate.environment.wind_m_s", "takes the place"]),
         (&["generate.environment.wind_m_s=-1.0"], &["generate.environment.wind_m_s", "> 0 and ≤ 100 m/s"]),

@@ -4,12 +4,13 @@ mod campaigns;
 
 use campaigns::{ENDLESS, asked, check_witness, distance_to_hull, from_mast, run, setup};
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Evidence, Setup, generate, optima, verdict};
+use hairpin::campaign::{Case, Evidence, Setup, Stop, generate, optima, verdict};
 use hairpin::feasibility::reach::sampling;
 use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::Quadrotor;
 use nalgebra::{Point3, Vector3};
 use serde_json::json;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What holds for every case of every reach set.
 fn check_common(setup: &Setup, case: &Case, what: &str) {
@@ -134,6 +135,34 @@ fn interruptions_and_threads_change_nothing() {
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         assert_eq!(pool.install(|| run(&setup, &Known::default())), (cases.clone(), tally.clone()), "{threads}");
+    }
+}
+
+/// Wherever a search that executes is stopped, it goes on to where it would have come without.
+#[test]
+fn a_graph_whose_executions_were_cut_off_is_searched_again() {
+    let mut wanted = asked("hull", "in-loop", 3);
+    wanted["search"]["executions"] = json!(40);
+    let mut scenario = campaigns::scenario("flightgoggles", 6, wanted);
+    scenario["execute"] = json!({ "controller": "stable-waypoint" });
+    let setup = campaigns::of(scenario);
+    let (calm, whole) = run(&setup, &Known::default());
+    assert_eq!(calm.len(), 3);
+    let looks = AtomicUsize::new(0);
+    let looking = || looks.fetch_add(1, Ordering::Relaxed) == usize::MAX;
+    generate(&setup, &Known::default(), &Stop { cancelled: &looking, ..ENDLESS }, &mut |_, _| {});
+    // Asked for the n-th time, the caller wants to stop: before, within and behind graphs, and before the last one that is needed.
+    for share in [0, 1, 2, 3, 4, 5, 6] {
+        let patience = looks.load(Ordering::Relaxed) * share / 10;
+        let looks = AtomicUsize::new(0);
+        let cancelled = || looks.fetch_add(1, Ordering::Relaxed) >= patience;
+        let mut kept = Vec::new();
+        let stop = Stop { cancelled: &cancelled, ..ENDLESS };
+        let tally = generate(&setup, &Known::default(), &stop, &mut |new, _| kept.extend_from_slice(new));
+        assert!(tally.stopped && kept.len() < calm.len(), "not stopped at look {patience}");
+        assert!(kept[..] == calm[..kept.len()], "stopped at look {patience}");
+        let (cases, resumed) = run(&setup, &Known { cases: kept, tally });
+        assert!(cases == calm && resumed.curves == whole.curves, "resumed from look {patience}");
     }
 }
 

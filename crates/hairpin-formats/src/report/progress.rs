@@ -2,6 +2,7 @@
 
 use hairpin::campaign::report::{ReportData, number};
 use hairpin::campaign::{Curve, RoundTally};
+use hairpin::judgement::Stress;
 
 use super::escape::escape;
 use crate::figure::{Axis, Figure, Marks, Point, Scale, Series};
@@ -18,10 +19,18 @@ pub(super) fn section(data: &ReportData) -> String {
         "<section class=\"panel\" id=\"progress\"><h2>Stress against executions</h2><p class=\"note\">The largest {} executed so far \
          in each of {} graphs, over executions in that graph; one that ended earlier keeps its last. Every rise is in \
          best-so-far.tsv.</p><figure>{drawn}</figure>{}</section>",
-        data.stress.word().replace('-', " "),
+        told(data.stress),
         data.curves.len(),
         rounds(&data.rounds)
     )
+}
+
+/// The stress in words; of a distance, whose least is the worst, with the sign that the numbers have.
+fn told(stress: Stress) -> String {
+    match stress {
+        Stress::Clearance => "negative clearance (above 0: so deep in an obstacle)".into(),
+        other => other.word().replace('-', " "),
+    }
 }
 
 fn figure(data: &ReportData) -> Option<Figure> {
@@ -43,10 +52,7 @@ fn figure(data: &ReportData) -> Option<Figure> {
     Some(Figure {
         title: String::new(),
         x: Axis { label: "executions in a graph".into(), scale: Scale::Linear },
-        y: Axis {
-            label: format!("largest {} so far{unit}", data.stress.word().replace('-', " ")),
-            scale: Scale::Linear,
-        },
+        y: Axis { label: format!("largest {} so far{unit}", told(data.stress)), scale: Scale::Linear },
         series: if data.curves.len() > 1 { vec![mean, largest, least] } else { vec![mean] },
     })
 }

@@ -64,15 +64,24 @@ impl<'a> Solver<'a> {
             put: &put,
             obstacles: asked.obstacles.is_some(),
         });
+        // A witness leaves its straight legs: obstacles are placed beside what the case will claim.
+        let furnish = |plan: &Plan| (executions.furnish)(&self.certified(plan.clone()));
+        let executions = Executions { furnish: &furnish, ..executions };
         let looped = Looped { executions, surroundings, moved: &|plan, points| self.moved(plan, points), wanted };
         let mut outcome = match &self.set {
             Set::Stepwise(set) => set.solve(graph, &points, looped),
             Set::Witness(set) => set.solve(graph, &points, looped),
         };
-        if let Some(certifier) = &self.certifier {
-            outcome.plans.iter_mut().for_each(|(_, plan)| certifier.certify(plan));
-        }
+        outcome.plans = outcome.plans.into_iter().map(|(graph, plan)| (graph, self.certified(plan))).collect();
         outcome
+    }
+
+    /// `plan` with a certificate, if one is asked for and it has none yet.
+    fn certified(&self, mut plan: Plan) -> Plan {
+        if let Some(certifier) = self.certifier.as_ref().filter(|_| plan.certified.is_none()) {
+            certifier.certify(&mut plan);
+        }
+        plan
     }
 
     /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible.

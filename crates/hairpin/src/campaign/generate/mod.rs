@@ -80,6 +80,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
         None => wanted.saturating_mul(GRAPHS_PER_CASE),
     };
     let batch = 2 * rayon::current_num_threads() as u64;
+    let executes = setup.scenario.executes();
     (stop.progress)(collector.cases, wanted as usize);
     'units: while collector.tally.units < units && (collector.cases as u64) < wanted {
         let first = collector.tally.units;
@@ -87,9 +88,12 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
         let outcomes: Vec<Option<Outcome>> = (first..last)
             .into_par_iter()
             .map(|unit| {
-                (!(stop.cancelled)()).then(|| {
+                let begins = !(stop.cancelled)();
+                let outcome = begins.then(|| {
                     if varied { drawn_case(setup, unit, stop) } else { solver.solve(setup, unit, Wanted::Cases, stop) }
-                })
+                });
+                // Where executions were denied, a graph was searched in part, and is searched again by whoever goes on.
+                outcome.filter(|_| !(executes && (stop.cancelled)()))
             })
             .collect();
         for outcome in outcomes {

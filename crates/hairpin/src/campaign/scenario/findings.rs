@@ -97,6 +97,18 @@ impl Findings {
         );
         self.require(search.stress == Stress::Clearance, key, "given", &bound);
         self.count(&format!("{key}.count"), count, 1, MOST_PLACED);
+        let least = search.per_graph.saturating_mul(2).saturating_add(1 + search.confirm);
+        let bound = format!(
+            "≥ {least} with obstacles: two for each of the generate.search.per_graph trajectories that they are put around, and one to \
+             find a trajectory"
+        );
+        self.require(search.executions >= least, "generate.search.executions", search.executions, &bound);
+    }
+
+    /// Whether a search that executes is for a stress that `execution`, a flight or a drive, is measured by.
+    pub(super) fn stress(&mut self, stress: Stress, measured: bool, execution: &str) {
+        let bound = format!("a stress that a {execution} is measured by");
+        self.require(measured, "generate.search.stress", format!("\"{}\"", stress.word()), &bound);
     }
 
     /// Whether what is searched under `key` stands nowhere else: given in its own place, or varied there.

@@ -17,6 +17,9 @@ pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, found: &mut
         let bound = "another one, or keep-outs given: there is nothing to be near to";
         found.require(some, "generate.search.stress", "\"clearance\"", bound);
     }
+    if search.executes(&scenario.generate.search.score) {
+        found.stress(search.stress, !matches!(search.stress, Stress::JointEffort | Stress::Saturation), "drive");
+    }
     let Some(environment) = &scenario.generate.environment else { return };
     let DriveEnvironmentSection { obstacles, external_force_n } = *environment;
     found.environment(&search, obstacles.is_some() || external_force_n.is_some(), "obstacles or external_force_n");

@@ -13,6 +13,9 @@ pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
         let bound = "another one, or obstacles given: there is nothing to be near to";
         found.require(some, "generate.search.stress", "\"clearance\"", bound);
     }
+    if search.executes(&scenario.generate.score) {
+        found.stress(search.stress, !matches!(search.stress, Stress::JointEffort), "flight");
+    }
     let Some(environment) = &scenario.generate.environment else { return };
     let key = "generate.environment";
     let EnvironmentSection { wind_m_s, gust_m_s, gust_s, obstacles } = *environment;
