@@ -44,6 +44,8 @@ fn sizes_that_are_none_are_refused() {
     for (set, why) in [("instance=2", "unknown field"), ("points", "KEY=VALUE"), ("points=\"all\"", "invalid type")] {
         refused(folder.path(), &["experiment", "robtest-table-1", "--set", set], &[why]);
     }
+    let negative = ["--set", "points=[5]", "--set", "instances=1", "--set", "cutoffs_s=[-1.0]"];
+    refused(folder.path(), &[&["experiment", "robtest-figure-7"], &negative[..]].concat(), &["cutoffs_s", "≥ 0 s"]);
     assert!(fs::read_dir(folder.path()).unwrap().next().is_none());
 }
 

@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use commands::{SMALL, contents, json, refused, run};
+use hairpin_formats::folder::CampaignFolder;
 use serde_json::Value;
 
 fn number(value: &Value) -> f64 {
@@ -103,4 +104,50 @@ fn flights_drives_and_programs_say_what_they_exercised() {
         let page = fs::read_to_string(here.join(name).join("report.html")).unwrap();
         assert!(page.contains("What was exercised") && page.contains(&format!("{hit} of {of} cells")), "{name}");
     }
+}
+
+/// A case that the executor failed on has a score and no deviation: then all are compared by their scores.
+#[test]
+fn deviations_are_not_compared_with_scores() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
+    let point = fs::read_to_string(minimal).unwrap();
+    let sick = "        if message[\"case\"] == \"0002\":\n            sys.exit(1)\n        fly(message)\n";
+    fs::write(here.join("sick.py"), point.replace("        fly(message)\n", sick)).unwrap();
+    let fly = ["--executor", "python3 sick.py", "--set", "execute.workers=1", "--out", "all"];
+    run(here, &[&SMALL[..], &fly].concat());
+    let chosen = json(here, &["select", "all", "--cases", "1", "--by", "stress", "--out", "one"]);
+    // The point never leaves its path by 0.1 m, and scores add up to more than 1.
+    assert!(
+        number(&chosen["all"]["worst"]) > 1.0 && chosen["selected"]["stress"] == chosen["all"]["worst"],
+        "{chosen}"
+    );
+    assert!(number(&chosen["all"]["stress"]) > 1.0, "no deviation among them: {chosen}");
+}
+
+#[test]
+fn a_choice_of_a_choice_keeps_the_names_of_its_missions() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    run(here, &[&SMALL[..], &["--out", "all"]].concat());
+    fs::create_dir(here.join("mine")).unwrap();
+    for (name, top) in [("a", 5), ("b", 9), ("c", 12)] {
+        fs::write(here.join(format!("mine/{name}.csv")), format!("x_m,y_m,z_m\n3,3,3\n3,3,{top}\n9,3,9\n")).unwrap();
+    }
+    run(here, &["execute", "all", "--missions", "mine"]);
+    let missions = |folder: &str| -> Vec<String> {
+        let tally = CampaignFolder::open(&here.join(folder)).unwrap().read_tally().unwrap();
+        tally.missions
+    };
+    let first = json(here, &["select", "all", "--cases", "2", "--by", "stress", "--out", "two"]);
+    let again = json(here, &["select", "two", "--cases", "1", "--by", "stress", "--out", "one"]);
+    let all = missions("all");
+    let named = |object: &Value| -> Vec<String> {
+        let mut numbers: Vec<usize> =
+            object["cases"].as_array().unwrap().iter().map(|case| case.as_str().unwrap().parse().unwrap()).collect();
+        numbers.sort_unstable();
+        numbers.into_iter().map(|number| all[number].clone()).collect()
+    };
+    assert_eq!((missions("two"), missions("one")), (named(&first), named(&again)));
 }

@@ -1,12 +1,12 @@
 //! `hairpin select`: a few of many cases, in a campaign folder of their own.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
 use hairpin::campaign::learn::NAME;
 use hairpin::campaign::report::number;
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
-use hairpin::campaign::{Case, Grid, Setup, Tally, vary};
+use hairpin::campaign::{Case, CaseResult, Grid, Setup, Tally, vary};
 use hairpin_formats::folder::CampaignFolder;
 use rayon::prelude::*;
 use serde_json::json;
@@ -47,7 +47,7 @@ pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
     let measured = [choice.measure(&places), choice.measure(&choice.best(count, By::Stress)), choice.measure(&all)];
     let mut chosen: Vec<Case> = places.iter().map(|place| cases[*place].clone()).collect();
     chosen.sort_by_key(|case| case.number);
-    let folder = write(&work, asked, &chosen)?;
+    let folder = write(&work, asked, &cases, &chosen)?;
     let names: Vec<String> = places.iter().map(|place| cases[*place].id()).collect();
     let cells = Grid::of(&work.setup).cells();
     let [found, stressful, whole] = &measured;
@@ -117,28 +117,31 @@ fn candidates(work: &Work, cases: &[Case]) -> Result<Vec<Candidate>, Problem> {
     let results = work.folder.read_results()?;
     let table = work.folder.read_runs_table()?;
     let grid = Grid::of(&work.setup);
+    // Cases are compared by what came of them only where that is known of all.
+    let measured: HashMap<usize, &CaseResult> =
+        results.iter().filter(|result| result.measures.is_some()).map(|result| (result.case, result)).collect();
+    let all = cases.iter().all(|case| measured.contains_key(&case.number));
     cases
         .par_iter()
         .map(|case| {
             let runs = work.folder.read_runs(case.number, &table)?;
             let met: BTreeSet<usize> =
                 runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
-            // Cases are compared by what came of them only where that is known of all.
-            let result =
-                results.iter().find(|result| result.case == case.number).filter(|_| results.len() == cases.len());
+            let result = measured.get(&case.number).copied().filter(|_| all);
             Ok(Candidate::new(case, result, met))
         })
         .collect()
 }
 
 /// The new folder: the chosen cases with their plans and runs, judged if the old one was.
-fn write(work: &Work, asked: &Select, chosen: &[Case]) -> Result<CampaignFolder, Problem> {
+fn write(work: &Work, asked: &Select, all: &[Case], chosen: &[Case]) -> Result<CampaignFolder, Problem> {
     let key = if work.setup.arm().is_some() { "generate.search.programs" } else { "generate.search.cases" };
     let varied = work.setup.scenario.vary().clone();
     let scenario = vary::apply(&work.setup.scenario, &[(key.into(), chosen.len().into())])?;
     let setup = Setup::new(scenario.with_vary(varied))?.with_simd(work.setup.simd);
     let new = Work { folder: folder::make(&asked.out, &setup, false, asked.force)?, setup };
     let (old, there) = (&work.folder, &new.folder);
+    let numbers: BTreeSet<usize> = chosen.iter().map(|case| case.number).collect();
     let copy = |from: &Path, to: &Path| {
         let copied = if from.exists() { std::fs::copy(from, to).map(drop) } else { Ok(()) };
         copied.map_err(|error| Problem::input(format!("cannot copy {} to {}: {error}", from.display(), to.display())))
@@ -159,10 +162,11 @@ fn write(work: &Work, asked: &Select, chosen: &[Case]) -> Result<CampaignFolder,
     copy(&old.file(NAME), &there.file(NAME))?;
     there.write_new_cases(chosen, 0)?;
     let old_tally = old.read_tally()?;
-    let names = chosen.iter().filter_map(|case| old_tally.missions.get(case.number).cloned()).collect();
+    // Missions are those of the cases in their order: a choice keeps numbers, and may be chosen from again.
+    let missions = all.iter().zip(&old_tally.missions);
+    let names = missions.filter(|(case, _)| numbers.contains(&case.number)).map(|(_, name)| name.clone()).collect();
     let tally = Tally { complete: true, missions: names, ..old_tally };
     there.write_tally(&tally)?;
-    let numbers: BTreeSet<usize> = chosen.iter().map(|case| case.number).collect();
     let facts: Vec<_> =
         table.into_iter().filter(|((case, _), _)| numbers.contains(case)).map(|(_, facts)| facts).collect();
     if !facts.is_empty() {

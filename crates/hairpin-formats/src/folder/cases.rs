@@ -53,6 +53,16 @@ impl CampaignFolder {
         let mut all = self.read_cases_without_profiles()?;
         for case in &mut all {
             self.read_witness(case)?;
+            let legs = case.profile.as_ref().map(|witness| witness.legs.len());
+            let legs = legs.or(case.drive.as_ref().map(|witness| witness.legs.len()));
+            if legs.is_some_and(|legs| legs + 1 != case.waypoints.len()) {
+                let what = "has another number of legs than between its waypoints";
+                return Err(FolderError::Contradiction {
+                    path: self.profile_path(case.number),
+                    case: case.number,
+                    what,
+                });
+            }
         }
         Ok(all)
     }
@@ -71,6 +81,12 @@ impl CampaignFolder {
             let route = routes.remove(&number).ok_or_else(|| contradiction(number, "has no waypoints"))?;
             if route.waypoints.len() != length {
                 return Err(contradiction(number, "has another number of waypoints than in results.parquet"));
+            }
+            if !route.leg_times.is_empty() && route.leg_times.len() + 1 != length {
+                return Err(contradiction(
+                    number,
+                    "has leg times for another number of legs than between its waypoints",
+                ));
             }
             (case.waypoints, case.leg_times, case.seen) = (route.waypoints, route.leg_times, route.seen);
             all.push(case);

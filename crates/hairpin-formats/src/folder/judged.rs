@@ -70,7 +70,13 @@ impl CampaignFolder {
             Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
             text => {
                 let found = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
-                found.map(Some).map_err(|cause| FolderError::Unreadable { path, cause })
+                let fits = |found: Coverage| match found.fits() {
+                    true => Ok(Some(found)),
+                    false => {
+                        Err(io::Error::new(io::ErrorKind::InvalidData, "its grid and its cells do not fit together"))
+                    }
+                };
+                found.and_then(fits).map_err(|cause| FolderError::Unreadable { path, cause })
             }
         }
     }

@@ -53,6 +53,22 @@ pub struct Coverage {
     pub cases: BTreeMap<usize, usize>,
 }
 
+impl Coverage {
+    /// Whether its parts fit together, as those of a file that was edited may not.
+    pub fn fits(&self) -> bool {
+        let sound = |axis: &Axis| {
+            let rising = axis.edges.windows(2).all(|pair| pair[0] < pair[1]);
+            axis.edges.len() >= 2 && rising && (axis.words.is_empty() || axis.words.len() == axis.cells())
+        };
+        let axes = &self.grid.axes;
+        let cells = axes.iter().try_fold(1_usize, |cells, axis| cells.checked_mul(axis.edges.len().saturating_sub(1)));
+        axes.iter().all(sound)
+            && cells == Some(self.cells)
+            && self.hit == self.cases.len()
+            && self.cases.keys().all(|cell| *cell < self.cells)
+    }
+}
+
 impl Axis {
     fn even(name: &str, unit: &str, from: f64, to: f64, cells: usize) -> Self {
         let edges = (0..=cells).map(|i| from + (to - from) * i as f64 / cells as f64).collect();

@@ -81,7 +81,8 @@ pub(super) fn generate(
     let (graphs, samples, tally) = (Vec::new(), Vec::new(), Tally::default());
     let mut campaign = Campaign { setup, solver, stop, search, begun, graphs, samples, executed: 0, tally };
     for round in 0..campaign.search.adaptive_rounds() {
-        if round > 0 && campaign.graphs.is_empty() || (stop.cancelled)() {
+        let done = campaign.graphs.is_empty() || !campaign.in_time(campaign.search.adaptive_rounds() as f64);
+        if round > 0 && done || (stop.cancelled)() {
             break;
         }
         campaign.round(round);
@@ -105,7 +106,7 @@ impl Campaign<'_> {
                 (0, 0) => self.first(share),
                 _ => self.next((number, part), share, &models),
             };
-            self.execute(number, todo, &mut told, &mut sums);
+            self.execute((number, part), todo, &mut told, &mut sums);
             if !self.goes_on(number) {
                 break;
             }
@@ -120,8 +121,14 @@ impl Campaign<'_> {
         (self.stop.progress)(self.tally.expansions as usize, self.search.executions as usize);
     }
 
-    /// Executes `todo` in round `number`; stresses are added to `sums`, by origin.
-    fn execute(&mut self, number: u64, todo: Vec<Todo>, told: &mut RoundTally, sums: &mut [(f64, u64); 3]) {
+    /// Executes `todo` in part `part` of round `number`; stresses are added to `sums`, by origin.
+    fn execute(
+        &mut self,
+        (number, part): (u64, u64),
+        todo: Vec<Todo>,
+        told: &mut RoundTally,
+        sums: &mut [(f64, u64); 3],
+    ) {
         let results: Vec<Option<_>> = todo
             .par_iter()
             .enumerate()
@@ -135,7 +142,7 @@ impl Campaign<'_> {
                         trial.stress.is_finite()
                     })
                 };
-                self.goes_on(number).then(found)
+                self.begins(number, part).then(found)
             })
             .collect();
         self.executed += results.len() as u64;
@@ -160,7 +167,13 @@ impl Campaign<'_> {
         }
     }
 
-    /// Whether executions of round `number` may begin: neither stopped, nor is the round's share of the time used up.
+    /// Whether executions of part `part` of round `number` may begin. Those of the first may wherever the round began in time: learning and
+    /// searching take what they take, and a round that executed nothing would have been for nothing.
+    fn begins(&self, number: u64, part: u64) -> bool {
+        if part == 0 { !(self.stop.cancelled)() } else { self.goes_on(number) }
+    }
+
+    /// Whether round `number` goes on: neither stopped, nor is the round's share of the time used up.
     fn goes_on(&self, number: u64) -> bool {
         self.in_time((number + 1) as f64) && !(self.stop.cancelled)()
     }
@@ -238,7 +251,7 @@ impl Campaign<'_> {
                     models,
                     known: &graph.known,
                 };
-                self.goes_on(number)
+                self.begins(number, part)
                     .then(|| self.solver.solve(self.setup, graph.number, Wanted::Round(&round), self.stop))
             })
             .collect();
