@@ -85,6 +85,49 @@ fn a_run_is_valid_only_if_it_is_whole_and_the_one_named() {
     ));
 }
 
+/// Whoever reads cases walks legs by number: a file that has too few, or times for too many, would be walked beyond its end.
+#[test]
+fn legs_are_as_many_as_there_are_between_waypoints() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = written(place.path());
+    let mut edited = campaign().cases;
+    let legs = &mut edited[0].profile.as_mut().unwrap().legs;
+    legs.pop();
+    folder.write_cases(&edited).unwrap();
+    let told = folder.read_cases().unwrap_err().to_string();
+    assert!(told.contains("0000.parquet") && told.contains("another number of legs"), "{told}");
+    let mut edited = campaign().cases;
+    edited[0].leg_times.push(1.0);
+    folder.write_cases(&edited).unwrap();
+    let told = folder.read_cases().unwrap_err().to_string();
+    assert!(told.contains("leg times for another number of legs"), "{told}");
+}
+
+#[test]
+fn a_coverage_that_does_not_fit_its_grid_is_refused() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = written(place.path());
+    let axis = |edges: &str| format!(r#"{{ "name": "speed", "unit": "m/s", "edges": {edges}, "words": [] }}"#);
+    let text = |edges: &str, cells: usize, cell: usize| {
+        format!(
+            r#"{{ "grid": {{ "axes": [{}] }}, "cells": {cells}, "hit": 1, "cases": {{ "{cell}": 1 }} }}"#,
+            axis(edges)
+        )
+    };
+    for (text, fits) in [
+        (text("[0, 1, 2]", 2, 1), true),
+        (text("[]", 0, 0), false),
+        (text("[0]", 0, 0), false),
+        (text("[1, 1]", 1, 0), false),
+        (text("[0, 1, 2]", 3, 1), false),
+        (text("[0, 1, 2]", 2, 2), false),
+    ] {
+        fs::write(place.path().join("coverage.json"), &text).unwrap();
+        let read = folder.read_coverage();
+        assert_eq!(read.is_ok(), fits, "{text}: {read:?}");
+    }
+}
+
 #[test]
 fn a_folder_of_somebody_else_is_left_alone() {
     let place = tempfile::tempdir().unwrap();
