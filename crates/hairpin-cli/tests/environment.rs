@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use commands::{assert_same, copy, json, refused, run, small_hull};
+use hairpin::campaign::scenario::DiscreteGustSection;
 use hairpin::campaign::{Case, Environment};
 use hairpin_formats::folder::CampaignFolder;
 use nalgebra::Vector3;
@@ -135,14 +136,41 @@ fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
     let (code, out, _) = run(here, &["verify", "balls"]);
     assert!(code == 1 && out.contains("case 0000: environment.obstacles[0].clearance"), "{out}");
 
-    // A box that is a little higher than was asked for is none of those that were.
-    let kept = CampaignFolder::open_to_write(&here.join("boxes")).unwrap();
-    let mut higher = kept.read_cases().unwrap();
-    higher[0].environment.as_mut().unwrap().obstacles[0].cuboid.as_mut().unwrap().size_m[2] = 2.000_001;
-    kept.write_results(&higher, &[]).unwrap();
-    drop(kept);
-    let (code, out, _) = run(here, &["verify", "boxes"]);
-    assert!(code == 1 && out.contains("case 0000: environment.obstacles[0].size_m[2]"), "{out}");
+    // Neither a box a little higher than was asked for, nor one of no size, nor a gust beside the wind is one of those that were.
+    let gust = DiscreteGustSection { velocity_m_s: [1.0, 0.0, 0.0], start_s: -1.0, duration_s: 2.0 };
+    type Change<'a> = &'a dyn Fn(&mut Environment);
+    let changes: [(&str, Change); 4] = [
+        ("obstacles[0].size_m[2]", &|there| there.obstacles[0].cuboid.as_mut().unwrap().size_m[2] = 2.000_001),
+        ("obstacles[0].size_m", &|there| there.obstacles[0].cuboid.as_mut().unwrap().size_m[0] = -0.6),
+        ("discrete_gust.velocity_m_s", &|there| there.discrete_gust = Some(gust)),
+        ("discrete_gust.start_s", &|there| there.discrete_gust = Some(gust)),
+    ];
+    let found = cases(&here.join("boxes"));
+    for (field, change) in changes {
+        let mut changed = found.clone();
+        change(changed[0].environment.as_mut().unwrap());
+        let kept = CampaignFolder::open_to_write(&here.join("boxes")).unwrap();
+        kept.write_results(&changed, &[]).unwrap();
+        drop(kept);
+        let (code, out, _) = run(here, &["verify", "boxes"]);
+        assert!(code == 1 && out.contains(&format!("case 0000: environment.{field}")), "{field}: {out}");
+    }
+}
+
+/// What a bound varies to is what the case's wind was searched within.
+#[test]
+fn bounds_that_vary_are_those_of_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let varied = "vary.\"generate.environment.wind_m_s\"={choice=[8.0]}";
+    let sets = ["generate.environment.wind_m_s=1.0", varied, "generate.search.executions=30"];
+    looped(here, "generate", "varied", &sets);
+    let winds: Vec<f64> = cases(&here.join("varied"))
+        .iter()
+        .map(|case| Vector3::from(case.environment.as_ref().unwrap().wind_m_s.unwrap()).norm())
+        .collect();
+    assert!(winds[0] <= 1.0 + 1e-9 && winds[1] > 1.0, "{winds:?}");
+    assert_eq!(json(here, &["verify", "varied"])["failed"], 0);
 }
 
 /// A witness that `certify` finds leaves the straight legs: what is placed has to be clear of it.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::report::number;
+use hairpin::campaign::digits::number;
 use hairpin::campaign::{Case, CaseResult, Comparison, compare};
 use serde_json::json;
 

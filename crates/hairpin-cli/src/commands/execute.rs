@@ -1,8 +1,6 @@
 //! `hairpin execute`: the flights of a campaign whose trajectories are there, or of waypoint files made elsewhere.
 
-use hairpin::campaign::{Case, Evidence};
 use hairpin_formats::{folder::CampaignFolder, waypoints};
-use nalgebra::Point3;
 use serde_json::json;
 
 use super::parts::{self, Flown, Replayed};
@@ -77,25 +75,5 @@ fn unchanged(execute: &Execute, sets: &[(String, String)]) -> Result<(), Problem
         Some(key) => {
             Err(Problem::input(format!("--resume: `{key}` is not what it was; without --resume all is flown anew")))
         }
-    }
-}
-
-/// A case of which nothing is known but its waypoints.
-pub(crate) fn bare_case(number: usize, seed: u64, waypoints: Vec<Point3<f64>>) -> Case {
-    Case {
-        number,
-        seed,
-        graph: 0,
-        waypoints,
-        leg_times: Vec::new(),
-        seen: Vec::new(),
-        score: 0.0,
-        bound: None,
-        evidence: Evidence::Unchecked,
-        certified: None,
-        profile: None,
-        drive: None,
-        program: None,
-        environment: None,
     }
 }

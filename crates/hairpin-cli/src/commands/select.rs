@@ -3,8 +3,8 @@
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
+use hairpin::campaign::digits::number;
 use hairpin::campaign::learn::NAME;
-use hairpin::campaign::report::number;
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, CaseResult, Grid, Setup, Tally, vary};
 use hairpin_formats::folder::CampaignFolder;

@@ -43,9 +43,7 @@ impl CampaignFolder {
     /// A file cannot be written.
     pub fn write_coverage(&self, coverage: &Coverage) -> Result<(), FolderError> {
         let [json, tabs] = COVERAGE;
-        let mut text = serde_json::to_string_pretty(coverage).expect("coverage is plain data");
-        text.push('\n');
-        atomic::write(&self.file(json), text.as_bytes())?;
+        self.write_json(json, coverage)?;
         let axes = &coverage.grid.axes;
         let mut table = axes.iter().flat_map(columns).chain(["cases".into()]).collect::<Vec<_>>().join("\t") + "\n";
         for cell in 0..coverage.cells {
@@ -65,20 +63,12 @@ impl CampaignFolder {
     /// # Errors
     /// The file is broken.
     pub fn read_coverage(&self) -> Result<Option<Coverage>, FolderError> {
-        let path = self.file(COVERAGE[0]);
-        match fs::read_to_string(&path) {
-            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
-            text => {
-                let found = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
-                let fits = |found: Coverage| match found.fits() {
-                    true => Ok(Some(found)),
-                    false => {
-                        Err(io::Error::new(io::ErrorKind::InvalidData, "its grid and its cells do not fit together"))
-                    }
-                };
-                found.and_then(fits).map_err(|cause| FolderError::Unreadable { path, cause })
-            }
+        let found: Option<Coverage> = self.read_json_if_there(COVERAGE[0])?;
+        if found.as_ref().is_some_and(|found| !found.fits()) {
+            let cause = io::Error::new(io::ErrorKind::InvalidData, "its grid and its cells do not fit together");
+            return Err(FolderError::Unreadable { path: self.file(COVERAGE[0]), cause });
         }
+        Ok(found)
     }
 
     /// Writes which parameter did it; nothing to say leaves no file.
@@ -93,9 +83,7 @@ impl CampaignFolder {
                 _ => Ok(()),
             };
         }
-        let mut text = serde_json::to_string_pretty(found).expect("influences are plain data");
-        text.push('\n');
-        Ok(atomic::write(&self.file(INFLUENCE), text.as_bytes())?)
+        self.write_json(INFLUENCE, &found)
     }
 
     /// Writes what every run of an arm did on every move.
@@ -103,9 +91,7 @@ impl CampaignFolder {
     /// # Errors
     /// The file cannot be written.
     pub fn write_moves(&self, moves: &Moves) -> Result<(), FolderError> {
-        let mut text = serde_json::to_string_pretty(moves).expect("numbers and names are plain data");
-        text.push('\n');
-        Ok(atomic::write(&self.file(MOVES), text.as_bytes())?)
+        self.write_json(MOVES, moves)
     }
 
     /// Reads it; nothing where no arm was judged.
@@ -113,14 +99,7 @@ impl CampaignFolder {
     /// # Errors
     /// The file is broken.
     pub fn read_moves(&self) -> Result<Moves, FolderError> {
-        let path = self.file(MOVES);
-        match fs::read_to_string(&path) {
-            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(Moves::default()),
-            text => {
-                let found = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
-                found.map_err(|cause| FolderError::Unreadable { path, cause })
-            }
-        }
+        Ok(self.read_json_if_there(MOVES)?.unwrap_or_default())
     }
 
     /// Which parameter did it; nothing where nothing was varied or judged.
@@ -128,14 +107,7 @@ impl CampaignFolder {
     /// # Errors
     /// The file is broken.
     pub fn read_influences(&self) -> Result<Vec<Influence>, FolderError> {
-        let path = self.file(INFLUENCE);
-        match fs::read_to_string(&path) {
-            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
-            text => {
-                let found = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
-                found.map_err(|cause| FolderError::Unreadable { path, cause })
-            }
-        }
+        Ok(self.read_json_if_there(INFLUENCE)?.unwrap_or_default())
     }
 }
 

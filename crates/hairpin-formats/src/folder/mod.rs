@@ -29,11 +29,11 @@
 mod cases;
 mod error;
 mod forget;
+mod json;
 mod judged;
 mod runs;
 
 use std::fs::{self, File, TryLockError};
-use std::io;
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{Curve, Tally};
@@ -152,9 +152,7 @@ impl CampaignFolder {
     /// # Errors
     /// The file cannot be written.
     pub fn write_tally(&self, tally: &Tally) -> Result<(), FolderError> {
-        let mut text = serde_json::to_string_pretty(tally).expect("a tally is plain data");
-        text.push('\n');
-        Ok(atomic::write(&self.file(GENERATION), text.as_bytes())?)
+        self.write_json(GENERATION, tally)
     }
 
     /// What the search did.
@@ -162,10 +160,7 @@ impl CampaignFolder {
     /// # Errors
     /// The file is missing or broken.
     pub fn read_tally(&self) -> Result<Tally, FolderError> {
-        let path = self.file(GENERATION);
-        let text = fs::read_to_string(&path);
-        let tally = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
-        tally.map_err(|cause| FolderError::Unreadable { path, cause })
+        self.read_json(GENERATION)
     }
 
     /// Writes where the largest stress executed in a graph rose, a row each, and where it stood at the end; nothing to say leaves no file.

@@ -1,6 +1,7 @@
 //! What executions in the loop came to, as they went on.
 
-use hairpin::campaign::report::{ReportData, number};
+use hairpin::campaign::digits::number;
+use hairpin::campaign::report::ReportData;
 use hairpin::campaign::{Curve, RoundTally};
 use hairpin::judgement::Stress;
 

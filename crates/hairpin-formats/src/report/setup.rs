@@ -1,6 +1,7 @@
 //! How it was tested: the facts, the robot as it is understood, assumptions and limits of this run.
 
-use hairpin::campaign::report::{ReportData, number};
+use hairpin::campaign::digits::number;
+use hairpin::campaign::report::ReportData;
 
 use super::escape::escape;
 use super::svg;

@@ -1,7 +1,8 @@
 //! How measures are spread over all cases, and which of the parameters that vary did it.
 
 use hairpin::campaign::Influence;
-use hairpin::campaign::report::{ReportData, number};
+use hairpin::campaign::digits::number;
+use hairpin::campaign::report::ReportData;
 use hairpin::judgement::Statistics;
 
 use super::escape::escape;

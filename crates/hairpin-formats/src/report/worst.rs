@@ -1,6 +1,7 @@
 //! The worst cases in full: what was found of each, the 3D view with its slider, and drawings that need no script.
 
-use hairpin::campaign::report::{ReportData, Shown, number, violation};
+use hairpin::campaign::digits::number;
+use hairpin::campaign::report::{ReportData, Shown, violation};
 use hairpin::judgement::Statistics;
 
 use super::escape::escape;

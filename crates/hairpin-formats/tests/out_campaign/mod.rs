@@ -58,20 +58,14 @@ fn case(number: usize, evidence: Evidence) -> Case {
     };
     let profile = (evidence == Evidence::Witnessed).then(|| Profile { legs: (0..3).map(leg).collect() });
     Case {
-        number,
-        seed: 0xFEDC_BA98_7654_3210 - number as u64,
         graph: 11 * number as u64,
         leg_times: if number == 2 { vec![] } else { vec![1.3, 1.4, 1.5] },
-        seen: Vec::new(),
-        waypoints,
         score: 2.0 / 3.0 + number as f64,
         bound: (number != 1).then_some(4.0),
         evidence,
         certified: (number == 1).then_some("unknown"),
         profile,
-        drive: None,
-        program: None,
-        environment: None,
+        ..Case::bare(number, 0xFEDC_BA98_7654_3210 - number as u64, waypoints)
     }
 }
 

@@ -77,20 +77,11 @@ fn case(number: usize) -> Case {
     waypoints.push(Point3::new(15.0, 15.0, 15.0));
     let leg_times: Vec<f64> = waypoints.windows(2).map(|w| (w[1] - w[0]).norm() / 4.0 + 1.0).collect();
     Case {
-        seen: Vec::new(),
-        number,
-        seed: case_seed(10, number as u64),
         graph: number as u64,
-        waypoints,
         leg_times,
         score: 5.0 + unit(number, 99),
-        bound: None,
         evidence: Evidence::Witnessed,
-        certified: None,
-        profile: None,
-        drive: None,
-        program: None,
-        environment: None,
+        ..Case::bare(number, case_seed(10, number as u64), waypoints)
     }
 }
 

@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::Environment;
+use super::digits::percent_digits;
 use crate::feasibility::reach::LegFeatures;
 pub use crate::judgement::Violation;
 use crate::judgement::{Measures, Share, share};
@@ -112,6 +113,26 @@ pub struct Case {
 }
 
 impl Case {
+    /// A case of which nothing is known but its waypoints.
+    pub fn bare(number: usize, seed: u64, waypoints: Vec<Point3<f64>>) -> Self {
+        Self {
+            number,
+            seed,
+            graph: 0,
+            waypoints,
+            leg_times: Vec::new(),
+            seen: Vec::new(),
+            score: 0.0,
+            bound: None,
+            evidence: Evidence::Unchecked,
+            certified: None,
+            profile: None,
+            drive: None,
+            program: None,
+            environment: None,
+        }
+    }
+
     /// The name in files: at least four digits.
     pub fn id(&self) -> String {
         format!("{:04}", self.number)
@@ -135,7 +156,7 @@ impl Case {
 
 /// `optimal` for no gap that is more than rounding, else `{gap} 3.1 %`.
 pub(super) fn gap_word(share: f64, gap: &str) -> String {
-    if share <= 1e-9 { "optimal".into() } else { format!("{gap} {} %", super::report::percent_digits(share)) }
+    if share <= 1e-9 { "optimal".into() } else { format!("{gap} {} %", percent_digits(share)) }
 }
 
 /// One sample of the planned motion.
@@ -241,21 +262,9 @@ mod tests {
 
     #[test]
     fn a_bound_makes_a_claim_stronger() {
-        let case = |score, bound| Case {
-            number: 7,
-            seed: 0,
-            graph: 0,
-            waypoints: Vec::new(),
-            leg_times: Vec::new(),
-            seen: Vec::new(),
-            score,
-            bound,
-            evidence: Evidence::HullFeasible,
-            certified: None,
-            profile: None,
-            drive: None,
-            program: None,
-            environment: None,
+        let case = |score, bound| {
+            let evidence = Evidence::HullFeasible;
+            Case { score, bound, evidence, ..Case::bare(7, 0, Vec::new()) }
         };
         assert_eq!(case(2.0, None).claim(), "hull-feasible");
         assert_eq!(case(2.0, Some(2.0)).claim(), "hull-feasible, optimal");

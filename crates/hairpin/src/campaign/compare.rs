@@ -229,7 +229,6 @@ fn change(&(metric, value, _): &Metric, pairs: &[(&CaseResult, &CaseResult)]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Evidence;
     use nalgebra::Point3;
 
     fn side(deviations: &[f64], limit: f64) -> Vec<(Case, CaseResult)> {
@@ -237,22 +236,8 @@ mod tests {
             let fails = deviation > limit;
             let violation =
                 Violation { what: "deviation".into(), value: deviation, limit, unit: "m".into(), at: 1.0, leg: 0 };
-            let case = Case {
-                seen: Vec::new(),
-                number,
-                seed: number as u64,
-                graph: 0,
-                waypoints: vec![Point3::origin(), Point3::new(number as f64, 0.0, 0.0)],
-                leg_times: Vec::new(),
-                score: 0.0,
-                bound: None,
-                evidence: Evidence::Unchecked,
-                certified: None,
-                profile: None,
-                drive: None,
-                program: None,
-                environment: None,
-            };
+            let ways = vec![Point3::origin(), Point3::new(number as f64, 0.0, 0.0)];
+            let case = Case::bare(number, number as u64, ways);
             let result = CaseResult {
                 case: number,
                 status: if fails { Status::Fail } else { Status::Pass },

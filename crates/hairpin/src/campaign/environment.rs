@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Scenario;
-use super::report::number;
+use super::digits::number;
 use super::scenario::{DiscreteGustSection, KeepOutSection, ObstacleSection};
 
 /// Found with the waypoints of a flight or drive; keys and units are those of `[world]`, those of the force of `[execute]`.
@@ -63,8 +63,12 @@ impl Environment {
             format!("gust {} m/s, t = {from} … {to} s", vector(&gust.velocity_m_s))
         }));
         words.extend(self.obstacles.iter().map(|obstacle| {
-            let ball = obstacle.sphere.map(|ball| format!("ball at {} m", vector(&ball.center_m)));
-            let cuboid = obstacle.cuboid.map(|cuboid| format!("box at {} m", vector(&cuboid.center_m)));
+            let ball = obstacle.sphere.map(|ball| {
+                format!("ball of radius {} m at {} m", number(Some(ball.radius_m)), vector(&ball.center_m))
+            });
+            let cuboid = obstacle
+                .cuboid
+                .map(|cuboid| format!("box of {} m at {} m", vector(&cuboid.size_m), vector(&cuboid.center_m)));
             format!("{}: {}", obstacle.name, ball.or(cuboid).unwrap_or_default())
         }));
         words.extend(self.external_force_n.map(|force| format!("steady force {} N", vector(&force))));

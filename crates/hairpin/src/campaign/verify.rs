@@ -1,7 +1,7 @@
 //! Hands the written witnesses to the verification room.
 
 use super::setup::Kind;
-use super::{Case, Setup, arm, drive, flight};
+use super::{Case, Scenario, Setup, arm, drive, flight, vary};
 use crate::verification::{EndError, Proof};
 
 /// What verification says of one case.
@@ -25,10 +25,17 @@ pub fn verify(setup: &Setup, case: &Case) -> Verified {
         Kind::Arm(setup) => (arm::verify(&setup, case), None),
     };
     if case.environment.is_some() {
-        let findings = match setup.kind() {
-            Kind::Flight(setup) => flight::verify_environment(&setup, case),
-            Kind::Drive(setup) => drive::verify_environment(&setup, case),
-            Kind::Arm(_) => Vec::new(),
+        // Bounds that vary are those that the case was searched with; draws that do not fit, as another scenario's, bound nothing.
+        let drawn = vary::draw_for_case(&setup.scenario, case.seed, case.number);
+        let drawn = vary::apply(&setup.scenario, &drawn).unwrap_or_else(|_| setup.scenario.clone());
+        let findings = match (setup.kind(), &drawn) {
+            (Kind::Flight(setup), Scenario::Flight(drawn)) => {
+                flight::verify_environment(&setup, drawn.generate.environment, case)
+            }
+            (Kind::Drive(setup), Scenario::Drive(drawn)) => {
+                drive::verify_environment(&setup, drawn.generate.environment, case)
+            }
+            _ => Vec::new(),
         };
         proof.get_or_insert_default().findings.extend(findings);
     }

@@ -67,8 +67,8 @@ mod tests {
 
     use super::super::beam::Ended;
     use super::super::in_loop::{Execute, Executed, PartialSettings, Ran};
-    use super::super::objective::Score;
     use super::super::open_end::OpenEnd;
+    use super::super::score::Score;
     use super::super::small::{Octahedron, START, enumerate, enumerate_open, points};
     use super::super::task::{Found, Task};
     use super::super::{BeamOutcome, BeamSettings, beam_grown};

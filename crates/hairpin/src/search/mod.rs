@@ -14,6 +14,7 @@ pub mod heaviest;
 pub mod in_loop;
 pub mod objective;
 pub mod open_end;
+pub mod score;
 #[cfg(test)]
 mod small;
 pub mod task;
@@ -24,7 +25,8 @@ pub use ddmin::ddmin;
 pub use exact::{ExactOutcome, ExactSearch, ExactSettings, Ranking, Scored, exact};
 pub use graph::{Count, LegGraph};
 pub use growth::{ByLegs, Growth, Parent};
-pub use objective::{Additive, Aggregate, LegView, Objective, Score, ScoreMistake};
+pub use objective::{Additive, Aggregate, LegView, Objective};
 pub use open_end::{OpenEnd, OpenNode, OpenScore};
+pub use score::{Score, ScoreMistake};
 pub use task::{Found, Task};
 pub use uniform::{UniformOutcome, UniformSettings, uniform};

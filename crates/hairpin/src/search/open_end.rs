@@ -156,7 +156,7 @@ impl<O> OpenScore<'_, O> {
 #[cfg(test)]
 mod tests {
     use super::super::graph::LegGraph;
-    use super::super::objective::Score;
+    use super::super::score::Score;
     use super::super::small::{Octahedron, START, enumerate_open, points};
     use super::super::{BeamSettings, Count, ExactSettings, UniformSettings, beam, exact, uniform};
     use super::*;

@@ -169,7 +169,7 @@ fn score<N: Copy, O: Objective>(graph: &LegGraph<'_, N>, objective: &O, legs: &[
 mod tests {
     use std::collections::HashMap;
 
-    use super::super::objective::Score;
+    use super::super::score::Score;
     use super::super::small::{Octahedron, START, enumerate, points};
     use super::super::task::Task;
     use super::*;

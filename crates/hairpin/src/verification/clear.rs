@@ -1,7 +1,9 @@
 //! Whether a planned path keeps its distance from solids, between samples too.
 //!
-//! A piece of a leg lies within Σ_k |p⁽ᵏ⁾(m)|/k! hᵏ of its middle p(m), h being half its duration: the Taylor sum of a polynomial is exact. Where
-//! that does not decide, the piece is halved.
+//! A solid S is convex. From its point nearest to a place p, outside it by the distance d, the unit vector n points to p, and S lies behind the
+//! plane there: every place q is outside S by n·(q − p) + d at least. Of a piece of a leg about its middle p(m), h being half its duration, that
+//! leaves d − Σ_k |n·p⁽ᵏ⁾(m)|/k! hᵏ: the Taylor sum of a polynomial is exact. Where that does not decide, the piece is halved. Inside S, where there
+//! is no such plane, a place is deeper than another by no more than the way between them.
 
 use super::claim::Leg;
 use super::finding::Finding;
@@ -30,66 +32,99 @@ pub struct ClearClaim<'a> {
 const DEPTH: u32 = 40;
 /// What rounding may take, m.
 const ROUNDING: f64 = 1e-9;
+/// The nearest place is told to this, m.
+const RESOLUTION: f64 = 1e-4;
 
-/// All solids that a leg comes too near to, at their first such place.
+/// All solids that the path comes too near to, with the place where it is nearest to them.
 pub fn verify_clear(claim: &ClearClaim) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (number, solid) in claim.solids.iter().enumerate() {
+        let mut nearest: Option<Near> = None;
         let mut began = 0.0;
         for (place, leg) in claim.legs.iter().enumerate() {
-            let near = if leg.is_finite() && solid.is_finite() {
-                first_near(leg, solid, claim.clearance - ROUNDING, [0.0, leg.duration], DEPTH)
-            } else {
-                Some((f64::NAN, 0.0))
-            };
-            if let Some((value, tau)) = near {
-                findings.push(Finding {
-                    field: format!("environment.obstacles[{number}].clearance"),
-                    value,
-                    bound: claim.clearance,
-                    unit: "m",
-                    leg: place,
-                    at: began + tau,
-                });
+            let here = Near { distance: f64::NAN, leg: place, at: began };
+            if !(leg.is_finite() && solid.is_finite()) {
+                nearest = Some(here);
                 break;
             }
+            approach(leg, solid, claim.clearance - ROUNDING, [0.0, leg.duration], here, &mut nearest, DEPTH);
             began += leg.duration;
         }
+        findings.extend(nearest.map(|near| Finding {
+            field: format!("environment.obstacles[{number}].clearance"),
+            value: near.distance,
+            bound: claim.clearance,
+            unit: "m",
+            leg: near.leg,
+            at: near.at,
+        }));
     }
     findings
 }
 
-/// Distance and time of the first place of a piece that is nearer than `least`, or not shown not to be.
-fn first_near(leg: &Leg, solid: &ClearSolid, least: f64, [from, to]: [f64; 2], depth: u32) -> Option<(f64, f64)> {
-    let middle = 0.5 * (from + to);
-    let (p, reach) = around(leg, middle, 0.5 * (to - from));
-    let distance = solid.distance(&p);
-    if distance - reach >= least {
-        return None;
-    }
-    if depth == 0 || distance + reach < least {
-        return Some((distance, middle));
-    }
-    first_near(leg, solid, least, [from, middle], depth - 1)
-        .or_else(|| first_near(leg, solid, least, [middle, to], depth - 1))
+/// A place that is too near.
+#[derive(Clone, Copy)]
+struct Near {
+    /// How near, m.
+    distance: f64,
+    leg: usize,
+    /// When, s.
+    at: f64,
 }
 
-/// The place at `tau`, and how far from it the path gets within `h` s.
-fn around(leg: &Leg, tau: f64, h: f64) -> ([f64; 3], f64) {
-    let mut reach = [0.0; 3];
-    let mut place = [0.0; 3];
-    for (axis, coefficients) in leg.coefficients.iter().enumerate() {
-        let mut c = *coefficients;
-        // Taylor coefficients at tau by repeated synthetic division.
+/// Puts the nearest place of a piece into `nearest` where it is nearer than `least`, or not shown not to be, and nearer than what is there.
+/// `here`: the leg, and when it begins.
+fn approach(
+    leg: &Leg,
+    solid: &ClearSolid,
+    least: f64,
+    [from, to]: [f64; 2],
+    here: Near,
+    nearest: &mut Option<Near>,
+    depth: u32,
+) {
+    let middle = 0.5 * (from + to);
+    let around = taylor(leg, middle);
+    let p = around.map(|c| c[0]);
+    let distance = solid.distance(&p);
+    let reach = approaches(&around, solid.away(&p), 0.5 * (to - from));
+    let beats = nearest.map_or(least, |near| (near.distance - RESOLUTION).min(least));
+    if distance - reach >= beats {
+        return;
+    }
+    if (distance < least || depth == 0) && nearest.is_none_or(|near| distance < near.distance) {
+        *nearest = Some(Near { distance, at: here.at + middle, ..here });
+    }
+    if depth > 0 {
+        approach(leg, solid, least, [from, middle], here, nearest, depth - 1);
+        approach(leg, solid, least, [middle, to], here, nearest, depth - 1);
+    }
+}
+
+/// Taylor coefficients of the path at `tau`, of each axis.
+fn taylor(leg: &Leg, tau: f64) -> [[f64; 8]; 3] {
+    leg.coefficients.map(|mut c| {
+        // By repeated synthetic division.
         for k in 0..8 {
             for i in (k..7).rev() {
                 c[i] += tau * c[i + 1];
             }
         }
-        place[axis] = c[0];
-        reach[axis] = c[1..].iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * h);
+        c
+    })
+}
+
+/// By how much a solid that lies in the direction −`away` is nearer within `h` s, at most; `None`: one in any direction.
+fn approaches(around: &[[f64; 8]; 3], away: Option<[f64; 3]>, h: f64) -> f64 {
+    let sum = |c: &dyn Fn(usize) -> f64| (1..8).rev().fold(0.0, |sum, k| (sum + c(k).abs()) * h);
+    match away {
+        Some(n) => sum(&|k| (0..3).map(|axis| n[axis] * around[axis][k]).sum()),
+        None => norm(std::array::from_fn(|axis| sum(&|k| around[axis][k]))),
     }
-    (place, reach.iter().map(|r| r * r).sum::<f64>().sqrt())
+}
+
+fn norm(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 impl ClearSolid {
@@ -103,7 +138,6 @@ impl ClearSolid {
 
     /// Distance of `p`, m; negative inside.
     fn distance(&self, p: &[f64; 3]) -> f64 {
-        let norm = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         match self {
             Self::Ball(centre, radius) => norm(std::array::from_fn(|i| p[i] - centre[i])) - radius,
             Self::Box(centre, size) => {
@@ -111,6 +145,19 @@ impl ClearSolid {
                 norm(beyond.map(|x| x.max(0.0))) + beyond.into_iter().fold(f64::NEG_INFINITY, f64::max).min(0.0)
             }
         }
+    }
+
+    /// Unit vector from the nearest point to `p`; `None` inside.
+    fn away(&self, p: &[f64; 3]) -> Option<[f64; 3]> {
+        let from: [f64; 3] = std::array::from_fn(|i| match self {
+            Self::Ball(centre, _) => p[i] - centre[i],
+            Self::Box(centre, size) => {
+                let (from, half) = (p[i] - centre[i], 0.5 * size[i]);
+                from - from.min(half).max(-half)
+            }
+        });
+        let length = norm(from);
+        (self.distance(p) > 0.0 && length > 0.0).then(|| from.map(|x| x / length))
     }
 }
 
@@ -130,18 +177,33 @@ mod tests {
     }
 
     #[test]
+    fn along_a_face_at_just_the_clearance_is_clear() {
+        let mut coefficients = [[0.0; 8]; 3];
+        (coefficients[0][1], coefficients[1][0], coefficients[2][0]) = (3.0, 0.7, 0.7);
+        let along = Leg { duration: 4.0, coefficients };
+        let wall = ClearSolid::Box([6.0, 1.7, 0.0], [12.0, 1.0, 9.0]);
+        let verify = |clearance| verify_clear(&ClearClaim { legs: &[along], solids: &[wall], clearance });
+        assert!(verify(0.5).is_empty());
+        assert_eq!(verify(0.501).len(), 1);
+    }
+
+    #[test]
     fn a_millimetre_is_told_from_its_other_side() {
         // The arch's top is (2, 0, 1) at t = 1.
         let ball = |gap: f64| ClearSolid::Ball([2.0, 0.0, 1.7 + gap], 0.5);
         assert!(found(ball(0.001), 0.2).is_empty());
         let near = &found(ball(-0.001), 0.2)[..];
         assert!(near.len() == 1 && near[0].leg == 0 && (near[0].at - 1.0).abs() < 0.1, "{near:?}");
-        assert!((0.1989..0.2).contains(&near[0].value) && near[0].field == "environment.obstacles[0].clearance");
+        assert!((near[0].value - 0.199).abs() < 1e-4 && near[0].field == "environment.obstacles[0].clearance");
         let cuboid = |gap: f64| ClearSolid::Box([2.0, 0.0, 1.7 + gap], [3.0, 1.0, 1.0]);
         assert!(found(cuboid(0.001), 0.2).is_empty());
         assert_eq!(found(cuboid(-0.001), 0.2).len(), 1);
-        // Through the middle, and what is no number.
-        assert_eq!(found(ClearSolid::Box([2.0, 0.0, 1.0], [0.1; 3]), 0.0).len(), 1);
+        // Through the middle, where it is the deepest inside, and what is no number.
+        let through = &found(ClearSolid::Box([2.0, 0.0, 1.0], [0.1; 3]), 0.0)[..];
+        assert!(
+            through.len() == 1 && (through[0].value + 0.05).abs() < 1e-4 && (through[0].at - 1.0).abs() < 1e-3,
+            "{through:?}"
+        );
         assert!(found(ClearSolid::Ball([f64::NAN, 0.0, 0.0], 1.0), 0.2)[0].value.is_nan());
     }
 }

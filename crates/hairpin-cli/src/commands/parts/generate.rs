@@ -11,10 +11,10 @@ use hairpin_formats::scenario::model_text;
 
 use super::graph::keep_graph;
 use super::keep::keep_cases;
+use crate::console;
 use crate::folder::Work;
 use crate::interrupt::{self, Deadline};
 use crate::problem::Problem;
-use crate::{commands, console};
 
 /// Between checkpoints: what a kill may cost.
 const CHECKPOINT: Duration = Duration::from_secs(30);
@@ -130,7 +130,7 @@ pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>
         let same = known.iter().find(|case| case.waypoints == *waypoints);
         cases.push(match same {
             Some(case) => Case { number, seed, ..case.clone() },
-            None => commands::execute::bare_case(number, seed, waypoints.clone()),
+            None => Case::bare(number, seed, waypoints.clone()),
         });
     }
     let names = missions.iter().map(|(name, _)| name.clone());

@@ -192,29 +192,23 @@ impl Repro {
     /// The case to fly; what is wrong with its name or its evidence.
     pub(crate) fn case(&self) -> Result<Case, String> {
         let number = self.case.parse().map_err(|_| format!("case = {:?}: must be a number", self.case))?;
-        let evidence = Evidence::from_word(&self.evidence)
-            .ok_or_else(|| format!("evidence = {:?}: must be witnessed, hull-feasible or unchecked", self.evidence))?;
+        let evidence = Evidence::from_word(&self.evidence).ok_or_else(|| {
+            format!("evidence = {:?}: must be one of {}", self.evidence, Evidence::ALL.map(Evidence::word).join(", "))
+        })?;
         let leg = |leg: &Leg| ProfileLeg { duration: leg.duration_s, coefficients: leg.coefficients };
         let program = self.program.as_ref().map(|text| {
             let module = rapid::read(text.as_bytes(), &rapid::Options::default()).map_err(|error| error.to_string());
             module.and_then(|module| module.program.checked().map_err(|error| error.to_string()))
         });
         let program = program.transpose().map_err(|error| format!("program: {error}"))?;
+        let waypoints = self.waypoints_m.iter().map(|p| Point3::from(*p)).collect();
         Ok(Case {
-            number,
-            seed: self.seed,
-            graph: 0,
-            waypoints: self.waypoints_m.iter().map(|p| Point3::from(*p)).collect(),
             leg_times: self.leg_times_s.clone(),
-            seen: Vec::new(),
-            score: 0.0,
-            bound: None,
             evidence,
-            certified: None,
+            profile: self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() }),
             drive: self.drive.clone(),
             program,
-            environment: None,
-            profile: self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() }),
+            ..Case::bare(number, self.seed, waypoints)
         })
     }
 }

@@ -173,19 +173,24 @@ fn rounded(from: f64, value: f64) -> f64 {
     if digits >= 0 { scaled / unit } else { scaled * unit }
 }
 
-/// `max_speed` of `generate.limits.max_speed_m_s`: the last part of a key without its unit, and what a range's end is called.
+/// `max_speed` of `generate.limits.max_speed_m_s`: the last part of a key without its unit, and what a range's end or a bound is called.
 fn name(key: &str) -> String {
     let (key, end) = match key.split_once('[') {
         Some((key, "0]")) => (key, "least "),
         Some((key, _)) => (key, "greatest "),
         None => (key, ""),
     };
-    let last = key.rsplit('.').next().unwrap_or(key);
+    let mut parts = key.rsplit('.');
+    let last = parts.next().unwrap_or(key);
     // As `count` says nothing without what is counted.
     let last = if last == "count" { "points" } else { last };
     let units = ["_m_s", "_1_m2", "_1_m", "_mm", "_deg", "_s", "_m"];
     let bare = units.iter().find_map(|unit| last.strip_suffix(unit)).unwrap_or(last);
-    format!("{end}{bare}")
+    // As little as `max` says without what is bounded.
+    match (bare, parts.next()) {
+        ("max", Some(bounded)) => format!("greatest {bounded}"),
+        _ => format!("{end}{bare}"),
+    }
 }
 
 #[cfg(test)]
@@ -197,6 +202,7 @@ mod tests {
         for (key, told) in [
             ("generate.limits.max_speed_m_s", "max_speed"),
             ("task.length", "length"),
+            ("spec.path.max_mm", "greatest path"),
             ("task.leg_m[1]", "greatest leg"),
             ("generate.timing.leg_time_s[1]", "greatest leg_time"),
             ("generate.limits.curvature_rate_1_m2", "curvature_rate"),

@@ -1,6 +1,7 @@
 //! Hands the written witnesses to the verification room, as plain numbers.
 
 use crate::campaign::Case;
+use crate::campaign::scenario::EnvironmentSection;
 use crate::robot::quadrotor::Quadrotor;
 use crate::verification::{
     self, Body, Claim, ClearClaim, ClearSolid, EndError, Finding, Leg, Proof, RotorPlace, Tolerances, verify_clear,
@@ -38,8 +39,13 @@ fn body_of(robot: &Quadrotor) -> Body {
 }
 
 /// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere, they are in the world,
-/// no more and no larger than was asked for, and wind and gust are no faster. Nothing for a case without one.
-pub(in crate::campaign) fn verify_environment(setup: &FlightSetup, case: &Case) -> Vec<Finding> {
+/// no more and no larger than was `asked` for, and wind and gust are no faster. Where nothing was asked for, as with missions from elsewhere,
+/// any is as good as another. Nothing for a case without one.
+pub(in crate::campaign) fn verify_environment(
+    setup: &FlightSetup,
+    asked: Option<EnvironmentSection>,
+    case: &Case,
+) -> Vec<Finding> {
     let Some(environment) = &case.environment else { return Vec::new() };
     let mut findings = Vec::new();
     let solids: Vec<ClearSolid> = environment
@@ -50,11 +56,20 @@ pub(in crate::campaign) fn verify_environment(setup: &FlightSetup, case: &Case) 
             ball.or(obstacle.cuboid.map(|cuboid| ClearSolid::Box(cuboid.center_m, cuboid.size_m)))
         })
         .collect();
-    let mut exceed = |field: String, value: f64, bound: f64, unit| {
-        if value > bound || value.is_nan() {
+    let mut wrong = |fine: bool, field: String, value: f64, bound: f64, unit| {
+        if !fine {
             findings.push(Finding { field: format!("environment.{field}"), value, bound, unit, leg: 0, at: 0.0 });
         }
     };
+    // What has no size is met by nothing.
+    for (number, solid) in solids.iter().enumerate() {
+        let (key, least) = match solid {
+            ClearSolid::Ball(_, radius) => ("radius_m", *radius),
+            ClearSolid::Box(_, size) => ("size_m", size.iter().copied().fold(f64::INFINITY, f64::min)),
+        };
+        wrong(least > 0.0, format!("obstacles[{number}].{key}"), least, 0.0, "m");
+    }
+    let mut exceed = |field: String, value: f64, bound: f64, unit| wrong(value <= bound, field, value, bound, unit);
     // Shapes that are none of these, and what is for drives, are not placed by any search: that they are clear is not known.
     let others = environment.obstacles.len() - solids.len() + environment.keep_out.len();
     exceed("obstacles".into(), others as f64, 0.0, "");
@@ -68,9 +83,9 @@ pub(in crate::campaign) fn verify_environment(setup: &FlightSetup, case: &Case) 
         let outside = (0..3).map(outside).fold(f64::NEG_INFINITY, f64::max);
         exceed(format!("obstacles[{number}].outside"), outside, 0.0, "m");
     }
-    let asked = setup.scenario.generate.environment.unwrap_or_default();
-    if let Some(placed) = asked.obstacles {
-        exceed("obstacles".into(), solids.len() as f64, placed.count as f64, "");
+    let count = |asked: EnvironmentSection| asked.obstacles.map_or(0, |placed| placed.count);
+    exceed("obstacles".into(), solids.len() as f64, asked.map_or(f64::INFINITY, |asked| count(asked) as f64), "");
+    if let Some(placed) = asked.and_then(|asked| asked.obstacles) {
         for (number, solid) in solids.iter().enumerate() {
             // A shape that was not asked for has no size at all.
             match solid {
@@ -86,11 +101,19 @@ pub(in crate::campaign) fn verify_environment(setup: &FlightSetup, case: &Case) 
         }
     }
     let speed = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    // A vector at its bound may be rounded beyond it.
-    let most = |bound: Option<f64>| bound.map_or(f64::INFINITY, |bound| bound * (1.0 + 1e-12));
-    exceed("wind_m_s".into(), environment.wind_m_s.map_or(0.0, speed), most(asked.wind_m_s), "m/s");
-    let gust = environment.discrete_gust.map_or(0.0, |gust| speed(gust.velocity_m_s));
-    exceed("discrete_gust".into(), gust, most(asked.gust_m_s), "m/s");
+    // A vector at its bound may be rounded beyond it; what was not asked for among other things is not there.
+    let most = |bound: fn(&EnvironmentSection) -> Option<f64>| {
+        asked.map_or(f64::INFINITY, |asked| bound(&asked).unwrap_or_default() * (1.0 + 1e-12))
+    };
+    exceed("wind_m_s".into(), environment.wind_m_s.map_or(0.0, speed), most(|asked| asked.wind_m_s), "m/s");
+    if let Some(gust) = environment.discrete_gust {
+        exceed("discrete_gust.velocity_m_s".into(), speed(gust.velocity_m_s), most(|asked| asked.gust_m_s), "m/s");
+        // None that began before the flight, nor a shorter one, which would be steeper.
+        wrong(gust.start_s >= 0.0, "discrete_gust.start_s".into(), gust.start_s, 0.0, "s");
+        let lasts = asked.map_or(gust.duration_s, |asked| asked.gust_s);
+        let fine = gust.duration_s == lasts && lasts > 0.0;
+        wrong(fine, "discrete_gust.duration_s".into(), gust.duration_s, lasts, "s");
+    }
     let legs = match &case.profile {
         Some(profile) => {
             profile.legs.iter().map(|leg| Leg { duration: leg.duration, coefficients: leg.coefficients }).collect()

@@ -9,12 +9,13 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
-use super::{GRAPHS_PER_CASE, Known, RoundTally, Solver, Tally};
+use super::shares::{dealt, every_second};
+use super::{GRAPHS_PER_CASE, Known, Solver};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Outcome, Plan, Round, Wanted, fingerprint};
 use crate::campaign::learn::{LegSample, ScoreModel, learn};
 use crate::campaign::scenario::SearchSection;
-use crate::campaign::{Case, Setup, Stop, in_loop};
+use crate::campaign::{Case, RoundTally, Setup, Stop, Tally, in_loop};
 use crate::math::random::named_seed;
 
 /// Models of a round, the one of all trajectories included: what else is executed are second bests.
@@ -306,11 +307,18 @@ impl Campaign<'_> {
         // Where time was too short for anything, it was not found out whether anything is feasible.
         let in_vain = self.search.time_s.is_some() && self.tally.expansions == 0 && !self.in_time(FINDING);
         let mut cases = Vec::new();
+        let mut seen = HashSet::new();
         for Graph { number, kept, curve, .. } in self.graphs {
             self.tally.curves.push(curve);
             for plan in kept {
-                if cases.len() < wanted {
+                // Graphs of few waypoints may have the same trajectory.
+                if cases.len() == wanted {
+                    break;
+                }
+                if seen.insert(fingerprint(plan.waypoints.iter().copied())) {
                     cases.push(plan.case(seed, number, cases.len()));
+                } else {
+                    self.tally.duplicates += 1;
                 }
             }
         }
@@ -323,38 +331,5 @@ impl Campaign<'_> {
         }
         sink(&cases, &self.tally);
         self.tally
-    }
-}
-
-/// What place `place` of `parts` gets of `total`: as evenly as whole numbers allow.
-fn dealt(total: u64, parts: u64, place: u64) -> u64 {
-    until(total, parts, place + 1) - until(total, parts, place)
-}
-
-/// How many of what place `place` gets are every second of all.
-fn every_second(total: u64, parts: u64, place: u64) -> u64 {
-    until(total, parts, place + 1) / 2 - until(total, parts, place) / 2
-}
-
-/// What the places before `place` get together.
-fn until(total: u64, parts: u64, place: u64) -> u64 {
-    (u128::from(total) * u128::from(place) / u128::from(parts)) as u64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{dealt, every_second};
-
-    #[test]
-    fn all_is_dealt_and_evenly() {
-        for (total, parts) in [(0, 3), (7, 3), (400, 4), (5, 8), (u64::MAX, 7)] {
-            let shares: Vec<u64> = (0..parts).map(|place| dealt(total, parts, place)).collect();
-            assert_eq!(shares.iter().map(|share| u128::from(*share)).sum::<u128>(), u128::from(total));
-            let (least, most) = (shares.iter().min().unwrap(), shares.iter().max().unwrap());
-            assert!(most - least <= 1, "{shares:?}");
-            let halves: Vec<u64> = (0..parts).map(|place| every_second(total, parts, place)).collect();
-            assert_eq!(halves.iter().map(|half| u128::from(*half)).sum::<u128>(), u128::from(total / 2));
-            assert!(halves.iter().zip(&shares).all(|(half, share)| half <= share), "{halves:?}");
-        }
     }
 }

@@ -6,7 +6,7 @@
 
 mod adaptive;
 mod optima;
-mod tally;
+mod shares;
 
 use std::collections::HashSet;
 
@@ -16,12 +16,11 @@ use rayon::prelude::*;
 use super::graph::{Executions, Outcome, Partials, Plan, Wanted, fingerprint};
 use super::scenario::{EXECUTED, SearchMethod};
 use super::setup::Kind;
-use super::{Case, Scenario, Setup, Stop, arm, drive, flight, in_loop, vary};
+use super::{Case, Scenario, Setup, Stop, Tally, arm, drive, flight, in_loop, vary};
 use crate::math::random::case_seed;
 use crate::simulation::Airborne;
 use crate::trajectory::program::{Motion, Program};
 pub use optima::{Optimum, optima};
-pub use tally::{RoundTally, Tally};
 
 /// Graphs sampled per case asked for, where the scenario sets no limit.
 const GRAPHS_PER_CASE: u64 = 20;

@@ -95,17 +95,14 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(que
     }
     climbers.truncate(search.per_graph as usize);
     let mut plans: Vec<Plan> = climbers.into_iter().map(|climber| climber.plan).collect();
-    let no_room = "no obstacle of those asked for finds room where executions leave their plan".to_string();
-    let mut reason = plans.is_empty().then(|| match furnished {
-        true => no_room.clone(),
-        false => "no execution of what was found ended with a measure".into(),
-    });
+    let mut reason = plans.is_empty().then(|| "no execution of what was found ended with a measure".into());
     if furnished && !plans.is_empty() {
         let among = |plan: &Plan| furnish(plan).map(|(plan, trial)| Plan { score: trial.stress, ..plan });
         let most = best_so_far.last().copied().unwrap_or(f64::NEG_INFINITY);
         best_so_far.extend(std::iter::repeat_n(most, 2 * plans.len()));
         plans = plans.iter().filter_map(among).collect();
-        reason = plans.is_empty().then_some(no_room);
+        let no_room = || "no obstacle of those asked for finds room where executions leave their plan".into();
+        reason = plans.is_empty().then(no_room);
     }
     Answer { plans, expansions: best_so_far.len() as u64, best_so_far, reason, ..Answer::default() }
 }

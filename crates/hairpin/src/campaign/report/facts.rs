@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use super::data::{Metric, Pieces};
-use super::text::{cells, leg, number};
+use super::text::{cells, leg};
 use crate::campaign::arm::ArmSetup;
+use crate::campaign::digits::number;
 use crate::campaign::drive::DriveSetup;
 use crate::campaign::flight::FlightSetup;
 use crate::campaign::setup::Kind;

@@ -11,5 +11,4 @@ pub use assemble::assemble;
 pub use data::{Metric, Pieces, ReportData, Shown, shown, worst_first};
 pub use drawing::{Drawing, Relief, Rotor};
 pub use solid::{Surface, surface};
-pub(in crate::campaign) use text::percent_digits;
-pub use text::{COLUMNS, attitude, cells, leg, number, percent, violation};
+pub use text::{COLUMNS, attitude, cells, leg, violation};

@@ -181,6 +181,16 @@ impl SearchSection {
         let bound =
             format!("{} … 1 000 000: one for each of the generate.search.per_graph trajectories", self.per_graph);
         found.require(enough || !beam, "generate.search.executions", self.executions, &bound);
+        let what = format!("the score `{EXECUTED}`");
+        let bound = format!("false: {what} grows trajectories along their graphs' legs");
+        found.require(!self.move_waypoints, "generate.search.move_waypoints", true, &bound);
+        self.check_unconfirmed(&what, found);
+    }
+
+    /// `what` executes each trajectory once, without noise.
+    fn check_unconfirmed(&self, what: &str, found: &mut Findings) {
+        let bound = format!("0: {what} executes without noise; only the method `in-loop` confirms");
+        found.require(self.confirm == 0, "generate.search.confirm", self.confirm, &bound);
     }
 
     fn check_adaptive(&self, found: &mut Findings) {
@@ -195,6 +205,7 @@ impl SearchSection {
         found.require(fine, "generate.search.executions", self.executions, &bound);
         let bound = "false: the method `adaptive` stays on its graphs' legs, which are what it learns of";
         found.require(!self.move_waypoints, "generate.search.move_waypoints", true, bound);
+        self.check_unconfirmed("the method `adaptive`", found);
     }
 }
 

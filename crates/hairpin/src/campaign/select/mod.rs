@@ -8,6 +8,7 @@ mod greedy;
 use std::collections::BTreeSet;
 
 use nalgebra::Point3;
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{Case, CaseResult};
@@ -109,13 +110,16 @@ fn evenly(waypoints: &[Point3<f64>]) -> Vec<Point3<f64>> {
         .collect()
 }
 
-/// How stressful cases are and how far apart, each 0 … 1 over all of them.
+/// How stressful cases are and how far apart, each 0 … 1 over all of them. Distances are computed where they are asked for: those of all pairs
+/// of ten thousand cases would take a gigabyte.
 #[derive(Debug, Clone)]
 pub struct Choice<'a> {
     candidates: &'a [Candidate],
     stress: Vec<f64>,
-    /// Distances, row by row.
-    apart: Vec<f64>,
+    /// What came of each case, each measure as a share of its range; empty where that is not known of all.
+    behaviours: Vec<Vec<f64>>,
+    /// The largest distance of ways, and that of behaviours.
+    longest: [f64; 2],
 }
 
 /// How good a choice is.
@@ -139,37 +143,40 @@ impl<'a> Choice<'a> {
     /// Among `candidates`.
     pub fn new(candidates: &'a [Candidate]) -> Self {
         let stress = unit(&candidates.iter().map(|c| c.stress).collect::<Vec<_>>());
-        let n = candidates.len();
-        let behaved = measured(candidates);
         let measures = candidates.first().map_or(0, |c| c.behaviour.len());
-        let columns: Vec<Vec<f64>> = if behaved {
+        let columns: Vec<Vec<f64>> = if measured(candidates) {
             (0..measures).map(|m| unit(&candidates.iter().map(|c| c.behaviour[m]).collect::<Vec<_>>())).collect()
         } else {
             Vec::new()
         };
-        let ways = matrix(n, |a, b| {
-            let squares = candidates[a].route.iter().zip(&candidates[b].route).map(|(p, q)| (p - q).norm_squared());
-            (squares.sum::<f64>() / POINTS as f64).sqrt()
-        });
-        let behaviours = matrix(n, |a, b| {
-            let squares = columns.iter().map(|column| (column[a] - column[b]) * (column[a] - column[b]));
-            squares.sum::<f64>().sqrt()
-        });
-        // Both are metrics, and so is their mean over constants.
-        let longest = |distances: &[f64]| distances.iter().copied().fold(0.0, f64::max);
-        let scales = [longest(&ways), longest(&behaviours)];
-        let parts = scales.iter().filter(|scale| **scale > 0.0).count().max(1) as f64;
-        let share = |distance: f64, scale: f64| if scale > 0.0 { distance / scale } else { 0.0 };
-        let mean = |(way, other): (&f64, &f64)| (share(*way, scales[0]) + share(*other, scales[1])) / parts;
-        Self { candidates, stress, apart: ways.iter().zip(&behaviours).map(mean).collect() }
+        let behaviours =
+            (0..candidates.len()).map(|place| columns.iter().map(|column| column[place]).collect()).collect();
+        let choice = Self { candidates, stress, behaviours, longest: [0.0; 2] };
+        let of_row = |a: usize| (0..a).fold([0.0; 2], |most, b| larger(most, choice.distances(a, b)));
+        let longest = (0..candidates.len()).into_par_iter().map(of_row).reduce(|| [0.0; 2], larger);
+        Self { longest, ..choice }
+    }
+
+    /// How far two ways are apart, m, and what came of them.
+    fn distances(&self, a: usize, b: usize) -> [f64; 2] {
+        let [one, other] = [a, b].map(|place| &self.candidates[place].route);
+        let way: f64 = one.iter().zip(other).map(|(p, q)| (p - q).norm_squared()).sum();
+        let squares = self.behaviours[a].iter().zip(&self.behaviours[b]).map(|(x, y)| (x - y) * (x - y));
+        [(way / POINTS as f64).sqrt(), squares.sum::<f64>().sqrt()]
+    }
+
+    /// Both distances are metrics, and so is their mean over constants.
+    fn apart(&self, a: usize, b: usize) -> f64 {
+        let parts = self.longest.iter().filter(|longest| **longest > 0.0).count().max(1) as f64;
+        let share = |(distance, longest): (f64, f64)| if longest > 0.0 { distance / longest } else { 0.0 };
+        self.distances(a, b).into_iter().zip(self.longest).map(share).sum::<f64>() / parts
     }
 
     /// `count` of the candidates, as their places in the list, in the order in which they are chosen.
     pub fn best(&self, count: usize, by: By) -> Vec<usize> {
-        let n = self.candidates.len();
         match by {
             By::Stress => greedy::heaviest(&self.stress, count),
-            By::Diverse => greedy::dispersed(&self.stress, |a, b| self.apart[a * n + b], count),
+            By::Diverse => greedy::dispersed(&self.stress, |a, b| self.apart(a, b), count),
             By::Coverage => {
                 let cells: Vec<&BTreeSet<usize>> = self.candidates.iter().map(|candidate| &candidate.cells).collect();
                 greedy::covering(&cells, &self.stress, count)
@@ -179,22 +186,23 @@ impl<'a> Choice<'a> {
 
     /// How good a choice of places is.
     pub fn measure(&self, chosen: &[usize]) -> Measured {
-        let n = self.candidates.len();
         let stress = || chosen.iter().map(|place| self.candidates[*place].stress);
-        let pairs: Vec<f64> = chosen
-            .iter()
-            .enumerate()
-            .flat_map(|(i, a)| chosen[..i].iter().map(move |b| (a, b)))
-            .map(|(a, b)| self.apart[a * n + b])
-            .collect();
+        // Sum and least of each row; rows are added up in their order, on any number of threads.
+        let of_row = |i: usize| {
+            let distances = chosen[..i].iter().map(|b| self.apart(chosen[i], *b));
+            distances.fold((0.0, f64::INFINITY), |(sum, least), distance| (sum + distance, distance.min(least)))
+        };
+        let rows: Vec<(f64, f64)> = (0..chosen.len()).into_par_iter().map(of_row).collect();
+        let (sum, nearest) = rows.into_iter().fold((0.0, f64::INFINITY), |all, row| (all.0 + row.0, all.1.min(row.1)));
+        let pairs = chosen.len() * chosen.len().saturating_sub(1) / 2;
         let mean = |sum: f64, count: usize| if count == 0 { 0.0 } else { sum / count as f64 };
         let cells: BTreeSet<usize> = chosen.iter().flat_map(|place| self.candidates[*place].cells.clone()).collect();
         Measured {
             cases: chosen.len(),
             stress: mean(stress().sum(), chosen.len()),
             worst: stress().fold(f64::NEG_INFINITY, f64::max),
-            spread: mean(pairs.iter().sum(), pairs.len()),
-            nearest: if pairs.is_empty() { 0.0 } else { pairs.iter().copied().fold(f64::INFINITY, f64::min) },
+            spread: mean(sum, pairs),
+            nearest: if pairs == 0 { 0.0 } else { nearest },
             cells: cells.len(),
         }
     }
@@ -207,14 +215,8 @@ fn unit(values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| if range > 0.0 { (value - low) / range } else { 0.0 }).collect()
 }
 
-fn matrix(n: usize, distance: impl Fn(usize, usize) -> f64) -> Vec<f64> {
-    let mut all = vec![0.0; n * n];
-    for a in 0..n {
-        for b in 0..a {
-            (all[a * n + b], all[b * n + a]) = (distance(a, b), distance(a, b));
-        }
-    }
-    all
+fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|i| a[i].max(b[i]))
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! The optimum against brute force, with and without revisits, and what is said where it is not proven.
 
-use super::super::objective::{LegView, Objective, Score};
+use super::super::objective::{LegView, Objective};
 use super::super::open_end::OpenEnd;
+use super::super::score::Score;
 use super::super::small::{Octahedron, START, enumerate, enumerate_open, points};
 use super::super::task::Task;
 use super::*;

@@ -1,6 +1,7 @@
 //! Counts and graphs against brute force.
 
-use super::super::objective::{Aggregate, Score};
+use super::super::objective::Aggregate;
+use super::super::score::Score;
 use super::super::small::{Octahedron, START, enumerate, points};
 use super::super::task::Task;
 use super::*;

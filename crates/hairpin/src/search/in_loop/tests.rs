@@ -3,7 +3,8 @@ use nalgebra::{Point3, Vector3};
 use super::*;
 use crate::feasibility::reach::StepNode;
 use crate::search::graph::LegGraph;
-use crate::search::objective::{Aggregate, Score};
+use crate::search::objective::Aggregate;
+use crate::search::score::Score;
 use crate::search::small::{Octahedron, START, enumerate, points};
 use crate::search::task::{Found, Task};
 

@@ -218,7 +218,7 @@ impl Default for SolverSection {
 pub struct DriveSearch {
     /// beam | exact | uniform | in-loop | adaptive.
     pub method: SearchMethod,
-    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; executed; or learned:MODEL.
+    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; executed; learned:MODEL; or python:FILE.
     pub score: String,
     /// How scores of legs become the score of a trajectory.
     pub aggregate: Aggregate,

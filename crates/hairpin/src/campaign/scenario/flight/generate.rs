@@ -39,7 +39,7 @@ pub struct GenerateSection {
     pub certify: bool,
     /// The search.
     pub search: SearchSection,
-    /// Name of a score, executed, or learned:MODEL.
+    /// Name of a score, executed, learned:MODEL, or python:FILE.
     pub score: String,
     /// The model of a learned score.
     #[serde(skip)]

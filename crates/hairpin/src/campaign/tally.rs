@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::curve::Curve;
-use crate::campaign::learn::ScoreModel;
+use super::curve::Curve;
+use super::learn::ScoreModel;
 
 /// What a generation did, in numbers; the report's and the verdict's.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

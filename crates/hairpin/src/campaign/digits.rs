@@ -1,0 +1,50 @@
+//! Numbers as people read them: the one place that rounds, so that table, report, JUnit and verdict agree.
+
+/// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing. Nothing is never less than
+/// nothing: what these digits do not show has no sign.
+pub fn number(value: Option<f64>) -> String {
+    match value {
+        None => "–".into(),
+        Some(v) if v.abs() < 0.000_005 => "0.00".into(),
+        Some(v) if v != 0.0 && v.abs() < 0.00995 => format!("{v:.5}"),
+        Some(v) if v.abs() < 99.995 => format!("{v:.2}"),
+        Some(v) if v.abs() < 999.95 => format!("{v:.1}"),
+        Some(v) => format!("{v:.0}"),
+    }
+}
+
+/// A share from 0 to 1 as `31 %`; below 10 % with one decimal.
+pub fn percent(share: Option<f64>) -> String {
+    match share {
+        None => "–".into(),
+        Some(share) if share != 0.0 && share.abs() < 0.0995 => format!("{:.1} %", 100.0 * share),
+        Some(share) => format!("{:.0} %", 100.0 * share),
+    }
+}
+
+/// A share in percent with two digits, but at most one decimal from 1 % on: `5.0`, `0.050`.
+pub(super) fn percent_digits(share: f64) -> String {
+    let percent = 100.0 * share;
+    let mut decimals = 1;
+    while decimals < 8 && percent < 10f64.powi(1 - decimals) {
+        decimals += 1;
+    }
+    format!("{percent:.*}", decimals as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_what_a_screen_shows() {
+        assert_eq!(number(Some(0.654)), "0.65");
+        assert_eq!((number(Some(-0.0)), number(Some(-1e-12))), ("0.00".into(), "0.00".into()));
+        assert_eq!(number(Some(-0.004)), "-0.00400");
+        assert_eq!(number(Some(123.44)), "123.4");
+        assert_eq!(number(Some(1234.4)), "1234");
+        assert_eq!(number(None), "–");
+        assert_eq!(percent(Some(0.31)), "31 %");
+        assert_eq!(percent(Some(0.015)), "1.5 %");
+    }
+}
