@@ -153,7 +153,7 @@ fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
         kept.write_results(&changed, &[]).unwrap();
         drop(kept);
         let (code, out, _) = run(here, &["verify", "boxes"]);
-        assert!(code == 1 && out.contains(&format!("case 0000: environment.{field}")), "{field}: {out}");
+        assert!(code == 1 && out.contains(&format!("environment.{field} = ")), "{field}: {out}");
     }
 }
 
@@ -163,7 +163,7 @@ fn bounds_that_vary_are_those_of_the_case() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let varied = "vary.\"generate.environment.wind_m_s\"={choice=[8.0]}";
-    let sets = ["generate.environment.wind_m_s=1.0", varied, "generate.search.executions=30"];
+    let sets = ["generate.environment.wind_m_s=1.0", varied];
     looped(here, "generate", "varied", &sets);
     let winds: Vec<f64> = cases(&here.join("varied"))
         .iter()

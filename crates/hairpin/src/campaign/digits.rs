@@ -25,11 +25,11 @@ pub fn percent(share: Option<f64>) -> String {
 /// A share in percent with two digits, but at most one decimal from 1 % on: `5.0`, `0.050`.
 pub(super) fn percent_digits(share: f64) -> String {
     let percent = 100.0 * share;
-    let mut decimals = 1;
-    while decimals < 8 && percent < 10f64.powi(1 - decimals) {
-        decimals += 1;
+    let (mut decimals, mut shown) = (1, 1.0);
+    while decimals < 8 && percent < shown {
+        (decimals, shown) = (decimals + 1, 0.1 * shown);
     }
-    format!("{percent:.*}", decimals as usize)
+    format!("{percent:.decimals$}")
 }
 
 #[cfg(test)]
