@@ -15,7 +15,7 @@ use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Outcome, Plan, Round, Wanted, fingerprint};
 use crate::campaign::learn::{LegSample, ScoreModel, learn};
 use crate::campaign::scenario::SearchSection;
-use crate::campaign::{Case, RoundTally, Setup, Stop, Tally, in_loop};
+use crate::campaign::{Case, RoundTally, Setup, Stop, Tally, trial};
 use crate::math::random::named_seed;
 
 /// Models of a round, the one of all trajectories included: what else is executed are second bests.
@@ -138,7 +138,7 @@ impl Campaign<'_> {
                 let graph = self.graphs[todo.graph].number;
                 let trajectory = self.executed as usize + place;
                 let found = || {
-                    in_loop::execute_and_learn(self.setup, graph, &todo.plan, trajectory).filter(|(trial, _)| {
+                    trial::execute_and_learn(self.setup, graph, &todo.plan, trajectory).filter(|(trial, _)| {
                         // An infinite stress could not be told from a mistake.
                         trial.stress.is_finite()
                     })

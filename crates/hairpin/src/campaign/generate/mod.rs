@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use super::graph::{Executions, Outcome, Partials, Plan, Wanted, fingerprint};
 use super::scenario::{EXECUTED, SearchMethod};
 use super::setup::Kind;
-use super::{Case, Scenario, Setup, Stop, Tally, arm, drive, flight, in_loop, vary};
+use super::{Case, Scenario, Setup, Stop, Tally, arm, drive, flight, trial, vary};
 use crate::math::random::case_seed;
 use crate::simulation::Airborne;
 use crate::trajectory::program::{Motion, Program};
@@ -161,14 +161,14 @@ impl<'a> Solver<'a> {
     /// Searches graph number `graph` of `setup`, which this was made for, for what is `wanted`; `stop` ends what has no bound in counts.
     fn solve(&self, setup: &Setup, graph: u64, wanted: Wanted, stop: &Stop) -> Outcome {
         let goes_on = || (!(stop.cancelled)()).then_some(());
-        let execute = |plan: &Plan, least| goes_on().and_then(|()| in_loop::execute(setup, graph, plan, least));
-        let duration = |plan: &Plan| goes_on().and_then(|()| in_loop::duration(setup, graph, plan));
-        let furnish = |plan: &Plan| goes_on().and_then(|()| in_loop::furnish(setup, graph, plan));
+        let execute = |plan: &Plan, least| goes_on().and_then(|()| trial::execute(setup, graph, plan, least));
+        let duration = |plan: &Plan| goes_on().and_then(|()| trial::duration(setup, graph, plan));
+        let furnish = |plan: &Plan| goes_on().and_then(|()| trial::furnish(setup, graph, plan));
         let part = |plan: &Plan, before: Option<&Airborne>, whole| {
-            goes_on().ok_or(0u64).and_then(|()| in_loop::execute_partial(setup, graph, plan, before, whole))
+            goes_on().ok_or(0u64).and_then(|()| trial::execute_partial(setup, graph, plan, before, whole))
         };
         let executed = setup.scenario.score() == EXECUTED;
-        let partial = executed.then(|| Partials { execute: &part, resumes: in_loop::resumes(setup) });
+        let partial = executed.then(|| Partials { execute: &part, resumes: trial::resumes(setup) });
         let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish, partial };
         match self {
             Self::Flight(solver) => solver.solve(graph, executions, wanted),
