@@ -1,6 +1,6 @@
 //! From what was typed to a scenario and the campaign folder it belongs in.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use hairpin::campaign::{Scenario, Setup, vary};
 use hairpin::math::simd::Simd;
@@ -51,6 +51,10 @@ pub(crate) fn plan(campaign: &Campaign, executor: Option<&str>) -> Result<Planne
     setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
     may_make(&path, &setup, campaign.resume, campaign.force)?;
+    if let Some(user) = setup.scenario.user_score() {
+        let refuse = |why| Problem::input(format!("`{}` = {why}", setup.scenario.score_key()));
+        user.scorer.try_out().map_err(refuse)?;
+    }
     Ok(Planned { path, setup, resume: campaign.resume })
 }
 
@@ -90,6 +94,14 @@ pub(crate) fn make(path: &Path, setup: &Setup, resume: bool, force: bool) -> Res
 
 /// Whether `path` can become the folder of a campaign, or be taken up again.
 fn may_make(path: &Path, setup: &Setup, resume: bool, force: bool) -> Result<(), Problem> {
+    // `new/../old` is no place before `new` is made, and `old` once it is.
+    let mut begun = PathBuf::new();
+    for part in path.components() {
+        if part == Component::ParentDir && !begun.as_os_str().is_empty() && !begun.exists() {
+            return Err(Problem::input(format!("--out {}: there is no folder {}", path.display(), begun.display())));
+        }
+        begun.push(part);
+    }
     if let Ok(old) = CampaignFolder::open(path) {
         if !resume && !force {
             return Err(Problem::input(format!(

@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use commands::{assert_same, json, refused, run};
+use hairpin_formats::folder::CampaignFolder;
 use serde_json::Value;
 
 /// A small campaign of a rover: forward drives over generated ground.
@@ -182,6 +183,36 @@ fn every_family_of_controls_and_speeds_joins_legs() {
         &["stress", "car", "--set", "generate.direction_deg=20", "--out", "a"],
         &["generate.direction_deg", "all-wheel"],
     );
+}
+
+/// Wheels that take any speed at once follow a plan that leaves its waypoints from rest, and take as long as it.
+#[test]
+fn rovers_without_a_bound_on_their_acceleration_drive_plans_that_rest() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let search = "generate.search={ score = \"slope+slip\", waypoints = 20, cases = 2 }";
+    for profile in ["profile = \"trapezoid\"", "profile = \"ramp\", waypoint_m_s = [0.03, 0.06]"] {
+        for controller in ["pure-pursuit", "predictive"] {
+            let speed = format!("generate.speed={{ {profile}, acceleration_m_s2 = 0.02 }}");
+            let controller = format!("execute.controller=\"{controller}\"");
+            let set = |set| ["--set", set];
+            let sets = [&speed, search, &controller, "task.length=3"].map(set);
+            let flat = [
+                "--set",
+                "world.terrain={ generator = \"flat\", size_m = 60, cell_m = 0.2 }",
+                "--force",
+                "--out",
+                "rest",
+            ];
+            json(at, &[&["stress", "rocky8"][..], sets.as_flattened(), &flat].concat());
+            let kept = CampaignFolder::open(&at.join("rest")).unwrap();
+            for (case, result) in kept.read_cases().unwrap().iter().zip(kept.read_results().unwrap()) {
+                assert_eq!(result.ended, "done", "{speed} {controller}");
+                let (took, planned) = (result.measures.unwrap().total_time, case.leg_times.iter().sum::<f64>());
+                assert!((took / planned - 1.0).abs() < 0.05, "{speed} {controller}: {took} s, planned {planned} s");
+            }
+        }
+    }
 }
 
 /// Scores of straight legs have every term; an outline is kept clear of what is to be kept out of; a car stops for its cusps.

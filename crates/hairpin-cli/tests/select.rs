@@ -106,7 +106,7 @@ fn flights_drives_and_programs_say_what_they_exercised() {
     }
 }
 
-/// A case that the executor failed on has a score and no deviation: then all are compared by their scores.
+/// A case that the executor failed on has a score and no deviation: it is no choice among those that have one.
 #[test]
 fn deviations_are_not_compared_with_scores() {
     let folder = tempfile::tempdir().unwrap();
@@ -117,13 +117,19 @@ fn deviations_are_not_compared_with_scores() {
     fs::write(here.join("sick.py"), point.replace("        fly(message)\n", sick)).unwrap();
     let fly = ["--executor", "python3 sick.py", "--set", "execute.workers=1", "--out", "all"];
     run(here, &[&SMALL[..], &fly].concat());
-    let chosen = json(here, &["select", "all", "--cases", "1", "--by", "stress", "--out", "one"]);
+    let (_, out, error) = run(here, &["select", "all", "--cases", "1", "--by", "stress", "--out", "one", "--json"]);
+    assert!(error.contains("1 of ") && error.contains("left out: 0002"), "{error}");
+    let chosen: Value = serde_json::from_str(&out).unwrap();
     // The point never leaves its path by 0.1 m, and scores add up to more than 1.
-    assert!(
-        number(&chosen["all"]["worst"]) > 1.0 && chosen["selected"]["stress"] == chosen["all"]["worst"],
-        "{chosen}"
+    let worst = number(&chosen["all"]["worst"]);
+    assert!(worst < 0.1 && chosen["selected"]["stress"] == chosen["all"]["worst"], "{chosen}");
+    assert!(chosen["cases"][0] != "0002", "{chosen}");
+    let all = number(&chosen["all"]["cases"]) as usize + 1;
+    refused(
+        here,
+        &["select", "all", "--cases", &all.to_string(), "--out", "no"],
+        &["cases that were executed and measured"],
     );
-    assert!(number(&chosen["all"]["stress"]) > 1.0, "no deviation among them: {chosen}");
 }
 
 #[test]

@@ -25,6 +25,16 @@ pub enum SheetError {
         /// What the parser says.
         cause: String,
     },
+    /// A size out of bounds.
+    #[error("`{key}` = {value}: must be {bound}")]
+    Bound {
+        /// The key.
+        key: String,
+        /// What was given.
+        value: String,
+        /// What it must be.
+        bound: String,
+    },
     /// A table of the sheet does not hold what the experiment needs.
     #[error("[{table}] of experiments/{name}.toml: {cause}")]
     Content {
@@ -37,7 +47,7 @@ pub enum SheetError {
     },
 }
 
-/// What a sheet says: `[size]`, with the keys of `[full]` in their place at full size, and `[printed]`.
+/// What a sheet says: `[size]`, with the keys of `[full]` in their place at full size and within `[bounds]`, and `[printed]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet {
     name: String,
@@ -49,7 +59,7 @@ impl Sheet {
     /// The shipped sheet `name`; `sets` are KEY=VALUE over its sizes.
     ///
     /// # Errors
-    /// No sheet has the name; an override is no TOML.
+    /// No sheet has the name; an override is no TOML; a number, or one of a list, out of bounds.
     pub fn shipped(name: &str, full: bool, sets: &[String]) -> Result<Self, SheetError> {
         let Some(shipped) = library::experiments().find(|sheet| sheet.name == name) else {
             let known: Vec<&str> = library::experiments().map(|sheet| sheet.name).collect();
@@ -65,7 +75,7 @@ impl Sheet {
             Some(Value::Table(table)) => table,
             _ => Table::new(),
         };
-        let (mut size, over, printed) = (take("size"), take("full"), take("printed"));
+        let (mut size, over, printed, bounds) = (take("size"), take("full"), take("printed"), take("bounds"));
         if full {
             size.extend(over);
         }
@@ -75,6 +85,7 @@ impl Sheet {
             let set = one_line.and_then(|text| text.parse::<Table>().map_err(told));
             size.extend(set.map_err(|cause| SheetError::Override { text: text.clone(), cause })?);
         }
+        bounds.iter().try_for_each(|(key, bounds)| check(key, size.get(key), bounds))?;
         Ok(Self { name: name.into(), size, printed })
     }
 
@@ -101,6 +112,30 @@ impl Sheet {
             cause: error.message().into(),
         };
         found.clone().try_into().map_err(refuse)
+    }
+}
+
+/// Whether the number that `key` has, or each of its list, is within `bounds`, two numbers. What is neither is told by whoever reads it.
+fn check(key: &str, value: Option<&Value>, bounds: &Value) -> Result<(), SheetError> {
+    let refuse =
+        |value: &Value, bound: String| Err(SheetError::Bound { key: key.to_owned(), value: value.to_string(), bound });
+    let number = |value: &Value| value.as_float().or(value.as_integer().map(|whole| whole as f64));
+    let all = match value {
+        Some(Value::Array(all)) if all.is_empty() => {
+            return refuse(&Value::Array(Vec::new()), "one number at least".into());
+        }
+        Some(Value::Array(all)) => &all[..],
+        Some(one) => std::slice::from_ref(one),
+        None => &[],
+    };
+    let Some([Some(least), Some(greatest)]) =
+        bounds.as_array().map(|both| [0, 1].map(|end| both.get(end).and_then(number)))
+    else {
+        return refuse(bounds, "two numbers under [bounds]".into());
+    };
+    match all.iter().find(|one| number(one).is_some_and(|number| !(least..=greatest).contains(&number))) {
+        Some(wrong) => refuse(wrong, format!("{least} … {greatest}")),
+        None => Ok(()),
     }
 }
 
@@ -131,7 +166,12 @@ mod tests {
         assert_eq!(size(true, &["points=[3, 4]"]).unwrap(), Size { points: vec![3, 4], ..full });
         let told = |result: Result<Size, SheetError>| result.unwrap_err().to_string();
         assert!(told(size(false, &["instance=3"])).contains("unknown field `instance`"));
-        assert!(told(size(false, &["instances=-3"])).contains("robtest-table-1.toml"));
+        assert!(told(size(false, &["instances=3.5"])).contains("robtest-table-1.toml"));
+        for set in ["instances=0", "points=[3, 100000]", "points=[]", "proof_limit_s=nan", "dfs_limit_s=-1.0"] {
+            assert!(matches!(sheet(false, &[set]), Err(SheetError::Bound { .. })), "{set}");
+        }
+        let told = sheet(false, &["points=[3, 100000]"]).unwrap_err().to_string();
+        assert_eq!(told, "`points` = 100000: must be 1 … 1000");
         for set in ["instances", "=3", "instances=1\nx=2"] {
             assert!(matches!(sheet(false, &[set]), Err(SheetError::Override { .. })), "{set}");
         }

@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::Environment;
 use nalgebra::Point3;
 use thiserror::Error;
 
@@ -110,15 +111,36 @@ pub fn write(path: &Path, waypoints: &[Point3<f64>]) -> Result<(), WriteError> {
     atomic::write(path, text(waypoints).as_bytes())
 }
 
-/// A mission made elsewhere: its name and waypoints.
-pub type Named = (String, Vec<Point3<f64>>);
+/// A mission made elsewhere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mission {
+    /// Name of its file, without the ending.
+    pub name: String,
+    /// Start first, m.
+    pub waypoints: Vec<Point3<f64>>,
+    /// What it meets beside them, of the file [`environment_path`] where there is one.
+    pub environment: Option<Environment>,
+}
 
-/// Reads the `.csv` files of a folder, sorted by name: name without the ending, and waypoints. Files in degrees
+/// `NAME.environment.json` in the folder of missions.
+pub fn environment_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.environment.json"))
+}
+
+fn read_environment(path: &Path) -> Result<Option<Environment>, WaypointsError> {
+    let refuse = |cause| WaypointsError::Unreadable { path: path.into(), cause };
+    match fs::read_to_string(path) {
+        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
+        text => text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from)).map(Some).map_err(refuse),
+    }
+}
+
+/// Reads the `.csv` files of a folder, sorted by name, and the environments beside them. Files in degrees
 /// ([`crate::geodetic`]), which `export` puts beside those in metres, are passed over.
 ///
 /// # Errors
-/// As [`read`]; a folder that cannot be read or has no such file.
-pub fn read_folder(folder: &Path) -> Result<Vec<Named>, WaypointsError> {
+/// As [`read`]; a folder that cannot be read or has no such file; an environment that is none.
+pub fn read_folder(folder: &Path) -> Result<Vec<Mission>, WaypointsError> {
     let refuse = |cause| WaypointsError::Unreadable { path: folder.into(), cause };
     let entries = fs::read_dir(folder).map_err(refuse)?;
     let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
@@ -128,8 +150,12 @@ pub fn read_folder(folder: &Path) -> Result<Vec<Named>, WaypointsError> {
     if paths.is_empty() {
         return Err(WaypointsError::Empty { path: folder.into() });
     }
-    let name = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    paths.iter().map(|path| Ok((name(path), read(path)?))).collect()
+    let one = |path: &PathBuf| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let environment = read_environment(&environment_path(folder, &name))?;
+        Ok(Mission { waypoints: read(path)?, name, environment })
+    };
+    paths.iter().map(one).collect()
 }
 
 /// Reads one file. Columns may stand in any order and others beside them; blank lines count and are skipped.

@@ -4,6 +4,7 @@ mod out_campaign;
 
 use std::fs;
 
+use hairpin_formats::waypoints::Mission;
 use hairpin_formats::{csv, junit, tum, waypoints};
 use nalgebra::Point3;
 use out_campaign::{campaign, executor_failed, failed, passed, planned};
@@ -76,7 +77,10 @@ fn waypoints_come_back_and_mistakes_are_placed() {
     let case = &campaign().cases[0];
     waypoints::write(&path, &case.waypoints).unwrap();
     assert_eq!(waypoints::read(&path).unwrap(), case.waypoints);
-    assert_eq!(waypoints::read_folder(place.path()).unwrap(), [("0000".into(), case.waypoints.clone())]);
+    assert_eq!(
+        waypoints::read_folder(place.path()).unwrap(),
+        [Mission { name: "0000".into(), waypoints: case.waypoints.clone(), environment: None }]
+    );
 
     let read = |text: &str| {
         fs::write(&path, text).unwrap();

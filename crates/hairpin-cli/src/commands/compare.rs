@@ -34,7 +34,7 @@ pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
     if compared.pairs == 0 {
         return Err(Problem::input(format!(
             "no case of {a} has a partner in {b} with the same number, seed, waypoints and environment ({}): fly the same trajectories in \
-             both, such as by hairpin export {a} --to waypoints and hairpin execute {b} --missions {a}/missions",
+             both under one --seed, such as by hairpin export {a} --to waypoints and hairpin execute {b} --missions {a}/missions",
             reasons(&compared),
             a = asked.a.display(),
             b = asked.b.display(),

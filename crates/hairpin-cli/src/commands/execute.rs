@@ -54,7 +54,7 @@ pub(crate) fn run(execute: &Execute) -> Result<u8, Problem> {
         let counts = json!({
             "cases": cases.len(), "runs": runs, "executor_failed": failed, "attitude_unknown": attitude_unknown,
         });
-        let missions: Vec<&String> = missions.iter().flatten().map(|(name, _)| name).collect();
+        let missions: Vec<&String> = missions.iter().flatten().map(|mission| &mission.name).collect();
         let paths = json!({ "folder": work.folder.path(), "executions": work.folder.file("executions") });
         let object = json!({
             "verdict": sentence, "exit_code": code, "counts": counts, "missions": missions, "paths": paths,

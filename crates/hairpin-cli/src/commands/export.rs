@@ -108,7 +108,7 @@ fn write_waypoints(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     let mut files = cases.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     for case in cases {
         if let Some(environment) = &case.environment {
-            let path = place.join(format!("{}.environment.json", case.id()));
+            let path = waypoints::environment_path(&place, &case.id());
             let text = serde_json::to_string_pretty(environment).map_err(Problem::input)?;
             atomic::write(&path, (text + "\n").as_bytes())?;
             files.push(path);

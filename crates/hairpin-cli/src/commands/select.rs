@@ -7,7 +7,7 @@ use hairpin::campaign::digits::number;
 use hairpin::campaign::learn::NAME;
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, CaseResult, Grid, Setup, Tally, vary};
-use hairpin_formats::folder::CampaignFolder;
+use hairpin_formats::folder::{ARCS, BEST_SO_FAR, CampaignFolder, GRAPH, OPTIMUM, REASONS};
 use rayon::prelude::*;
 use serde_json::json;
 
@@ -17,6 +17,9 @@ use crate::console;
 use crate::folder::{self, Work};
 use crate::problem::Problem;
 
+/// Cases that a warning names.
+const TOLD: usize = 5;
+
 /// Runs the command: 0 when the folder is written.
 pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
     folder::take_threads(&asked.threads);
@@ -24,12 +27,26 @@ pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
     if same_place(&asked.folder, &asked.out) {
         return Err(Problem::input("--out: must be another folder than OUT"));
     }
-    let cases = work.folder.read_cases()?;
+    let all = work.folder.read_cases()?;
+    let results = work.folder.read_results()?;
+    let measured = measured(&results);
+    let (cases, unmeasured): (Vec<Case>, Vec<Case>) =
+        all.iter().cloned().partition(|case| measured.is_empty() || measured.contains_key(&case.number));
     let count = asked.cases as usize;
     if count > cases.len() {
-        return Err(Problem::input(format!("--cases {count}: {} has {} cases", asked.folder.display(), cases.len())));
+        let whose = if unmeasured.is_empty() { "cases" } else { "cases that were executed and measured" };
+        return Err(Problem::input(format!("--cases {count}: {} has {} {whose}", asked.folder.display(), cases.len())));
     }
-    let candidates = candidates(&work, &cases)?;
+    if !unmeasured.is_empty() {
+        console::warn(&format!(
+            "Warning: {} of {} cases were not executed, or not measured, and are left out: {}{}",
+            unmeasured.len(),
+            all.len(),
+            unmeasured.iter().take(TOLD).map(Case::id).collect::<Vec<_>>().join(", "),
+            if unmeasured.len() > TOLD { ", …" } else { "" }
+        ));
+    }
+    let candidates = candidates(&work, &cases, &measured)?;
     let by = match asked.by {
         SelectBy::Stress => By::Stress,
         SelectBy::Diverse => By::Diverse,
@@ -43,11 +60,11 @@ pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
     };
     let choice = Choice::new(&candidates);
     let places = choice.best(count, by);
-    let all: Vec<usize> = (0..candidates.len()).collect();
-    let measured = [choice.measure(&places), choice.measure(&choice.best(count, By::Stress)), choice.measure(&all)];
+    let every: Vec<usize> = (0..candidates.len()).collect();
+    let measured = [choice.measure(&places), choice.measure(&choice.best(count, By::Stress)), choice.measure(&every)];
     let mut chosen: Vec<Case> = places.iter().map(|place| cases[*place].clone()).collect();
     chosen.sort_by_key(|case| case.number);
-    let folder = write(&work, asked, &cases, &chosen)?;
+    let folder = write(&work, asked, &all, &chosen)?;
     let names: Vec<String> = places.iter().map(|place| cases[*place].id()).collect();
     let cells = Grid::of(&work.setup).cells();
     let [found, stressful, whole] = &measured;
@@ -112,23 +129,22 @@ fn same_place(a: &Path, b: &Path) -> bool {
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
+/// The results that have measures, by case.
+fn measured(results: &[CaseResult]) -> HashMap<usize, &CaseResult> {
+    results.iter().filter(|result| result.measures.is_some()).map(|result| (result.case, result)).collect()
+}
+
 /// Every case with its result and the cells that its runs met, where it has them.
-fn candidates(work: &Work, cases: &[Case]) -> Result<Vec<Candidate>, Problem> {
-    let results = work.folder.read_results()?;
+fn candidates(work: &Work, cases: &[Case], measured: &HashMap<usize, &CaseResult>) -> Result<Vec<Candidate>, Problem> {
     let table = work.folder.read_runs_table()?;
     let grid = Grid::of(&work.setup);
-    // Cases are compared by what came of them only where that is known of all.
-    let measured: HashMap<usize, &CaseResult> =
-        results.iter().filter(|result| result.measures.is_some()).map(|result| (result.case, result)).collect();
-    let all = cases.iter().all(|case| measured.contains_key(&case.number));
     cases
         .par_iter()
         .map(|case| {
             let runs = work.folder.read_runs(case.number, &table)?;
             let met: BTreeSet<usize> =
                 runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
-            let result = measured.get(&case.number).copied().filter(|_| all);
-            Ok(Candidate::new(case, result, met))
+            Ok(Candidate::new(case, measured.get(&case.number).copied(), met))
         })
         .collect()
 }
@@ -159,7 +175,11 @@ fn write(work: &Work, asked: &Select, all: &[Case], chosen: &[Case]) -> Result<C
             copy(&old.rerun_path(case.number, again), &there.rerun_path(case.number, again))?;
         }
     }
-    copy(&old.file(NAME), &there.file(NAME))?;
+    let whole = [NAME, BEST_SO_FAR, GRAPH, REASONS, ARCS].into_iter();
+    // What is proven of the first program is of no use without it.
+    for name in whole.chain(numbers.contains(&0).then_some(OPTIMUM)) {
+        copy(&old.file(name), &there.file(name))?;
+    }
     there.write_new_cases(chosen, 0)?;
     let old_tally = old.read_tally()?;
     // Missions are those of the cases in their order: a choice keeps numbers, and may be chosen from again.

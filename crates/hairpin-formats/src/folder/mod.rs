@@ -51,13 +51,18 @@ const RUNS: &str = "runs.parquet";
 const INFLUENCE: &str = "influence.json";
 /// The proof that an arm's first program is the heaviest.
 pub const OPTIMUM: &str = "optimum.json";
+/// The costs of an arm's graph.
+pub const GRAPH: &str = "graph.csv";
+/// Why moves are not in it.
+pub const REASONS: &str = "reasons.csv";
 /// The arcs of an arm's graph.
 pub const ARCS: &str = "arcs.csv";
 /// What every run of an arm did on every move.
 pub const MOVES: &str = "moves.json";
 /// The same of earlier releases, which this campaign is held against.
 pub const BASELINE: &str = "baseline.json";
-const BEST_SO_FAR: &str = "best-so-far.tsv";
+/// How the largest stress of a search that executes rose.
+pub const BEST_SO_FAR: &str = "best-so-far.tsv";
 const LOCK: &str = ".lock";
 const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];

@@ -67,11 +67,15 @@ impl CampaignFolder {
     /// `table` is [`Self::read_runs_table`]'s: it fills in for files that another program rewrote.
     ///
     /// # Errors
-    /// As [`Self::read_run`].
+    /// As [`Self::read_run`]; a run of the table without its file.
     pub fn read_runs(&self, case: usize, table: &BTreeMap<(usize, usize), RunFacts>) -> Result<Vec<Run>, FolderError> {
         let mut all = Vec::new();
         while let Some(run) = self.read_run(case, all.len(), table)? {
             all.push(run);
+        }
+        if table.range((case, all.len())..=(case, usize::MAX)).next().is_some() {
+            let what = "is missing, and runs.parquet has it: hairpin execute --resume";
+            return Err(FolderError::Contradiction { path: self.run_path(case, all.len()), case, what });
         }
         Ok(all)
     }

@@ -1,4 +1,4 @@
-# Scores legs with the functions of a file: a line of JSON with legs in, a line with their scores out.
+# Scores legs with the functions of a file: a line when they are there, then for every line of JSON with legs a line with their scores.
 import json
 import math
 import os
@@ -6,17 +6,23 @@ import sys
 import traceback
 
 
+# Sums over a trajectory stay finite.
+LARGEST = 1e100
+
+
 def number(value, leg):
-    if not math.isfinite(float(value)):
-        raise ValueError(f"{value!r} is no finite number, of the leg {leg}")
+    if not abs(float(value)) <= LARGEST:
+        wanted = f"must be within ±{LARGEST:g}" if math.isfinite(float(value)) else "is no finite number"
+        raise ValueError(f"{value!r} {wanted}, of the leg {leg}")
     return float(value)
 
 
 def main(path):
-    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    # What the file prints is its log.
+    questions, answers = os.fdopen(os.dup(0), encoding="utf-8"), os.fdopen(os.dup(1), "w", encoding="utf-8")
+    # What the file prints is its log, and it has nothing to read.
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     os.dup2(2, 1)
-    sys.stdout = sys.stderr
+    sys.stdin, sys.stdout = open(0, encoding="utf-8", closefd=False), sys.stderr
     sys.path.insert(0, os.path.dirname(os.path.abspath(path)))
     with open(path, encoding="utf-8-sig") as file:
         space = {"__name__": "hairpin_score", "__file__": path}
@@ -24,7 +30,8 @@ def main(path):
     score, left = space.get("score"), space.get("left")
     if not callable(score):
         raise TypeError("it defines no function score(leg)")
-    for line in sys.stdin:
+    print("ready", file=answers, flush=True)
+    for line in questions:
         parts = [[number(score(leg), leg), number(left(leg), leg) if left else 0.0] for leg in json.loads(line)]
         print(json.dumps(parts), file=answers, flush=True)
 

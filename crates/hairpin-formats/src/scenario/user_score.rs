@@ -1,14 +1,16 @@
 //! Scores of the user's own: the Python file that `score = "python:FILE"` names.
 //!
 //! The file defines `score(leg)` and, if legs leave something to the next, `left(leg)`; `leg` is a dictionary. Both must be functions of
-//! the leg alone. Python runs beside hairpin, one process for each thread that asks; nothing of the file runs before a leg is scored.
+//! the leg alone. Python runs beside hairpin, one process for each thread that asks; nothing of the file runs but where legs are to be scored.
 
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::mpsc::Receiver;
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
 use std::time::Duration;
 
 use hairpin::campaign::user_score::{LegFacts, NAME};
@@ -24,6 +26,8 @@ const DRIVER: &str = include_str!("score.py");
 const MOST_KNOWN: usize = 1 << 20;
 /// What its last words are waited for, and what it is given to end.
 const AFTERMATH: Duration = Duration::from_millis(300);
+/// Between two looks at whether an answer is still wanted.
+const LOOK: Duration = Duration::from_millis(20);
 
 /// Reads the score of the user's own that `scenario` scores by, if it does. A resolved scenario's is [`NAME`].
 pub(super) fn read(scenario: &mut Scenario, base: &Path) -> Result<(), Wrong> {
@@ -64,13 +68,22 @@ struct PythonScore {
     idle: Mutex<Vec<Worker>>,
     known: Mutex<HashMap<Key, [f64; 2]>>,
     trouble: Mutex<Option<String>>,
+    stopped: AtomicBool,
+}
+
+/// Why there is no answer.
+enum Unanswered {
+    /// Nobody waits for it any more.
+    Stopped,
+    /// What went wrong.
+    Failed(String),
 }
 
 /// A running Python.
 struct Worker {
     child: Child,
     asked: ChildStdin,
-    answers: BufReader<ChildStdout>,
+    answers: Receiver<String>,
     log: Tail,
     log_closed: Receiver<()>,
 }
@@ -84,53 +97,79 @@ impl Drop for Worker {
 impl PythonScore {
     fn new(path: PathBuf, given: &str) -> Self {
         let (idle, known, trouble) = (Mutex::default(), Mutex::default(), Mutex::default());
-        Self { path, given: given.to_owned(), idle, known, trouble }
+        Self { path, given: given.to_owned(), idle, known, trouble, stopped: AtomicBool::new(false) }
     }
 
-    fn ask(&self, legs: &[&LegFacts]) -> Result<Vec<[f64; 2]>, String> {
+    fn ask(&self, legs: &[&LegFacts]) -> Result<Vec<[f64; 2]>, Unanswered> {
         let idle = held(&self.idle).pop();
-        let mut worker = idle.map_or_else(|| Worker::start(&self.path), Ok)?;
-        let answer = worker.ask(legs)?;
+        let mut worker = idle.map_or_else(|| Worker::start(&self.path, &self.stopped), Ok)?;
+        let answer = worker.ask(legs, &self.stopped)?;
         held(&self.idle).push(worker);
         Ok(answer)
+    }
+
+    fn told(&self, why: &str) -> String {
+        format!("{}: {why}", self.given)
     }
 }
 
 impl Worker {
-    fn start(path: &Path) -> Result<Self, String> {
+    /// When its functions are there.
+    fn start(path: &Path, stopped: &AtomicBool) -> Result<Self, Unanswered> {
         let mut python = Command::new("python3");
         python.args(["-c", DRIVER]).arg(path).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = executor::start(&mut python).map_err(|error| format!("python3 cannot be started: {error}"))?;
+        let mut child = executor::start(&mut python)
+            .map_err(|error| Unanswered::Failed(format!("python3 cannot be started: {error}")))?;
         let (Some(asked), Some(answers), Some(log)) = (child.stdin.take(), child.stdout.take(), child.stderr.take())
         else {
             unreachable!("all three streams were asked to be pipes")
         };
         let (log, log_closed) = Tail::follow(log);
-        Ok(Self { child, asked, answers: BufReader::new(answers), log, log_closed })
+        let (said, heard) = sync_channel(1);
+        // Ends with the stream, or when nobody listens any more.
+        thread::spawn(move || {
+            BufReader::new(answers).lines().map_while(Result::ok).try_for_each(|line| said.send(line))
+        });
+        let mut worker = Self { child, asked, answers: heard, log, log_closed };
+        match worker.answer(stopped)?.as_str() {
+            "ready" => Ok(worker),
+            _ => Err(worker.last_words()),
+        }
     }
 
-    fn ask(&mut self, legs: &[&LegFacts]) -> Result<Vec<[f64; 2]>, String> {
-        let mut line = String::new();
+    fn ask(&mut self, legs: &[&LegFacts], stopped: &AtomicBool) -> Result<Vec<[f64; 2]>, Unanswered> {
         // A line at once: a pipe takes every write for itself.
         let spoken = serde_json::to_vec(legs).map_err(std::io::Error::from).and_then(|mut question| {
             question.push(b'\n');
             self.asked.write_all(&question)?;
-            self.asked.flush()?;
-            self.answers.read_line(&mut line)
+            self.asked.flush()
         });
-        match (spoken, serde_json::from_str::<Vec<[f64; 2]>>(&line)) {
-            (Ok(_), Ok(parts)) if parts.len() == legs.len() => Ok(parts),
+        let line = if spoken.is_ok() { self.answer(stopped)? } else { String::new() };
+        match serde_json::from_str::<Vec<[f64; 2]>>(&line) {
+            Ok(parts) if parts.len() == legs.len() => Ok(parts),
             _ => Err(self.last_words()),
         }
     }
 
+    /// Its next line; an empty one where it ended.
+    fn answer(&self, stopped: &AtomicBool) -> Result<String, Unanswered> {
+        while !stopped.load(Ordering::Relaxed) {
+            match self.answers.recv_timeout(LOOK) {
+                Ok(line) => return Ok(line),
+                Err(RecvTimeoutError::Disconnected) => return Ok(String::new()),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+        }
+        Err(Unanswered::Stopped)
+    }
+
     /// What it wrote to stderr before it ended.
-    fn last_words(&mut self) -> String {
+    fn last_words(&mut self) -> Unanswered {
         // It closes when all is read, or the process is not going to end.
         let _ = self.log_closed.recv_timeout(AFTERMATH);
         let text = self.log.text();
         let last = text.lines().next_back().unwrap_or_default().replace(|c: char| c.is_control(), " ");
-        if last.is_empty() { "it ended without an answer".into() } else { last }
+        Unanswered::Failed(if last.is_empty() { "it ended without an answer".into() } else { last })
     }
 }
 
@@ -172,9 +211,10 @@ impl LegScorer for PythonScore {
                         parts[place] = Some(answer);
                     }
                 }
-                Err(why) => {
-                    held(&self.trouble).get_or_insert(format!("{}: {why}", self.given));
+                Err(Unanswered::Failed(why)) => {
+                    held(&self.trouble).get_or_insert(self.told(&why));
                 }
+                Err(Unanswered::Stopped) => {}
             }
         }
         parts.into_iter().map(|part| part.unwrap_or([f64::NAN; 2])).collect()
@@ -182,5 +222,18 @@ impl LegScorer for PythonScore {
 
     fn trouble(&self) -> Option<String> {
         held(&self.trouble).clone()
+    }
+
+    fn try_out(&self) -> Result<(), String> {
+        match Worker::start(&self.path, &self.stopped) {
+            Ok(worker) => held(&self.idle).push(worker),
+            Err(Unanswered::Failed(why)) => return Err(self.told(&why)),
+            Err(Unanswered::Stopped) => {}
+        }
+        Ok(())
+    }
+
+    fn stop(&self) {
+        self.stopped.store(true, Ordering::Relaxed);
     }
 }

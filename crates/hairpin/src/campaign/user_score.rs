@@ -73,6 +73,15 @@ pub trait LegScorer: Send + Sync {
 
     /// Why legs have no score, if that has happened.
     fn trouble(&self) -> Option<String>;
+
+    /// Sees whether there is a score at all, before it is asked for any.
+    ///
+    /// # Errors
+    /// As [trouble](Self::trouble).
+    fn try_out(&self) -> Result<(), String>;
+
+    /// Waits for no answer any more: what is being scored, and what is asked for from now on, gets NaN.
+    fn stop(&self);
 }
 
 /// A score of the user's and the file that it was read from.

@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::LegSource;
 use super::assign::{Piece, leg_pieces, monotone};
 use super::settings::{JudgementError, Reference, Settings};
-use crate::math::segment::point_distance;
+use crate::math::segment::{nearest_point, point_distance};
 use crate::trajectory::Track;
 
 /// The leg of every sample.
@@ -29,39 +29,51 @@ pub(super) fn legs_flown(
     Ok((told.iter().map(|&leg| (leg as usize).min(last)).collect(), LegSource::Executor))
 }
 
-/// Distance of every sample from the reference, m; `None` where overshoot judges instead.
+/// How far a sample is from the reference.
+pub(super) struct Off {
+    /// Distance, m; `None` where overshoot judges instead.
+    pub(super) distance: Option<f64>,
+    /// Where on the path it belongs, m, if the reference is one.
+    pub(super) place: Option<Point3<f64>>,
+}
+
+/// How far every sample is from the reference.
 pub(super) fn deviations(
     positions: &[Point3<f64>],
     weights: &[f64],
     waypoints: &[Point3<f64>],
     legs: &[usize],
     settings: &Settings,
-) -> Result<Vec<Option<f64>>, JudgementError> {
+) -> Result<Vec<Off>, JudgementError> {
     let from_leg = |p: &Point3<f64>, leg: usize| point_distance(p, &waypoints[leg], &waypoints[leg + 1]);
     let in_corner = |p: &Point3<f64>, leg: usize| {
         (p - waypoints[leg]).norm() < settings.corner || (p - waypoints[leg + 1]).norm() < settings.corner
     };
     let samples = positions.iter().zip(legs);
+    let of = |distance| Off { distance, place: None };
     match settings.reference {
-        Reference::Leg => Ok(samples.map(|(p, &l)| (!in_corner(p, l)).then(|| from_leg(p, l))).collect()),
+        Reference::Leg => Ok(samples.map(|(p, &l)| of((!in_corner(p, l)).then(|| from_leg(p, l)))).collect()),
         Reference::NearestLeg => {
             let nearest = |p, l: usize| from_leg(p, l).min(from_leg(p, l.saturating_sub(1)));
-            Ok(samples.map(|(p, &l)| (!in_corner(p, l)).then(|| nearest(p, l))).collect())
+            Ok(samples.map(|(p, &l)| of((!in_corner(p, l)).then(|| nearest(p, l)))).collect())
         }
-        Reference::Path(path) => path_distances(positions, weights, path).map(|d| d.into_iter().map(Some).collect()),
+        Reference::Path(path) => {
+            let places = path_places(positions, weights, path)?.into_iter().zip(positions);
+            Ok(places.map(|(place, p)| Off { distance: Some((p - place).norm()), place: Some(place) }).collect())
+        }
     }
 }
 
 /// Segments of a path that one piece of its assignment may stand for: so many pieces at most.
 const PATH_PIECES: usize = 1024;
 
-/// Distance of every sample from the place on the path that it belongs to by monotone assignment.
-fn path_distances(positions: &[Point3<f64>], weights: &[f64], path: &Track) -> Result<Vec<f64>, JudgementError> {
+/// The place on the path that every sample belongs to by monotone assignment.
+fn path_places(positions: &[Point3<f64>], weights: &[f64], path: &Track) -> Result<Vec<Point3<f64>>, JudgementError> {
     if path.len() < 2 {
         return Err(JudgementError::Path { found: path.len() });
     }
-    // Long paths are assigned by chords over several segments; the distance is then taken from the segments
-    // of the chord and its neighbours.
+    // Long paths are assigned by chords over several segments; the place is then the nearest on the segments of the chord and its
+    // neighbours.
     let segments = path.len() - 1;
     let stride = segments.div_ceil(PATH_PIECES);
     let pieces: Vec<Piece> = (0..segments)
@@ -70,11 +82,12 @@ fn path_distances(positions: &[Point3<f64>], weights: &[f64], path: &Track) -> R
         .collect();
     let margin = if stride > 1 { stride } else { 0 };
     let assigned = monotone(positions, weights, &pieces);
-    let distance = |(p, piece): (&Point3<f64>, usize)| {
+    let place = |(p, piece): (&Point3<f64>, usize)| {
         let first = pieces[piece].owner.saturating_sub(margin);
         let end = (pieces[piece].owner + stride + margin).min(segments);
-        let to = |i: usize| point_distance(p, &path.position(i), &path.position(i + 1));
-        (first..end).map(to).fold(f64::INFINITY, f64::min)
+        let on = |i: usize| nearest_point(p, &path.position(i), &path.position(i + 1));
+        let nearer = |a: Point3<f64>, b: Point3<f64>| if (p - b).norm() < (p - a).norm() { b } else { a };
+        (first + 1..end).map(on).fold(on(first), nearer)
     };
-    Ok(positions.iter().zip(assigned).map(distance).collect())
+    Ok(positions.iter().zip(assigned).map(place).collect())
 }

@@ -4,7 +4,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::deviation::{deviations, legs_flown};
+use super::deviation::{Off, deviations, legs_flown};
 use super::settings::{JudgementError, Settings};
 use super::{AccelerationSource, LegMeasures, Measures};
 use crate::math::segment::nearest_point;
@@ -16,8 +16,9 @@ use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 /// - deviation d_i = ‖p_i − segment(w_l, w_l+1)‖ (or [`super::Reference`]); its mean is weighted by time,
 ///   h_i = (t_i+1 − t_i−1)/2, over the samples that count (see [`Settings::corner`]);
 /// - overshoot at waypoint k = max over samples of (p_i − q_i)·u_k−1, at least 0, with q_i = w_k while leg k−1 is
-///   flown, and q_i = the point of leg k's segment nearest to p_i while leg k is flown: how far the robot is carried
-///   on in the direction in which it came, beyond where it should be. Going straight on is no overshoot;
+///   flown, and q_i = the point of leg k's segment nearest to p_i while leg k is flown; against a path
+///   ([`super::Reference::Path`]) q_i = its place for p_i in both cases: how far the robot is carried on in the direction in
+///   which it came, beyond where it should be. Going straight on is no overshoot;
 /// - acceleration ‖v_i+1 − v_i−1‖/(t_i+1 − t_i−1) with the channels `vx_m_s`, `vy_m_s`, `vz_m_s` (one-sided at the
 ///   ends), or the second divided difference of positions where they are missing; speed rate: |‖v_i+1‖ − ‖v_i−1‖| over
 ///   the same time;
@@ -38,7 +39,7 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
     let positions: Vec<Point3<f64>> = (0..track.len()).map(|i| track.position(i)).collect();
     let weights = time_weights(track.times());
     let (legs, leg_source) = legs_flown(track, waypoints, &positions, &weights)?;
-    let deviations = deviations(&positions, &weights, waypoints, &legs, settings)?;
+    let off = deviations(&positions, &weights, waypoints, &legs, settings)?;
 
     let mut measures = Measures {
         leg_source,
@@ -46,8 +47,8 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
         legs: vec![LegMeasures::default(); waypoints.len() - 1],
         ..Measures::default()
     };
-    measure_deviation(&mut measures, track.times(), &weights, &legs, &deviations);
-    measure_overshoot(&mut measures, track.times(), &positions, waypoints, &legs);
+    measure_deviation(&mut measures, track.times(), &weights, &legs, &off);
+    measure_overshoot(&mut measures, track.times(), &positions, waypoints, &legs, &off);
     measure_acceleration(&mut measures, track, &positions, &legs);
     measure_clearance(&mut measures, track.times(), &positions, &legs, settings);
     if let Some(margins) = track.channel("tip_over_margin_deg") {
@@ -83,7 +84,7 @@ pub fn deviation_of_samples(
     let positions: Vec<Point3<f64>> = (0..track.len()).map(|i| track.position(i)).collect();
     let weights = time_weights(track.times());
     let (legs, _) = legs_flown(track, waypoints, &positions, &weights)?;
-    deviations(&positions, &weights, waypoints, &legs, settings)
+    Ok(deviations(&positions, &weights, waypoints, &legs, settings)?.into_iter().map(|off| off.distance).collect())
 }
 
 fn check(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Result<(), JudgementError> {
@@ -113,19 +114,13 @@ fn time_weights(times: &[f64]) -> Vec<f64> {
     (0..=last).map(|i| 0.5 * (times[(i + 1).min(last)] - times[i.saturating_sub(1)])).collect()
 }
 
-fn measure_deviation(
-    measures: &mut Measures,
-    times: &[f64],
-    weights: &[f64],
-    legs: &[usize],
-    deviations: &[Option<f64>],
-) {
+fn measure_deviation(measures: &mut Measures, times: &[f64], weights: &[f64], legs: &[usize], off: &[Off]) {
     let mut worst = -1.0;
-    for (i, (&leg, deviation)) in legs.iter().zip(deviations).enumerate() {
+    for (i, (&leg, off)) in legs.iter().zip(off).enumerate() {
         if times.len() > 1 {
             measures.legs[leg].time += weights[i];
         }
-        let Some(deviation) = *deviation else { continue };
+        let Some(deviation) = off.distance else { continue };
         measures.legs[leg].max_deviation = measures.legs[leg].max_deviation.max(deviation);
         if deviation > worst {
             worst = deviation;
@@ -134,7 +129,7 @@ fn measure_deviation(
     }
     let mean = |leg: Option<usize>| {
         let own = (0..legs.len()).filter(|&i| leg.is_none_or(|leg| legs[i] == leg));
-        weighted_mean(own.filter_map(|i| Some((weights[i], deviations[i]?)))).unwrap_or(0.0)
+        weighted_mean(own.filter_map(|i| Some((weights[i], off[i].distance?)))).unwrap_or(0.0)
     };
     measures.mean_deviation = mean(None);
     for leg in 0..measures.legs.len() {
@@ -148,6 +143,7 @@ fn measure_overshoot(
     positions: &[Point3<f64>],
     waypoints: &[Point3<f64>],
     legs: &[usize],
+    off: &[Off],
 ) {
     let direction = |leg: usize| (waypoints[leg + 1] - waypoints[leg]).try_normalize(0.0).unwrap_or(Vector3::zeros());
     let mut worst = 0.0;
@@ -161,9 +157,10 @@ fn measure_overshoot(
                 measures.t_overshoot = times[i];
             }
         };
-        note(leg, &waypoints[leg + 1]);
+        note(leg, &off[i].place.unwrap_or(waypoints[leg + 1]));
         if leg > 0 {
-            note(leg - 1, &nearest_point(p, &waypoints[leg], &waypoints[leg + 1]));
+            let on_leg = || nearest_point(p, &waypoints[leg], &waypoints[leg + 1]);
+            note(leg - 1, &off[i].place.unwrap_or_else(on_leg));
         }
     }
     measures.overshoots = measures.legs.iter().map(|leg| leg.overshoot).collect();

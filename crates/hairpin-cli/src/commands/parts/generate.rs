@@ -1,5 +1,7 @@
 //! Part one: trajectories, their planned motion, and what the search did.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::graph_of;
@@ -8,6 +10,7 @@ use hairpin::campaign::{Case, Kind, Stop, Tally, learn};
 use hairpin::world::terrain::Terrain;
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::model_text;
+use hairpin_formats::waypoints::Mission;
 
 use super::graph::keep_graph;
 use super::keep::keep_cases;
@@ -18,6 +21,9 @@ use crate::problem::Problem;
 
 /// Between checkpoints: what a kill may cost.
 const CHECKPOINT: Duration = Duration::from_secs(30);
+
+/// Between two looks at whether an answer of the user's score is still wanted.
+const LOOK: Duration = Duration::from_millis(20);
 
 /// Finds the cases and writes them. An interrupted generation goes on where its last checkpoint was.
 pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Tally), Problem> {
@@ -41,12 +47,28 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
         },
         clock: &|| begun.elapsed().as_secs_f64(),
     };
-    let tally = hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
-        cases.extend_from_slice(new);
-        if at.elapsed() > CHECKPOINT && trouble.is_none() {
-            trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
-            (saved, at) = (cases.len(), Instant::now());
+    let found = AtomicBool::new(false);
+    let tally = thread::scope(|scope| {
+        // What a score of the user's takes for an answer is not up to us; what is waited for it is.
+        if let Some(user) = user_score {
+            scope.spawn(|| {
+                while !found.load(Ordering::Relaxed) {
+                    if interrupt::asked() || deadline.passed() {
+                        return user.scorer.stop();
+                    }
+                    thread::sleep(LOOK);
+                }
+            });
         }
+        let tally = hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
+            cases.extend_from_slice(new);
+            if at.elapsed() > CHECKPOINT && trouble.is_none() {
+                trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
+                (saved, at) = (cases.len(), Instant::now());
+            }
+        });
+        found.store(true, Ordering::Relaxed);
+        tally
     });
     bar.finish_and_clear();
     if let Some(problem) = trouble {
@@ -106,9 +128,9 @@ fn known(work: &Work) -> Result<Known, Problem> {
     Ok(known)
 }
 
-/// Puts waypoint lists that were made elsewhere in the place of the folder's cases. A list that equals a case of the
-/// folder keeps that case's plan and evidence.
-pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>)]) -> Result<(), Problem> {
+/// Puts waypoint lists that were made elsewhere in the place of the folder's cases, with the environments beside them. A list that equals a
+/// case of the folder keeps that case's plan and evidence, and its environment where it comes without one.
+pub(crate) fn adopt(work: &Work, missions: &[Mission]) -> Result<(), Problem> {
     let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
     let mut cases = Vec::with_capacity(missions.len());
     let outside = |p: &nalgebra::Point3<f64>| match work.setup.kind() {
@@ -116,7 +138,7 @@ pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>
         Kind::Drive(setup) => setup.map.patch(p.x, p.y).is_err(),
         Kind::Arm(_) => false,
     };
-    for (number, (name, waypoints)) in missions.iter().enumerate() {
+    for (number, Mission { name, waypoints, environment }) in missions.iter().enumerate() {
         if waypoints.len() < 2 {
             return Err(Problem::input(format!(
                 "{name}.csv: a mission needs at least 2 waypoints, this has {}",
@@ -128,12 +150,18 @@ pub(crate) fn adopt(work: &Work, missions: &[(String, Vec<nalgebra::Point3<f64>>
         }
         let seed = hairpin::math::random::case_seed(work.setup.scenario.seed(), number as u64);
         let same = known.iter().find(|case| case.waypoints == *waypoints);
-        cases.push(match same {
+        let mut case = match same {
             Some(case) => Case { number, seed, ..case.clone() },
             None => Case::bare(number, seed, waypoints.clone()),
-        });
+        };
+        if environment.is_some() {
+            case.environment = environment.clone();
+            let refuse = |mistake| Problem::input(format!("{name}.environment.json: {mistake}"));
+            work.setup.around(&case).map_err(refuse)?;
+        }
+        cases.push(case);
     }
-    let names = missions.iter().map(|(name, _)| name.clone());
+    let names = missions.iter().map(|mission| mission.name.clone());
     let tally = Tally { complete: true, missions: names.collect(), ..Tally::default() };
     work.folder.forget_cases()?;
     keep_cases(work, &cases, 0, &tally)

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use hairpin::campaign::arm::{ArmGraph, ArmSetup};
 use hairpin::feasibility::reachability::joint::ArcGraph;
-use hairpin_formats::folder::ARCS;
+use hairpin_formats::folder::{ARCS, GRAPH, REASONS};
 use hairpin_formats::{arcs, atomic, costs};
 
 use crate::folder::Work;
@@ -29,8 +29,8 @@ pub(crate) fn keep_graph(work: &Work, arm: &ArmSetup, graph: &ArmGraph) -> Resul
             writeln!(reasons, "{from},{to},\"{sentence}\"").expect("strings take everything");
         }
     }
-    atomic::write(&work.folder.file("graph.csv"), table.as_bytes())?;
-    atomic::write(&work.folder.file("reasons.csv"), reasons.as_bytes())?;
+    atomic::write(&work.folder.file(GRAPH), table.as_bytes())?;
+    atomic::write(&work.folder.file(REASONS), reasons.as_bytes())?;
     let Some(ArcGraph { free, refused }) = &graph.arcs else { return Ok(()) };
     let refused = refused.iter().map(|(points, refusal)| (*points, Err(refusal.told(&names).to_string())));
     let mut all: Vec<([usize; 3], Result<i64, String>)> =

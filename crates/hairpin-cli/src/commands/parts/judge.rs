@@ -170,14 +170,14 @@ fn rerun_property(result: &CaseResult) -> Option<(String, String)> {
 
 fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(), Problem> {
     let folder = work.folder.file("repro");
-    // Only what a judgement wrote goes: shrunk cases, and files of the users' own, are there to be run again.
-    let judged = |path: &std::path::Path| {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        path.extension().is_some_and(|ending| ending == "json") && name.bytes().all(|byte| byte.is_ascii_digit())
-    };
-    for old in std::fs::read_dir(&folder).into_iter().flatten().flatten().filter(|old| judged(&old.path())) {
-        std::fs::remove_file(old.path())
-            .map_err(|error| Problem::input(format!("cannot remove {}: {error}", old.path().display())))?;
+    // Only what is judged anew goes: shrunk cases, those of a larger campaign before, and files of the users' own are there to be run again.
+    for old in cases.iter().map(|case| folder.join(format!("{}.json", case.id()))) {
+        match std::fs::remove_file(&old) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(Problem::input(format!("cannot remove {}: {error}", old.display())));
+            }
+            _ => {}
+        }
     }
     let violating = worst_first(results).into_iter().filter(|result| result.status == Status::Fail);
     for result in violating.take(REPROS) {

@@ -8,7 +8,7 @@ use std::fs;
 
 use hairpin::campaign::arm::{ArmGraph, ArmSetup};
 use hairpin::campaign::{Case, Stop};
-use hairpin_formats::folder::{ARCS, OPTIMUM};
+use hairpin_formats::folder::{ARCS, GRAPH, OPTIMUM};
 use hairpin_formats::{arcs, atomic, costs};
 use serde_json::{Value, json};
 
@@ -52,7 +52,8 @@ pub(super) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case]
 /// Checks the folder's, if it has one: that it is of this graph and of the first program, and that no path is heavier. Where the first case claims to
 /// be optimal and there is none, that is a finding.
 pub(crate) fn verify(work: &Work, arm: &ArmSetup, cases: &[Case]) -> Option<Optimum> {
-    let first = cases.first()?;
+    // A choice of cases may have left it out.
+    let first = cases.first().filter(|case| case.number == 0)?;
     let claimed = first.gap().is_some_and(|gap| gap <= 1e-9);
     let path = work.folder.file(OPTIMUM);
     if !path.is_file() {
@@ -71,7 +72,7 @@ fn check(work: &Work, arm: &ArmSetup, first: &Case) -> Result<Optimum, String> {
         fs::read_to_string(work.folder.file(OPTIMUM)).map_err(|cause| format!("{OPTIMUM} cannot be read: {cause}"))?;
     let object: Value = serde_json::from_str(&text).map_err(|error| format!("{OPTIMUM} is no JSON: {error}"))?;
     let decimals = object["decimals"].as_u64().map_or(0, |decimals| decimals.min(18) as usize);
-    let table = costs::read_in(&work.folder.file("graph.csv"), decimals).map_err(|error| error.to_string())?;
+    let table = costs::read_in(&work.folder.file(GRAPH), decimals).map_err(|error| error.to_string())?;
     let n = table.points;
     let arcs = work.folder.file(ARCS);
     let arcs = arcs.is_file().then(|| arcs::read(&arcs, decimals)).transpose().map_err(|error| error.to_string())?;

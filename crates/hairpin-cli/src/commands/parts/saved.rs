@@ -111,7 +111,8 @@ impl Saved {
     }
 }
 
-/// Takes over who executes and what is within spec; the noise stays that of the saved run. Whether both are of one kind.
+/// Takes over who executes and what is within spec; noise and force, which no controller chooses, stay those of the saved run. Whether both are
+/// of one kind.
 fn adopt(saved: &mut Scenario, now: &Scenario) -> bool {
     match (saved, now) {
         (Scenario::Flight(saved), Scenario::Flight(now)) => {
@@ -120,9 +121,9 @@ fn adopt(saved: &mut Scenario, now: &Scenario) -> bool {
             saved.execute.noise = noise;
         }
         (Scenario::Drive(saved), Scenario::Drive(now)) => {
-            let noise = saved.execute.noise;
+            let (noise, force) = (saved.execute.noise, saved.execute.external_force_n);
             (saved.robot, saved.execute, saved.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
-            saved.execute.noise = noise;
+            (saved.execute.noise, saved.execute.external_force_n) = (noise, force);
         }
         (Scenario::Arm(saved), Scenario::Arm(now)) => {
             (saved.robot, saved.execute, saved.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
@@ -153,6 +154,8 @@ pub(crate) fn with_saved(verdict: &Verdict, replayed: &[Replayed]) -> Verdict {
         0 | 3 | 5 if failed > 0 => {
             Verdict { sentence: format!("FAIL {failed}/{of} saved cases violate; {sentence}"), exit_code: 1 }
         }
+        // What the campaign's own cases came to stays the first that is read.
+        1 if failed > 0 => Verdict { sentence: format!("{sentence}; {failed}/{of} saved cases violate"), exit_code: 1 },
         0 if unrun > 0 => {
             Verdict { sentence: format!("EXECUTOR FAILED {unrun}/{of} saved cases; {sentence}"), exit_code: 4 }
         }

@@ -44,16 +44,16 @@ impl ArmSetup<'_> {
         turned.into_iter().find(|q| station.arm.configuration(q) == *wanted)
     }
 
-    /// What `model` expects of the move from row to row with these angles at both ends, in millionths of its unit, at the mean of the scenario's
-    /// speeds; at least 0.
+    /// What `model` expects of the move from row to row with these angles at both ends, in millionths of its unit: the mean over the scenario's
+    /// speeds, of which one is drawn later; at least 0. Not what it expects at their mean, a speed that nothing was executed at.
     pub(super) fn expected(&self, model: &ScoreModel, [from, to]: [usize; 2], angles: [&Joints; 2]) -> i64 {
         let place = |row: usize| &self.station.points[row].pose;
         let speeds = &self.scenario.generate.moves.speeds;
+        let at = |speed| MoveFeatures::of(&self.station.arm, [place(from), place(to)], angles[0], angles[1], speed);
         let named = speeds.iter().filter_map(|name| Speed::predefined(name));
-        let sum: f64 = named.map(|speed| MoveFeatures::speed_of(speed.tcp)).sum();
-        let speed = sum / speeds.len().max(1) as f64;
-        let features = MoveFeatures::of(&self.station.arm, [place(from), place(to)], angles[0], angles[1], speed);
+        let sum: f64 = named.map(|speed| model.expected_of_move(&at(MoveFeatures::speed_of(speed.tcp)))).sum();
+        let mean = sum / speeds.len().max(1) as f64;
         // Whole numbers without limit are no costs; nothing that is measured of a move is as large.
-        (1e6 * model.expected_of_move(&features)).clamp(0.0, 1e15).round() as i64
+        (1e6 * mean).clamp(0.0, 1e15).round() as i64
     }
 }

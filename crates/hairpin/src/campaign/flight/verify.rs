@@ -70,9 +70,11 @@ pub(in crate::campaign) fn verify_environment(
         wrong(least > 0.0, format!("obstacles[{number}].{key}"), least, 0.0, "m");
     }
     let mut exceed = |field: String, value: f64, bound: f64, unit| wrong(value <= bound, field, value, bound, unit);
-    // Shapes that are none of these, and what is for drives, are not placed by any search: that they are clear is not known.
+    // Shapes that are none of these, and what is for drives, are found by no search: that they are clear, or act, is not known.
     let others = environment.obstacles.len() - solids.len() + environment.keep_out.len();
     exceed("obstacles".into(), others as f64, 0.0, "");
+    let force = environment.external_force_n.map_or(0.0, |force| force.iter().map(|part| part.abs()).sum());
+    exceed("external_force_n".into(), force, 0.0, "N");
     for (number, solid) in solids.iter().enumerate() {
         let (centre, half) = match solid {
             ClearSolid::Ball(centre, radius) => (centre, [*radius; 3]),

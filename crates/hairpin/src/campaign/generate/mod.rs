@@ -79,7 +79,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
         None => wanted.saturating_mul(GRAPHS_PER_CASE),
     };
     let batch = 2 * rayon::current_num_threads() as u64;
-    let executes = setup.scenario.executes();
+    let cut_short = setup.scenario.executes() || setup.scenario.user_score().is_some();
     (stop.progress)(collector.cases, wanted as usize);
     'units: while collector.tally.units < units && (collector.cases as u64) < wanted {
         let first = collector.tally.units;
@@ -91,8 +91,8 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
                 let outcome = begins.then(|| {
                     if varied { drawn_case(setup, unit, stop) } else { solver.solve(setup, unit, Wanted::Cases, stop) }
                 });
-                // Where executions were denied, a graph was searched in part, and is searched again by whoever goes on.
-                outcome.filter(|_| !(executes && (stop.cancelled)()))
+                // Where executions or the user's scores were denied, a graph was searched in part, and is searched again by whoever goes on.
+                outcome.filter(|_| !(cut_short && (stop.cancelled)()))
             })
             .collect();
         for outcome in outcomes {

@@ -95,14 +95,16 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(que
     }
     climbers.truncate(search.per_graph as usize);
     let mut plans: Vec<Plan> = climbers.into_iter().map(|climber| climber.plan).collect();
-    let mut reason = plans.is_empty().then(|| "no execution of what was found ended with a measure".into());
+    // Where nothing finds room, and nothing else stands there, there is no clearance to measure either.
+    let no_room = "no obstacle of those asked for (`generate.environment.obstacles`) finds room where executions leave their plan";
+    let unmeasured = "no execution of what was found ended with a measure";
+    let mut reason = plans.is_empty().then(|| if furnished { no_room } else { unmeasured }.to_owned());
     if furnished && !plans.is_empty() {
         let among = |plan: &Plan| furnish(plan).map(|(plan, trial)| Plan { score: trial.stress, ..plan });
         let most = best_so_far.last().copied().unwrap_or(f64::NEG_INFINITY);
         best_so_far.extend(std::iter::repeat_n(most, 2 * plans.len()));
         plans = plans.iter().filter_map(among).collect();
-        let no_room = || "no obstacle of those asked for finds room where executions leave their plan".into();
-        reason = plans.is_empty().then(no_room);
+        reason = plans.is_empty().then(|| no_room.to_owned());
     }
     Answer { plans, expansions: best_so_far.len() as u64, best_so_far, reason, ..Answer::default() }
 }

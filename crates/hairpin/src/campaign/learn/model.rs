@@ -119,6 +119,9 @@ pub enum ModelMistake {
     },
 }
 
+/// Largest number of a polynomial.
+const LARGEST: f64 = 1e50;
+
 impl ScoreModel {
     /// Whether the model can score legs of `subject`. Another controller is no obstacle: stress transfers badly between
     /// them, but it is the user's to say.
@@ -138,6 +141,10 @@ impl ScoreModel {
             if found != wanted {
                 return Err(ModelMistake::Subject { field, found: found.clone(), wanted: wanted.clone() });
             }
+        }
+        if self.unit != self.stress.unit() {
+            let (found, wanted) = (self.unit.clone(), self.stress.unit().to_owned());
+            return Err(ModelMistake::Subject { field: "unit", found, wanted });
         }
         let wanted = if subject.speeds == ARM_MOVES { MoveFeatures::named() } else { legs::named() };
         if self.features != wanted {
@@ -174,9 +181,10 @@ impl ScoreModel {
         {
             return wrong("range", format!("[{least}, {greatest}]"), "rising");
         }
-        let numbers = || centre.iter().chain(scale).chain(weights).chain([intercept]);
-        if let Some(number) = numbers().find(|number| !number.is_finite()) {
-            return wrong("weights", number.to_string(), "finite");
+        // Products of as many as the degree, and sums over a trajectory, stay finite.
+        let numbers = || centre.iter().chain(scale).chain(weights).chain([intercept]).chain(range.iter().flatten());
+        if let Some(number) = numbers().find(|number| !(-LARGEST..=LARGEST).contains(*number)) {
+            return wrong("numbers", number.to_string(), &format!("within ±{LARGEST:e}"));
         }
         Ok(())
     }

@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-use super::plan::{Plan, Section, Station, direction_at, heading, speed_at};
+use super::plan::{Plan, Section, Station, acceleration_at, direction_at, heading, speed_at};
 use super::plant::Command;
 use crate::math::power::square;
 use crate::robot::rover::Rover;
@@ -149,18 +149,23 @@ impl<'a> Guide<'a> {
     /// The speed to command `s` metres along `stations`: what is planned where the vehicle will be when the command has acted.
     ///
     /// With the acceleration a the way until then is v·dt + ½ a dt² behind the commands under way. Near the end half of what is left, so that
-    /// it is reached.
+    /// it is reached. Wheels that take any speed at once go by the plan's own v and a, which lead it out of rest.
     fn pace(&self, stations: &[Station], measured: &Measured, s: f64, dt: f64) -> f64 {
-        let left = (stations[stations.len() - 1].s - s - self.coming(measured.t)).max(0.0);
+        let end = stations[stations.len() - 1].s;
+        let left = (end - s - self.coming(measured.t)).max(0.0);
+        let most = self.speed.min(left / dt);
         if !self.acceleration.is_finite() {
-            return speed_at(stations, s).min(self.speed).min(left / dt);
+            // What has stopped short of where a section begins starts there all the same.
+            let acts = (end - left).max(0.0);
+            let way = (speed_at(stations, acts) + 0.5 * acceleration_at(stations, acts) * dt) * dt;
+            return speed_at(stations, acts + way.max(0.0)).min(most);
         }
         let before = self.under_way.back().map_or(0.0, |(_, speed)| *speed);
         let gained = 0.5 * self.acceleration * dt;
-        let ahead = stations[stations.len() - 1].s - left + (before + gained) * dt;
+        let ahead = end - left + (before + gained) * dt;
         let braking = (2.0 * self.acceleration * (left - (before + gained) * dt).max(0.0)).sqrt();
         let creeping = (0.5 * left / dt).min(gained);
-        speed_at(stations, ahead).min(braking).max(creeping).min(self.speed).min(left / dt)
+        speed_at(stations, ahead).min(braking).max(creeping).min(most)
     }
 
     fn next(&mut self, measured: &Measured, dt: f64) -> Task<'a> {

@@ -264,6 +264,13 @@ pub(super) fn speed_at(stations: &[Station], s: f64) -> f64 {
     (square(a.speed) + share * (square(b.speed) - square(a.speed))).sqrt()
 }
 
+/// The planned acceleration `s` commanded metres along `stations`, m/s²: that of the piece that begins there.
+pub(super) fn acceleration_at(stations: &[Station], s: f64) -> f64 {
+    let next = stations.partition_point(|station| station.s <= s).clamp(1, stations.len() - 1);
+    let [a, b] = [&stations[next - 1], &stations[next]];
+    0.5 * (square(b.speed) - square(a.speed)) / (b.s - a.s)
+}
+
 /// Heading of travel in the body, rad, of what goes with `sign` in `direction` of it.
 pub(super) fn heading(direction: f64, sign: f64) -> f64 {
     direction + if sign < 0.0 { std::f64::consts::PI } else { 0.0 }
