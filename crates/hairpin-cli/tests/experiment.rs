@@ -45,7 +45,11 @@ fn sizes_that_are_none_are_refused() {
         refused(folder.path(), &["experiment", "robtest-table-1", "--set", set], &[why]);
     }
     let negative = ["--set", "points=[5]", "--set", "instances=1", "--set", "cutoffs_s=[-1.0]"];
-    refused(folder.path(), &[&["experiment", "robtest-figure-7"], &negative[..]].concat(), &["`cutoffs_s` = -1", "0 … 1000000"]);
+    refused(
+        folder.path(),
+        &[&["experiment", "robtest-figure-7"], &negative[..]].concat(),
+        &["`cutoffs_s` = -1", "0 … 1000000"],
+    );
     assert!(fs::read_dir(folder.path()).unwrap().next().is_none());
 }
 

@@ -48,7 +48,11 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> io:
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    let mut temporary = temporary_in(folder).map_err(refuse)?;
+    let mut temporary = temporary_in(folder).map_err(|cause| match folder.is_dir() {
+        // The system would tell of a name that nobody gave.
+        false => refuse(io::Error::new(cause.kind(), format!("there is no folder {}", folder.display()))),
+        true => refuse(cause),
+    })?;
     pour(temporary.as_file_mut(), fill).map_err(refuse)?;
     temporary.as_file().sync_all().map_err(refuse)?;
     temporary.persist(path).map_err(|error| refuse(error.error))?;

@@ -25,7 +25,12 @@ pub struct Suite {
     pub properties: Vec<(String, String)>,
     /// What is worse than a baseline, in sentences, by case: a failure even within spec.
     pub regressions: BTreeMap<usize, Vec<String>>,
+    /// Saved cases that were run before: name and result of each. They make a suite of their own, where there are any.
+    pub saved: Vec<(String, CaseResult)>,
 }
+
+/// Name of the suite of saved cases.
+const SAVED: &str = "saved cases";
 
 /// The file's text: one test case per case asked for, in the order of their numbers.
 pub fn text(suite: &Suite, results: &[CaseResult]) -> String {
@@ -36,15 +41,23 @@ pub fn text(suite: &Suite, results: &[CaseResult]) -> String {
     let mut ordered: Vec<&CaseResult> = results.iter().collect();
     ordered.sort_by_key(|result| result.case);
     for result in &ordered {
-        tests.add_test_case(test_case(suite, result));
+        tests.add_test_case(test_case(suite, id(result.case), result));
     }
     let judged: BTreeSet<usize> = results.iter().map(|result| result.case).collect();
     let missing = (0..).filter(|number| !judged.contains(number)).take(suite.asked.saturating_sub(results.len()));
     for number in missing {
-        tests.add_test_case(named(suite, number, not_found(suite, results.is_empty())));
+        tests.add_test_case(named(suite, id(number), not_found(suite, results.is_empty())));
     }
     let mut report = Report::new("hairpin");
     report.add_test_suite(tests);
+    if !suite.saved.is_empty() {
+        let plain = Suite { name: SAVED.into(), ..Suite::default() };
+        let mut tests = TestSuite::new(SAVED);
+        for (name, result) in &suite.saved {
+            tests.add_test_case(test_case(&plain, name.clone(), result));
+        }
+        report.add_test_suite(tests);
+    }
     let text = report.to_string().expect("cleaned text is XML");
     without_root_skipped(&text)
 }
@@ -57,7 +70,7 @@ pub fn write(path: &Path, suite: &Suite, results: &[CaseResult]) -> Result<(), W
     atomic::write(path, text(suite, results).as_bytes())
 }
 
-fn test_case(suite: &Suite, result: &CaseResult) -> TestCase {
+fn test_case(suite: &Suite, name: String, result: &CaseResult) -> TestCase {
     let worse = suite.regressions.get(&result.case).map_or(&[][..], Vec::as_slice);
     let violations: Vec<String> =
         result.violations.iter().map(report::violation).chain(worse.iter().cloned()).collect();
@@ -86,7 +99,7 @@ fn test_case(suite: &Suite, result: &CaseResult) -> TestCase {
             not_passed(NonSuccessKind::Error, "Inconclusive", message.unwrap_or("the data allow no verdict"), &[])
         }
     };
-    let mut case = named(suite, result.case, status);
+    let mut case = named(suite, name, status);
     if let Some(measures) = &result.measures {
         case.set_time(Duration::try_from_secs_f64(measures.total_time).unwrap_or_default());
     }
@@ -114,8 +127,12 @@ fn not_passed(kind: NonSuccessKind, ty: &str, message: &str, more: &[String]) ->
     status
 }
 
-fn named(suite: &Suite, number: usize, status: TestCaseStatus) -> TestCase {
-    let mut case = TestCase::new(format!("{number:04}"), status);
+fn id(number: usize) -> String {
+    format!("{number:04}")
+}
+
+fn named(suite: &Suite, name: String, status: TestCaseStatus) -> TestCase {
+    let mut case = TestCase::new(clean(&name), status);
     case.set_classname(clean(&suite.name));
     case
 }

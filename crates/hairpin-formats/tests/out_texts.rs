@@ -17,6 +17,7 @@ fn suite() -> junit::Suite {
         inconclusive: None,
         properties: vec![("seed".into(), "10".into()), ("verdict".into(), "FAIL 1/5: worst 0.65 m > 0.50 m".into())],
         regressions: Default::default(),
+        saved: Vec::new(),
     }
 }
 
@@ -39,6 +40,14 @@ fn junit_has_one_test_per_case_asked_for() {
     assert_eq!(text.matches("<testcase ").count(), 5);
     assert!(text.chars().all(|c| c == '\n' || !c.is_control()));
     assert_eq!(junit::text(&junit::Suite { asked: 3, ..suite() }, &[]).matches("<skipped").count(), 3);
+    // Saved cases are tests of their own, beside as many as before.
+    let saved = vec![("0117".to_owned(), passed()), ("mine-1".to_owned(), passed())];
+    let text = junit::text(&junit::Suite { saved, ..suite() }, &[passed()]);
+    let (own, others) = text.split_once("<testsuite name=\"saved cases\" tests=\"2\"").unwrap();
+    assert!(
+        others.contains("name=\"0117\"") && others.contains("name=\"mine-1\"") && !own.contains("mine-1"),
+        "{text}"
+    );
 }
 
 #[test]

@@ -15,7 +15,7 @@ pub(crate) fn run(judge: &Judge) -> Result<u8, Problem> {
     if !sets.is_empty() {
         folder::keep_changes(&work)?;
     }
-    let judgement = parts::judge(&work, &cases, &tally)?;
+    let judgement = parts::judge(&work, &cases, &tally, &[])?;
     let asked = tally.asked(work.setup.scenario.search().cases);
     let answer = Answer { work: &work, asked, cases: &cases, judgement: &judgement, replayed: &[] };
     Ok(answer.say(judge.json))

@@ -20,12 +20,16 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
     let table = work.folder.read_runs_table()?;
     let place = asked.folder.display();
     let what = if work.setup.arm().is_some() { "move" } else { "leg" };
-    let found = |samples: usize| match samples {
-        0 => Err(Problem::input(format!(
-            "{place}: no {what} to learn from: cases need {what}s that a search saw, executions, and {} measured on them",
-            stress.word()
-        ))),
-        _ => Ok(()),
+    let found = |samples: usize| {
+        let missing = match samples {
+            0 if table.is_empty() => format!("nothing was executed: hairpin execute {place}"),
+            0 if work.setup.arm().is_none() && cases.iter().all(|case| case.seen.is_empty()) => {
+                "no search saw the legs of its cases, as of missions made elsewhere".to_owned()
+            }
+            0 => format!("{} was measured on none of them", stress.word()),
+            _ => return Ok(()),
+        };
+        Err(Problem::input(format!("{place}: no {what} to learn from: {missing}")))
     };
     let runs = |case: &Case| work.folder.read_runs(case.number, &table);
     let learned = if work.setup.arm().is_some() {

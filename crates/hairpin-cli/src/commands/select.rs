@@ -194,7 +194,7 @@ fn write(work: &Work, asked: &Select, all: &[Case], chosen: &[Case]) -> Result<C
     }
     let judged = old.read_results()?.iter().filter(|result| numbers.contains(&result.case)).count() == chosen.len();
     if judged && !facts.is_empty() {
-        let judgement = parts::judge(&new, chosen, &tally)?;
+        let judgement = parts::judge(&new, chosen, &tally, &[])?;
         parts::report(&new, chosen, &tally, &judgement.verdict, (&judgement.moves, judgement.regression.as_ref()))?;
     }
     Ok(new.folder)

@@ -20,8 +20,9 @@ pub(crate) fn run(stress: &Stress) -> Result<u8, Problem> {
 pub(crate) fn campaign(work: &Work, deadline: Deadline, replayed: &[Replayed], json: bool) -> Result<u8, Problem> {
     let (cases, tally) = parts::generate(work, deadline)?;
     parts::execute(work, &cases)?;
-    let judgement = parts::judge(work, &cases, &tally)?;
-    parts::report(work, &cases, &tally, &judgement.verdict, (&judgement.moves, judgement.regression.as_ref()))?;
+    let judgement = parts::judge(work, &cases, &tally, replayed)?;
+    let verdict = parts::with_saved(&judgement.verdict, replayed);
+    parts::report(work, &cases, &tally, &verdict, (&judgement.moves, judgement.regression.as_ref()))?;
     let asked = tally.asked(work.setup.scenario.search().cases);
     let answer = Answer { work, asked, cases: &cases, judgement: &judgement, replayed };
     Ok(answer.say(json))

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::Repro;
+use super::{Replayed, Repro};
 use crate::folder::Work;
 use crate::problem::Problem;
 
@@ -40,8 +40,8 @@ pub(crate) struct Judgement {
     pub(crate) regression: Option<Regression>,
 }
 
-/// Judges every case and writes results, JUnit, repro files, and which parameter did it.
-pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgement, Problem> {
+/// Judges every case and writes results, JUnit (with what was `replayed` before), repro files, and which parameter did it.
+pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally, replayed: &[Replayed]) -> Result<Judgement, Problem> {
     let table = work.folder.read_runs_table()?;
     let attitude_unknown = AtomicUsize::new(0);
     let grid = Grid::of(&work.setup);
@@ -87,7 +87,8 @@ pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally) -> Result<Judgem
     if work.setup.arm().is_some() {
         work.folder.write_moves(&moves)?;
     }
-    let suite = suite(work, tally, &verdict, &results, regression.as_ref());
+    let saved = replayed.iter().map(Replayed::named).collect();
+    let suite = Suite { saved, ..suite(work, tally, &verdict, &results, regression.as_ref()) };
     junit::write(&work.folder.file("junit.xml"), &suite, &results)?;
     write_repros(work, cases, &results)?;
     work.folder.write_influences(&influences)?;
@@ -156,6 +157,7 @@ fn suite(
         .chain(results.iter().filter_map(rerun_property))
         .collect(),
         regressions: worse.collect(),
+        saved: Vec::new(),
     }
 }
 

@@ -134,6 +134,11 @@ fn adopt(saved: &mut Scenario, now: &Scenario) -> bool {
 }
 
 impl Replayed {
+    /// Its file's name without the ending, and what it came to.
+    pub(crate) fn named(&self) -> (String, CaseResult) {
+        (self.file.file_stem().unwrap_or_default().to_string_lossy().into_owned(), self.result.clone())
+    }
+
     /// For machines.
     pub(crate) fn object(&self) -> Value {
         json!({

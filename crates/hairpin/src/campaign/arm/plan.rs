@@ -2,6 +2,7 @@
 
 use super::ArmSetup;
 use super::execute::program_of;
+use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, PlanError};
 use crate::robot::arm::{AXES, Joints};
 use crate::simulation::SimulationError;
@@ -20,7 +21,12 @@ impl ArmSetup<'_> {
             Some(stop) => Err(SimulationError::new(
                 "program",
                 format!("{} at {:.0} % of {}", stop.reason, 100.0 * stop.share, orders[stop.order].name),
-                "one that the arm can follow",
+                match self.scenario.generate.mode {
+                    ArmMode::Joint => "one that the arm can follow",
+                    ArmMode::Cartesian => {
+                        "one that the arm can follow, which generate.mode = \"cartesian\" does not look at and \"joint\" does"
+                    }
+                },
             )),
             None => Ok(plan.path()),
         }

@@ -106,6 +106,8 @@ impl SearchMethod {
     }
 }
 
+/// Rounds at most.
+const MOST_ROUNDS: u64 = 1_000;
 /// Every round of an adaptive campaign keeps its legs: at ten legs a trajectory, a million rows to fit.
 const MOST_LEARNED: u64 = 100_000;
 /// Executions that a round needs at least to learn from: one more than a model does, so that one that fails does not cost the round.
@@ -148,7 +150,7 @@ impl SearchSection {
             found.count("generate.search.graphs", graphs, 1, 1_000_000_000);
         }
         if let Some(rounds) = self.rounds {
-            found.count("generate.search.rounds", rounds, 1, 1_000);
+            found.count("generate.search.rounds", rounds, 1, MOST_ROUNDS);
         }
         found.from("generate.search.explore", self.explore, 0.0, 1.0, "");
         if let Some(time) = self.time_s {
@@ -194,6 +196,10 @@ impl SearchSection {
     }
 
     fn check_adaptive(&self, found: &mut Findings) {
+        // Told already.
+        if self.rounds.is_some_and(|rounds| rounds > MOST_ROUNDS) {
+            return;
+        }
         let graphs = self.adaptive_graphs();
         let least = self.least_per_round().saturating_mul(self.adaptive_rounds());
         let rounds = self.rounds.map_or("each round".into(), |rounds| format!("each of {rounds} rounds"));

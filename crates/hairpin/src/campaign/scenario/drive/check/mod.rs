@@ -58,7 +58,8 @@ impl DriveScenario {
         } else if let Err(error) = GroundScore::named(score) {
             found.require(false, key, format!("\"{score}\""), &format!("{error}; or {EXECUTED}"));
         }
-        found.rounds(*method, (key, score), self.vary.keys());
+        let given = search.model.as_ref().map_or(score, |kept| &kept.given);
+        found.rounds(*method, (key, given), self.vary.keys());
     }
 
     fn check_ground(&self, found: &mut Findings) {

@@ -30,7 +30,8 @@ impl FlightScenario {
         }
         task::check(&self.task, space.as_ref(), robot.as_ref(), &mut found);
         generate::check(self, &mut found);
-        let score = ("generate.score", self.generate.score.as_str());
+        let given = self.generate.model.as_ref().map_or(&self.generate.score, |kept| &kept.given);
+        let score = ("generate.score", given.as_str());
         found.rounds(self.generate.search.method, score, self.vary.keys());
         environment::check(self, &mut found);
         execute::check(&self.execute, &mut found);
