@@ -120,6 +120,19 @@ fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
     let exported: Environment = serde_json::from_str(&exported).unwrap();
     assert_eq!(Some(&exported), cases(&here.join("balls"))[0].environment.as_ref());
 
+    // Missions are flown among what was exported with them, in another campaign as well.
+    looped(here, "generate", "others", &["generate.search.cases=1"]);
+    json(here, &["execute", "others", "--missions", "balls/missions"]);
+    json(here, &["judge", "others"]);
+    assert_eq!(cases(&here.join("others"))[0].environment.as_ref(), Some(&exported));
+    let ended = |folder: &str| {
+        let results = CampaignFolder::open(&here.join(folder)).unwrap().read_results().unwrap();
+        results.into_iter().map(|result| result.ended).collect::<Vec<_>>()
+    };
+    assert_eq!(ended("others"), ended("balls"));
+    fs::write(here.join("balls/missions/0001.environment.json"), "{\"wind_m_s\":[1e9,0,0]}").unwrap();
+    refused(here, &["execute", "others", "--missions", "balls/missions"], &["0001.environment.json", "wind_m_s"]);
+
     // Moved to three centimetres less than the robot's radius from the plan, an obstacle is no longer clear of it.
     let kept = CampaignFolder::open_to_write(&here.join("balls")).unwrap();
     let mut moved = kept.read_cases().unwrap();
@@ -317,6 +330,12 @@ fn a_steady_force_is_found_within_its_bound_and_acts_wherever_the_drive_goes() {
     let (score, deviation, _) = came_to(&here.join("pulled"))[0];
     assert!((score - deviation).abs() < 1e-12 && score > 1.05 * calm.score, "{score} {deviation} {}", calm.score);
     assert_eq!(json(here, &["verify", "pulled"])["failed"], 0);
+    // A saved case is run again under the force that it was saved with.
+    let limit = format!("spec.limits.path_deviation_m={}", 0.9 * deviation);
+    let tight = [&pulled[..], &[&limit]].concat();
+    json(here, &[&driven("stress", &tight)[..], &["--out", "tight"]].concat());
+    let (_, _, error) = run(here, &["execute", "tight"]);
+    assert!(error.contains("saved cases first: 1 of 1 violate"), "{error}");
     let ready = r#"{"type":"ready","protocol":1,"name":"scribe"}"#;
     let scribe = format!("read -r hello\necho '{ready}'\nread -r mission\nprintf '%s\\n' \"$mission\" >> got.json\n");
     fs::write(here.join("scribe.sh"), scribe).unwrap();

@@ -133,6 +133,24 @@ fn deviations_are_not_compared_with_scores() {
 }
 
 #[test]
+fn a_choice_replaces_nothing_by_way_of_a_folder_that_is_not_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    run(here, &[&SMALL[..], &["--out", "all"]].concat());
+    let before = contents(&here.join("all"));
+    for typed in [
+        &["select", "all", "--cases", "1", "--out", "new/../all"][..],
+        &["generate", "demo-quadrotor", "--out", "new/../all"],
+    ] {
+        refused(here, typed, &["new/../all", "there is no folder new"]);
+    }
+    assert!(before == contents(&here.join("all")));
+    // A run that the table has and the folder has not is missed, not passed over.
+    fs::remove_file(here.join("all/executions/0001-0.parquet")).unwrap();
+    refused(here, &["judge", "all"], &["0001-0.parquet", "is missing, and runs.parquet has it"]);
+}
+
+#[test]
 fn a_choice_of_a_choice_keeps_the_names_of_its_missions() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();

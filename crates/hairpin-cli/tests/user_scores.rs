@@ -99,13 +99,35 @@ fn what_goes_wrong_is_told_with_file_and_line() {
         ("import sys\nsys.exit(3)\n", &["generate.score", "SystemExit: 3"]),
         ("def score(leg):\n    return float('nan')\n", &["nan is no finite number, of the leg", "'climb_m'"]),
         ("x = 1\n", &["it defines no function score(leg)"]),
+        ("def score(leg):\n    return len(input())\n", &["line 2", "EOFError"]),
+        ("def score(leg):\n    return 1e308\n", &["1e+308 must be within ±1e+100, of the leg"]),
     ] {
         begin(here, text);
         refused(here, &generate, words);
     }
+    // What is no score at all is found out before anything is made.
+    begin(here, "x = 1\n");
+    refused(here, &["generate", "q.toml", "--out", "none"], &["it defines no function score(leg)"]);
+    assert!(!here.join("none").exists());
     fs::remove_file(here.join("my score.py")).unwrap();
     refused(here, &generate, &["generate.score", "my score.py", "cannot be read"]);
     begin(here, "def score(leg):\n    return 1\n");
     let adaptive = ["--set", "generate.search.method=\"adaptive\""];
     refused(here, &[&generate[..], &adaptive].concat(), &["generate.score", "learns its own"]);
+}
+
+/// Whoever waits for an answer waits no longer than was said; what it was for is found again.
+#[test]
+fn a_time_limit_does_not_wait_for_an_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let slow = "import os, time\ndef score(leg):\n    if os.path.exists('slow'):\n        time.sleep(3600)\n    return leg['length_m']\n";
+    begin(here, slow);
+    json(here, &["generate", "q.toml", "--out", "fast"]);
+    fs::write(here.join("slow"), "").unwrap();
+    let stopped = json(here, &["generate", "q.toml", "--out", "slow-one", "--time-limit", "0.5"]);
+    assert_eq!((&stopped["exit_code"], &stopped["counts"]["cases"]), (&0.into(), &0.into()), "{stopped}");
+    fs::remove_file(here.join("slow")).unwrap();
+    json(here, &["generate", "q.toml", "--out", "slow-one", "--resume"]);
+    assert_same(&here.join("fast"), &here.join("slow-one"));
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Scenario;
 use super::digits::number;
-use super::scenario::{DiscreteGustSection, KeepOutSection, ObstacleSection};
+use super::scenario::{DiscreteGustSection, KeepOutSection, Mistake, ObstacleSection};
 
 /// Found with the waypoints of a flight or drive; keys and units are those of `[world]`, those of the force of `[execute]`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -46,6 +46,35 @@ impl Environment {
             Scenario::Arm(_) => {}
         }
         around
+    }
+
+    /// The first thing wrong with it in `scenario`: what is not for its kind of robot, or a value out of bounds.
+    pub(super) fn mistake(&self, scenario: &Scenario) -> Option<Mistake> {
+        let Self { wind_m_s, discrete_gust, obstacles, keep_out, external_force_n } = self;
+        let of_flights = [
+            ("wind_m_s", wind_m_s.is_some()),
+            ("discrete_gust", discrete_gust.is_some()),
+            ("obstacles", !obstacles.is_empty()),
+        ];
+        let of_drives = [("keep_out", !keep_out.is_empty()), ("external_force_n", external_force_n.is_some())];
+        let foreign: Vec<(&str, bool)> = match scenario {
+            Scenario::Flight(_) => of_drives.into(),
+            Scenario::Drive(_) => of_flights.into(),
+            Scenario::Arm(_) => [&of_flights[..], &of_drives].concat(),
+        };
+        let mistake = |(key, _): (&str, bool)| Mistake {
+            key: key.into(),
+            value: "given".into(),
+            bound: "left out: nothing of the kind acts on this robot".into(),
+        };
+        let foreign = foreign.into_iter().find(|(_, given)| *given).map(mistake);
+        let checked = || {
+            let there = |mistake: &Mistake| {
+                mistake.key.starts_with("world.") || mistake.key.starts_with("execute.external_force_n")
+            };
+            self.around(scenario).check().into_iter().find(there)
+        };
+        foreign.or_else(checked)
     }
 
     /// Whether something was placed in the way.

@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::Case;
 use super::arm::{self, ArmSetup, Station};
 use super::drive::{self, DriveSetup};
 use super::flight::{self, FlightSetup};
 use super::scenario::{Mistake, Scenario};
+use super::{Case, Environment};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::Quadrotor;
 use crate::robot::rover::Rover;
@@ -74,6 +74,17 @@ impl Setup {
         match &case.environment {
             Some(environment) => self.of_draw(environment.around(&self.scenario)).map(Cow::Owned),
             None => Ok(Cow::Borrowed(self)),
+        }
+    }
+
+    /// Whether an environment made elsewhere can be that of a case.
+    ///
+    /// # Errors
+    /// What it has that acts on no robot of this kind, or the key that it breaks.
+    pub fn check_environment(&self, environment: &Environment) -> Result<(), Mistake> {
+        match environment.mistake(&self.scenario) {
+            Some(mistake) => Err(mistake),
+            None => self.of_draw(environment.around(&self.scenario)).map(drop),
         }
     }
 

@@ -154,10 +154,10 @@ pub(crate) fn adopt(work: &Work, missions: &[Mission]) -> Result<(), Problem> {
             Some(case) => Case { number, seed, ..case.clone() },
             None => Case::bare(number, seed, waypoints.clone()),
         };
-        if environment.is_some() {
-            case.environment = environment.clone();
+        if let Some(environment) = environment {
             let refuse = |mistake| Problem::input(format!("{name}.environment.json: {mistake}"));
-            work.setup.around(&case).map_err(refuse)?;
+            work.setup.check_environment(environment).map_err(refuse)?;
+            case.environment = Some(environment.clone());
         }
         cases.push(case);
     }
