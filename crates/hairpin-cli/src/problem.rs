@@ -11,6 +11,8 @@ use crate::interrupt::INTERRUPTED;
 
 /// Exit code of wrong input.
 pub(crate) const WRONG_INPUT: u8 = 2;
+/// Exit code where the user's program failed.
+const EXECUTOR_FAILED: u8 = 4;
 
 /// A command that could not do what was asked.
 #[derive(Debug)]
@@ -19,6 +21,8 @@ pub(crate) enum Problem {
     Scenario(Report),
     /// Anything else that the user gave, or the machine refused.
     Input(String),
+    /// A program of the user's that was to execute something failed.
+    Executor(String),
     /// Ctrl-C: what is done is kept.
     Interrupted(String),
 }
@@ -34,6 +38,7 @@ impl Problem {
         match self {
             Self::Scenario(report) => console::warn(report.render(console::colour_on_stderr()).trim_end()),
             Self::Input(sentence) => console::warn(&format!("Error: {sentence}")),
+            Self::Executor(sentence) => console::warn(&format!("EXECUTOR FAILED: {sentence}")),
             Self::Interrupted(sentence) => console::warn(sentence),
         }
         if json {
@@ -45,6 +50,7 @@ impl Problem {
     fn code(&self) -> u8 {
         match self {
             Self::Scenario(_) | Self::Input(_) => WRONG_INPUT,
+            Self::Executor(_) => EXECUTOR_FAILED,
             Self::Interrupted(_) => INTERRUPTED,
         }
     }
@@ -54,7 +60,9 @@ impl Problem {
         let code = self.code();
         match self {
             Self::Scenario(report) => json!({ "exit_code": code, "mistakes": report.to_json() }),
-            Self::Input(sentence) | Self::Interrupted(sentence) => json!({ "exit_code": code, "error": sentence }),
+            Self::Input(sentence) | Self::Executor(sentence) | Self::Interrupted(sentence) => {
+                json!({ "exit_code": code, "error": sentence })
+            }
         }
     }
 }

@@ -5,8 +5,12 @@ use plotters::prelude::*;
 use super::axis::Ticked;
 use super::{Figure, Marks, Point, Scale, Series, Spread};
 
-/// Pixels.
+/// Pixels, without the legend.
 const SIZE: (u32, u32) = (820, 500);
+/// Height of a row of the legend, which stands below, where it hides nothing, and the room that a letter and a key take.
+const ROW: u32 = 20;
+const LETTER: f64 = 7.0;
+const KEY: i32 = 16;
 /// Okabe and Ito's palette, without its yellow, which is too light for lines on white.
 const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
@@ -30,8 +34,11 @@ pub(super) fn svg(figure: &Figure) -> Result<String, Failure> {
 }
 
 fn draw(text: &mut String, figure: &Figure) -> Result<(), Failure> {
-    let root = SVGBackend::with_string(text, SIZE).into_drawing_area();
+    let legend = legend(figure);
+    let rows = legend.last().map_or(0, |entry| entry.row + 1);
+    let root = SVGBackend::with_string(text, (SIZE.0, SIZE.1 + ROW * rows)).into_drawing_area();
     root.fill(&WHITE)?;
+    let (plot, below) = root.split_vertically(SIZE.1);
     let lanes = Lanes::of(figure);
     let bars = figure.series.iter().any(|series| matches!(series.marks, Marks::Bars(_)));
     let (xs, ys): (Vec<f64>, Vec<f64>) = figure.series.iter().flat_map(extremes).unzip();
@@ -43,7 +50,7 @@ fn draw(text: &mut String, figure: &Figure) -> Result<(), Failure> {
     let y = Ticked::over(&figure.y.scale, ys.iter().copied(), bars);
     let floor = y.floor();
     let (x_shown, y_shown) = (x.clone(), y.clone());
-    let mut chart = ChartBuilder::on(&root)
+    let mut chart = ChartBuilder::on(&plot)
         .caption(&figure.title, ("sans-serif", 17))
         .margin(12)
         .x_label_area_size(44)
@@ -88,26 +95,41 @@ fn draw(text: &mut String, figure: &Figure) -> Result<(), Failure> {
                 lane += 1;
             }
         }
-        if !series.name.is_empty() {
-            let key = *colour;
-            chart
-                .draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?
-                .label(&series.name)
-                .legend(move |(x, y)| Rectangle::new([(x + 4, y - 4), (x + 14, y + 4)], key.filled()));
-        }
     }
-    if figure.series.iter().any(|series| !series.name.is_empty()) {
-        chart
-            .configure_series_labels()
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.3))
-            .label_font(("sans-serif", 13))
-            .position(SeriesLabelPosition::UpperLeft)
-            .draw()?;
+    for Entry { name, colour, x, row } in legend {
+        let y = (ROW * row) as i32;
+        below.draw(&Rectangle::new([(x, y), (x + 10, y + 10)], colour.filled()))?;
+        below.draw(&Text::new(name, (x + KEY, y - 1), ("sans-serif", 13)))?;
     }
     root.present()?;
     drop(chart);
     Ok(())
+}
+
+/// A name in the legend and where it stands.
+struct Entry<'a> {
+    name: &'a str,
+    colour: RGBColor,
+    x: i32,
+    row: u32,
+}
+
+/// One name after the other, in as many rows as they take.
+fn legend(figure: &Figure) -> Vec<Entry<'_>> {
+    let (mut x, mut row) = (KEY, 0);
+    let mut entries = Vec::new();
+    for (series, colour) in figure.series.iter().zip(COLOURS.iter().cycle()) {
+        if series.name.is_empty() {
+            continue;
+        }
+        let width = 2 * KEY + (LETTER * series.name.chars().count() as f64) as i32;
+        if x > KEY && x + width > SIZE.0 as i32 {
+            (x, row) = (KEY, row + 1);
+        }
+        entries.push(Entry { name: &series.name, colour: *colour, x, row });
+        x += width;
+    }
+    entries
 }
 
 fn line(chart: &mut Area, points: &[Point], colour: RGBColor, joined: bool, dots: bool) -> Result<(), Failure> {

@@ -144,8 +144,9 @@ fn flown(name: String, sets: &[Set], ways: &[Vec<Case>]) -> Result<Simulator, Pr
     for (flown, cases) in flown.iter_mut().zip(ways) {
         go_on()?;
         let runs = parts::fly_each(&setup, cases, 0)?;
-        if let Some(failed) = runs.iter().find_map(|run: &Run| run.outcome.as_ref().err()) {
-            return Err(Problem::input(format!("{name}: {failed}")));
+        let failed = |run: &Run| Some((run.case, run.outcome.as_ref().err()?.to_string()));
+        if let Some((case, why)) = runs.iter().find_map(failed) {
+            return Err(Problem::Executor(format!("{name}, case {case:04}: {why}")));
         }
         let runs: Vec<Vec<Run>> = runs.into_iter().map(|run| vec![run]).collect();
         let [own] = Flown::by_runs(&setup, cases, runs, [Stress::MaxDeviation]);
