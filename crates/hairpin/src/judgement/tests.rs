@@ -107,6 +107,12 @@ fn a_programmed_path_is_followed_in_order() {
     let found = measure(&flown, &[place(0, 8), place(2, 8), place(8, 8)].map(Point3::from), &settings).unwrap();
     assert!((found.max_deviation - 0.5).abs() < 1e-3 && found.t_worst == 130.0, "{found:?}");
     assert!((found.mean_deviation - 0.2).abs() < 2e-3, "{}", found.mean_deviation);
+    // What curves as it was programmed overshoots nothing, however far beyond straight legs that is.
+    let exact = track(seconds(401), &(0..=400).map(|k| place(k, 400)).collect::<Vec<_>>(), &[]);
+    let corners = [place(0, 8), place(2, 8), place(8, 8)].map(Point3::from);
+    let along = measure(&exact, &corners, &settings).unwrap().max_overshoot();
+    let straight = measure(&exact, &corners, &Settings::default()).unwrap().max_overshoot();
+    assert!(along < 1e-3 && straight > 1.0, "{along} {straight}");
 }
 
 /// A drive that crosses itself, reverses out of a cusp along nearly the same ground, and turns in place, as poses 2 cm apart.
