@@ -110,7 +110,10 @@ fn the_proof_of_the_heaviest_program_is_kept_and_checked() {
         assert_eq!((&good["optimum"]["verified"], good["exit_code"].as_u64()), (&Value::Bool(true), Some(0)), "{good}");
         // A choice of its programs has the proof as well.
         let chosen = format!("{out}-chosen");
-        assert_eq!(code(&hairpin(place.path(), &["select", out, "--cases", "1", "--by", "stress", "--out", &chosen])), 0);
+        assert_eq!(
+            code(&hairpin(place.path(), &["select", out, "--cases", "1", "--by", "stress", "--out", &chosen])),
+            0
+        );
         let of_choice = json(&hairpin(place.path(), &["verify", &chosen, "--json"]));
         assert_eq!(
             (&of_choice["optimum"]["verified"], of_choice["exit_code"].as_u64()),
