@@ -10,6 +10,7 @@ use hairpin_formats::recordings;
 use hairpin_formats::scenario::{self, MadeBy, read_made_by, read_scenario, scenario_for};
 
 use crate::args::{Campaign, Kernels, Threads};
+use crate::interrupt::{self, Deadline};
 use crate::problem::Problem;
 
 /// A campaign being worked on.
@@ -52,8 +53,12 @@ pub(crate) fn plan(campaign: &Campaign, executor: Option<&str>) -> Result<Planne
     check_command(&setup.scenario)?;
     may_make(&path, &setup, campaign.resume, campaign.force)?;
     if let Some(user) = setup.scenario.user_score() {
-        let refuse = |why| Problem::input(format!("`{}` = {why}", setup.scenario.score_key()));
-        user.scorer.try_out().map_err(refuse)?;
+        let deadline = Deadline::after(campaign.time_limit);
+        let tried = interrupt::not_waiting_for(Some(user), deadline, || user.scorer.try_out());
+        tried.map_err(|why| match interrupt::asked() {
+            true => Problem::Interrupted("stopped before the score was loaded".into()),
+            false => Problem::input(format!("`{}` = {why}", setup.scenario.score_key())),
+        })?;
     }
     Ok(Planned { path, setup, resume: campaign.resume })
 }

@@ -1,7 +1,10 @@
 //! Ctrl-C: the first one asks to stop and keeps what is done, the second one quits and takes the user's programs with it.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use hairpin::campaign::UserScore;
 
 use crate::console;
 
@@ -25,6 +28,28 @@ pub(crate) fn listen() {
 /// Whether the user wants to stop.
 pub(crate) fn asked() -> bool {
     ASKED.load(Ordering::Relaxed) > 0
+}
+
+/// Between two looks at whether an answer of the user's score is still wanted.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Does `work`, which may ask `score`. What that takes for an answer is not up to us; what is waited for it is.
+pub(crate) fn not_waiting_for<T>(score: Option<&UserScore>, deadline: Deadline, work: impl FnOnce() -> T) -> T {
+    let Some(user) = score else { return work() };
+    let done = AtomicBool::new(false);
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            while !done.load(Ordering::Relaxed) {
+                if asked() || deadline.passed() {
+                    return user.scorer.stop();
+                }
+                thread::sleep(LOOK);
+            }
+        });
+        let came = work();
+        done.store(true, Ordering::Relaxed);
+        came
+    })
 }
 
 /// A time limit in wall-clock seconds.

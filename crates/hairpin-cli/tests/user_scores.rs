@@ -130,4 +130,8 @@ fn a_time_limit_does_not_wait_for_an_answer() {
     fs::remove_file(here.join("slow")).unwrap();
     json(here, &["generate", "q.toml", "--out", "slow-one", "--resume"]);
     assert_same(&here.join("fast"), &here.join("slow-one"));
+    // Nor for the file to be loaded.
+    begin(here, "import time\ntime.sleep(3600)\n");
+    refused(here, &["generate", "q.toml", "--out", "never", "--time-limit", "0.5"], &["was not loaded in time"]);
+    assert!(!here.join("never").exists());
 }

@@ -131,7 +131,12 @@ fn read_environment(path: &Path) -> Result<Option<Environment>, WaypointsError> 
     let refuse = |cause| WaypointsError::Unreadable { path: path.into(), cause };
     match fs::read_to_string(path) {
         Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
-        text => text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from)).map(Some).map_err(refuse),
+        // Read as a list, its values would be taken for keys in their order.
+        text => text
+            .and_then(|text| serde_json::from_str::<serde_json::Map<_, _>>(&text).map_err(io::Error::from))
+            .and_then(|keys| serde_json::from_value(keys.into()).map_err(io::Error::from))
+            .map(Some)
+            .map_err(refuse),
     }
 }
 

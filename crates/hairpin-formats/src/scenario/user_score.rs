@@ -226,11 +226,13 @@ impl LegScorer for PythonScore {
 
     fn try_out(&self) -> Result<(), String> {
         match Worker::start(&self.path, &self.stopped) {
-            Ok(worker) => held(&self.idle).push(worker),
-            Err(Unanswered::Failed(why)) => return Err(self.told(&why)),
-            Err(Unanswered::Stopped) => {}
+            Ok(worker) => {
+                held(&self.idle).push(worker);
+                Ok(())
+            }
+            Err(Unanswered::Failed(why)) => Err(self.told(&why)),
+            Err(Unanswered::Stopped) => Err(self.told("was not loaded in time")),
         }
-        Ok(())
     }
 
     fn stop(&self) {

@@ -77,7 +77,7 @@ pub trait LegScorer: Send + Sync {
     /// Sees whether there is a score at all, before it is asked for any.
     ///
     /// # Errors
-    /// As [trouble](Self::trouble).
+    /// As [trouble](Self::trouble); it was [stopped](Self::stop).
     fn try_out(&self) -> Result<(), String>;
 
     /// Waits for no answer any more: what is being scored, and what is asked for from now on, gets NaN.

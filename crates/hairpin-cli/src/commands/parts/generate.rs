@@ -1,7 +1,5 @@
 //! Part one: trajectories, their planned motion, and what the search did.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::graph_of;
@@ -21,9 +19,6 @@ use crate::problem::Problem;
 
 /// Between checkpoints: what a kill may cost.
 const CHECKPOINT: Duration = Duration::from_secs(30);
-
-/// Between two looks at whether an answer of the user's score is still wanted.
-const LOOK: Duration = Duration::from_millis(20);
 
 /// Finds the cases and writes them. An interrupted generation goes on where its last checkpoint was.
 pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Tally), Problem> {
@@ -47,28 +42,14 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
         },
         clock: &|| begun.elapsed().as_secs_f64(),
     };
-    let found = AtomicBool::new(false);
-    let tally = thread::scope(|scope| {
-        // What a score of the user's takes for an answer is not up to us; what is waited for it is.
-        if let Some(user) = user_score {
-            scope.spawn(|| {
-                while !found.load(Ordering::Relaxed) {
-                    if interrupt::asked() || deadline.passed() {
-                        return user.scorer.stop();
-                    }
-                    thread::sleep(LOOK);
-                }
-            });
-        }
-        let tally = hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
+    let tally = interrupt::not_waiting_for(user_score, deadline, || {
+        hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
             cases.extend_from_slice(new);
             if at.elapsed() > CHECKPOINT && trouble.is_none() {
                 trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
                 (saved, at) = (cases.len(), Instant::now());
             }
-        });
-        found.store(true, Ordering::Relaxed);
-        tally
+        })
     });
     bar.finish_and_clear();
     if let Some(problem) = trouble {

@@ -17,7 +17,10 @@ pub struct FourWheel {
 }
 
 /// Gauss-Newton steps; a warm start takes three.
-const MOST_STEPS: usize = 40;
+const MOST_STEPS: usize = 50;
+/// Steps after which each is half as long as the one before: where the rest lies on a kink of the map, steps lead to it from both of its sides
+/// and grow no shorter by themselves.
+const SWINGING: usize = 20;
 /// Least squares converges linearly where gaps remain: steps of this share of a coarse gap end the iteration.
 const SHORT: f64 = 0.01;
 /// Longest step, m and rad.
@@ -39,7 +42,8 @@ impl FourWheel {
     ) -> Result<(Settled, Gradient), Unsettled> {
         let mut pose = *guess;
         let mut last = f64::INFINITY;
-        for _ in 0..MOST_STEPS {
+        let mut damping = 1.0;
+        for number in 0..MOST_STEPS {
             let mut rows = self.normal_equations(terrain, at, &pose)?;
             if !eliminate(&mut rows) {
                 return Err(Unsettled::Singular);
@@ -52,8 +56,12 @@ impl FourWheel {
                 scale *= 0.5;
             }
             last = longest;
+            if number >= SWINGING {
+                damping *= 0.5;
+                scale *= damping;
+            }
             pose = pose.moved(&[scale * step[0], scale * step[1], scale * step[2], 0.0, 0.0, 0.0]);
-            if longest <= SHORT * coarse {
+            if damping * longest <= SHORT * coarse {
                 let mut gradient = Gradient::default();
                 for (by_place, row) in gradient.by_place.iter_mut().zip(&rows) {
                     by_place.copy_from_slice(&row[4..7]);

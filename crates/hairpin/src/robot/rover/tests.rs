@@ -269,3 +269,30 @@ fn slip_grows_with_the_load() {
         assert!(error.field == field && error.bound.contains(bound), "{keys}: {error}");
     }
 }
+
+/// On rough ground four wheels rest where slopes jump as well: from cold everywhere, and carried on in a plant's small steps.
+#[test]
+fn four_wheels_find_rest_on_the_kinks_of_a_map() {
+    let body = shipped("four-wheel").suspension;
+    let map = generate(&Recipe { cell_m: 0.2, seed: 1, ..Recipe::default() }).unwrap();
+    let mut random = stream(11);
+    let (mut stood, mut lost) = (0, 0);
+    for _ in 0..400 {
+        let [x, y, yaw] = [10.0 + 40.0 * unit(&mut random), 10.0 + 40.0 * unit(&mut random), 6.3 * unit(&mut random)];
+        let Ok((mut pose, mut gradient)) = body.settle_cold(&map, [x, y, yaw]) else { continue };
+        for i in 1..400 {
+            let (sin, cos) = yaw.sin_cos();
+            let at = [x + 0.005 * cos * f64::from(i), y + 0.005 * sin * f64::from(i), yaw];
+            let guess = pose.moved(&gradient.over([0.005 * cos, 0.005 * sin, 0.0]));
+            match body.carry_on(&map, at, &guess, 1e-4) {
+                Ok(found) => (pose, gradient) = found,
+                Err(_) => {
+                    lost += 1;
+                    break;
+                }
+            }
+        }
+        stood += 1;
+    }
+    assert!(stood == 400 && lost == 0, "{stood} stood, {lost} were lost");
+}

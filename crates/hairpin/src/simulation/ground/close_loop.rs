@@ -56,7 +56,8 @@ pub struct DriveSettings {
     pub time_limit: Option<f64>,
     /// Time after the end of the plan that belongs to the run, s.
     pub linger: f64,
-    /// A run whose plan is not over ends `stuck` if the body moves less than 1 cm and 1° in this time, s.
+    /// A run whose plan is not over ends `stuck` if the body moves less than 1 cm and 1° in this time, s, or in twice the longest that the plan
+    /// takes for that, where it is longer.
     pub patience: f64,
 }
 
@@ -140,6 +141,8 @@ pub fn drive(
     let time_limit = settings.time_limit.unwrap_or(2.0 * plan.duration + 60.0);
     let crabs = sortie.drive.legs.iter().any(|leg| leg.direction != Direction::default());
     let mut recorder = Recorder::new(sortie.vehicle, crabs);
+    let patience = settings.patience.max(2.0 * plan.longest_rest(PROGRESS));
+    let settings = &DriveSettings { patience, ..*settings };
     let mut watch = Watch::new(sortie, settings, time_limit, [run.plant.x, run.plant.y, run.plant.yaw]);
     for tick in 0.. {
         let t = tick as f64 * run.period;

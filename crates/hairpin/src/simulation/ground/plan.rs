@@ -198,6 +198,20 @@ impl Plan {
         Ok(())
     }
 
+    /// The longest time that the plan takes to move by `way` m or turn by `angle` rad, s.
+    pub(super) fn longest_rest(&self, [way, angle]: [f64; 2]) -> f64 {
+        let (mut from, mut longest) = (0, 0.0_f64);
+        for (i, pose) in self.poses.iter().enumerate() {
+            let (moved, before) = (self.times[i] - self.times[from], &self.poses[from]);
+            longest = longest.max(moved);
+            let off = (pose.translation.vector - before.translation.vector).norm();
+            if off > way || pose.rotation.angle_to(&before.rotation) > angle {
+                from = i;
+            }
+        }
+        longest
+    }
+
     fn note(&mut self, plant: &Plant, leg: usize) {
         self.times.push(self.duration);
         self.poses.push(plant.world_from_body());
