@@ -215,6 +215,25 @@ fn rovers_without_a_bound_on_their_acceleration_drive_plans_that_rest() {
     }
 }
 
+/// A ramp over a long leg at 7 mm/s takes more than a minute for its first two centimetres: the vehicle is not stuck.
+#[test]
+fn a_drive_that_is_planned_to_creep_is_not_stuck() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let sets = [
+        "generate.speed={ profile = \"ramp\", acceleration_m_s2 = 0.02 }",
+        "world.terrain={ generator = \"flat\", size_m = 60, cell_m = 0.1 }",
+        "generate.manoeuvres=[\"forward\"]",
+        "generate.search={ score = \"slope+slip\", waypoints = 25, cases = 1 }",
+        "execute.controller=\"stanley\"",
+        "task.length=3",
+    ];
+    let sets = sets.map(|set| ["--set", set]);
+    json(at, &[&["stress", "sojourner-like"][..], sets.as_flattened(), &["--out", "slow"]].concat());
+    let results = CampaignFolder::open(&at.join("slow")).unwrap().read_results().unwrap();
+    assert_eq!(results[0].ended, "done");
+}
+
 /// Scores of straight legs have every term; an outline is kept clear of what is to be kept out of; a car stops for its cusps.
 #[test]
 fn cars_shunt_and_every_reach_set_takes_every_score() {

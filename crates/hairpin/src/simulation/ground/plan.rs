@@ -200,12 +200,14 @@ impl Plan {
 
     /// The longest time that the plan takes to move by `way` m or turn by `angle` rad, s.
     pub(super) fn longest_rest(&self, [way, angle]: [f64; 2]) -> f64 {
+        // Of two attitudes as quaternions.
+        let alike = libm::cos(0.5 * angle);
         let (mut from, mut longest) = (0, 0.0_f64);
         for (i, pose) in self.poses.iter().enumerate() {
             let (moved, before) = (self.times[i] - self.times[from], &self.poses[from]);
             longest = longest.max(moved);
             let off = (pose.translation.vector - before.translation.vector).norm();
-            if off > way || pose.rotation.angle_to(&before.rotation) > angle {
+            if off > way || pose.rotation.coords.dot(&before.rotation.coords).abs() < alike {
                 from = i;
             }
         }
