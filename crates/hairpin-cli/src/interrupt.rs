@@ -1,6 +1,7 @@
 //! Ctrl-C: the first one asks to stop and keeps what is done, the second one quits and takes the user's programs with it.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -36,19 +37,17 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Does `work`, which may ask `score`. What that takes for an answer is not up to us; what is waited for it is.
 pub(crate) fn not_waiting_for<T>(score: Option<&UserScore>, deadline: Deadline, work: impl FnOnce() -> T) -> T {
     let Some(user) = score else { return work() };
-    let done = AtomicBool::new(false);
     thread::scope(|scope| {
-        scope.spawn(|| {
-            while !done.load(Ordering::Relaxed) {
+        // Closes with the work, however that ends.
+        let (_at_work, done) = sync_channel::<()>(0);
+        scope.spawn(move || {
+            while done.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 if asked() || deadline.passed() {
                     return user.scorer.stop();
                 }
-                thread::sleep(LOOK);
             }
         });
-        let came = work();
-        done.store(true, Ordering::Relaxed);
-        came
+        work()
     })
 }
 

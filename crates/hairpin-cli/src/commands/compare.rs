@@ -11,9 +11,6 @@ use crate::folder::{self, Work};
 use crate::problem::Problem;
 use crate::{console, folder::look};
 
-/// Names and differing keys that a line has room for; `--json` has all.
-const TOLD: usize = 8;
-
 /// Exit code where pairs there are, and none of them could be compared.
 const INCONCLUSIVE: u8 = 5;
 
@@ -72,7 +69,7 @@ fn judged(work: &Work, path: &Path) -> Result<Vec<(Case, CaseResult)>, Problem> 
 
 fn tell(compared: &Comparison, differences: &[String]) {
     if !differences.is_empty() {
-        console::warn(&format!("the scenarios differ in {}", some(differences)));
+        console::warn(&format!("the scenarios differ in {}", console::some(differences)));
     }
     if differences.iter().any(|key| key.starts_with("spec.")) {
         console::warn("Warning: what passes and fails is by each folder's own spec");
@@ -109,7 +106,7 @@ fn tell(compared: &Comparison, differences: &[String]) {
         ("not compared (executor failed or inconclusive)", &compared.undecided),
     ] {
         if !names.is_empty() {
-            console::say(&format!("{what}: {}", some(names)));
+            console::say(&format!("{what}: {}", console::some(names)));
         }
     }
     if !compared.unpaired.is_empty() {
@@ -124,15 +121,9 @@ fn reasons(compared: &Comparison) -> String {
     let group = |why: &&str| {
         let names: Vec<String> =
             compared.unpaired.iter().filter(|one| one.why == *why).map(|one| one.case.clone()).collect();
-        (!names.is_empty()).then(|| format!("{} ({why})", some(&names)))
+        (!names.is_empty()).then(|| format!("{} ({why})", console::some(&names)))
     };
     whys.iter().filter_map(group).collect::<Vec<_>>().join("; ")
-}
-
-fn some(names: &[String]) -> String {
-    let more = names.len().saturating_sub(TOLD);
-    let told = names[..names.len() - more].join(", ");
-    if more == 0 { told } else { format!("{told} and {more} more") }
 }
 
 fn signed(value: f64) -> String {

@@ -17,6 +17,7 @@ pub(crate) fn run(judge: &Judge) -> Result<u8, Problem> {
     }
     let judgement = parts::judge(&work, &cases, &tally, &[])?;
     let asked = tally.asked(work.setup.scenario.search().cases);
-    let answer = Answer { work: &work, asked, cases: &cases, judgement: &judgement, replayed: &[] };
+    let verdict = &judgement.verdict;
+    let answer = Answer { work: &work, asked, cases: &cases, judgement: &judgement, verdict, replayed: &[] };
     Ok(answer.say(judge.json))
 }

@@ -17,9 +17,6 @@ use crate::console;
 use crate::folder::{self, Work};
 use crate::problem::Problem;
 
-/// Cases that a warning names.
-const TOLD: usize = 5;
-
 /// Runs the command: 0 when the folder is written.
 pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
     folder::take_threads(&asked.threads);
@@ -39,11 +36,10 @@ pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
     }
     if !unmeasured.is_empty() {
         console::warn(&format!(
-            "Warning: {} of {} cases were not executed, or not measured, and are left out: {}{}",
+            "Warning: {} of {} cases were not executed, or not measured, and are left out: {}",
             unmeasured.len(),
             all.len(),
-            unmeasured.iter().take(TOLD).map(Case::id).collect::<Vec<_>>().join(", "),
-            if unmeasured.len() > TOLD { ", …" } else { "" }
+            console::some(&unmeasured.iter().map(Case::id).collect::<Vec<_>>())
         ));
     }
     let candidates = candidates(&work, &cases, &measured)?;
@@ -64,7 +60,7 @@ pub(crate) fn run(asked: &Select) -> Result<u8, Problem> {
     let measured = [choice.measure(&places), choice.measure(&choice.best(count, By::Stress)), choice.measure(&every)];
     let mut chosen: Vec<Case> = places.iter().map(|place| cases[*place].clone()).collect();
     chosen.sort_by_key(|case| case.number);
-    let folder = write(&work, asked, &all, &chosen)?;
+    let folder = write(&work, asked, (&all, &results), &chosen)?;
     let names: Vec<String> = places.iter().map(|place| cases[*place].id()).collect();
     let cells = Grid::of(&work.setup).cells();
     let [found, stressful, whole] = &measured;
@@ -150,7 +146,12 @@ fn candidates(work: &Work, cases: &[Case], measured: &HashMap<usize, &CaseResult
 }
 
 /// The new folder: the chosen cases with their plans and runs, judged if the old one was.
-fn write(work: &Work, asked: &Select, all: &[Case], chosen: &[Case]) -> Result<CampaignFolder, Problem> {
+fn write(
+    work: &Work,
+    asked: &Select,
+    (all, results): (&[Case], &[CaseResult]),
+    chosen: &[Case],
+) -> Result<CampaignFolder, Problem> {
     let key = if work.setup.arm().is_some() { "generate.search.programs" } else { "generate.search.cases" };
     let varied = work.setup.scenario.vary().clone();
     let scenario = vary::apply(&work.setup.scenario, &[(key.into(), chosen.len().into())])?;
@@ -192,7 +193,7 @@ fn write(work: &Work, asked: &Select, all: &[Case], chosen: &[Case]) -> Result<C
     if !facts.is_empty() {
         there.write_runs_table(&facts)?;
     }
-    let judged = old.read_results()?.iter().filter(|result| numbers.contains(&result.case)).count() == chosen.len();
+    let judged = results.iter().filter(|result| numbers.contains(&result.case)).count() == chosen.len();
     if judged && !facts.is_empty() {
         let judgement = parts::judge(&new, chosen, &tally, &[])?;
         parts::report(&new, chosen, &tally, &judgement.verdict, (&judgement.moves, judgement.regression.as_ref()))?;

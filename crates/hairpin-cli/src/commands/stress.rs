@@ -24,6 +24,6 @@ pub(crate) fn campaign(work: &Work, deadline: Deadline, replayed: &[Replayed], j
     let verdict = parts::with_saved(&judgement.verdict, replayed);
     parts::report(work, &cases, &tally, &verdict, (&judgement.moves, judgement.regression.as_ref()))?;
     let asked = tally.asked(work.setup.scenario.search().cases);
-    let answer = Answer { work, asked, cases: &cases, judgement: &judgement, replayed };
+    let answer = Answer { work, asked, cases: &cases, judgement: &judgement, verdict: &verdict, replayed };
     Ok(answer.say(json))
 }

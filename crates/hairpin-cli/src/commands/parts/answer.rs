@@ -7,7 +7,7 @@ use hairpin::judgement::moves::{Metric, Outcome, Regression};
 use hairpin_formats::header::Header;
 use serde_json::{Value, json};
 
-use super::{Judgement, Replayed, with_saved};
+use super::{Judgement, Replayed};
 use crate::console;
 use crate::folder::Work;
 
@@ -22,6 +22,8 @@ pub(crate) struct Answer<'a> {
     pub(crate) asked: usize,
     pub(crate) cases: &'a [Case],
     pub(crate) judgement: &'a Judgement,
+    /// The judgement's, with what saved cases came to.
+    pub(crate) verdict: &'a Verdict,
     /// Saved cases that were run first.
     pub(crate) replayed: &'a [Replayed],
 }
@@ -45,18 +47,14 @@ impl Answer<'_> {
             if !self.judgement.influences.is_empty() {
                 console::say("rank correlation of what was varied with the largest deviation, over all runs\n");
             }
-            console::say(&self.verdict().sentence);
+            console::say(&self.verdict.sentence);
             point_to_explain(self.work, self.judgement.verdict.exit_code);
             let report = self.work.folder.path().join("report.html");
             if report.is_file() {
                 console::warn(&format!("report: {}", report.display()));
             }
         }
-        self.verdict().exit_code
-    }
-
-    fn verdict(&self) -> Verdict {
-        with_saved(&self.judgement.verdict, self.replayed)
+        self.verdict.exit_code
     }
 
     fn header(&self) -> Header {
@@ -108,8 +106,8 @@ impl Answer<'_> {
             paths["best_so_far"] = curve;
         }
         json!({
-            "verdict": self.verdict().sentence,
-            "exit_code": self.verdict().exit_code,
+            "verdict": self.verdict.sentence,
+            "exit_code": self.verdict.exit_code,
             "counts": {
                 "asked": self.asked,
                 "cases": self.cases.len(),

@@ -1,5 +1,6 @@
 //! Part one: trajectories, their planned motion, and what the search did.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::graph_of;
@@ -8,7 +9,7 @@ use hairpin::campaign::{Case, Kind, Stop, Tally, learn};
 use hairpin::world::terrain::Terrain;
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::model_text;
-use hairpin_formats::waypoints::Mission;
+use hairpin_formats::waypoints::{Mission, environment_path};
 
 use super::graph::keep_graph;
 use super::keep::keep_cases;
@@ -136,7 +137,8 @@ pub(crate) fn adopt(work: &Work, missions: &[Mission]) -> Result<(), Problem> {
             None => Case::bare(number, seed, waypoints.clone()),
         };
         if let Some(environment) = environment {
-            let refuse = |mistake| Problem::input(format!("{name}.environment.json: {mistake}"));
+            let file = environment_path(Path::new(""), name);
+            let refuse = |mistake| Problem::input(format!("{}: {mistake}", file.display()));
             work.setup.check_environment(environment).map_err(refuse)?;
             case.environment = Some(environment.clone());
         }

@@ -87,8 +87,7 @@ pub(crate) fn judge(work: &Work, cases: &[Case], tally: &Tally, replayed: &[Repl
     if work.setup.arm().is_some() {
         work.folder.write_moves(&moves)?;
     }
-    let saved = replayed.iter().map(Replayed::named).collect();
-    let suite = Suite { saved, ..suite(work, tally, &verdict, &results, regression.as_ref()) };
+    let suite = suite(work, tally, &verdict, &results, (regression.as_ref(), replayed));
     junit::write(&work.folder.file("junit.xml"), &suite, &results)?;
     write_repros(work, cases, &results)?;
     work.folder.write_influences(&influences)?;
@@ -130,7 +129,7 @@ fn suite(
     tally: &Tally,
     verdict: &Verdict,
     results: &[CaseResult],
-    regression: Option<&Regression>,
+    (regression, replayed): (Option<&Regression>, &[Replayed]),
 ) -> Suite {
     let programs = regression.iter().flat_map(|regression| &regression.programs).zip(results);
     let worse = programs.map(|(one, result)| {
@@ -157,7 +156,7 @@ fn suite(
         .chain(results.iter().filter_map(rerun_property))
         .collect(),
         regressions: worse.collect(),
-        saved: Vec::new(),
+        saved: replayed.iter().map(Replayed::named).collect(),
     }
 }
 
