@@ -7,7 +7,7 @@ use hairpin::math::simd::Simd;
 use hairpin_formats::atomic;
 use hairpin_formats::folder::{CampaignFolder, Existing};
 use hairpin_formats::recordings;
-use hairpin_formats::scenario::{self, MadeBy, read_made_by, read_scenario, scenario_for};
+use hairpin_formats::scenario::{self, MadeBy, read_made_by, read_setup, setup_for};
 
 use crate::args::{Campaign, Kernels, Threads};
 use crate::interrupt::{self, Deadline};
@@ -46,15 +46,14 @@ pub(crate) fn plan(campaign: &Campaign, executor: Option<&str>) -> Result<Planne
     sets.extend(campaign.seed.map(|seed| ("seed".to_owned(), seed.to_string())));
     sets.extend(executor.map(as_command));
     let path = campaign.out.clone().unwrap_or_else(|| default_folder(&campaign.scenario));
-    let mut scenario = scenario_for(&campaign.scenario, &sets)?;
-    tell_logs_from(&mut scenario, &path, Path::new(&campaign.scenario));
-    let setup = Setup::new(scenario)?.with_simd(simd(&campaign.kernels));
+    let setup = setup_for(&campaign.scenario, &sets)?.with_simd(simd(&campaign.kernels));
+    let setup = with_logs_from(setup, &path, Path::new(&campaign.scenario))?;
     setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
     may_make(&path, &setup, campaign.resume, campaign.force)?;
-    if let Some(user) = setup.scenario.user_score() {
+    if let Some(user) = setup.user_score() {
         let deadline = Deadline::after(campaign.time_limit);
-        let tried = interrupt::not_waiting_for(Some(user), deadline, || user.scorer.try_out());
+        let tried = interrupt::not_waiting_for(Some(user), deadline, || user.try_out());
         tried.map_err(|why| match interrupt::asked() {
             true => Problem::Interrupted("stopped before the score was loaded".into()),
             false => Problem::input(format!("`{}` = {why}", setup.scenario.score_key())),
@@ -78,11 +77,13 @@ pub(crate) fn begin(campaign: &Campaign, executor: Option<&str>) -> Result<Work,
 }
 
 /// Logs are named relative to the scenario file: the campaign's own lies in `folder`.
-fn tell_logs_from(scenario: &mut Scenario, folder: &Path, file: &Path) {
-    let Scenario::Arm(arm) = scenario else { return };
-    let Some(logs) = &mut arm.execute.logs else { return };
+fn with_logs_from(setup: Setup, folder: &Path, file: &Path) -> Result<Setup, Problem> {
+    let Some(logs) = setup.recordings() else { return Ok(setup) };
     let base = if file.is_file() { file.parent().unwrap_or(Path::new("")) } else { Path::new("") };
-    *logs = recordings::relative_to(folder, base, logs);
+    let logs = recordings::relative_to(folder, base, logs);
+    // Where runs are recorded nothing varies, so that nothing is lost of `[vary]`.
+    let scenario = vary::apply(&setup.scenario, &[("execute.logs".into(), logs.into())])?;
+    Ok(setup.changed(scenario)?)
 }
 
 /// `--logs PATTERN`, relative to where the command runs, as the key that it sets in the scenario of `folder`. JSON's strings are TOML's.
@@ -116,9 +117,9 @@ fn may_make(path: &Path, setup: &Setup, resume: bool, force: bool) -> Result<(),
         }
         if resume {
             let before = read(&old, &[])?;
-            let files = || before.files().into_iter().zip(setup.scenario.files());
+            let files = || before.attachments.files().into_iter().zip(setup.attachments.files());
             let file = || files().find(|(before, now)| before != now).map(|((name, _), _)| name.to_owned());
-            if let Some(key) = first_difference(&before, &setup.scenario).or_else(file) {
+            if let Some(key) = first_difference(&before.scenario, &setup.scenario).or_else(file) {
                 return Err(Problem::input(format!(
                     "--resume: `{key}` is not what it was when {} was begun: give the same arguments, or another --out",
                     path.display()
@@ -132,7 +133,7 @@ fn may_make(path: &Path, setup: &Setup, resume: bool, force: bool) -> Result<(),
 
 fn create(path: &Path, setup: &Setup, resume: bool) -> Result<CampaignFolder, Problem> {
     let folder = CampaignFolder::create(path, if resume { Existing::Resume } else { Existing::Replace })?;
-    write_scenario(&folder, &setup.scenario, setup.simd.level())?;
+    write_scenario(&folder, setup, setup.simd.level())?;
     Ok(folder)
 }
 
@@ -155,13 +156,13 @@ pub(crate) fn open(
     }
     let folder = CampaignFolder::open_to_write(path)?;
     let level = level(&folder)?;
-    let setup = Setup::new(read(&folder, sets)?)?.with_simd(simd_of(level.as_deref()));
+    let setup = read(&folder, sets)?.with_simd(simd_of(level.as_deref()));
     check_command(&setup.scenario)?;
     let plans = |scenario: &Scenario| {
         let of_plans = scenario.vary().iter().filter(|(key, _)| vary::shapes_the_plan(key));
         of_plans.map(|(key, drawn)| (key.clone(), drawn.clone())).collect::<Vec<_>>()
     };
-    if !sets.is_empty() && plans(&setup.scenario) != plans(&read(&folder, &[])?) {
+    if !sets.is_empty() && plans(&setup.scenario) != plans(&read(&folder, &[])?.scenario) {
         return Err(Problem::input(
             "--set vary: the folder's trajectories were drawn by its keys under `task` and `generate`; these must stay",
         ));
@@ -180,24 +181,24 @@ pub(crate) fn open(
 /// Writes the scenario of `work` as [`open`] changed it.
 pub(crate) fn keep_changes(work: &Work) -> Result<(), Problem> {
     let level = level(&work.folder)?;
-    write_scenario(&work.folder, &work.setup.scenario, level.as_deref().unwrap_or(work.setup.simd.level()))
+    write_scenario(&work.folder, &work.setup, level.as_deref().unwrap_or(work.setup.simd.level()))
 }
 
 /// The first key of the folder's scenario that `sets` change.
 pub(crate) fn changed_by(folder: &CampaignFolder, sets: &[(String, String)]) -> Result<Option<String>, Problem> {
-    Ok(first_difference(&read(folder, &[])?, &read(folder, sets)?))
+    Ok(first_difference(&read(folder, &[])?.scenario, &read(folder, sets)?.scenario))
 }
 
 /// Opens a campaign folder to read it.
 pub(crate) fn look(path: &Path) -> Result<Work, Problem> {
     let folder = CampaignFolder::open(path)?;
-    let setup = Setup::new(read(&folder, &[])?)?.with_simd(simd_of(level(&folder)?.as_deref()));
+    let setup = read(&folder, &[])?.with_simd(simd_of(level(&folder)?.as_deref()));
     Ok(Work { folder, setup })
 }
 
-fn read(folder: &CampaignFolder, sets: &[(String, String)]) -> Result<Scenario, Problem> {
+fn read(folder: &CampaignFolder, sets: &[(String, String)]) -> Result<Setup, Problem> {
     let name = folder.file("scenario.toml");
-    Ok(read_scenario(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
+    Ok(read_setup(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
 }
 
 /// The version of the kernels that goes on with a campaign of `level`.
@@ -228,11 +229,12 @@ fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
 }
 
 /// Writes the resolved scenario, with what the results depend on beside it.
-fn write_scenario(folder: &CampaignFolder, scenario: &Scenario, level: &str) -> Result<(), Problem> {
-    let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed: scenario.seed(), simd: level.into() };
-    let text = scenario::to_toml(scenario, Some(&made_by)).map_err(Problem::input)?;
+fn write_scenario(folder: &CampaignFolder, setup: &Setup, level: &str) -> Result<(), Problem> {
+    let root_seed = setup.scenario.seed();
+    let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed, simd: level.into() };
+    let text = scenario::to_toml(&setup.scenario, Some(&made_by)).map_err(Problem::input)?;
     // First the files, then what says that there are such.
-    for (file, bytes) in scenario.files() {
+    for (file, bytes) in setup.attachments.files() {
         atomic::write(&folder.file(file), bytes)?;
     }
     Ok(folder.write_scenario(&text)?)

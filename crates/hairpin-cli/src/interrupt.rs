@@ -5,7 +5,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use hairpin::campaign::UserScore;
+use hairpin::campaign::LegScorer;
 
 use crate::console;
 
@@ -35,7 +35,7 @@ pub(crate) fn asked() -> bool {
 const LOOK: Duration = Duration::from_millis(20);
 
 /// Does `work`, which may ask `score`. What that takes for an answer is not up to us; what is waited for it is.
-pub(crate) fn not_waiting_for<T>(score: Option<&UserScore>, deadline: Deadline, work: impl FnOnce() -> T) -> T {
+pub(crate) fn not_waiting_for<T>(score: Option<&dyn LegScorer>, deadline: Deadline, work: impl FnOnce() -> T) -> T {
     let Some(user) = score else { return work() };
     thread::scope(|scope| {
         // Closes with the work, however that ends.
@@ -43,7 +43,7 @@ pub(crate) fn not_waiting_for<T>(score: Option<&UserScore>, deadline: Deadline, 
         scope.spawn(move || {
             while done.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 if asked() || deadline.passed() {
-                    return user.scorer.stop();
+                    return user.stop();
                 }
             }
         });

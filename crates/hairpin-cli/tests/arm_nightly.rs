@@ -196,6 +196,10 @@ fn a_release_is_held_against_the_one_before() {
     assert_eq!(told(place, &["report", "baselines/7.15"]).0, 0);
     let report = fs::read_to_string(place.join("baselines/7.15/report.html")).unwrap();
     assert!(report.contains("<h2>Against 7.14</h2>") && report.contains("From release to release"));
+    // Some of its programs are held against nothing.
+    let (code, text) = told(place, &["select", "baselines/7.15", "--cases", "1", "--out", "baselines/one"]);
+    assert!(code == 0, "{text}");
+    assert_eq!(told(place, &["report", "baselines/one"]).0, 0);
     // Back again, moves are better; one after a move that is over sooner may take longer from arrival to arrival.
     let (code, text) = release("7.16", Some("7.15"), "0.01", &[]);
     assert!(code <= 1 && text.contains(" better than the band"), "{text}");

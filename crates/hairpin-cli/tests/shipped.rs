@@ -1,8 +1,8 @@
 //! Every shipped scenario gives the cases that it promises.
 
-use hairpin::campaign::{Evidence, Known, Setup, Stop, generate};
+use hairpin::campaign::{Evidence, Known, Stop, generate};
 use hairpin_formats::library;
-use hairpin_formats::scenario::scenario_for;
+use hairpin_formats::scenario::setup_for;
 
 /// Cases asked for here; the files ask for more.
 const CASES: u64 = 10;
@@ -11,11 +11,10 @@ const CASES: u64 = 10;
 fn every_shipped_scenario_gives_nine_tenths_of_its_cases() {
     for shipped in library::scenarios() {
         let name = shipped.name;
-        let arm = scenario_for(name, &[]).is_ok_and(|scenario| scenario.arm().is_some());
+        let arm = setup_for(name, &[]).is_ok_and(|setup| setup.arm().is_some());
         let key = if arm { "generate.search.programs" } else { "generate.search.cases" };
         let sets = [(key.to_owned(), CASES.to_string())];
-        let scenario = scenario_for(name, &sets).unwrap_or_else(|report| panic!("{name}: {report}"));
-        let setup = Setup::new(scenario).unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
+        let setup = setup_for(name, &sets).unwrap_or_else(|report| panic!("{name}: {report}"));
         let mut cases = Vec::new();
         let tally = generate(&setup, &Known::default(), &Stop::never(), &mut |new, _| cases.extend_from_slice(new));
         assert!(10 * cases.len() as u64 >= 9 * CASES, "{name}: {} of {CASES} cases, {tally:?}", cases.len());
@@ -37,7 +36,7 @@ fn every_shipped_scenario_gives_nine_tenths_of_its_cases() {
 #[test]
 fn nothing_feasible_is_an_answer_with_its_reason() {
     let sets = [("task.length".to_owned(), "2".to_owned()), ("generate.search.graphs".to_owned(), "3".to_owned())];
-    let setup = Setup::new(scenario_for("paper-stable", &sets).expect("a sound scenario")).expect("a sound set-up");
+    let setup = setup_for("paper-stable", &sets).expect("a sound scenario");
     let mut cases = 0;
     let tally = generate(&setup, &Known::default(), &Stop::never(), &mut |new, _| cases += new.len());
     let verdict = hairpin::campaign::verdict(&setup, &[], &[], &tally);

@@ -1,10 +1,10 @@
-//! SHA-256 of texts, so that a file can say what it was.
+//! SHA-256 of texts and files, so that a file can say what it was.
 
 use sha2::{Digest, Sha256};
 
-/// The SHA-256 of `text`, in lower-case hexadecimal digits.
-pub fn sha256(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+/// The SHA-256 of `contents`, in lower-case hexadecimal digits.
+pub fn sha256(contents: impl AsRef<[u8]>) -> String {
+    Sha256::digest(contents).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

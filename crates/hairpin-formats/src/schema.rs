@@ -1,6 +1,6 @@
 //! The JSON Schema of scenario and robot files, made from the types that read them.
 
-use hairpin::campaign::scenario::{ArmScenario, DriveScenario, FlightScenario, RobotKind};
+use hairpin::campaign::scenario::RobotKind;
 use hairpin::robot::arm::ArmDescription;
 use hairpin::robot::ground::{CarDescription, DifferentialDriveDescription};
 use hairpin::robot::quadrotor::QuadrotorDescription;
@@ -9,26 +9,22 @@ use serde_json::{Value, json};
 
 /// The schema of a scenario file of flights, for editors; `hairpin schema` prints it.
 pub fn scenario_schema() -> Value {
-    with_made_by(schemars::schema_for!(FlightScenario).to_value())
+    scenario_schema_of(None)
 }
 
 /// The schema of a scenario file of drives.
 pub fn drive_scenario_schema() -> Value {
-    with_made_by(schemars::schema_for!(DriveScenario).to_value())
+    scenario_schema_of(Some("rover"))
 }
 
 /// The schema of a scenario file of an arm.
 pub fn arm_scenario_schema() -> Value {
-    with_made_by(schemars::schema_for!(ArmScenario).to_value())
+    scenario_schema_of(Some("arm"))
 }
 
-/// The schema of the scenario files of a kind of robots.
-pub fn scenario_schema_of(kind: RobotKind) -> Value {
-    match kind {
-        RobotKind::Flyer => scenario_schema(),
-        RobotKind::Ground => drive_scenario_schema(),
-        RobotKind::Arm => arm_scenario_schema(),
-    }
+/// The schema of the scenario files of robots whose `kind` is `word`.
+pub fn scenario_schema_of(word: Option<&str>) -> Value {
+    with_made_by(RobotKind::of_word(word).schema())
 }
 
 fn with_made_by(mut schema: Value) -> Value {

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use hairpin::campaign::Scenario;
-use hairpin_formats::scenario::{Report, read_scenario};
+use hairpin_formats::scenario::{Report, read_setup};
 
 const FINE: &str = include_str!("fixtures/fine.toml");
 
 fn read(text: &str, sets: &[(&str, &str)]) -> Result<Scenario, Report> {
     let sets: Vec<_> = sets.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-    read_scenario(text, "my.toml", Path::new("tests/fixtures"), &sets)
+    read_setup(text, "my.toml", Path::new("tests/fixtures"), &sets).map(|setup| setup.scenario)
 }
 
 /// The fixture with one line changed.
@@ -132,7 +132,7 @@ fn keys_that_vary_are_told_the_nearest_one_too() {
         let drawn = (format!("vary.\"{key}\""), "{ uniform = [1, 2] }");
         let walled = key.starts_with("world").then_some((wall.0.to_owned(), wall.1));
         let sets: Vec<_> = walled.into_iter().chain([drawn]).map(|(key, value)| (key, value.to_owned())).collect();
-        let told = hairpin_formats::scenario::scenario_for(around, &sets).unwrap_err();
+        let told = hairpin_formats::scenario::setup_for(around, &sets).unwrap_err();
         let [one] = told.complaints() else { panic!("{told}") };
         assert!(one.field == format!("vary.\"{key}\"") && one.message.contains(words), "{told}");
         assert!(!one.message.contains("untagged"), "{told}");

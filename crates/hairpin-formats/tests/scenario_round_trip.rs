@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin_formats::scenario::{MadeBy, read_made_by, read_scenario, to_toml};
+use hairpin_formats::scenario::{MadeBy, read_made_by, read_setup, to_toml};
 use proptest::prelude::*;
 
 const FINE: &str = include_str!("fixtures/fine.toml");
@@ -67,12 +67,14 @@ proptest! {
 
     #[test]
     fn written_and_read_again_is_the_same(sets in overrides()) {
-        let scenario = read_scenario(FINE, "fine.toml", Path::new(""), &sets)
-            .map_err(|report| TestCaseError::fail(report.to_string()))?;
+        let scenario = read_setup(FINE, "fine.toml", Path::new(""), &sets)
+            .map_err(|report| TestCaseError::fail(report.to_string()))?
+            .scenario;
         let made_by = MadeBy { version: "1.2.3".into(), root_seed: scenario.seed(), simd: "avx2".into() };
         let text = to_toml(&scenario, Some(&made_by)).map_err(|error| TestCaseError::fail(error.to_string()))?;
-        let again = read_scenario(&text, "scenario.toml", Path::new(""), &[])
-            .map_err(|report| TestCaseError::fail(report.to_string()))?;
+        let again = read_setup(&text, "scenario.toml", Path::new(""), &[])
+            .map_err(|report| TestCaseError::fail(report.to_string()))?
+            .scenario;
         prop_assert_eq!(&scenario, &again);
         let table: toml::Table = text.parse().expect("any TOML parser reads it");
         prop_assert_eq!(table["made_by"]["simd"].as_str(), Some("avx2"));
@@ -98,7 +100,7 @@ proptest! {
         }
         let sets = if with_set { vec![(key, value)] } else { Vec::new() };
         let text: String = text.into_iter().collect();
-        if let Err(report) = read_scenario(&text, "fuzzed.toml", Path::new("nowhere"), &sets) {
+        if let Err(report) = read_setup(&text, "fuzzed.toml", Path::new("nowhere"), &sets) {
             prop_assert!(!report.complaints().is_empty());
             for complaint in report.complaints() {
                 prop_assert!(complaint.line >= 1 && complaint.column >= 1 && !complaint.message.is_empty());

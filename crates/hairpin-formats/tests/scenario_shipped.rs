@@ -4,12 +4,16 @@ use std::path::Path;
 
 use hairpin::campaign::scenario::{FlightScenario, RobotSource};
 use hairpin::campaign::{Scenario, Setup};
-use hairpin_formats::scenario::{Report, read_scenario, scenario_for, to_toml};
+use hairpin_formats::scenario::{Report, read_setup, setup_for, to_toml};
 use hairpin_formats::{library, schema, template};
 
-fn scenario(name: &str, sets: &[(&str, &str)]) -> Result<Scenario, Report> {
+fn setup(name: &str, sets: &[(&str, &str)]) -> Result<Setup, Report> {
     let sets: Vec<_> = sets.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-    scenario_for(name, &sets)
+    setup_for(name, &sets)
+}
+
+fn scenario(name: &str, sets: &[(&str, &str)]) -> Result<Scenario, Report> {
+    setup(name, sets).map(|setup| setup.scenario)
 }
 
 fn fine(name: &str, sets: &[(&str, &str)]) -> Scenario {
@@ -38,8 +42,8 @@ fn every_shipped_scenario_is_fine_and_survives_its_own_writing() {
     for name in names {
         let read = fine(name, &[]);
         let text = to_toml(&read, None).unwrap();
-        let again = read_scenario(&text, "scenario.toml", Path::new(""), &[]).unwrap_or_else(|r| panic!("{name}: {r}"));
-        assert_eq!(again, read, "{name}");
+        let again = read_setup(&text, "scenario.toml", Path::new(""), &[]).unwrap_or_else(|r| panic!("{name}: {r}"));
+        assert_eq!(again.scenario, read, "{name}");
         Setup::new(read).unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
     }
 }
@@ -90,8 +94,7 @@ fn every_shipped_file_validates_against_its_schema() {
 #[test]
 fn every_shipped_robot_and_world_serves() {
     for robot in library::rovers().chain(library::cars()).chain(library::differential_drives()) {
-        let read = fine(robot.name, &[]);
-        let setup = Setup::new(read).unwrap_or_else(|mistake| panic!("{}: {mistake}", robot.name));
+        let setup = setup(robot.name, &[]).unwrap_or_else(|report| panic!("{}: {report}", robot.name));
         assert_eq!(setup.robot_name(), robot.name);
         assert!(setup.drive().is_some());
     }
@@ -107,8 +110,8 @@ fn every_shipped_robot_and_world_serves() {
             "hairpin = 1\nrobot = \"flightgoggles\"\n[world]\nbase = \"{world}\"\nkeep_in_margin_m = 0.75\n\
              [task]\nstart_m = {start}\nend_m = {end}\nlength = 4\n"
         );
-        let read = read_scenario(&text, "w.toml", Path::new(""), &[]).unwrap_or_else(|report| panic!("{report}"));
-        let read = flight(&read).clone();
+        let read = read_setup(&text, "w.toml", Path::new(""), &[]).unwrap_or_else(|report| panic!("{report}"));
+        let read = flight(&read.scenario).clone();
         assert_eq!((read.world.base, read.world.keep_in_margin_m), (None, Some(0.75)), "its own key wins");
         assert!(read.world.size_m.is_some());
     }
@@ -175,13 +178,13 @@ fn meshes_are_read_and_end_up_in_the_scenario() {
     let text = template::template("quadrotor").unwrap();
     let read = |file: &str| {
         let set = ("world.obstacles".to_owned(), format!("[{{ name = \"rock\", mesh = {{ file = \"{file}\" }} }}]"));
-        read_scenario(text, "quadrotor.toml", folder.path(), &[set])
+        read_setup(text, "quadrotor.toml", folder.path(), &[set]).map(|setup| setup.scenario)
     };
     let scenario = read("rock.obj").unwrap_or_else(|report| panic!("{report}"));
     let mesh = flight(&scenario).world.obstacles[0].mesh.as_ref().unwrap();
     assert_eq!((mesh.vertices_m.len(), mesh.triangles.len(), &mesh.file), (4, 4, &None));
-    let again = read_scenario(&to_toml(&scenario, None).unwrap(), "s.toml", Path::new(""), &[]);
-    assert_eq!(again, Ok(scenario));
+    let again = read_setup(&to_toml(&scenario, None).unwrap(), "s.toml", Path::new(""), &[]);
+    assert_eq!(again.map(|setup| setup.scenario), Ok(scenario));
     assert_eq!(read("stone.obj").unwrap_err().complaints()[0].field, "world.obstacles[0].mesh.file");
     std::fs::write(folder.path().join("open.obj"), &obj[..obj.len() - 8]).unwrap();
     assert!(read("open.obj").unwrap_err().complaints()[0].field.starts_with("world.obstacles[0].mesh"));

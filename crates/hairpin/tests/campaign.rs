@@ -4,7 +4,7 @@ mod campaigns;
 
 use campaigns::{ENDLESS, asked, check_witness, distance_to_hull, from_mast, run, setup};
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Evidence, Setup, Stop, generate, optima, verdict};
+use hairpin::campaign::{Case, Evidence, Scenario, Setup, Stop, generate, optima, verdict};
 use hairpin::feasibility::reach::sampling;
 use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::Quadrotor;
@@ -181,7 +181,7 @@ fn lengths_that_vary_are_drawn_per_case() {
     let scenario = setup("flightgoggles", 6, asked("hull", "beam", 6)).scenario;
     let mut scenario = serde_json::to_value(scenario).expect("plain data");
     scenario["vary"]["task.length"] = json!({ "uniform": [5, 9] });
-    let setup = Setup::new(serde_json::from_value(scenario).expect("a scenario")).expect("a campaign");
+    let setup = Setup::new(serde_json::from_value::<Scenario>(scenario).expect("a scenario")).expect("a campaign");
     let (cases, _) = run(&setup, &Known::default());
     assert_eq!(cases.first().map(|case| case.waypoints.len()), Some(6), "case 0 is nominal");
     assert!(cases.iter().all(|case| (5..=9).contains(&case.waypoints.len())));

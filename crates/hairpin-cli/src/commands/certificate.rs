@@ -57,7 +57,7 @@ pub(crate) fn object(points: usize, ends: Ends, found: &Heaviest, walk: Option<&
 
 /// Puts the object's own SHA-256 into it.
 pub(crate) fn sealed(mut object: Value) -> String {
-    object["sha256"] = checksum::sha256(&object.to_string()).into();
+    object["sha256"] = checksum::sha256(object.to_string()).into();
     object.to_string()
 }
 
@@ -85,7 +85,7 @@ pub(crate) fn check(object: &Value, costs: Vec<Option<i64>>, arcs: Option<Arcs>)
         }
         _ => return None,
     };
-    if stated != Some(checksum::sha256(&bare.to_string()).into()) {
+    if stated != Some(checksum::sha256(bare.to_string()).into()) {
         checked.findings.push("it was changed: its SHA-256 is another".into());
     }
     Some(checked)

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::Setup;
-use hairpin_formats::scenario::scenario_for;
+use hairpin_formats::scenario::setup_for;
 
 use super::{new, stress};
 use crate::args::{Demo, Kind};
@@ -25,7 +24,7 @@ pub(crate) fn run(demo: &Demo) -> Result<u8, Problem> {
         Kind::Arm => "demo-arm",
     };
     folder::take_threads(&demo.threads);
-    let setup = Setup::new(scenario_for(scenario, &[])?)?.with_simd(folder::simd(&demo.kernels));
+    let setup = setup_for(scenario, &[])?.with_simd(folder::simd(&demo.kernels));
     let replaceable = demo.force || demo.out == Path::new("hairpin-demo");
     let work = Work { folder: folder::make(&demo.out, &setup, false, replaceable)?, setup };
     stress::campaign(&work, Deadline::after(None), &[], demo.json)

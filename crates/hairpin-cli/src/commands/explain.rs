@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
+use hairpin::campaign::Stop;
 use hairpin::campaign::explain::{Deaths, explain};
-use hairpin::campaign::{Setup, Stop};
-use hairpin_formats::scenario::scenario_for;
+use hairpin_formats::scenario::setup_for;
 use serde_json::json;
 
 use crate::args::Explain;
@@ -17,7 +17,7 @@ pub(crate) fn run(asked: &Explain) -> Result<u8, Problem> {
     folder::take_threads(&asked.threads);
     let mut sets = folder::split(&asked.sets)?;
     sets.extend(asked.seed.map(|seed| ("seed".to_owned(), seed.to_string())));
-    let setup = Setup::new(scenario_for(&asked.scenario, &sets)?)?.with_simd(folder::simd(&asked.kernels));
+    let setup = setup_for(&asked.scenario, &sets)?.with_simd(folder::simd(&asked.kernels));
     let (began, deadline) = (Instant::now(), Deadline::after(asked.time_limit));
     let stop = Stop { cancelled: &interrupt::asked, progress: &|_, _| {}, clock: &|| began.elapsed().as_secs_f64() };
     let found = explain(&setup, asked.graphs, &stop, &|| deadline.passed())?;

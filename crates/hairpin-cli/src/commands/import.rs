@@ -2,13 +2,12 @@
 
 use std::fs;
 
-use hairpin::campaign::Setup;
 use hairpin::feasibility::program::{Checked, Surroundings, check};
 use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;
 use hairpin_formats::atomic;
 use hairpin_formats::rapid::{self, Module, Options};
-use hairpin_formats::scenario::{arm_for, scenario_for};
+use hairpin_formats::scenario::{arm_for, setup_for};
 use serde_json::{Value, json};
 
 use crate::args::Import;
@@ -94,7 +93,7 @@ fn follow(import: &Import, module: &Module) -> Result<Follow, Problem> {
         let checked = check(&arm, &module.program, module.certain, &Surroundings::default(), &settings);
         return Ok(Follow { arm, parts: None, checked });
     };
-    let setup = Setup::new(scenario_for(cell, &[])?)?;
+    let setup = setup_for(cell, &[])?;
     let Some(arm) = setup.arm() else { return Err(Problem::input(format!("--cell {cell}: is no arm's"))) };
     let around = Surroundings {
         cell: Some(&arm.station.cell),

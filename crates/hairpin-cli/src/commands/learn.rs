@@ -1,7 +1,7 @@
 //! `hairpin learn`: a score from executed legs.
 
-use hairpin::campaign::learn::{learn, learn_moves, leg_samples, move_samples};
-use hairpin::campaign::{Case, Kind};
+use hairpin::campaign::Case;
+use hairpin::campaign::samples::{learn, learn_moves, leg_samples, move_samples};
 use hairpin::math::ridge::NoFit;
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::model_text;
@@ -88,11 +88,7 @@ pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
             held_out.r2,
             error(held_out.rmse),
         ));
-        let key = match work.setup.kind() {
-            Kind::Flight(_) => "generate.score",
-            Kind::Drive(_) => "generate.search.score",
-            Kind::Arm(_) => "generate.cost",
-        };
+        let key = work.setup.scenario.score_key();
         console::say(&format!("use it: {key} = \"learned:{}\"", asked.out.display()));
     }
     Ok(0)

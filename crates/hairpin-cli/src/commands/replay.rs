@@ -18,9 +18,8 @@ const SAME_M: f64 = 1e-6;
 pub(crate) fn run(replay: &Replay) -> Result<u8, Problem> {
     let repro = Repro::read(&replay.file)?;
     let refuse = |why: String| Problem::input(format!("{}: {why}", replay.file.display()));
-    let mut scenario = repro.scenario.clone();
-    scenario::attach(&mut scenario, replay.file.parent().unwrap_or(Path::new("")))?;
-    let setup = Setup::new(scenario).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
+    let resolved = scenario::attach(repro.scenario.clone(), replay.file.parent().unwrap_or(Path::new("")))?;
+    let setup = Setup::new(resolved).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
     let setup = setup.with_simd(folder::simd(&replay.kernels));
     let case = repro.case().map_err(refuse)?;
     let flown = fly_one(&setup, &case, repro.run)?;

@@ -6,7 +6,7 @@ use std::path::Path;
 use hairpin::campaign::digits::number;
 use hairpin::campaign::learn::NAME;
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
-use hairpin::campaign::{Case, CaseResult, Grid, Setup, Tally, vary};
+use hairpin::campaign::{Case, CaseResult, Grid, Tally, vary};
 use hairpin_formats::folder::{ARCS, BEST_SO_FAR, CampaignFolder, GRAPH, OPTIMUM, REASONS};
 use rayon::prelude::*;
 use serde_json::json;
@@ -154,8 +154,13 @@ fn write(
 ) -> Result<CampaignFolder, Problem> {
     let key = if work.setup.arm().is_some() { "generate.search.programs" } else { "generate.search.cases" };
     let varied = work.setup.scenario.vary().clone();
-    let scenario = vary::apply(&work.setup.scenario, &[(key.into(), chosen.len().into())])?;
-    let setup = Setup::new(scenario.with_vary(varied))?.with_simd(work.setup.simd);
+    let mut changes = vec![(key.into(), chosen.len().into())];
+    if work.setup.attachments.baseline.is_some() {
+        // Some of the programs are no release that another one could be held against.
+        changes.push(("spec.regression".into(), serde_json::Value::Null));
+    }
+    let scenario = vary::apply(&work.setup.scenario, &changes)?;
+    let setup = work.setup.changed(scenario.with_vary(varied))?;
     let new = Work { folder: folder::make(&asked.out, &setup, false, asked.force)?, setup };
     let (old, there) = (&work.folder, &new.folder);
     let numbers: BTreeSet<usize> = chosen.iter().map(|case| case.number).collect();

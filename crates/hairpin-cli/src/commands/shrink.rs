@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use hairpin::campaign::report::violation;
-use hairpin::campaign::{Case, CaseResult, Setup, Shrunk};
+use hairpin::campaign::{Case, CaseResult, Shrunk};
 use hairpin::judgement::Violation;
 use serde_json::json;
 
@@ -75,7 +75,7 @@ fn named(cases: &[Case]) -> String {
 }
 
 fn repro(work: &Work, shrunk: &Shrunk, before: &CaseResult, waypoints: usize, runs: u64) -> Result<Repro, Problem> {
-    let setup = Setup::new(shrunk.scenario.clone())?.with_simd(work.setup.simd);
+    let setup = work.setup.changed(shrunk.scenario.clone())?;
     Ok(Repro {
         shrunk: Some(ShrunkFrom {
             waypoints,

@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
-use hairpin::campaign::Setup;
 use hairpin::campaign::flight::FlightSetup;
 use hairpin::robot::Dynamics;
 use hairpin::robot::quadrotor::Quadrotor;
 use hairpin::simulation::{Motion, Plant, PlantState, Stepper};
 use hairpin::trajectory::{Channel, Track};
 use hairpin_formats::csv;
-use hairpin_formats::scenario::scenario_for;
+use hairpin_formats::scenario::setup_for;
 use nalgebra::{Vector3, Vector4};
 
 use crate::args::Simulate;
@@ -31,7 +30,7 @@ struct Row {
 
 /// Runs the command.
 pub(crate) fn run(simulate: &Simulate) -> Result<u8, Problem> {
-    let setup = Setup::new(scenario_for(&simulate.robot, &folder::split(&simulate.sets)?)?)?;
+    let setup = setup_for(&simulate.robot, &folder::split(&simulate.sets)?)?;
     let Some(FlightSetup { robot, .. }) = setup.flight() else {
         return Err(Problem::input(format!("`{}` has no rotors: simulate flies quadrotors", setup.robot_name())));
     };
@@ -135,7 +134,7 @@ mod tests {
     #[test]
     fn without_thrust_it_falls_as_galileo_says() {
         let sets = [("robot.drag_quadratic_n_s2_m2".to_owned(), "0".to_owned())];
-        let setup = Setup::new(scenario_for("flightgoggles", &sets).unwrap()).unwrap();
+        let setup = setup_for("flightgoggles", &sets).unwrap();
         let rows = parse(&format!("{HEADER}0,0,0,0,0\n2,0,0,0,0\n"), (0.0, 2200.0)).unwrap();
         let robot = setup.flight().unwrap().robot;
         let track = fly(robot, &rows).unwrap();

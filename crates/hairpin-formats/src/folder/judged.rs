@@ -3,7 +3,7 @@
 use std::fs;
 use std::io;
 
-use hairpin::campaign::arm::Moves;
+use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::coverage::{Axis, Coverage};
 use hairpin::campaign::{Case, CaseResult, Influence};
 

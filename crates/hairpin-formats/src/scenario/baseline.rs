@@ -1,12 +1,17 @@
 //! The baseline that an arm's campaign is held against: what an earlier release's folder keeps of its moves.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use hairpin::campaign::arm::{Baseline, Moves};
+use hairpin::campaign::Attached;
+use hairpin::campaign::baseline::{Baseline, Moves};
+use hairpin::campaign::scenario::RegressionLimit;
 use serde::Deserialize;
 
+use super::files::{Wrong, attached};
 use super::resolve::read_file;
+use crate::checksum::sha256;
 use crate::folder::{BASELINE, MOVES};
 
 /// Either file that a campaign folder keeps.
@@ -17,12 +22,27 @@ enum Kept {
     Runs(Moves),
 }
 
+/// Reads the baseline of `spec.regression`. A resolved scenario's is `baseline.json`, which a campaign folder holds.
+pub(super) fn attach(limit: &mut RegressionLimit, find: &dyn Fn(&str) -> PathBuf) -> Result<Attached<Baseline>, Wrong> {
+    let given = limit.baseline.clone();
+    let wrong = |bound: String| Wrong { key: "spec.regression.baseline".into(), value: given.clone(), bound };
+    let (baseline, bytes) = read(&find(&given)).map_err(wrong)?;
+    let checksum = sha256(&bytes);
+    if let Some(other) = limit.checksum.as_ref().filter(|other| **other != checksum) {
+        let bound = format!("the checksum of `{given}`, which is {checksum}: it is another baseline");
+        return Err(Wrong { key: "spec.regression.checksum".into(), value: other.clone(), bound });
+    }
+    limit.baseline = BASELINE.into();
+    limit.checksum = Some(checksum);
+    Ok(attached(Arc::new(baseline), bytes, BASELINE, &given))
+}
+
 /// Reads the baseline at `path`: a judged campaign folder, on top of the baseline that it has itself; its `moves.json`; or a `baseline.json`.
 /// Gives it, and the text that another campaign keeps of it.
 ///
 /// # Errors
 /// Nothing there, a folder that was not judged, another JSON, fewer than two runs of a program: in a sentence's part.
-pub(super) fn read(path: &Path) -> Result<(Baseline, Vec<u8>), String> {
+fn read(path: &Path) -> Result<(Baseline, Vec<u8>), String> {
     if path.is_file() {
         let bytes = read_file(path)?;
         return match parse(&bytes, path)? {

@@ -1,8 +1,9 @@
-//! Scenario files in and out. Reading resolves: what comes out holds robot, world and meshes, and is checked.
+//! Scenario files in and out. Reading resolves, and checks by building: what comes out is a setup.
 
 mod arm;
 mod baseline;
 mod cell;
+mod files;
 mod learned;
 mod report;
 mod resolve;
@@ -17,11 +18,12 @@ mod write;
 
 use std::path::Path;
 
-use hairpin::campaign::Scenario;
 use hairpin::campaign::scenario::{KeyPath, RobotKind};
+use hairpin::campaign::{Mistake, Resolved, Scenario, Setup};
 use toml::Table;
 
 pub use arm::arm_for;
+pub use files::attach;
 pub use learned::model_text;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
@@ -31,10 +33,7 @@ use crate::{library, schema};
 use resolve::{Resolver, is_urdf};
 use tree::{Kind, Node};
 
-/// A mistake in a key's value: key, value, what it must be.
-type Wrong = (String, String, String);
-
-/// Reads, resolves and checks a scenario.
+/// Reads a scenario, resolves it, and builds what it describes.
 ///
 /// `file` is the name that mistakes are told with; robots, worlds and meshes are looked for among the shipped ones,
 /// then relative to `base`. `sets` are overrides, key and value as typed; one of several keys that exclude each other
@@ -43,23 +42,23 @@ type Wrong = (String, String, String);
 ///
 /// # Errors
 /// All mistakes of one stage: no TOML, or wrong keys and types, or values out of bounds.
-pub fn read_scenario(text: &str, file: &str, base: &Path, sets: &[(String, String)]) -> Result<Scenario, Report> {
+pub fn read_setup(text: &str, file: &str, base: &Path, sets: &[(String, String)]) -> Result<Setup, Report> {
     let mut report = Report::default();
     let source = report.add_source(file, text);
     match read(source, base, sets, &mut report) {
-        Some(scenario) if report.is_empty() => Ok(scenario),
+        Some(setup) if report.is_empty() => Ok(setup),
         _ => Err(report),
     }
 }
 
-/// The scenario that `name_or_path` means: a shipped scenario's name, a scenario file, or a robot's name or file, which
+/// The setup of the scenario that `name_or_path` means: a shipped scenario's name, a scenario file, or a robot's name or file, which
 /// is put into the shipped scenario of its kind.
 ///
 /// # Errors
-/// As [`read_scenario`]; nothing of that name.
-pub fn scenario_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Scenario, Report> {
+/// As [`read_setup`]; nothing of that name.
+pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup, Report> {
     if let Some(shipped) = library::scenarios().find(|shipped| shipped.name == name_or_path) {
-        return read_scenario(shipped.text, shipped.path, Path::new(""), sets);
+        return read_setup(shipped.text, shipped.path, Path::new(""), sets);
     }
     let path = Path::new(name_or_path);
     let text = if path.is_file() {
@@ -70,25 +69,24 @@ pub fn scenario_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Sce
     };
     let table = text.parse::<Table>().unwrap_or_default();
     let Some(kind) = table.get("kind").and_then(|kind| kind.as_str()).filter(|_| !table.contains_key("hairpin")) else {
-        return read_scenario(&text, name_or_path, path.parent().unwrap_or(Path::new("")), sets);
+        return read_setup(&text, name_or_path, path.parent().unwrap_or(Path::new("")), sets);
     };
-    let around = match RobotKind::of_word(Some(kind)) {
-        RobotKind::Ground | RobotKind::Arm => kind,
-        RobotKind::Flyer => "quadrotor",
-    };
+    // A word that no kind has is told where robots are read.
+    let words = RobotKind::of_word(Some(kind)).words;
+    let around = if words.contains(&kind) { kind } else { words[0] };
     let Some(around) = library::scenarios().find(|shipped| shipped.name == around) else {
         unreachable!("a scenario of every kind is shipped")
     };
     let robot = ("robot".to_owned(), toml::Value::String(name_or_path.to_owned()).to_string());
     let sets: Vec<_> = std::iter::once(robot).chain(sets.iter().cloned()).collect();
-    read_scenario(around.text, around.path, Path::new(""), &sets)
+    read_setup(around.text, around.path, Path::new(""), &sets)
 }
 
-/// The scenario of an arm for the points of a file: that of a shipped name or a file, or a bare cell around a robot's name or file.
+/// The setup of an arm for the points of a file: that of a shipped name or a file, or a bare cell around a robot's name or file.
 ///
 /// # Errors
-/// As [`read_scenario`]; nothing of that name.
-pub fn arm_scenario_for(cell: &str, points: &Path, sets: &[(String, String)]) -> Result<Scenario, Report> {
+/// As [`read_setup`]; nothing of that name.
+pub fn arm_setup_for(cell: &str, points: &Path, sets: &[(String, String)]) -> Result<Setup, Report> {
     let text = |path: &str| std::fs::read_to_string(path).ok().and_then(|text| text.parse::<Table>().ok());
     let is_scenario = library::scenarios().any(|shipped| shipped.name == cell)
         || text(cell).is_some_and(|table| table.contains_key("hairpin"));
@@ -98,7 +96,7 @@ pub fn arm_scenario_for(cell: &str, points: &Path, sets: &[(String, String)]) ->
     let given = ("task.points".to_owned(), quoted(&points.to_string_lossy()));
     let sets: Vec<_> = std::iter::once(given).chain(sets.iter().cloned()).collect();
     if is_scenario {
-        return scenario_for(cell, &sets);
+        return setup_for(cell, &sets);
     }
     let shipped = library::robots().find(|robot| robot.name == cell).and_then(|robot| robot.text.parse::<Table>().ok());
     let urdf = Path::new(cell).is_file() && is_urdf(cell);
@@ -107,32 +105,14 @@ pub fn arm_scenario_for(cell: &str, points: &Path, sets: &[(String, String)]) ->
         return Err(unknown(cell));
     }
     let kind = robot.get("kind").and_then(|kind| kind.as_str());
-    if RobotKind::of_word(kind) != RobotKind::Arm && !urdf {
+    if kind != Some("arm") && !urdf {
         let mut report = Report::default();
         let message = format!("`{cell}` is no arm: its kind is {}", kind.unwrap_or("not given"));
         report.complain_of_file(cell, &message);
         return Err(report);
     }
     let bare = format!("hairpin = 1\nrobot = {}\n[task]\npoints = \"cloud.csv\"\n", quoted(cell));
-    read_scenario(&bare, cell, Path::new(""), &sets)
-}
-
-/// Reads what a resolved scenario names in `folder`, as beside a repro file, or in the folder above: its map, its cloud.
-///
-/// # Errors
-/// A file cannot be read, or is another one.
-pub fn attach(scenario: &mut Scenario, folder: &Path) -> Result<(), Report> {
-    let scores = learned::attach(scenario, folder).and_then(|()| user_score::attach(scenario, folder));
-    if let Err((key, value, bound)) = scores {
-        let mut report = Report::default();
-        report.complain_of_file(&value, &format!("`{key}` = {value:?}: {bound}"));
-        return Err(report);
-    }
-    match scenario {
-        Scenario::Flight(_) => Ok(()),
-        Scenario::Drive(drive) => terrain::attach(drive, folder),
-        Scenario::Arm(arm) => cell::attach(arm, folder),
-    }
+    read_setup(&bare, cell, Path::new(""), &sets)
 }
 
 fn unreadable(file: &str, why: &str) -> Report {
@@ -151,8 +131,8 @@ fn unknown(name: &str) -> Report {
     report
 }
 
-/// The stages of [`read_scenario`]; `None` after a stage with mistakes.
-fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Report) -> Option<Scenario> {
+/// The stages of [`read_setup`]; `None` after a stage with mistakes.
+fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Report) -> Option<Setup> {
     let mut root = tree::parse(source, report)?;
     if let Some(entries) = root.entries() {
         entries.remove("made_by");
@@ -161,7 +141,7 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
     apply_sets(&mut root, sets, &mut resolver);
     resolver.robot(&mut root);
     resolver.world(&mut root);
-    let schema = schema::scenario_schema_of(RobotKind::of_word(kind_of(&root)));
+    let schema = schema::scenario_schema_of(kind_of(&root));
     shape::check(&schema, &root, "", report);
     if !report.is_empty() {
         return None;
@@ -173,35 +153,22 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
             return None;
         }
     };
-    match &mut scenario {
-        Scenario::Flight(flight) => {
-            Resolver { base, report }.meshes(flight, &root);
-            flight.generate.timing = Some(flight.generate.timing_in_force());
-            if flight.execute.logs.is_none() && flight.execute.controller.is_none() {
-                flight.execute.controller = flight.execute.controller_in_force();
-            }
-        }
-        Scenario::Drive(drive) => {
-            terrain::resolve(drive, base, &root, report);
-            drive.execute.controller = drive.execute.controller_in_force();
-        }
-        Scenario::Arm(arm) => cell::resolve(arm, base, &root, report),
-    }
-    let scores = learned::read(&mut scenario, base).and_then(|()| user_score::read(&mut scenario, base));
-    if let Err((key, value, bound)) = scores {
-        let message = format!("`{key}` = {value:?}: {bound}");
-        report.complain(&place_of(&root, &key), &key, &value, &bound, message);
+    let (attachments, wrong) = files::read(&mut scenario, &|file| base.join(file));
+    for one in wrong {
+        report.complain(&place_of(&root, &one.key), &one.key, &one.value, &one.bound, one.message());
     }
     if !report.is_empty() {
         return None;
     }
-    for mistake in scenario.check() {
+    scenario.write_defaults();
+    terrain::turn(&mut scenario);
+    let told = |mistake: Mistake| {
         let place = place_of(&root, &mistake.key);
         let bound = shape::unknown_in_vary(&schema, &root, &mistake.key).unwrap_or(mistake.bound);
         let message = format!("`{}` = {}: must be {bound}", mistake.key, mistake.value);
         report.complain(&place, &mistake.key, &mistake.value, &format!("must be {bound}"), message);
-    }
-    Some(scenario)
+    };
+    Setup::build(Resolved { scenario, attachments }).map_err(|mistakes| mistakes.into_iter().for_each(told)).ok()
 }
 
 /// The robot's kind, where its table says it.

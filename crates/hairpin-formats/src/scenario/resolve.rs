@@ -1,14 +1,11 @@
-//! What a scenario names rather than holds: robots, base worlds and meshes, shipped or in files.
+//! What a scenario names rather than holds and is part of its keys: robots and base worlds, shipped or in files.
 
 use std::path::Path;
-
-use hairpin::campaign::scenario::FlightScenario;
 
 use super::report::{Place, Report};
 use super::shape::nearest;
 use super::tree::{self, Kind, Node};
 use crate::library::{self, Shipped};
-use crate::mesh::read_mesh;
 use crate::urdf::read_urdf;
 
 /// A robot or world file is a page of numbers; a mesh file of 100 MB has two million triangles.
@@ -46,29 +43,6 @@ impl Resolver<'_> {
         let Some(Node { kind: Kind::Table(base), .. }) = table else { return };
         for (key, node) in base {
             entries.entry(key).or_insert(node);
-        }
-    }
-
-    /// Reads the mesh files.
-    pub(super) fn meshes(&mut self, scenario: &mut FlightScenario, root: &Node) {
-        for (index, obstacle) in scenario.world.obstacles.iter_mut().enumerate() {
-            let Some(mesh) = &mut obstacle.mesh else { continue };
-            let Some(file) = mesh.file.take() else { continue };
-            let key = format!("world.obstacles[{index}].mesh.file");
-            let place = super::place_of(root, &key);
-            let mut refuse = |bound: &str| {
-                let message = format!("`{key}` = \"{file}\": {bound}");
-                self.report.complain(&place, &key, &file, bound, message);
-            };
-            if !mesh.vertices_m.is_empty() || !mesh.triangles.is_empty() {
-                refuse("either a file or vertices_m and triangles, not both");
-                continue;
-            }
-            match read_file(&self.base.join(&file)).map(|bytes| read_mesh(&bytes, &file)) {
-                Ok(Ok(read)) => (mesh.vertices_m, mesh.triangles) = (read.vertices, read.triangles),
-                Ok(Err(error)) => refuse(&error.to_string()),
-                Err(why) => refuse(&format!("cannot be read: {why}")),
-            }
         }
     }
 

@@ -13,10 +13,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
+use hairpin::campaign::scenario::PYTHON;
 use hairpin::campaign::user_score::{LegFacts, NAME};
-use hairpin::campaign::{LegScorer, Scenario, UserScore};
+use hairpin::campaign::{Attached, LegScorer};
 
-use super::Wrong;
+use super::files::{Wrong, attached};
 use super::resolve::read_file;
 use crate::executor::{self, Tail};
 
@@ -29,32 +30,19 @@ const AFTERMATH: Duration = Duration::from_millis(300);
 /// Between two looks at whether an answer is still wanted.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Reads the score of the user's own that `scenario` scores by, if it does. A resolved scenario's is [`NAME`].
-pub(super) fn read(scenario: &mut Scenario, base: &Path) -> Result<(), Wrong> {
-    let (key, score, user) = match scenario {
-        Scenario::Flight(scenario) => {
-            let generate = &mut scenario.generate;
-            ("generate.score", &mut generate.score, &mut generate.user_score)
-        }
-        Scenario::Drive(scenario) => {
-            let search = &mut scenario.generate.search;
-            ("generate.search.score", &mut search.score, &mut search.user_score)
-        }
-        Scenario::Arm(_) => return Ok(()),
-    };
-    let Some(file) = UserScore::file_of(score) else { return Ok(()) };
-    let path = base.join(file);
-    let wrong = |bound: String| (key.to_owned(), score.clone(), bound);
+/// Reads the score of the user's own that `score` names, if it does; `key` is its key. A resolved scenario's is [`NAME`].
+pub(super) fn read(
+    key: &str,
+    score: &mut String,
+    find: &dyn Fn(&str) -> PathBuf,
+) -> Result<Option<Attached<dyn LegScorer>>, Wrong> {
+    let Some(file) = score.strip_prefix(PYTHON) else { return Ok(None) };
+    let path = find(file);
+    let wrong = |bound: String| Wrong { key: key.to_owned(), value: score.clone(), bound };
     let bytes = read_file(&path).map_err(|why| wrong(format!("`{file}` cannot be read: {why}")))?;
-    *user = Some(UserScore { bytes: bytes.into(), scorer: Arc::new(PythonScore::new(path, score)) });
-    *score = UserScore::score();
-    Ok(())
-}
-
-/// As [`read`], for a resolved scenario that lies in `folder`, as beside a repro file, or in the folder above.
-pub(super) fn attach(scenario: &mut Scenario, folder: &Path) -> Result<(), Wrong> {
-    let above = folder.join("..");
-    read(scenario, if folder.join(NAME).is_file() { folder } else { &above })
+    let user = attached(Arc::new(PythonScore::new(path, score)) as Arc<dyn LegScorer>, bytes, NAME, score);
+    *score = format!("{PYTHON}{NAME}");
+    Ok(Some(user))
 }
 
 /// What is known of a leg, as bits.

@@ -38,10 +38,10 @@ pub struct Influence {
 /// nominal value where the scenario has one. Keys that choose between words, or that did not vary, have no rank; nor
 /// have those of `spec`, which judge a flight and do not move it.
 pub fn influences(scenario: &Scenario, runs: &[RunDeviation]) -> Vec<Influence> {
-    let nominal = vary::as_value(scenario);
+    let mut nominal = vary::Tree::new(scenario);
     let mut found = Vec::new();
     for key in scenario.vary().keys().filter(|key| !key.starts_with("spec.")) {
-        let fallback = KeyPath::parse(key).and_then(|path| path.get(&nominal).cloned());
+        let fallback = KeyPath::parse(key).and_then(|path| nominal.get(&path).cloned());
         let values = |run: &RunDeviation| -> Vec<(String, f64)> {
             let drawn = run.drawn.iter().find(|(name, _)| name == key).map(|(_, value)| value);
             let nominal = run.run == 0 || vary::shapes_the_plan(key);

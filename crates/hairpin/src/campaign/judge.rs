@@ -7,8 +7,7 @@ use nalgebra::Point3;
 use super::influence::RunDeviation;
 use super::scenario::DeviationFrom;
 use super::setup::Kind;
-use super::terms::Terms;
-use super::{Case, CaseResult, Mistake, Run, Setup, Status, arm, planned, vary};
+use super::{Case, CaseResult, Mistake, Run, Setup, Status, arm, planned};
 use crate::judgement::moves::Measured;
 use crate::judgement::{self, Clearance, JudgementError, Measures, Reference, Settings, Violation};
 use crate::trajectory::{Flight, PlannedPath, Track};
@@ -158,10 +157,10 @@ fn judge_run(
     let own = if run.drawn.is_empty() {
         setup
     } else {
-        drawn = setup.of_draw(vary::apply(&setup.scenario, &run.drawn)?)?;
+        drawn = setup.drawn(&run.drawn)?;
         &drawn
     };
-    let terms = Terms::of(&own.scenario);
+    let terms = own.scenario.head().terms;
     let path = match terms.from {
         DeviationFrom::Path => plan.reference.get_or_init(|| reference(setup, case)).as_ref(),
         DeviationFrom::Leg | DeviationFrom::NearestLeg => None,

@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::flight::FlightSetup;
 use super::planned::timed;
 use super::setup::Kind;
-use super::{Case, Mistake, Scenario, Setup, Timed, vary};
+use super::{Case, Mistake, Setup, Timed, vary};
 use crate::math::random::named_seed;
 
 /// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
@@ -45,12 +45,7 @@ pub struct Mission {
 /// As [`mission`].
 pub fn mission_again(setup: &Setup, case: &Case, run: usize, again: usize) -> Result<Mission, Mistake> {
     let mut scenario = setup.scenario.clone();
-    match &mut scenario {
-        Scenario::Flight(scenario) => scenario.execute.noise = true,
-        Scenario::Drive(scenario) => scenario.execute.noise = true,
-        // The virtual controller has noise of its own.
-        Scenario::Arm(_) => {}
-    }
+    scenario.set_noisy();
     let seed = named_seed(named_seed(case.seed, "rerun", run as u64), "again", again as u64);
     Ok(Mission { seed, ..mission(&setup.of_draw(scenario)?, case, run)? })
 }
@@ -63,7 +58,7 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
     let around = setup.around(case)?;
     let setup = around.as_ref();
     let drawn = vary::draw(&setup.scenario, case.seed, run);
-    let varied = if drawn.is_empty() { setup.clone() } else { setup.of_draw(vary::apply(&setup.scenario, &drawn)?)? };
+    let varied = if drawn.is_empty() { setup.clone() } else { setup.drawn(&drawn)? };
     // The plan is the nominal robot's, whatever was drawn for the one that carries it out.
     let timed = timed(setup, case);
     let time_limit = match varied.kind() {

@@ -1,35 +1,32 @@
-//! From a scenario's numbers to the things they describe. Robots are chosen by the one `match` here.
+//! From a scenario's numbers to the things they describe: a scenario is checked by building it.
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::arm::{self, ArmSetup, Station};
-use super::drive::{self, DriveSetup};
-use super::flight::{self, FlightSetup};
+use serde_json::Value;
+
+use super::arm::ArmSetup;
+use super::attachments::{Attachments, Resolved};
+use super::check::check_vary;
+use super::drive::{DriveSetup, Driver};
+use super::flight::{FlightSetup, Flyer};
+use super::machine::{Look, Machine};
 use super::scenario::{Mistake, Scenario};
+use super::user_score::LegScorer;
+use super::vary;
 use super::{Case, Environment};
 use crate::math::simd::Simd;
-use crate::robot::quadrotor::Quadrotor;
-use crate::robot::rover::Rover;
-use crate::world::World;
-use crate::world::terrain::{ElevationMap, KeepOuts};
 
-/// A resolved scenario and what it describes.
+/// A resolved scenario and what it describes. What draws leave as it is they share.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// Every key, the robot's table inline.
     pub scenario: Scenario,
+    /// What its files hold.
+    pub attachments: Arc<Attachments>,
     /// Version of the kernels that generate and execute.
     pub simd: Simd,
     machine: Machine,
-}
-
-/// A robot in its world.
-#[derive(Debug, Clone)]
-enum Machine {
-    Flyer { robot: Box<Quadrotor>, world: World },
-    Driver { rover: Box<Rover>, planner: Box<Rover>, map: Arc<ElevationMap>, keep_out: Arc<KeepOuts> },
-    Arm(Arc<Station>),
 }
 
 /// A setup, by what its robot does.
@@ -44,16 +41,38 @@ pub enum Kind<'a> {
 }
 
 impl Setup {
-    /// Builds robot and world of a resolved scenario, and checks every key that has a bound.
+    /// Builds robot and world of a resolved scenario, and looks at every key that has a bound, also at the ends of what `[vary]` may make of it.
+    ///
+    /// # Errors
+    /// Every key whose value is out of bounds, in the order of the file.
+    pub fn build(resolved: Resolved) -> Result<Self, Vec<Mistake>> {
+        let Resolved { scenario, attachments } = resolved;
+        let machine = Machine::of(&scenario, &attachments, None, Look::All)?;
+        Self { scenario, attachments: attachments.into(), simd: Simd::default(), machine }.checked()
+    }
+
+    /// The same, which tells the first mistake alone.
     ///
     /// # Errors
     /// The first key whose value is out of bounds.
-    pub fn new(scenario: Scenario) -> Result<Self, Mistake> {
-        let scenario = scenario.with_ground();
-        if let Some(mistake) = scenario.check().into_iter().next() {
-            return Err(mistake);
-        }
-        Self::build(scenario, Simd::default())
+    pub fn new(resolved: impl Into<Resolved>) -> Result<Self, Mistake> {
+        Self::build(resolved.into()).map_err(first)
+    }
+
+    /// The setup of another scenario with the same files, which is looked at as [`Self::new`] does; the kernels stay these.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn changed(&self, scenario: Scenario) -> Result<Self, Mistake> {
+        self.check(scenario).map_err(first)
+    }
+
+    /// The setup with the values of `draws` in place of the nominal ones.
+    ///
+    /// # Errors
+    /// A key that the scenario has not, a value that is out of its key's bounds in combination with the others.
+    pub fn drawn(&self, draws: &[(String, Value)]) -> Result<Self, Mistake> {
+        self.of_draw(vary::apply(&self.scenario, draws)?)
     }
 
     /// The same at another version of the kernels.
@@ -63,7 +82,8 @@ impl Setup {
 
     /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; the kernels stay these.
     pub(super) fn of_draw(&self, scenario: Scenario) -> Result<Self, Mistake> {
-        Self::build(scenario, self.simd)
+        let machine = Machine::of(&scenario, &self.attachments, self.known(), Look::Built).map_err(first)?;
+        Ok(self.with(scenario, machine))
     }
 
     /// This setup with what `case` has beside its waypoints in its world.
@@ -72,7 +92,7 @@ impl Setup {
     /// An environment of a folder that was edited, with the key of `[world]` that it breaks.
     pub fn around(&self, case: &Case) -> Result<Cow<'_, Self>, Mistake> {
         match &case.environment {
-            Some(environment) => self.of_draw(environment.around(&self.scenario)).map(Cow::Owned),
+            Some(environment) => self.of_draw(self.surrounded_by(environment)).map(Cow::Owned),
             None => Ok(Cow::Borrowed(self)),
         }
     }
@@ -82,42 +102,64 @@ impl Setup {
     /// # Errors
     /// What it has that acts on no robot of this kind, or the key that it breaks.
     pub fn check_environment(&self, environment: &Environment) -> Result<(), Mistake> {
-        match environment.mistake(&self.scenario) {
-            Some(mistake) => Err(mistake),
-            None => self.of_draw(environment.around(&self.scenario)).map(drop),
+        if let Some(foreign) = environment.foreign(self.scenario.head().surroundings) {
+            return Err(foreign);
+        }
+        let around = self.surrounded_by(environment);
+        let broken = |mistake: &Mistake| {
+            mistake.key.starts_with("world.") || mistake.key.starts_with("execute.external_force_n")
+        };
+        match self.check(around.clone()) {
+            Ok(_) => Ok(()),
+            Err(mistakes) => match mistakes.into_iter().find(broken) {
+                Some(mistake) => Err(mistake),
+                None => self.of_draw(around).map(drop),
+            },
         }
     }
 
-    fn build(scenario: Scenario, simd: Simd) -> Result<Self, Mistake> {
-        let machine = match &scenario {
-            Scenario::Flight(scenario) => Machine::Flyer {
-                robot: Box::new(flight::robot_of(&scenario.robot)?),
-                world: flight::world_of(&scenario.world)?,
-            },
-            Scenario::Drive(scenario) => {
-                let mut rover = Box::new(drive::rover_of(&scenario.robot)?);
-                rover.kinematics = scenario.generate.kinematics;
-                let map = drive::map_of(&scenario.world.terrain, scenario.seed)?;
-                let planner = Box::new(drive::planner_of(&rover));
-                let keep_out = Arc::new(scenario.world.keep_outs()?);
-                Machine::Driver { rover, planner, map, keep_out }
-            }
-            Scenario::Arm(scenario) => Machine::Arm(Arc::new(arm::station_of(scenario)?)),
-        };
-        Ok(Self { scenario, simd, machine })
+    /// What draws share.
+    fn known(&self) -> Option<(&Scenario, &Machine)> {
+        Some((&self.scenario, &self.machine))
+    }
+
+    fn surrounded_by(&self, environment: &Environment) -> Scenario {
+        let mut around = self.scenario.clone();
+        around.surround(environment);
+        around
+    }
+
+    fn with(&self, scenario: Scenario, machine: Machine) -> Self {
+        Self { scenario, attachments: self.attachments.clone(), simd: self.simd, machine }
+    }
+
+    fn check(&self, scenario: Scenario) -> Result<Self, Vec<Mistake>> {
+        let machine = Machine::of(&scenario, &self.attachments, self.known(), Look::All)?;
+        self.with(scenario, machine).checked()
+    }
+
+    /// Itself, once `[vary]` was looked at.
+    fn checked(self) -> Result<Self, Vec<Mistake>> {
+        let built =
+            |drawn: &Scenario| Machine::of(drawn, &self.attachments, self.known(), Look::All).err().unwrap_or_default();
+        let mistakes = check_vary(&self.scenario, &built);
+        if mistakes.is_empty() { Ok(self) } else { Err(mistakes) }
     }
 
     /// The setup by what its robot does.
     pub fn kind(&self) -> Kind<'_> {
-        let simd = self.simd;
-        match (&self.scenario, &self.machine) {
-            (Scenario::Flight(scenario), Machine::Flyer { robot, world }) => {
-                Kind::Flight(FlightSetup { scenario, robot, world, simd })
+        let Self { scenario, attachments, simd, machine } = self;
+        let simd = *simd;
+        match (scenario, machine) {
+            (Scenario::Flight(scenario), Machine::Flyer(Flyer { robot, world })) => {
+                Kind::Flight(FlightSetup { scenario, attachments, robot, world, simd })
             }
-            (Scenario::Drive(scenario), Machine::Driver { rover, planner, map, keep_out }) => {
-                Kind::Drive(DriveSetup { scenario, rover, planner, map, keep_out, simd })
+            (Scenario::Drive(scenario), Machine::Driver(Driver { rover, planner, map, keep_out })) => {
+                Kind::Drive(DriveSetup { scenario, attachments, rover, planner, map, keep_out, simd })
             }
-            (Scenario::Arm(scenario), Machine::Arm(station)) => Kind::Arm(ArmSetup { scenario, station, simd }),
+            (Scenario::Arm(scenario), Machine::Arm(station)) => {
+                Kind::Arm(ArmSetup { scenario, attachments, station, simd })
+            }
             _ => unreachable!("a setup's machine is built from its scenario"),
         }
     }
@@ -151,30 +193,104 @@ impl Setup {
         self.arm().and_then(|arm| arm.scenario.execute.logs.as_deref())
     }
 
+    /// The score of the user's own, if that is what legs are scored by.
+    pub fn user_score(&self) -> Option<&dyn LegScorer> {
+        self.attachments.user_score(self.scenario.score()).map(|user| &*user.read)
+    }
+
     /// The robot's name.
     pub fn robot_name(&self) -> &str {
-        match &self.machine {
-            Machine::Flyer { robot, .. } => &robot.name,
-            Machine::Driver { rover, .. } => &rover.name,
-            Machine::Arm(station) => &station.arm.name,
-        }
+        self.machine.names().0
     }
 
     /// What must be said wherever the robot is named; empty if nothing.
     pub fn caveat(&self) -> &str {
-        match &self.machine {
-            Machine::Flyer { robot, .. } => &robot.caveat,
-            Machine::Driver { rover, .. } => &rover.caveat,
-            Machine::Arm(station) => &station.arm.caveat,
-        }
+        self.machine.names().1
     }
 
     /// Names of the robot's numbers that were derived, not given.
     pub fn estimated(&self) -> Vec<&str> {
-        match &self.machine {
-            Machine::Flyer { robot, .. } => robot.estimated.iter().map(String::as_str).collect(),
-            Machine::Driver { rover, .. } => rover.estimated.clone(),
-            Machine::Arm(station) => station.arm.estimated.clone(),
+        self.machine.estimated()
+    }
+}
+
+/// The first of what was refused.
+fn first(mistakes: Vec<Mistake>) -> Mistake {
+    match mistakes.into_iter().next() {
+        Some(mistake) => mistake,
+        None => unreachable!("what is refused is refused for a reason"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn flights() -> Setup {
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1,
+            "robot": { "kind": "quadrotor", "name": "test", "mass_kg": 1.0, "inertia_kg_m2": [0.005, 0.005, 0.007],
+                "thrust_coefficient_n_s2": 1.91e-6, "moment_coefficient_n_m_s2": 2.6e-7,
+                "rotor_speed_rad_s": [0.0, 2200.0],
+                "rotors": [{ "x_m": 0.1, "y_m": 0.1, "spin": 1 }, { "x_m": -0.1, "y_m": 0.1, "spin": -1 },
+                    { "x_m": -0.1, "y_m": -0.1, "spin": 1 }, { "x_m": 0.1, "y_m": -0.1, "spin": -1 }] },
+            "world": { "size_m": [10.0, 10.0, 10.0], "obstacles": [
+                { "sphere": { "center_m": [5.0, 5.0, 5.0], "radius_m": 1.0 } }] },
+            "task": { "start_m": [1.0, 1.0, 1.0], "end_m": [9.0, 9.0, 9.0], "length": 3 },
+        }))
+        .expect("a scenario");
+        Setup::new(scenario).expect("a setup")
+    }
+
+    fn drives() -> Setup {
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1,
+            "robot": { "kind": "rover", "name": "test" },
+            "world": { "terrain": { "generator": "craters", "size_m": 20.0 } },
+            "task": { "start": { "x_m": 0.0, "y_m": 0.0 }, "length": 3, "leg_m": [1.0, 5.0] },
+        }))
+        .expect("a scenario");
+        Setup::new(scenario).expect("a setup")
+    }
+
+    fn drawn(setup: &Setup, key: &str, value: Value) -> Setup {
+        setup.drawn(&[(key.to_owned(), value)]).expect(key)
+    }
+
+    #[test]
+    fn a_draw_builds_what_it_changes_and_shares_the_rest() {
+        let nominal = flights();
+        let flyer = |setup: &Setup| match &setup.machine {
+            Machine::Flyer(flyer) => flyer.clone(),
+            _ => panic!("it flies"),
+        };
+        for (key, value, robot, world) in [
+            ("execute.noise", json!(true), true, true),
+            ("world.wind_m_s", json!([1.0, 0.0, 0.0]), true, true),
+            ("robot.mass_kg", json!(1.1), false, true),
+            ("world.obstacles[0].sphere.radius_m", json!(1.5), true, false),
+        ] {
+            let (old, new) = (flyer(&nominal), flyer(&drawn(&nominal, key, value)));
+            let shared = (Arc::ptr_eq(&old.robot, &new.robot), Arc::ptr_eq(&old.world, &new.world));
+            assert_eq!(shared, (robot, world), "{key}");
         }
+        let heavier = drawn(&nominal, "robot.mass_kg", json!(1.1));
+        assert_eq!(heavier.flight().expect("it flies").robot.mass, 1.1);
+    }
+
+    #[test]
+    fn generated_ground_is_made_once() {
+        let nominal = drives();
+        let map = |setup: &Setup| setup.drive().expect("it drives").map.clone();
+        for (key, value, shared) in [
+            ("execute.latency_s", json!(0.1), true),
+            ("generate.kinematics", json!("exact"), true),
+            ("world.terrain.relief_m", json!(0.01), false),
+        ] {
+            assert_eq!(Arc::ptr_eq(&map(&nominal), &map(&drawn(&nominal, key, value))), shared, "{key}");
+        }
+        let changed = nominal.changed(nominal.scenario.clone()).expect("the same");
+        assert!(Arc::ptr_eq(&map(&nominal), &map(&changed)));
     }
 }

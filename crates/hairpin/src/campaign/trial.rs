@@ -2,9 +2,10 @@
 
 use super::graph::Plan;
 use super::judge::measures_of;
-use super::learn::{LegSample, samples_of};
+use super::learn::LegSample;
 use super::mission::{flight_time_limit, run_seed};
 use super::placement::Placement;
+use super::samples::samples_of;
 use super::setup::Kind;
 use super::{Case, Environment, Run, Setup, drive, execute_again, execute_run, flight};
 use crate::judgement::{Measures, Stress};

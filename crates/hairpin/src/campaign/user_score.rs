@@ -1,7 +1,6 @@
 //! Scores of the user's own: whatever tells legs apart outside of hairpin.
 
 use std::fmt;
-use std::sync::Arc;
 
 use serde::Serialize;
 
@@ -10,9 +9,6 @@ use crate::search::LegView;
 
 /// Name of the score's file in a campaign folder.
 pub const NAME: &str = "score.py";
-
-/// What a score of the user's begins with in scenarios.
-const PREFIX: &str = "python:";
 
 /// A leg as a score of the user's sees it; the names are those that the user's function knows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -84,36 +80,8 @@ pub trait LegScorer: Send + Sync {
     fn stop(&self);
 }
 
-/// A score of the user's and the file that it was read from.
-#[derive(Clone)]
-pub struct UserScore {
-    /// The file's contents.
-    pub bytes: Arc<[u8]>,
-    /// Scores legs by it.
-    pub scorer: Arc<dyn LegScorer>,
-}
-
-impl UserScore {
-    /// The file that a score of a scenario names: `python:FILE`.
-    pub fn file_of(score: &str) -> Option<&str> {
-        score.strip_prefix(PREFIX)
-    }
-
-    /// The score of a resolved scenario, whose folder holds the file.
-    pub fn score() -> String {
-        format!("{PREFIX}{NAME}")
-    }
-}
-
-/// Of the same file.
-impl PartialEq for UserScore {
-    fn eq(&self, other: &Self) -> bool {
-        self.bytes == other.bytes
-    }
-}
-
-impl fmt::Debug for UserScore {
+impl fmt::Debug for dyn LegScorer + '_ {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("UserScore").field("bytes", &self.bytes.len()).finish_non_exhaustive()
+        f.write_str("LegScorer")
     }
 }

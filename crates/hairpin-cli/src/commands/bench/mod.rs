@@ -19,7 +19,7 @@ use hairpin::campaign::Setup;
 use hairpin::campaign::flight::FlightSetup;
 use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::Quadrotor;
-use hairpin_formats::scenario::scenario_for;
+use hairpin_formats::scenario::setup_for;
 use serde_json::json;
 
 use crate::args::Bench;
@@ -122,7 +122,7 @@ fn warn_of_debug_build() {
 }
 
 fn robot(name: &str) -> Result<Quadrotor, Problem> {
-    Ok(flyer(&Setup::new(scenario_for(name, &[])?)?)?.robot.clone())
+    Ok(flyer(&setup_for(name, &[])?)?.robot.clone())
 }
 
 fn flyer(setup: &Setup) -> Result<FlightSetup<'_>, Problem> {

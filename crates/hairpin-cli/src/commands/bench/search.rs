@@ -3,7 +3,7 @@
 //! counted, and one distinct trajectory a graph.
 
 use hairpin::campaign::{Known, Setup, Stop, Tally, generate};
-use hairpin_formats::scenario::scenario_for;
+use hairpin_formats::scenario::setup_for;
 
 use super::clock::{alone, median_rate};
 use super::{Row, Target};
@@ -32,7 +32,7 @@ pub(super) fn scenario(length: usize, revisits: bool, cases: u64) -> Result<Setu
         set("generate", "{ reach = \"hull\", score = \"high-velocity-90\" }".into()),
         set("generate.search", format!("{{ waypoints = 250, width = 5, revisits = {revisits}, cases = {cases} }}")),
     ];
-    Ok(Setup::new(scenario_for("flightgoggles", &sets)?)?)
+    Ok(setup_for("flightgoggles", &sets)?)
 }
 
 /// Generates on this thread alone, so that its clock sees all of it.

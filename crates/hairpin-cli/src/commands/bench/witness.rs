@@ -1,10 +1,9 @@
 //! Witness legs of the shipped `quadrotor` scenario: candidates judged, and accepted ones proven between samples.
 
-use hairpin::campaign::Setup;
 use hairpin::feasibility::Limits;
 use hairpin::feasibility::steering::{LegEnd, LegJudge, ProofSettings};
 use hairpin::math::random::stream;
-use hairpin_formats::scenario::scenario_for;
+use hairpin_formats::scenario::setup_for;
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
@@ -26,7 +25,7 @@ struct Legs {
 impl Legs {
     /// Random pairs of waypoint states no farther apart than the speed limit allows, with a leg time of the ladder's range.
     fn new(count: usize) -> Result<Self, Problem> {
-        let setup = Setup::new(scenario_for("quadrotor", &[])?)?;
+        let setup = setup_for("quadrotor", &[])?;
         let setup = super::flyer(&setup)?;
         let given = setup.scenario.generate.limits;
         let max_speed = given.max_speed_m_s.unwrap_or(setup.robot.max_speed);

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use hairpin::campaign::arm::{ArmGraph, graph_of};
 use hairpin::campaign::{Setup, Stop};
 use hairpin::search::heaviest::{Heaviest, Outcome};
-use hairpin_formats::scenario::arm_scenario_for;
+use hairpin_formats::scenario::arm_setup_for;
 use serde_json::{Value, json};
 
 use super::code;
@@ -19,7 +19,7 @@ use crate::problem::Problem;
 
 /// Runs the command on `points` in `cell`.
 pub(super) fn run(asked: &MaxLoad, points: &Path, cell: &str) -> Result<u8, Problem> {
-    let setup = Setup::new(arm_scenario_for(cell, points, &sets(asked)?)?)?;
+    let setup = arm_setup_for(cell, points, &sets(asked)?)?;
     let Some(arm) = setup.arm() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
     let (begun, deadline) = (Instant::now(), Deadline::after(asked.time_limit));
     let stop = Stop {

@@ -33,8 +33,8 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     let mut trouble = None;
     let bar = console::progress("generate", 0);
     let begun = Instant::now();
-    let user_score = work.setup.scenario.user_score();
-    let score_trouble = || user_score.and_then(|user| user.scorer.trouble());
+    let user_score = work.setup.user_score();
+    let score_trouble = || user_score.and_then(|user| user.trouble());
     let stop = Stop {
         cancelled: &|| interrupt::asked() || deadline.passed() || score_trouble().is_some(),
         progress: &|done, of| {

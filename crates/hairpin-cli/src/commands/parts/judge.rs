@@ -1,6 +1,6 @@
 //! Parts three and four: the verdict on the flights in the folder, and the report.
 
-use hairpin::campaign::arm::Moves;
+use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::{
     self, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Status, Tally,
     report::{Shown, worst_first},

@@ -92,10 +92,10 @@ impl Saved {
         let repro = Repro::read(file)?;
         let refuse = |why: String| Problem::input(format!("{}: {why}", file.display()));
         let case = repro.case().map_err(refuse)?;
-        let mut scenario = repro.scenario.clone();
-        scenario::attach(&mut scenario, file.parent().unwrap_or(Path::new("")))?;
-        let setup = if adopt(&mut scenario, &now.scenario) {
-            let setup = Setup::new(scenario).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
+        let mut saved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
+        let setup = if adopt(&mut saved.scenario, &now.scenario) {
+            saved.attachments.baseline = now.attachments.baseline.clone();
+            let setup = Setup::new(saved).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
             Some(setup.with_simd(now.simd))
         } else {
             None

@@ -103,7 +103,7 @@ pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
     if station.points.is_empty() {
         return Err(nowhere(scenario));
     }
-    let cost = cost_of(scenario, station.points.len())?;
+    let cost = cost_of(setup)?;
     let learned = matches!(scenario.generate.cost, CostSection::Learned(_));
     if scenario.generate.mode == ArmMode::Cartesian && (learned || !matches!(cost, Cost::Distance | Cost::Table(_))) {
         return Err(format!("cost `{}` needs joints: mode = \"joint\"", scenario.generate.cost.word()));
@@ -146,8 +146,8 @@ fn in_space(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
     let points: Vec<Point3<f64>> = station.points.iter().map(|point| point.pose.translation.vector.into()).collect();
     let settings = CartesianSettings { radius: sphere(station, scenario), level: Level::Certified, simd: setup.simd };
     let reachability = cartesian(&points, &station.cell_within_reach(), &settings);
-    let costs = masked(reachability.matrix(), scenario);
-    let (unit, unit_name) = unit_of(cost, scenario);
+    let costs = masked(reachability.matrix(), setup);
+    let (unit, unit_name) = unit_of(cost, setup);
     let anywhere = vec![true; points.len()];
     ArmGraph {
         reachability,
@@ -170,25 +170,22 @@ fn in_joints(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
     let graph = with_learned(setup, joint(arm, tool, cell, &stands, &settings, cost));
     let wanted = scenario.generate.moves.arcs;
     let arcs = wanted.then(|| arcs(arm, tool, cell, &stands, &graph.joints, &settings, cost));
-    let costs = masked(graph.graph.matrix(), scenario);
+    let costs = masked(graph.graph.matrix(), setup);
     let free = |refusals: &[Option<Refusal>]| refusals.iter().map(Option::is_none).collect();
     let (from_home, to_home) = (free(&graph.from_home), free(&graph.to_home));
-    let (unit, unit_name) = unit_of(cost, scenario);
+    let (unit, unit_name) = unit_of(cost, setup);
     let (reachability, postures) = (graph.graph, Some(graph.joints));
     ArmGraph { reachability, postures, costs, from_home, to_home, arcs, unit, unit_name }
 }
 
 /// With what a learned model expects in place of the costs, where one is asked for.
 fn with_learned(setup: &ArmSetup, graph: JointGraph) -> JointGraph {
-    let model = match &setup.scenario.generate.cost {
-        CostSection::Learned(learned) => learned.model.as_ref(),
-        _ => None,
-    };
-    let Some(kept) = model else { return graph };
+    let CostSection::Learned(learned) = &setup.scenario.generate.cost else { return graph };
+    let Some(model) = setup.attachments.model(&learned.score) else { return graph };
     let JointGraph { graph: reachability, joints, .. } = graph;
     let reachability =
         reachability.with_costs("1e-6 of the model's unit", |from, to| match (&joints[from], &joints[to]) {
-            (Ok(start), Ok(end)) => setup.expected(&kept.model, [from, to], [start, end]),
+            (Ok(start), Ok(end)) => setup.expected(&model.read, [from, to], [start, end]),
             _ => 0,
         });
     JointGraph { graph: reachability, joints, ..graph }
@@ -251,13 +248,14 @@ fn configuration([cf1, cf4, cf6, cfx]: [i32; 4]) -> Option<Configuration> {
 ///
 /// # Errors
 /// A table of another size than the cloud, in a sentence's part.
-fn cost_of(scenario: &ArmScenario, points: usize) -> Result<Cost, String> {
-    match &scenario.generate.cost {
+fn cost_of(setup: &ArmSetup) -> Result<Cost, String> {
+    let points = setup.station.points.len();
+    match &setup.scenario.generate.cost {
         CostSection::Named(name) => Ok(by_name(*name)),
         // What a model expects takes the place of these once the graph is known.
         CostSection::Learned(_) => Ok(Cost::Distance),
         CostSection::Table(table) => {
-            let matrix = table.costs.as_ref().ok_or_else(|| format!("`{}` was not read", table.table))?;
+            let matrix = setup.attachments.costs(table).ok_or_else(|| format!("`{}` was not read", table.table))?;
             if matrix.points != points {
                 return Err(format!("the table of costs is for {} points, the cloud has {points}", matrix.points));
             }
@@ -286,18 +284,19 @@ fn by_name(name: CostName) -> Cost {
 }
 
 /// What one unit of a cost is, and in which unit users are told.
-fn unit_of(cost: &Cost, scenario: &ArmScenario) -> (f64, String) {
-    if let CostSection::Learned(learned) = &scenario.generate.cost {
-        return (1e-6, learned.model.as_ref().map_or_else(String::new, |kept| kept.model.unit.clone()));
+fn unit_of(cost: &Cost, setup: &ArmSetup) -> (f64, String) {
+    let files = setup.attachments;
+    if let CostSection::Learned(learned) = &setup.scenario.generate.cost {
+        return (1e-6, files.model(&learned.score).map_or_else(String::new, |model| model.read.unit.clone()));
     }
     match cost {
         Cost::Distance => (1e-3, "mm".into()),
         Cost::Time => (1e-6, "s".into()),
         Cost::ControllerLoad | Cost::JointEffort => (1.0, cost.unit().into()),
         Cost::Sum(_) => (1e-6, "weighted".into()),
-        Cost::Table(_) => match &scenario.generate.cost {
+        Cost::Table(_) => match &setup.scenario.generate.cost {
             CostSection::Table(table) => {
-                (table.costs.as_ref().map_or(1.0, |matrix| matrix.unit), "the table's unit".into())
+                (files.costs(table).map_or(1.0, |matrix| matrix.unit), "the table's unit".into())
             }
             _ => (1.0, String::new()),
         },
@@ -305,8 +304,8 @@ fn unit_of(cost: &Cost, scenario: &ArmScenario) -> (f64, String) {
 }
 
 /// The costs of a graph's moves as a table has them, and without those that it leaves out.
-fn masked(costs: Vec<Option<i64>>, scenario: &ArmScenario) -> Vec<Option<i64>> {
-    let CostSection::Table(table) = &scenario.generate.cost else { return costs };
-    let Some(matrix) = &table.costs else { return costs };
+fn masked(costs: Vec<Option<i64>>, setup: &ArmSetup) -> Vec<Option<i64>> {
+    let CostSection::Table(table) = &setup.scenario.generate.cost else { return costs };
+    let Some(matrix) = setup.attachments.costs(table) else { return costs };
     costs.into_iter().zip(&matrix.costs).map(|(cost, given)| cost.and(*given)).collect()
 }

@@ -2,6 +2,7 @@
 
 mod assumptions;
 mod cell;
+mod check;
 mod claim;
 mod clock;
 mod deaths;
@@ -28,7 +29,6 @@ pub(super) use deaths::deaths;
 pub(super) use execute::run;
 pub use graph::{ArmGraph, graph_of};
 pub(super) use judge::{in_small_units, latest, measured};
-pub use moves::{Baseline, BaselineError, CaseMoves, Moves, ReleaseMoves, RunMoves};
 pub(super) use plan::track;
 pub use points::CellPoint;
 pub use recorded::Shorter;
@@ -36,6 +36,5 @@ pub use regression::RegressionError;
 pub(super) use replan::Replanner;
 pub use solve::Question;
 pub(super) use solve::Solver;
-pub(super) use station::station_of;
 pub use station::{ArmSetup, Station};
 pub(super) use verify::verify;

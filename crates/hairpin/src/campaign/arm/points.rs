@@ -4,8 +4,10 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
+use super::ArmSetup;
 use super::frame::frame_of;
-use crate::campaign::scenario::{ArmScenario, CloudPoint, DrawnPoints, Mistake, PointsFrame, PointsSource};
+use crate::campaign::attachments::{Attachments, CloudPoint};
+use crate::campaign::scenario::{ArmScenario, ArmTask, DrawnPoints, Mistake, PointsFrame, PointsSource};
 use crate::math::random::{Stream, named_seed, stream, unit};
 use crate::robot::arm::{WorkObject, unit_quaternion_of};
 
@@ -21,6 +23,18 @@ pub struct CellPoint {
 /// Draws per point that is asked for: in a cell where fewer than one in so many fits, the cell is at fault.
 pub(super) const DRAWS: usize = 20_000;
 
+/// How many points there are; 0 where they are in a file that was not read.
+pub(super) fn count(task: &ArmTask, files: &Attachments) -> u64 {
+    task.count(files.cloud(&task.points).map_or(0, |cloud| cloud.len() as u64))
+}
+
+impl ArmSetup<'_> {
+    /// How many points the scenario asks for: where none of those to be drawn fits there are fewer.
+    pub fn asked_points(&self) -> u64 {
+        count(&self.scenario.task, self.attachments)
+    }
+}
+
 /// The points of a resolved scenario. `fits` says whether the arm can stand at a drawn pose, and `reach` is the ball (centre and
 /// radius, m, base frame) that it can stand in.
 ///
@@ -28,6 +42,7 @@ pub(super) const DRAWS: usize = 20_000;
 /// The key of a point that is no point, or places for some of the drawn ones only.
 pub(super) fn points_of(
     scenario: &ArmScenario,
+    files: &Attachments,
     work_object: &WorkObject,
     reach: (Vector3<f64>, f64),
     fits: impl Fn(&Isometry3<f64>) -> bool,
@@ -58,7 +73,7 @@ pub(super) fn points_of(
     };
     match &task.points {
         PointsSource::File(_) => {
-            let cloud = task.cloud.as_deref().unwrap_or_default();
+            let cloud = files.cloud(&task.points).unwrap_or_default();
             cloud.iter().enumerate().map(|(index, given)| point(index, given)).collect()
         }
         PointsSource::List(list) => {

@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use super::{ArmSetup, CaseMoves, Moves};
+use super::ArmSetup;
+use crate::campaign::baseline::{CaseMoves, Moves};
 use crate::campaign::{Case, RunDeviation};
 use crate::judgement::Verdict;
 use crate::judgement::moves::{Band, MovesError, ProgramComparison, Regression, Release, compare, offset_told, trend};
@@ -46,11 +47,8 @@ impl ArmSetup<'_> {
     /// # Errors
     /// Programs that only one of the two has, or that differ, by name; too few runs.
     pub fn regression(&self, moves: &Moves, name: &str) -> Result<Option<Regression>, RegressionError> {
-        let Some((limit, baseline)) =
-            self.scenario.spec.regression.as_ref().and_then(|limit| Some((limit, limit.read.as_deref()?)))
-        else {
-            return Ok(None);
-        };
+        let Some(limit) = &self.scenario.spec.regression else { return Ok(None) };
+        let Some(baseline) = self.attachments.baseline(limit) else { return Ok(None) };
         let Some((last, earlier)) = baseline.releases.split_last() else { return Ok(None) };
         same_programs(&last.name, &last.cases, &moves.cases)?;
         let band = Band { sigma: limit.band_sigma, ..Band::default() };
@@ -161,7 +159,7 @@ fn numbers(cases: &[CaseMoves]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::arm::{Baseline, ReleaseMoves, RunMoves};
+    use crate::campaign::baseline::{Baseline, ReleaseMoves, RunMoves};
 
     fn case(number: usize, moves: &[&str], runs: usize) -> CaseMoves {
         let run = |run| RunMoves {

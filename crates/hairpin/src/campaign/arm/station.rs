@@ -1,12 +1,17 @@
 //! What a scenario of an arm describes: the arm with its tool, the cell around it, and the points of the cloud.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Vector3};
 
 use super::cell::cell_of;
+use super::check;
 use super::frame::{frame_of, mistake};
 use super::graph::stands;
 use super::points::{CellPoint, points_of};
-use crate::campaign::scenario::{ArmScenario, Mistake};
+use crate::campaign::attachments::Attachments;
+use crate::campaign::build::Build;
+use crate::campaign::scenario::{ArmScenario, Mistake, PointsSource};
 use crate::robot::arm::{Arm, Joints, Tool, WorkObject};
 use crate::world::cell::{Cell, Part, Region};
 
@@ -32,17 +37,49 @@ pub struct Station {
 pub struct ArmSetup<'a> {
     /// Every key.
     pub scenario: &'a ArmScenario,
+    /// What its files hold.
+    pub attachments: &'a Attachments,
     /// Arm, cell and points.
     pub station: &'a Station,
     /// Version of the kernels.
     pub simd: crate::math::simd::Simd,
 }
 
+impl Build for Arc<Station> {
+    type Keys = ArmScenario;
+
+    fn build(keys: &ArmScenario, files: &Attachments, known: Option<(&ArmScenario, &Self)>) -> Result<Self, Mistake> {
+        match known {
+            Some((old, known)) if same_station(old, keys) => Ok(known.clone()),
+            _ => station_of(keys, files).map(Self::new),
+        }
+    }
+
+    fn check(
+        keys: &ArmScenario,
+        files: &Attachments,
+        known: Option<(&ArmScenario, &Self)>,
+    ) -> Result<Self, Vec<Mistake>> {
+        check::check(keys, files, || Self::build(keys, files, known))
+    }
+}
+
+/// Whether two scenarios with the same files describe one station.
+fn same_station(a: &ArmScenario, b: &ArmScenario) -> bool {
+    // Where points are drawn they are such that the arm can stand at, as the moves between them are to be proven clear.
+    let drawn_alike = || {
+        let (a_moves, b_moves) = (&a.generate.moves, &b.generate.moves);
+        (a.seed, a.generate.mode, a.spec.path) == (b.seed, b.generate.mode, b.spec.path) && a_moves == b_moves
+    };
+    let drawn = matches!(a.task.points, PointsSource::Drawn(_));
+    (&a.robot, &a.world, &a.task) == (&b.robot, &b.world, &b.task) && (!drawn || drawn_alike())
+}
+
 /// Builds what a resolved scenario describes.
 ///
 /// # Errors
 /// The key whose value makes no arm, tool, work object, obstacle or point.
-pub(in crate::campaign) fn station_of(scenario: &ArmScenario) -> Result<Station, Mistake> {
+fn station_of(scenario: &ArmScenario, files: &Attachments) -> Result<Station, Mistake> {
     let arm = scenario.robot.resolved()?.build().map_err(|error| mistake("robot", error))?;
     let tool = &scenario.world.tool;
     let tool = Tool::new(&tool.name, tool.tcp_mm, tool.q1_q4, tool.radius_mm, tool.mass_kg, tool.cog_mm)
@@ -71,7 +108,7 @@ pub(in crate::campaign) fn station_of(scenario: &ArmScenario) -> Result<Station,
     }
     let mut station = Station { arm, tool, work_object, cell, points: Vec::new(), home };
     let reach = station.reach();
-    station.points = points_of(scenario, &station.work_object, reach, |pose| stands(&station, scenario, pose))?;
+    station.points = points_of(scenario, files, &station.work_object, reach, |pose| stands(&station, scenario, pose))?;
     Ok(station)
 }
 

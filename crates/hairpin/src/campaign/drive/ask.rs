@@ -4,6 +4,7 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
+use super::DriveSetup;
 use crate::campaign::graph::{Looped, Outcome, Plan, Question, search};
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{DriveScenario, SearchSection};
@@ -88,11 +89,11 @@ where
 }
 
 /// What was learned of legs, by rounds before this one or by the scenario's model, or what the user's own program says of them.
-pub(super) fn learned<'a>(scenario: &'a DriveScenario, looped: &Looped<'a>) -> Option<AnyScore<'a>> {
-    let search = &scenario.generate.search;
-    let kept = search.model.as_ref().map(|kept| &*kept.model);
-    let learned = looped.models().first().or(kept).map(AnyScore::Learned);
-    learned.or(search.user_score.as_ref().map(AnyScore::User))
+pub(super) fn learned<'a>(setup: &DriveSetup<'a>, looped: &Looped<'a>) -> Option<AnyScore<'a>> {
+    let score = &setup.scenario.generate.search.score;
+    let model = setup.attachments.model(score).map(|model| &*model.read);
+    let learned = looped.models().first().or(model).map(AnyScore::Learned);
+    learned.or(setup.attachments.user_score(score).map(|user| AnyScore::User(&*user.read)))
 }
 
 /// A round's other models.

@@ -2,6 +2,7 @@
 
 mod ask;
 mod assumptions;
+mod check;
 mod deaths;
 mod execute;
 mod legs;
@@ -22,7 +23,7 @@ pub(super) use place::place;
 pub(super) use plan::{timed, track};
 pub(super) use replan::replan;
 pub use setup::DriveSetup;
-pub(super) use setup::{map_of, planner_of, rover_of};
+pub(super) use setup::Driver;
 pub use site::{Site, drive_piece, flat_claim, replay_flat};
 pub(super) use solve::Solver;
 pub(super) use verify::{verify, verify_environment};

@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use super::check;
+use crate::campaign::attachments::Attachments;
+use crate::campaign::build::Build;
 use crate::campaign::scenario::{
     DriveScenario, GeneratorName, GroundDescription, Mistake, NoData, ProfileName, RobotSource, TerrainSection,
 };
@@ -20,6 +23,8 @@ use super::Site;
 pub struct DriveSetup<'a> {
     /// Every key, the robot's table inline.
     pub scenario: &'a DriveScenario,
+    /// What its files hold.
+    pub attachments: &'a Attachments,
     /// The vehicle.
     pub rover: &'a Rover,
     /// The vehicle as plans have it: without latency, which a leg's end cannot hand to the next one.
@@ -103,11 +108,86 @@ impl<'a> DriveSetup<'a> {
     }
 }
 
+/// A vehicle, and the ground it drives on.
+#[derive(Debug, Clone)]
+pub(in crate::campaign) struct Driver {
+    /// The vehicle.
+    pub(in crate::campaign) rover: Arc<Rover>,
+    /// The vehicle as plans have it.
+    pub(in crate::campaign) planner: Arc<Rover>,
+    /// The ground.
+    pub(in crate::campaign) map: Arc<ElevationMap>,
+    /// Where nothing may drive.
+    pub(in crate::campaign) keep_out: Arc<KeepOuts>,
+}
+
+impl Build for Driver {
+    type Keys = DriveScenario;
+
+    fn build(
+        keys: &DriveScenario,
+        files: &Attachments,
+        known: Option<(&DriveScenario, &Self)>,
+    ) -> Result<Self, Mistake> {
+        let [rover, planner] = Self::rovers(keys, known)?;
+        Ok(Self { rover, planner, map: Self::map(keys, files, known)?, keep_out: Self::keep_out(keys, known)? })
+    }
+
+    fn check(
+        keys: &DriveScenario,
+        files: &Attachments,
+        known: Option<(&DriveScenario, &Self)>,
+    ) -> Result<Self, Vec<Mistake>> {
+        check::check(keys, files, known)
+    }
+}
+
+impl Driver {
+    /// The vehicle, and as plans have it.
+    pub(super) fn rovers(
+        keys: &DriveScenario,
+        known: Option<(&DriveScenario, &Self)>,
+    ) -> Result<[Arc<Rover>; 2], Mistake> {
+        let kinematics = keys.generate.kinematics;
+        if let Some((old, known)) = known
+            && (&old.robot, old.generate.kinematics) == (&keys.robot, kinematics)
+        {
+            return Ok([known.rover.clone(), known.planner.clone()]);
+        }
+        let rover = Rover { kinematics, ..rover_of(&keys.robot)? };
+        let planner = planner_of(&rover);
+        Ok([rover, planner].map(Arc::new))
+    }
+
+    /// Ground that is generated is made once, and shared by all draws that do not change it.
+    pub(super) fn map(
+        keys: &DriveScenario,
+        files: &Attachments,
+        known: Option<(&DriveScenario, &Self)>,
+    ) -> Result<Arc<ElevationMap>, Mistake> {
+        let terrain = &keys.world.terrain;
+        match known {
+            Some((old, known)) if (&old.world.terrain, old.seed) == (terrain, keys.seed) => Ok(known.map.clone()),
+            _ => map_of(terrain, keys.seed, files),
+        }
+    }
+
+    pub(super) fn keep_out(
+        keys: &DriveScenario,
+        known: Option<(&DriveScenario, &Self)>,
+    ) -> Result<Arc<KeepOuts>, Mistake> {
+        match known {
+            Some((old, known)) if old.world.keep_out == keys.world.keep_out => Ok(known.keep_out.clone()),
+            _ => keys.world.keep_outs().map(Arc::new),
+        }
+    }
+}
+
 /// The vehicle of a resolved source.
 ///
 /// # Errors
 /// The robot's key that is out of bounds; a name that was not resolved before.
-pub(in crate::campaign) fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistake> {
+fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistake> {
     let wrong = |field: String, value, bound| Mistake { key: format!("robot.{field}"), value, bound };
     match source.resolved()? {
         GroundDescription::Rover(rover) => rover.build().map_err(|e| wrong(e.field, e.value, e.bound)),
@@ -121,16 +201,16 @@ pub(in crate::campaign) fn rover_of(source: &RobotSource<GroundDescription>) -> 
 }
 
 /// `rover` as plans have it.
-pub(in crate::campaign) fn planner_of(rover: &Rover) -> Rover {
+fn planner_of(rover: &Rover) -> Rover {
     Rover { response: Response { latency: 0.0, ..rover.response }, ..rover.clone() }
 }
 
-/// The ground of a section whose file was read; `seed` is the scenario's.
+/// The ground of a section; `seed` is the scenario's.
 ///
 /// # Errors
 /// The key that is out of bounds; a file that was not read before.
-pub(in crate::campaign) fn map_of(terrain: &TerrainSection, seed: u64) -> Result<Arc<ElevationMap>, Mistake> {
-    if let Some(map) = &terrain.map {
+fn map_of(terrain: &TerrainSection, seed: u64, files: &Attachments) -> Result<Arc<ElevationMap>, Mistake> {
+    if let Some(map) = files.map(terrain) {
         return Ok(map.clone());
     }
     let Some(generator) = terrain.generator else {

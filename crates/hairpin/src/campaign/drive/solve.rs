@@ -10,10 +10,11 @@ use super::legs::count;
 use super::stepwise::Stepwise;
 use super::surround::{coordinates, put};
 use crate::campaign::Evidence;
-use crate::campaign::environment::into_unit_ball;
-use crate::campaign::graph::{Counter, Executions, Looped, Outcome, Plan, Remembered, Surroundings, Wanted};
+use crate::campaign::graph::{
+    Counter, Executions, Looped, Outcome, Plan, Remembered, Surroundings, Wanted, into_unit_ball,
+};
 use crate::campaign::learn::AnyScore;
-use crate::campaign::scenario::{DriveSearch, GroundReach, Manoeuvre, SearchMethod, SearchSection};
+use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchMethod, SearchSection};
 use crate::feasibility::reach::drive::{
     DriveLegs, DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres,
     sample_ground,
@@ -164,7 +165,7 @@ impl<'a> Solver<'a> {
             let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
             Some(Plan { leg_times, witness: Some(drive.into()), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
-        let score = learned(self.setup.scenario, &graph.looped).unwrap_or(AnyScore::Named(Score::Ground));
+        let score = learned(&self.setup, &graph.looped).unwrap_or(AnyScore::Named(Score::Ground));
         let also = beside(&graph.looped);
         let (reach, start) = (&roadmap, roadmap.start());
         let asked = Asked { scenario: self.setup.scenario, graph, reach, start, score, also, lookahead: 0 };
@@ -214,15 +215,17 @@ pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
         pace: setup.pace(),
         control: generate.control.control(),
         directions: setup.directions(),
-        score: ground_score(&generate.search)?,
+        score: ground_score(setup)?,
         ..DriveSettings::of(setup.planner)
     };
     Ok(settings)
 }
 
 /// What a leg's `ground` is: the score that is named or, as an input of a learned one, slope and slip.
-fn ground_score(search: &DriveSearch) -> Result<GroundScore, String> {
-    let learned = search.model.is_some() || search.user_score.is_some() || search.method == SearchMethod::Adaptive;
+fn ground_score(setup: &DriveSetup) -> Result<GroundScore, String> {
+    let (search, files) = (&setup.scenario.generate.search, setup.attachments);
+    let of_file = files.model(&search.score).is_some() || files.user_score(&search.score).is_some();
+    let learned = of_file || search.method == SearchMethod::Adaptive;
     let name = if learned { LEARNED_FROM } else { search.score_of_legs() };
     GroundScore::named(name).map_err(|error| error.to_string())
 }

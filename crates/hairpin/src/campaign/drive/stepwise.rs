@@ -156,7 +156,7 @@ impl<'a> Stepwise<'a> {
         };
         let plan = |found: Found<N>| Some(Plan::new(&found, points, evidence));
         let (reach, lookahead) = (&filtered, 1);
-        if let Some(score) = learned(scenario, &graph.looped) {
+        if let Some(score) = learned(&self.setup, &graph.looped) {
             let also = beside(&graph.looped);
             return ask(Asked { scenario, graph, reach, start, score, also, lookahead }, |_, _| true, plan);
         }

@@ -62,7 +62,7 @@ impl Trial<'_> {
     /// The scenario with `value` at the key; none where no scenario may have it.
     fn with(&self, value: &Value) -> Option<Setup> {
         let draws = [(self.knob.key.to_owned(), value.clone())];
-        Setup::new(vary::apply(&self.setup.scenario, &draws).ok()?).ok()
+        self.setup.changed(vary::apply(&self.setup.scenario, &draws).ok()?).ok()
     }
 
     /// Whether something is feasible with `value` at the key.
@@ -71,7 +71,7 @@ impl Trial<'_> {
             return false;
         }
         let Some(changed) = self.with(value) else { return false };
-        searched(&changed.with_simd(self.setup.simd), false, self.stop).solved > 0
+        searched(&changed, false, self.stop).solved > 0
     }
 
     /// As far from `now` towards `loosest` as the key's own bounds let it be.

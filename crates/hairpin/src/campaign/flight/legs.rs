@@ -27,10 +27,11 @@ pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64, loo
     if let Wanted::Optima([name, ..]) = looped.wanted {
         return named(setup, name, graph, top_speed);
     }
-    match (looped.models(), &generate.model, &generate.user_score) {
+    let (model, user) = (setup.attachments.model(&generate.score), setup.attachments.user_score(&generate.score));
+    match (looped.models(), model, user) {
         ([model, ..], ..) => AnyScore::Learned(model),
-        ([], Some(kept), _) => AnyScore::Learned(&kept.model),
-        ([], None, Some(user)) => AnyScore::User(user),
+        ([], Some(model), _) => AnyScore::Learned(&model.read),
+        ([], None, Some(user)) => AnyScore::User(&*user.read),
         ([], None, None) => named(setup, generate.score_of_legs(), graph, top_speed),
     }
 }

@@ -3,6 +3,7 @@
 mod assumptions;
 mod blocking;
 mod certificates;
+mod check;
 mod deaths;
 mod fly;
 mod graph;
@@ -24,6 +25,6 @@ pub(super) use place::place;
 pub(super) use plan::{timed, track};
 pub(super) use replan::replan;
 pub use setup::FlightSetup;
-pub(super) use setup::{robot_of, world_of};
+pub(super) use setup::Flyer;
 pub(super) use solve::Solver;
 pub(super) use verify::{verify, verify_environment};

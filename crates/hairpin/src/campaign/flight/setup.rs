@@ -1,7 +1,12 @@
 //! From a flight scenario's numbers to the robot and the space they describe.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 
+use super::check;
+use crate::campaign::attachments::Attachments;
+use crate::campaign::build::Build;
 use crate::campaign::scenario::{FlightScenario, Mistake, ObstacleSection, RobotSource, WorldSection};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription};
@@ -12,6 +17,8 @@ use crate::world::{Obstacle, Shape, World, WorldError};
 pub struct FlightSetup<'a> {
     /// Every key, the robot's table inline.
     pub scenario: &'a FlightScenario,
+    /// What its files hold.
+    pub attachments: &'a Attachments,
     /// The robot of the claim.
     pub robot: &'a Quadrotor,
     /// The space.
@@ -20,11 +27,60 @@ pub struct FlightSetup<'a> {
     pub simd: Simd,
 }
 
+/// A robot that flies, and the space around it.
+#[derive(Debug, Clone)]
+pub(in crate::campaign) struct Flyer {
+    /// The robot of the claim.
+    pub(in crate::campaign) robot: Arc<Quadrotor>,
+    /// The space.
+    pub(in crate::campaign) world: Arc<World>,
+}
+
+impl Build for Flyer {
+    type Keys = FlightScenario;
+
+    fn build(keys: &FlightScenario, _: &Attachments, known: Option<(&FlightScenario, &Self)>) -> Result<Self, Mistake> {
+        Ok(Self { robot: Self::robot(keys, known)?, world: Self::world(keys, known)? })
+    }
+
+    fn check(
+        keys: &FlightScenario,
+        files: &Attachments,
+        known: Option<(&FlightScenario, &Self)>,
+    ) -> Result<Self, Vec<Mistake>> {
+        check::check(keys, files, known)
+    }
+}
+
+impl Flyer {
+    pub(super) fn robot(
+        keys: &FlightScenario,
+        known: Option<(&FlightScenario, &Self)>,
+    ) -> Result<Arc<Quadrotor>, Mistake> {
+        match known {
+            Some((old, known)) if old.robot == keys.robot => Ok(known.robot.clone()),
+            _ => robot_of(&keys.robot).map(Arc::new),
+        }
+    }
+
+    pub(super) fn world(keys: &FlightScenario, known: Option<(&FlightScenario, &Self)>) -> Result<Arc<World>, Mistake> {
+        match known {
+            Some((old, known)) if same_space(&old.world, &keys.world) => Ok(known.world.clone()),
+            _ => world_of(&keys.world).map(Arc::new),
+        }
+    }
+}
+
+/// Whether two sections describe one space; its air is not part of it.
+fn same_space(a: &WorldSection, b: &WorldSection) -> bool {
+    (a.size_m, a.keep_in_margin_m) == (b.size_m, b.keep_in_margin_m) && a.obstacles == b.obstacles
+}
+
 /// The robot of a resolved source.
 ///
 /// # Errors
 /// The robot's key that is out of bounds; a name that was not resolved before.
-pub(in crate::campaign) fn robot_of(source: &RobotSource<QuadrotorDescription>) -> Result<Quadrotor, Mistake> {
+fn robot_of(source: &RobotSource<QuadrotorDescription>) -> Result<Quadrotor, Mistake> {
     source.resolved()?.build().map_err(|error| Mistake {
         key: format!("robot.{}", error.field),
         value: error.value,
@@ -36,7 +92,7 @@ pub(in crate::campaign) fn robot_of(source: &RobotSource<QuadrotorDescription>) 
 ///
 /// # Errors
 /// The world's key that is out of bounds.
-pub(in crate::campaign) fn world_of(section: &WorldSection) -> Result<World, Mistake> {
+fn world_of(section: &WorldSection) -> Result<World, Mistake> {
     let mut obstacles = Vec::with_capacity(section.obstacles.len());
     for (index, obstacle) in section.obstacles.iter().enumerate() {
         let shape = shape_of(obstacle).map_err(|error| mistake(&format!("obstacles[{index}]."), error))?;

@@ -1,7 +1,6 @@
 //! Wind and gust that are searched beside the waypoints, as numbers between −1 and 1.
 
-use crate::campaign::environment::into_unit_ball;
-use crate::campaign::graph::Plan;
+use crate::campaign::graph::{Plan, into_unit_ball};
 use crate::campaign::scenario::{DiscreteGustSection, EnvironmentSection};
 
 /// How many numbers there are: three of the wind, three of the gust and its time.

@@ -79,7 +79,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
         None => wanted.saturating_mul(GRAPHS_PER_CASE),
     };
     let batch = 2 * rayon::current_num_threads() as u64;
-    let cut_short = setup.scenario.executes() || setup.scenario.user_score().is_some();
+    let cut_short = setup.scenario.executes() || setup.user_score().is_some();
     (stop.progress)(collector.cases, wanted as usize);
     'units: while collector.tally.units < units && (collector.cases as u64) < wanted {
         let first = collector.tally.units;
@@ -121,8 +121,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
 fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
     let seed = case_seed(setup.scenario.seed(), case);
     let draws = vary::draw_for_case(&setup.scenario, seed, case as usize);
-    let drawn = vary::apply(&setup.scenario, &draws).and_then(|scenario| setup.of_draw(scenario));
-    let drawn = drawn.map_err(|mistake| mistake.to_string());
+    let drawn = setup.drawn(&draws).map_err(|mistake| mistake.to_string());
     let (drawn, solver) = match drawn.as_ref().map_err(Clone::clone).and_then(|drawn| Ok((drawn, Solver::new(drawn)?)))
     {
         Ok(both) => both,

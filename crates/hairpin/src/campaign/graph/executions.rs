@@ -46,3 +46,9 @@ pub(in crate::campaign) struct Surroundings<'a> {
 
 /// Puts other waypoints into a plan.
 pub(super) type Move<'a> = &'a dyn Fn(&Plan, &[Point3<f64>]) -> Option<Plan>;
+
+/// Takes `vector` back to length 1 where it is longer, along itself.
+pub(in crate::campaign) fn into_unit_ball(vector: &mut [f64]) {
+    let norm = vector.iter().map(|x| x * x).sum::<f64>().sqrt().max(1.0);
+    vector.iter_mut().for_each(|x| *x /= norm);
+}

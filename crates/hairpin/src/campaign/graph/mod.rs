@@ -17,7 +17,7 @@ mod search;
 
 pub(super) use deaths::Counter;
 pub use deaths::{Deaths, Lost, Stage};
-pub(super) use executions::{Executions, Partials, Surroundings};
+pub(super) use executions::{Executions, Partials, Surroundings, into_unit_ball};
 pub(super) use explore::{Explored, GRAPHS};
 pub(super) use in_order::in_order;
 pub(super) use optima::AGGREGATES;

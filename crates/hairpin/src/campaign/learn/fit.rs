@@ -3,8 +3,9 @@
 use super::legs::{self, LegSample};
 use super::moves::{MoveFeatures, MoveSample};
 use super::parts::{Pairs, Parts};
-use super::{Feature, HeldOut, ScoreModel, Subject};
-use crate::campaign::SeenLeg;
+use super::{Feature, HeldOut, ScoreModel};
+use crate::campaign::case::SeenLeg;
+use crate::campaign::scenario::Subject;
 use crate::judgement::{Stress, rank_correlation};
 use crate::math::ridge::{NoFit, Rows};
 

@@ -1,7 +1,7 @@
 //! What a search sees of a leg, and legs that were executed.
 
 use super::Feature;
-use crate::campaign::SeenLeg;
+use crate::campaign::case::SeenLeg;
 use crate::feasibility::reach::LegFeatures;
 
 /// Number of features of a leg.

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::legs;
-use super::moves::{ARM_MOVES, MoveFeatures};
+use super::moves::MoveFeatures;
+use crate::campaign::scenario::{ARM_MOVES, Subject};
 use crate::feasibility::reach::LegFeatures;
 use crate::judgement::Stress;
 use crate::math::ridge::{LANES, PolynomialRidge, Validation, monomials_of};
@@ -17,20 +18,6 @@ pub struct Feature {
     pub name: String,
     /// Its unit.
     pub unit: String,
-}
-
-/// Whose legs a model is about. A model serves no other's.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Subject {
-    /// The robot's name.
-    pub robot: String,
-    /// BLAKE3 of the robot's numbers, hexadecimal.
-    pub robot_hash: String,
-    /// What speeds at a leg's ends mean: `leg over step` or `at the leg's ends`.
-    pub speeds: String,
-    /// Who executed.
-    pub controller: String,
 }
 
 /// How well trajectories that the model has not seen are told.

@@ -6,9 +6,6 @@ use super::Feature;
 use crate::math::rotation::rotation_vector;
 use crate::robot::arm::{AXES, Arm, Joints};
 
-/// What the subjects of models of moves have in place of a meaning of speeds.
-pub(in crate::campaign) const ARM_MOVES: &str = "moves of an arm";
-
 /// What programs that ask for all that the arm can count as, m/s: the largest speed that has a name.
 const FASTEST: f64 = 7.0;
 

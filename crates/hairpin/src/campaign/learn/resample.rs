@@ -38,9 +38,9 @@ impl ScoreModel {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Subject;
     use super::*;
-    use crate::campaign::SeenLeg;
+    use crate::campaign::case::SeenLeg;
+    use crate::campaign::scenario::Subject;
     use crate::feasibility::reach::LegFeatures;
     use crate::judgement::Stress;
     use crate::math::random::unit;

@@ -1,7 +1,7 @@
 //! A score by name or by a model.
 
 use super::ScoreModel;
-use crate::campaign::user_score::{LegFacts, UserScore};
+use crate::campaign::user_score::{LegFacts, LegScorer};
 use crate::search::{Additive, LegView, Objective, Score};
 
 /// What a scenario scores legs by.
@@ -12,7 +12,7 @@ pub(in crate::campaign) enum AnyScore<'a> {
     /// One that was learned.
     Learned(&'a ScoreModel),
     /// One of the user's own.
-    User(&'a UserScore),
+    User(&'a dyn LegScorer),
 }
 
 impl AnyScore<'_> {
@@ -21,7 +21,7 @@ impl AnyScore<'_> {
         match self {
             Self::Named(score) => [score.own(leg), score.left(leg)],
             Self::Learned(model) => [model.own(&leg.features, leg.duration), model.left(&leg.features, leg.duration)],
-            Self::User(user) => user.scorer.parts(&[LegFacts::of(leg)])[0],
+            Self::User(user) => user.parts(&[LegFacts::of(leg)])[0],
         }
     }
 }
@@ -53,7 +53,7 @@ impl Additive for AnyScore<'_> {
         match self {
             Self::Named(score) => score.parts(legs),
             Self::Learned(model) => model.parts(legs.iter().map(|leg| (&leg.features, leg.duration))),
-            Self::User(user) => user.scorer.parts(&legs.iter().map(LegFacts::of).collect::<Vec<_>>()),
+            Self::User(user) => user.parts(&legs.iter().map(LegFacts::of).collect::<Vec<_>>()),
         }
     }
 }

@@ -7,9 +7,8 @@ use nalgebra::Point3;
 use super::drawing::{Drawing, keep_out};
 use super::solid::{Surface, surface};
 use super::text::attitude;
-use crate::campaign::scenario::DeviationFrom;
+use crate::campaign::scenario::{DeviationFrom, Terms};
 use crate::campaign::setup::Kind;
-use crate::campaign::terms::Terms;
 use crate::campaign::{
     Case, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
 };
@@ -172,7 +171,7 @@ pub fn shown(
     let flown = flown.filter(|track| !track.is_empty());
     // What was judged was judged by the run's own limits. Keys of an edited folder that fit nowhere are the judge's to tell.
     let drawn = vary::apply(&setup.scenario, &result.drawn);
-    let Terms { from, corner, .. } = Terms::of(drawn.as_ref().unwrap_or(&setup.scenario));
+    let Terms { from, corner, .. } = drawn.as_ref().unwrap_or(&setup.scenario).head().terms;
     let reference = match from {
         DeviationFrom::Leg => Reference::Leg,
         DeviationFrom::NearestLeg => Reference::NearestLeg,

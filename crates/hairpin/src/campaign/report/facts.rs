@@ -9,7 +9,6 @@ use crate::campaign::digits::number;
 use crate::campaign::drive::DriveSetup;
 use crate::campaign::flight::FlightSetup;
 use crate::campaign::setup::Kind;
-use crate::campaign::terms::Terms;
 use crate::campaign::{CaseResult, Status};
 use crate::judgement::{Measures, share};
 
@@ -61,8 +60,8 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
         Kind::Arm(setup) => (cell(&setup), arm_task(&setup)),
     };
     let search = scenario.search();
-    let search = if setup.arm().is_some() {
-        format!("heaviest path through {} points, cost {}", search.waypoints, scenario.score())
+    let search = if let Some(arm) = setup.arm() {
+        format!("heaviest path through {} points, cost {}", arm.asked_points(), scenario.score())
     } else {
         format!(
             "{}, width {}, {} waypoints per graph, score {}",
@@ -145,7 +144,7 @@ fn word(value: &impl Serialize) -> String {
 }
 
 pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {
-    let limits = Terms::of(&pieces.setup.scenario).limits;
+    let limits = pieces.setup.scenario.head().terms.limits;
     let metric = |name, unit, limit, of: fn(&Measures) -> Option<f64>| Metric {
         name,
         unit,

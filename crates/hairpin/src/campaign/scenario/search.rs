@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::findings::Findings;
 use crate::judgement::Stress;
 
 pub use crate::search::Aggregate;
@@ -11,9 +10,13 @@ pub use crate::world::Sampling;
 
 /// The score that is the stress which partial trajectories were executed to.
 pub const EXECUTED: &str = "executed";
+/// What a score begins with that a model tells: `learned:FILE`.
+pub const LEARNED: &str = "learned:";
+/// What a score of the user's own begins with: `python:FILE`.
+pub const PYTHON: &str = "python:";
 
 /// `generate.search`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SearchSection {
     /// beam | exact | uniform | in-loop | adaptive.
@@ -106,12 +109,8 @@ impl SearchMethod {
     }
 }
 
-/// Rounds at most.
-const MOST_ROUNDS: u64 = 1_000;
-/// Every round of an adaptive campaign keeps its legs: at ten legs a trajectory, a million rows to fit.
-const MOST_LEARNED: u64 = 100_000;
 /// Executions that a round needs at least to learn from: one more than a model does, so that one that fails does not cost the round.
-const LEAST_PER_ROUND: u64 = 13;
+pub(in crate::campaign) const LEAST_PER_ROUND: u64 = 13;
 /// Executions of a round where the scenario does not say how many there are: what a round taught decides what the next one executes, so that
 /// many small ones get farther than few large ones, as long as each has something to teach.
 const PER_ROUND: u64 = 45;
@@ -125,7 +124,7 @@ impl SearchSection {
     }
 
     /// Executions that a round needs: one in each graph, and enough to learn from.
-    fn least_per_round(&self) -> u64 {
+    pub(in crate::campaign) fn least_per_round(&self) -> u64 {
         self.adaptive_graphs().max(LEAST_PER_ROUND)
     }
 
@@ -136,82 +135,9 @@ impl SearchSection {
         self.rounds.unwrap_or_else(|| (self.executions / PER_ROUND).clamp(least, most).min(enough))
     }
 
-    /// Bounds of all that does not depend on what moves: but for `waypoints`.
-    pub(super) fn check(&self, found: &mut Findings) {
-        found.count("generate.search.width", self.width, 1, 100_000);
-        found.count("generate.search.cases", self.cases, 1, 1_000_000);
-        found.count("generate.search.per_graph", self.per_graph, 1, 1_000_000);
-        found.count("generate.search.iterations", self.iterations, 1, 1_000_000_000);
-        // A partial trajectory on the frontier is some hundred bytes: ten million are a few GB.
-        found.count("generate.search.frontier", self.frontier, 1, 10_000_000);
-        found.count("generate.search.executions", self.executions, 1, 1_000_000);
-        found.count("generate.search.confirm", self.confirm, 0, self.executions.saturating_sub(1).min(1_000));
-        if let Some(graphs) = self.graphs {
-            found.count("generate.search.graphs", graphs, 1, 1_000_000_000);
-        }
-        if let Some(rounds) = self.rounds {
-            found.count("generate.search.rounds", rounds, 1, MOST_ROUNDS);
-        }
-        found.from("generate.search.explore", self.explore, 0.0, 1.0, "");
-        if let Some(time) = self.time_s {
-            found.above("generate.search.time_s", time, 0.0, 1e6, " s");
-            let adaptive = self.method == SearchMethod::Adaptive;
-            found.require(
-                adaptive,
-                "generate.search.time_s",
-                time,
-                "left out: only the method `adaptive` has rounds to end",
-            );
-        }
-        if self.method == SearchMethod::Adaptive {
-            self.check_adaptive(found);
-        }
-    }
-
     /// Whether trajectories are executed while they are searched for under `score`.
     pub fn executes(&self, score: &str) -> bool {
         self.method.executes() || score == EXECUTED
-    }
-
-    /// What the score `executed`, the value of `key`, needs.
-    pub(super) fn check_executed(&self, key: &str, found: &mut Findings) {
-        let beam = self.method == SearchMethod::Beam;
-        let bound =
-            "another score, or generate.search.method = \"beam\": no other method grows trajectories leg by leg";
-        found.require(beam, key, format!("\"{EXECUTED}\""), bound);
-        let enough = self.executions >= self.per_graph;
-        let bound =
-            format!("{} … 1 000 000: one for each of the generate.search.per_graph trajectories", self.per_graph);
-        found.require(enough || !beam, "generate.search.executions", self.executions, &bound);
-        let what = format!("the score `{EXECUTED}`");
-        let bound = format!("false: {what} grows trajectories along their graphs' legs");
-        found.require(!self.move_waypoints, "generate.search.move_waypoints", true, &bound);
-        self.check_unconfirmed(&what, found);
-    }
-
-    /// `what` executes each trajectory once, without noise.
-    fn check_unconfirmed(&self, what: &str, found: &mut Findings) {
-        let bound = format!("0: {what} executes without noise; only the method `in-loop` confirms");
-        found.require(self.confirm == 0, "generate.search.confirm", self.confirm, &bound);
-    }
-
-    fn check_adaptive(&self, found: &mut Findings) {
-        // Told already.
-        if self.rounds.is_some_and(|rounds| rounds > MOST_ROUNDS) {
-            return;
-        }
-        let graphs = self.adaptive_graphs();
-        let least = self.least_per_round().saturating_mul(self.adaptive_rounds());
-        let rounds = self.rounds.map_or("each round".into(), |rounds| format!("each of {rounds} rounds"));
-        let bound = format!(
-            "{least} … {MOST_LEARNED} for the method `adaptive`: in {rounds} one in each of {graphs} graphs, and \
-             {LEAST_PER_ROUND} to learn from"
-        );
-        let fine = (least..=MOST_LEARNED).contains(&self.executions);
-        found.require(fine, "generate.search.executions", self.executions, &bound);
-        let bound = "false: the method `adaptive` stays on its graphs' legs, which are what it learns of";
-        found.require(!self.move_waypoints, "generate.search.move_waypoints", true, bound);
-        self.check_unconfirmed("the method `adaptive`", found);
     }
 }
 

@@ -1,11 +1,12 @@
 //! One way to generate: a scenario of the paper's with some of its keys changed, its cases, and what they come to.
 
 use hairpin::campaign::experiment::lift::Flown;
-use hairpin::campaign::learn::{KeptModel, ScoreModel};
-use hairpin::campaign::{self, Case, Known, Optimum, Scenario, Setup, Stop};
+use hairpin::campaign::learn::{NAME, ScoreModel};
+use hairpin::campaign::scenario::LEARNED;
+use hairpin::campaign::{self, Attached, Attachments, Case, Known, Optimum, Resolved, Setup, Stop};
 use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
-use hairpin_formats::scenario::scenario_for;
+use hairpin_formats::scenario::setup_for;
 
 use crate::interrupt;
 use crate::problem::Problem;
@@ -43,13 +44,14 @@ pub(super) fn resolution(reach: &str) -> Set {
 /// The shipped `scenario` with `sets`, and with a learned score if there is a model.
 pub(super) fn setup(scenario: &str, sets: &[Set], model: Option<&ScoreModel>) -> Result<Setup, Problem> {
     let sets: Vec<(String, String)> = sets.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
-    let mut scenario = scenario_for(scenario, &sets)?;
-    if let (Scenario::Flight(flight), Some(model)) = (&mut scenario, model) {
-        flight.generate.score = KeptModel::score();
-        let given = KeptModel::score();
-        flight.generate.model = Some(KeptModel { model: model.clone().into(), bytes: [].into(), given });
-    }
-    Ok(Setup::new(scenario)?)
+    let setup = setup_for(scenario, &sets)?;
+    let Some(model) = model else { return Ok(setup) };
+    let score = format!("{LEARNED}{NAME}");
+    let mut scenario = setup.scenario;
+    scenario.named().score.into_iter().for_each(|(_, named)| named.clone_from(&score));
+    let model = Attached { read: model.clone().into(), bytes: [].into(), name: NAME.into(), given: score };
+    let attachments = Attachments { model: Some(model), ..Attachments::default() };
+    Ok(Setup::new(Resolved { scenario, attachments })?)
 }
 
 fn stop() -> Stop<'static> {

@@ -1,12 +1,9 @@
 //! `[generate]`: how the programs that load the arm most are searched for.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::learn::KeptModel;
-use crate::campaign::scenario::{SearchMethod, SearchSection};
+use crate::campaign::scenario::{LEARNED, SearchMethod, SearchSection};
 
 /// `[generate]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -112,17 +109,15 @@ impl CostName {
 pub struct LearnedCost {
     /// As written.
     pub score: String,
-    /// The model, once it was read.
-    pub model: Option<KeptModel>,
 }
 
 impl TryFrom<String> for LearnedCost {
     type Error = String;
 
     fn try_from(score: String) -> Result<Self, Self::Error> {
-        match KeptModel::file_of(&score) {
-            Some(_) => Ok(Self { score, model: None }),
-            None => Err(format!("\"{score}\" is neither the name of a cost nor learned:FILE")),
+        match score.starts_with(LEARNED) {
+            true => Ok(Self { score }),
+            false => Err(format!("\"{score}\" is neither the name of a cost nor learned:FILE")),
         }
     }
 }
@@ -139,23 +134,6 @@ impl From<LearnedCost> for String {
 pub struct CostTable {
     /// The file.
     pub table: String,
-    /// Its numbers, once it was read.
-    #[serde(skip)]
-    pub costs: Option<Arc<CostMatrix>>,
-    /// The file as it was read: a campaign keeps its own copy.
-    #[serde(skip)]
-    pub bytes: Option<Arc<[u8]>>,
-}
-
-/// A table of costs in whole units.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CostMatrix {
-    /// N.
-    pub points: usize,
-    /// N·N costs, row = from; `None`: no such move.
-    pub costs: Vec<Option<i64>>,
-    /// What one unit is in the table's own.
-    pub unit: f64,
 }
 
 /// Weights of costs; what is not given has none.

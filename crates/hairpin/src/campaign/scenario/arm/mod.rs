@@ -1,8 +1,8 @@
 //! Scenarios of arms: a cell, a cloud of points, and the programs that load the arm most; keys, defaults, bounds.
 
-mod check;
 mod execute;
 mod generate;
+mod head;
 mod spec;
 mod task;
 mod world;
@@ -13,7 +13,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Distribution, RobotSource};
-use crate::campaign::learn;
 use crate::robot::arm::ArmDescription;
 
 pub use execute::*;
@@ -50,23 +49,4 @@ pub struct ArmScenario {
     /// What is within spec.
     #[serde(default)]
     pub spec: ArmSpec,
-}
-
-impl ArmScenario {
-    /// Names and contents of the files that it may have, where it has them.
-    pub(super) fn files(&self) -> Vec<(Option<&str>, Option<&[u8]>)> {
-        let points = match &self.task.points {
-            PointsSource::File(file) => Some(file.as_str()),
-            PointsSource::List(_) | PointsSource::Drawn(_) => None,
-        };
-        let cost = match &self.generate.cost {
-            CostSection::Table(table) => (Some(table.table.as_str()), table.bytes.as_deref()),
-            CostSection::Learned(cost) => (Some(learn::NAME), cost.model.as_ref().map(|kept| &*kept.bytes)),
-            CostSection::Named(_) | CostSection::Weighted(_) => (None, None),
-        };
-        let regression = self.spec.regression.as_ref();
-        let baseline =
-            (regression.map(|limit| limit.baseline.as_str()), regression.and_then(|limit| limit.bytes.as_deref()));
-        vec![(points, self.task.bytes.as_deref()), cost, baseline]
-    }
 }

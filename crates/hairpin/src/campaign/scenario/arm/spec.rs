@@ -1,11 +1,7 @@
 //! `[spec]`: what is within spec.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use crate::campaign::arm::Baseline;
 
 /// `[spec]`: what is not given is not judged.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -71,12 +67,6 @@ pub struct RegressionLimit {
     /// SHA-256 of the copy in the campaign's folder, as resolved scenarios have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checksum: Option<String>,
-    /// What the earlier releases did, once it was read.
-    #[serde(skip)]
-    pub read: Option<Arc<Baseline>>,
-    /// The file as a campaign keeps it.
-    #[serde(skip)]
-    pub bytes: Option<Arc<[u8]>>,
 }
 
 fn three() -> f64 {

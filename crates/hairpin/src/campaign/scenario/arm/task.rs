@@ -1,12 +1,10 @@
 //! `[task]`: the cloud of points that programs go through.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// `[task]`.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ArmTask {
     /// A CSV file (x_mm, y_mm, z_mm, and if wanted q1 … q4 and cf1, cf4, cf6, cfx), a RAPID module whose robtargets are the points, a
@@ -21,29 +19,13 @@ pub struct ArmTask {
     /// SHA-256 of the points' file, as resolved scenarios have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checksum: Option<String>,
-    /// The points of a file, once it was read.
-    #[serde(skip)]
-    pub cloud: Option<Arc<[CloudPoint]>>,
-    /// The file as it was read: a campaign keeps its own copy.
-    #[serde(skip)]
-    pub bytes: Option<Arc<[u8]>>,
-}
-
-impl PartialEq for ArmTask {
-    /// Compares the keys: two reads of one file are one cloud.
-    fn eq(&self, other: &Self) -> bool {
-        self.points == other.points
-            && self.points_in == other.points_in
-            && self.home_deg == other.home_deg
-            && self.checksum == other.checksum
-    }
 }
 
 impl ArmTask {
-    /// How many points there are; 0 before a file was read.
-    pub fn count(&self) -> u64 {
+    /// How many points there are: `read` where they come from a file.
+    pub fn count(&self, read: u64) -> u64 {
         match &self.points {
-            PointsSource::File(_) => self.cloud.as_ref().map_or(0, |cloud| cloud.len() as u64),
+            PointsSource::File(_) => read,
             PointsSource::List(list) => list.len() as u64,
             PointsSource::Drawn(drawn) => drawn.count,
         }
@@ -76,17 +58,6 @@ pub struct DrawnPoints {
     /// Seed of the draws; the scenario's if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
-}
-
-/// One point as it was given.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CloudPoint {
-    /// x, y, z, mm, in the frame of the points.
-    pub mm: [f64; 3],
-    /// Orientation, scalar first; that of the scenario where there is none.
-    pub q1_q4: Option<[f64; 4]>,
-    /// cf1, cf4, cf6, cfx; any where there are none.
-    pub configuration: Option<[i32; 4]>,
 }
 
 /// `points_in = { frame, q1_q4_default }`.

@@ -1,11 +1,12 @@
 //! Scenarios of drives: rovers on elevation maps, cars and differential drives; keys, defaults, bounds.
 
-mod check;
 mod direction;
 mod environment;
 mod execute;
 mod generate;
+mod head;
 mod keep_out;
+mod search;
 mod spec;
 mod task;
 mod world;
@@ -16,7 +17,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Distribution, RobotSource};
-use crate::campaign::{learn, user_score};
 use crate::robot::ground::{CarDescription, DifferentialDriveDescription};
 use crate::robot::rover::RoverDescription;
 
@@ -25,6 +25,7 @@ pub use environment::*;
 pub use execute::*;
 pub use generate::*;
 pub use keep_out::*;
+pub use search::*;
 pub use spec::*;
 pub use task::*;
 pub use world::*;
@@ -56,20 +57,6 @@ pub struct DriveScenario {
     /// What is within spec.
     #[serde(default)]
     pub spec: DriveSpec,
-}
-
-impl DriveScenario {
-    /// Names and contents of the files that it may have, where it has them.
-    pub(super) fn files(&self) -> Vec<(Option<&str>, Option<&[u8]>)> {
-        let terrain = &self.world.terrain;
-        let model = self.generate.search.model.as_ref();
-        let user = self.generate.search.user_score.as_ref();
-        vec![
-            (terrain.file.as_deref(), terrain.bytes.as_deref()),
-            (Some(learn::NAME), model.map(|kept| &*kept.bytes)),
-            (Some(user_score::NAME), user.map(|user| &*user.bytes)),
-        ]
-    }
 }
 
 /// A ground vehicle as a file has it, told apart by `kind`.

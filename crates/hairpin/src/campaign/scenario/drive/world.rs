@@ -1,13 +1,11 @@
 //! `[world]`: the ground, and where nothing may drive.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::keep_out::{KeepOutSection, keep_outs};
 use crate::campaign::scenario::{Mistake, Origin};
-use crate::world::terrain::{ElevationMap, KeepOuts};
+use crate::world::terrain::KeepOuts;
 
 /// `[world]`: m, z up, x east, y north, as the elevation map has them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -48,7 +46,7 @@ pub enum Frame {
 }
 
 /// `terrain = { file = … }` or `terrain = { generator = … }`.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TerrainSection {
     /// GeoTIFF, ESRI ASCII grid, 16-bit PNG or raw raster, NumPy array; relative to the scenario file.
@@ -84,24 +82,6 @@ pub struct TerrainSection {
     /// SHA-256 of the file's bytes, as resolved scenarios have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checksum: Option<String>,
-    /// The map, once the file was read or the ground generated.
-    #[serde(skip)]
-    pub map: Option<Arc<ElevationMap>>,
-    /// The file as it was read: a campaign keeps its own copy.
-    #[serde(skip)]
-    pub bytes: Option<Arc<[u8]>>,
-}
-
-impl PartialEq for TerrainSection {
-    /// Compares the keys: two reads of one file are one ground.
-    fn eq(&self, other: &Self) -> bool {
-        self.file == other.file
-            && self.no_data == other.no_data
-            && (self.cell_m, self.height_m, self.origin_m) == (other.cell_m, other.height_m, other.origin_m)
-            && (self.generator, self.size_m, self.seed) == (other.generator, other.size_m, other.seed)
-            && (self.relief_m, self.rock_cover) == (other.relief_m, other.rock_cover)
-            && self.checksum == other.checksum
-    }
 }
 
 /// Rules for cells that hold no data.

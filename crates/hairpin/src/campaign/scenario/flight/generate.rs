@@ -4,8 +4,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::EnvironmentSection;
-use crate::campaign::UserScore;
-use crate::campaign::learn::KeptModel;
 use crate::campaign::scenario::{EXECUTED, SearchSection};
 
 /// `[task]`.
@@ -41,14 +39,6 @@ pub struct GenerateSection {
     pub search: SearchSection,
     /// Name of a score, executed, learned:MODEL, or python:FILE.
     pub score: String,
-    /// The model of a learned score.
-    #[serde(skip)]
-    #[schemars(skip)]
-    pub model: Option<KeptModel>,
-    /// The score of the user's own.
-    #[serde(skip)]
-    #[schemars(skip)]
-    pub user_score: Option<UserScore>,
     /// Limits beside the robot's own.
     pub limits: LimitsSection,
     /// What of the environment is searched for stress, too.
@@ -70,8 +60,6 @@ impl Default for GenerateSection {
             certify: false,
             search: SearchSection::default(),
             score: BY_HAND.into(),
-            model: None,
-            user_score: None,
             limits: LimitsSection::default(),
             environment: None,
         }

@@ -1,9 +1,9 @@
 //! Scenarios of flights: keys, defaults, bounds.
 
-mod check;
 mod environment;
 mod execute;
 mod generate;
+mod head;
 mod spec;
 mod world;
 
@@ -13,7 +13,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Distribution, RobotSource};
-use crate::campaign::{learn, user_score};
 use crate::robot::quadrotor::QuadrotorDescription;
 
 pub use environment::*;
@@ -49,16 +48,4 @@ pub struct FlightScenario {
     /// What is within spec.
     #[serde(default)]
     pub spec: SpecSection,
-}
-
-impl FlightScenario {
-    /// Names and contents of the files that it may have, where it has them.
-    pub(super) fn files(&self) -> Vec<(Option<&str>, Option<&[u8]>)> {
-        let model = self.generate.model.as_ref();
-        let user = self.generate.user_score.as_ref();
-        vec![
-            (Some(learn::NAME), model.map(|kept| &*kept.bytes)),
-            (Some(user_score::NAME), user.map(|user| &*user.bytes)),
-        ]
-    }
 }

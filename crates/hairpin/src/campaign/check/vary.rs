@@ -2,9 +2,8 @@
 
 use serde_json::Value;
 
-use super::distribution::zip;
-use super::{Distribution, KeyPath, Mistake, Scenario};
-use crate::campaign::vary::{apply, as_value, shapes_the_plan};
+use crate::campaign::scenario::{Distribution, KeyPath, Mistake, Scenario, zip};
+use crate::campaign::vary::{Tree, apply, shapes_the_plan};
 
 /// Keys that say what the campaign is, not what happens in a case.
 const FIXED: &[(&str, &str)] = &[
@@ -37,14 +36,19 @@ const MOST_CHOICES: usize = 1000;
 /// Smallest share of draws that a truncation may keep.
 const LEAST_SHARE: f64 = 0.01;
 
-/// All mistakes of `[vary]` in a scenario whose nominal values have none.
-pub(super) fn check(scenario: &Scenario) -> Vec<Mistake> {
-    let nominal = as_value(scenario);
+/// All mistakes of `[vary]` in a scenario whose nominal values have none; `built` gives those of a scenario that was drawn.
+pub(in crate::campaign) fn check_vary(scenario: &Scenario, built: &dyn Fn(&Scenario) -> Vec<Mistake>) -> Vec<Mistake> {
+    let mut nominal = Tree::new(scenario);
     let entries = scenario.vary().iter();
-    entries.filter_map(|(key, distribution)| check_entry(scenario, &nominal, key, distribution).err()).collect()
+    entries.filter_map(|entry| check_entry(scenario, &mut nominal, entry, built).err()).collect()
 }
 
-fn check_entry(scenario: &Scenario, nominal: &Value, key: &str, distribution: &Distribution) -> Result<(), Mistake> {
+fn check_entry(
+    scenario: &Scenario,
+    nominal: &mut Tree,
+    (key, distribution): (&String, &Distribution),
+    built: &dyn Fn(&Scenario) -> Vec<Mistake>,
+) -> Result<(), Mistake> {
     let refuse =
         |value: String, bound: String| Err(Mistake { key: KeyPath::of(&["vary", key]).to_string(), value, bound });
     let Some(path) = KeyPath::parse(key) else {
@@ -58,7 +62,7 @@ fn check_entry(scenario: &Scenario, nominal: &Value, key: &str, distribution: &D
             format!("a key that may differ between cases or runs; this one may not: {why}"),
         );
     }
-    let ends = match ends(distribution, path.get(nominal)) {
+    let ends = match ends(distribution, nominal.get(&path)) {
         Ok(ends) => ends,
         Err((value, bound)) => return refuse(value, bound),
     };
@@ -66,7 +70,7 @@ fn check_entry(scenario: &Scenario, nominal: &Value, key: &str, distribution: &D
         let drawn = apply(scenario, &[(key.to_owned(), end.clone())])?;
         // What is drawn for a run is not what was searched: a model's legs are those of the nominal robot.
         let of_search = |mistake: &Mistake| !shapes_the_plan(key) && mistake.key.starts_with(scenario.score_key());
-        if let Some(first) = drawn.check_nominal().into_iter().find(|mistake| !of_search(mistake)) {
+        if let Some(first) = built(&drawn).into_iter().find(|mistake| !of_search(mistake)) {
             return refuse(end.to_string(), format!("within bounds: {first}"));
         }
     }

@@ -1,59 +1,59 @@
 //! The bounds of every key of an arm's scenario.
 
-use super::{
-    ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, CostName, CostSection, LogClock, MoveName, PointsSource,
+use std::sync::Arc;
+
+use super::Station;
+use super::points::count;
+use crate::campaign::attachments::Attachments;
+use crate::campaign::check::Findings;
+use crate::campaign::scenario::{
+    ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, ArmTask, CostName, CostSection, Keys, LogClock, Mistake,
+    MoveName, PointsSource,
 };
-use crate::campaign::arm::station_of;
-use crate::campaign::learn::of_arm;
-use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{FlakySection, Mistake};
 use crate::search::heaviest::{MOST_TRIPLE_POINTS, MOST_VISITS};
 use crate::trajectory::program::{Speed, Zone};
 
 /// More points take graphs of more than a hundred million arcs.
 const MOST_POINTS: u64 = 10_000;
 
-impl ArmScenario {
-    /// Every nominal value that is out of bounds, in the order of the file.
-    pub(in crate::campaign::scenario) fn check(&self) -> Vec<Mistake> {
-        let mut found = Findings::default();
-        found.head(self.hairpin, self.seed);
-        self.check_task(&mut found);
-        check_generate(&self.generate, self.task.count(), &mut found);
-        if let CostSection::Learned(cost) = &self.generate.cost {
-            found.model("generate.cost", &cost.score, cost.model.as_ref(), || of_arm(self));
-        }
-        check_execute(&self.execute, &mut found);
-        let drawn = self.execute.logs.is_some() && !self.vary.is_empty();
-        found.require(
-            !drawn,
-            "vary",
-            "given",
-            "left out where runs are recorded elsewhere: nothing can be drawn for them",
-        );
-        check_spec(&self.spec, &mut found);
-        if found.0.is_empty()
-            && let Err(mistake) = station_of(self)
-        {
-            found.add(mistake);
-        }
-        found.0
+/// Looks at all keys, and builds what they describe once nothing is wrong with them.
+///
+/// # Errors
+/// Every nominal value that is out of bounds, in the order of the file.
+pub(super) fn check(
+    keys: &ArmScenario,
+    files: &Attachments,
+    build: impl FnOnce() -> Result<Arc<Station>, Mistake>,
+) -> Result<Arc<Station>, Vec<Mistake>> {
+    let mut found = Findings::default();
+    found.head(keys.hairpin, keys.seed);
+    let points = count(&keys.task, files);
+    check_task(&keys.task, points, &mut found);
+    check_generate(&keys.generate, points, files, &mut found);
+    if let CostSection::Learned(cost) = &keys.generate.cost {
+        found.score_of_file("generate.cost", &cost.score, files, || keys.subject());
     }
+    check_execute(&keys.execute, &mut found);
+    let drawn = keys.execute.logs.is_some() && !keys.vary.is_empty();
+    let bound = "left out where runs are recorded elsewhere: nothing can be drawn for them";
+    found.require(!drawn, "vary", "given", bound);
+    check_spec(&keys.spec, &mut found);
+    let station = if found.0.is_empty() { found.take(build()) } else { None };
+    station.ok_or(found.0)
+}
 
-    fn check_task(&self, found: &mut Findings) {
-        let count = self.task.count();
-        let key = match &self.task.points {
-            PointsSource::Drawn(_) => "task.points.count",
-            PointsSource::File(_) | PointsSource::List(_) => "task.points",
-        };
-        found.count(key, count, 1, MOST_POINTS);
-        for (axis, angle) in self.task.home_deg.iter().enumerate() {
-            found.from(&format!("task.home_deg[{axis}]"), *angle, -3600.0, 3600.0, "°");
-        }
+fn check_task(task: &ArmTask, points: u64, found: &mut Findings) {
+    let key = match &task.points {
+        PointsSource::Drawn(_) => "task.points.count",
+        PointsSource::File(_) | PointsSource::List(_) => "task.points",
+    };
+    found.count(key, points, 1, MOST_POINTS);
+    for (axis, angle) in task.home_deg.iter().enumerate() {
+        found.from(&format!("task.home_deg[{axis}]"), *angle, -3600.0, 3600.0, "°");
     }
 }
 
-fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
+fn check_generate(generate: &ArmGenerate, points: u64, files: &Attachments, found: &mut Findings) {
     if let CostSection::Weighted(weights) = &generate.cost {
         let all = [
             ("distance", weights.distance),
@@ -69,7 +69,7 @@ fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
     }
     let placed = matches!(generate.cost, CostSection::Named(CostName::Distance) | CostSection::Table(_));
     let bound = "distance or a table where generate.mode = \"cartesian\": all others need joints, which that mode does not plan";
-    found.require(placed || generate.mode == ArmMode::Joint, "generate.cost", told_cost(&generate.cost), bound);
+    found.require(placed || generate.mode == ArmMode::Joint, "generate.cost", told_cost(&generate.cost, files), bound);
     let moves = &generate.moves;
     found.require(!moves.speeds.is_empty(), "generate.moves.speeds", "[]", "one name at least, such as v1000");
     for (index, name) in moves.speeds.iter().enumerate() {
@@ -110,9 +110,11 @@ fn check_generate(generate: &ArmGenerate, points: u64, found: &mut Findings) {
 }
 
 /// A cost as the scenario gives it.
-fn told_cost(cost: &CostSection) -> String {
+fn told_cost(cost: &CostSection, files: &Attachments) -> String {
     match cost {
-        CostSection::Learned(cost) => format!("\"{}\"", cost.model.as_ref().map_or(&cost.score, |kept| &kept.given)),
+        CostSection::Learned(cost) => {
+            format!("\"{}\"", files.model(&cost.score).map_or(&cost.score, |model| &model.given))
+        }
         CostSection::Named(_) | CostSection::Table(_) | CostSection::Weighted(_) => format!("\"{}\"", cost.word()),
     }
 }
@@ -131,7 +133,7 @@ fn check_execute(execute: &ArmExecute, found: &mut Findings) {
     let shared = execute.logs.is_some() || execute.log_clock == LogClock::AsRecorded;
     found.require(shared, "execute.log_clock", "\"offset-removed\"", bound);
     found.count("execute.repeat", execute.repeat, 1, 100_000);
-    FlakySection::check(execute.flaky, found);
+    found.flaky(execute.flaky);
     found.from("execute.servo_lag_s", execute.servo_lag_s, 0.0, 10.0, " s");
     found.from("execute.noise_mm", execute.noise_mm, 0.0, 100.0, " mm");
     let faults = &execute.faults;

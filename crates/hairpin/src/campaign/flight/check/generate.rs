@@ -1,10 +1,9 @@
 //! Bounds of `[generate]`.
 
-use crate::campaign::UserScore;
-use crate::campaign::learn::{KeptModel, of_flight};
-use crate::campaign::scenario::findings::Findings;
+use crate::campaign::attachments::Attachments;
+use crate::campaign::check::{Findings, check_executed, check_search as check_common};
 use crate::campaign::scenario::{
-    EXECUTED, FlightScenario, GenerateSection, LimitsSection, ReachName, SearchMethod, SearchSection, Timing,
+    EXECUTED, FlightScenario, GenerateSection, Keys, LimitsSection, ReachName, SearchMethod, SearchSection, Timing,
 };
 use crate::search::Score;
 
@@ -17,14 +16,14 @@ const MOST_NODES: u64 = 50_000;
 /// The same for the dynamic programs, which judge every leg before they start.
 const MOST_NODES_IN_PAIRS: u64 = 16_000;
 
-pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
+pub(super) fn check(scenario: &FlightScenario, files: &Attachments, found: &mut Findings) {
     let generate = &scenario.generate;
     check_timing(generate, found);
     // Resolution to the fourth power is the number of simulated runs: 20 736 at 12.
     found.count("generate.resolution", generate.resolution, 2, 12);
     found.count("generate.velocities", generate.velocities, 1, 64);
     check_search(&generate.search, generate, found);
-    check_score(scenario, found);
+    check_score(scenario, files, found);
     check_limits(&generate.limits, found);
 }
 
@@ -67,22 +66,19 @@ fn check_search(search: &SearchSection, generate: &GenerateSection, found: &mut 
             &bound,
         );
     }
-    search.check(found);
+    check_common(search, found);
 }
 
-fn check_score(scenario: &FlightScenario, found: &mut Findings) {
-    let FlightScenario { generate: GenerateSection { score, model, .. }, .. } = scenario;
-    let key = "generate.score";
-    if KeptModel::file_of(score).is_some() {
-        found.model(key, score, model.as_ref(), || of_flight(scenario));
-    } else if UserScore::file_of(score).is_some() {
-        found.user_score(key, score, scenario.generate.user_score.as_ref());
-    } else if score == EXECUTED {
-        scenario.generate.search.check_executed(key, found);
-    } else {
-        let bound = format!("one of {}, {EXECUTED}, learned:MODEL, or python:FILE", Score::NAMES.join(", "));
-        found.require(Score::NAMES.contains(&score.as_str()), key, format!("\"{score}\""), &bound);
+fn check_score(scenario: &FlightScenario, files: &Attachments, found: &mut Findings) {
+    let (key, score) = ("generate.score", scenario.generate.score.as_str());
+    if found.score_of_file(key, score, files, || scenario.subject()) {
+        return;
     }
+    if score == EXECUTED {
+        return check_executed(&scenario.generate.search, key, found);
+    }
+    let bound = format!("one of {}, {EXECUTED}, learned:MODEL, or python:FILE", Score::NAMES.join(", "));
+    found.require(Score::NAMES.contains(&score), key, format!("\"{score}\""), &bound);
 }
 
 fn check_limits(limits: &LimitsSection, found: &mut Findings) {

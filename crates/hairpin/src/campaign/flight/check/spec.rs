@@ -1,7 +1,7 @@
 //! Bounds of `[spec]`.
 
+use crate::campaign::check::Findings;
 use crate::campaign::scenario::SpecSection;
-use crate::campaign::scenario::findings::Findings;
 
 pub(super) fn check(spec: &SpecSection, found: &mut Findings) {
     if let Some(deviation) = &spec.deviation {

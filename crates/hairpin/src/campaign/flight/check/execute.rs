@@ -1,12 +1,12 @@
 //! Bounds of `[execute]`.
 
-use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{ExecuteSection, FlakySection};
+use crate::campaign::check::Findings;
+use crate::campaign::scenario::ExecuteSection;
 
 pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
     check_who(execute, found);
     found.count("execute.repeat", execute.repeat, 1, 100_000);
-    FlakySection::check(execute.flaky, found);
+    found.flaky(execute.flaky);
     found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");
     if let Some(limit) = execute.time_limit_s {
         // A run keeps its track: at 100 000 s some GB.

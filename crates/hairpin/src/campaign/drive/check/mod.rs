@@ -2,115 +2,110 @@
 
 mod environment;
 
-use super::{
-    ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSearch, DriveSpec, GroundReach,
-    Manoeuvre, ProfileName, SpeedSection,
+use super::Driver;
+use crate::campaign::attachments::Attachments;
+use crate::campaign::check::{Findings, check_executed, check_search};
+use crate::campaign::scenario::{
+    ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, DriveTask, EXECUTED, GroundReach,
+    GroundSection, Keys, Manoeuvre, Mistake, ProfileName, SearchMethod, SpeedSection,
 };
-use crate::campaign::UserScore;
-use crate::campaign::drive::{map_of, rover_of};
-use crate::campaign::learn::{KeptModel, of_drive};
-use crate::campaign::scenario::findings::Findings;
-use crate::campaign::scenario::{EXECUTED, FlakySection, Mistake, SearchMethod};
 use crate::feasibility::reach::drive::GroundScore;
 use crate::robot::rover::{Rover, Steering};
-use crate::world::terrain::Terrain;
+use crate::world::terrain::{ElevationMap, Terrain};
 
 /// Longer trajectories take days to drive.
 const LONGEST: u64 = 1_000;
 /// Nodes of the roadmap, waypoints × headings: legs are pairs of them, each a boundary-value problem.
 const MOST_NODES: u64 = 5_000;
 
-impl DriveScenario {
-    /// Makes the ground that is asked for of the generator; keys that are wrong make none, and are told by the check.
-    pub(in crate::campaign::scenario) fn make_ground(&mut self) {
-        let terrain = &mut self.world.terrain;
-        if terrain.generator.is_some() {
-            terrain.map = None;
-            terrain.map = map_of(terrain, self.seed).ok();
+/// Builds what the keys describe, and looks at all of them.
+///
+/// # Errors
+/// Every nominal value that is out of bounds, in the order of the file.
+pub(super) fn check(
+    keys: &DriveScenario,
+    files: &Attachments,
+    known: Option<(&DriveScenario, &Driver)>,
+) -> Result<Driver, Vec<Mistake>> {
+    let mut found = Findings::default();
+    found.head(keys.hairpin, keys.seed);
+    let rovers = found.take(Driver::rovers(keys, known));
+    let rover = rovers.as_ref().map(|[rover, _]| &**rover);
+    check_ground(&keys.world, &mut found);
+    let keep_out = found.take(Driver::keep_out(keys, known));
+    check_task(&keys.task, rover, &mut found);
+    let map = Driver::map(keys, files, known);
+    let map = match found.0.is_empty() {
+        true => found.take(map).inspect(|map| check_places(&keys.task, map, &mut found)),
+        // What is wrong with the ground is told once all before it is right.
+        false => map.ok(),
+    };
+    check_generate(&keys.generate, rover, &mut found);
+    check_score(keys, files, &mut found);
+    environment::check(keys, rover, map.as_deref(), &mut found);
+    check_execute(&keys.execute, rover, &mut found);
+    check_spec(&keys.spec, &mut found);
+    match (rovers, map, keep_out) {
+        (Some([rover, planner]), Some(map), Some(keep_out)) if found.0.is_empty() => {
+            Ok(Driver { rover, planner, map, keep_out })
         }
+        _ => Err(found.0),
     }
+}
 
-    /// Every nominal value that is out of bounds, in the order of the file.
-    pub(in crate::campaign::scenario) fn check(&self) -> Vec<Mistake> {
-        let mut found = Findings::default();
-        found.head(self.hairpin, self.seed);
-        let rover = rover_of(&self.robot).map_err(|mistake| found.add(mistake)).ok();
-        self.check_ground(&mut found);
-        self.check_task(rover.as_ref(), &mut found);
-        check_generate(&self.generate, rover.as_ref(), &mut found);
-        self.check_score(&mut found);
-        environment::check(self, rover.as_ref(), &mut found);
-        check_execute(&self.execute, rover.as_ref(), &mut found);
-        check_spec(&self.spec, &mut found);
-        found.0
-    }
-
-    fn check_score(&self, found: &mut Findings) {
-        let search = &self.generate.search;
-        let DriveSearch { method, score, model, .. } = search;
-        let key = "generate.search.score";
-        if KeptModel::file_of(score).is_some() {
-            found.model(key, score, model.as_ref(), || of_drive(self));
-        } else if UserScore::file_of(score).is_some() {
-            found.user_score(key, score, search.user_score.as_ref());
-        } else if score == EXECUTED {
-            search.section().check_executed(key, found);
+fn check_score(keys: &DriveScenario, files: &Attachments, found: &mut Findings) {
+    let (key, search) = ("generate.search.score", &keys.generate.search);
+    let score = &search.score;
+    if !found.score_of_file(key, score, files, || keys.subject()) {
+        if score == EXECUTED {
+            check_executed(&search.section(), key, found);
         } else if let Err(error) = GroundScore::named(score) {
             found.require(false, key, format!("\"{score}\""), &format!("{error}; or {EXECUTED}"));
         }
-        let given = search.model.as_ref().map_or(score, |kept| &kept.given);
-        found.rounds(*method, (key, given), self.vary.keys());
     }
+    let given = files.model(score).map_or(score, |model| &model.given);
+    found.rounds(search.method, (key, given), keys.vary.keys());
+}
 
-    fn check_ground(&self, found: &mut Findings) {
-        let terrain = &self.world.terrain;
-        let one = terrain.file.is_some() != terrain.generator.is_some();
-        found.require(one, "world.terrain", "a table", "exactly one of file and generator");
-        for (key, given) in [
-            ("size_m", terrain.size_m.is_some()),
-            ("seed", terrain.seed.is_some()),
-            ("relief_m", terrain.relief_m.is_some()),
-            ("rock_cover", terrain.rock_cover.is_some()),
-        ] {
-            let fine = !given || terrain.generator.is_some();
-            found.require(fine, &format!("world.terrain.{key}"), "given", "left out: it is for generated ground");
-        }
-        if let Err(mistake) = self.world.keep_outs() {
-            found.add(mistake);
-        }
+fn check_ground(world: &GroundSection, found: &mut Findings) {
+    let terrain = &world.terrain;
+    let one = terrain.file.is_some() != terrain.generator.is_some();
+    found.require(one, "world.terrain", "a table", "exactly one of file and generator");
+    for (key, given) in [
+        ("size_m", terrain.size_m.is_some()),
+        ("seed", terrain.seed.is_some()),
+        ("relief_m", terrain.relief_m.is_some()),
+        ("rock_cover", terrain.rock_cover.is_some()),
+    ] {
+        let fine = !given || terrain.generator.is_some();
+        found.require(fine, &format!("world.terrain.{key}"), "given", "left out: it is for generated ground");
     }
+}
 
-    fn check_task(&self, rover: Option<&Rover>, found: &mut Findings) {
-        let task = &self.task;
-        found.count("task.length", task.length, 2, LONGEST);
-        let [low, high] = task.leg_m;
-        found.above("task.leg_m[0]", low, 0.0, 1000.0, " m");
-        found.above("task.leg_m[1]", high, 0.0, 1000.0, " m");
-        found.require(low < high, "task.leg_m", format!("[{low}, {high}]"), "rising: [shortest, longest]");
-        found.from("task.start.yaw_deg", task.start.yaw_deg, -3600.0, 3600.0, "°");
-        if let Some(rover) = rover {
-            let most = rover.limits.curvature;
-            found.from("task.start.curvature_1_m", task.start.curvature_1_m, -most, most, " 1/m, the robot's");
-        }
-        if !found.0.is_empty() {
-            return;
-        }
-        match map_of(&self.world.terrain, self.seed) {
-            Err(mistake) => found.add(mistake),
-            Ok(map) => {
-                let places = [("task.start", Some([task.start.x_m, task.start.y_m])), ("task.end_m", task.end_m)];
-                for (key, place) in places {
-                    let Some([x, y]) = place else { continue };
-                    if let Err(error) = map.patch(x, y) {
-                        let (low, high) = map.extent();
-                        let bound = format!(
-                            "on the map, x {} … {} m, y {} … {} m, and not on a cell without data: {error}",
-                            low[0], high[0], low[1], high[1]
-                        );
-                        found.require(false, key, format!("({x}, {y})"), &bound);
-                    }
-                }
-            }
+fn check_task(task: &DriveTask, rover: Option<&Rover>, found: &mut Findings) {
+    found.count("task.length", task.length, 2, LONGEST);
+    let [low, high] = task.leg_m;
+    found.above("task.leg_m[0]", low, 0.0, 1000.0, " m");
+    found.above("task.leg_m[1]", high, 0.0, 1000.0, " m");
+    found.require(low < high, "task.leg_m", format!("[{low}, {high}]"), "rising: [shortest, longest]");
+    found.from("task.start.yaw_deg", task.start.yaw_deg, -3600.0, 3600.0, "°");
+    if let Some(rover) = rover {
+        let most = rover.limits.curvature;
+        found.from("task.start.curvature_1_m", task.start.curvature_1_m, -most, most, " 1/m, the robot's");
+    }
+}
+
+/// It must be possible to stand at both ends.
+fn check_places(task: &DriveTask, map: &ElevationMap, found: &mut Findings) {
+    for (key, place) in [("task.start", Some([task.start.x_m, task.start.y_m])), ("task.end_m", task.end_m)] {
+        let Some([x, y]) = place else { continue };
+        if let Err(error) = map.patch(x, y) {
+            let (low, high) = map.extent();
+            let bound = format!(
+                "on the map, x {} … {} m, y {} … {} m, and not on a cell without data: {error}",
+                low[0], high[0], low[1], high[1]
+            );
+            found.require(false, key, format!("({x}, {y})"), &bound);
         }
     }
 }
@@ -128,7 +123,7 @@ fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
         let value = format!("{} ({nodes} nodes)", search.waypoints);
         found.require(nodes <= most, "generate.search.waypoints", value, &bound);
     }
-    search.section().check(found);
+    check_search(&search.section(), found);
     found.above("generate.step_s", generate.step_s, 0.0, 1000.0, " s");
     let gears = generate.manoeuvres.iter().any(|m| matches!(m, Manoeuvre::Forward | Manoeuvre::Reverse));
     found.require(gears, "generate.manoeuvres", "no gear", "forward or reverse at least");
@@ -233,7 +228,7 @@ fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Find
     if let Some(repeat) = execute.repeat {
         found.count("execute.repeat", repeat, 1, 100_000);
     }
-    FlakySection::check(execute.flaky, found);
+    found.flaky(execute.flaky);
     found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");
     if let Some(limit) = execute.time_limit_s {
         found.above("execute.time_limit_s", limit, 0.0, 1e6, " s");

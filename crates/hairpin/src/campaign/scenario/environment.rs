@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Scenario;
-use super::digits::number;
-use super::scenario::{DiscreteGustSection, KeepOutSection, Mistake, ObstacleSection};
+use super::{DiscreteGustSection, KeepOutSection, Mistake, ObstacleSection};
+use crate::campaign::digits::number;
 
 /// Found with the waypoints of a flight or drive; keys and units are those of `[world]`, those of the force of `[execute]`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -28,57 +27,26 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// `scenario` with this in its world, and nothing left to be searched for there. Arms have no environments.
-    pub(super) fn around(&self, scenario: &Scenario) -> Scenario {
-        let mut around = scenario.clone();
-        match &mut around {
-            Scenario::Flight(flight) => {
-                flight.world.wind_m_s = self.wind_m_s.or(flight.world.wind_m_s);
-                flight.world.discrete_gust = self.discrete_gust.or(flight.world.discrete_gust);
-                flight.world.obstacles.extend(self.obstacles.iter().cloned());
-                flight.generate.environment = None;
-            }
-            Scenario::Drive(drive) => {
-                drive.execute.external_force_n = self.external_force_n.or(drive.execute.external_force_n);
-                drive.world.keep_out.extend(self.keep_out.iter().cloned());
-                drive.generate.environment = None;
-            }
-            Scenario::Arm(_) => {}
-        }
-        around
-    }
-
-    /// The first thing wrong with it in `scenario`: what is not for its kind of robot, or a value out of bounds.
-    pub(super) fn mistake(&self, scenario: &Scenario) -> Option<Mistake> {
+    /// What of it acts on nothing where only `acting` does, the first of it.
+    pub(in crate::campaign) fn foreign(&self, acting: &[&str]) -> Option<Mistake> {
         let Self { wind_m_s, discrete_gust, obstacles, keep_out, external_force_n } = self;
-        let of_flights = [
+        let given = [
             ("wind_m_s", wind_m_s.is_some()),
             ("discrete_gust", discrete_gust.is_some()),
             ("obstacles", !obstacles.is_empty()),
+            ("keep_out", !keep_out.is_empty()),
+            ("external_force_n", external_force_n.is_some()),
         ];
-        let of_drives = [("keep_out", !keep_out.is_empty()), ("external_force_n", external_force_n.is_some())];
-        let foreign: Vec<(&str, bool)> = match scenario {
-            Scenario::Flight(_) => of_drives.into(),
-            Scenario::Drive(_) => of_flights.into(),
-            Scenario::Arm(_) => [&of_flights[..], &of_drives].concat(),
-        };
-        let mistake = |(key, _): (&str, bool)| Mistake {
+        let foreign = given.into_iter().find(|(key, given)| *given && !acting.contains(key));
+        foreign.map(|(key, _)| Mistake {
             key: key.into(),
             value: "given".into(),
             bound: "left out: nothing of the kind acts on this robot".into(),
-        };
-        let foreign = foreign.into_iter().find(|(_, given)| *given).map(mistake);
-        let checked = || {
-            let there = |mistake: &Mistake| {
-                mistake.key.starts_with("world.") || mistake.key.starts_with("execute.external_force_n")
-            };
-            self.around(scenario).check().into_iter().find(there)
-        };
-        foreign.or_else(checked)
+        })
     }
 
     /// Whether something was placed in the way.
-    pub(super) fn is_furnished(&self) -> bool {
+    pub(in crate::campaign) fn is_furnished(&self) -> bool {
         !self.obstacles.is_empty() || !self.keep_out.is_empty()
     }
 
@@ -109,10 +77,4 @@ impl Environment {
         }));
         words
     }
-}
-
-/// Takes `vector` back to length 1 where it is longer, along itself.
-pub(super) fn into_unit_ball(vector: &mut [f64]) {
-    let norm = vector.iter().map(|x| x * x).sum::<f64>().sqrt().max(1.0);
-    vector.iter_mut().for_each(|x| *x /= norm);
 }

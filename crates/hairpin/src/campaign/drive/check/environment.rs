@@ -1,6 +1,6 @@
 //! Bounds of `generate.environment`, and what it goes with.
 
-use crate::campaign::scenario::findings::Findings;
+use crate::campaign::check::Findings;
 use crate::campaign::scenario::{DriveEnvironmentSection, DriveScenario, PlacedDiscsSection};
 use crate::judgement::Stress;
 use crate::robot::rover::Rover;
@@ -9,7 +9,7 @@ use crate::world::terrain::ElevationMap;
 /// The largest force that may be searched, N.
 const MOST_FORCE: f64 = 1e6;
 
-pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, found: &mut Findings) {
+pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, map: Option<&ElevationMap>, found: &mut Findings) {
     let search = scenario.generate.search.section();
     let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);
     if search.executes(&scenario.generate.search.score) && search.stress == Stress::Clearance {
@@ -25,7 +25,7 @@ pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, found: &mut
     found.environment(&search, obstacles.is_some() || external_force_n.is_some(), "obstacles or external_force_n");
     if let Some(placed) = obstacles {
         found.placed(&search, placed.count, "drive");
-        check_radius(placed, scenario.world.terrain.map.as_deref(), found);
+        check_radius(placed, map, found);
     }
     if let Some(force) = external_force_n {
         let (key, own) = ("generate.environment.external_force_n", "execute.external_force_n");

@@ -1,8 +1,8 @@
 //! From the executed cases of a campaign to a model.
 
-use super::{LegSample, MoveFeatures, MoveSample, ScoreModel, subject};
-use crate::campaign::judge::measures_of;
-use crate::campaign::{Case, Run, Setup};
+use super::judge::measures_of;
+use super::learn::{LegSample, MoveFeatures, MoveSample, ScoreModel};
+use super::{Case, Run, Setup};
 use crate::judgement::{LegMeasures, Measures, Stress};
 use crate::math::ridge::NoFit;
 
@@ -18,7 +18,7 @@ pub fn leg_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> 
 }
 
 /// The legs of `case` with the stress that was measured on them.
-pub(in crate::campaign) fn samples_of(case: &Case, measures: &Measures, stress: Stress) -> Vec<LegSample> {
+pub(super) fn samples_of(case: &Case, measures: &Measures, stress: Stress) -> Vec<LegSample> {
     let mut samples = Vec::new();
     let before = std::iter::once(None).chain(case.seen.iter().copied().map(Some));
     for ((seen, before), leg) in case.seen.iter().zip(before).zip(&measures.legs) {
@@ -33,7 +33,7 @@ pub(in crate::campaign) fn samples_of(case: &Case, measures: &Measures, stress: 
 /// # Errors
 /// [`NoFit`].
 pub fn learn(setup: &Setup, stress: Stress, samples: &[LegSample]) -> Result<ScoreModel, NoFit> {
-    ScoreModel::learn(stress, subject(&setup.scenario), samples)
+    ScoreModel::learn(stress, setup.scenario.subject(), samples)
 }
 
 /// The moves of `case` between points of the cloud with the stress that each of `runs` put on them, and what the graph knew of them; of moves whose
@@ -57,5 +57,5 @@ pub fn move_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) ->
 /// # Errors
 /// [`NoFit`].
 pub fn learn_moves(setup: &Setup, stress: Stress, samples: &[MoveSample]) -> Result<ScoreModel, NoFit> {
-    ScoreModel::learn_moves(stress, subject(&setup.scenario), samples)
+    ScoreModel::learn_moves(stress, setup.scenario.subject(), samples)
 }

@@ -1,6 +1,6 @@
 //! Bounds of `[world]`.
 
-use crate::campaign::scenario::findings::Findings;
+use crate::campaign::check::Findings;
 use crate::campaign::scenario::{ObstacleSection, Origin, WorldSection};
 
 /// Farther than any cage or field; also keeps squares of distances far from rounding trouble.

@@ -3,13 +3,16 @@
 //! One random stream per parameter and case, so that adding a parameter changes no other's draws. Run 0 and case 0
 //! are nominal. Keys under `task` and `generate` shape the plan and are drawn once per case; the others once per run.
 
+mod tree;
+
 use serde_json::Value;
 
-use super::scenario::distribution::zip;
-use super::scenario::{CostSection, Distribution, KeyPath, Mistake, Scenario};
+use super::scenario::{Distribution, KeyPath, Mistake, Scenario, zip};
 use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 
-/// How often a truncated draw is repeated. [`Scenario::check`] refuses truncations that keep less than one draw in a
+pub(super) use tree::Tree;
+
+/// How often a truncated draw is repeated. [`super::Setup::build`] refuses truncations that keep less than one draw in a
 /// hundred, so this many failures in a row have a probability of 10⁻⁴³.
 const REDRAWS: usize = 10_000;
 
@@ -28,46 +31,9 @@ pub fn draw_for_case(scenario: &Scenario, case_seed: u64, case: usize) -> Vec<(S
 /// # Errors
 /// A key that the scenario has not, or a value of another type than the key's.
 pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario, Mistake> {
-    let mut drawn = if draws.is_empty() { scenario.clone() } else { patch(scenario, draws)? };
+    let mut drawn = scenario.clone();
+    put(&mut drawn, draws)?;
     drawn.vary_mut().clear();
-    // What was read from files is no key; where its keys did not change it is the same.
-    match (scenario, &mut drawn) {
-        (Scenario::Flight(old), Scenario::Flight(new)) if new.generate.score == old.generate.score => {
-            new.generate.model = old.generate.model.clone();
-            new.generate.user_score = old.generate.user_score.clone();
-        }
-        (Scenario::Drive(old), Scenario::Drive(new)) if new.generate.search.score == old.generate.search.score => {
-            new.generate.search.model = old.generate.search.model.clone();
-            new.generate.search.user_score = old.generate.search.user_score.clone();
-        }
-        _ => {}
-    }
-    match (scenario, &mut drawn) {
-        (Scenario::Drive(old), Scenario::Drive(new))
-            if new.world.terrain == old.world.terrain && new.seed == old.seed =>
-        {
-            new.world.terrain.map = old.world.terrain.map.clone();
-            new.world.terrain.bytes = old.world.terrain.bytes.clone();
-        }
-        (Scenario::Arm(old), Scenario::Arm(new)) => {
-            if new.task.points == old.task.points {
-                new.task.cloud = old.task.cloud.clone();
-                new.task.bytes = old.task.bytes.clone();
-            }
-            if let (CostSection::Learned(old), CostSection::Learned(new)) = (&old.generate.cost, &mut new.generate.cost)
-                && new.score == old.score
-            {
-                new.model = old.model.clone();
-            }
-            if let (CostSection::Table(old), CostSection::Table(new)) = (&old.generate.cost, &mut new.generate.cost)
-                && new.table == old.table
-            {
-                new.costs = old.costs.clone();
-                new.bytes = old.bytes.clone();
-            }
-        }
-        _ => {}
-    }
     Ok(drawn)
 }
 
@@ -90,20 +56,17 @@ pub fn shapes_the_plan(key: &str) -> bool {
 
 fn draw_keys(scenario: &Scenario, seed: u64, index: u64, wanted: impl Fn(&str) -> bool) -> Vec<(String, Value)> {
     let keys: Vec<_> = scenario.vary().iter().filter(|(key, _)| wanted(key)).collect();
-    if keys.is_empty() {
-        return Vec::new();
-    }
-    let nominal = as_value(scenario);
+    let mut nominal = Tree::new(scenario);
     keys.into_iter()
         .filter_map(|(key, distribution)| {
             let mut random = stream(named_seed(seed, key, index));
-            let nominal = KeyPath::parse(key)?.get(&nominal).cloned();
-            Some((key.clone(), sample(distribution, nominal.as_ref(), &mut random)?))
+            let nominal = nominal.get(&KeyPath::parse(key)?);
+            Some((key.clone(), sample(distribution, nominal, &mut random)?))
         })
         .collect()
 }
 
-/// One draw; `nominal` says where whole numbers are wanted. `None` for what [`Scenario::check`] refuses.
+/// One draw; `nominal` says where whole numbers are wanted. `None` for what [`super::Setup::build`] refuses.
 fn sample(distribution: &Distribution, nominal: Option<&Value>, random: &mut Stream) -> Option<Value> {
     if let Some([low, high]) = &distribution.uniform {
         return zip(low, high, nominal, &mut |low, high, whole| {
@@ -122,30 +85,25 @@ fn sample(distribution: &Distribution, nominal: Option<&Value>, random: &mut Str
     choice.get((unit(random) * choice.len() as f64) as usize).cloned()
 }
 
-fn patch(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario, Mistake> {
-    let mistake = |key: &str, value: &Value, bound: String| Mistake {
+/// Puts the draws into the sections that they name; all others stay as they are.
+fn put(scenario: &mut Scenario, draws: &[(String, Value)]) -> Result<(), Mistake> {
+    let mistake = |(key, value): &(String, Value), bound: String| Mistake {
         key: KeyPath::of(&["vary", key]).to_string(),
         value: value.to_string(),
         bound,
     };
-    let mut patched = as_value(scenario);
-    for (key, value) in draws {
-        let path = KeyPath::parse(key).ok_or_else(|| mistake(key, value, "a dotted key of the scenario".into()))?;
-        path.put(&mut patched, value.clone())
-            .map_err(|part| mistake(key, value, format!("a key that the scenario has; it has no `{part}`")))?;
+    let mut tree = Tree::new(scenario);
+    for draw in draws {
+        let path = KeyPath::parse(&draw.0).ok_or_else(|| mistake(draw, "a dotted key of the scenario".into()))?;
+        tree.put(&path, draw.1.clone())
+            .map_err(|part| mistake(draw, format!("a key that the scenario has; it has no `{part}`")))?;
     }
-    serde_json::from_value(patched).map_err(|error| {
-        let (key, value) = &draws[0];
-        mistake(key, value, format!("a key of the scenario, of its type: {error}"))
-    })
-}
-
-/// A scenario as a tree of values, in which keys can be put.
-pub(crate) fn as_value(scenario: &Scenario) -> Value {
-    match serde_json::to_value(scenario) {
-        Ok(value) => value,
-        Err(error) => unreachable!("every scenario is a tree of strings and numbers: {error}"),
+    for (name, section) in tree.sections() {
+        scenario
+            .put_section(&name, section)
+            .map_err(|error| mistake(&draws[0], format!("a key of the scenario, of its type: {error}")))?;
     }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -202,7 +160,7 @@ mod tests {
             lengths.push(planned.length().unwrap());
             let drawn = apply(&scenario, &draw(&scenario, seed, 1)).unwrap();
             let drawn = drawn.flight().unwrap();
-            let super::super::scenario::RobotSource::Inline(robot) = &drawn.robot else { panic!("robot lost") };
+            let crate::campaign::scenario::RobotSource::Inline(robot) = &drawn.robot else { panic!("robot lost") };
             masses.push(robot.mass_kg);
             winds.push(drawn.world.wind_m_s.unwrap());
             assert_eq!(drawn.world.obstacles[0].cuboid.unwrap().center_m[2], 5.0);

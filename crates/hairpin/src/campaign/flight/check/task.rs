@@ -2,8 +2,8 @@
 
 use nalgebra::Point3;
 
+use crate::campaign::check::Findings;
 use crate::campaign::scenario::TaskSection;
-use crate::campaign::scenario::findings::Findings;
 use crate::robot::quadrotor::Quadrotor;
 use crate::world::World;
 

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::campaign::Scenario;
 use crate::campaign::scenario::KeyPath;
+use crate::campaign::{Scenario, Setup};
 
 fn scenario() -> Value {
     json!({
@@ -25,7 +25,7 @@ fn mistakes(changes: &[(&str, Value)]) -> Vec<String> {
         KeyPath::parse(key).unwrap().put(&mut value, new.clone()).unwrap();
     }
     let scenario: Scenario = serde_json::from_value(value).unwrap();
-    scenario.check().iter().map(ToString::to_string).collect()
+    Setup::build(scenario.into()).err().unwrap_or_default().iter().map(ToString::to_string).collect()
 }
 
 #[test]

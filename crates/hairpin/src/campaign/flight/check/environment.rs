@@ -1,7 +1,7 @@
 //! Bounds of `generate.environment`, and what it goes with.
 
 use super::world::vector;
-use crate::campaign::scenario::findings::Findings;
+use crate::campaign::check::Findings;
 use crate::campaign::scenario::{EnvironmentSection, FlightScenario, PlacedSection};
 use crate::judgement::Stress;
 

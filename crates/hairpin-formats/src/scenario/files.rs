@@ -1,0 +1,96 @@
+//! The files that a scenario names: what they hold goes beside its keys, which from then on name the copies of a campaign's folder.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use hairpin::campaign::scenario::{Named, NamedMesh};
+use hairpin::campaign::{Attached, Attachments, Resolved, Scenario};
+
+use super::report::Report;
+use super::resolve::read_file;
+use super::{baseline, cell, learned, terrain, user_score};
+use crate::mesh::read_mesh;
+
+/// A mistake in a key that names a file.
+pub(super) struct Wrong {
+    pub(super) key: String,
+    pub(super) value: String,
+    /// What it must be, or why it cannot be read.
+    pub(super) bound: String,
+}
+
+impl Wrong {
+    pub(super) fn message(&self) -> String {
+        let Self { key, value, bound } = self;
+        format!("`{key}` = {value:?}: {bound}")
+    }
+}
+
+/// Reads all files of `scenario`, each from where `find` says it lies, and all that is wrong with them.
+pub(super) fn read(scenario: &mut Scenario, find: &dyn Fn(&str) -> PathBuf) -> (Attachments, Vec<Wrong>) {
+    let mut wrong = Vec::new();
+    let Named { map, cloud, costs, meshes, score, baseline } = scenario.named();
+    let map = map.and_then(|keys| told(terrain::read(keys, find), &mut wrong));
+    let cloud = cloud.and_then(|(file, checksum)| told(cell::cloud(file, checksum, find), &mut wrong));
+    let costs = costs.and_then(|table| told(cell::costs(table, find), &mut wrong));
+    for keys in meshes {
+        told(mesh(keys, find), &mut wrong);
+    }
+    let baseline = baseline.and_then(|limit| told(baseline::attach(limit, find), &mut wrong));
+    let mut attachments = Attachments { map, cloud, costs, baseline, ..Attachments::default() };
+    if let Some((key, score)) = score {
+        attachments.model = told(learned::read(key, score, find), &mut wrong).flatten();
+        attachments.user_score = told(user_score::read(key, score, find), &mut wrong).flatten();
+    }
+    (attachments, wrong)
+}
+
+fn told<T>(read: Result<T, Wrong>, wrong: &mut Vec<Wrong>) -> Option<T> {
+    read.map_err(|one| wrong.push(one)).ok()
+}
+
+/// Reads what a resolved scenario names in `folder`, as beside a repro file, or in the folder above: its map, its cloud.
+///
+/// # Errors
+/// A file cannot be read, or is another one.
+pub fn attach(mut scenario: Scenario, folder: &Path) -> Result<Resolved, Report> {
+    let find = |file: &str| {
+        let here = folder.join(file);
+        if here.is_file() { here } else { folder.join("..").join(file) }
+    };
+    let (attachments, wrong) = read(&mut scenario, &find);
+    let of_score = wrong.iter().find(|wrong| wrong.key == scenario.score_key());
+    match of_score.or(wrong.first()) {
+        None => Ok(Resolved { scenario, attachments }),
+        Some(one) => {
+            let mut report = Report::default();
+            report.complain_of_file(&one.value, &one.message());
+            Err(report)
+        }
+    }
+}
+
+/// A file as it is kept.
+pub(super) fn attached<T: ?Sized>(read: Arc<T>, bytes: Vec<u8>, name: &str, given: &str) -> Attached<T> {
+    Attached { read, bytes: bytes.into(), name: name.to_owned(), given: given.to_owned() }
+}
+
+/// The ending of a file's name, in small letters.
+pub(super) fn ending(file: &str) -> String {
+    Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
+fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf) -> Result<(), Wrong> {
+    let NamedMesh { key, file, scale, vertices_key, vertices, triangles } = keys;
+    let Some(file) = file.take() else { return Ok(()) };
+    let wrong = |bound: String| Wrong { key: key.clone(), value: file.clone(), bound };
+    if !vertices.is_empty() || !triangles.is_empty() {
+        return Err(wrong(format!("either a file or {vertices_key} and triangles, not both")));
+    }
+    let bytes = read_file(&find(&file)).map_err(|why| wrong(format!("cannot be read: {why}")))?;
+    let read = read_mesh(&bytes, &file).map_err(|error| wrong(error.to_string()))?;
+    let scale = scale.and_then(Option::take).unwrap_or(1.0);
+    *vertices = read.vertices.iter().map(|vertex| vertex.map(|part| part * scale)).collect();
+    *triangles = read.triangles;
+    Ok(())
+}

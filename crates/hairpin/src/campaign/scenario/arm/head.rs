@@ -1,0 +1,99 @@
+//! What scenarios of arms have in common with all others.
+
+use std::collections::BTreeMap;
+
+use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource};
+use crate::campaign::scenario::kinds::sections;
+use crate::campaign::scenario::{
+    ARM_MOVES, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Subject, Terms,
+};
+use crate::judgement::Limits;
+
+/// A point counts as reached within this distance of an arm's tool, m.
+const ARRIVED: f64 = 1e-3;
+
+impl Keys for ArmScenario {
+    fn head(&self) -> Head<'_> {
+        let (execute, spec) = (&self.execute, &self.spec);
+        Head {
+            seed: self.seed,
+            length: None,
+            // How many points a file has is not for keys to say.
+            search: self.generate.search.section(self.task.count(0)),
+            score: self.generate.cost.word(),
+            score_key: "generate.cost",
+            reach: self.generate.mode.word(),
+            executor: Executor {
+                command: None,
+                repeat: execute.repeat,
+                timeout: f64::INFINITY,
+                workers: None,
+                accept: ARRIVED,
+                reruns: execute.flaky.map_or(0, |flaky| flaky.reruns),
+            },
+            controller: execute.logs.is_none().then_some("virtual controller"),
+            origin: None,
+            vary: &self.vary,
+            violation_share: spec.violation_share,
+            confidence: spec.confidence,
+            // Arms are held to the path that was programmed, and to their times at its points.
+            terms: Terms {
+                from: DeviationFrom::Path,
+                corner: 0.0,
+                limits: Limits {
+                    deviation: spec.path.map(|limit| limit.max_mm * 1e-3),
+                    late: spec.arrival.map(|limit| limit.max_late_ms * 1e-3),
+                    ..Limits::default()
+                },
+            },
+            surroundings: &[],
+        }
+    }
+
+    fn subject(&self) -> Subject {
+        let controller = if self.execute.logs.is_some() { "recorded" } else { "virtual" };
+        let subject = Subject::of(&self.robot, |robot| &robot.name, true, Some(controller));
+        Subject { speeds: ARM_MOVES.into(), ..subject }
+    }
+
+    fn vary_mut(&mut self) -> &mut BTreeMap<String, Distribution> {
+        &mut self.vary
+    }
+
+    fn set_noisy(&mut self) {}
+
+    /// Arms have no environments.
+    fn surround(&mut self, _: &Environment) {}
+
+    fn write_defaults(&mut self) {
+        if self.execute.logs.is_none() {
+            self.execute.controller = Some(ArmControllerKind::Virtual);
+        }
+    }
+
+    fn named(&mut self) -> Named<'_> {
+        let meshes = self.world.obstacles.iter_mut().enumerate().filter_map(|(index, obstacle)| {
+            let mesh = obstacle.mesh.as_mut()?;
+            Some(NamedMesh {
+                key: format!("world.obstacles[{index}].mesh.file"),
+                file: &mut mesh.file,
+                scale: Some(&mut mesh.scale_mm),
+                vertices_key: "vertices_mm",
+                vertices: &mut mesh.vertices_mm,
+                triangles: &mut mesh.triangles,
+            })
+        });
+        let (costs, score) = match &mut self.generate.cost {
+            CostSection::Table(table) => (Some(table), None),
+            CostSection::Learned(cost) => (None, Some(("generate.cost", &mut cost.score))),
+            CostSection::Named(_) | CostSection::Weighted(_) => (None, None),
+        };
+        let cloud = match &mut self.task.points {
+            PointsSource::File(file) => Some((file, &mut self.task.checksum)),
+            PointsSource::List(_) | PointsSource::Drawn(_) => None,
+        };
+        Named { map: None, cloud, costs, meshes: meshes.collect(), score, baseline: self.spec.regression.as_mut() }
+    }
+
+    sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);
+}

@@ -1,0 +1,84 @@
+//! What scenarios of drives have in common with all others.
+
+use std::collections::BTreeMap;
+
+use super::{DriveExecute, DriveScenario, GroundReach};
+use crate::campaign::scenario::kinds::sections;
+use crate::campaign::scenario::{
+    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Subject, Terms,
+};
+use crate::judgement::Limits;
+
+impl Keys for DriveScenario {
+    fn head(&self) -> Head<'_> {
+        let DriveExecute { command, repeat, timeout_s, workers, accept_m, flaky, .. } = &self.execute;
+        let limits = &self.spec.limits;
+        Head {
+            seed: self.seed,
+            length: Some(self.task.length),
+            search: self.generate.search.section(),
+            score: &self.generate.search.score,
+            score_key: "generate.search.score",
+            reach: self.generate.reach.word(),
+            executor: Executor {
+                command: command.as_deref(),
+                repeat: repeat.unwrap_or(if self.vary.is_empty() { 1 } else { 2 }),
+                timeout: *timeout_s,
+                workers: *workers,
+                accept: *accept_m,
+                reruns: flaky.map_or(0, |flaky| flaky.reruns),
+            },
+            controller: self.execute.controller_in_force().map(|controller| controller.word()),
+            origin: self.world.origin,
+            vary: &self.vary,
+            violation_share: limits.violation_share,
+            confidence: limits.confidence,
+            // Drives follow a planned path: the way between two waypoints is not the straight one.
+            terms: Terms {
+                from: DeviationFrom::Path,
+                corner: 0.0,
+                limits: Limits {
+                    deviation: limits.path_deviation_m,
+                    clearance: limits.clearance_m,
+                    tip_over_margin: limits.tip_over_margin_deg,
+                    total_time: limits.total_time_s,
+                    ..Limits::default()
+                },
+            },
+            surroundings: &["keep_out", "external_force_n"],
+        }
+    }
+
+    fn subject(&self) -> Subject {
+        let at_ends = self.generate.reach == GroundReach::Witness;
+        let controller = self.execute.controller_in_force().map(|controller| controller.word());
+        Subject::of(&self.robot, |robot| robot.name(), at_ends, controller)
+    }
+
+    fn vary_mut(&mut self) -> &mut BTreeMap<String, Distribution> {
+        &mut self.vary
+    }
+
+    fn set_noisy(&mut self) {
+        self.execute.noise = true;
+    }
+
+    fn surround(&mut self, environment: &Environment) {
+        self.execute.external_force_n = environment.external_force_n.or(self.execute.external_force_n);
+        self.world.keep_out.extend(environment.keep_out.iter().cloned());
+        self.generate.environment = None;
+    }
+
+    fn write_defaults(&mut self) {
+        self.execute.controller = self.execute.controller_in_force();
+    }
+
+    fn named(&mut self) -> Named<'_> {
+        let terrain = &mut self.world.terrain;
+        let map = (terrain.file.is_some() && terrain.generator.is_none()).then_some(terrain);
+        let score = Some(("generate.search.score", &mut self.generate.search.score));
+        Named { map, score, ..Named::default() }
+    }
+
+    sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);
+}

@@ -1,0 +1,102 @@
+//! What scenarios of flights have in common with all others.
+
+use std::collections::BTreeMap;
+
+use super::{DeviationFrom, ExecuteSection, FlightScenario, ReachName};
+use crate::campaign::scenario::kinds::sections;
+use crate::campaign::scenario::{Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Subject, Terms};
+use crate::judgement::Limits;
+
+impl Keys for FlightScenario {
+    fn head(&self) -> Head<'_> {
+        let ExecuteSection { command, repeat, timeout_s, workers, accept_m, flaky, .. } = &self.execute;
+        Head {
+            seed: self.seed,
+            length: Some(self.task.length),
+            search: self.generate.search,
+            score: &self.generate.score,
+            score_key: "generate.score",
+            reach: self.generate.reach.word(),
+            executor: Executor {
+                command: command.as_deref(),
+                repeat: *repeat,
+                timeout: *timeout_s,
+                workers: *workers,
+                accept: *accept_m,
+                reruns: flaky.map_or(0, |flaky| flaky.reruns),
+            },
+            controller: self.execute.controller_in_force().map(|controller| controller.word()),
+            origin: self.world.origin,
+            vary: &self.vary,
+            violation_share: self.spec.violation_share,
+            confidence: self.spec.confidence,
+            terms: self.terms(),
+            surroundings: &["wind_m_s", "discrete_gust", "obstacles"],
+        }
+    }
+
+    fn subject(&self) -> Subject {
+        let at_ends = self.generate.reach == ReachName::Witness;
+        let controller = self.execute.controller_in_force().map(|controller| controller.word());
+        Subject::of(&self.robot, |robot| &robot.name, at_ends, controller)
+    }
+
+    fn vary_mut(&mut self) -> &mut BTreeMap<String, Distribution> {
+        &mut self.vary
+    }
+
+    fn set_noisy(&mut self) {
+        self.execute.noise = true;
+    }
+
+    fn surround(&mut self, environment: &Environment) {
+        let world = &mut self.world;
+        world.wind_m_s = environment.wind_m_s.or(world.wind_m_s);
+        world.discrete_gust = environment.discrete_gust.or(world.discrete_gust);
+        world.obstacles.extend(environment.obstacles.iter().cloned());
+        self.generate.environment = None;
+    }
+
+    fn write_defaults(&mut self) {
+        self.generate.timing = Some(self.generate.timing_in_force());
+        if self.execute.logs.is_none() {
+            self.execute.controller = self.execute.controller_in_force();
+        }
+    }
+
+    fn named(&mut self) -> Named<'_> {
+        let meshes = self.world.obstacles.iter_mut().enumerate().filter_map(|(index, obstacle)| {
+            let mesh = obstacle.mesh.as_mut()?;
+            Some(NamedMesh {
+                key: format!("world.obstacles[{index}].mesh.file"),
+                file: &mut mesh.file,
+                scale: None,
+                vertices_key: "vertices_m",
+                vertices: &mut mesh.vertices_m,
+                triangles: &mut mesh.triangles,
+            })
+        });
+        let score = Some(("generate.score", &mut self.generate.score));
+        Named { meshes: meshes.collect(), score, ..Named::default() }
+    }
+
+    sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);
+}
+
+impl FlightScenario {
+    fn terms(&self) -> Terms {
+        let spec = &self.spec;
+        Terms {
+            from: spec.deviation.map_or(DeviationFrom::Leg, |deviation| deviation.from),
+            corner: spec.deviation.map_or(0.0, |deviation| deviation.corner_m),
+            limits: Limits {
+                deviation: spec.deviation.map(|limit| limit.max_m),
+                overshoot: spec.overshoot.map(|limit| limit.max_m),
+                clearance: spec.clearance.map(|limit| limit.min_m),
+                acceleration: spec.acceleration.map(|limit| limit.max_m_s2),
+                total_time: spec.total_time.map(|limit| limit.max_s),
+                ..Limits::default()
+            },
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! What jobs ask of every scenario, whatever moves in it: each kind answers once, in a file of its own.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use super::{Distribution, Environment, Mistake, Named, Origin, Scenario, SearchSection, Subject, Terms};
+
+/// Who executes a campaign's trajectories, and how often.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Executor<'a> {
+    /// A program that speaks the executor protocol; `None`: our own simulator.
+    pub command: Option<&'a str>,
+    /// Runs per case.
+    pub repeat: u64,
+    /// Wall-clock limit per mission of `command`, s.
+    pub timeout: f64,
+    /// Workers of `command`.
+    pub workers: Option<u64>,
+    /// A waypoint counts as reached inside this radius, m.
+    pub accept: f64,
+    /// Further runs of every violation, with other noise.
+    pub reruns: u64,
+}
+
+/// What scenarios of all kinds say, under one name each.
+#[derive(Debug, Clone, Copy)]
+pub struct Head<'a> {
+    /// Root seed of the campaign.
+    pub seed: u64,
+    /// Waypoints of a trajectory, both ends included; `None` where they are as many as load the robot most.
+    pub length: Option<u64>,
+    /// How graphs are searched.
+    pub search: SearchSection,
+    /// The score's name.
+    pub score: &'a str,
+    /// The key that says it.
+    pub score_key: &'static str,
+    /// The word of the reach set, or of what is proven clear.
+    pub reach: &'static str,
+    /// Who executes, and how often.
+    pub executor: Executor<'a>,
+    /// The word of the controller of ours that executes; `None` where a command does.
+    pub controller: Option<&'static str>,
+    /// Where on Earth the world stands.
+    pub origin: Option<Origin>,
+    /// Distributions, by key.
+    pub vary: &'a BTreeMap<String, Distribution>,
+    /// Share of cases that may violate the limits.
+    pub violation_share: Option<f64>,
+    /// Confidence of the share's interval, where one is given.
+    pub confidence: Option<f64>,
+    /// What a run is judged by.
+    pub terms: Terms,
+    /// Keys of an environment that act on what moves.
+    pub surroundings: &'static [&'static str],
+}
+
+/// The keys of one kind of robot's scenarios.
+pub trait Keys {
+    /// What it has in common with all others.
+    fn head(&self) -> Head<'_>;
+
+    /// Whose legs it is about.
+    fn subject(&self) -> Subject;
+
+    /// Distributions for changes.
+    fn vary_mut(&mut self) -> &mut BTreeMap<String, Distribution>;
+
+    /// Executes with the noise of the robot's own densities; where a simulator always has noise, nothing changes.
+    fn set_noisy(&mut self);
+
+    /// Puts what was searched beside the waypoints into the world, and leaves nothing to be searched for there.
+    fn surround(&mut self, environment: &Environment);
+
+    /// Writes what is in force where a key is left out and resolved scenarios say it.
+    fn write_defaults(&mut self);
+
+    /// The keys that name files.
+    fn named(&mut self) -> Named<'_>;
+
+    /// The value of a key of the whole, such as `world`; `None` where it has no such key.
+    fn section(&self, name: &str) -> Option<Value>;
+
+    /// Puts another value there.
+    ///
+    /// # Errors
+    /// No such key; a value of another shape.
+    fn put_section(&mut self, name: &str, value: Value) -> serde_json::Result<()>;
+
+    /// Root seed of the campaign.
+    fn seed(&self) -> u64 {
+        self.head().seed
+    }
+
+    /// Waypoints of a trajectory, both ends included; `None` where they are as many as load the robot most.
+    fn length(&self) -> Option<u64> {
+        self.head().length
+    }
+
+    /// How graphs are searched.
+    fn search(&self) -> SearchSection {
+        self.head().search
+    }
+
+    /// The score's name.
+    fn score(&self) -> &str {
+        self.head().score
+    }
+
+    /// The key of [`Self::score`].
+    fn score_key(&self) -> &'static str {
+        self.head().score_key
+    }
+
+    /// The word of the reach set, or of what is proven clear.
+    fn reach(&self) -> &'static str {
+        self.head().reach
+    }
+
+    /// Who executes, and how often.
+    fn executor(&self) -> Executor<'_> {
+        self.head().executor
+    }
+
+    /// The word of the controller of ours that executes; `None` where a command does.
+    fn controller(&self) -> Option<&'static str> {
+        self.head().controller
+    }
+
+    /// Where on Earth the world stands.
+    fn origin(&self) -> Option<Origin> {
+        self.head().origin
+    }
+
+    /// Distributions, by key.
+    fn vary(&self) -> &BTreeMap<String, Distribution> {
+        self.head().vary
+    }
+
+    /// Share of cases that may violate the limits.
+    fn violation_share(&self) -> Option<f64> {
+        self.head().violation_share
+    }
+
+    /// Confidence of the share's interval, where one is given.
+    fn confidence(&self) -> Option<f64> {
+        self.head().confidence
+    }
+
+    /// Limit of the deviation, m.
+    fn deviation_limit(&self) -> Option<f64> {
+        self.head().terms.limits.deviation
+    }
+
+    /// Whether trajectories are executed while they are searched for.
+    fn executes(&self) -> bool {
+        self.search().executes(self.score())
+    }
+
+    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours. Trajectories that are there already are
+    /// anybody's to execute.
+    ///
+    /// # Errors
+    /// The method of search, or the score.
+    fn check_search(&self) -> Result<(), Mistake> {
+        if !self.executes() || self.controller().is_some() {
+            return Ok(());
+        }
+        let method = self.search().method;
+        let (key, value) = match method.executes() {
+            true => ("generate.search.method", serde_json::to_string(&method).unwrap_or_default()),
+            false => (self.score_key(), format!("\"{}\"", self.score())),
+        };
+        let bound = "another one, or execute.controller given: a command is not executed in the loop";
+        Err(Mistake { key: key.into(), value, bound: bound.into() })
+    }
+}
+
+impl Scenario {
+    /// The same scenario with these distributions.
+    pub fn with_vary(mut self, vary: BTreeMap<String, Distribution>) -> Self {
+        *self.vary_mut() = vary;
+        self
+    }
+}
