@@ -105,7 +105,7 @@ pub(super) fn execute_partial(
         airborne.fly_to(flying.world, *waypoint).map_err(|_| flown)?;
     }
     if whole {
-        airborne.finish(flying.world);
+        airborne.finish(flying.world).map_err(|_| flown)?;
     }
     let run = Run { case: 0, run: 0, drawn: Vec::new(), outcome: Ok(airborne.flight()) };
     let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));

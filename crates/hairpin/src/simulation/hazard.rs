@@ -12,6 +12,11 @@ const TUMBLE_TIME: f64 = 0.5;
 /// Farther than this from the origin nothing is simulated any more, m.
 const FARTHEST: f64 = 1e5;
 
+/// Whether a robot at `position` with its body z axis `up` is where nothing is simulated any more.
+pub(crate) fn is_lost(position: &Vector3<f64>, up: f64) -> bool {
+    !(position.norm_squared() < FARTHEST * FARTHEST && up.is_finite())
+}
+
 /// Watches one run.
 #[derive(Debug, Clone)]
 pub(crate) struct Hazards {
@@ -38,7 +43,7 @@ impl Hazards {
     /// around an earlier position that is known to be clear, so nothing between two notes is missed but the bulge of
     /// the path over its chord (below 1 mm at 10 ms and 8 g). A world is left through its sides and its ceiling.
     pub(crate) fn note(&mut self, world: &World, t: f64, position: &Vector3<f64>, up: f64) -> Option<Ended> {
-        if !(position.norm_squared() < FARTHEST * FARTHEST && up.is_finite()) {
+        if is_lost(position, up) {
             return Some(Ended::Tumble);
         }
         let p = Point3::from(*position);

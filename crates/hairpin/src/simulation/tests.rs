@@ -412,7 +412,7 @@ fn what_cannot_be_flown_is_refused_with_its_name() {
     let two = [Point3::new(5.0, 5.0, 5.0), Point3::new(6.0, 5.0, 5.0)];
     let refuse = |robot: &Quadrotor, waypoints: &[Point3<f64>], conditions: Conditions, settings: FlySettings| {
         let sortie = Sortie { robot, world: &world, waypoints, profile: None };
-        fly(&sortie, &ControllerSettings::default(), &conditions, &settings, 1).unwrap_err().field
+        fly(&sortie, &ControllerSettings::default(), &conditions, &settings, 1).unwrap_err().field()
     };
     let (still, default) = (Conditions::default(), FlySettings::default());
     assert_eq!(refuse(&robot, &two[..1], still, default), "waypoints");

@@ -137,7 +137,7 @@ fn plans_take_the_time_of_their_speeds() {
     let mut wrong = shunting();
     wrong.legs[1].speed = SpeedProfile::Ramp { start: 0.0, end: 0.0 };
     let told = planned_track(&car, &plane(0.0, 0.0), &wrong).map(|_| ());
-    assert_eq!(told.expect_err("a ramp that stands still").field, "drive.legs.speed");
+    assert_eq!(told.expect_err("a ramp that stands still").field(), "drive.legs.speed");
 }
 
 /// A boulder between the wheels' tracks.
@@ -317,7 +317,7 @@ fn mistakes_are_told_by_field() {
             clearance_radius: 0.0,
             drive: plan,
         };
-        drive(&sortie, &GroundController::Stanley, conditions, settings, 1).map(|_| ()).expect_err("a mistake").field
+        drive(&sortie, &GroundController::Stanley, conditions, settings, 1).map(|_| ()).expect_err("a mistake").field()
     };
     let good = plan(&[vec![Segment::straight(3.0, Gear::Forward)]], 0.1);
     let (conditions, settings) = (GroundConditions::default(), DriveSettings::default());

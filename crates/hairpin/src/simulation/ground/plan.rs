@@ -2,7 +2,8 @@
 
 use nalgebra::Isometry3;
 
-use super::plant::{Command, Lost, Plant};
+use super::command::DriveCommand;
+use super::plant::{Lost, Plant};
 use crate::math::power::square;
 use crate::robot::rover::{Response, Rover};
 use crate::simulation::SimulationError;
@@ -65,6 +66,15 @@ pub(super) struct Plan {
     pub(super) sections: Vec<Section>,
     /// Duration as commanded, s.
     pub(super) duration: f64,
+    /// Poses in time with the channel `leg`.
+    pub(super) track: Track,
+}
+
+/// A plan that is being driven for the first time.
+#[derive(Default)]
+struct Draft {
+    sections: Vec<Section>,
+    duration: f64,
     times: Vec<f64>,
     poses: Vec<Isometry3<f64>>,
     legs: Vec<f64>,
@@ -77,9 +87,7 @@ pub(super) struct Plan {
 /// # Errors
 /// A drive without legs or with numbers that are none; a place where the vehicle cannot stand.
 pub fn planned_track(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> Result<Track, SimulationError> {
-    let plan = Plan::new(nominal, terrain, drive)?;
-    let legs = Channel { name: "leg".into(), values: plan.legs };
-    Ok(Track::new(plan.times, plan.poses, vec![legs]).expect("our own samples are finite and in order"))
+    Ok(Plan::new(nominal, terrain, drive)?.track)
 }
 
 impl Plan {
@@ -91,9 +99,9 @@ impl Plan {
         at_once.limits.curvature = f64::INFINITY;
         at_once.limits.turns_in_place = true;
         at_once.response = Response { latency: 0.0, ..nominal.response };
-        let mut plan = Self { sections: vec![], duration: 0.0, times: vec![], poses: vec![], legs: vec![] };
+        let mut draft = Draft::default();
         for leg in 0..drive.legs.len() {
-            plan.add_leg(&at_once, terrain, drive, leg).map_err(|lost| {
+            draft.add_leg(&at_once, terrain, drive, leg).map_err(|lost| {
                 let bound = match lost {
                     Lost::NoGround => "over ground all along",
                     Lost::NoRest => "over ground on which the wheels find rest",
@@ -101,12 +109,34 @@ impl Plan {
                 SimulationError::new("drive.legs", format!("leg {leg}"), bound)
             })?;
         }
-        if plan.times.len() < 2 {
+        let Draft { sections, duration, times, poses, legs } = draft;
+        if times.len() < 2 {
             return Err(SimulationError::new("drive.legs", "no motion".into(), "of some length"));
         }
-        Ok(plan)
+        let legs = Channel { name: "leg".into(), values: legs };
+        let track = Track::new(times, poses, vec![legs]).expect("our own samples are finite and in order");
+        Ok(Self { sections, duration, track })
     }
 
+    /// The longest time that the plan takes to move by `way` m or turn by `angle` rad, s.
+    pub(super) fn longest_rest(&self, [way, angle]: [f64; 2]) -> f64 {
+        // Of two attitudes as quaternions.
+        let alike = libm::cos(0.5 * angle);
+        let times = self.track.times();
+        let (mut from, mut longest) = (0, 0.0_f64);
+        for (i, pose) in self.track.poses().iter().enumerate() {
+            let (moved, before) = (times[i] - times[from], &self.track.poses()[from]);
+            longest = longest.max(moved);
+            let off = (pose.translation.vector - before.translation.vector).norm();
+            if off > way || pose.rotation.coords.dot(&before.rotation.coords).abs() < alike {
+                from = i;
+            }
+        }
+        longest
+    }
+}
+
+impl Draft {
     fn add_leg(&mut self, vehicle: &Rover, terrain: &ElevationMap, drive: &Drive, leg: usize) -> Result<(), Lost> {
         let timing = drive.legs[leg].timing();
         let mut driven = 0.0;
@@ -124,11 +154,11 @@ impl Plan {
                     self.sections.push(Section::Turn { from: plant.yaw, angle: angle_rad, leg });
                     let parts = (angle_rad.abs() / TURN_SPACING).ceil();
                     let time = angle_rad.abs() / drive.turn_rate / parts;
-                    let command = Command {
+                    let command = DriveCommand {
                         turn_rate: drive.turn_rate.copysign(angle_rad),
                         curvature: plant.curvature(),
                         direction: plant.direction,
-                        ..Command::default()
+                        ..DriveCommand::default()
                     };
                     plant.speed = 0.0;
                     for _ in 0..parts as usize {
@@ -181,7 +211,8 @@ impl Plan {
                 let time = timing.time_over(driven + begun, step);
                 let curvature = segment.curvature_at(begun + 0.5 * step);
                 let direction = direction_at(begun + 0.5 * step);
-                plant.advance(&Command { speed: gear * step / time, curvature, turn_rate: 0.0, direction }, time)?;
+                plant
+                    .advance(&DriveCommand { speed: gear * step / time, curvature, turn_rate: 0.0, direction }, time)?;
                 self.duration += time;
             }
             let done = step * ((part + 1) * STEPS) as f64;
@@ -196,22 +227,6 @@ impl Plan {
         }
         plant.speed = 0.0;
         Ok(())
-    }
-
-    /// The longest time that the plan takes to move by `way` m or turn by `angle` rad, s.
-    pub(super) fn longest_rest(&self, [way, angle]: [f64; 2]) -> f64 {
-        // Of two attitudes as quaternions.
-        let alike = libm::cos(0.5 * angle);
-        let (mut from, mut longest) = (0, 0.0_f64);
-        for (i, pose) in self.poses.iter().enumerate() {
-            let (moved, before) = (self.times[i] - self.times[from], &self.poses[from]);
-            longest = longest.max(moved);
-            let off = (pose.translation.vector - before.translation.vector).norm();
-            if off > way || pose.rotation.coords.dot(&before.rotation.coords).abs() < alike {
-                from = i;
-            }
-        }
-        longest
     }
 
     fn note(&mut self, plant: &Plant, leg: usize) {

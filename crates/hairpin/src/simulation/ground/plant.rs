@@ -2,23 +2,11 @@
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
+use super::command::DriveCommand;
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
 use crate::robot::rover::{Effort, Gradient, Rover, Settled, Suspension, Unsettled, slip_share};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
-
-/// What a controller asks for until its next turn.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Command {
-    /// Along the direction of travel, m/s, negative in reverse.
-    pub(super) speed: f64,
-    /// Of the path, 1/m.
-    pub(super) curvature: f64,
-    /// In place, rad/s; acts only while the vehicle stands.
-    pub(super) turn_rate: f64,
-    /// Of travel in the body, rad.
-    pub(super) direction: f64,
-}
 
 /// Why a vehicle cannot go on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -122,7 +110,8 @@ impl<'a> Plant<'a> {
     fn rest_from_nothing(&self) -> Result<(Settled, Gradient), Lost> {
         if self.vehicle.suspension == Suspension::Level {
             // A point needs no wheels to stand, but it does need ground.
-            self.terrain.patch(self.x, self.y)?;
+            let ground = self.terrain.patch(self.x, self.y)?;
+            return Ok((Settled { z: ground.height, ..Settled::default() }, Gradient::default()));
         }
         self.vehicle.suspension.settle_cold(self.terrain, self.place()).map_err(Lost::from)
     }
@@ -138,7 +127,7 @@ impl<'a> Plant<'a> {
     }
 
     /// Goes on for `time` s under `command`.
-    pub(super) fn advance(&mut self, command: &Command, time: f64) -> Result<(), Lost> {
+    pub(super) fn advance(&mut self, command: &DriveCommand, time: f64) -> Result<(), Lost> {
         let mut left = time;
         while left > 1e-12 {
             let fastest = self.speed.abs().max(self.bounded_speed(command).abs());
@@ -150,13 +139,13 @@ impl<'a> Plant<'a> {
         Ok(())
     }
 
-    fn bounded_speed(&self, command: &Command) -> f64 {
+    fn bounded_speed(&self, command: &DriveCommand) -> f64 {
         command.speed.clamp(-self.vehicle.limits.speed, self.vehicle.limits.speed)
     }
 
     /// One step by the midpoint rule; the pose at its middle is extrapolated by the suspension's gradient, the one at its
     /// end settled.
-    fn step(&mut self, command: &Command, h: f64) -> Result<(), Lost> {
+    fn step(&mut self, command: &DriveCommand, h: f64) -> Result<(), Lost> {
         let bend_before = self.curvature();
         self.steer(command.curvature, h);
         if command.direction != self.direction {
@@ -204,7 +193,7 @@ impl<'a> Plant<'a> {
     }
 
     /// Brings the speeds towards their commands; the way and the angle gone meanwhile.
-    fn accelerate(&mut self, command: &Command, h: f64) -> (f64, f64) {
+    fn accelerate(&mut self, command: &DriveCommand, h: f64) -> (f64, f64) {
         let most = self.vehicle.limits.acceleration * h;
         let wanted = if command.turn_rate == 0.0 { self.bounded_speed(command) } else { 0.0 };
         let before = self.speed;

@@ -1,4 +1,5 @@
-//! Path-following controllers: each turns where the vehicle is along its plan into a curvature.
+//! The controllers of ours that drive: the guide says where along the plan the vehicle is and how fast to go, and each turns that
+//! into a curvature.
 
 mod predictive;
 mod stanley;
@@ -6,10 +7,11 @@ mod stanley;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::guide::{Along, Measured};
-use super::plant::Command;
+use super::command::{DriveCommand, DriveState};
+use super::guide::{Along, Guide, Task};
 use super::pursuit::PurePursuit;
 use crate::robot::rover::Rover;
+use crate::simulation::controller::{Controller, Fault, Reference, Schedule};
 use crate::trajectory::Direction;
 use crate::trajectory::drive::{Gear, Planar, SegmentList};
 
@@ -51,7 +53,43 @@ pub enum GroundController<'a> {
     Predictive(&'a Resolve<'a>),
 }
 
-/// A controller in a run.
+impl GroundController<'_> {
+    /// The word in scenarios.
+    pub(super) fn word(&self) -> &'static str {
+        match self {
+            GroundController::PurePursuit => GroundControllerKind::PurePursuit,
+            GroundController::Stanley => GroundControllerKind::Stanley,
+            GroundController::Predictive(_) => GroundControllerKind::Predictive,
+        }
+        .word()
+    }
+}
+
+/// A controller in a run: it follows the plan, by its schedule.
+pub(super) struct Guided<'a> {
+    pub(super) guide: Guide<'a>,
+    pub(super) driver: Driver<'a>,
+}
+
+impl Controller<Rover> for Guided<'_> {
+    fn control(&mut self, dt: f64, now: &DriveState, _to: &Reference<Rover>) -> Result<DriveCommand, Fault> {
+        let command = match self.guide.task(now, dt) {
+            Task::Hold(command) => command,
+            Task::Follow(along) => {
+                let curvature = self.driver.steer(now, &along, dt);
+                DriveCommand { speed: along.sign * along.speed, curvature, turn_rate: 0.0, direction: along.direction }
+            }
+        };
+        self.driver.note(now, &command);
+        Ok(command)
+    }
+
+    fn schedule(&self) -> Option<Schedule> {
+        Some(Schedule { leg: self.guide.leg(), over: self.guide.over() })
+    }
+}
+
+/// How it steers.
 pub(super) enum Driver<'a> {
     PurePursuit(PurePursuit),
     Stanley(stanley::Stanley),
@@ -72,7 +110,7 @@ impl<'a> Driver<'a> {
     }
 
     /// The curvature to steer for the next `dt` s, 1/m.
-    pub(super) fn steer(&mut self, measured: &Measured, along: &Along, dt: f64) -> f64 {
+    pub(super) fn steer(&mut self, measured: &DriveState, along: &Along, dt: f64) -> f64 {
         match self {
             Driver::PurePursuit(pursuit) => pursuit.steer(measured, along),
             Driver::Stanley(stanley) => stanley.steer(measured, along),
@@ -81,7 +119,7 @@ impl<'a> Driver<'a> {
     }
 
     /// Takes note of what is commanded at `measured.t`.
-    pub(super) fn note(&mut self, measured: &Measured, command: &Command) {
+    pub(super) fn note(&mut self, measured: &DriveState, command: &DriveCommand) {
         if let Driver::Predictive(predictive) = self {
             predictive.note(measured, command);
         }

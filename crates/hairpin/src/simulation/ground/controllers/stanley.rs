@@ -7,7 +7,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::robot::rover::Rover;
-use crate::simulation::ground::guide::{Along, Measured, wrap};
+use crate::simulation::ground::command::DriveState;
+use crate::simulation::ground::guide::{Along, wrap};
 use crate::simulation::ground::plan::{direction_at, heading, station_at, turning};
 use crate::trajectory::drive::Planar;
 
@@ -28,7 +29,7 @@ impl Stanley {
         Self { most: nominal.limits.curvature, axle: nominal.response.steered_axle }
     }
 
-    pub(super) fn steer(&self, measured: &Measured, along: &Along) -> f64 {
+    pub(super) fn steer(&self, measured: &DriveState, along: &Along) -> f64 {
         let plan = station_at(along.stations, along.s, along.sign);
         let direction = direction_at(along.stations, along.s);
         let turning = turning(along.stations, along.s, self.axle);
