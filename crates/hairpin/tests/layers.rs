@@ -290,7 +290,7 @@ fn refused(module: &str, text: &str) -> bool {
 #[test]
 fn forged_breaches_are_caught() {
     for (module, text) in [
-        ("hairpin::world::sample", "use crate::robot::Dynamics;"),
+        ("hairpin::world::sample", "use crate::robot::quadrotor::Quadrotor;"),
         ("hairpin::math::random", "use crate::{world::World};"),
         ("hairpin::trajectory::track", "fn f(w: &crate::world::World) {}"),
         ("hairpin::simulation::plant", "use crate::{math::random, feasibility::{self, reach::Leg}};"),

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use hairpin::campaign::Setup;
 use hairpin::campaign::flight::FlightSetup;
-use hairpin::robot::Dynamics;
 use hairpin::robot::quadrotor::Quadrotor;
 use hairpin::simulation::{Motion, Plant, PlantState, Stepper};
 use hairpin::trajectory::{Channel, Track};
@@ -59,9 +58,9 @@ fn fly(robot: &Quadrotor, rows: &[Row]) -> Result<Track, Problem> {
         states.push(motion.state());
     }
     let column = |index: usize| states.iter().map(|state: &PlantState| state[index]).collect();
-    let quantities = Plant::STATE.iter().enumerate().skip(7);
-    let channels = quantities.map(|(i, q)| Channel { name: format!("{}_{}", q.name, q.unit), values: column(i) });
-    let poses = states.iter().map(|state| plant.pose(state)).collect();
+    let names = Plant::CHANNELS.iter().zip(7..);
+    let channels = names.map(|(name, i)| Channel { name: (*name).into(), values: column(i) });
+    let poses = states.iter().map(Plant::pose).collect();
     Track::new(rows.iter().map(|row| row.t).collect(), poses, channels.collect()).map_err(Problem::input)
 }
 

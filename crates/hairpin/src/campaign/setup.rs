@@ -7,7 +7,7 @@ use super::arm::{self, ArmSetup, Station};
 use super::drive::{self, DriveSetup};
 use super::flight::{self, FlightSetup};
 use super::scenario::{Mistake, Scenario};
-use super::{Case, Environment};
+use super::{AnyController, Case, Environment};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::Quadrotor;
 use crate::robot::rover::Rover;
@@ -22,6 +22,7 @@ pub struct Setup {
     /// Version of the kernels that generate and execute.
     pub simd: Simd,
     machine: Machine,
+    own_controller: Option<AnyController>,
 }
 
 /// A robot in its world.
@@ -61,9 +62,30 @@ impl Setup {
         Self { simd, ..self }
     }
 
-    /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; the kernels stay these.
+    /// The same executed by a controller of the caller's own, wherever the scenario's would execute: runs, searches that execute,
+    /// re-runs, candidates of a shrinking. What is told of the campaign names it.
+    ///
+    /// The scenario's own keys stay as they are. A folder keeps a scenario and no code, so one that is written of this
+    /// names the controller in its report and verdict only, and is resumed and replayed by those who have the code.
+    ///
+    /// # Errors
+    /// A controller of another kind of robot, or without a name; a scenario that has a command executed, or varies what only ours have.
+    pub fn with_controller(self, controller: impl Into<AnyController>) -> Result<Self, Mistake> {
+        let controller = controller.into();
+        match controller.mistake(&self.scenario) {
+            Some(mistake) => Err(mistake),
+            None => Ok(Self { own_controller: Some(controller), ..self }),
+        }
+    }
+
+    /// The controller of the caller's own.
+    pub(super) fn own_controller(&self) -> Option<&AnyController> {
+        self.own_controller.as_ref()
+    }
+
+    /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; kernels and controller stay these.
     pub(super) fn of_draw(&self, scenario: Scenario) -> Result<Self, Mistake> {
-        Self::build(scenario, self.simd)
+        Ok(Self { own_controller: self.own_controller.clone(), ..Self::build(scenario, self.simd)? })
     }
 
     /// This setup with what `case` has beside its waypoints in its world.
@@ -104,7 +126,7 @@ impl Setup {
             }
             Scenario::Arm(scenario) => Machine::Arm(Arc::new(arm::station_of(scenario)?)),
         };
-        Ok(Self { scenario, simd, machine })
+        Ok(Self { scenario, simd, machine, own_controller: None })
     }
 
     /// The setup by what its robot does.
@@ -112,10 +134,18 @@ impl Setup {
         let simd = self.simd;
         match (&self.scenario, &self.machine) {
             (Scenario::Flight(scenario), Machine::Flyer { robot, world }) => {
-                Kind::Flight(FlightSetup { scenario, robot, world, simd })
+                let controller = match &self.own_controller {
+                    Some(AnyController::Flight(controller)) => Some(controller),
+                    _ => None,
+                };
+                Kind::Flight(FlightSetup { scenario, robot, world, controller, simd })
             }
             (Scenario::Drive(scenario), Machine::Driver { rover, planner, map, keep_out }) => {
-                Kind::Drive(DriveSetup { scenario, rover, planner, map, keep_out, simd })
+                let controller = match &self.own_controller {
+                    Some(AnyController::Drive(controller)) => Some(controller),
+                    _ => None,
+                };
+                Kind::Drive(DriveSetup { scenario, rover, planner, map, keep_out, controller, simd })
             }
             (Scenario::Arm(scenario), Machine::Arm(station)) => Kind::Arm(ArmSetup { scenario, station, simd }),
             _ => unreachable!("a setup's machine is built from its scenario"),

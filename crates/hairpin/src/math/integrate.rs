@@ -35,7 +35,7 @@ impl<const N: usize> Vector for SVector<f64, N> {
 /// One step of length `h` (s) of the classical fourth-order Runge-Kutta method for x' = f(x).
 ///
 /// Controls and time enter through the closure: `rk4_step(|x| robot.derivative(x, &u), &x, h)`. States on a manifold
-/// (unit quaternions) are to be normalised afterwards, by [`crate::robot::Dynamics::normalize`].
+/// (unit quaternions) are to be normalised afterwards.
 pub fn rk4_step<V: Vector>(f: impl Fn(&V) -> V, x: &V, h: f64) -> V {
     let k1 = f(x);
     let k2 = f(&x.add_scaled(&k1, 0.5 * h));

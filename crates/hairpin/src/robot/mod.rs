@@ -1,9 +1,6 @@
 //! Floor 3: what moves. Equations and numbers of robots; nothing of trajectories, search or controllers.
 
 pub mod arm;
-pub mod dynamics;
 pub mod ground;
 pub mod quadrotor;
 pub mod rover;
-
-pub use dynamics::{Bounds, Dynamics, Quantity, Vector};

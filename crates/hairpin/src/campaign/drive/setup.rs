@@ -9,6 +9,7 @@ use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite
 use crate::feasibility::steering::shooting::{Curvatures, Precision, flat, rough};
 use crate::math::simd::Simd;
 use crate::robot::rover::{Response, Rover};
+use crate::simulation::OwnController;
 use crate::trajectory::Direction;
 use crate::world::terrain::generate::{Recipe, generate};
 use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
@@ -28,6 +29,8 @@ pub struct DriveSetup<'a> {
     pub map: &'a Arc<ElevationMap>,
     /// Where nothing may drive.
     pub keep_out: &'a KeepOuts,
+    /// A controller of the caller's own in the place of the scenario's.
+    pub controller: Option<&'a OwnController<Rover>>,
     /// Version of the kernels.
     pub simd: Simd,
 }

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use crate::campaign::scenario::{FlightScenario, Mistake, ObstacleSection, RobotSource, WorldSection};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription};
+use crate::simulation::OwnController;
 use crate::world::{Obstacle, Shape, World, WorldError};
 
 /// A resolved scenario of flights and what it describes.
@@ -16,6 +17,8 @@ pub struct FlightSetup<'a> {
     pub robot: &'a Quadrotor,
     /// The space.
     pub world: &'a World,
+    /// A controller of the caller's own in the place of the scenario's.
+    pub controller: Option<&'a OwnController<Quadrotor>>,
     /// Version of the kernels that generate and fly.
     pub simd: Simd,
 }

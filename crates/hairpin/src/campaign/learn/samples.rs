@@ -1,6 +1,6 @@
 //! From the executed cases of a campaign to a model.
 
-use super::{LegSample, MoveFeatures, MoveSample, ScoreModel, subject};
+use super::{LegSample, MoveFeatures, MoveSample, ScoreModel, Subject, subject};
 use crate::campaign::judge::measures_of;
 use crate::campaign::{Case, Run, Setup};
 use crate::judgement::{LegMeasures, Measures, Stress};
@@ -33,7 +33,7 @@ pub(in crate::campaign) fn samples_of(case: &Case, measures: &Measures, stress: 
 /// # Errors
 /// [`NoFit`].
 pub fn learn(setup: &Setup, stress: Stress, samples: &[LegSample]) -> Result<ScoreModel, NoFit> {
-    ScoreModel::learn(stress, subject(&setup.scenario), samples)
+    ScoreModel::learn(stress, executed(setup), samples)
 }
 
 /// The moves of `case` between points of the cloud with the stress that each of `runs` put on them, and what the graph knew of them; of moves whose
@@ -57,5 +57,14 @@ pub fn move_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) ->
 /// # Errors
 /// [`NoFit`].
 pub fn learn_moves(setup: &Setup, stress: Stress, samples: &[MoveSample]) -> Result<ScoreModel, NoFit> {
-    ScoreModel::learn_moves(stress, subject(&setup.scenario), samples)
+    ScoreModel::learn_moves(stress, executed(setup), samples)
+}
+
+/// Whose legs they are, and who executed them.
+fn executed(setup: &Setup) -> Subject {
+    let subject = subject(&setup.scenario);
+    match setup.own_controller() {
+        Some(own) => Subject { controller: own.name().into(), ..subject },
+        None => subject,
+    }
 }

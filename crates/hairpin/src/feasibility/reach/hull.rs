@@ -15,7 +15,6 @@ use super::step::StepSet;
 use crate::math::integrate::rk4_step;
 use crate::math::random::{named_seed, stream};
 use crate::math::simd::Simd;
-use crate::robot::Dynamics;
 use crate::robot::quadrotor::published::single_step;
 use crate::robot::quadrotor::{EulerState, Quadrotor, QuadrotorState, level_rest};
 

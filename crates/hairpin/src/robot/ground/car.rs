@@ -1,12 +1,10 @@
-//! A car as the kinematic bicycle: the front axle is steered, the rear one follows.
+//! A car as the kinematic bicycle: ẋ = v cosψ, ẏ = v sinψ, ψ̇ = v tan(δ)/L at the middle of the rear axle; the front one is steered.
 
-use nalgebra::{Isometry3, SVector, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Named, named, planar_pose};
+use super::{Named, named};
 use crate::robot::rover::{Belly, Limits, Response, Rover, RoverError, within};
-use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// The `kind` of a car's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -136,40 +134,5 @@ impl Car {
         let outline =
             Belly { front: self.wheelbase + overhang, rear: -overhang, half_width: 0.5 * self.width, height: 0.0 };
         Named { name, caveat, source, estimated, outline }.vehicle(limits, response, self.default_speed)
-    }
-}
-
-/// ẋ = v cosψ, ẏ = v sinψ, ψ̇ = v tan(δ)/L; v̇ and δ̇ are the controls. The position is that of the rear axle's middle.
-impl Dynamics for Car {
-    type State = SVector<f64, 5>;
-    type Control = Vector2<f64>;
-
-    const STATE: &'static [Quantity] = &[
-        Quantity::new("x", "m"),
-        Quantity::new("y", "m"),
-        Quantity::new("yaw", "rad"),
-        Quantity::new("speed", "m_s"),
-        Quantity::new("steering", "rad"),
-    ];
-
-    fn derivative(&self, state: &Self::State, control: &Self::Control) -> Self::State {
-        let (sin, cos) = libm::sincos(state[2]);
-        let v = state[3];
-        SVector::from([v * cos, v * sin, v * libm::tan(state[4]) / self.wheelbase, control[0], control[1]])
-    }
-
-    fn control_bounds(&self) -> Bounds<Self::Control> {
-        let max = Vector2::new(self.acceleration, self.steering_rate);
-        Bounds { min: -max, max }
-    }
-
-    fn pose(&self, state: &Self::State) -> Isometry3<f64> {
-        planar_pose(state[0], state[1], state[2])
-    }
-
-    /// Speed and steering angle stop at their limits.
-    fn normalize(&self, state: &mut Self::State) {
-        state[3] = state[3].clamp(-self.speed, self.speed);
-        state[4] = state[4].clamp(-self.steering, self.steering);
     }
 }

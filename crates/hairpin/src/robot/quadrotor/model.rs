@@ -1,10 +1,9 @@
 //! The equations of a quadrotor: rotor mixing, the rigid body with a quaternion, and the 12-state interface.
 
-use nalgebra::{Isometry3, Matrix4, SVector, Translation3, Vector3, Vector4};
+use nalgebra::{Matrix4, SVector, Vector3, Vector4};
 
 use super::Quadrotor;
 use crate::math::rotation;
-use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// x, y, z, qw, qx, qy, qz (`world_from_body`), vx, vy, vz (world), p, q, r (body), SI units.
 pub type QuadrotorState = SVector<f64, 13>;
@@ -107,44 +106,17 @@ impl Quadrotor {
         }
         derivative
     }
-}
 
-/// The rigid body with drag in still air; controls are the four rotor speeds, rad/s.
-impl Dynamics for Quadrotor {
-    type State = QuadrotorState;
-    type Control = Vector4<f64>;
-    const STATE: &'static [Quantity] = &[
-        Quantity::new("x", "m"),
-        Quantity::new("y", "m"),
-        Quantity::new("z", "m"),
-        Quantity::new("qw", ""),
-        Quantity::new("qx", ""),
-        Quantity::new("qy", ""),
-        Quantity::new("qz", ""),
-        Quantity::new("vx", "m_s"),
-        Quantity::new("vy", "m_s"),
-        Quantity::new("vz", "m_s"),
-        Quantity::new("p", "rad_s"),
-        Quantity::new("q", "rad_s"),
-        Quantity::new("r", "rad_s"),
-    ];
-
-    fn derivative(&self, state: &QuadrotorState, control: &Vector4<f64>) -> QuadrotorState {
-        let u = self.wrench(control);
+    /// x' = f(x, u) of the rigid body with drag in still air; u are the rotor speeds, rad/s. Integrated by
+    /// `rk4_step(|x| robot.derivative(x, &u), &x, h)` of [`crate::math::integrate`], with [`Self::normalize`] after each step.
+    pub fn derivative(&self, state: &QuadrotorState, speeds: &Vector4<f64>) -> QuadrotorState {
+        let u = self.wrench(speeds);
         let drag = self.drag_force(&Vector3::new(state[7], state[8], state[9]));
         self.rigid_body(state, u[0], &Vector3::new(u[1], u[2], u[3]), &drag)
     }
 
-    fn control_bounds(&self) -> Bounds<Vector4<f64>> {
-        Bounds { min: Vector4::repeat(self.rotor_speed.0), max: Vector4::repeat(self.rotor_speed.1) }
-    }
-
-    fn pose(&self, state: &QuadrotorState) -> Isometry3<f64> {
-        let translation = Translation3::new(state[0], state[1], state[2]);
-        Isometry3::from_parts(translation, rotation::unit_quaternion(&state.as_slice()[3..7]))
-    }
-
-    fn normalize(&self, state: &mut QuadrotorState) {
+    /// Scales the quaternion to norm 1, which a step of an integrator leaves by its error.
+    pub fn normalize(&self, state: &mut QuadrotorState) {
         rotation::renormalize(&mut state.as_mut_slice()[3..7]);
     }
 }

@@ -10,12 +10,14 @@ mod plan;
 mod plant;
 mod pursuit;
 mod recorder;
+mod sortie;
 mod watch;
 
 #[cfg(test)]
 mod tests;
 
-pub use close_loop::{DriveSettings, GroundConditions, GroundSortie, drive, drive_with};
+pub use close_loop::{drive, drive_with};
 pub use command::{DriveCommand, DriveState};
 pub use controllers::{GroundController, GroundControllerKind, Resolve};
 pub use plan::planned_track;
+pub use sortie::{DriveSettings, GroundConditions, GroundSortie};

@@ -2,8 +2,8 @@
 
 use nalgebra::Point3;
 
-use super::close_loop::{DriveSettings, GroundSortie};
 use super::plant::{Plant, Stands};
+use super::sortie::{DriveSettings, GroundSortie};
 use crate::math::power::square;
 use crate::robot::rover::Rover;
 use crate::simulation::controller::{Reference, Schedule};

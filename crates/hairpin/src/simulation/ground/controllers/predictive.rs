@@ -8,7 +8,7 @@
 
 use std::collections::VecDeque;
 
-use super::Resolve;
+use super::kind::Resolve;
 use crate::robot::rover::{Rover, Settled, rates};
 use crate::simulation::ground::command::{DriveCommand, DriveState};
 use crate::simulation::ground::guide::{Along, wrap};
