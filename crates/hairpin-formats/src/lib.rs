@@ -10,7 +10,6 @@ pub mod costs;
 pub mod csv;
 pub mod decimal;
 pub mod executor;
-pub mod experiment;
 pub mod figure;
 pub mod folder;
 pub mod frames;

@@ -97,7 +97,7 @@ const MACHINE_DEPENDENT_ABOVE: &[&str] = &[
 ];
 
 /// Modules whose numbers are only looked at.
-const SHOWN: &[&str] = &["hairpin::campaign::report", "hairpin_formats::report", "hairpin_cli::commands::bench"];
+const SHOWN: &[&str] = &["hairpin::campaign::report", "hairpin_formats::report", "hairpin_lab::bench"];
 
 /// Variants of one thing, by the module that holds them: none imports another.
 const VARIANTS: &[(&str, &[&str])] = &[

@@ -34,21 +34,6 @@ pub(crate) struct Requirements {
     pub(crate) json: bool,
 }
 
-impl Requirements {
-    /// Those of rovers on the embedded ground, by `queries` of each large family.
-    pub(crate) fn of_rovers(queries: u32) -> Self {
-        Self {
-            of: Generator::Rover,
-            terrain: None,
-            map: MapFlags::default(),
-            rocks: None,
-            queries,
-            write_regression: None,
-            json: false,
-        }
-    }
-}
-
 /// Generators that have requirements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Generator {

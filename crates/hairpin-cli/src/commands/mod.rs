@@ -9,6 +9,7 @@ pub(crate) mod execute;
 pub(crate) mod experiment;
 pub(crate) mod explain;
 pub(crate) mod export;
+mod findings;
 pub(crate) mod generate;
 pub(crate) mod import;
 pub(crate) mod judge;
