@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use hairpin_formats::atomic::{self, make_folder};
-use hairpin_formats::experiment::{Sheet, SheetError};
+use hairpin_formats::experiment::Sheet;
 use hairpin_formats::figure::{Figure, Table};
 use serde_json::json;
 
@@ -89,10 +89,4 @@ fn write(folder: &Path, outcome: &Outcome) -> Result<Vec<PathBuf>, Problem> {
 /// Ctrl-C between two measurements ends an experiment: half of a table is none.
 fn go_on() -> Result<(), Problem> {
     if interrupt::asked() { Err(Problem::Interrupted("interrupted: nothing was written".into())) } else { Ok(()) }
-}
-
-impl From<SheetError> for Problem {
-    fn from(error: SheetError) -> Self {
-        Self::input(error)
-    }
 }
