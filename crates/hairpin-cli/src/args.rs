@@ -19,7 +19,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use compare::{Compare, FailOn};
-pub(crate) use experiment::{Experiment, ExperimentName};
+pub(crate) use experiment::Experiment;
 pub(crate) use explain::Explain;
 pub(crate) use import::Import;
 pub(crate) use learn::Learn;
@@ -30,7 +30,7 @@ pub(crate) use pipeline::{
 pub(crate) use requirements::Requirements;
 pub(crate) use select::{Select, SelectBy};
 pub(crate) use shrink::Shrink;
-pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerCost, SteerFrame};
+pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerFrame};
 pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
 
 /// Finds the trajectories a robot handles worst, and proves that they are ones it could have flown.

@@ -1,32 +1,22 @@
-//! What was typed becomes what it means, and what came of it an exit code: here, in one place.
-//!
-//! | code | meaning |
-//! | --- | --- |
-//! | 0 | within spec |
-//! | 1 | violation, a finding of `verify` or `import`, or what `compare` fails on |
-//! | 2 | wrong input |
-//! | 3 | nothing feasible |
-//! | 4 | executor failed |
-//! | 5 | inconclusive |
-//! | 70 | a mistake of hairpin's own |
-//! | 130 | interrupted; `--resume` goes on |
+//! What was typed becomes what it means, and what came of it an exit code.
 
 mod args;
 mod commands;
 mod console;
+mod exit;
 mod folder;
 mod interrupt;
 mod problem;
+mod settings;
+mod terminal;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
 use args::{Arguments, Command};
-use problem::{Problem, WRONG_INPUT};
-
-/// A mistake of hairpin's own (`EX_SOFTWARE` of sysexits.h).
-const OUR_MISTAKE: u8 = 70;
+use exit::{OUR_MISTAKE, WRONG_INPUT};
+use hairpin_jobs::Problem;
 
 fn main() -> ExitCode {
     apologise_when_panicking();
@@ -39,7 +29,7 @@ fn main() -> ExitCode {
     let outcome = std::panic::catch_unwind(|| run(arguments));
     ExitCode::from(match outcome {
         Ok(Ok(code)) => code,
-        Ok(Err(problem)) => problem.tell(json),
+        Ok(Err(problem)) => exit::tell(&problem, json),
         Err(_) => OUR_MISTAKE,
     })
 }
@@ -54,7 +44,7 @@ fn explain(usage: &clap::Error) -> ExitCode {
     if std::env::args_os().any(|argument| argument == "--json") {
         let text = usage.render().to_string();
         let sentence = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
-        console::say(&Problem::input(sentence).object().to_string());
+        console::say(&exit::object(&Problem::input(sentence)).to_string());
     }
     ExitCode::from(WRONG_INPUT)
 }

@@ -3,6 +3,7 @@
 use hairpin_lab::{Findings, Words};
 
 use crate::console;
+use crate::exit::{DONE, FINDING};
 
 /// Tells it, as one object where it is for machines: 0, or 1 where something had to be met and was not.
 pub(super) fn tell(findings: &Findings, json: bool) -> u8 {
@@ -14,5 +15,5 @@ pub(super) fn tell(findings: &Findings, json: bool) -> u8 {
             Words::Table(rows) => console::say(&console::table(rows)),
         });
     }
-    u8::from(!findings.met)
+    if findings.met { DONE } else { FINDING }
 }

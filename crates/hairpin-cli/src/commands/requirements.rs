@@ -8,12 +8,13 @@ use super::findings::tell;
 use super::terrain::georeference;
 use crate::args::Requirements;
 use crate::console;
+use crate::exit::DONE;
 
 /// Runs the command: 0 when every requirement is met, 1 when one is not.
 pub(crate) fn run(asked: &Requirements) -> Result<u8, Problem> {
     if let Some(folder) = &asked.write_regression {
         write_regression(folder)?.iter().for_each(|line| console::say(line));
-        return Ok(0);
+        return Ok(DONE);
     }
     let terrain = asked.terrain.as_ref().map(|file| TerrainSettings {
         file: file.clone(),

@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::SCENARIO;
 use crate::atomic::WriteError;
 use crate::parquet::TableError;
+use crate::scenario;
 
 /// Why a campaign folder cannot be used.
 #[derive(Debug, Error)]
@@ -18,6 +19,9 @@ pub enum FolderError {
     /// A table cannot be read.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// Its scenario cannot be written.
+    #[error(transparent)]
+    Scenario(#[from] scenario::WriteError),
     /// A file cannot be read.
     #[error("cannot read {}: {cause}", path.display())]
     Unreadable {

@@ -32,6 +32,7 @@ mod forget;
 mod json;
 mod judged;
 mod runs;
+mod scenario;
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};

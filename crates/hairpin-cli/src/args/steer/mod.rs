@@ -14,8 +14,8 @@ use super::terrain::{MapFlags, NoData};
 use effort::Effort;
 pub(crate) use effort::StartTable;
 pub(crate) use keep_out::KeepOutFlags;
-use names::{SteerControl, SteerKinematics};
-pub(crate) use names::{SteerCost, SteerFrame};
+pub(crate) use names::SteerFrame;
+use names::{SteerControl, SteerCost, SteerKinematics};
 
 /// Every answer is replayed by an integration of its own; `ok` means that the replay ends in the goal within 1 cm,
 /// 0.01 rad and 0.01 1/m and keeps the vehicle's curvature and curvature rate.

@@ -13,7 +13,7 @@ mod repro;
 mod saved;
 
 pub(crate) use answer::{Answer, point_to_explain};
-pub(crate) use execute::{Flown, attitude_unknown, execute, fly_each, fly_one};
+pub(crate) use execute::{Flown, attitude_unknown, execute, fly_one};
 pub(crate) use generate::{adopt, generate};
 pub(crate) use judge::{Judgement, judge, report, with_moves};
 pub(crate) use programs::keep_programs;

@@ -6,7 +6,7 @@ use hairpin::campaign::{Case, Run};
 use hairpin::judgement::{Stress, rank_correlation};
 use hairpin::math::random::named_seed;
 use hairpin_formats::figure::{Axis, Cell, Figure, Marks, Point, Scale, Series, Table};
-use hairpin_jobs::parts::fly_each;
+use hairpin_jobs::execute::fly_each;
 use hairpin_jobs::{Problem, Watch, sets};
 use serde::Deserialize;
 

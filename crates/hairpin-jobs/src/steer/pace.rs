@@ -7,20 +7,25 @@ use hairpin::trajectory::drive::{Motion, Planar, Segment};
 use hairpin::trajectory::{Direction, SpeedError, SpeedProfile, Timing};
 use hairpin_formats::steering::Asked;
 
-use crate::args::Steer;
-
-/// The flags about speed, direction and controls: what all questions of a run have in common.
+/// How fast questions are answered to be driven, by which controls, and how closely their drives are followed.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pace {
-    pub(super) control: Control,
-    v0: Option<f64>,
-    vf: Option<f64>,
-    cruise: Option<f64>,
-    acceleration: Option<f64>,
-    pub(super) most_steps: usize,
-    time_step: Option<f64>,
+pub struct Pace {
+    /// What curvature is a function of.
+    pub control: Control,
+    /// Speed at the start, m/s, where the question says none.
+    pub v0: Option<f64>,
+    /// Speed at the goal, m/s, where the question says none.
+    pub vf: Option<f64>,
+    /// Speed between, m/s: a trapezoid from v0 over this to vf.
+    pub cruise: Option<f64>,
+    /// Largest acceleration, m/s², where it is to be less than the vehicle's.
+    pub acceleration: Option<f64>,
+    /// Steps of a followed drive at most; they are longer where there would be more.
+    pub most_steps: usize,
+    /// Time between the states of a followed drive, s; a thousandth of the drive's, at least 0.001 s, if not given.
+    pub time_step: Option<f64>,
     /// What speeds at both ends may differ by, m/s.
-    speed_precision: f64,
+    pub speed_precision: f64,
 }
 
 /// Seconds in which vehicles without a limit come to their cruising speed.
@@ -51,19 +56,6 @@ impl Default for Pace {
 }
 
 impl Pace {
-    pub(super) fn new(steer: &Steer) -> Self {
-        Self {
-            control: steer.control.into(),
-            v0: steer.v0,
-            vf: steer.vf,
-            cruise: steer.cruise,
-            acceleration: steer.acceleration,
-            most_steps: steer.max_steps,
-            time_step: steer.time_step_s,
-            speed_precision: steer.effort.tolerance_speed_m_s.unwrap_or(SPEED_PRECISION),
-        }
-    }
-
     /// Largest acceleration, m/s².
     fn most_acceleration(&self, rover: &Rover) -> f64 {
         self.acceleration.unwrap_or(f64::INFINITY).min(rover.limits.acceleration)
@@ -171,10 +163,10 @@ impl Pace {
 
 /// How many states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::commands) enum Rows {
+pub enum Rows {
     /// As many as bounds and summaries need.
     Few,
-    /// As the flags ask for.
+    /// As many as [`Pace`] asks for.
     AsAsked,
 }
 

@@ -3,19 +3,18 @@
 use std::path::Path;
 use std::time::Duration;
 
-use hairpin::campaign::scenario::{CircleSection, KeepOutSection, PolygonSection, keep_outs};
+use hairpin::campaign::scenario::{KeepOutSection, keep_outs};
+use hairpin::feasibility::steering::shooting::Precision;
 use hairpin::feasibility::steering::shooting::flat::Cost;
 use hairpin::feasibility::steering::shooting::rough::{GroundCost, Settings};
 use hairpin::feasibility::steering::shooting::solve::Choices;
-use hairpin::feasibility::steering::shooting::{Control, Precision};
 use hairpin::robot::rover::Rover;
 use hairpin::world::terrain::KeepOuts;
 use hairpin_formats::steering::Asked;
 use hairpin_formats::terrain::read_keep_outs;
 
-use super::start_table;
-use crate::args::{KeepOutFlags, Steer, SteerCost};
-use crate::problem::Problem;
+use super::{SteerSettings, start_table};
+use crate::Problem;
 
 /// What the questions of a run are answered with.
 #[derive(Debug, Clone, Copy)]
@@ -33,24 +32,24 @@ impl Means {
         Self { choices: Choices::default(), ground: Settings::default(), time_limit }
     }
 
-    pub(super) fn new(steer: &Steer, rover: &Rover) -> Result<Self, Problem> {
-        let mut means = Self::plain(steer.time_limit_ms.map(|ms| Duration::from_secs_f64(ms * 1e-3)));
+    pub(super) fn new(settings: &SteerSettings, rover: &Rover) -> Result<Self, Problem> {
+        let mut means = Self::plain(settings.time_limit);
         let Self { choices, ground, .. } = &mut means;
-        (choices.reversals, choices.turns) = (steer.reversals, steer.turns);
-        ground.cost = cost(steer)?;
+        (choices.reversals, choices.turns) = (settings.reversals, settings.turns);
+        ground.cost = cost(settings)?;
         choices.flat.cost = match ground.cost {
             GroundCost::Curvature => Cost::Curvature,
             GroundCost::Rate => Cost::Rate,
             _ => Cost::Any,
         };
         choices.families.cost = choices.flat.cost;
-        let effort = &steer.effort;
+        let effort = &settings.effort;
         choices.flat.table = effort.start_table.as_deref().map(|path| start_table::load(path, rover)).transpose()?;
         let usual = Precision::default();
         ground.precision = Precision {
             position: usual.position,
-            yaw: effort.tolerance_yaw_rad.unwrap_or(usual.yaw),
-            curvature: effort.tolerance_curvature_1_m.unwrap_or(usual.curvature),
+            yaw: effort.tolerance_yaw.unwrap_or(usual.yaw),
+            curvature: effort.tolerance_curvature.unwrap_or(usual.curvature),
         };
         if let Some(iterations) = effort.iterations {
             (choices.flat.iterations, choices.families.iterations) = (iterations, iterations);
@@ -69,12 +68,11 @@ impl Means {
 }
 
 /// The cost asked for, where there is something to lower it with.
-fn cost(steer: &Steer) -> Result<GroundCost, Problem> {
-    let cost = GroundCost::from(steer.cost);
+fn cost(settings: &SteerSettings) -> Result<GroundCost, Problem> {
+    let (cost, control) = (settings.cost, settings.pace.control);
     if cost == GroundCost::Any {
         return Ok(cost);
     }
-    let control = Control::from(steer.control);
     if control.parameters() <= control.conditions() {
         return Err(Problem::input(format!(
             "--cost: --control {} has 0 parameters to spare for it: {} for {} conditions; quintic, time-polynomial, \
@@ -84,28 +82,16 @@ fn cost(steer: &Steer) -> Result<GroundCost, Problem> {
             control.conditions()
         )));
     }
-    if steer.terrain.is_some() {
-        return Ok(cost);
-    }
-    if !matches!(steer.cost, SteerCost::Curvature | SteerCost::Rate) {
+    if settings.terrain.is_none() && !matches!(cost, GroundCost::Curvature | GroundCost::Rate) {
         return Err(Problem::input("--cost: in the plane nothing tilts, slips or climbs; give --terrain"));
     }
     Ok(cost)
 }
 
-/// The places of the file and of the flags, in this order.
-pub(super) fn places(flags: &KeepOutFlags) -> Result<KeepOuts, Problem> {
-    let mut sections = flags.keep_out.as_deref().map_or(Ok(Vec::new()), file)?;
-    sections.extend(flags.keep_out_circle.iter().enumerate().map(|(number, &[x, y, radius_m])| KeepOutSection {
-        name: format!("--keep-out-circle {number}"),
-        circle: Some(CircleSection { center_m: [x, y], radius_m }),
-        polygon: None,
-    }));
-    sections.extend(flags.keep_out_polygon.iter().enumerate().map(|(number, corners)| KeepOutSection {
-        name: format!("--keep-out-polygon {number}"),
-        circle: None,
-        polygon: Some(PolygonSection { points_m: corners.0.clone() }),
-    }));
+/// The places of the file, then the others.
+pub(super) fn places(settings: &SteerSettings) -> Result<KeepOuts, Problem> {
+    let mut sections = settings.keep_out.as_deref().map_or(Ok(Vec::new()), file)?;
+    sections.extend_from_slice(&settings.places);
     keep_outs(&sections).map_err(|mistake| Problem::input(mistake.to_string()))
 }
 

@@ -6,7 +6,7 @@ use hairpin::feasibility::steering::shooting::solve::{Choices, Solution};
 use hairpin::feasibility::steering::shooting::{Control, flat, generate};
 
 /// A step of a descent.
-pub(super) fn told(step: &Iteration) {
+pub(super) fn trace_step(step: &Iteration) {
     let Iteration { start, step, length, miss, bends } = step;
     tracing::debug!("start {start}, step {step}: {length:.4} m, misses by {miss:.2e}, {bends:.4} of the bounds");
 }

@@ -19,19 +19,19 @@ use super::vehicle::{Vehicle, query};
 
 /// What would do it.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Remedies {
+pub struct Remedies {
     /// Metres with changes of direction, where they are not allowed.
-    pub(super) with_reversals_m: Option<f64>,
+    pub with_reversals_m: Option<f64>,
     /// Metres with turns in place, where they are not allowed.
-    pub(super) with_turns_m: Option<f64>,
+    pub with_turns_m: Option<f64>,
     /// The nearest goal from the start (x, y, yaw, curvature) that one arc leads to without a loop.
-    pub(super) nearest: Option<[f64; 4]>,
+    pub nearest: Option<[f64; 4]>,
     /// Where the ground stops it: metres driven before, and the last place of rest, on the map.
-    pub(super) standstill: Option<(f64, Planar)>,
+    pub standstill: Option<(f64, Planar)>,
     /// The farthest goal that is feasible on the way there.
-    pub(super) on_the_way: Option<[f64; 4]>,
+    pub on_the_way: Option<[f64; 4]>,
     /// How many times longer the drive is than any would have to be.
-    pub(super) detour: Option<f64>,
+    pub detour: Option<f64>,
 }
 
 /// Share of a drive's length below which another is worth telling of.
@@ -47,7 +47,7 @@ const SHARE: f64 = 0.1;
 
 impl Vehicle {
     /// What would help with `asked`, which was `answered`.
-    pub(super) fn remedies(&self, asked: &Asked, answered: &Answered) -> Remedies {
+    pub fn remedies(&self, asked: &Asked, answered: &Answered) -> Remedies {
         let mut remedies = Remedies::default();
         let bounds = self.bounds(asked);
         let kept = Asked { kf: asked.kf.clamp(-bounds.most, bounds.most), ..*asked };

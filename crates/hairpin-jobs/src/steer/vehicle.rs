@@ -17,45 +17,50 @@ use super::answered::Answered;
 use super::means::{Means, places};
 use super::pace::{Pace, Rows, direction, start, wheels_broken};
 use super::plane::Task;
-use super::{ground, plane};
-use crate::args::Steer;
-use crate::problem::Problem;
+use super::{SteerSettings, ground, plane};
+use crate::{Problem, Watch};
 
-/// What every question of a run has in common.
-pub(in crate::commands) struct Vehicle {
-    pub(super) rover: Rover,
+/// A vehicle that is asked for drives, where it drives, and how they are looked for.
+pub struct Vehicle {
+    /// What drives.
+    pub rover: Rover,
     /// What it drives on; the plane without one.
     pub(super) map: Option<ElevationMap>,
     /// What it keeps out of.
     pub(super) keep_outs: KeepOuts,
     pub(super) means: Means,
-    pub(super) pace: Pace,
+    /// How fast, and by which controls.
+    pub pace: Pace,
 }
 
 impl Vehicle {
-    pub(super) fn new(steer: &Steer) -> Result<Self, Problem> {
-        let mut rover = rover_for(&steer.rover)?;
-        rover.kinematics = steer.kinematics.into();
-        if steer.turns && !rover.limits.turns_in_place {
+    /// The vehicle of `settings`; what is worth knowing of its map is told to `watch`.
+    ///
+    /// # Errors
+    /// What cannot be read, does not fit the vehicle, or asks for what nothing can be done with.
+    pub fn new(settings: &SteerSettings, watch: &dyn Watch) -> Result<Self, Problem> {
+        let mut rover = rover_for(&settings.rover)?;
+        rover.kinematics = settings.kinematics;
+        if settings.turns && !rover.limits.turns_in_place {
             return Err(Problem::input(format!(
                 "--turns: `{}` cannot turn in place (limits.turns_in_place)",
                 rover.name
             )));
         }
-        let means = Means::new(steer, &rover)?;
-        let keep_outs = places(&steer.keep_out)?;
-        let map = ground::map(steer, &rover)?;
-        Ok(Self { rover, map, keep_outs, means, pace: Pace::new(steer) })
+        let means = Means::new(settings, &rover)?;
+        let keep_outs = places(settings)?;
+        let map = settings.terrain.as_ref().map(|(path, georeference)| ground::map(path, georeference, &rover, watch));
+        Ok(Self { map: map.transpose()?, rover, keep_outs, means, pace: settings.pace })
     }
 
     /// `rover` on `map`, forward arcs, with `time_limit` for each question: what requirements are checked with.
-    pub(in crate::commands) fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
+    pub fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
         let (keep_outs, means) = (KeepOuts::default(), Means::plain(time_limit));
         Self { rover, map, keep_outs, means, pace: Pace::default() }
     }
 
     /// Answers a question: solved under the clock, then replayed without it.
-    pub(in crate::commands) fn answer(&self, asked: &Asked) -> Answered {
+    pub fn answer(&self, asked: &Asked) -> Answered {
         self.answer_by(asked, &self.means)
     }
 
@@ -162,7 +167,7 @@ impl Vehicle {
     }
 
     /// The states of an answer's drive, on the ground or in the plane; `None` without a drive, and where the ground ends.
-    pub(in crate::commands) fn follow(&self, asked: &Asked, answered: &Answered, rows: Rows) -> Option<States> {
+    pub fn follow(&self, asked: &Asked, answered: &Answered, rows: Rows) -> Option<States> {
         let (solution, _) = answered.drive.as_ref()?;
         let (profile, start) = (answered.profile?, start(asked));
         let followed = self.pace.followed(&self.rover, profile, direction(asked), &solution.segments, rows);

@@ -1,4 +1,4 @@
-//! `hairpin start-table`, and the table that `hairpin steer` is given.
+//! Tables of start values: made for a vehicle, and taken for one.
 
 use std::path::Path;
 use std::time::Instant;
@@ -10,37 +10,45 @@ use hairpin::robot::rover::Rover;
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{read_start_table, start_table_bytes};
-use serde_json::json;
+use serde::Serialize;
 
-use crate::args;
-use crate::console;
-use crate::problem::Problem;
+use crate::Problem;
 
 /// A table fits vehicles whose most_rate/most² differs from its own by no more than this share.
 const ALIKE: f64 = 0.01;
 
-/// Makes a vehicle's table.
-pub(crate) fn make(asked: &args::StartTable) -> Result<u8, Problem> {
-    let rover = rover_for(&asked.rover)?;
+/// What was made of a vehicle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MadeTable {
+    /// The vehicle's name.
+    pub robot: String,
+    /// Goals on the table's grid.
+    pub goals: usize,
+    /// Of these, goals that an arc leads to.
+    pub arcs: usize,
+    /// Size of the file.
+    pub bytes: usize,
+    /// What it took, s.
+    #[serde(skip)]
+    pub seconds: f64,
+}
+
+/// Makes the table of `rover`, a shipped one's name or a robot file, and writes it to `out`.
+///
+/// # Errors
+/// No such vehicle; one whose limits make no table; a file that cannot be written.
+pub fn make_start_table(rover: &str, out: &Path) -> Result<MadeTable, Problem> {
+    let rover = rover_for(rover)?;
     let begun = Instant::now();
     let table = StartTable::generate(&bounds(&rover)).map_err(|error| {
         Problem::input(format!("`{}` (limits.curvature_1_m, limits.curvature_rate_1_m2): {error}", rover.name))
     })?;
     let seconds = begun.elapsed().as_secs_f64();
     let bytes = start_table_bytes(&table);
-    atomic::write(&asked.out, &bytes)?;
+    atomic::write(out, &bytes)?;
     let goals = table.entries().len();
     let arcs = table.entries().iter().filter(|entry| **entry != NONE).count();
-    if asked.json {
-        console::say(
-            &json!({ "robot": rover.name, "goals": goals, "arcs": arcs, "bytes": bytes.len(), "exit_code": 0 })
-                .to_string(),
-        );
-    } else {
-        let out = asked.out.display();
-        console::say(&format!("{out}: arcs to {arcs} of {goals} goals, {} bytes, {seconds:.2} s", bytes.len()));
-    }
-    Ok(0)
+    Ok(MadeTable { robot: rover.name, goals, arcs, bytes: bytes.len(), seconds })
 }
 
 /// Reads `path`, which must fit `rover`; kept until the program ends.

@@ -12,10 +12,10 @@ use hairpin::verification::{DriveReplay, replay_drive};
 use hairpin::world::terrain::KeepOuts;
 use hairpin_formats::steering::{Asked, Status};
 
-use super::answered::{self, Answered, Near, claim, named, pieces};
+use super::answered::{self, Answered, Near, claim, limit_name, pieces};
 use super::means::Means;
 use super::pace::start;
-use super::told::{retrace, told};
+use super::trace::{retrace, trace_step};
 
 /// One question, as plane and ground are asked it.
 #[derive(Clone, Copy)]
@@ -52,7 +52,7 @@ pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
     let hazards = task.hazards(asked);
     let begun = Instant::now();
     let stop = || means.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
-    let (found, mut intrusion) = clear::generate(boundary, control, &shaping, &choices, &hazards, stop, told);
+    let (found, mut intrusion) = clear::generate(boundary, control, &shaping, &choices, &hazards, stop, trace_step);
     let (mut solution, mut parameters) = (found.solution, found.parameters);
     let mut solving = begun.elapsed();
     if tracing::enabled!(tracing::Level::DEBUG) && parameters.is_none() {
@@ -65,7 +65,7 @@ pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
         // The solver believes what the replay does not: closed forms remain.
         choices.arcs = false;
         let again = Instant::now();
-        let (second, near) = clear::generate(boundary, control, &shaping, &choices, &hazards, || false, told);
+        let (second, near) = clear::generate(boundary, control, &shaping, &choices, &hazards, || false, trace_step);
         intrusion = near;
         solution = Solution { iterations: solution.iterations, ..second.solution };
         parameters = second.parameters;
@@ -74,7 +74,7 @@ pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
         broken = answered::broken(&replay, &bounds, &precision);
     }
     let lacks = match solution.arc {
-        Some(flat::Status::Infeasible { limit, excess }) if !default => Some((named(limit), Some(excess))),
+        Some(flat::Status::Infeasible { limit, excess }) if !default => Some((limit_name(limit), Some(excess))),
         _ => None,
     };
     let near = intrusion.map(|intrusion| Near::new(&intrusion, task.keep_outs, control, boundary));

@@ -18,27 +18,29 @@ use hairpin_formats::steering::{Asked, Status};
 use super::pace::direction;
 
 /// An answer before it is put into a file or into words.
-pub(in crate::commands) struct Answered {
-    pub(in crate::commands) status: Status,
+pub struct Answered {
+    /// Whether there is one.
+    pub status: Status,
     /// Without one where the question has no answer.
-    pub(in crate::commands) drive: Option<(Solution, DriveReplay)>,
-    pub(in crate::commands) solving: Duration,
+    pub drive: Option<(Solution, DriveReplay)>,
+    /// What solving took.
+    pub solving: Duration,
     /// What stands in the way; its excess in its unit.
-    pub(in crate::commands) limit: Option<(&'static str, Option<f64>)>,
+    pub limit: Option<(&'static str, Option<f64>)>,
     /// Which place to keep out of that is.
-    pub(super) near: Option<Near>,
+    pub near: Option<Near>,
     /// The drive that the ground lets go no further, and after how many metres.
-    pub(super) stopped: Option<(Solution, f64)>,
+    pub stopped: Option<(Solution, f64)>,
     /// The bounds that were in force.
-    pub(super) bounds: Curvatures,
+    pub bounds: Curvatures,
     /// Curvatures that would be feasible, where those asked for are not.
-    pub(super) nearest: Option<[f64; 2]>,
+    pub nearest: Option<[f64; 2]>,
     /// Its speeds; without them where they make no profile.
-    pub(super) profile: Option<SpeedProfile>,
+    pub profile: Option<SpeedProfile>,
     /// The controls' own parameters, and by how much the segments differ from them in curvature, 1/m.
-    pub(super) parameters: Option<(Parameters, f64)>,
+    pub parameters: Option<(Parameters, f64)>,
     /// What the drive costs by the measure that was asked for.
-    pub(super) cost: Option<f64>,
+    pub cost: Option<f64>,
 }
 
 impl Answered {
@@ -57,15 +59,15 @@ impl Answered {
 
 /// A place to keep out of that a drive comes too near to.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Near {
+pub struct Near {
     /// Its name.
-    pub(super) place: String,
+    pub place: String,
     /// What is missing to stay clear, m.
-    pub(super) depth: f64,
+    pub depth: f64,
     /// Metres driven before.
-    pub(super) after_m: f64,
+    pub after_m: f64,
     /// Parameters that the family has to spare for going around it; `None` for the default, which has chains of clothoids.
-    pub(super) spare: Option<u32>,
+    pub spare: Option<u32>,
 }
 
 impl Near {
@@ -102,7 +104,7 @@ pub(super) fn claim(asked: &Asked, segments: &[Segment], free_end: bool) -> Driv
 }
 
 /// What a family of controls exceeds, by its name in answers.
-pub(super) fn named(limit: Limit) -> &'static str {
+pub fn limit_name(limit: Limit) -> &'static str {
     match limit {
         Limit::Curvature => "curvature_1_m",
         Limit::CurvatureRate => "curvature_rate_1_m2",

@@ -1,5 +1,6 @@
 //! Questions on an elevation map: the same answer, found and replayed with the body on its wheels.
 
+use std::path::Path;
 use std::time::Instant;
 
 use hairpin::campaign::drive::Site;
@@ -13,38 +14,36 @@ use hairpin::feasibility::steering::shooting::{Control, generate};
 use hairpin::robot::rover::{Rover, Unsettled};
 use hairpin::trajectory::drive::{Planar, SegmentList};
 use hairpin::verification::{DriveReplay, GroundReplay, replay_drive};
-use hairpin::world::terrain::{ElevationMap, HoleRule, NoGround};
+use hairpin::world::terrain::{ElevationMap, NoGround};
 use hairpin_formats::steering::{Asked, Status};
+use hairpin_formats::terrain::Georeference;
 
 use super::answered::{Answered, Near, broken, claim, pieces};
 use super::pace::{direction, start};
 use super::plane::Task;
-use super::told::told;
-use crate::args::{NoData, Steer};
-use crate::commands::terrain;
-use crate::console;
-use crate::problem::Problem;
+use super::trace::trace_step;
+use crate::terrain::read_map;
+use crate::{Problem, Watch};
 
 /// The flat answers that a search on the ground is made of are exact to this, m, rad, 1/m.
 const FLAT: f64 = 1e-5;
 
-/// The map of `--terrain`, if one is given, with a warning where its cells say little of what the wheels meet.
-pub(super) fn map(steer: &Steer, rover: &Rover) -> Result<Option<ElevationMap>, Problem> {
-    let Some(path) = &steer.terrain else { return Ok(None) };
-    let holes = match steer.no_data {
-        NoData::Error => HoleRule::Error,
-        NoData::KeepOut => HoleRule::KeepOut,
-        NoData::Fill => HoleRule::Fill,
-    };
-    let map = terrain::read(path, &steer.map, holes)?;
+/// The map in the file at `path`, with a warning where its cells say little of what the wheels meet.
+pub(super) fn map(
+    path: &Path,
+    georeference: &Georeference,
+    rover: &Rover,
+    watch: &dyn Watch,
+) -> Result<ElevationMap, Problem> {
+    let map = read_map(path, georeference)?;
     let cell = map.grid().cell[0].max(map.grid().cell[1]);
     if rover.suspension.wheelbase().is_some_and(|base| cell > 0.5 * base) {
-        console::warn(&format!(
+        watch.warn(&format!(
             "Warning: {}: cells of {cell} m are coarser than half the wheel base: attitudes are optimistic",
             path.display()
         ));
     }
-    Ok(Some(map))
+    Ok(map)
 }
 
 /// Answers `asked` on `map`.
@@ -88,7 +87,7 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
     let ground = match (&status, &replay) {
         (Found::Blocked(blocked), _) if !ran_out => {
             let after_m = replay.as_ref().map_or_else(|stop| stop.after_m, |_| blocked.after_m);
-            return stopped(named(map, &goal, &blocked.cause), after_m);
+            return stopped(stopped_by(map, &goal, &blocked.cause), after_m);
         }
         (_, Err(stop)) if !ran_out => {
             let limit = stop.no_ground.as_ref().map_or(("rest", None), |place| no_ground(map, &goal, place));
@@ -136,7 +135,7 @@ fn search(
     let precision = Precision { position: FLAT, yaw: FLAT, curvature: FLAT };
     let choices = Choices { flat: flat::Settings { precision, ..choices.flat }, ..choices };
     let settings = Settings { precision: task.precision, ..task.means.ground };
-    let plainly = || generate(boundary, control, &shaping, &choices, over, told).solution;
+    let plainly = || generate(boundary, control, &shaping, &choices, over, trace_step).solution;
     if !task.keep_outs.is_empty() {
         let around = Around { keep_outs: task.keep_outs, radius: footprint(task.rover), control, choices };
         let cleared = site.solve_clear(start, goal, &shaping, &settings, &around, over);
@@ -149,7 +148,7 @@ fn search(
     let mut steer = |query: &Query| -> Option<SegmentList> {
         let query = Query::new(query.start_curvature, query.goal, &shaping).ok().filter(|_| !over())?;
         let boundary = Boundary { query, free_end: false, ..*boundary };
-        let flat = generate(&boundary, control, &shaping, &choices, over, told).solution;
+        let flat = generate(&boundary, control, &shaping, &choices, over, trace_step).solution;
         let Goal { x, y, yaw, curvature } = query.goal;
         tracing::debug!("flat goal {x:.4} {y:.4} {yaw:.4} {curvature:.4}: {:?}, {:?}", flat.outcome, flat.method);
         first.get_or_insert(flat);
@@ -184,7 +183,7 @@ fn on_the_ground(flat: &DriveReplay, ground: &GroundReplay, start: &Planar) -> D
 }
 
 /// What stops a drive, and by how much it is exceeded where that is a length.
-fn named(map: &ElevationMap, goal: &Planar, cause: &Cause) -> (&'static str, Option<f64>) {
+fn stopped_by(map: &ElevationMap, goal: &Planar, cause: &Cause) -> (&'static str, Option<f64>) {
     match cause {
         Cause::Unsettled(Unsettled::NoGround(place)) => no_ground(map, goal, place),
         Cause::Unsettled(_) => ("rest", None),
