@@ -7,13 +7,14 @@ use hairpin::judgement::{Stress, rank_correlation};
 use hairpin::math::random::named_seed;
 use hairpin_formats::experiment::Sheet;
 use hairpin_formats::figure::{Axis, Figure, Marks, Point, Scale, Series, Table};
+use hairpin_jobs::execute::fly_each;
+use hairpin_jobs::sets;
 use serde::Deserialize;
 
 use super::super::{Outcome, go_on};
 use super::cell::{self, Set, text, with};
-use crate::commands::parts;
-use crate::folder;
 use crate::problem::Problem;
+use crate::terminal::Terminal;
 
 /// The shipped scenario whose robot and world are flown: its legs are witnessed, so that any controller is asked for what the robot can.
 const WITNESSED: &str = "demo-quadrotor";
@@ -66,7 +67,7 @@ pub(in super::super) fn transfer(sheet: &Sheet) -> Result<Outcome, Problem> {
     ];
     // A scenario has a controller of ours or a program of the user's, not both.
     let here = with(&base, &[("execute.controller", text(&size.controller))]);
-    let there = with(&base, &[("execute.command", folder::as_command(&size.executor).1)]);
+    let there = with(&base, &[("execute.command", sets::executor(&size.executor).1)]);
     let model = cell::learned(WITNESSED, &here, size.training, size.seed)?;
     let cases = ("generate.search.cases", size.cases.to_string());
     let method = |name: &str| ("generate.search.method", text(name));
@@ -143,7 +144,7 @@ fn flown(name: String, sets: &[Set], ways: &[Vec<Case>]) -> Result<Simulator, Pr
     let mut flown = [Flown::default(), Flown::default()];
     for (flown, cases) in flown.iter_mut().zip(ways) {
         go_on()?;
-        let runs = parts::fly_each(&setup, cases, 0)?;
+        let runs = fly_each(&setup, cases, 0, &Terminal::default())?;
         let failed = |run: &Run| Some((run.case, run.outcome.as_ref().err()?.to_string()));
         if let Some((case, why)) = runs.iter().find_map(failed) {
             return Err(Problem::Executor(format!("{name}, case {case:04}: {why}")));
