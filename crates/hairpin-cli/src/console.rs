@@ -47,16 +47,6 @@ pub(crate) fn progress(what: &'static str, of: usize) -> ProgressBar {
     ProgressBar::with_draw_target(Some(of as u64), target).with_style(style).with_message(what)
 }
 
-/// Names that a line has room for.
-const TOLD: usize = 8;
-
-/// `0003, 0007 and 12 more`: as many of `names` as a line has room for.
-pub(crate) fn some(names: &[String]) -> String {
-    let more = names.len().saturating_sub(TOLD);
-    let told = names[..names.len() - more].join(", ");
-    if more == 0 { told } else { format!("{told} and {more} more") }
-}
-
 /// Rows under headers, columns as wide as they need; the first row is the header.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);

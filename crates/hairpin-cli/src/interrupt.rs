@@ -23,14 +23,3 @@ pub(crate) fn listen() {
 pub(crate) fn asked() -> bool {
     ASKED.load(Ordering::Relaxed) > 0
 }
-
-pub(crate) use hairpin_jobs::Deadline;
-
-/// As jobs do it.
-pub(crate) fn not_waiting_for<T>(
-    score: Option<&hairpin::campaign::UserScore>,
-    deadline: Deadline,
-    work: impl FnOnce() -> T,
-) -> T {
-    hairpin_jobs::not_waiting_for(score, &crate::terminal::Terminal::default(), deadline, work)
-}

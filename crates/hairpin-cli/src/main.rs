@@ -4,7 +4,6 @@ mod args;
 mod commands;
 mod console;
 mod exit;
-mod folder;
 mod interrupt;
 mod problem;
 mod settings;
@@ -17,6 +16,7 @@ use clap::Parser;
 use args::{Arguments, Command};
 use exit::{OUR_MISTAKE, WRONG_INPUT};
 use hairpin_jobs::Problem;
+use terminal::Terminal;
 
 fn main() -> ExitCode {
     apologise_when_panicking();
@@ -52,29 +52,30 @@ fn explain(usage: &clap::Error) -> ExitCode {
 fn run(arguments: Arguments) -> Result<u8, Problem> {
     console::chatter(arguments.verbose);
     interrupt::listen();
+    let watch = &Terminal::default();
     match arguments.command {
-        Command::Demo(demo) => commands::demo::run(&demo),
+        Command::Demo(demo) => commands::demo::run(&demo, watch),
         Command::New(new) => commands::new::run(&new),
-        Command::Stress(stress) => commands::stress::run(&stress),
-        Command::Generate(generate) => commands::generate::run(&generate),
-        Command::Execute(execute) => commands::execute::run(&execute),
+        Command::Stress(stress) => commands::stress::run(&stress, watch),
+        Command::Generate(generate) => commands::generate::run(&generate, watch),
+        Command::Execute(execute) => commands::execute::run(&execute, watch),
         Command::Judge(judge) => commands::judge::run(&judge),
         Command::Learn(learn) => commands::learn::run(&learn),
         Command::Verify(verify) => commands::verify::run(&verify),
-        Command::Replay(replay) => commands::replay::run(&replay),
+        Command::Replay(replay) => commands::replay::run(&replay, watch),
         Command::Compare(compare) => commands::compare::run(&compare),
-        Command::Explain(explain) => commands::explain::run(&explain),
-        Command::Select(select) => commands::select::run(&select),
-        Command::Shrink(shrink) => commands::shrink::run(&shrink),
+        Command::Explain(explain) => commands::explain::run(&explain, watch),
+        Command::Select(select) => commands::select::run(&select, watch),
+        Command::Shrink(shrink) => commands::shrink::run(&shrink, watch),
         Command::Export(export) => commands::export::run(&export),
         Command::Import(import) => commands::import::run(&import),
         Command::Report(report) => commands::report::run(&report),
         Command::Simulate(simulate) => commands::simulate::run(&simulate),
-        Command::Steer(steer) => commands::steer::run(&steer),
-        Command::MaxLoad(asked) => commands::max_load::run(&asked),
+        Command::Steer(steer) => commands::steer::run(&steer, watch),
+        Command::MaxLoad(asked) => commands::max_load::run(&asked, watch),
         Command::StartTable(table) => commands::steer::make_table(&table),
-        Command::Bench(bench) => commands::bench::run(&bench),
-        Command::Experiment(experiment) => commands::experiment::run(&experiment),
+        Command::Bench(bench) => commands::bench::run(&bench, watch),
+        Command::Experiment(experiment) => commands::experiment::run(&experiment, watch),
         Command::Requirements(requirements) => commands::requirements::run(&requirements),
         Command::Show(show) => commands::show::run(&show),
         Command::Schema(schema) => commands::schema::run(&schema),

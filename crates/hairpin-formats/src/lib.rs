@@ -24,6 +24,7 @@ pub mod parquet;
 pub mod rapid;
 pub mod recordings;
 pub mod report;
+pub mod repro;
 pub mod scenario;
 pub mod schema;
 pub mod steering;

@@ -85,7 +85,7 @@ impl Deadline {
 const LOOK: Duration = Duration::from_millis(20);
 
 /// Does `work`, which may ask `score`. What that takes for an answer is not up to us; what is waited for it is.
-pub fn not_waiting_for<T>(
+pub(crate) fn not_waiting_for<T>(
     score: Option<&UserScore>,
     watch: &dyn Watch,
     deadline: Deadline,

@@ -155,7 +155,7 @@ fn create(path: &Path, setup: &Setup, if_there: IfThere) -> Result<CampaignFolde
 
 /// Opens a campaign folder for the next part, its scenario changed by `sets` in the tables `allowed`; [`keep_changes`] writes it. Its SIMD level stays:
 /// a part that runs kernels goes on at it, those of the version `flown`, or not at all.
-pub fn open(path: &Path, sets: &[Set], allowed: &[&str], flown: Option<Simd>) -> Result<Work, Problem> {
+pub(crate) fn open(path: &Path, sets: &[Set], allowed: &[&str], flown: Option<Simd>) -> Result<Work, Problem> {
     for (key, _) in sets {
         let table = key.split(['.', '[']).next().unwrap_or_default().trim();
         if !allowed.contains(&table) {
@@ -188,14 +188,14 @@ pub fn open(path: &Path, sets: &[Set], allowed: &[&str], flown: Option<Simd>) ->
 }
 
 /// Writes the scenario of `work` as [`open`] changed it.
-pub fn keep_changes(work: &Work) -> Result<(), Problem> {
+pub(crate) fn keep_changes(work: &Work) -> Result<(), Problem> {
     let level = work.folder.simd_level()?;
     let level = level.as_deref().unwrap_or(work.setup.simd.level());
     Ok(work.folder.keep_scenario(&work.setup.scenario, level)?)
 }
 
 /// The first key of the folder's scenario that `sets` change.
-pub fn changed_by(folder: &CampaignFolder, sets: &[Set]) -> Result<Option<String>, Problem> {
+pub(crate) fn changed_by(folder: &CampaignFolder, sets: &[Set]) -> Result<Option<String>, Problem> {
     Ok(differences(&read(folder, &[])?, &read(folder, sets)?).into_iter().next())
 }
 

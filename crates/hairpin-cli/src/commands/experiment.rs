@@ -2,15 +2,14 @@
 
 use std::path::Path;
 
-use hairpin_jobs::Problem;
+use hairpin_jobs::{Problem, Watch};
 use hairpin_lab::experiment::{ExperimentSettings, conduct};
 
 use super::findings::tell;
 use crate::args::Experiment;
-use crate::terminal::Terminal;
 
 /// Runs the command: 0 when it has measured, whatever came out.
-pub(crate) fn run(asked: &Experiment) -> Result<u8, Problem> {
+pub(crate) fn run(asked: &Experiment, watch: &dyn Watch) -> Result<u8, Problem> {
     let name = asked.name.sheet();
     let settings = ExperimentSettings {
         full: asked.full,
@@ -18,5 +17,5 @@ pub(crate) fn run(asked: &Experiment) -> Result<u8, Problem> {
         out: asked.out.clone().unwrap_or_else(|| Path::new("out").join(&name)),
         name,
     };
-    Ok(tell(&conduct(&settings, &Terminal::default())?, asked.json))
+    Ok(tell(&conduct(&settings, watch)?, asked.json))
 }

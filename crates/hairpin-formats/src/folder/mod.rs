@@ -29,6 +29,7 @@
 mod cases;
 mod error;
 mod forget;
+mod graph;
 mod json;
 mod judged;
 mod runs;
@@ -43,6 +44,7 @@ use hairpin::judgement::Stress;
 use crate::atomic::{self, WriteError};
 
 pub use error::FolderError;
+pub use graph::graph_decimals;
 
 const SCENARIO: &str = "scenario.toml";
 const GENERATION: &str = "generation.json";

@@ -4,7 +4,7 @@ use hairpin_jobs::Problem;
 use serde_json::{Value, json};
 
 use super::check::{Check, Test};
-use super::plan::Measured;
+use super::plan::{Measured, Requirement};
 use super::subject::RequirementsSettings;
 use crate::findings::{Findings, Words};
 
@@ -40,24 +40,21 @@ fn words(measured: &Measured) -> Vec<Words> {
 
 fn object(measured: &Measured) -> Value {
     let Measured { notes, requirements, tests, example, .. } = measured;
-    let judged = |check: &Check| json!({ "measured": check.measured, "bound": check.bound, "passed": check.passed });
-    let mut rows = Vec::new();
-    for ((id, text, covered), check) in requirements {
-        let mut row = judged(check);
-        (row["id"], row["requirement"], row["tests"]) = ((*id).into(), (*text).into(), (*covered).into());
-        rows.push(row);
-    }
-    let mut results = Vec::new();
-    for test in tests {
-        let mut row = judged(&test.check);
-        (row["id"], row["requirement"], row["what"]) =
-            (test.id.into(), test.requirement.into(), test.what.clone().into());
-        results.push(row);
-    }
+    let judged = |Check { measured, bound, passed }: &Check, own: [(&str, Value); 3]| {
+        let mut row = json!({ "measured": measured, "bound": bound, "passed": passed });
+        own.into_iter().for_each(|(key, value)| row[key] = value);
+        row
+    };
+    let requirement = |((id, text, covered), check): &(Requirement, Check)| {
+        judged(check, [("id", (*id).into()), ("requirement", (*text).into()), ("tests", (*covered).into())])
+    };
+    let test = |Test { id, requirement, what, check }: &Test| {
+        judged(check, [("id", (*id).into()), ("requirement", (*requirement).into()), ("what", what.as_str().into())])
+    };
     json!({
         "subject": notes,
-        "requirements": rows,
-        "tests": results,
+        "requirements": requirements.iter().map(requirement).collect::<Vec<_>>(),
+        "tests": tests.iter().map(test).collect::<Vec<_>>(),
         "example": example.object(),
         "exit_code": u8::from(!measured.met()),
     })

@@ -67,10 +67,9 @@ pub(super) fn within(subject: &Subject) -> [Test; 2] {
         format!("all that run over it say so, within {OVERRUN_MS} ms"),
         limited > 0 && unsaid == 0 && overrun <= OVERRUN_MS,
     );
-    let test = |id, requirement, what: &str, check| Test { id, requirement, what: what.into(), check };
     [
-        test("R14", "R-2", "rough ground with dynamics, 50 ms and less: the best drive so far", near_optimal),
-        test("R15", "R-17", "time that is over is reported", said),
+        Test::new("R14", "R-2", "rough ground with dynamics, 50 ms and less: the best drive so far", near_optimal),
+        Test::new("R15", "R-17", "time that is over is reported", said),
     ]
 }
 

@@ -18,6 +18,13 @@ pub(crate) struct Test {
     pub(crate) check: Check,
 }
 
+impl Test {
+    /// A test by its name in the document.
+    pub(super) fn new(id: &'static str, requirement: &'static str, what: impl Into<String>, check: Check) -> Self {
+        Self { id, requirement, what: what.into(), check }
+    }
+}
+
 impl Check {
     pub(super) fn new(measured: String, bound: impl Into<String>, passed: bool) -> Self {
         Self { measured, bound: bound.into(), passed }

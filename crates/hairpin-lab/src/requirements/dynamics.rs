@@ -43,7 +43,7 @@ pub(super) fn compensated(subject: &Subject) -> Result<(Test, Times), Problem> {
         format!("≥ {SHARE} %, far more than 0.01 m without, none worse"),
         tally.share() >= SHARE && median > 0.05 && stored.good(),
     );
-    let what = "rough ground with delay, lag and slip: predicted and compensated".into();
+    let what = "rough ground with delay, lag and slip: predicted and compensated";
     let times = Times { of: "rocky8 with dynamics, rough ground", seconds: tally.seconds };
-    Ok((Test { id: "R11", requirement: "R-12", what, check }, times))
+    Ok((Test::new("R11", "R-12", what, check), times))
 }

@@ -61,13 +61,8 @@ pub(super) fn measured(settings: &RequirementsSettings, before: f64) -> Result<(
         total < LONGEST_S,
     );
     let tests = [
-        Test {
-            id: "R7",
-            requirement: "R-6",
-            what: "memory, by the system's account of the process".into(),
-            check: memory,
-        },
-        Test { id: "R8", requirement: "R-7", what: "time to start".into(), check: start },
+        Test::new("R7", "R-6", "memory, by the system's account of the process", memory),
+        Test::new("R8", "R-7", "time to start", start),
     ];
     Ok((subject, tests))
 }

@@ -36,12 +36,7 @@ pub(super) fn loads(subject: &Subject) -> Test {
         "six wheels on a rocker-bogie",
         six && base.is_some(),
     );
-    Test {
-        id: "R9",
-        requirement: "R-9",
-        what: "the supplied rocky8 is loaded and used (R4 … R8, R10, R11 drive it)".into(),
-        check,
-    }
+    Test::new("R9", "R-9", "the supplied rocky8 is loaded and used (R4 … R8, R10, R11 drive it)", check)
 }
 
 /// A parameterisation of the controls, how it answers, and how its answers can be told from the others'.
@@ -167,8 +162,7 @@ pub(super) fn switches_controls() -> Test {
         "all",
         own == all && again == all && differ,
     );
-    let what = "the parameterisation of the controls is switched several times".into();
-    Test { id: "R12", requirement: "R-10", what, check }
+    Test::new("R12", "R-10", "the parameterisation of the controls is switched several times", check)
 }
 
 /// R13.
@@ -204,5 +198,5 @@ pub(super) fn switches_vehicles(subject: &Subject) -> Result<Test, Problem> {
         "all the same, each its own, most solved",
         again == all && differ && 10 * solved >= 8 * asked,
     );
-    Ok(Test { id: "R13", requirement: "R-9", what: "the vehicle is switched several times".into(), check })
+    Ok(Test::new("R13", "R-9", "the vehicle is switched several times", check))
 }

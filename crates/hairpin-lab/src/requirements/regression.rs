@@ -132,24 +132,19 @@ pub(super) fn flat(subject: &Subject) -> Result<([Test; 3], Times), Problem> {
         agree == asked && stored.good(),
     );
     let tests = [
-        Test {
-            id: "R1",
-            requirement: "R-1",
-            what: "flat ground: the interface, and how many converge".into(),
-            check: interface,
-        },
-        Test {
-            id: "R2",
-            requirement: "R-3",
-            what: "flat ground: ends of smooth curves, and goals anywhere with reversals, converge".into(),
-            check: convergence,
-        },
-        Test {
-            id: "R3",
-            requirement: "R-8",
-            what: "flat ground: controls and path are the right ones, and as good as the stored ones".into(),
-            check: right,
-        },
+        Test::new("R1", "R-1", "flat ground: the interface, and how many converge", interface),
+        Test::new(
+            "R2",
+            "R-3",
+            "flat ground: ends of smooth curves, and goals anywhere with reversals, converge",
+            convergence,
+        ),
+        Test::new(
+            "R3",
+            "R-8",
+            "flat ground: controls and path are the right ones, and as good as the stored ones",
+            right,
+        ),
     ];
     Ok((tests, Times { of: "generic, flat ground", seconds: tally.seconds }))
 }
@@ -209,11 +204,15 @@ pub(super) fn rough(subject: &Subject) -> Result<([Test; 3], [Times; 2]), Proble
         format!("mean < {MEAN_MS} ms"),
         six.mean_ms() < MEAN_MS && point.mean_ms() < MEAN_MS,
     );
-    let test = |id, requirement, what: &str, check| Test { id, requirement, what: what.into(), check };
     let tests = [
-        test("R4", "R-1", "rough ground: the interface, and as good as the stored solutions", interface),
-        test("R5", "R-4", "rough ground: goals that were driven to are met within 0.01 m, rad and 1/m", convergence),
-        test("R6", "R-5", "rough ground: time of a query, on the wall's clock", time),
+        Test::new("R4", "R-1", "rough ground: the interface, and as good as the stored solutions", interface),
+        Test::new(
+            "R5",
+            "R-4",
+            "rough ground: goals that were driven to are met within 0.01 m, rad and 1/m",
+            convergence,
+        ),
+        Test::new("R6", "R-5", "rough ground: time of a query, on the wall's clock", time),
     ];
     let times = [
         Times { of: "rocky8, rough ground", seconds: six.seconds },

@@ -39,7 +39,7 @@ impl Refusals {
         let refused = self.asked - self.missed.len();
         let missed = if self.missed.is_empty() { String::new() } else { format!("; not: {}", self.missed.join(", ")) };
         let measured = format!("{refused} of {} refused by the name of what is wrong{missed}", self.asked);
-        Test { id, requirement, what: what.into(), check: Check::new(measured, "all", self.missed.is_empty()) }
+        Test::new(id, requirement, what, Check::new(measured, "all", self.missed.is_empty()))
     }
 }
 

@@ -60,8 +60,8 @@ pub(super) fn stands(subject: &Subject) -> Result<Test, Problem> {
         format!("≥ 99 % settled, gaps ≤ {GAP:e} m"),
         asked > 0 && 100 * settled >= 99 * asked && worst <= GAP,
     );
-    let what = "rough ground: attitude, height and joints of rocky8 from the elevation map".into();
-    Ok(Test { id: "R10", requirement: "R-11", what, check })
+    let what = "rough ground: attitude, height and joints of rocky8 from the elevation map";
+    Ok(Test::new("R10", "R-11", what, check))
 }
 
 /// Rz(ψ) Ry(θ) Rx(φ), one turn after the other.

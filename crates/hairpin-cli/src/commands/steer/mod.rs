@@ -8,24 +8,21 @@ use std::time::Duration;
 use hairpin::campaign::scenario::{CircleSection, KeepOutSection, PolygonSection};
 use hairpin::feasibility::steering::shooting::SPEED_PRECISION;
 use hairpin::world::terrain::HoleRule;
-use hairpin_jobs::Problem;
-use hairpin_jobs::steer::{Effort, Pace, SteerSettings, make_start_table};
-pub(super) use hairpin_jobs::steer::Vehicle;
+use hairpin_jobs::steer::{Effort, Pace, SteerSettings, Vehicle, make_start_table};
+use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
 use super::terrain::georeference;
 use crate::args::{KeepOutFlags, NoData, StartTable, Steer};
-use crate::terminal::Terminal;
 use crate::{console, settings};
 
 /// Runs the command: 0 when everything was answered; one question alone is 3 when it is infeasible, 5 when it is open.
-pub(crate) fn run(steer: &Steer) -> Result<u8, Problem> {
+pub(crate) fn run(steer: &Steer, watch: &dyn Watch) -> Result<u8, Problem> {
     settings::take_threads(&steer.threads);
-    let watch = Terminal::default();
-    let vehicle = Vehicle::new(&of_flags(steer), &watch)?;
+    let vehicle = Vehicle::new(&of_flags(steer), watch)?;
     match (&steer.queries, &steer.to) {
-        (Some(queries), _) => batch::run(steer, &vehicle, queries, &watch),
-        (None, Some(to)) => single::run(steer, &vehicle, to, &watch),
+        (Some(queries), _) => batch::run(steer, &vehicle, queries, watch),
+        (None, Some(to)) => single::run(steer, &vehicle, to, watch),
         (None, None) => Err(Problem::input("give a goal, --to X,Y,YAW, or a file of them, --queries Q.csv")),
     }
 }

@@ -1,15 +1,16 @@
 //! `repro/CASE.json`: one violating run in one file that can be read, sent and flown again.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup, Witness, vary};
 use hairpin::trajectory::Drive;
 use hairpin::trajectory::{Profile, ProfileLeg};
-use hairpin_formats::{atomic, rapid};
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
-use crate::problem::Problem;
+use crate::atomic::{self, WriteError};
+use crate::rapid;
 
 /// As `task.length`.
 const MOST_WAYPOINTS: usize = 10_000;
@@ -20,76 +21,86 @@ const LONGEST_LEG_S: f64 = 600.0;
 /// Ten kilometres at the least speed that a scenario can ask for.
 const LONGEST_DRIVE_S: f64 = 1e7;
 
+/// A file that is no repro file.
+#[derive(Debug, Error)]
+#[error("{}: {what}", path.display())]
+pub struct BrokenRepro {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    pub what: String,
+}
+
 /// One run that violates the spec, and all that it takes to fly it again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Repro {
+pub struct Repro {
     /// Version of the format: 1.
-    pub(crate) hairpin_repro: u32,
+    pub hairpin_repro: u32,
     /// The case's name.
-    pub(crate) case: String,
+    pub case: String,
     /// The run that violated.
-    pub(crate) run: usize,
+    pub run: usize,
     /// The case's seed.
-    pub(crate) seed: u64,
+    pub seed: u64,
     /// What was seen.
-    pub(crate) expected: Expected,
+    pub expected: Expected,
     /// Both ends included.
-    pub(crate) waypoints_m: Vec<[f64; 3]>,
+    pub waypoints_m: Vec<[f64; 3]>,
     /// Planned duration of each leg.
-    pub(crate) leg_times_s: Vec<f64>,
+    pub leg_times_s: Vec<f64>,
     /// Evidence word of the trajectory.
-    pub(crate) evidence: String,
+    pub evidence: String,
     /// The control witness, one per leg: `duration_s`, and per axis c0 … c7 in m/s^i.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) profile: Option<Vec<Leg>>,
+    pub profile: Option<Vec<Leg>>,
     /// The control witness of a drive, SI.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) drive: Option<Drive>,
+    pub drive: Option<Drive>,
     /// What an arm runs, as RAPID.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) program: Option<String>,
+    pub program: Option<String>,
     /// What it was made of, where it is smaller than the case was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) shrunk: Option<ShrunkFrom>,
+    pub shrunk: Option<ShrunkFrom>,
     /// The resolved scenario.
-    pub(crate) scenario: Scenario,
+    pub scenario: Scenario,
 }
 
 /// What a shrunk case was made of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ShrunkFrom {
+pub struct ShrunkFrom {
     /// Waypoints of the case.
-    pub(crate) waypoints: usize,
+    pub waypoints: usize,
     /// Its violations, in words.
-    pub(crate) violations: Vec<String>,
+    pub violations: Vec<String>,
     /// What was left out of the scenario.
-    pub(crate) simplified: Vec<String>,
+    pub simplified: Vec<String>,
     /// Whether nothing smaller was found; else the search was stopped.
-    pub(crate) finished: bool,
+    pub finished: bool,
     /// Executions that it took.
-    pub(crate) runs: u64,
+    pub runs: u64,
 }
 
 /// What was seen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Expected {
+pub struct Expected {
     /// All violated limits, in words.
-    pub(crate) violations: Vec<String>,
+    pub violations: Vec<String>,
     /// Largest deviation.
-    pub(crate) max_deviation_m: f64,
+    pub max_deviation_m: f64,
     /// When.
-    pub(crate) t_worst_s: f64,
+    pub t_worst_s: f64,
     /// The leg.
-    pub(crate) leg_worst: usize,
+    pub leg_worst: usize,
     /// Why the run ended.
-    pub(crate) ended: String,
+    pub ended: String,
 }
 
 /// One leg of the witness.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Leg {
+pub struct Leg {
     duration_s: f64,
     coefficients: [[f64; 8]; 3],
 }
@@ -102,7 +113,7 @@ fn scenario_of(setup: &Setup, case: &Case, result: &CaseResult) -> Scenario {
 
 impl Repro {
     /// The worst run of `result`.
-    pub(crate) fn of(setup: &Setup, case: &Case, result: &CaseResult) -> Self {
+    pub fn of(setup: &Setup, case: &Case, result: &CaseResult) -> Self {
         let measures = result.measures.clone().unwrap_or_default();
         let leg = |leg: &ProfileLeg| Leg { duration_s: leg.duration, coefficients: leg.coefficients };
         Self {
@@ -129,15 +140,19 @@ impl Repro {
     }
 
     /// Writes it.
-    pub(crate) fn write(&self, path: &Path) -> Result<(), Problem> {
-        let mut text = serde_json::to_string_pretty(self).map_err(Problem::input)?;
-        text.push('\n');
-        Ok(atomic::write(path, text.as_bytes())?)
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json(path, self)
     }
 
     /// Reads one.
-    pub(crate) fn read(path: &Path) -> Result<Self, Problem> {
-        let refuse = |why: String| Problem::input(format!("{}: {why}", path.display()));
+    ///
+    /// # Errors
+    /// The file cannot be read, or is none.
+    pub fn read(path: &Path) -> Result<Self, BrokenRepro> {
+        let refuse = |what: String| BrokenRepro { path: path.into(), what };
         let text = std::fs::read_to_string(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
         let repro: Self = serde_json::from_str(&text).map_err(|error| refuse(format!("is no repro file: {error}")))?;
         repro.check().map_err(refuse)?;
@@ -189,8 +204,11 @@ impl Repro {
         }
     }
 
-    /// The case to fly; what is wrong with its name or its evidence.
-    pub(crate) fn case(&self) -> Result<Case, String> {
+    /// The case to fly.
+    ///
+    /// # Errors
+    /// What is wrong with its name, its evidence or its program.
+    pub fn case(&self) -> Result<Case, String> {
         let number = self.case.parse().map_err(|_| format!("case = {:?}: must be a number", self.case))?;
         let evidence = Evidence::from_word(&self.evidence).ok_or_else(|| {
             format!("evidence = {:?}: must be one of {}", self.evidence, Evidence::ALL.map(Evidence::word).join(", "))

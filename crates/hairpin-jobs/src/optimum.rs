@@ -8,24 +8,25 @@ use std::fs;
 
 use hairpin::campaign::arm::{ArmGraph, ArmSetup};
 use hairpin::campaign::{Case, Stop};
-use hairpin_formats::folder::{ARCS, GRAPH, OPTIMUM};
+use hairpin_formats::folder::{ARCS, GRAPH, OPTIMUM, graph_decimals};
 use hairpin_formats::{arcs, atomic, costs};
+use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::graph::decimals;
-use crate::commands::certificate;
-use crate::folder::Work;
-use crate::problem::Problem;
+use crate::work::Work;
+use crate::{Problem, certificate};
 
 /// What a check of the folder's came to.
-pub(crate) struct Optimum {
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Optimum {
     /// Steps of the branching tree; `None` where the path was searched again.
-    pub(crate) steps: Option<usize>,
-    pub(crate) findings: Vec<String>,
+    pub steps: Option<usize>,
+    /// What does not hold.
+    pub findings: Vec<String>,
 }
 
 /// Writes the proof, where the first case claims to be optimal.
-pub(super) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case], stop: &Stop) -> Result<(), Problem> {
+pub(crate) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case], stop: &Stop) -> Result<(), Problem> {
     let path = work.folder.file(OPTIMUM);
     let claimed = cases.first().is_some_and(|case| case.gap().is_some_and(|gap| gap <= 1e-9));
     let found = if claimed { arm.optimum(graph, stop).map_err(Problem::input)? } else { None };
@@ -40,7 +41,7 @@ pub(super) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case]
     let Some(mut object) = certificate::object(question.points, question.ends, &found, walk.as_ref()) else {
         return Ok(());
     };
-    object["decimals"] = decimals(graph).into();
+    object["decimals"] = graph_decimals(graph).into();
     if question.points > graph.points() {
         let rows = |may: &dyn Fn(usize) -> bool| (0..graph.points()).filter(|row| may(*row)).collect::<Vec<_>>();
         object["from_home"] = json!(rows(&|row| question.costs[graph.points() * question.points + row].is_some()));

@@ -1,4 +1,4 @@
-//! Part two where an arm ran elsewhere: its logs become the campaign's runs.
+//! Where an arm ran elsewhere, its logs become the campaign's runs.
 
 use std::path::PathBuf;
 
@@ -7,17 +7,17 @@ use hairpin::campaign::{Case, Run};
 use hairpin_formats::recordings::{self, RecordingError};
 use rayon::prelude::*;
 
-use crate::folder::Work;
-use crate::problem::Problem;
+use crate::Problem;
+use crate::work::Work;
 
 /// Broken logs that are told one by one.
-const TOLD: usize = 10;
+const LISTED: usize = 10;
 
 /// Whether the logs that the scenario names, if it names any, are the runs of `cases`.
 ///
 /// # Errors
 /// Those that are missing, too many, or cannot be used.
-pub(crate) fn check_recordings(work: &Work, cases: &[Case]) -> Result<(), Problem> {
+pub(super) fn check(work: &Work, cases: &[Case]) -> Result<(), Problem> {
     match (work.setup.arm(), work.setup.recordings()) {
         (Some(arm), Some(pattern)) => read(work, &arm, pattern, cases).map(drop),
         _ => Ok(()),
@@ -50,9 +50,9 @@ fn read(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<Ve
 }
 
 fn refuse(wrong: &[RecordingError]) -> Problem {
-    let mut told: Vec<String> = wrong.iter().take(TOLD).map(ToString::to_string).collect();
-    if wrong.len() > TOLD {
-        told.push(format!("and {} more", wrong.len() - TOLD));
+    let mut lines: Vec<String> = wrong.iter().take(LISTED).map(ToString::to_string).collect();
+    if wrong.len() > LISTED {
+        lines.push(format!("and {} more", wrong.len() - LISTED));
     }
-    Problem::input(told.join("\n"))
+    Problem::input(lines.join("\n"))
 }

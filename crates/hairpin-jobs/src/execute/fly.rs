@@ -1,4 +1,4 @@
-//! Part two: every case flown as often as the scenario asks for, each flight written as soon as it has landed.
+//! Every case flown as often as the scenario asks for, each flight written as soon as it has landed.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,24 +7,26 @@ use std::time::Duration;
 use hairpin::campaign::{
     self, Case, Mission, Mistake, Run, Setup, Status, execute_again, execute_run, mission, mission_again,
 };
-use hairpin_formats::atomic;
+use hairpin_formats::atomic::{self, WriteError};
 use hairpin_formats::executor::{ATTITUDE_UNKNOWN, Command, Failed, Failure, Limits, fly_all};
 use hairpin_formats::folder::{CampaignFolder, FolderError};
 use hairpin_formats::parquet::runs::RunFacts;
 use rayon::prelude::*;
 
-use crate::folder::Work;
-use crate::problem::Problem;
-use crate::{console, interrupt};
+use super::recorded;
+use crate::watch::Steps;
+use crate::work::Work;
+use crate::{Problem, Watch};
 
 /// What the runs of a campaign are.
-pub(crate) struct Flown {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Flown {
     /// All runs.
-    pub(crate) runs: usize,
+    pub runs: usize,
     /// Of these, runs that the executor failed to fly.
-    pub(crate) failed: usize,
+    pub failed: usize,
     /// Of these, runs of which the executor sent no attitudes.
-    pub(crate) attitude_unknown: usize,
+    pub attitude_unknown: usize,
 }
 
 /// What is flown: run number `run` of a case or, where it violated, that run for the time number `again`.
@@ -52,10 +54,10 @@ impl Job<'_> {
 }
 
 /// Flies all runs of `cases` that are not in the folder yet, and violations as often again as the scenario asks for.
-pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
+pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<Flown, Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
     if let (Some(arm), Some(pattern)) = (work.setup.arm(), work.setup.recordings()) {
-        super::recorded::take_in(work, &arm, pattern, cases)?;
+        recorded::take_in(work, &arm, pattern, cases)?;
         return write_table(&work.folder, cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run))));
     }
     let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));
@@ -63,12 +65,12 @@ pub(crate) fn execute(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
         .filter(|(case, run)| !work.folder.has_valid_run(case.number, *run))
         .map(|(case, run)| Job { case, run, again: None })
         .collect();
-    fly(work, &missing, all().count())?;
+    fly(work, &missing, all().count(), watch)?;
     let flown = write_table(&work.folder, all())?;
     let again = violations_again(work, cases)?;
-    fly(work, &again, again.len())?;
+    fly(work, &again, again.len(), watch)?;
     if flown.attitude_unknown > 0 {
-        console::warn(&format!(
+        watch.warn(&format!(
             "Warning: {} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing",
             flown.attitude_unknown
         ));
@@ -96,9 +98,8 @@ fn violations_again<'a>(work: &Work, cases: &'a [Case]) -> Result<Vec<Job<'a>>, 
 }
 
 /// Flies `missing`, the rest of `of` runs.
-fn fly(work: &Work, missing: &[Job], of: usize) -> Result<(), Problem> {
-    let bar = console::progress("execute", of);
-    bar.set_position((of - missing.len()) as u64);
+fn fly(work: &Work, missing: &[Job], of: usize, watch: &dyn Watch) -> Result<(), Problem> {
+    let steps = Steps::new(watch, "execute", of - missing.len(), of);
     let trouble = Mutex::new(None);
     let landed = |job: &Job, run: Run| {
         let written = match job.again {
@@ -108,23 +109,23 @@ fn fly(work: &Work, missing: &[Job], of: usize) -> Result<(), Problem> {
         if let Err(error) = written {
             trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get_or_insert(error);
         }
-        bar.inc(1);
+        steps.step();
     };
     let broken = || trouble.lock().is_ok_and(|trouble| trouble.is_some());
-    let stop = || interrupt::asked() || broken();
+    let stop = || watch.stopped() || broken();
     match command_of(&work.setup)? {
         None => missing.par_iter().for_each(|job| {
             if !stop() {
                 landed(job, job.simulate(&work.setup));
             }
         }),
-        Some((command, limits)) => fly_with(work, missing, &command, limits, &landed, &stop),
+        Some((command, limits)) => fly_with(work, missing, (&command, limits), &landed, &stop, watch),
     }
-    bar.finish_and_clear();
+    drop(steps);
     if let Some(error) = trouble.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
         return Err(error.into());
     }
-    if interrupt::asked() {
+    if watch.stopped() {
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
     }
     Ok(())
@@ -158,17 +159,19 @@ pub(crate) fn attitude_unknown(run: &Run) -> bool {
 fn fly_with(
     work: &Work,
     missing: &[Job],
-    command: &Command,
-    limits: Limits,
+    (command, limits): (&Command, Limits),
     landed: &(dyn Fn(&Job, Run) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
+    watch: &dyn Watch,
 ) {
     let workers = workers(&work.setup);
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result| {
         let job = &missing[index];
-        if let Err(Failed { failure, stderr }) = &result {
-            keep_log(&work.folder, job.case, job.run, failure, stderr);
+        if let Err(Failed { failure, stderr }) = &result
+            && let Err(error) = keep_log(&work.folder, job.case, job.run, failure, stderr)
+        {
+            watch.warn(&format!("Warning: {error}"));
         }
         landed(job, as_run(&work.setup, job.case, job.run, result));
     };
@@ -191,12 +194,16 @@ fn as_run(setup: &Setup, case: &Case, number: usize, result: Result<hairpin::tra
 }
 
 /// `executor-CASE-RUN.log`: why, and the end of the program's stderr. A log that cannot be written stops nothing.
-fn keep_log(folder: &CampaignFolder, case: &Case, run: usize, failure: &Failure, stderr: &str) {
+fn keep_log(
+    folder: &CampaignFolder,
+    case: &Case,
+    run: usize,
+    failure: &Failure,
+    stderr: &str,
+) -> Result<(), WriteError> {
     let path = folder.file(&format!("executor-{}-{run}.log", case.id()));
     let text = format!("{failure}\n\n--- the end of its stderr ---\n{stderr}");
-    if let Err(error) = atomic::write(&path, text.as_bytes()) {
-        console::warn(&format!("Warning: {error}"));
-    }
+    atomic::write(&path, text.as_bytes())
 }
 
 /// The user's program, where one flies.
@@ -210,13 +217,16 @@ fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
 }
 
 /// Flies one run, without a folder.
-pub(crate) fn fly_one(setup: &Setup, case: &Case, run: usize) -> Result<Run, Problem> {
-    let runs = fly_each(setup, std::slice::from_ref(case), run)?;
+pub(crate) fn fly_one(setup: &Setup, case: &Case, run: usize, watch: &dyn Watch) -> Result<Run, Problem> {
+    let runs = fly_each(setup, std::slice::from_ref(case), run, watch)?;
     runs.into_iter().next().ok_or_else(|| Problem::Interrupted("stopped".into()))
 }
 
 /// Flies run number `run` of each of `cases`, in their order, without a folder.
-pub(crate) fn fly_each(setup: &Setup, cases: &[Case], run: usize) -> Result<Vec<Run>, Problem> {
+///
+/// # Errors
+/// Recordings, which cannot be made again; a command that is none; it was asked to stop.
+pub fn fly_each(setup: &Setup, cases: &[Case], run: usize, watch: &dyn Watch) -> Result<Vec<Run>, Problem> {
     if let (Some(logs), Some(case)) = (setup.recordings(), cases.first()) {
         return Err(Problem::input(format!(
             "`execute.logs` = \"{logs}\": case {} was recorded, and a recording cannot be made again here; leave the key out for the virtual \
@@ -231,12 +241,12 @@ pub(crate) fn fly_each(setup: &Setup, cases: &[Case], run: usize) -> Result<Vec<
     let make = |index: usize| mission(setup, &cases[index], run).map_err(|mistake| mistake.to_string());
     let landed = |index: usize, result: Result<_, Failed>| {
         if let Err(failed) = &result {
-            console::warn(failed.stderr.trim_end());
+            watch.warn(failed.stderr.trim_end());
         }
         flown.lock().unwrap_or_else(std::sync::PoisonError::into_inner)[index] =
             Some(as_run(setup, &cases[index], run, result));
     };
-    fly_all(&command, limits, workers(setup), cases.len(), &make, &landed, &interrupt::asked);
+    fly_all(&command, limits, workers(setup), cases.len(), &make, &landed, &|| watch.stopped());
     let runs = flown.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     runs.into_iter().collect::<Option<_>>().ok_or_else(|| Problem::Interrupted("stopped".into()))
 }

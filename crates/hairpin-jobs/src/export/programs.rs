@@ -8,16 +8,15 @@ use hairpin::campaign::{Case, Evidence};
 use hairpin::trajectory::program::{Program, Speed};
 use hairpin_formats::{atomic, joint_trajectory, krl, rapid, urscript};
 
-use super::Written;
-use crate::args::Format;
-use crate::folder::Work;
-use crate::problem::Problem;
+use super::{Language, Written};
+use crate::Problem;
+use crate::work::Work;
 
 /// Time between the points of joint trajectories, s.
 const SAMPLE: f64 = 0.01;
 
 /// Writes the program of every case; a case without one, or one that the language cannot hold, is told as missing.
-pub(super) fn write(work: &Work, cases: &[Case], format: Format) -> Result<Written, Problem> {
+pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<Written, Problem> {
     let mut written = Written::default();
     for case in cases {
         let mut case = case.clone();
@@ -26,7 +25,7 @@ pub(super) fn write(work: &Work, cases: &[Case], format: Format) -> Result<Writt
             written.missing.push(format!("case {} has no program: it is no arm's", case.id()));
             continue;
         };
-        match texts(work, &case, program, format) {
+        match texts(work, &case, program, language) {
             Ok(texts) => {
                 for (name, text) in texts {
                     let path: PathBuf = work.folder.file(&name);
@@ -80,15 +79,15 @@ pub(super) fn write_clock(work: &Work) -> Result<Written, Problem> {
 }
 
 /// Names and texts of a program's files.
-fn texts(work: &Work, case: &Case, program: &Program, format: Format) -> Result<Vec<(String, String)>, String> {
+fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Result<Vec<(String, String)>, String> {
     let id = case.id();
     let header = [format!("Evidence: {}", case.claim())];
-    Ok(match format {
-        Format::Urscript => {
+    Ok(match language {
+        Language::Urscript => {
             let text = urscript::text(program, &urscript::Settings::default(), &header);
             vec![(format!("{id}.script"), text.map_err(|error| error.to_string())?)]
         }
-        Format::JointTrajectory => {
+        Language::JointTrajectory => {
             let arm = work.setup.arm().ok_or("it is no arm's")?;
             let (times, joints) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
             let names = std::array::from_fn(|axis| format!("joint_{}", axis + 1));
@@ -96,11 +95,11 @@ fn texts(work: &Work, case: &Case, program: &Program, format: Format) -> Result<
                 joint_trajectory::text("base_link", &names, &times, &joints).map_err(|error| error.to_string())?;
             vec![(format!("{id}.joint_trajectory.json"), text)]
         }
-        Format::Krl => {
+        Language::Krl => {
             let files = krl::files(program, &krl::Settings::default(), &header).map_err(|error| error.to_string())?;
             vec![(format!("{id}.src"), files.src), (format!("{id}.dat"), files.dat)]
         }
-        _ => {
+        Language::Rapid => {
             let module = rapid::module(program, &header).map_err(|error| error.to_string())?;
             let cap = Speed::predefined(rapid::FIRST_RUN).ok_or("no speed for the first run")?;
             let slow = rapid::module(&rapid::slow(program, &cap), &header).map_err(|error| error.to_string())?;

@@ -9,15 +9,15 @@ use hairpin::campaign::{self, Case, CaseResult, Setup, Shrunk, Status};
 use hairpin::judgement::{Measures, Violation};
 use hairpin_formats::atomic;
 use hairpin_formats::checksum::sha256;
-use indicatif::ProgressBar;
 use serde::{Deserialize, Serialize};
 
-use crate::args::Shrink;
-use crate::commands::parts::fly_one;
-use crate::console;
-use crate::folder::Work;
-use crate::interrupt::{self, Deadline};
-use crate::problem::Problem;
+use super::ShrinkSettings;
+use crate::execute::fly_one;
+use crate::work::Work;
+use crate::{Deadline, Problem, Watch};
+
+/// What the watch is told of.
+const WHAT: &str = "shrink";
 
 /// The file.
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -53,19 +53,25 @@ struct Violated {
 }
 
 /// Answers candidates until the budget or the time is used up.
-pub(super) struct Answers {
+pub(super) struct Answers<'a> {
     run: usize,
     path: PathBuf,
     state: State,
     budget: u64,
     deadline: Deadline,
     fresh: u64,
-    bar: ProgressBar,
+    watch: &'a dyn Watch,
 }
 
-impl Answers {
+impl<'a> Answers<'a> {
     /// Those of the folder's file, if it is about the same question.
-    pub(super) fn take_up(work: &Work, case: &Case, result: &CaseResult, asked: &Shrink) -> Self {
+    pub(super) fn take_up(
+        work: &Work,
+        case: &Case,
+        result: &CaseResult,
+        settings: &ShrinkSettings,
+        watch: &'a dyn Watch,
+    ) -> Self {
         let path = work.folder.file(&format!("repro/{}-shrink.state", case.id()));
         let question = fingerprint(&work.setup, case, result.run);
         let kept = std::fs::read_to_string(&path).ok().and_then(|text| serde_json::from_str::<State>(&text).ok());
@@ -74,10 +80,10 @@ impl Answers {
             run: result.run,
             path,
             state: state.unwrap_or(State { question, answers: BTreeMap::new() }),
-            budget: asked.budget,
-            deadline: Deadline::after(asked.time_limit),
+            budget: settings.budget,
+            deadline: Deadline::after(settings.time_limit_s),
             fresh: 0,
-            bar: console::progress("shrink", asked.budget as usize),
+            watch,
         }
     }
 
@@ -91,7 +97,7 @@ impl Answers {
             })
         };
         let shrunk = campaign::shrink(setup, case, result, &mut run);
-        self.bar.finish_and_clear();
+        self.watch.finished(WHAT);
         match trouble {
             Some(problem) => Err(problem),
             None => shrunk.map_err(Problem::input),
@@ -114,19 +120,18 @@ impl Answers {
         if let Some(answer) = self.state.answers.get(&key) {
             return Ok(Some(answer.result(candidate.number, self.run)));
         }
-        if self.fresh >= self.budget || self.deadline.passed() || interrupt::asked() {
+        if self.fresh >= self.budget || self.deadline.passed() || self.watch.stopped() {
             return Ok(None);
         }
-        let flown = fly_one(setup, candidate, self.run)?;
+        let flown = fly_one(setup, candidate, self.run, self.watch)?;
         if let Err(message) = &flown.outcome {
             return Err(Problem::input(format!("case {}: the executor failed: {message}", candidate.id())));
         }
         let result = campaign::judge(setup, candidate, std::slice::from_ref(&flown))?;
         self.fresh += 1;
-        self.bar.set_position(self.fresh);
+        self.watch.progress(WHAT, self.fresh as usize, self.budget as usize);
         self.state.answers.insert(key, Answer::of(&result));
-        let text = serde_json::to_string_pretty(&self.state).map_err(Problem::input)?;
-        atomic::write(&self.path, text.as_bytes())?;
+        atomic::write_json(&self.path, &self.state)?;
         Ok(Some(result))
     }
 }

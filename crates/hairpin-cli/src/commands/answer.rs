@@ -1,15 +1,17 @@
 //! What a campaign says on stdout: for people a table of the worst cases and the verdict, for machines one object.
 
 use hairpin::campaign::report::{COLUMNS, cells, violation, worst_first};
-use hairpin::campaign::{Case, CaseResult, Status};
+use hairpin::campaign::{Case, CaseResult, Status, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::{Metric, Outcome, Regression};
 use hairpin_formats::header::Header;
+use hairpin_jobs::judge::Judgement;
+use hairpin_jobs::saved::Replayed;
+use hairpin_jobs::work::Work;
 use serde_json::{Value, json};
 
-use super::{Judgement, Replayed};
 use crate::console;
-use crate::folder::Work;
+use crate::exit::NOTHING_FEASIBLE;
 
 /// Confidence of the shares of violations that come again.
 const CONFIDENCE: f64 = 0.95;
@@ -17,20 +19,20 @@ const CONFIDENCE: f64 = 0.95;
 const WORST: usize = 5;
 
 /// A verdict and what it is about.
-pub(crate) struct Answer<'a> {
-    pub(crate) work: &'a Work,
-    pub(crate) asked: usize,
-    pub(crate) cases: &'a [Case],
-    pub(crate) judgement: &'a Judgement,
+pub(super) struct Answer<'a> {
+    pub(super) work: &'a Work,
+    pub(super) cases: &'a [Case],
+    pub(super) tally: &'a Tally,
+    pub(super) judgement: &'a Judgement,
     /// The judgement's, with what saved cases came to.
-    pub(crate) verdict: &'a Verdict,
+    pub(super) verdict: &'a Verdict,
     /// Saved cases that were run first.
-    pub(crate) replayed: &'a [Replayed],
+    pub(super) replayed: &'a [Replayed],
 }
 
 impl Answer<'_> {
     /// Says it, and gives the exit code.
-    pub(crate) fn say(&self, json: bool) -> u8 {
+    pub(super) fn say(&self, json: bool) -> u8 {
         if json {
             console::say(&self.object().to_string());
         } else {
@@ -109,7 +111,7 @@ impl Answer<'_> {
             "verdict": self.verdict.sentence,
             "exit_code": self.verdict.exit_code,
             "counts": {
-                "asked": self.asked,
+                "asked": self.tally.asked(self.work.setup.scenario.search().cases),
                 "cases": self.cases.len(),
                 "pass": self.count(Status::Pass),
                 "fail": self.count(Status::Fail),
@@ -123,13 +125,24 @@ impl Answer<'_> {
                 object["evidence"] = json!(self.claim(result));
                 object
             }),
-            "replayed": self.replayed.iter().map(Replayed::object).collect::<Vec<_>>(),
+            "replayed": self.replayed.iter().map(replayed_object).collect::<Vec<_>>(),
             "influences": self.judgement.influences,
             "offsets": self.offsets(),
             "regression": self.judgement.regression.as_ref().map(regression),
             "paths": paths,
         })
     }
+}
+
+/// A saved case and what it comes to now.
+pub(super) fn replayed_object(one: &Replayed) -> Value {
+    let result = &one.result;
+    json!({
+        "file": one.file,
+        "status": result.status.word(),
+        "max_deviation_m": result.measures.as_ref().map(|measures| measures.max_deviation),
+        "violations": result.violations.iter().map(violation).collect::<Vec<_>>(),
+    })
 }
 
 /// A comparison with a baseline: what is outside its band, and how moves went from release to release.
@@ -167,15 +180,15 @@ fn regression(found: &Regression) -> Value {
 }
 
 /// Says where to ask on, where nothing was feasible.
-pub(crate) fn point_to_explain(work: &Work, exit_code: u8) {
-    if exit_code == 3 {
+pub(super) fn point_to_explain(work: &Work, exit_code: u8) {
+    if exit_code == NOTHING_FEASIBLE {
         let scenario = work.folder.file("scenario.toml");
         console::warn(&format!("why, and the smallest change that helps: hairpin explain {}", scenario.display()));
     }
 }
 
 /// The worst run of a case.
-pub(crate) fn worst(result: &CaseResult) -> Value {
+fn worst(result: &CaseResult) -> Value {
     let measures = result.measures.as_ref();
     json!({
         "case": format!("{:04}", result.case),

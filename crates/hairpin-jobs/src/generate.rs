@@ -1,28 +1,43 @@
-//! Part one: trajectories, their planned motion, and what the search did.
+//! Generation: trajectories, their planned motion, and what the search did.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::graph_of;
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Kind, Stop, Tally, learn};
-use hairpin::world::terrain::Terrain;
+use hairpin::campaign::{Case, Stop, Tally, learn, planned};
 use hairpin_formats::atomic;
-use hairpin_formats::scenario::model_text;
-use hairpin_formats::waypoints::{Mission, environment_path};
 
-use super::graph::keep_graph;
-use super::keep::keep_cases;
-use crate::console;
-use crate::folder::Work;
-use crate::interrupt::{self, Deadline};
-use crate::problem::Problem;
+use crate::watch::not_waiting_for;
+use crate::work::{CampaignSettings, Work, plan};
+use crate::{Deadline, Problem, Watch, optimum};
 
 /// Between checkpoints: what a kill may cost.
 const CHECKPOINT: Duration = Duration::from_secs(30);
+/// What the watch is told of.
+const WHAT: &str = "generate";
+
+/// A campaign whose cases are there.
+pub struct Generated {
+    /// The campaign.
+    pub work: Work,
+    /// Its cases.
+    pub cases: Vec<Case>,
+    /// What the search did.
+    pub tally: Tally,
+}
+
+/// Begins a campaign, or goes on with it, and finds its cases.
+///
+/// # Errors
+/// As of [`plan`]; a file that cannot be written; it was asked to stop.
+pub fn generate(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Generated, Problem> {
+    let work = plan(settings, watch)?.begin()?;
+    let (cases, tally) = find_cases(&work, Deadline::after(settings.time_limit_s), watch)?;
+    Ok(Generated { work, cases, tally })
+}
 
 /// Finds the cases and writes them. An interrupted generation goes on where its last checkpoint was.
-pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Tally), Problem> {
+pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> Result<(Vec<Case>, Tally), Problem> {
     let known = known(work)?;
     if known.tally.complete {
         tracing::info!("generation is complete already");
@@ -31,19 +46,15 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     let mut cases = known.cases.clone();
     let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
-    let bar = console::progress("generate", 0);
     let begun = Instant::now();
     let user_score = work.setup.scenario.user_score();
     let score_trouble = || user_score.and_then(|user| user.scorer.trouble());
     let stop = Stop {
-        cancelled: &|| interrupt::asked() || deadline.passed() || score_trouble().is_some(),
-        progress: &|done, of| {
-            bar.set_length(of as u64);
-            bar.set_position(done as u64);
-        },
+        cancelled: &|| watch.stopped() || deadline.passed() || score_trouble().is_some(),
+        progress: &|done, of| watch.progress(WHAT, done, of),
         clock: &|| begun.elapsed().as_secs_f64(),
     };
-    let tally = interrupt::not_waiting_for(user_score, deadline, || {
+    let tally = not_waiting_for(user_score, watch, deadline, || {
         hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
             cases.extend_from_slice(new);
             if at.elapsed() > CHECKPOINT && trouble.is_none() {
@@ -52,7 +63,7 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
             }
         })
     });
-    bar.finish_and_clear();
+    watch.finished(WHAT);
     if let Some(problem) = trouble {
         return Err(problem);
     }
@@ -62,18 +73,18 @@ pub(crate) fn generate(work: &Work, deadline: Deadline) -> Result<(Vec<Case>, Ta
     keep_cases(work, &cases, saved, &unfinished(&tally))?;
     work.folder.write_curves(work.setup.scenario.search().stress, &tally.curves)?;
     if let Some(model) = &tally.model {
-        atomic::write(&work.folder.file(learn::NAME), model_text(model).as_bytes())?;
+        atomic::write_json(&work.folder.file(learn::NAME), model)?;
     }
     if let Some(arm) = work.setup.arm()
         && let Ok(graph) = graph_of(&arm)
     {
-        keep_graph(work, &arm, &graph)?;
+        work.folder.write_graph(&arm, &graph)?;
         // What is claimed is proven, however late it is.
-        super::optimum::keep(work, &arm, &graph, &cases, &Stop { cancelled: &interrupt::asked, ..stop })?;
+        optimum::keep(work, &arm, &graph, &cases, &Stop { cancelled: &|| watch.stopped(), ..stop })?;
         // What a controller reads is what is executed and judged: numbers as the module has them.
         cases = work.folder.read_cases()?;
     }
-    if interrupt::asked() {
+    if watch.stopped() {
         return Err(Problem::Interrupted(format!("stopped after {} cases; --resume goes on", cases.len())));
     }
     // The last of all files: with it there is nothing left to do.
@@ -110,42 +121,45 @@ fn known(work: &Work) -> Result<Known, Problem> {
     Ok(known)
 }
 
-/// Puts waypoint lists that were made elsewhere in the place of the folder's cases, with the environments beside them. A list that equals a
-/// case of the folder keeps that case's plan and evidence, and its environment where it comes without one.
-pub(crate) fn adopt(work: &Work, missions: &[Mission]) -> Result<(), Problem> {
-    let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
-    let mut cases = Vec::with_capacity(missions.len());
-    let outside = |p: &nalgebra::Point3<f64>| match work.setup.kind() {
-        Kind::Flight(setup) => setup.world.wall_distance(p) < 0.0,
-        Kind::Drive(setup) => setup.map.patch(p.x, p.y).is_err(),
-        Kind::Arm(_) => false,
-    };
-    for (number, Mission { name, waypoints, environment }) in missions.iter().enumerate() {
-        if waypoints.len() < 2 {
-            return Err(Problem::input(format!(
-                "{name}.csv: a mission needs at least 2 waypoints, this has {}",
-                waypoints.len()
-            )));
-        }
-        if let Some(outside) = waypoints.iter().position(outside) {
-            console::warn(&format!("Warning: {name}.csv: waypoint {outside} lies outside the world"));
-        }
-        let seed = hairpin::math::random::case_seed(work.setup.scenario.seed(), number as u64);
-        let same = known.iter().find(|case| case.waypoints == *waypoints);
-        let mut case = match same {
-            Some(case) => Case { number, seed, ..case.clone() },
-            None => Case::bare(number, seed, waypoints.clone()),
-        };
-        if let Some(environment) = environment {
-            let file = environment_path(Path::new(""), name);
-            let refuse = |mistake| Problem::input(format!("{}: {mistake}", file.display()));
-            work.setup.check_environment(environment).map_err(refuse)?;
-            case.environment = Some(environment.clone());
-        }
-        cases.push(case);
+/// Writes the cases from number `from` of the list on, the tables of all, and the tally that belongs to them. Each file
+/// says no more than those before it: a kill in between leaves cases too many, never too few.
+pub(crate) fn keep_cases(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {
+    for case in &cases[from..] {
+        let planned = planned(&work.setup, case);
+        let planned = planned.map_err(|error| Problem::input(format!("case {}: {error}", case.id())))?;
+        work.folder.write_planned(case.number, &planned)?;
     }
-    let names = missions.iter().map(|mission| mission.name.clone());
-    let tally = Tally { complete: true, missions: names.collect(), ..Tally::default() };
-    work.folder.forget_cases()?;
-    keep_cases(work, &cases, 0, &tally)
+    work.folder.write_new_cases(cases, from)?;
+    Ok(work.folder.write_tally(tally)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::small;
+    use crate::{Problem, Unwatched};
+
+    #[test]
+    fn cases_are_found_once_and_known_from_then_on() {
+        let place = tempfile::tempdir().unwrap();
+        let found = generate(&small(&place), &Unwatched).unwrap();
+        assert_eq!((found.cases.len(), found.tally.complete), (2, true));
+        let again = find_cases(&found.work, Deadline::after(None), &Unwatched).unwrap();
+        assert_eq!(again, (found.cases, found.tally));
+    }
+
+    #[test]
+    fn who_stops_it_is_told_and_may_go_on() {
+        struct Stopped;
+        impl Watch for Stopped {
+            fn stopped(&self) -> bool {
+                true
+            }
+        }
+        let place = tempfile::tempdir().unwrap();
+        let stopped = generate(&small(&place), &Stopped).map(|found| found.cases.len());
+        assert!(matches!(stopped, Err(Problem::Interrupted(_))), "{stopped:?}");
+        let settings = CampaignSettings { if_there: crate::work::IfThere::Resume, ..small(&place) };
+        assert_eq!(generate(&settings, &Unwatched).unwrap().cases.len(), 2);
+    }
 }

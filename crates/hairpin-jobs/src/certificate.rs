@@ -23,13 +23,15 @@ const WITH_ARCS: &str = "hairpin heaviest path with arcs 1";
 pub(crate) type Arcs = Vec<([usize; 3], i64)>;
 
 /// What a check came to.
-pub(crate) struct Checked {
-    pub(crate) cost: i64,
+pub struct Checked {
+    /// Cost of the path, in the graph's whole units.
+    pub cost: i64,
     /// How often a point may come.
-    pub(crate) visits: usize,
+    pub visits: usize,
     /// Steps of the tree; `None` where the path was searched again.
-    pub(crate) steps: Option<usize>,
-    pub(crate) findings: Vec<String>,
+    pub steps: Option<usize>,
+    /// What does not hold.
+    pub findings: Vec<String>,
 }
 
 /// The proof of an answer; `None` of one that is not proven.
@@ -89,14 +91,6 @@ pub(crate) fn check(object: &Value, costs: Vec<Option<i64>>, arcs: Option<Arcs>)
         checked.findings.push("it was changed: its SHA-256 is another".into());
     }
     Some(checked)
-}
-
-/// Over what a certificate says that a path is the heaviest.
-pub(crate) fn over(visits: usize) -> String {
-    match visits {
-        1 => "loop-free path".into(),
-        _ => format!("path that comes to no point more than {visits} times and uses no move twice"),
-    }
 }
 
 fn path_step(step: &Step) -> Value {

@@ -6,38 +6,43 @@ use hairpin::search::heaviest::Arcs;
 use hairpin_formats::costs::{self, Costs};
 use serde_json::Value;
 
-use crate::problem::Problem;
+use crate::Problem;
 
 /// Costs as whole numbers, and what they stand for.
-pub(super) struct Graph {
-    pub(super) arcs: Arcs,
+pub struct Graph {
+    /// The arcs with their costs.
+    pub arcs: Arcs,
     costs: Costs,
 }
 
 impl Graph {
-    pub(super) fn read(path: &Path) -> Result<Self, Problem> {
+    /// Reads a table of costs.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is none.
+    pub fn read(path: &Path) -> Result<Self, Problem> {
         let costs = costs::read(path).map_err(Problem::input)?;
         let arcs = Arcs::new(costs.points, &costs.costs);
         let arcs = arcs.map_err(|error| {
             let scale = costs.scale();
-            let told = if scale > 1 { format!(" (costs × {scale})") } else { String::new() };
-            Problem::input(format!("{}: {error}{told}", path.display()))
+            let scaled = if scale > 1 { format!(" (costs × {scale})") } else { String::new() };
+            Problem::input(format!("{}: {error}{scaled}", path.display()))
         })?;
         Ok(Self { arcs, costs })
     }
 
     /// The power of ten that makes all costs whole.
-    pub(super) fn scale(&self) -> i64 {
+    pub fn scale(&self) -> i64 {
         self.costs.scale()
     }
 
     /// A cost as people read it.
-    pub(super) fn text(&self, cost: i64) -> String {
+    pub fn text(&self, cost: i64) -> String {
         self.costs.text(cost)
     }
 
     /// A cost as machines read it.
-    pub(super) fn value(&self, cost: i64) -> Value {
+    pub fn value(&self, cost: i64) -> Value {
         if self.scale() == 1 {
             return cost.into();
         }

@@ -4,28 +4,34 @@ use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{self, Case, CaseResult, Scenario, Setup, Status};
 use hairpin::judgement::Verdict;
+use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario;
 use rayon::prelude::*;
-use serde_json::{Value, json};
 
-use super::{Repro, fly_one};
-use crate::console;
-use crate::interrupt;
-use crate::problem::Problem;
+use crate::execute::fly_one;
+use crate::{Problem, Watch};
 
 /// One saved case and what it comes to now.
-pub(crate) struct Replayed {
-    file: PathBuf,
-    result: CaseResult,
+#[derive(Debug, Clone)]
+pub struct Replayed {
+    /// Its repro file.
+    pub file: PathBuf,
+    /// Its result.
+    pub result: CaseResult,
 }
 
 /// Runs the repro files of `named`, or of the folder `campaign` where none is named, as robot, `execute` and `spec` of `setup` now are, in
-/// the conditions in which they were saved; and tells of them on stderr. Nothing in `campaign` changes.
+/// the conditions in which they were saved; and tells the watch of them. Nothing in `campaign` changes.
 ///
 /// # Errors
 /// A folder that is named and has none; a file that is no repro file or, in a folder that is named, of another kind of robot; recordings,
 /// which cannot be made again.
-pub(crate) fn replay_saved(setup: &Setup, campaign: &Path, named: Option<&Path>) -> Result<Vec<Replayed>, Problem> {
+pub(crate) fn replay_saved(
+    setup: &Setup,
+    campaign: &Path,
+    named: Option<&Path>,
+    watch: &dyn Watch,
+) -> Result<Vec<Replayed>, Problem> {
     let own = campaign.join("repro");
     let files = files(named.unwrap_or(&own));
     if let Some(folder) = named {
@@ -49,14 +55,14 @@ pub(crate) fn replay_saved(setup: &Setup, campaign: &Path, named: Option<&Path>)
                 other.file.display()
             )));
         }
-        (Some(other), None) => console::warn(&format!(
+        (Some(other), None) => watch.warn(&format!(
             "Warning: {} of {} saved cases are of another kind of robot and left out: {}",
             others.len(),
             files.len(),
             other.file.display()
         )),
     }
-    let run = |saved: &Saved| if interrupt::asked() { Ok(None) } else { saved.replay() };
+    let run = |saved: &Saved| if watch.stopped() { Ok(None) } else { saved.replay(watch) };
     // One executor of the user's at a time, as each keeps its own.
     let replayed: Result<Vec<Option<Replayed>>, Problem> = match setup.scenario.executor().command {
         None => ours.par_iter().map(run).collect(),
@@ -64,7 +70,7 @@ pub(crate) fn replay_saved(setup: &Setup, campaign: &Path, named: Option<&Path>)
     };
     let replayed: Vec<Replayed> = replayed?.into_iter().flatten().collect();
     if !replayed.is_empty() {
-        tell(&replayed);
+        tell(&replayed, watch);
     }
     Ok(replayed)
 }
@@ -89,7 +95,7 @@ struct Saved {
 
 impl Saved {
     fn read(now: &Setup, file: &Path) -> Result<Self, Problem> {
-        let repro = Repro::read(file)?;
+        let repro = Repro::read(file).map_err(Problem::input)?;
         let refuse = |why: String| Problem::input(format!("{}: {why}", file.display()));
         let case = repro.case().map_err(refuse)?;
         let mut scenario = repro.scenario.clone();
@@ -103,9 +109,9 @@ impl Saved {
         Ok(Self { file: file.into(), repro, case, setup })
     }
 
-    fn replay(&self) -> Result<Option<Replayed>, Problem> {
+    fn replay(&self, watch: &dyn Watch) -> Result<Option<Replayed>, Problem> {
         let Some(setup) = &self.setup else { return Ok(None) };
-        let flown = fly_one(setup, &self.case, self.repro.run)?;
+        let flown = fly_one(setup, &self.case, self.repro.run, watch)?;
         let result = campaign::judge(setup, &self.case, std::slice::from_ref(&flown))?;
         Ok(Some(Replayed { file: self.file.clone(), result }))
     }
@@ -138,20 +144,10 @@ impl Replayed {
     pub(crate) fn named(&self) -> (String, CaseResult) {
         (self.file.file_stem().unwrap_or_default().to_string_lossy().into_owned(), self.result.clone())
     }
-
-    /// For machines.
-    pub(crate) fn object(&self) -> Value {
-        json!({
-            "file": self.file,
-            "status": self.result.status.word(),
-            "max_deviation_m": self.result.measures.as_ref().map(|measures| measures.max_deviation),
-            "violations": self.result.violations.iter().map(campaign::report::violation).collect::<Vec<_>>(),
-        })
-    }
 }
 
 /// The verdict of a command that came to `verdict` and ran `replayed` before: a saved case that violates still is a violation.
-pub(crate) fn with_saved(verdict: &Verdict, replayed: &[Replayed]) -> Verdict {
+pub fn with_saved(verdict: &Verdict, replayed: &[Replayed]) -> Verdict {
     let count = |status: Status| replayed.iter().filter(|one| one.result.status == status).count();
     let (failed, unrun, of) = (count(Status::Fail), count(Status::ExecutorFailed), replayed.len());
     let Verdict { sentence, exit_code } = verdict;
@@ -168,15 +164,15 @@ pub(crate) fn with_saved(verdict: &Verdict, replayed: &[Replayed]) -> Verdict {
     }
 }
 
-fn tell(replayed: &[Replayed]) {
+fn tell(replayed: &[Replayed], watch: &dyn Watch) {
     let violating = replayed.iter().filter(|one| one.result.status == Status::Fail).count();
-    console::warn(&format!("saved cases first: {violating} of {} violate", replayed.len()));
+    watch.warn(&format!("saved cases first: {violating} of {} violate", replayed.len()));
     for one in replayed {
         let what = match one.result.status {
             Status::Fail => one.result.violations.first().map(campaign::report::violation).unwrap_or_default(),
             Status::Pass => continue,
             _ => one.result.message.clone().unwrap_or_default(),
         };
-        console::warn(&format!("  {}: {what}", one.file.display()));
+        watch.warn(&format!("  {}: {what}", one.file.display()));
     }
 }
