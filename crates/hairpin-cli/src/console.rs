@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal, Write};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tracing::level_filters::LevelFilter;
+use tracing_subscriber::filter::LevelFilter;
 
 /// A line of results. A reader that has gone away (`| head`) is no mistake: what is left to say is not said.
 pub(crate) fn say(line: &str) {

@@ -1,4 +1,5 @@
-//! What a command came to, as an exit code; and why one gave no verdict, as a sentence for people and an object for machines.
+//! What a command came to, as an exit code; and why one gave no verdict, as a sentence for people and an object for
+//! machines.
 //!
 //! | code | meaning |
 //! | --- | --- |

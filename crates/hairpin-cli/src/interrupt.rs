@@ -1,4 +1,5 @@
-//! Ctrl-C: the first one asks to stop and keeps what is done, the second one quits and takes the user's programs with it.
+//! Ctrl-C: the first one asks to stop and keeps what is done, the second one quits and takes the user's programs with
+//! it.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -1,9 +1,11 @@
-//! Proofs of heaviest paths as JSON objects, and their check by independent code: files of `max-load`, and what a campaign of arms keeps.
+//! Proofs of heaviest paths as JSON objects, and their check by independent code: files of `max-load`, and what a
+//! campaign of arms keeps.
 //!
 //! `{"kind","points","start","end","path","cost","scale","directed","steps","sha256"}`: costs in whole numbers (a table's times the power of ten that makes
-//! them whole); a step is `[multipliers, out, into, next]`, next `[]` (closed), `[step]` or `[choice, step with it out, step with it in]`. Where points may
-//! come several times `visits` stands in the place of scale and directed, and a step is `[prices]`, whose bound closes it, or `[prices, points, without,
-//! [[from, to, step], …]]`: a path meets none of the points (step `without`, `null` where it must), or one of the arcs leads it out of them, to number
+//! them whole); a step is `[multipliers, out, into, next]`, next `[]` (closed), `[step]` or `[choice, step with it out,
+//! step with it in]`. Where points may come several times `visits` stands in the place of scale and directed, and a
+//! step is `[prices]`, whose bound closes it, or `[prices, points, without, [[from, to, step], …]]`: a path meets none
+//! of the points (step `without`, `null` where it must), or one of the arcs leads it out of them, to number
 //! `points` where it ends. sha256 is of the object without it. Where moves may pass points, `passed`
 //! stands in the place of scale, directed and steps: the points of the path that are passed; it is searched again.
 
@@ -63,18 +65,19 @@ pub(crate) fn sealed(mut object: Value) -> String {
     object.to_string()
 }
 
-/// Checks an object against the costs of a graph and its arcs, if it has any; `None` where it is no certificate of such a graph.
+/// Checks an object against the costs of a graph and its arcs, if it has any; `None` where it is no certificate of such
+/// a graph.
 pub(crate) fn check(object: &Value, costs: Vec<Option<i64>>, arcs: Option<Arcs>) -> Option<Checked> {
     let mut bare = object.clone();
     let stated = bare.as_object_mut()?.shift_remove("sha256");
     let mut checked = match object["kind"].as_str()? {
         PATH if arcs.is_none() => {
             let claim = path_claim(object, costs)?;
-            let told = verify_heaviest(&claim).into_iter();
-            let told =
-                told.map(|found| found.step.map_or(found.what.clone(), |step| format!("step {step}: {}", found.what)));
+            let found = verify_heaviest(&claim).into_iter();
+            let findings =
+                found.map(|found| found.step.map_or(found.what.clone(), |step| format!("step {step}: {}", found.what)));
             let steps = claim.tree.as_ref().map(|tree| tree.steps.len());
-            Checked { cost: claim.cost, visits: 1, steps, findings: told.collect() }
+            Checked { cost: claim.cost, visits: 1, steps, findings: findings.collect() }
         }
         WALK if arcs.is_none() => {
             let claim = walk_claim(object, costs)?;

@@ -1,24 +1,13 @@
 //! Two judged campaigns, paired by case and seed.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use hairpin::campaign::{self, Case, CaseResult, Comparison};
 
 use crate::Problem;
 use crate::differences::differences;
 use crate::names::listed;
-use crate::work::{Work, look};
-
-/// What is compared.
-#[derive(Debug, Clone)]
-pub struct CompareSettings {
-    /// Judged campaign folder: before.
-    pub a: PathBuf,
-    /// Judged campaign folder: after.
-    pub b: PathBuf,
-    /// Deviations that differ by no more than this are unchanged, m.
-    pub tolerance_m: f64,
-}
+use crate::work::{Work, open_to_read};
 
 /// Two campaigns beside each other.
 #[derive(Debug)]
@@ -29,30 +18,32 @@ pub struct Compared {
     pub differences: Vec<String>,
 }
 
-/// Compares two judged campaigns over the same cases.
+/// Compares the judged campaigns in the folders `a` and `b` over the same cases. Deviations that differ by no more than
+/// `tolerance_m` are unchanged.
 ///
 /// # Errors
 /// Folders that are no judged campaigns, of different kinds of robots, or without a case in common.
-pub fn compare(settings: &CompareSettings) -> Result<Compared, Problem> {
-    let (a, b) = (look(&settings.a)?, look(&settings.b)?);
-    let differences = differences(&a.setup.scenario, &b.setup.scenario);
-    if std::mem::discriminant(&a.setup.scenario) != std::mem::discriminant(&b.setup.scenario) {
+pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem> {
+    let (before, after) = (open_to_read(a)?, open_to_read(b)?);
+    let scenarios = [&before.setup.scenario, &after.setup.scenario];
+    let differences = differences(scenarios[0], scenarios[1]);
+    if std::mem::discriminant(scenarios[0]) != std::mem::discriminant(scenarios[1]) {
         return Err(Problem::input(format!(
             "{} and {} are of different kinds of robots ({} and {}): there is nothing to pair",
-            settings.a.display(),
-            settings.b.display(),
-            a.setup.robot_name(),
-            b.setup.robot_name()
+            a.display(),
+            b.display(),
+            before.setup.robot_name(),
+            after.setup.robot_name()
         )));
     }
-    let comparison = campaign::compare(&judged(&a, &settings.a)?, &judged(&b, &settings.b)?, settings.tolerance_m);
+    let comparison = campaign::compare(&judged(&before, a)?, &judged(&after, b)?, tolerance_m);
     if comparison.pairs == 0 {
         return Err(Problem::input(format!(
             "no case of {a} has a partner in {b} with the same number, seed, waypoints and environment ({}): fly the same trajectories in \
              both under one --seed, such as by hairpin export {a} --to waypoints and hairpin execute {b} --missions {a}/missions",
             unpaired(&comparison),
-            a = settings.a.display(),
-            b = settings.b.display(),
+            a = a.display(),
+            b = b.display(),
         )));
     }
     Ok(Compared { comparison, differences })
@@ -91,7 +82,7 @@ mod tests {
     #[test]
     fn a_campaign_is_equal_to_itself() {
         let (_place, folder) = violating();
-        let compared = compare(&CompareSettings { a: folder.clone(), b: folder, tolerance_m: 1e-6 }).unwrap();
+        let compared = compare(&folder, &folder, 1e-6).unwrap();
         assert_eq!((compared.comparison.pairs, compared.differences.len()), (2, 0));
         assert!(!compared.comparison.regresses() && compared.comparison.newly_failing.is_empty());
     }
@@ -99,7 +90,7 @@ mod tests {
     #[test]
     fn what_is_not_judged_is_refused() {
         let (_place, folder) = executed();
-        let refused = compare(&CompareSettings { a: folder.clone(), b: folder, tolerance_m: 0.0 }).unwrap_err();
+        let refused = compare(&folder, &folder, 0.0).unwrap_err();
         assert!(refused.to_string().starts_with("not judged yet"), "{refused}");
     }
 }

@@ -26,7 +26,15 @@ pub struct ExplainSettings {
     pub simd: Simd,
 }
 
-/// Searches graphs, counts where candidates for legs are lost, and looks for the smallest change that helps; with the verdict on it. Nothing is written.
+impl Default for ExplainSettings {
+    fn default() -> Self {
+        let (scenario, sets, time_limit_s, simd) = Default::default();
+        Self { scenario, sets, graphs: 8, time_limit_s, simd }
+    }
+}
+
+/// Searches graphs, counts where candidates for legs are lost, and looks for the smallest change that helps; with the
+/// verdict on it. Nothing is written.
 ///
 /// # Errors
 /// A scenario with mistakes; it was asked to stop.
@@ -50,9 +58,7 @@ mod tests {
 
     #[test]
     fn what_is_feasible_is_told_as_such() {
-        let (time_limit_s, simd) = (None, Simd::Widest);
-        let settings =
-            ExplainSettings { scenario: "demo-quadrotor".into(), sets: Vec::new(), graphs: 1, time_limit_s, simd };
+        let settings = ExplainSettings { scenario: "demo-quadrotor".into(), graphs: 1, ..ExplainSettings::default() };
         let (found, verdict) = explain(&settings, &Unwatched).unwrap();
         assert_eq!(verdict.exit_code, 0, "{verdict:?}");
         assert!(found.deaths.left > 0 && found.deaths.asked >= found.deaths.left);

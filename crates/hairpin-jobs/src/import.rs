@@ -84,13 +84,12 @@ pub struct MoveFinding {
 /// # Errors
 /// A file that cannot be read at all; no such arm.
 pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
-    let refuse = |why: String| Problem::input(format!("{}: {why}", settings.file.display()));
-    let bytes = fs::read(&settings.file).map_err(|error| refuse(error.to_string()))?;
+    let bytes = fs::read(&settings.file).map_err(|error| Problem::of_file(&settings.file, error))?;
     if rapid::is_log(&bytes) {
         return clocked(settings, &bytes);
     }
     let options = Options { procedure: settings.procedure.as_deref(), ..Options::default() };
-    let module = rapid::read(&bytes, &options).map_err(|error| refuse(error.to_string()))?;
+    let module = rapid::read(&bytes, &options).map_err(|error| Problem::of_file(&settings.file, error))?;
     let followed = settings.check.as_ref().map(|follower| follow(follower, &module)).transpose()?;
     let findings = findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))
@@ -98,8 +97,7 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
 
 /// Makes the table of costs of what a clocking module logged.
 fn clocked(settings: &ImportSettings, bytes: &[u8]) -> Result<Imported, Problem> {
-    let times = rapid::read_log(bytes);
-    let times = times.map_err(|error| Problem::input(format!("{}: {error}", settings.file.display())))?;
+    let times = rapid::read_log(bytes).map_err(|error| Problem::of_file(&settings.file, error))?;
     let out = settings.out.clone().unwrap_or_else(|| settings.file.with_file_name("arc_ms.csv"));
     atomic::write(&out, times.csv().as_bytes())?;
     let readings = times.arcs.values().map(|(_, count)| count).sum::<usize>();

@@ -1,6 +1,6 @@
 //! A score from executed legs.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use hairpin::campaign::Case;
 use hairpin::campaign::learn::{self, ScoreModel, learn_moves, leg_samples, move_samples};
@@ -10,18 +10,7 @@ use hairpin_formats::atomic;
 use rayon::prelude::*;
 
 use crate::Problem;
-use crate::work::look;
-
-/// What is learned, and from what.
-#[derive(Debug, Clone)]
-pub struct LearnSettings {
-    /// Campaign folder.
-    pub folder: PathBuf,
-    /// The model file.
-    pub out: PathBuf,
-    /// What is learned.
-    pub stress: Stress,
-}
+use crate::work::open_to_read;
 
 /// A score that was learned and written.
 #[derive(Debug)]
@@ -34,16 +23,15 @@ pub struct Learned {
     pub arm: bool,
 }
 
-/// Learns a score and writes it, however good it is.
+/// Learns `stress` from the campaign in `folder` and writes the score to `out`, however good it is.
 ///
 /// # Errors
 /// Nothing to learn from, or too little; a file that cannot be read or written.
-pub fn learn(settings: &LearnSettings) -> Result<Learned, Problem> {
-    let work = look(&settings.folder)?;
-    let stress = settings.stress;
+pub fn learn(folder: &Path, out: &Path, stress: Stress) -> Result<Learned, Problem> {
+    let work = open_to_read(folder)?;
     let cases = work.folder.read_cases()?;
     let table = work.folder.read_runs_table()?;
-    let place = settings.folder.display();
+    let place = folder.display();
     let what = if work.setup.arm().is_some() { "move" } else { "leg" };
     let found = |samples: usize| {
         let missing = match samples {
@@ -75,7 +63,7 @@ pub fn learn(settings: &LearnSettings) -> Result<Learned, Problem> {
         )),
         error => Problem::input(format!("{place}: {error}")),
     })?;
-    atomic::write_json(&settings.out, &model)?;
+    atomic::write_json(out, &model)?;
     let score_key = work.setup.scenario.score_key();
     Ok(Learned { model, score_key, arm: work.setup.arm().is_some() })
 }
@@ -87,14 +75,14 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_told() {
-        let refused = |folder: PathBuf| {
-            let settings = LearnSettings { out: folder.join("model.json"), folder, stress: Stress::MaxDeviation };
-            learn(&settings).map(|_| ()).unwrap_err().to_string()
+        let refused = |folder: &Path| {
+            let learned = learn(folder, &folder.join("model.json"), Stress::MaxDeviation);
+            learned.map(|_| ()).unwrap_err().to_string()
         };
         let (_place, folder) = generated();
-        assert!(refused(folder).contains("nothing was executed"));
+        assert!(refused(&folder).contains("nothing was executed"));
         let (_place, folder) = executed();
-        let too_few = refused(folder);
+        let too_few = refused(&folder);
         assert!(too_few.contains("2 trajectories with executed legs"), "{too_few}");
     }
 }

@@ -1,5 +1,6 @@
-//! The jobs of hairpin over folders: plain settings in, plain results out. Nothing here parses arguments, knows a terminal, ends the process or keeps a
-//! global of its own: what stops a job and who sees how far it is comes in as a [`Watch`].
+//! The jobs of hairpin over folders: plain settings in, plain results out. Nothing here parses arguments, knows a
+//! terminal, ends the process or keeps a global of its own: what stops a job and who sees how far it is comes in as a
+//! [`Watch`].
 
 pub mod certificate;
 pub mod compare;

@@ -10,8 +10,9 @@ use crate::generate::keep_cases;
 use crate::work::Work;
 use crate::{Problem, Watch};
 
-/// Puts waypoint lists that were made elsewhere in the place of the folder's cases, with the environments beside them. A list that equals a
-/// case of the folder keeps that case's plan and evidence, and its environment where it comes without one.
+/// Puts waypoint lists that were made elsewhere in the place of the folder's cases, with the environments beside them.
+/// A list that equals a case of the folder keeps that case's plan and evidence, and its environment where it comes
+/// without one.
 pub(crate) fn adopt(work: &Work, missions: &[Mission], watch: &dyn Watch) -> Result<(), Problem> {
     let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
     let mut cases = Vec::with_capacity(missions.len());

@@ -1,8 +1,9 @@
-//! The proof that an arm's first program is the heaviest: kept beside the graph, and checked against it by independent code.
+//! The proof that an arm's first program is the heaviest: kept beside the graph, and checked against it by independent
+//! code.
 //!
 //! `optimum.json` is a certificate as of `max-load --certificate`, of the graph in `graph.csv`, of its arcs in `arcs.csv` where it has any, and, where home
-//! can be left for or reached from some points only, two points more: `from_home` and `to_home` say which. `decimals` are those of the graph's unit that its
-//! whole numbers stand for.
+//! can be left for or reached from some points only, two points more: `from_home` and `to_home` say which. `decimals`
+//! are those of the graph's unit that its whole numbers stand for.
 
 use std::fs;
 
@@ -32,9 +33,7 @@ pub(crate) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case]
     let found = if claimed { arm.optimum(graph, stop).map_err(Problem::input)? } else { None };
     let Some((question, found, walk)) = found else {
         return match fs::remove_file(&path) {
-            Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
-                Err(Problem::input(format!("{}: {cause}", path.display())))
-            }
+            Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(Problem::of_file(&path, cause)),
             _ => Ok(()),
         };
     };
@@ -50,8 +49,8 @@ pub(crate) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case]
     Ok(atomic::write(&path, certificate::sealed(object).as_bytes())?)
 }
 
-/// Checks the folder's, if it has one: that it is of this graph and of the first program, and that no path is heavier. Where the first case claims to
-/// be optimal and there is none, that is a finding.
+/// Checks the folder's, if it has one: that it is of this graph and of the first program, and that no path is heavier.
+/// Where the first case claims to be optimal and there is none, that is a finding.
 pub(crate) fn verify(work: &Work, arm: &ArmSetup, cases: &[Case]) -> Option<Optimum> {
     // A choice of cases may have left it out.
     let first = cases.first().filter(|case| case.number == 0)?;

@@ -1,6 +1,7 @@
 //! Why a job gave no result.
 
 use std::fmt::Display;
+use std::path::Path;
 
 use hairpin::campaign::Mistake;
 use hairpin_formats::atomic::WriteError;
@@ -29,6 +30,11 @@ impl Problem {
     /// A problem in words.
     pub fn input(sentence: impl Display) -> Self {
         Self::Input(sentence.to_string())
+    }
+
+    /// What is wrong with a file.
+    pub fn of_file(file: &Path, why: impl Display) -> Self {
+        Self::Input(format!("{}: {why}", file.display()))
     }
 }
 

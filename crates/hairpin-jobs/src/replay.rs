@@ -1,6 +1,6 @@
 //! A recorded violation, flown again.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use hairpin::campaign::{self, CaseResult, Setup, Status};
 use hairpin::math::simd::Simd;
@@ -12,15 +12,6 @@ use crate::{Problem, Watch};
 
 /// Our own simulator repeats a run to the bit, at any SIMD level; executors of the users' need not.
 const SAME_M: f64 = 1e-6;
-
-/// What is flown again.
-#[derive(Debug, Clone, Default)]
-pub struct ReplaySettings {
-    /// repro/CASE.json of a campaign folder.
-    pub file: PathBuf,
-    /// Version of the kernels.
-    pub simd: Simd,
-}
 
 /// A saved violation beside what it comes to now.
 #[derive(Debug)]
@@ -40,18 +31,17 @@ impl ReplayedRepro {
     }
 }
 
-/// Flies the run of a repro file again.
+/// Flies the run of the repro file `file` again, by the kernels `simd`.
 ///
 /// # Errors
 /// A file that is none; recordings, which cannot be made again; it was asked to stop.
-pub fn replay(settings: &ReplaySettings, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
-    let repro = Repro::read(&settings.file).map_err(Problem::input)?;
-    let refuse = |why: String| Problem::input(format!("{}: {why}", settings.file.display()));
+pub fn replay(file: &Path, simd: Simd, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
+    let repro = Repro::read(file).map_err(Problem::input)?;
     let mut scenario = repro.scenario.clone();
-    scenario::attach(&mut scenario, settings.file.parent().unwrap_or(Path::new("")))?;
-    let setup = Setup::new(scenario).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
-    let setup = setup.with_simd(settings.simd);
-    let case = repro.case().map_err(refuse)?;
+    scenario::attach(&mut scenario, file.parent().unwrap_or(Path::new("")))?;
+    let setup = Setup::new(scenario).map_err(|mistake| Problem::of_file(file, format!("scenario.{mistake}")))?;
+    let setup = setup.with_simd(simd);
+    let case = repro.case().map_err(|why| Problem::of_file(file, why))?;
     let flown = fly_one(&setup, &case, repro.run, watch)?;
     let result = campaign::judge(&setup, &case, std::slice::from_ref(&flown))?;
     let deviation = result.measures.as_ref().map(|measures| measures.max_deviation);
@@ -69,11 +59,11 @@ mod tests {
     fn a_violation_comes_again() {
         let (_place, folder) = violating();
         let file = folder.join("repro/0000.json");
-        let again = replay(&ReplaySettings { file: file.clone(), ..ReplaySettings::default() }, &Unwatched).unwrap();
+        let again = replay(&file, Simd::Widest, &Unwatched).unwrap();
         assert!(again.reproduces(), "{again:?}");
         let other = std::fs::read_to_string(&file).unwrap().replacen("\"hairpin_repro\": 1", "\"hairpin_repro\": 2", 1);
         std::fs::write(&file, other).unwrap();
-        let refused = replay(&ReplaySettings { file, ..ReplaySettings::default() }, &Unwatched).unwrap_err();
+        let refused = replay(&file, Simd::Portable, &Unwatched).unwrap_err();
         assert!(refused.to_string().contains("hairpin_repro = 2"), "{refused}");
     }
 }

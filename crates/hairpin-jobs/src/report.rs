@@ -12,7 +12,7 @@ use hairpin_formats::executor::ATTITUDE_UNKNOWN;
 
 use crate::Problem;
 use crate::judge::with_moves;
-use crate::work::{Work, look};
+use crate::work::{Work, open_to_read};
 
 /// A report that was written.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ pub struct Reported {
 /// # Errors
 /// A campaign that is not judged; a file that cannot be read or written.
 pub fn report(folder: &Path) -> Result<Reported, Problem> {
-    let work = look(folder)?;
+    let work = open_to_read(folder)?;
     let cases = work.folder.read_cases()?;
     let tally = work.folder.read_tally()?;
     let results = work.folder.read_results()?;
@@ -69,7 +69,7 @@ pub(crate) fn write_report(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::{JudgeSettings, judge};
+    use crate::judge::judge;
     use crate::testing::executed;
 
     #[test]
@@ -77,7 +77,7 @@ mod tests {
         let (_place, folder) = executed();
         let refused = report(&folder).unwrap_err().to_string();
         assert!(refused.starts_with("not judged yet"), "{refused}");
-        let judged = judge(&JudgeSettings { folder: folder.clone(), ..JudgeSettings::default() }).unwrap();
+        let judged = judge(&folder, &[]).unwrap();
         let reported = report(&folder).unwrap();
         assert_eq!(reported.verdict, judged.judgement.verdict);
         assert!(reported.path.is_file() && reported.coverage.is_some());

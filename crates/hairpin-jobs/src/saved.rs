@@ -1,4 +1,5 @@
-//! Saved violations, run again before anything else: what failed once is what a change is most likely to have mended, or not.
+//! Saved violations, run again before anything else: what failed once is what a change is most likely to have mended,
+//! or not.
 
 use std::path::{Path, PathBuf};
 
@@ -20,12 +21,13 @@ pub struct Replayed {
     pub result: CaseResult,
 }
 
-/// Runs the repro files of `named`, or of the folder `campaign` where none is named, as robot, `execute` and `spec` of `setup` now are, in
-/// the conditions in which they were saved; and tells the watch of them. Nothing in `campaign` changes.
+/// Runs the repro files of `named`, or of the folder `campaign` where none is named, as robot, `execute` and `spec` of
+/// `setup` now are, in the conditions in which they were saved; and tells the watch of them. Nothing in `campaign`
+/// changes.
 ///
 /// # Errors
-/// A folder that is named and has none; a file that is no repro file or, in a folder that is named, of another kind of robot; recordings,
-/// which cannot be made again.
+/// A folder that is named and has none; a file that is no repro file or, in a folder that is named, of another kind of
+/// robot; recordings, which cannot be made again.
 pub(crate) fn replay_saved(
     setup: &Setup,
     campaign: &Path,
@@ -50,10 +52,7 @@ pub(crate) fn replay_saved(
     match (others.first(), named) {
         (None, _) => {}
         (Some(other), Some(_)) => {
-            return Err(Problem::input(format!(
-                "{}: is of another kind of robot than this campaign",
-                other.file.display()
-            )));
+            return Err(Problem::of_file(&other.file, "is of another kind of robot than this campaign"));
         }
         (Some(other), None) => watch.warn(&format!(
             "Warning: {} of {} saved cases are of another kind of robot and left out: {}",
@@ -96,7 +95,7 @@ struct Saved {
 impl Saved {
     fn read(now: &Setup, file: &Path) -> Result<Self, Problem> {
         let repro = Repro::read(file).map_err(Problem::input)?;
-        let refuse = |why: String| Problem::input(format!("{}: {why}", file.display()));
+        let refuse = |why: String| Problem::of_file(file, why);
         let case = repro.case().map_err(refuse)?;
         let mut scenario = repro.scenario.clone();
         scenario::attach(&mut scenario, file.parent().unwrap_or(Path::new("")))?;
@@ -117,8 +116,8 @@ impl Saved {
     }
 }
 
-/// Takes over who executes and what is within spec; noise and force, which no controller chooses, stay those of the saved run. Whether both are
-/// of one kind.
+/// Takes over who executes and what is within spec; noise and force, which no controller chooses, stay those of the
+/// saved run. Whether both are of one kind.
 fn adopt(saved: &mut Scenario, now: &Scenario) -> bool {
     match (saved, now) {
         (Scenario::Flight(saved), Scenario::Flight(now)) => {
@@ -146,7 +145,8 @@ impl Replayed {
     }
 }
 
-/// The verdict of a command that came to `verdict` and ran `replayed` before: a saved case that violates still is a violation.
+/// The verdict of a command that came to `verdict` and ran `replayed` before: a saved case that violates still is a
+/// violation.
 pub fn with_saved(verdict: &Verdict, replayed: &[Replayed]) -> Verdict {
     let count = |status: Status| replayed.iter().filter(|one| one.result.status == status).count();
     let (failed, unrun, of) = (count(Status::Fail), count(Status::ExecutorFailed), replayed.len());

@@ -3,16 +3,14 @@
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::learn::NAME;
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, CaseResult, Grid, Setup, Tally, vary};
-use hairpin_formats::folder::{ARCS, BEST_SO_FAR, GRAPH, OPTIMUM, REASONS};
 use rayon::prelude::*;
 
 use crate::judge::judge_cases;
 use crate::names::listed;
 use crate::report::write_report;
-use crate::work::{IfThere, Work, look, make};
+use crate::work::{IfThere, Work, make, open_to_read};
 use crate::{Problem, Watch};
 
 /// What is chosen, and where it goes.
@@ -51,7 +49,8 @@ pub struct Selected {
     pub stress: StressUnit,
 }
 
-/// How stress is told: deviations in m, those of arms in mm as everywhere; scores, of cases that were not executed, have no unit.
+/// How stress is told: deviations in m, those of arms in mm as everywhere; scores, of cases that were not executed,
+/// have no unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StressUnit {
     /// By what numbers in SI are multiplied.
@@ -65,7 +64,7 @@ pub struct StressUnit {
 /// # Errors
 /// Too few cases, or none that were executed where that is asked for; a file that cannot be read or written.
 pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, Problem> {
-    let work = look(&settings.folder)?;
+    let work = open_to_read(&settings.folder)?;
     let by = settings.by;
     if same_place(&settings.folder, &settings.out) {
         return Err(Problem::input("--out: must be another folder than OUT"));
@@ -101,7 +100,6 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     }
     let choice = Choice::new(&candidates);
     let places = choice.best(count, by);
-    let every: Vec<usize> = (0..candidates.len()).collect();
     let mut chosen: Vec<Case> = places.iter().map(|place| cases[*place].clone()).collect();
     chosen.sort_by_key(|case| case.number);
     let folder = write(&work, settings, (&all, &results), &chosen)?;
@@ -111,7 +109,7 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
         of: cases.len(),
         selected: choice.measure(&places),
         most_stressful: choice.measure(&choice.best(count, By::Stress)),
-        all: choice.measure(&every),
+        all: choice.measure(&(0..candidates.len()).collect::<Vec<_>>()),
         cells: Grid::of(&work.setup).cells(),
         stress: StressUnit::of(&work, &candidates),
     })
@@ -166,28 +164,8 @@ fn write(
     let new = make(&settings.out, setup, settings.if_there)?;
     let (old, there) = (&work.folder, &new.folder);
     let numbers: BTreeSet<usize> = chosen.iter().map(|case| case.number).collect();
-    let copy = |from: &Path, to: &Path| {
-        let copied = if from.exists() { std::fs::copy(from, to).map(drop) } else { Ok(()) };
-        copied.map_err(|error| Problem::input(format!("cannot copy {} to {}: {error}", from.display(), to.display())))
-    };
+    old.copy_cases(&numbers.iter().copied().collect::<Vec<_>>(), there)?;
     let table = old.read_runs_table()?;
-    for case in chosen {
-        copy(&old.trajectory_path(case.number), &there.trajectory_path(case.number))?;
-        for run in 0.. {
-            if !old.run_path(case.number, run).exists() {
-                break;
-            }
-            copy(&old.run_path(case.number, run), &there.run_path(case.number, run))?;
-        }
-        for again in 0..old.read_reruns(case.number)?.len() {
-            copy(&old.rerun_path(case.number, again), &there.rerun_path(case.number, again))?;
-        }
-    }
-    let whole = [NAME, BEST_SO_FAR, GRAPH, REASONS, ARCS].into_iter();
-    // What is proven of the first program is of no use without it.
-    for name in whole.chain(numbers.contains(&0).then_some(OPTIMUM)) {
-        copy(&old.file(name), &there.file(name))?;
-    }
     there.write_new_cases(chosen, 0)?;
     let old_tally = old.read_tally()?;
     // Missions are those of the cases in their order: a choice keeps numbers, and may be chosen from again.
@@ -222,7 +200,7 @@ mod tests {
         let selected = select(&settings, &Unwatched).unwrap();
         assert_eq!((selected.names.len(), selected.of, selected.stress.unit), (1, 2, "m"));
         assert_eq!(selected.selected, selected.most_stressful);
-        assert_eq!(look(&out).unwrap().folder.read_results().unwrap().len(), 1);
+        assert_eq!(open_to_read(&out).unwrap().folder.read_results().unwrap().len(), 1);
         let refused = select(&SelectSettings { cases: 3, ..settings }, &Unwatched).unwrap_err().to_string();
         assert!(refused.contains("has 2 cases"), "{refused}");
     }

@@ -12,7 +12,8 @@ pub fn executor(command: &str) -> Set {
     ("execute.command".to_owned(), serde_json::Value::from(command).to_string())
 }
 
-/// The logs that `pattern` names from where the process runs, as the key that it sets in the scenario of the campaign in `folder`.
+/// The logs that `pattern` names from where the process runs, as the key that it sets in the scenario of the campaign
+/// in `folder`.
 pub fn logs(folder: &Path, pattern: &str) -> Set {
     let logs = recordings::relative_to(folder, Path::new(""), pattern);
     ("execute.logs".to_owned(), serde_json::Value::from(logs).to_string())

@@ -1,6 +1,6 @@
 //! A rotor-speed profile through the plant, open loop, so that other programs can check our physics.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use hairpin::campaign::Setup;
 use hairpin::campaign::flight::FlightSetup;
@@ -27,27 +27,17 @@ struct Row {
     speeds: Vector4<f64>,
 }
 
-/// What is flown.
-#[derive(Debug, Clone, Default)]
-pub struct SimulateSettings {
-    /// Robot: a shipped name, a robot file, or a scenario that has one.
-    pub robot: String,
-    /// Keys of its scenario with other values.
-    pub sets: Vec<Set>,
-    /// File of the rotors' speeds: t_s,rotor1_rad_s … rotor4_rad_s.
-    pub rotor_speeds: PathBuf,
-}
-
-/// Flies a rotor-speed profile: one pose per row of its file.
+/// Flies the rotor-speed profile in a file (t_s,rotor1_rad_s … rotor4_rad_s): one pose per row. `robot` is a shipped
+/// name, a robot file, or a scenario that has one; `sets` are keys of its scenario with other values.
 ///
 /// # Errors
 /// A robot without rotors; a file that cannot be read, or is no profile of this robot.
-pub fn simulate(settings: &SimulateSettings) -> Result<Track, Problem> {
-    let setup = Setup::new(scenario_for(&settings.robot, &settings.sets)?)?;
+pub fn simulate(robot: &str, sets: &[Set], rotor_speeds: &Path) -> Result<Track, Problem> {
+    let setup = Setup::new(scenario_for(robot, sets)?)?;
     let Some(FlightSetup { robot, .. }) = setup.flight() else {
         return Err(Problem::input(format!("`{}` has no rotors: simulate flies quadrotors", setup.robot_name())));
     };
-    fly(robot, &read(&settings.rotor_speeds, robot)?)
+    fly(robot, &read(rotor_speeds, robot)?)
 }
 
 /// From level and rest at the origin, rotors at the first row's speeds; one pose per row.
@@ -72,9 +62,9 @@ fn fly(robot: &Quadrotor, rows: &[Row]) -> Result<Track, Problem> {
 }
 
 fn read(path: &Path, robot: &Quadrotor) -> Result<Vec<Row>, Problem> {
-    let refuse = |why: String| Problem::input(format!("{}: {why}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
-    parse(&text, robot.rotor_speed).map_err(refuse)
+    let text = std::fs::read_to_string(path);
+    let text = text.map_err(|error| Problem::of_file(path, format!("cannot be read: {error}")))?;
+    parse(&text, robot.rotor_speed).map_err(|why| Problem::of_file(path, why))
 }
 
 fn parse(text: &str, limits: (f64, f64)) -> Result<Vec<Row>, String> {

@@ -1,6 +1,6 @@
 //! The main job: generate, execute, judge, report.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use hairpin::campaign::{Case, Tally};
 use hairpin::judgement::Verdict;
@@ -12,15 +12,6 @@ use crate::report::write_report;
 use crate::saved::{Replayed, replay_saved, with_saved};
 use crate::work::{CampaignSettings, Work, plan};
 use crate::{Deadline, Problem, Watch};
-
-/// What a whole campaign is run with.
-#[derive(Debug, Clone, Default)]
-pub struct StressSettings {
-    /// The campaign.
-    pub campaign: CampaignSettings,
-    /// Folder of repro files that are run first; those of the campaign folder if not given.
-    pub repro: Option<PathBuf>,
-}
 
 /// A campaign from its search to its report.
 pub struct Stressed {
@@ -38,15 +29,16 @@ pub struct Stressed {
     pub replayed: Vec<Replayed>,
 }
 
-/// Runs a whole campaign, or goes on with it.
+/// Runs a whole campaign, or goes on with it; the repro files of the folder `repro`, or else those of the campaign's
+/// own, are run first.
 ///
 /// # Errors
 /// As of [`plan`]; saved cases that cannot be used; a file that cannot be written; it was asked to stop.
-pub fn stress(settings: &StressSettings, watch: &dyn Watch) -> Result<Stressed, Problem> {
-    let planned = plan(&settings.campaign, watch)?;
-    let deadline = Deadline::after(settings.campaign.time_limit_s);
+pub fn stress(settings: &CampaignSettings, repro: Option<&Path>, watch: &dyn Watch) -> Result<Stressed, Problem> {
+    let planned = plan(settings, watch)?;
+    let deadline = Deadline::after(settings.time_limit_s);
     // Before anything of an older campaign in the folder is replaced: a saved case may turn out to be none.
-    let replayed = replay_saved(&planned.setup, &planned.path, settings.repro.as_deref(), watch)?;
+    let replayed = replay_saved(&planned.setup, &planned.path, repro, watch)?;
     stress_begun(planned.begin()?, deadline, replayed, watch)
 }
 
@@ -77,9 +69,9 @@ mod tests {
     #[test]
     fn a_campaign_runs_from_its_scenario_to_its_report() {
         let place = tempfile::tempdir().unwrap();
-        let mut settings = StressSettings { campaign: small(&place), ..StressSettings::default() };
-        settings.campaign.sets.push(("spec.deviation.max_m".into(), "0.0001".into()));
-        let stressed = stress(&settings, &Unwatched).unwrap();
+        let mut settings = small(&place);
+        settings.sets.push(("spec.deviation.max_m".into(), "0.0001".into()));
+        let stressed = stress(&settings, None, &Unwatched).unwrap();
         assert_eq!((stressed.verdict.exit_code, stressed.cases.len()), (1, 2), "{:?}", stressed.verdict);
         for name in ["scenario.toml", "results.parquet", "junit.xml", "report.html", "repro/0000.json"] {
             assert!(stressed.work.folder.file(name).is_file(), "{name}");
@@ -90,9 +82,9 @@ mod tests {
     fn what_was_saved_is_run_first() {
         let (_violating, folder) = crate::testing::violating();
         let place = tempfile::tempdir().unwrap();
-        let mut settings = StressSettings { campaign: small(&place), repro: Some(folder.join("repro")) };
-        settings.campaign.sets.push(("spec.deviation.max_m".into(), "50".into()));
-        let stressed = stress(&settings, &Unwatched).unwrap();
+        let mut settings = small(&place);
+        settings.sets.push(("spec.deviation.max_m".into(), "50".into()));
+        let stressed = stress(&settings, Some(&folder.join("repro")), &Unwatched).unwrap();
         assert_eq!((stressed.replayed.len(), stressed.verdict.exit_code), (2, 0), "{:?}", stressed.verdict);
     }
 }

@@ -7,7 +7,7 @@ use tempfile::TempDir;
 use crate::Unwatched;
 use crate::execute::{ExecuteSettings, execute};
 use crate::generate::generate;
-use crate::judge::{JudgeSettings, judge};
+use crate::judge::judge;
 use crate::sets::Set;
 use crate::work::CampaignSettings;
 
@@ -41,6 +41,6 @@ pub(crate) fn executed() -> (TempDir, PathBuf) {
 pub(crate) fn violating() -> (TempDir, PathBuf) {
     let (place, folder) = executed();
     let sets = vec![("spec.deviation.max_m".to_owned(), "0.0001".to_owned())];
-    judge(&JudgeSettings { folder: folder.clone(), sets }).unwrap();
+    judge(&folder, &sets).unwrap();
     (place, folder)
 }

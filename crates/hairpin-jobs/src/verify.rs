@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::Problem;
 use crate::optimum::{self, Optimum};
-use crate::work::{Work, look};
+use crate::work::{Work, open_to_read};
 
 /// What the check of a campaign came to.
 #[derive(Debug)]
@@ -63,7 +63,7 @@ impl Answer {
 /// # Errors
 /// The folder is no campaign's, or broken; a broken witness is a finding.
 pub fn verify(folder: &Path) -> Result<Verified, Problem> {
-    let work = look(folder)?;
+    let work = open_to_read(folder)?;
     let cases = work.folder.read_cases_without_profiles()?;
     let answers: Vec<Answer> = cases.par_iter().map(|case| check(&work, case)).collect();
     let optimum = work.setup.arm().and_then(|arm| optimum::verify(&work, &arm, &cases));
@@ -99,7 +99,8 @@ impl Verified {
         [witnesses.clone().count(), witnesses.filter(|answer| answer.fine()).count()]
     }
 
-    /// The worst case that was checked: one with findings before one without, then the one that ends farthest from its waypoints.
+    /// The worst case that was checked: one with findings before one without, then the one that ends farthest from its
+    /// waypoints.
     pub fn worst(&self) -> Option<&Answer> {
         let mut worst: Option<((bool, f64), &Answer)> = None;
         for answer in &self.answers {

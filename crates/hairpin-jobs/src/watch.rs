@@ -1,4 +1,5 @@
-//! How whoever runs a job stops it and sees how far it is: Ctrl-C, progress bars and warnings are implementations of the caller's.
+//! How whoever runs a job stops it and sees how far it is: Ctrl-C, progress bars and warnings are implementations of
+//! the caller's.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
@@ -81,8 +82,8 @@ impl Deadline {
     }
 }
 
-/// Between two looks at whether an answer of the user's score is still wanted.
-const LOOK: Duration = Duration::from_millis(20);
+/// Between two questions whether an answer of the user's score is still wanted.
+const POLL: Duration = Duration::from_millis(20);
 
 /// Does `work`, which may ask `score`. What that takes for an answer is not up to us; what is waited for it is.
 pub(crate) fn not_waiting_for<T>(
@@ -96,7 +97,7 @@ pub(crate) fn not_waiting_for<T>(
         // Closes with the work, however that ends.
         let (_at_work, done) = sync_channel::<()>(0);
         scope.spawn(move || {
-            while done.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+            while done.recv_timeout(POLL) == Err(RecvTimeoutError::Timeout) {
                 if watch.stopped() || deadline.passed() {
                     return user.scorer.stop();
                 }

@@ -66,7 +66,7 @@ pub struct Planned {
 pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, Problem> {
     let path = settings.out.clone().unwrap_or_else(|| default_folder(&settings.scenario));
     let mut scenario = scenario_for(&settings.scenario, &settings.sets)?;
-    tell_logs_from(&mut scenario, &path, Path::new(&settings.scenario));
+    name_logs_from(&mut scenario, &path, Path::new(&settings.scenario));
     let setup = Setup::new(scenario)?.with_simd(settings.simd);
     setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
@@ -95,7 +95,7 @@ impl Planned {
 }
 
 /// Logs are named relative to the scenario file: the campaign's own lies in `folder`.
-fn tell_logs_from(scenario: &mut Scenario, folder: &Path, file: &Path) {
+fn name_logs_from(scenario: &mut Scenario, folder: &Path, file: &Path) {
     let Scenario::Arm(arm) = scenario else { return };
     let Some(logs) = &mut arm.execute.logs else { return };
     let base = if file.is_file() { file.parent().unwrap_or(Path::new("")) } else { Path::new("") };
@@ -134,7 +134,7 @@ fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<(), Problem
 
 /// Whether the campaign in `old` was begun as `setup` would begin it.
 fn may_resume(old: &CampaignFolder, setup: &Setup) -> Result<(), Problem> {
-    let before = read(old, &[])?;
+    let before = resolve(old, &[])?;
     let files = || before.files().into_iter().zip(setup.scenario.files());
     let file = || files().find(|(before, now)| before != now).map(|((name, _), _)| name.to_owned());
     if let Some(key) = differences(&before, &setup.scenario).into_iter().next().or_else(file) {
@@ -153,9 +153,15 @@ fn create(path: &Path, setup: &Setup, if_there: IfThere) -> Result<CampaignFolde
     Ok(folder)
 }
 
-/// Opens a campaign folder for the next part, its scenario changed by `sets` in the tables `allowed`; [`keep_changes`] writes it. Its SIMD level stays:
-/// a part that runs kernels goes on at it, those of the version `flown`, or not at all.
-pub(crate) fn open(path: &Path, sets: &[Set], allowed: &[&str], flown: Option<Simd>) -> Result<Work, Problem> {
+/// Opens a campaign folder for the next part, its scenario changed by `sets` in the tables `allowed`; [`keep_changes`]
+/// writes it. Its SIMD level stays: a part that runs kernels goes on at it, those of the version `flown`, or not at
+/// all.
+pub(crate) fn open_to_change(
+    path: &Path,
+    sets: &[Set],
+    allowed: &[&str],
+    flown: Option<Simd>,
+) -> Result<Work, Problem> {
     for (key, _) in sets {
         let table = key.split(['.', '[']).next().unwrap_or_default().trim();
         if !allowed.contains(&table) {
@@ -167,13 +173,13 @@ pub(crate) fn open(path: &Path, sets: &[Set], allowed: &[&str], flown: Option<Si
     }
     let folder = CampaignFolder::open_to_write(path)?;
     let level = folder.simd_level()?;
-    let setup = Setup::new(read(&folder, sets)?)?.with_simd(simd_of(level.as_deref()));
+    let setup = Setup::new(resolve(&folder, sets)?)?.with_simd(simd_of(level.as_deref()));
     check_command(&setup.scenario)?;
     let plans = |scenario: &Scenario| {
         let of_plans = scenario.vary().iter().filter(|(key, _)| vary::shapes_the_plan(key));
         of_plans.map(|(key, drawn)| (key.clone(), drawn.clone())).collect::<Vec<_>>()
     };
-    if !sets.is_empty() && plans(&setup.scenario) != plans(&read(&folder, &[])?) {
+    if !sets.is_empty() && plans(&setup.scenario) != plans(&resolve(&folder, &[])?) {
         return Err(Problem::input(
             "--set vary: the folder's trajectories were drawn by its keys under `task` and `generate`; these must stay",
         ));
@@ -187,7 +193,7 @@ pub(crate) fn open(path: &Path, sets: &[Set], allowed: &[&str], flown: Option<Si
     Ok(Work { folder, setup })
 }
 
-/// Writes the scenario of `work` as [`open`] changed it.
+/// Writes the scenario of `work` as [`open_to_change`] changed it.
 pub(crate) fn keep_changes(work: &Work) -> Result<(), Problem> {
     let level = work.folder.simd_level()?;
     let level = level.as_deref().unwrap_or(work.setup.simd.level());
@@ -196,20 +202,20 @@ pub(crate) fn keep_changes(work: &Work) -> Result<(), Problem> {
 
 /// The first key of the folder's scenario that `sets` change.
 pub(crate) fn changed_by(folder: &CampaignFolder, sets: &[Set]) -> Result<Option<String>, Problem> {
-    Ok(differences(&read(folder, &[])?, &read(folder, sets)?).into_iter().next())
+    Ok(differences(&resolve(folder, &[])?, &resolve(folder, sets)?).into_iter().next())
 }
 
 /// Opens a campaign folder to read it.
 ///
 /// # Errors
 /// There is no campaign in it, or its scenario is broken.
-pub fn look(path: &Path) -> Result<Work, Problem> {
+pub fn open_to_read(path: &Path) -> Result<Work, Problem> {
     let folder = CampaignFolder::open(path)?;
-    let setup = Setup::new(read(&folder, &[])?)?.with_simd(simd_of(folder.simd_level()?.as_deref()));
+    let setup = Setup::new(resolve(&folder, &[])?)?.with_simd(simd_of(folder.simd_level()?.as_deref()));
     Ok(Work { folder, setup })
 }
 
-fn read(folder: &CampaignFolder, sets: &[Set]) -> Result<Scenario, Problem> {
+fn resolve(folder: &CampaignFolder, sets: &[Set]) -> Result<Scenario, Problem> {
     let name = folder.file("scenario.toml");
     Ok(read_scenario(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
 }
@@ -278,6 +284,6 @@ mod tests {
         let refused = again(IfThere::Resume, vec![crate::sets::seed(99)]).unwrap_err().to_string();
         assert!(refused.contains("`seed` is not what it was"), "{refused}");
         again(IfThere::Replace, vec![crate::sets::seed(99)]).unwrap();
-        assert!(look(&place.path().join("out")).is_ok());
+        assert!(open_to_read(&place.path().join("out")).is_ok());
     }
 }

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-/// Each prints its table beside what the paper printed, and writes tables as CSV and figures as SVG. EXPERIMENTS.md shows them.
+/// Each prints its table beside what the paper printed, and writes tables as CSV and figures as SVG. EXPERIMENTS.md
+/// shows them.
 #[derive(Debug, Args)]
 pub(crate) struct Experiment {
     /// Which one

@@ -3,7 +3,7 @@
 use hairpin::campaign::Comparison;
 use hairpin::campaign::digits::number;
 use hairpin_jobs::Problem;
-use hairpin_jobs::compare::{CompareSettings, Compared, compare, unpaired};
+use hairpin_jobs::compare::{Compared, compare, unpaired};
 use hairpin_jobs::names::listed;
 use serde_json::json;
 
@@ -11,10 +11,10 @@ use crate::args::{Compare, FailOn};
 use crate::console;
 use crate::exit::{DONE, FINDING, INCONCLUSIVE};
 
-/// Runs the command: 0, or 1 on newly failing cases and, where that was asked for, on regression; 5 where no pair could be compared.
+/// Runs the command: 0, or 1 on newly failing cases and, where that was asked for, on regression; 5 where no pair could
+/// be compared.
 pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
-    let settings = CompareSettings { a: asked.a.clone(), b: asked.b.clone(), tolerance_m: asked.tolerance_m };
-    let Compared { comparison: compared, differences } = compare(&settings)?;
+    let Compared { comparison: compared, differences } = compare(&asked.a, &asked.b, asked.tolerance_m)?;
     let regression = asked.fail_on == FailOn::Regression && compared.regresses();
     let code = match (compared.inconclusive(), !compared.newly_failing.is_empty() || regression) {
         (true, _) => INCONCLUSIVE,

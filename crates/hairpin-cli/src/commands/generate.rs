@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::answer::point_to_explain;
 use crate::args::Generate;
+use crate::exit::DONE;
 use crate::{console, settings};
 
 /// Runs the command: 0 with at least one case, or when the time limit was the reason for none; 3 without.
@@ -22,7 +23,7 @@ pub(crate) fn run(asked: &Generate, watch: &dyn Watch) -> Result<u8, Problem> {
         let word = cases.first().map_or("none", |case| case.evidence.word());
         Verdict {
             sentence: format!("GENERATED {}/{asked} cases from {} graphs ({word})", cases.len(), tally.graphs),
-            exit_code: 0,
+            exit_code: DONE,
         }
     };
     if arguments.json {

@@ -1,7 +1,7 @@
 //! `hairpin judge`: the verdict on the flights of a campaign folder.
 
 use hairpin_jobs::Problem;
-use hairpin_jobs::judge::{JudgeSettings, Judged, judge};
+use hairpin_jobs::judge::{Judged, judge};
 
 use super::answer::Answer;
 use crate::args::Judge;
@@ -10,8 +10,7 @@ use crate::settings;
 /// Runs the command.
 pub(crate) fn run(asked: &Judge) -> Result<u8, Problem> {
     settings::take_threads(&asked.threads);
-    let settings = JudgeSettings { folder: asked.folder.clone(), sets: settings::split(&asked.sets)? };
-    let Judged { work, cases, tally, judgement } = &judge(&settings)?;
+    let Judged { work, cases, tally, judgement } = &judge(&asked.folder, &settings::split(&asked.sets)?)?;
     let answer = Answer { work, cases, tally, judgement, verdict: &judgement.verdict, replayed: &[] };
     Ok(answer.say(asked.json))
 }

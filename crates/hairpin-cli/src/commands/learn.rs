@@ -1,7 +1,8 @@
 //! `hairpin learn`: a score from executed legs.
 
+use hairpin::campaign::digits::three_digits;
 use hairpin_jobs::Problem;
-use hairpin_jobs::learn::{LearnSettings, Learned, learn};
+use hairpin_jobs::learn::{Learned, learn};
 use serde_json::json;
 
 use crate::args::Learn;
@@ -10,13 +11,12 @@ use crate::exit::DONE;
 
 /// Runs the command: 0 when the model is written, however good it is.
 pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
-    let Learn { folder, out, stress, .. } = asked;
-    let learned = learn(&LearnSettings { folder: folder.clone(), out: out.clone(), stress: *stress })?;
+    let learned = learn(&asked.folder, &asked.out, asked.stress)?;
     if asked.json {
         let model = &learned.model;
         let answer = json!({
-            "model": out,
-            "stress": stress.word(),
+            "model": asked.out,
+            "stress": asked.stress.word(),
             "unit": model.unit,
             "trajectories": model.trajectories,
             "legs": model.legs,
@@ -61,8 +61,7 @@ fn in_words(asked: &Learn, Learned { model, score_key, arm }: &Learned) {
 /// An error with three significant digits and its unit; of arms, whose users count in mm, in mm.
 fn error_text(rmse: f64, unit: &str, arm: bool) -> String {
     let (error, unit) = if arm && unit == "m" { (1e3 * rmse, "mm") } else { (rmse, unit) };
-    let decimals = if error > 0.0 { (2.0 - libm::log10(error).floor()).clamp(0.0, 12.0) as usize } else { 0 };
-    format!("{error:.decimals$} {unit}").trim_end().to_owned()
+    format!("{} {unit}", three_digits(error)).trim_end().to_owned()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use hairpin::campaign::Status;
 use hairpin::campaign::report::violation;
-use hairpin_jobs::replay::{ReplaySettings, replay};
+use hairpin_jobs::replay::replay;
 use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
@@ -12,8 +12,7 @@ use crate::{console, settings};
 
 /// Runs the command: 1 when it violates again, 0 when it does not, 4 when the executor failed.
 pub(crate) fn run(asked: &Replay, watch: &dyn Watch) -> Result<u8, Problem> {
-    let settings = ReplaySettings { file: asked.file.clone(), simd: settings::simd(&asked.kernels) };
-    let replayed = replay(&settings, watch)?;
+    let replayed = replay(&asked.file, settings::simd(&asked.kernels), watch)?;
     let (repro, result) = (&replayed.repro, &replayed.result);
     let again: Vec<String> = result.violations.iter().map(violation).collect();
     let message = result.message.as_deref().unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use hairpin_formats::csv;
 use hairpin_jobs::Problem;
-use hairpin_jobs::simulate::{SimulateSettings, simulate};
+use hairpin_jobs::simulate::simulate;
 
 use crate::args::Simulate;
 use crate::exit::DONE;
@@ -10,11 +10,7 @@ use crate::{console, settings};
 
 /// Runs the command.
 pub(crate) fn run(asked: &Simulate) -> Result<u8, Problem> {
-    let track = simulate(&SimulateSettings {
-        robot: asked.robot.clone(),
-        sets: settings::split(&asked.sets)?,
-        rotor_speeds: asked.rotor_speeds.clone(),
-    })?;
+    let track = simulate(&asked.robot, &settings::split(&asked.sets)?, &asked.rotor_speeds)?;
     match &asked.out {
         Some(path) => csv::write(path, &track)?,
         None => console::say_text(&csv::text(&track)),

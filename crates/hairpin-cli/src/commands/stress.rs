@@ -1,6 +1,6 @@
 //! `hairpin stress`: generate, execute, judge, report.
 
-use hairpin_jobs::stress::{StressSettings, Stressed, stress};
+use hairpin_jobs::stress::{Stressed, stress};
 use hairpin_jobs::{Problem, Watch};
 
 use super::answer::Answer;
@@ -10,11 +10,8 @@ use crate::settings;
 /// Runs the command.
 pub(crate) fn run(asked: &Stress, watch: &dyn Watch) -> Result<u8, Problem> {
     settings::take_threads(&asked.campaign.threads);
-    let settings = StressSettings {
-        campaign: settings::campaign(&asked.campaign, asked.executor.as_deref())?,
-        repro: asked.saved.repro.clone(),
-    };
-    Ok(say(&stress(&settings, watch)?, asked.campaign.json))
+    let settings = settings::campaign(&asked.campaign, asked.executor.as_deref())?;
+    Ok(say(&stress(&settings, asked.saved.repro.as_deref(), watch)?, asked.campaign.json))
 }
 
 /// Says what came of a whole campaign, and gives the exit code.

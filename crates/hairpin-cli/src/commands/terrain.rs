@@ -1,18 +1,9 @@
-//! Elevation maps from the files of the command line.
+//! What is typed of elevation maps' files.
 
-use std::path::Path;
-
-use hairpin::world::terrain::{ElevationMap, HoleRule};
+use hairpin::world::terrain::HoleRule;
 use hairpin_formats::terrain::Georeference;
-use hairpin_jobs::Problem;
-use hairpin_jobs::terrain::read_map;
 
 use crate::args::MapFlags;
-
-/// The map in the file at `path`, its holes treated by the rule `holes`.
-pub(super) fn read(path: &Path, flags: &MapFlags, holes: HoleRule) -> Result<ElevationMap, Problem> {
-    read_map(path, &georeference(flags, holes))
-}
 
 /// What is given of a map's file.
 pub(super) fn georeference(flags: &MapFlags, holes: HoleRule) -> Georeference {

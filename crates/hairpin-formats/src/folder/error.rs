@@ -30,6 +30,16 @@ pub enum FolderError {
         /// The system's answer.
         cause: io::Error,
     },
+    /// A file cannot be copied.
+    #[error("cannot copy {} to {}: {cause}", from.display(), to.display())]
+    Copy {
+        /// The file.
+        from: PathBuf,
+        /// Where it was to go.
+        to: PathBuf,
+        /// The system's answer.
+        cause: io::Error,
+    },
     /// A program cannot be written, or is none.
     #[error("{}: {what}", path.display())]
     Program {

@@ -8,7 +8,8 @@ use super::{ARCS, CampaignFolder, FolderError, GRAPH, REASONS};
 use crate::{arcs, atomic, costs};
 
 impl CampaignFolder {
-    /// Writes `graph.csv` (costs in the graph's unit, row = from, empty where there is no move), `reasons.csv`, and `arcs.csv` where there are arcs.
+    /// Writes `graph.csv` (costs in the graph's unit, row = from, empty where there is no move), `reasons.csv`, and
+    /// `arcs.csv` where there are arcs.
     ///
     /// # Errors
     /// A file cannot be written.
@@ -42,7 +43,8 @@ impl CampaignFolder {
     }
 }
 
-/// Digits behind the point of the graph's unit: units are powers of ten, so that costs are written as they are searched, without rounding.
+/// Digits behind the point of the graph's unit: units are powers of ten, so that costs are written as they are
+/// searched, without rounding.
 pub fn graph_decimals(graph: &ArmGraph) -> usize {
     (0..=18).find(|power| 10_i64.pow(*power) as f64 * graph.unit > 0.5).unwrap_or(18) as usize
 }

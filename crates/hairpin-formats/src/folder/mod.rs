@@ -27,6 +27,7 @@
 //! own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
 
 mod cases;
+mod copy;
 mod error;
 mod forget;
 mod graph;

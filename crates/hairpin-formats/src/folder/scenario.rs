@@ -7,8 +7,8 @@ use crate::atomic;
 use crate::scenario::{MadeBy, read_made_by, to_toml};
 
 impl CampaignFolder {
-    /// Writes the resolved scenario, with what the results depend on beside it (this version, and the SIMD level of the kernels), and the files that it
-    /// names.
+    /// Writes the resolved scenario, with what the results depend on beside it (this version, and the SIMD level of the
+    /// kernels), and the files that it names.
     ///
     /// # Errors
     /// A file cannot be written; TOML cannot hold the scenario.

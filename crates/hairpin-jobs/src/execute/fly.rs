@@ -7,8 +7,7 @@ use std::time::Duration;
 use hairpin::campaign::{
     self, Case, Mission, Mistake, Run, Setup, Status, execute_again, execute_run, mission, mission_again,
 };
-use hairpin_formats::atomic::{self, WriteError};
-use hairpin_formats::executor::{ATTITUDE_UNKNOWN, Command, Failed, Failure, Limits, fly_all};
+use hairpin_formats::executor::{ATTITUDE_UNKNOWN, Command, Failed, Limits, fly_all};
 use hairpin_formats::folder::{CampaignFolder, FolderError};
 use hairpin_formats::parquet::runs::RunFacts;
 use rayon::prelude::*;
@@ -168,8 +167,9 @@ fn fly_with(
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result| {
         let job = &missing[index];
-        if let Err(Failed { failure, stderr }) = &result
-            && let Err(error) = keep_log(&work.folder, job.case, job.run, failure, stderr)
+        // A log that cannot be written stops nothing.
+        if let Err(failed) = &result
+            && let Err(error) = work.folder.write_executor_log(job.case.number, job.run, failed)
         {
             watch.warn(&format!("Warning: {error}"));
         }
@@ -191,19 +191,6 @@ fn as_run(setup: &Setup, case: &Case, number: usize, result: Result<hairpin::tra
         drawn: hairpin::campaign::vary::draw(&setup.scenario, case.seed, number),
         outcome: result.map_err(|failed| failed.to_string()),
     }
-}
-
-/// `executor-CASE-RUN.log`: why, and the end of the program's stderr. A log that cannot be written stops nothing.
-fn keep_log(
-    folder: &CampaignFolder,
-    case: &Case,
-    run: usize,
-    failure: &Failure,
-    stderr: &str,
-) -> Result<(), WriteError> {
-    let path = folder.file(&format!("executor-{}-{run}.log", case.id()));
-    let text = format!("{failure}\n\n--- the end of its stderr ---\n{stderr}");
-    atomic::write(&path, text.as_bytes())
 }
 
 /// The user's program, where one flies.

@@ -12,7 +12,7 @@ use hairpin_formats::waypoints;
 use crate::missions::adopt;
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
-use crate::work::{changed_by, keep_changes, open};
+use crate::work::{changed_by, keep_changes, open_to_change};
 use crate::{Problem, Watch};
 pub use fly::{Flown, fly_each};
 pub(crate) use fly::{attitude_unknown, fly_missing, fly_one};
@@ -52,14 +52,15 @@ pub struct Executed {
 /// Executes a campaign; runs that fail are told in numbers.
 ///
 /// # Errors
-/// Settings that do not fit the folder; missions, recordings or saved cases that cannot be used; a file that cannot be written; it was asked to stop.
+/// Settings that do not fit the folder; missions, recordings or saved cases that cannot be used; a file that cannot be
+/// written; it was asked to stop.
 pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed, Problem> {
     let ExecuteSettings { folder: path, sets, .. } = settings;
     let missions = settings.missions.as_deref().map(waypoints::read_folder).transpose().map_err(Problem::input)?;
     if settings.resume && !sets.is_empty() {
         unchanged(path, sets)?;
     }
-    let work = open(path, sets, &["execute", "vary", "spec"], Some(settings.simd))?;
+    let work = open_to_change(path, sets, &["execute", "vary", "spec"], Some(settings.simd))?;
     if missions.is_none() && !work.folder.has_cases() {
         let path = path.display();
         return Err(Problem::input(format!("{path} has no cases yet: hairpin generate, or --missions DIR")));

@@ -13,7 +13,7 @@ use hairpin_formats::{atomic, csv, geodetic, tum, waypoints};
 use nalgebra::Isometry3;
 
 use crate::Problem;
-use crate::work::{Work, look};
+use crate::work::{Work, open_to_read};
 
 /// A format of trajectories.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,7 +74,7 @@ impl Export {
     /// # Errors
     /// The folder is no campaign's, or broken.
     pub fn open(folder: &Path) -> Result<Self, Problem> {
-        let work = look(folder)?;
+        let work = open_to_read(folder)?;
         Ok(Self { cases: work.folder.read_cases_without_profiles()?, work })
     }
 

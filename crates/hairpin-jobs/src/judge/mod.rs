@@ -3,7 +3,7 @@
 mod suite;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
+use std::path::Path;
 
 use hairpin::campaign::arm::Moves;
 use hairpin::campaign::report::worst_first;
@@ -19,20 +19,11 @@ use crate::Problem;
 use crate::execute::attitude_unknown;
 use crate::saved::Replayed;
 use crate::sets::Set;
-use crate::work::{Work, keep_changes, open};
+use crate::work::{Work, keep_changes, open_to_change};
 use suite::suite;
 
 /// Violating cases that get a `repro/CASE.json`, the worst ones.
 const REPROS: usize = 20;
-
-/// What is judged, and by what.
-#[derive(Debug, Clone, Default)]
-pub struct JudgeSettings {
-    /// Campaign folder.
-    pub folder: PathBuf,
-    /// Keys of `spec` with other values.
-    pub sets: Vec<Set>,
-}
 
 /// What judging came to.
 #[derive(Debug)]
@@ -63,15 +54,15 @@ pub struct Judged {
     pub judgement: Judgement,
 }
 
-/// Judges an executed campaign.
+/// Judges the executed campaign in `folder`, with other values for the keys of `spec` in `sets`.
 ///
 /// # Errors
-/// Settings that do not fit the folder; cases that were not executed; a file that cannot be read or written.
-pub fn judge(settings: &JudgeSettings) -> Result<Judged, Problem> {
-    let work = open(&settings.folder, &settings.sets, &["spec"], None)?;
+/// Keys of other tables; cases that were not executed; a file that cannot be read or written.
+pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
+    let work = open_to_change(folder, sets, &["spec"], None)?;
     let cases = work.folder.read_cases()?;
     let tally = work.folder.read_tally()?;
-    if !settings.sets.is_empty() {
+    if !sets.is_empty() {
         keep_changes(&work)?;
     }
     let judgement = judge_cases(&work, &cases, &tally, &[])?;
@@ -89,7 +80,8 @@ struct JudgedCase {
     lacks_attitude: bool,
 }
 
-/// Judges every case and writes results, JUnit (with what was `replayed` before), repro files, and which parameter did it.
+/// Judges every case and writes results, JUnit (with what was `replayed` before), repro files, and which parameter did
+/// it.
 pub(crate) fn judge_cases(
     work: &Work,
     cases: &[Case],
@@ -166,7 +158,8 @@ fn reruns(work: &Work, case: &Case) -> Result<Option<Reruns>, Problem> {
     Ok((!again.is_empty()).then_some(counted))
 }
 
-/// The verdict by the limits, with what an arm's baseline and the recordings' clocks say. The new release is called after the campaign's folder.
+/// The verdict by the limits, with what an arm's baseline and the recordings' clocks say. The new release is called
+/// after the campaign's folder.
 pub(crate) fn with_moves(
     work: &Work,
     moves: &Moves,
@@ -182,7 +175,8 @@ pub(crate) fn with_moves(
 
 fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(), Problem> {
     let folder = work.folder.file("repro");
-    // Only what is judged anew goes: shrunk cases, those of a larger campaign before, and files of the users' own are there to be run again.
+    // Only what is judged anew goes: shrunk cases, those of a larger campaign before, and files of the users' own are
+    // there to be run again.
     for old in cases.iter().map(|case| folder.join(format!("{}.json", case.id()))) {
         match std::fs::remove_file(&old) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -210,11 +204,11 @@ mod tests {
         let (_place, folder) = executed();
         let judged = |most: &str| {
             let sets = vec![("spec.deviation.max_m".to_owned(), most.to_owned())];
-            judge(&JudgeSettings { folder: folder.clone(), sets }).unwrap().judgement.verdict
+            judge(&folder, &sets).unwrap().judgement.verdict
         };
         let (strict, lax) = (judged("0.0001"), judged("50"));
         assert_eq!((strict.exit_code, lax.exit_code), (1, 0), "{strict:?} {lax:?}");
-        let again = judge(&JudgeSettings { folder: folder.clone(), ..JudgeSettings::default() }).unwrap();
+        let again = judge(&folder, &[]).unwrap();
         assert_eq!(again.judgement.verdict, lax);
         assert!(folder.join("junit.xml").is_file() && !folder.join("repro/0000.json").exists());
     }

@@ -106,7 +106,7 @@ fn with_stop<T>(watch: &dyn Watch, deadline: Deadline, begun: Instant, work: imp
 mod tests {
     use super::*;
     use crate::Unwatched;
-    use crate::work::look;
+    use crate::work::open_to_read;
 
     #[test]
     fn programs_of_a_cloud_become_a_campaign() {
@@ -119,7 +119,7 @@ mod tests {
         };
         assert!(searched.found.proven && searched.graph.points() == 3);
         searched.keep(&out, IfThere::Refuse, &Unwatched).unwrap();
-        let cases = look(&out).unwrap().folder.read_cases().unwrap();
+        let cases = open_to_read(&out).unwrap().folder.read_cases().unwrap();
         assert!(cases.len() == 1 && cases[0].program().is_some());
         std::fs::write(&points, "x_mm,y_mm,z_mm\n9000,0,300\n9000,100,300\n").unwrap();
         assert!(matches!(search_cloud(&settings, &Unwatched).unwrap(), CloudAnswer::Nothing { .. }));

@@ -26,7 +26,7 @@ impl Graph {
         let arcs = arcs.map_err(|error| {
             let scale = costs.scale();
             let scaled = if scale > 1 { format!(" (costs × {scale})") } else { String::new() };
-            Problem::input(format!("{}: {error}{scaled}", path.display()))
+            Problem::of_file(path, format!("{error}{scaled}"))
         })?;
         Ok(Self { arcs, costs })
     }

@@ -17,45 +17,18 @@ pub use graph::Graph;
 pub use proof::verify_certificate;
 
 /// What is searched in a graph.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct MaxLoadSettings {
     /// Table of costs: N lines of N numbers, row = from.
     pub graph: PathBuf,
-    /// First and last point, where they are fixed.
-    pub ends: Ends,
     /// Paths below this cost are not wanted; in the unit of the table.
     pub min_cost: Option<String>,
     /// How often a point may come; with more than once no move is used twice.
     pub visits: usize,
-    /// How many pairwise different paths, the heaviest first.
-    pub programs: usize,
-    /// How to search.
-    pub method: Method,
     /// Seconds after which the best so far is the answer.
     pub time_limit_s: Option<f64>,
-    /// Problems that each part of branch and bound looks at.
-    pub most_nodes: Option<u64>,
-    /// Seed of the local search.
-    pub seed: u64,
-    /// Whether the proof is kept.
-    pub proof: bool,
-}
-
-impl Default for MaxLoadSettings {
-    fn default() -> Self {
-        Self {
-            graph: PathBuf::new(),
-            ends: Ends::default(),
-            min_cost: None,
-            visits: 1,
-            programs: 1,
-            method: Method::Auto,
-            time_limit_s: None,
-            most_nodes: None,
-            seed: 0,
-            proof: false,
-        }
-    }
+    /// Ends, programs, method and effort; its `min_cost` is that above.
+    pub search: HeaviestSettings,
 }
 
 /// What was found in a graph.
@@ -78,22 +51,21 @@ pub struct MaxLoad {
 pub fn max_load(settings: &MaxLoadSettings, watch: &dyn Watch) -> Result<MaxLoad, Problem> {
     let graph = Graph::read(&settings.graph)?;
     let walks = settings.visits > 1;
-    if walks && !matches!(settings.method, Method::Auto | Method::Branch) {
+    if walks && !matches!(settings.search.method, Method::Auto | Method::Branch) {
         return Err(Problem::input("--visits: only --method branch lets points come several times"));
     }
     let min_cost = settings.min_cost.as_deref().map(|text| graph.at_least(text)).transpose()?;
+    let search = HeaviestSettings { min_cost, ..settings.search.clone() };
     let (begun, deadline) = (Instant::now(), Deadline::after(settings.time_limit_s));
     let stop = || watch.stopped() || deadline.passed();
-    let MaxLoadSettings { ends, visits, programs, method, most_nodes, seed, proof, .. } = *settings;
     let (found, walk) = if walks {
-        let settings = WalkSettings { ends, visits, min_cost, programs, most_nodes, proof };
+        let HeaviestSettings { ends, programs, most_nodes, proof, .. } = search;
+        let settings = WalkSettings { ends, visits: settings.visits, min_cost, programs, most_nodes, proof };
         heaviest_walk(&graph.arcs, &settings, &stop).map_err(Problem::input)?
     } else {
-        let kept = HeaviestSettings::default();
-        let settings = HeaviestSettings { ends, min_cost, method, programs, seed, most_nodes, proof, ..kept };
-        (heaviest(&graph.arcs, &settings, &stop).map_err(Problem::input)?, None)
+        (heaviest(&graph.arcs, &search, &stop).map_err(Problem::input)?, None)
     };
-    Ok(MaxLoad { graph, found, walk, ends, time: begun.elapsed() })
+    Ok(MaxLoad { graph, found, walk, ends: search.ends, time: begun.elapsed() })
 }
 
 #[cfg(test)]
@@ -108,8 +80,8 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let (graph, certificate) = (place.path().join("costs.csv"), place.path().join("proof.json"));
         std::fs::write(&graph, ",1.5,9\n2,,3\n4,8,\n").unwrap();
-        let settings =
-            MaxLoadSettings { graph: graph.clone(), method: Method::Branch, proof: true, ..MaxLoadSettings::default() };
+        let search = HeaviestSettings { method: Method::Branch, proof: true, ..HeaviestSettings::default() };
+        let settings = MaxLoadSettings { graph: graph.clone(), search, ..MaxLoadSettings::default() };
         let answer = max_load(&settings, &Unwatched).unwrap();
         assert_eq!((answer.found.outcome, &answer.found.paths[0].1), (Outcome::Found, &vec![0, 2, 1]));
         assert_eq!(answer.graph.text(answer.found.paths[0].0), "17.0");

@@ -30,7 +30,7 @@ impl MaxLoad {
 /// A file that cannot be read, or is none of its kind.
 pub fn verify_certificate(graph: &Path, file: &Path) -> Result<(Graph, Checked), Problem> {
     let graph = Graph::read(graph)?;
-    let broken = |what: &str| Problem::input(format!("{}: {what}", file.display()));
+    let broken = |what: &str| Problem::of_file(file, what);
     let text = fs::read_to_string(file).map_err(|cause| broken(&format!("cannot be read: {cause}")))?;
     let object: Value = serde_json::from_str(&text).map_err(|error| broken(&format!("is no JSON: {error}")))?;
     let n = graph.arcs.points();

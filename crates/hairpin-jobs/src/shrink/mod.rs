@@ -10,7 +10,7 @@ use hairpin::campaign::{Case, CaseResult, Setup, Shrunk};
 use hairpin::math::simd::Simd;
 use hairpin_formats::repro::{Repro, ShrunkFrom};
 
-use crate::work::{Work, open};
+use crate::work::{Work, open_to_change};
 use crate::{Problem, Watch};
 use answers::Answers;
 
@@ -32,6 +32,13 @@ pub struct ShrinkSettings {
     pub out: Option<PathBuf>,
     /// Version of the kernels.
     pub simd: Simd,
+}
+
+impl Default for ShrinkSettings {
+    fn default() -> Self {
+        let (folder, case, time_limit_s, out, simd) = Default::default();
+        Self { folder, case, budget: 200, time_limit_s, out, simd }
+    }
 }
 
 /// A violating case that is to be shrunk.
@@ -66,7 +73,7 @@ impl Shrinking {
     /// # Errors
     /// No such case, or one that does not violate or is not judged; a folder that is no campaign's.
     pub fn open(settings: ShrinkSettings) -> Result<Self, Problem> {
-        let work = open(&settings.folder, &[], &[], Some(settings.simd))?;
+        let work = open_to_change(&settings.folder, &[], &[], Some(settings.simd))?;
         let (case, result) = violating(&work, &settings)?;
         Ok(Self { work, settings, began: Instant::now(), case, result })
     }
@@ -135,8 +142,7 @@ mod tests {
     #[test]
     fn a_violating_case_gets_smaller_and_its_answers_stay_known() {
         let (_place, folder) = violating();
-        let (case, budget, time_limit_s, out) = (0, 5, None, None);
-        let settings = ShrinkSettings { folder, case, budget, time_limit_s, out, simd: Simd::Widest };
+        let settings = ShrinkSettings { folder, budget: 5, ..ShrinkSettings::default() };
         let shrinking = Shrinking::open(settings.clone()).unwrap();
         let before = shrinking.case.waypoints.len();
         let found = shrinking.search(&Unwatched).unwrap();

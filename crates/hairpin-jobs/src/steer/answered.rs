@@ -57,6 +57,14 @@ impl Answered {
     }
 }
 
+impl Answered {
+    /// By how much the replay misses the goal's place, m.
+    pub fn missed_m(&self) -> Option<f64> {
+        let (_, DriveReplay { error: [x, y, _], .. }) = self.drive.as_ref()?;
+        Some(libm::hypot(*x, *y))
+    }
+}
+
 /// A place to keep out of that a drive comes too near to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Near {
@@ -66,7 +74,8 @@ pub struct Near {
     pub depth: f64,
     /// Metres driven before.
     pub after_m: f64,
-    /// Parameters that the family has to spare for going around it; `None` for the default, which has chains of clothoids.
+    /// Parameters that the family has to spare for going around it; `None` for the default, which has chains of
+    /// clothoids.
     pub spare: Option<u32>,
 }
 

@@ -31,7 +31,7 @@ impl Vehicle {
     /// # Errors
     /// The file cannot be read; it was asked to stop.
     pub fn answer_file(&self, path: &Path, watch: &dyn Watch) -> Result<Batch, Problem> {
-        let queries = steering::read(path).map_err(|error| Problem::input(format!("{}: {error}", path.display())))?;
+        let queries = steering::read(path).map_err(|error| Problem::of_file(path, error))?;
         if !queries.ignored.is_empty() {
             watch.warn(&format!(
                 "Warning: {}: columns without meaning here: {}",

@@ -48,16 +48,16 @@ pub(super) fn map(
 
 /// Answers `asked` on `map`.
 pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answered {
-    let (means, bounds) = (task.means, task.bounds);
+    let (solver, bounds) = (task.solver, task.bounds);
     let site = Site { rover: task.rover, map, speed: task.boundary.speed, direction: direction(asked) };
     let start = start(asked);
     let goal = goal(asked, &start);
     let begun = Instant::now();
-    let over = || means.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
-    let mut found = search(task, &site, &start, &goal, means.choices, &over);
+    let over = || solver.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
+    let mut found = search(task, &site, &start, &goal, solver.choices, &over);
     if matches!(found.status, Found::NotConverged { .. }) && task.control == Control::Quintic && !over() {
         // Closed forms change steadily with their goal where arcs do not.
-        let choices = Choices { arcs: false, ..means.choices };
+        let choices = Choices { arcs: false, ..solver.choices };
         let second = search(task, &site, &start, &goal, choices, &over);
         if second.status == Found::Ok {
             let iterations = found.solution.iterations + second.solution.iterations;
@@ -108,7 +108,7 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
             answered(Status::Infeasible, Some(("tilt_rad", Some(over_tilt))), drive)
         }
         (Found::Ok, None) => Answered {
-            cost: site.cost(&start, &solution.segments, means.ground.cost),
+            cost: site.cost(&start, &solution.segments, solver.ground.cost),
             ..answered(Status::Ok, None, drive)
         },
         (_, limit) => answered(Status::NotConverged, limit, drive),
@@ -134,7 +134,7 @@ fn search(
     let Task { boundary, control, shaping, .. } = *task;
     let precision = Precision { position: FLAT, yaw: FLAT, curvature: FLAT };
     let choices = Choices { flat: flat::Settings { precision, ..choices.flat }, ..choices };
-    let settings = Settings { precision: task.precision, ..task.means.ground };
+    let settings = Settings { precision: task.precision, ..task.solver.ground };
     let plainly = || generate(boundary, control, &shaping, &choices, over, trace_step).solution;
     if !task.keep_outs.is_empty() {
         let around = Around { keep_outs: task.keep_outs, radius: footprint(task.rover), control, choices };

@@ -1,14 +1,15 @@
-//! Boundary-value drives of ground vehicles: one question, or many from a file. Every answer is replayed by an integration of its own.
+//! Boundary-value drives of ground vehicles: one question, or many from a file. Every answer is replayed by an
+//! integration of its own.
 
 mod answered;
 mod batch;
 mod ground;
-mod means;
 mod pace;
 mod plane;
 mod question;
 mod remedy;
 mod settings;
+mod solver;
 mod start_table;
 mod summary;
 #[cfg(test)]

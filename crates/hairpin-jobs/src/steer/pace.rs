@@ -33,8 +33,8 @@ const SPEED_UP: f64 = 1.0;
 /// The time step that states are computed with, s, and how many rows are written where no time step is asked for.
 const TIME_STEP: f64 = 0.001;
 const ROWS: f64 = 1000.0;
-/// States for which bounds of wheels are looked at.
-const LOOKS: f64 = 1000.0;
+/// States that bounds and summaries of a drive are taken from.
+const FEW: f64 = 1000.0;
 /// Share by which sampling may exceed a limit.
 const ROUNDING: f64 = 1e-9;
 
@@ -61,8 +61,8 @@ impl Pace {
         self.acceleration.unwrap_or(f64::INFINITY).min(rover.limits.acceleration)
     }
 
-    /// The speeds of a question: constant where one is given or both are the same; a ramp between two; a trapezoid with a cruising
-    /// speed, and from rest to rest.
+    /// The speeds of a question: constant where one is given or both are the same; a ramp between two; a trapezoid with
+    /// a cruising speed, and from rest to rest.
     pub(super) fn profile(&self, asked: &Asked, rover: &Rover) -> Result<SpeedProfile, SpeedError> {
         let (v0, vf) = (asked.v0.or(self.v0), asked.vf.or(self.vf));
         let usual = self.cruise.unwrap_or(rover.default_speed);
@@ -151,7 +151,7 @@ impl Pace {
         let turns: f64 = segments.iter().map(|segment| segment.turn_rad().abs()).sum();
         let duration = driving.time_at(driving.length()) + turns / turn_rate;
         let time_step = match (rows, self.time_step) {
-            (Rows::Few, _) => duration / LOOKS,
+            (Rows::Few, _) => duration / FEW,
             (Rows::AsAsked, Some(step)) => step,
             (Rows::AsAsked, None) => duration / ROWS,
         };

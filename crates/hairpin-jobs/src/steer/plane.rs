@@ -13,8 +13,8 @@ use hairpin::world::terrain::KeepOuts;
 use hairpin_formats::steering::{Asked, Status};
 
 use super::answered::{self, Answered, Near, claim, limit_name, pieces};
-use super::means::Means;
 use super::pace::start;
+use super::solver::Solver;
 use super::trace::{retrace, trace_step};
 
 /// One question, as plane and ground are asked it.
@@ -22,7 +22,7 @@ use super::trace::{retrace, trace_step};
 pub(super) struct Task<'a> {
     pub(super) rover: &'a Rover,
     pub(super) keep_outs: &'a KeepOuts,
-    pub(super) means: &'a Means,
+    pub(super) solver: &'a Solver,
     pub(super) control: Control,
     /// The question in the plane.
     pub(super) boundary: &'a Boundary,
@@ -46,12 +46,12 @@ pub(super) fn hazards<'a>(rover: &Rover, keep_outs: &'a KeepOuts, asked: &Asked)
 
 /// Answers `asked` in the plane.
 pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
-    let Task { means, control, boundary, bounds, shaping, precision, .. } = *task;
-    let flat = flat::Settings { precision, ..means.choices.flat };
-    let mut choices = Choices { flat, ..means.choices };
+    let Task { solver, control, boundary, bounds, shaping, precision, .. } = *task;
+    let flat = flat::Settings { precision, ..solver.choices.flat };
+    let mut choices = Choices { flat, ..solver.choices };
     let hazards = task.hazards(asked);
     let begun = Instant::now();
-    let stop = || means.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
+    let stop = || solver.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
     let (found, mut intrusion) = clear::generate(boundary, control, &shaping, &choices, &hazards, stop, trace_step);
     let (mut solution, mut parameters) = (found.solution, found.parameters);
     let mut solving = begun.elapsed();
@@ -92,7 +92,7 @@ pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
     Answered {
         near: near.filter(|near| limit == Some(near.limit())),
         parameters: parameters.map(|parameters| (parameters, found.fit_error)),
-        cost: (status == Status::Ok).then(|| means.ground.cost.of_commands(&solution.segments)),
+        cost: (status == Status::Ok).then(|| solver.ground.cost.of_commands(&solution.segments)),
         drive: Some((solution, replay)),
         ..Answered::new(status, limit, bounds, solving)
     }

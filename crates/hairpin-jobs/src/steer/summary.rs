@@ -1,4 +1,5 @@
-//! What a drive comes to beside its segments: speeds, controls, wheels, body and forces, as plain data; and the path of states as files.
+//! What a drive comes to beside its segments: speeds, controls, wheels, body and forces, as plain data; and the path of
+//! states as files.
 
 use std::path::Path;
 
@@ -160,7 +161,7 @@ impl Vehicle {
         };
         let Some((solution, _)) = &answered.drive else { return summary };
         summary.profile = answered.profile.map(|profile| speeds(&profile, &Timing::new(&profile, &solution.segments)));
-        let cost = self.means.ground.cost;
+        let cost = self.solver.ground.cost;
         summary.cost = (cost != GroundCost::Any).then(|| CostOf { name: cost.name(), value: answered.cost });
         if let Some((parameters, fit_error)) = &answered.parameters {
             summary.parameters = Some(controls(parameters, left));

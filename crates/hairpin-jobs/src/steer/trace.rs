@@ -11,7 +11,8 @@ pub(super) fn trace_step(step: &Iteration) {
     tracing::debug!("start {start}, step {step}: {length:.4} m, misses by {miss:.2e}, {bends:.4} of the bounds");
 }
 
-/// The flat solver's steps: it takes no observer along, so its answers after one, two and more steps are asked for again.
+/// The flat solver's steps: it takes no observer along, so its answers after one, two and more steps are asked for
+/// again.
 pub(super) fn retrace(
     boundary: &Boundary,
     control: Control,

@@ -14,9 +14,9 @@ use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{Asked, Status};
 
 use super::answered::Answered;
-use super::means::{Means, places};
 use super::pace::{Pace, Rows, direction, start, wheels_broken};
 use super::plane::Task;
+use super::solver::{Solver, places};
 use super::{SteerSettings, ground, plane};
 use crate::{Problem, Watch};
 
@@ -28,7 +28,7 @@ pub struct Vehicle {
     pub(super) map: Option<ElevationMap>,
     /// What it keeps out of.
     pub(super) keep_outs: KeepOuts,
-    pub(super) means: Means,
+    pub(super) solver: Solver,
     /// How fast, and by which controls.
     pub pace: Pace,
 }
@@ -47,21 +47,21 @@ impl Vehicle {
                 rover.name
             )));
         }
-        let means = Means::new(settings, &rover)?;
+        let solver = Solver::new(settings, &rover)?;
         let keep_outs = places(settings)?;
         let map = settings.terrain.as_ref().map(|(path, georeference)| ground::map(path, georeference, &rover, watch));
-        Ok(Self { map: map.transpose()?, rover, keep_outs, means, pace: settings.pace })
+        Ok(Self { map: map.transpose()?, rover, keep_outs, solver, pace: settings.pace })
     }
 
     /// `rover` on `map`, forward arcs, with `time_limit` for each question: what requirements are checked with.
     pub fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
-        let (keep_outs, means) = (KeepOuts::default(), Means::plain(time_limit));
-        Self { rover, map, keep_outs, means, pace: Pace::default() }
+        let (keep_outs, solver) = (KeepOuts::default(), Solver::plain(time_limit));
+        Self { rover, map, keep_outs, solver, pace: Pace::default() }
     }
 
     /// Answers a question: solved under the clock, then replayed without it.
     pub fn answer(&self, asked: &Asked) -> Answered {
-        self.answer_by(asked, &self.means)
+        self.answer_by(asked, &self.solver)
     }
 
     /// The bounds of a question.
@@ -71,8 +71,8 @@ impl Vehicle {
         Curvatures { most, most_rate: limits.curvature_rate }
     }
 
-    /// Answers a question by other means.
-    pub(super) fn answer_by(&self, asked: &Asked, means: &Means) -> Answered {
+    /// Answers a question by other solver.
+    pub(super) fn answer_by(&self, asked: &Asked, solver: &Solver) -> Answered {
         let (limits, bounds) = (&self.rover.limits, self.bounds(asked));
         let most = bounds.most;
         let refused = |status, limit, excess| {
@@ -107,12 +107,12 @@ impl Vehicle {
         let task = Task {
             rover: &self.rover,
             keep_outs: &self.keep_outs,
-            means,
+            solver,
             control: self.pace.control,
             boundary: &boundary,
             bounds,
             shaping,
-            precision: means.precision(asked),
+            precision: solver.precision(asked),
         };
         let mut answered = self.found(asked, &task, &shaping);
         if answered.status == Status::NotConverged && shaping != bounds && shaping.most >= sharpest {
@@ -132,8 +132,8 @@ impl Vehicle {
         }
     }
 
-    /// By how much the joints stand in the way of a turn in place, rad; `None` where it can be turned, and no number where
-    /// the vehicle just does not.
+    /// By how much the joints stand in the way of a turn in place, rad; `None` where it can be turned, and no number
+    /// where the vehicle just does not.
     fn cannot_turn(&self) -> Option<Option<f64>> {
         let (motions, count) = self.rover.wheel_motions(&Twist::IN_PLACE, &[0.0; 3], None);
         let most = motions[..count].iter().map(|motion| motion.steer.abs()).fold(0.0, f64::max);
@@ -166,7 +166,8 @@ impl Vehicle {
         answered
     }
 
-    /// The states of an answer's drive, on the ground or in the plane; `None` without a drive, and where the ground ends.
+    /// The states of an answer's drive, on the ground or in the plane; `None` without a drive, and where the ground
+    /// ends.
     pub fn follow(&self, asked: &Asked, answered: &Answered, rows: Rows) -> Option<States> {
         let (solution, _) = answered.drive.as_ref()?;
         let (profile, start) = (answered.profile?, start(asked));

@@ -4,7 +4,7 @@ mod answer;
 mod certificate;
 mod cloud;
 
-use hairpin::search::heaviest::{Ends, Heaviest, Method, Outcome};
+use hairpin::search::heaviest::{Ends, Heaviest, HeaviestSettings, Method, Outcome};
 use hairpin_jobs::max_load::{MaxLoadSettings, max_load};
 use hairpin_jobs::{Problem, Watch};
 
@@ -30,15 +30,18 @@ pub(crate) fn run(asked: &MaxLoad, watch: &dyn Watch) -> Result<u8, Problem> {
     let answer = max_load(
         &MaxLoadSettings {
             graph: path.clone(),
-            ends: Ends { start: asked.start, end: asked.end },
             min_cost: asked.min_cost.clone(),
             visits: asked.visits.into(),
-            programs: asked.programs.into(),
-            method: method(asked.method),
             time_limit_s: asked.time_limit,
-            most_nodes: asked.nodes,
-            seed: asked.seed,
-            proof: asked.certificate.is_some(),
+            search: HeaviestSettings {
+                ends: Ends { start: asked.start, end: asked.end },
+                method: method(asked.method),
+                programs: asked.programs.into(),
+                seed: asked.seed,
+                most_nodes: asked.nodes,
+                proof: asked.certificate.is_some(),
+                ..HeaviestSettings::default()
+            },
         },
         watch,
     )?;

@@ -10,6 +10,7 @@ use serde_json::json;
 
 use crate::args::Steer;
 use crate::console;
+use crate::exit::DONE;
 
 /// Wrong rows that are told one by one.
 const MOST_TOLD: usize = 10;
@@ -27,7 +28,7 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, path: &Path, watch: &dyn Wat
         batch.draw(plot, watch)?;
     }
     tell(steer, path, &batch);
-    Ok(0)
+    Ok(DONE)
 }
 
 /// Counts on stdout if the table is in a file; wrong rows on stderr.
@@ -43,7 +44,7 @@ fn tell(steer: &Steer, path: &Path, batch: &Batch) {
     let all = [Status::Ok, Status::Infeasible, Status::NotConverged, Status::TimeLimit, Status::Invalid];
     let ([mean, worst], queries) = (batch.solving_us(), batch.answers.len());
     if steer.json {
-        let mut object = json!({ "queries": queries, "mean_time_us": mean, "max_time_us": worst, "exit_code": 0 });
+        let mut object = json!({ "queries": queries, "mean_time_us": mean, "max_time_us": worst, "exit_code": DONE });
         for status in all {
             object[status.to_string()] = batch.count(status).into();
         }

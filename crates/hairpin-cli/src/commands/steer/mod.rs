@@ -14,6 +14,7 @@ use serde_json::json;
 
 use super::terrain::georeference;
 use crate::args::{KeepOutFlags, NoData, StartTable, Steer};
+use crate::exit::DONE;
 use crate::{console, settings};
 
 /// Runs the command: 0 when everything was answered; one question alone is 3 when it is infeasible, 5 when it is open.
@@ -32,7 +33,7 @@ pub(crate) fn make_table(asked: &StartTable) -> Result<u8, Problem> {
     let made = make_start_table(&asked.rover, &asked.out)?;
     if asked.json {
         let mut object = json!(made);
-        object["exit_code"] = 0.into();
+        object["exit_code"] = DONE.into();
         console::say(&object.to_string());
     } else {
         console::say(&format!(
@@ -44,7 +45,7 @@ pub(crate) fn make_table(asked: &StartTable) -> Result<u8, Problem> {
             made.seconds
         ));
     }
-    Ok(0)
+    Ok(DONE)
 }
 
 /// What the flags say of the vehicle, of where it drives and of how drives are looked for.

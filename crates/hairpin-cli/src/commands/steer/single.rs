@@ -205,14 +205,13 @@ fn words(vehicle: &Vehicle, answered: &Answered, frame: Frame) -> Vec<String> {
         });
     }
     lines.push(console::table(&table));
-    let DriveReplay {
-        error: [x, y, yaw], error_curvature, max_curvature, max_curvature_rate, length, reversals, ..
-    } = replay;
+    let DriveReplay { error: [.., yaw], error_curvature, max_curvature, max_curvature_rate, length, reversals, .. } =
+        replay;
     lines.push(format!(
         "{status} ({name}, {}){limit}: {length:.3} m, {reversals} reversals, |κ| ≤ {max_curvature:.4} 1/m, |κ'| ≤ {max_curvature_rate:.4} 1/m²; \
          replayed: {:.1e} m, {:.1e} rad, {:.1e} 1/m off; {:.1} µs, {} iterations",
         method(solution.method),
-        libm::hypot(*x, *y),
+        answered.missed_m().unwrap_or_default(),
         yaw.abs(),
         error_curvature.abs(),
         answered.solving.as_secs_f64() * 1e6,

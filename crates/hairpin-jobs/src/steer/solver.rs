@@ -18,7 +18,7 @@ use crate::Problem;
 
 /// What the questions of a run are answered with.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Means {
+pub(super) struct Solver {
     /// In the plane.
     pub(super) choices: Choices,
     /// On the ground.
@@ -26,15 +26,15 @@ pub(super) struct Means {
     pub(super) time_limit: Option<Duration>,
 }
 
-impl Means {
+impl Solver {
     /// Forward arcs with `time_limit` for each question.
     pub(super) fn plain(time_limit: Option<Duration>) -> Self {
         Self { choices: Choices::default(), ground: Settings::default(), time_limit }
     }
 
     pub(super) fn new(settings: &SteerSettings, rover: &Rover) -> Result<Self, Problem> {
-        let mut means = Self::plain(settings.time_limit);
-        let Self { choices, ground, .. } = &mut means;
+        let mut solver = Self::plain(settings.time_limit);
+        let Self { choices, ground, .. } = &mut solver;
         (choices.reversals, choices.turns) = (settings.reversals, settings.turns);
         ground.cost = cost(settings)?;
         choices.flat.cost = match ground.cost {
@@ -57,7 +57,7 @@ impl Means {
         }
         (choices.flat.step_scale, choices.families.step_scale) = (effort.step_scale, effort.step_scale);
         ground.step_scale = effort.step_scale;
-        Ok(means)
+        Ok(solver)
     }
 
     /// How exactly `asked` is to be met.
@@ -96,7 +96,6 @@ pub(super) fn places(settings: &SteerSettings) -> Result<KeepOuts, Problem> {
 }
 
 fn file(path: &Path) -> Result<Vec<KeepOutSection>, Problem> {
-    let wrong = |error: &dyn std::fmt::Display| Problem::input(format!("{}: {error}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| wrong(&error))?;
-    read_keep_outs(&text).map_err(|error| wrong(&error))
+    let text = std::fs::read_to_string(path).map_err(|error| Problem::of_file(path, error))?;
+    read_keep_outs(&text).map_err(|error| Problem::of_file(path, error))
 }
