@@ -71,7 +71,23 @@ pub fn learn(folder: &Path, out: &Path, stress: Stress) -> Result<Learned, Probl
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{executed, generated};
+    use crate::Unwatched;
+    use crate::execute::{ExecuteSettings, execute};
+    use crate::generate::generate;
+    use crate::testing::{executed, generated, small};
+
+    #[test]
+    fn a_score_is_learned_and_written() {
+        let place = tempfile::tempdir().unwrap();
+        let mut settings = small(&place);
+        settings.sets.push(("generate.search.cases".into(), "20".into()));
+        let folder = generate(&settings, &Unwatched).unwrap().work.folder.path().to_owned();
+        execute(&ExecuteSettings { folder: folder.clone(), ..ExecuteSettings::default() }, &Unwatched).unwrap();
+        let out = place.path().join("model.json");
+        let learned = learn(&folder, &out, Stress::MaxDeviation).unwrap();
+        assert_eq!((learned.model.trajectories, learned.score_key, learned.arm), (20, "generate.score", false));
+        assert_eq!(serde_json::from_slice::<ScoreModel>(&std::fs::read(out).unwrap()).unwrap(), learned.model);
+    }
 
     #[test]
     fn what_is_missing_is_told() {

@@ -11,6 +11,7 @@ mod remedy;
 mod settings;
 mod solver;
 mod start_table;
+mod states;
 mod summary;
 #[cfg(test)]
 mod tests;

@@ -1,21 +1,16 @@
-//! What a drive comes to beside its segments: speeds, controls, wheels, body and forces, as plain data; and the path of
-//! states as files.
-
-use std::path::Path;
+//! What a drive comes to beside its segments: speeds, controls, wheels, body and forces, as plain data.
 
 use hairpin::campaign::states::{States, VehicleState};
 use hairpin::feasibility::steering::shooting::families::Parameters;
 use hairpin::feasibility::steering::shooting::rough::GroundCost;
 use hairpin::robot::rover::{Effort, Weight};
 use hairpin::trajectory::{SpeedProfile, Timing};
-use hairpin_formats::atomic;
-use hairpin_formats::steering::{Asked, path_table, wheel_table};
+use hairpin_formats::steering::Asked;
 use serde::Serialize;
 
 use super::answered::Answered;
 use super::pace::{Rows, direction};
 use super::vehicle::Vehicle;
-use crate::{Problem, Watch};
 
 /// Moments of the wheels at most.
 const MOMENTS: usize = 50;
@@ -176,37 +171,6 @@ impl Vehicle {
             summary.forces = self.rover.weight.as_ref().map(|weight| forces(&states, weight, self.rover.wheels.torque));
         }
         summary
-    }
-
-    /// Writes the path of states and what the wheels do, a row a time step; a question without a drive writes neither.
-    ///
-    /// # Errors
-    /// A vehicle without wheels; a file that cannot be written.
-    pub fn write_states(
-        &self,
-        asked: &Asked,
-        answered: &Answered,
-        [path, wheels]: [Option<&Path>; 2],
-        watch: &dyn Watch,
-    ) -> Result<(), Problem> {
-        let names = self.rover.wheel_names();
-        if wheels.is_some() && names.is_empty() {
-            return Err(Problem::input(format!("--wheels: `{}` has no wheels (suspension)", self.rover.name)));
-        }
-        if path.is_none() && wheels.is_none() {
-            return Ok(());
-        }
-        let Some(states) = self.follow(asked, answered, Rows::AsAsked) else {
-            watch.warn("without a drive there is nothing to write to --path and --wheels");
-            return Ok(());
-        };
-        if let Some(path) = path {
-            atomic::write(path, &path_table(&states, asked.frame).map_err(Problem::input)?)?;
-        }
-        if let Some(path) = wheels {
-            atomic::write(path, &wheel_table(&states, names, asked.frame).map_err(Problem::input)?)?;
-        }
-        Ok(())
     }
 }
 
