@@ -1,4 +1,7 @@
 //! A tree of boxes: which of many shapes is nearest, without asking all.
+//!
+//! Branch and bound over boxes: a box at distance d holds no shape nearer than d, and a box around the point none
+//! deeper than half of its shapes' shorter sides.
 
 /// Shapes of a leaf at most.
 const LEAF: usize = 4;
