@@ -53,12 +53,12 @@ impl<const N: usize> Vector for SVector<f64, N> {
 ///
 /// ```
 /// use hairpin::math::integrate::rk4_step;
-/// use nalgebra::{Vector2, vector};
+/// use nalgebra::Vector2;
 ///
 /// // x″ = −x from (1, 0), 2 s in steps of 10 ms.
-/// let oscillator = |x: &Vector2<f64>| vector![x[1], -x[0]];
-/// let end = (0..200).fold(vector![1.0, 0.0], |x, _| rk4_step(oscillator, &x, 0.01));
-/// assert!((end - vector![2f64.cos(), -2f64.sin()]).norm() < 1e-9);
+/// let oscillator = |x: &Vector2<f64>| Vector2::new(x[1], -x[0]);
+/// let end = (0..200).fold(Vector2::new(1.0, 0.0), |x, _| rk4_step(oscillator, &x, 0.01));
+/// assert!((end - Vector2::new(2f64.cos(), -2f64.sin())).norm() < 1e-9);
 /// ```
 pub fn rk4_step<V: Vector>(f: impl Fn(&V) -> V, x: &V, h: f64) -> V {
     let k1 = f(x);

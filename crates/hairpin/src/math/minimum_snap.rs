@@ -66,9 +66,9 @@ pub enum MinimumSnapError {
 ///
 /// ```
 /// use hairpin::math::minimum_snap::minimum_snap;
-/// use nalgebra::point;
+/// use nalgebra::Point3;
 ///
-/// let corner = [point![0.0, 0.0, 1.0], point![4.0, 0.0, 1.0], point![4.0, 4.0, 1.0]];
+/// let corner = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [4.0, 4.0, 1.0]].map(Point3::from);
 /// let curve = minimum_snap(&corner, &[2.0, 2.0])?;
 /// assert_eq!((curve[0][0][0], curve[0][0][1]), (0.0, 0.0)); // at the start, at rest
 /// let through = curve[1]; // by symmetry the corner is passed at 45°

@@ -24,7 +24,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// let third = Interval::point(1.0) / Interval::point(3.0); // ⅓ is no double, but lies inside
 /// let one = third + third + third;
-/// assert!(one.contains(1.0) && one.low < one.high && one.high - one.low < 1e-15);
+/// assert!(one.contains(1.0) && one.low < one.high && one.high - one.low < 1e-14);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {

@@ -44,11 +44,11 @@ pub fn point_distance(p: &Point3<f64>, a: &Point3<f64>, b: &Point3<f64>) -> f64 
 ///
 /// ```
 /// use hairpin::math::segment::segment_distance;
-/// use nalgebra::point;
+/// use nalgebra::Point3;
 ///
 /// // Two skew segments that pass each other at (0, 0), 0.5 apart.
-/// let (a, b) = (point![-1.0, 0.0, 0.0], point![1.0, 0.0, 0.0]);
-/// let (c, d) = (point![0.0, -1.0, 0.5], point![0.0, 1.0, 0.5]);
+/// let (a, b) = (Point3::new(-1.0, 0.0, 0.0), Point3::new(1.0, 0.0, 0.0));
+/// let (c, d) = (Point3::new(0.0, -1.0, 0.5), Point3::new(0.0, 1.0, 0.5));
 /// assert_eq!(segment_distance(&a, &b, &c, &d), 0.5);
 /// ```
 pub fn segment_distance(a: &Point3<f64>, b: &Point3<f64>, c: &Point3<f64>, d: &Point3<f64>) -> f64 {

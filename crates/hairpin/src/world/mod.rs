@@ -46,12 +46,13 @@ pub use solid::Solid;
 ///
 /// ```
 /// use hairpin::world::{Obstacle, Sampling, Shape, World, sample_free};
-/// use nalgebra::{point, vector};
+/// use nalgebra::{Point3, Vector3};
 ///
 /// let pillar = Obstacle { name: "pillar".into(), shape: Shape::capsule([5.0, 5.0, 0.0], [5.0, 5.0, 4.0], 0.5)? };
-/// let cage = World::new(vector![10.0, 10.0, 4.0], 0.2, vec![pillar])?;
-/// assert_eq!(cage.obstacle_distance(&point![5.0, 7.0, 2.0]), 1.5);
-/// assert!(cage.segment_distance(&point![1.0, 5.0, 2.0], &point![9.0, 5.0, 2.0]) < 0.0); // straight through
+/// let cage = World::new(Vector3::new(10.0, 10.0, 4.0), 0.2, vec![pillar])?;
+/// assert_eq!(cage.obstacle_distance(&Point3::new(5.0, 7.0, 2.0)), 1.5);
+/// let (west, east) = (Point3::new(1.0, 5.0, 2.0), Point3::new(9.0, 5.0, 2.0));
+/// assert!(cage.segment_distance(&west, &east) < 0.0); // straight through
 ///
 /// let points = sample_free(&cage, 20, 0.3, Sampling::Uniform, 7)?;
 /// assert!(points.iter().all(|p| cage.is_free(p, 0.3)));

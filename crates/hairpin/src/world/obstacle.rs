@@ -27,11 +27,11 @@ pub struct Obstacle {
 ///
 /// ```
 /// use hairpin::world::Shape;
-/// use nalgebra::point;
+/// use nalgebra::Point3;
 ///
 /// let cube = Shape::cuboid([0.0, 0.0, 0.0], [2.0, 2.0, 2.0])?;
-/// assert_eq!(cube.signed_distance(&point![4.0, 5.0, 0.0]), 5.0); // 3-4-5 from the edge
-/// assert_eq!(cube.signed_distance(&point![0.5, 0.0, 0.0]), -0.5);
+/// assert_eq!(cube.signed_distance(&Point3::new(4.0, 5.0, 0.0)), 5.0); // 3-4-5 from the edge
+/// assert_eq!(cube.signed_distance(&Point3::new(0.5, 0.0, 0.0)), -0.5);
 /// assert_eq!(Shape::sphere([0.0; 3], -1.0).unwrap_err().field, "sphere.radius_m");
 /// # Ok::<(), hairpin::world::WorldError>(())
 /// ```

@@ -10,17 +10,6 @@ use thiserror::Error;
 use crate::math::outward::{Interval, Real};
 
 /// Why a text is no inequation.
-///
-/// ```
-/// use hairpin::world::cell::Words;
-///
-/// // Millimetres, as a cell's file has them; points are in m.
-/// let words = Words::parse("x^2 + y^2 < 190^2 and z < 480", 1000.0)?;
-/// assert!(words.holds([0.1, 0.1, 0.3]) && !words.holds([0.1, 0.1, 0.5]));
-/// let mistake = Words::parse("x < < 3", 1000.0).unwrap_err();
-/// assert_eq!(mistake.column, 5);
-/// # Ok::<(), hairpin::world::cell::WordsError>(())
-/// ```
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("column {column}: expected {expected}, found {found}")]
 pub struct WordsError {
@@ -33,6 +22,17 @@ pub struct WordsError {
 }
 
 /// A condition on a point, understood once and evaluated often.
+///
+/// ```
+/// use hairpin::world::cell::Words;
+///
+/// // Millimetres, as a cell's file has them; points are in m.
+/// let words = Words::parse("x^2 + y^2 < 190^2 and z < 480", 1000.0)?;
+/// assert!(words.holds([0.1, 0.1, 0.3]) && !words.holds([0.1, 0.1, 0.5]));
+/// let mistake = Words::parse("x < < 3", 1000.0).unwrap_err();
+/// assert_eq!(mistake.column, 5);
+/// # Ok::<(), hairpin::world::cell::WordsError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Words {
     text: String,
