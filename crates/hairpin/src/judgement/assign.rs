@@ -1,5 +1,8 @@
 //! Which part of a path a sample belongs to, where nobody told: monotone assignment, never the nearest part, since
 //! paths cross and revisit.
+//!
+//! A dynamic program over samples × pieces, as in dynamic time warping (Sakoe and Chiba, IEEE ASSP 26(1), 1978) with
+//! pieces that may be skipped. The nearest leg would be wrong wherever a path crosses itself, and a stressful one does.
 
 use nalgebra::Point3;
 

@@ -32,6 +32,25 @@ use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 /// Without the channel samples are assigned to legs monotonically along the path, and the result says so. Maxima are
 /// over samples: nothing is assumed of the motion between them.
 ///
+/// Units are SI, angles in degrees. Linear in the samples where the executor told legs; samples × 256 pieces where they
+/// are assigned.
+///
+/// ```
+/// use hairpin::judgement::{Settings, measure};
+/// use hairpin::trajectory::{Channel, Track};
+/// use nalgebra::{Isometry3, Point3};
+///
+/// // Along x from 0 to 10 m, 0.2 m beside the leg half-way.
+/// let poses = (0..=10).map(|i| Isometry3::translation(f64::from(i), if i == 5 { 0.2 } else { 0.0 }, 1.0)).collect();
+/// let leg = Channel { name: "leg".into(), values: vec![0.0; 11] };
+/// let track = Track::new((0..=10).map(f64::from).collect(), poses, vec![leg])?;
+/// let waypoints = [Point3::new(0.0, 0.0, 1.0), Point3::new(10.0, 0.0, 1.0)];
+/// let measures = measure(&track, &waypoints, &Settings::default())?;
+/// assert!((measures.max_deviation - 0.2).abs() < 1e-12 && measures.t_worst == 5.0);
+/// assert!((measures.mean_deviation - 0.02).abs() < 1e-12 && measures.total_time == 10.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`JudgementError`].
 pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Result<Measures, JudgementError> {

@@ -7,6 +7,17 @@
 ///
 /// In rounds of finer and finer pieces: each piece alone, then all but one piece; whatever fails goes on in the place of the
 /// whole. Asks about n² + 3n parts at most, and about few where failing is local.
+///
+/// 1-minimal, not minimal: a smaller part elsewhere in the list may fail too.
+///
+/// ```
+/// use hairpin::search::ddmin;
+///
+/// // Fails wherever both 3 and 7 are.
+/// let list: Vec<u32> = (0..16).collect();
+/// let part = ddmin(&list, &mut |part| Some(part.contains(&3) && part.contains(&7)));
+/// assert_eq!(part, [3, 7]);
+/// ```
 pub fn ddmin<T: Copy>(items: &[T], fails: &mut dyn FnMut(&[T]) -> Option<bool>) -> Vec<T> {
     let mut kept = items.to_vec();
     let mut pieces = 2;

@@ -1,4 +1,8 @@
 //! Where along its planned path a recorded motion is: monotone alignment in position and orientation.
+//!
+//! d² = |Δp|² + (weight θ)², θ by the quaternions' chord: a move that only turns has a length, too. The whole alignment
+//! is one dynamic program of samples × poses; beyond a million cells every k-th sample is aligned first and the others
+//! between their neighbours.
 
 use std::ops::Range;
 

@@ -133,7 +133,7 @@ pub struct Limits {
 
 /// How the steering follows its command.
 ///
-/// A commanded κ waits for the latency and then steers: τ δ̇ = δ_commanded − δ with |δ̇| bounded, κ = tan(δ)/steered_axle.
+/// A commanded κ waits for the latency, then steers: τ δ̇ = δ_commanded − δ with |δ̇| bounded, κ = tan(δ)/steered_axle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
     /// A command acts this much later, s.

@@ -1,4 +1,7 @@
 //! Best-first search in the order of an exact bound: what comes off the queue complete is the best of what is left.
+//!
+//! Bounds never rise along a trajectory: rounding is clipped at the parent's bound, so that the order in which entries
+//! come off is the order of their truth.
 
 use std::cmp::Ordering;
 use std::collections::HashSet;

@@ -10,6 +10,9 @@
 //! numbers a_i (rows) and b_j (columns) no circulation is heavier than
 //!
 //!   Σ s_i a_i + Σ s_j b_j + Σ_open (c_ij − a_i − b_j)⁺ + Σ_in (c_ij − a_i − b_j) + Σ_loops visits · (−a_i − b_i)⁺.
+//!
+//! At most n · visits augmentations of O(n²) each. Integer prices prove optimality, and infeasibility by a bound that
+//! falls without end.
 
 use super::problem::{Arcs, Ends, NONE};
 

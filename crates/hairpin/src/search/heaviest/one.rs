@@ -1,4 +1,7 @@
 //! The heaviest path by the method that is asked for, or by the one that suits.
+//!
+//! Which method suits is decided by the number of points and the memory allowed, never by a clock, so that one question
+//! has one answer.
 
 use super::arborescence::Arborescence;
 use super::dfs::depth_first;

@@ -1,4 +1,7 @@
 //! The whole problem before any branching: a good path, good multipliers, and few arcs left.
+//!
+//! A split costs many times what kicks cost: the root alternates local search under multipliers' potentials with
+//! subgradient steps until neither helps, and only then lets branching begin.
 
 use super::ascent::{Ascent, Ended, Pace};
 use super::best::Best;

@@ -1,4 +1,7 @@
 //! A path as a closed tour through a dummy point, so that both ends move like any other place; points may be left out.
+//!
+//! An array and its inverse: successors, predecessors and "between" in O(1), turning a stretch in O(its length), of the
+//! shorter side where costs are symmetric.
 
 use super::problem::{Arcs, Ends, NONE};
 

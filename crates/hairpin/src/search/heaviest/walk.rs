@@ -13,6 +13,8 @@ use super::problem::{Arcs, Ends};
 pub(super) type Arrow = (usize, usize);
 
 /// One look at a problem: prices whose bound closes it, or what follows.
+///
+/// Checked by the formula of `circulation`: a sum over arcs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WalkStep {
     /// Prices of rows, then of columns; the dummy's are the last of both.
@@ -33,6 +35,8 @@ pub struct Split {
 }
 
 /// A proof that no path is heavier than the best: steps from number 0.
+///
+/// [`crate::verification::verify_walk`] recomputes each bound and that the ways out of a part are all there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WalkProof {
     /// How often a point may come.

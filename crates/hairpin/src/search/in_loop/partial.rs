@@ -13,6 +13,8 @@ use crate::search::objective::{Additive, LegView};
 use crate::search::task::Found;
 
 /// What is asked for.
+///
+/// With `resumes` a leg costs one; without, a partial trajectory of n legs costs n, for it is flown from the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartialSettings {
     /// Waypoints of a trajectory, both ends included.
@@ -76,6 +78,8 @@ enum Unscored {
 }
 
 /// What executes partial trajectories over nodes `N`.
+///
+/// Errors are counts: what failed has used its legs up.
 pub trait Execute<N> {
     /// A robot and its controller where a partial trajectory has led them.
     type State;
@@ -93,6 +97,9 @@ pub trait Execute<N> {
 }
 
 /// Scores by what `execute` measures; `objective` tells which legs are executed first where not all can be.
+///
+/// Which legs of an expansion are executed is settled when it meets them: half are those that `objective` puts first,
+/// half are drawn. The others stand behind what they extend.
 #[derive(Debug)]
 pub struct Executed<'o, O, E> {
     settings: PartialSettings,
