@@ -1,4 +1,8 @@
 //! Thrust and moments into rotor speeds, and what is given up first when the rotors cannot do it all.
+//!
+//! w² = M⁻¹ (m a, τ), clipped by priority and not component by component: a clipped roll moment is a crash, a clipped
+//! yaw moment a turn that comes late. The same order of priorities as in Faessler, Falanga and Scaramuzza, IEEE RA-L
+//! 2(2), 2017.
 
 use nalgebra::{Matrix4, Vector4};
 use wide::f64x4;

@@ -6,6 +6,8 @@
 use super::heaviest::loop_free;
 
 /// A path and what it is held against.
+///
+/// The path's own cost is added up from its moves, arcs and triples, as `passed` cuts it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TriplesClaim {
     /// Number of points.

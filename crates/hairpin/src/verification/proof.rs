@@ -17,6 +17,9 @@ use crate::math::power::square;
 /// A coefficient c_i that is off by 1 % moves a derivative of order k at the leg's end by 0.01 c_i i!/(i−k)! T^(i−k),
 /// which is found if it exceeds [`Tolerances::knots`] plus 1e-12 of the sum of that derivative's terms: at the default,
 /// with legs of 0.8 s and longer, every coefficient of magnitude 1e-6 m/s^i or more.
+///
+/// Each leg is integrated at halved steps until two runs agree to what [`Tolerances::accuracy`] asks for, so that
+/// accuracy is estimated and not assumed.
 pub fn verify(body: &Body, claim: &Claim, tolerances: &Tolerances) -> Proof {
     let mut proof = Proof::default();
     let refuse =
@@ -48,6 +51,9 @@ pub fn verify(body: &Body, claim: &Claim, tolerances: &Tolerances) -> Proof {
 
 /// The end error of the whole flight, open loop, with rotors that lag behind the demand: what the claim leaves out.
 /// `None` where the claim or the body cannot be flown at all. Without a time constant the rotors do not lag.
+///
+/// ẇ = (w_demanded − w)/τ for each rotor. The claim leaves lag out, since snap jumps at waypoints and rotor speeds with
+/// it; this number says how much that is.
 pub fn open_loop_with_lag(body: &Body, claim: &Claim) -> Option<EndError> {
     let sound = claim.legs.len() + 1 == claim.waypoints.len() && claim.legs.iter().all(Leg::is_finite);
     let first = claim.legs.first().filter(|_| sound && body.is_physical())?;

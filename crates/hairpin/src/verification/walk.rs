@@ -9,6 +9,8 @@
 //! a point that is visited less often has so many times neither its a nor its b spent.
 
 /// A path and what proves that it is the heaviest.
+///
+/// The proof's steps are read in any order; one that is missing, or a way out of a part that no branch has, is told.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WalkClaim {
     /// Number of points.

@@ -1,4 +1,8 @@
 //! From moves to sections of path: legs, the blends between them, and the joint angles along both.
+//!
+//! A zone of radius r adds the end of one move and the beginning of the next about their corner: u = 1 − (r/ℓ₁)(1 −
+//! w)², v = (r/ℓ₂) w², p = p₁(u) + p₂(v) − C, w in [0, 1], a parabola between straight lines
+//! (docs/virtual-controller.md). s grows by 2r, so that the path is C¹ in s.
 
 use nalgebra::Isometry3;
 

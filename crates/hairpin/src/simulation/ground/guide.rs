@@ -1,5 +1,8 @@
 //! Where a run stands in its plan: progress along a section, stops between sections, turns in place. The same for every
 //! controller; what differs is how each steers.
+//!
+//! Speed and progress are nobody's controller's: all steer along the same plan at the same pace, so that a comparison
+//! is of steering. What commands under way still bring is reckoned with.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
