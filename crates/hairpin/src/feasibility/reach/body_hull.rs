@@ -90,6 +90,8 @@ struct Bin {
 }
 
 /// The hulls of all bins.
+///
+/// Nodes are (previous, current, heading, bin): (points²) · headings · bins at most, of which a search meets few.
 #[derive(Debug, Clone)]
 pub struct BodyHull {
     grid: BodyGrid,

@@ -80,6 +80,9 @@ struct Bin {
 }
 
 /// Reach by brute force; `legs` simulates on first sight of a cell.
+///
+/// Far dearer than a hull until its cells are known; its use is to be the oracle, and to say what the hull's
+/// assumptions cost.
 pub struct BruteForce {
     model: Quadrotor,
     speeds: Vec<Vector4<f64>>,

@@ -7,6 +7,8 @@ use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::{Gear, Motion, Segment};
 
 /// How speeds follow each other along a drive.
+///
+/// Speeds are of whole drives: they follow once the legs are known, by one pass forward and one back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pace {
     /// The commanded speed all along: changes of gear and turns in place take no time to stop for.

@@ -19,6 +19,8 @@ use crate::trajectory::drive::{Planar, Segment};
 use crate::trajectory::{Direction, Drive, DriveLeg, Passing, SpeedProfile};
 
 /// A node: a waypoint and one of its headings, passed with straight wheels.
+///
+/// Curvature is 0 at every node but the start's, so that legs join whatever comes before and after.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DriveNode {
     /// The waypoint.

@@ -4,6 +4,9 @@ use super::motion::Motion;
 use crate::robot::arm::{AXES, Arm, Joints, Tool};
 
 /// What is counted of a move; costs are whole numbers in [`Cost::unit`].
+///
+/// Each is of the free move alone, from rest to rest: what blends or speeds of a program make of it is not a graph's
+/// business.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cost {
     /// Way of the tool's point, µm.
@@ -26,6 +29,8 @@ const SAMPLES: usize = 33;
 const PERIOD: f64 = 0.004;
 
 /// A trapezoid over s from rest to rest: speed v, acceleration a, time T.
+///
+/// In the move's parameter s in [0, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trapezoid {
     /// Largest ds/dt, 1/s.

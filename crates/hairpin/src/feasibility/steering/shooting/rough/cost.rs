@@ -8,6 +8,8 @@ use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::world::terrain::Terrain;
 
 /// What to minimise along the motion on the ground, once it meets its goal within the bounds.
+///
+/// Costs are of the motion, not of the drive's wish: slip lengthens the way that the wheels go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum GroundCost {
     /// Nothing: the first drive that meets the goal.
