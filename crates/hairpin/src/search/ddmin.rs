@@ -40,6 +40,8 @@ enum Smaller<T> {
     Nothing,
 }
 
+/// One round of ddmin (Zeller & Hildebrandt, IEEE TSE 28, 2002): each piece alone, then each piece's rest; `None` where
+/// the test could not be asked any more.
 fn round<T: Copy>(kept: &[T], pieces: usize, fails: &mut dyn FnMut(&[T]) -> Option<bool>) -> Option<Smaller<T>> {
     let pieces = pieces.min(kept.len());
     let bound = |piece: usize| piece * kept.len() / pieces;

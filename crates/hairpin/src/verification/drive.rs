@@ -192,6 +192,9 @@ fn steps(length: f64, total: f64, curvature: &[f64; 6]) -> usize {
     share.max(length * most / LONGEST_TURN).ceil().clamp(16.0, MOST_STEPS) as usize
 }
 
+/// x′ = ±cos(ψ + δ₀ + δ₁s), y′ = ±sin(ψ + δ₀ + δ₁s), ψ′ = ±κ(s) over `length` metres, by the classical Runge-Kutta
+/// method, error O(h⁴). `crab` is (δ₀ in rad, δ₁ in rad/m), `direction` the gear's sign; lengths count driven metres in
+/// either gear.
 fn integrate(
     start: [f64; 3],
     crab: [f64; 2],

@@ -175,6 +175,10 @@ fn search_again(claim: &HeaviestClaim) -> Option<i64> {
 
 type Finding = (Option<usize>, String);
 
+/// Goes through the tree with the choices made so far; each step ends closed, goes on as a later step that knows more,
+/// or branches on one choice, out and in. Closed means: its bound is below cost + 1, in the tree's scale, or its
+/// choices contradict each other. With costs · scale below 2⁶⁰ and multipliers up to 2⁶⁰ no sum in 128 bits is rounded
+/// or wraps.
 fn check_tree(claim: &HeaviestClaim, tree: &TreeClaim) -> Result<(), Finding> {
     let n = claim.points;
     let arc = |from: usize, to: usize| claim.costs[from * n + to].filter(|_| from != to);

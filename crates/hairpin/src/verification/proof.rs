@@ -70,6 +70,8 @@ pub fn open_loop_with_lag(body: &Body, claim: &Claim) -> Option<EndError> {
     Some(end_error(&state, claim))
 }
 
+/// At both ends of every leg: position at the waypoint, velocity that of the leg before (rest at the flight's ends),
+/// thrust that carries the weight and points up, no turning; each within `knots` and the rounding of its polynomial.
 fn check_knots(proof: &mut Proof, body: &Body, claim: &Claim, tolerances: &Tolerances) {
     let ends: Vec<f64> = claim
         .legs
@@ -98,6 +100,9 @@ fn check_knots(proof: &mut Proof, body: &Body, claim: &Claim, tolerances: &Toler
     }
 }
 
+/// Flies each leg twice: from the state that its own polynomial begins with, which must end in the state at the next
+/// waypoint; and from where the leg before was flown to, so that what errors add up to over the whole flight is known
+/// ([`Proof::open_loop`]) without being judged.
 fn fly_legs(proof: &mut Proof, flyer: &Flyer, claim: &Claim, tolerances: &Tolerances) {
     let mut began = 0.0;
     let mut chained = level(claim.waypoints[0], velocity_at(&claim.legs[0], 0.0));

@@ -39,6 +39,8 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
         Self::grow(start, candidates, length, legs_of).trimmed(length)
     }
 
+    /// Breadth first from `start`, one layer a leg: nodes at depth `length` − 1 and beyond get no legs. O(nodes +
+    /// legs), each node's legs asked for once.
     fn grow(
         start: N,
         candidates: &'a [Point3<f64>],

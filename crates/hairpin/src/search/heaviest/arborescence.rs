@@ -53,6 +53,10 @@ impl Arborescence {
     }
 
     /// Contracts until no circle is left; the sum of what the points took, `None` if one cannot be entered.
+    ///
+    /// A round takes the best arc into each point but the root and lessens every arc by the best into its end; all
+    /// circles that best arcs close become one point each. What an arc has left when it vanishes into a circle, or in
+    /// the end, is its reduced cost (≤ 0). At most n rounds, O(m) each.
     fn contract(&mut self, points: usize) -> Option<i64> {
         let (mut count, mut total, mut number) = (points as u32 + 1, 0, 0);
         let mut root = points as u32;
@@ -225,6 +229,8 @@ impl Relaxation for Arborescence {
         }
     }
 
+    /// Out is what would bring the bound below the threshold by its reduced cost, and the ends that the best one leads
+    /// by as much. Nothing is decided in: that takes the second best arborescence for each arc.
     fn decided(
         &mut self,
         choices: &Choices,

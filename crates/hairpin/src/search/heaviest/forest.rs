@@ -241,6 +241,8 @@ impl<K: Key> Relaxation for Forest<K> {
         }
     }
 
+    /// Kruskal from the forced joins on. Keys are sorted anew with each λ, nearly in order from the last run; O(m log
+    /// m) at worst, near O(m) where the order has hardly changed.
     fn solve(&mut self, choices: &Choices, made: &Made, multipliers: &[i64], renew: bool) -> Option<i64> {
         if renew && !self.begin(choices, made) {
             self.begun_joins = u32::MAX;
@@ -309,6 +311,8 @@ impl<K: Key> Relaxation for Forest<K> {
         }
     }
 
+    /// By the bound with one choice turned over, none of them solved again: a join not in the tree costs the narrowest
+    /// join on its way, one in the tree its best replacement, an end the best end's lead over it.
     fn decided(
         &mut self,
         choices: &Choices,

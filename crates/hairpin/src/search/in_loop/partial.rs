@@ -260,6 +260,9 @@ where
         (f64::NEG_INFINITY, Rc::new(Step { before: None, node: *node, waypoint: 0, duration: 0.0, ran }))
     }
 
+    /// Chooses the legs of this parent that are to be executed, as the budget's share allows: half of them those that
+    /// the plain objective puts first, half drawn by a hash of leg and depth, so that no order of calls changes the
+    /// draw.
     fn meet<'l>(&mut self, parent: &Parent<Self::Memory>, legs: impl Iterator<Item = LegView<'l>>) {
         let done = parent.length as u64 - 1;
         (self.next, self.barren) = (0, false);
@@ -284,6 +287,8 @@ where
         }
     }
 
+    /// An executed leg's score is the stress measured; a leg passed over inherits its parent's, one unit in the last
+    /// place lower, so that what was measured leads; a parent whose own run failed has no legs.
     fn extend(&mut self, parent: &Parent<Self::Memory>, leg: &LegView<'_>, to: &N) -> Option<(f64, Self::Memory)> {
         let done = parent.length as u64;
         let before = Some(Rc::clone(parent.memory));

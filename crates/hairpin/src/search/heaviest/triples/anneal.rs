@@ -42,6 +42,8 @@ pub(super) fn annealed(
     met.into_iter().rev().take(count).collect()
 }
 
+/// One chain of Metropolis steps: worse by d is taken with probability e^(−d/T), T falling geometrically from `hot` to
+/// [`COLD`] times the largest cost. Orders without a way are passed through at a fine of that cost, never kept.
 fn chain_of(
     question: &Question,
     first: &[usize],
