@@ -140,6 +140,9 @@ fn first_guess(judge: &LegJudge, length: f64) -> f64 {
     (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
 }
 
+/// What no controller can do within the limits, whatever its inputs: a waypoint that the world does not allow, a leg
+/// longer than the fastest goes in its longest time, and a flight that takes longer than is allowed even if it gains
+/// speed at full acceleration all along.
 fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64, longest_flight: f64) -> Option<Impossible> {
     let max_speed = judge.limits().max_speed;
     let outside = waypoints

@@ -148,6 +148,7 @@ struct Waiting {
 }
 
 impl<S: StepSet> Reach<StepNode> for StepReach<'_, S> {
+    /// Members in the order of their numbers; features eight at a time in vector lanes, the same bits as one by one.
     fn legs(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
         debug_assert_eq!(candidates.len(), self.graph.points().len(), "the reach set is bound to another graph");
         let here = self.graph.point(from.current);

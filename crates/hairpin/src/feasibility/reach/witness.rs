@@ -259,6 +259,8 @@ impl<'a> Roadmap<'a> {
         (to - from).norm() / self.judge.limits().max_speed
     }
 
+    /// All legs out of a state, judged at the first question and kept. Waypoints farther than the top speed goes in the
+    /// longest rung are not looked at; each leg keeps the shortest rung that holds.
     fn kept_legs(&self, from: usize) -> Arc<[Judged]> {
         if let Some(legs) = &self.kept.borrow()[from] {
             return Arc::clone(legs);

@@ -265,6 +265,8 @@ impl<'a> DriveRoadmap<'a> {
         apart(&self.points[a], &self.points[b])
     }
 
+    /// All legs out of a state, solved at the first question and kept, with what they were refused for in the tally.
+    /// Only waypoints at a leg's distance are tried, every headed state of each.
     fn kept_legs(&self, from: usize) -> Arc<[Kept]> {
         if let Some(legs) = &self.kept.borrow()[from] {
             return Arc::clone(legs);

@@ -121,6 +121,9 @@ pub fn time_law(arm: &Arm, tool: &Tool, motion: &Motion, start: &Joints) -> Trap
     timing(arm, &sample(arm, tool, motion, start))
 }
 
+/// The trapezoid over s ∈ [0, 1] that keeps every joint's bounds at all samples: with q̇ = q′ṡ and q̈ = q″ṡ² + q′s̈,
+/// speed ṡ ≤ min(q̇_max/|q′|, √(q̈_max/2|q″|)), half of the acceleration being left to bends, and s̈ ≤ (q̈_max −
+/// |q″|ṡ²)/|q′|.
 fn timing(arm: &Arm, sampled: &Sampled) -> Trapezoid {
     let all = || {
         sampled
@@ -139,6 +142,8 @@ fn timing(arm: &Arm, sampled: &Sampled) -> Trapezoid {
     Trapezoid::new(speed, left.fold(1e12, f64::min))
 }
 
+/// [`SAMPLES`] equal steps in s, one branch throughout; q′ and q″ by central differences, those at the ends taken from
+/// the neighbours. Where the inverse has no answer the joints before are kept.
 fn sample(arm: &Arm, tool: &Tool, motion: &Motion, start: &Joints) -> Sampled {
     let (mut q, mut last) = (Vec::with_capacity(SAMPLES), *start);
     let branch = arm.branch(start);

@@ -169,6 +169,10 @@ impl Walk<'_> {
         undecided
     }
 
+    /// One piece, |s − at| ≤ half: the joints at its middle, bounds on how far each turns from there (rates · half),
+    /// then margins, limits and bodies with these. Holds where all hold over the whole piece; refused where the middle
+    /// itself breaks one; open where only the bounds do, or a joint turns too far to tell neighbours apart, which
+    /// halving settles.
     fn judge(&mut self, at: f64, half: f64, sweep: &Sweep, last: &Joints, last_turns: &Joints) -> Judged {
         let closed = matches!(self.arm.kinematics, crate::robot::arm::Kinematics::Opw(_));
         let Some(q) = self.solve(at, last) else {

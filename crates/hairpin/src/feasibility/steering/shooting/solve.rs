@@ -122,6 +122,9 @@ pub fn solve(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: im
     Solution { segments: cheap.segments, iterations: cheap.iterations, arc: Some(cheap.status), ..solution }
 }
 
+/// The arc if it is solved and within [`PATIENCE`] of a lower bound on any answer's length, asked in the order of what
+/// the bounds cost; else turns and a line where turns in place are chosen; else the clothoid path, unless the arc is
+/// within [`PATIENCE`] of that. Stopped early it hands out the arc it has, or the start of one.
 fn plainly(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: impl FnMut() -> bool) -> Solution {
     let mut solution = Solution {
         outcome: Outcome::Stopped,

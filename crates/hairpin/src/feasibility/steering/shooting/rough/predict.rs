@@ -126,6 +126,10 @@ struct Walk {
 }
 
 impl Walk {
+    /// One segment by the midpoint rule, in equal steps no longer than the course's: rates at the last rest lead half a
+    /// step ahead, the vehicle is settled there, and the rates at that rest lead over the whole step. `go_on` sees each
+    /// middle and may end the drive (`Ok(false)`); `Blocked` is where no rest was found. Turns in place end with
+    /// straight wheels, changes of gear with wheels that have swung to what comes, where speeds are not constant.
     fn drive<T: Terrain>(
         &mut self,
         course: &Course<'_, T>,
