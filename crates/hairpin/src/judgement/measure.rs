@@ -133,6 +133,8 @@ fn time_weights(times: &[f64]) -> Vec<f64> {
     (0..=last).map(|i| 0.5 * (times[(i + 1).min(last)] - times[i.saturating_sub(1)])).collect()
 }
 
+/// Greatest and mean distance off the path (m), the mean weighted by the time that each sample stands for; samples
+/// whose distance is not known count for neither.
 fn measure_deviation(measures: &mut Measures, times: &[f64], weights: &[f64], legs: &[usize], off: &[Off]) {
     let mut worst = -1.0;
     for (i, (&leg, off)) in legs.iter().zip(off).enumerate() {
@@ -156,6 +158,9 @@ fn measure_deviation(measures: &mut Measures, times: &[f64], weights: &[f64], le
     }
 }
 
+/// How far the track got beyond its place, in a leg's direction, (p − p₀)·d (m): for the sample's own leg and, in its
+/// direction, for the one before. p₀ is the sample's place on the path, else the leg's end (for the leg before: its
+/// nearest point).
 fn measure_overshoot(
     measures: &mut Measures,
     times: &[f64],
@@ -185,6 +190,8 @@ fn measure_overshoot(
     measures.overshoots = measures.legs.iter().map(|leg| leg.overshoot).collect();
 }
 
+/// Accelerations |Δv|/Δt (m/s²): over two intervals where the track tells velocities, at its two ends over one; else of
+/// the velocities between three positions. Beside it the rate of the speed alone, |Δ|v||/Δt, which bends leave out.
 fn measure_acceleration(measures: &mut Measures, track: &Track, positions: &[Point3<f64>], legs: &[usize]) {
     let times = track.times();
     let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| track.channel(name));
@@ -252,6 +259,8 @@ fn measure_tip_over(measures: &mut Measures, times: &[f64], margins: &[f64], leg
     }
 }
 
+/// The angle between body z and world z, 2 asin √(q_x² + q_y²), in degrees: accurate near upright, where a cosine would
+/// round.
 fn measure_tilt(measures: &mut Measures, track: &Track, legs: &[usize]) {
     let mut worst = (-1.0, 0.0);
     let mut of_legs = vec![-1.0_f64; measures.legs.len()];
@@ -270,6 +279,8 @@ fn measure_tilt(measures: &mut Measures, track: &Track, legs: &[usize]) {
     }
 }
 
+/// ∫ Σ_k q̈_k² dt in rad²/s³, second differences at unequal steps weighted by the samples' times; the two end samples
+/// have none.
 fn measure_effort(measures: &mut Measures, track: &Track, weights: &[f64], legs: &[usize]) {
     let joints: Vec<&[f64]> = (1..).map_while(|k| track.channel(&format!("q{k}_rad"))).collect();
     if joints.is_empty() {

@@ -25,6 +25,8 @@ impl<const N: usize> Gauss<N> {
     /// The rule. Nodes are the roots of the Legendre polynomial `P_N(2t − 1)`, found by Newton's method.
     pub const RULE: Self = Self::new();
 
+    /// Roots of the Legendre polynomial P_N by Newton's method from cos(π(i + ¾)/(N + ½)), weights 1/((1 − x²) P_N′²)
+    /// for the unit interval; at compile time.
     const fn new() -> Self {
         let mut rule = Self { nodes: [0.0; N], weights: [0.0; N] };
         let mut i = 0;

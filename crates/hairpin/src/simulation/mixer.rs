@@ -57,6 +57,9 @@ impl Mixer {
         self.saturate(wanted.to_array())
     }
 
+    /// Squared rotor speeds s = thrust · c + roll · r + pitch · p + yaw · y, each kept within [least, most]: roll and
+    /// pitch first, both by the largest common share that some thrust still allows; then thrust as near to what is
+    /// asked as that leaves; then the yaw that is left room for.
     #[cold]
     fn saturate(&self, [roll, pitch, yaw, thrust]: [f64; 4]) -> Mixed {
         let [per_roll, per_pitch, per_yaw, collective] = self.inverse.map(|c| Vector4::from(c.to_array()));

@@ -143,6 +143,9 @@ impl Dynamics for Plant {
 
     const STATE: &'static [Quantity] = &QUANTITIES;
 
+    /// ṗ = v; q̇ = ½ q ⊗ (0, ω); v̇ = (R e₃ u₁ − (c₁ + c₂|v − w|)(v − w) + f)/m − g e₃; J ω̇ = τ + d − c_m|ω|ω − ω ×
+    /// Jω; Ω̇ = (Ω_cmd − Ω)/T_m, or Ω = Ω_cmd where T_m = 0. World frame for p, v, air w and force f; body frame for ω
+    /// and moments.
     fn derivative(&self, state: &PlantState, control: &Vector4<f64>) -> PlantState {
         let q = &state.as_slice()[ATTITUDE..ATTITUDE + 4];
         let v: Vector3<f64> = state.fixed_rows::<3>(VELOCITY).into_owned();

@@ -101,6 +101,8 @@ impl Way {
         windows.collect()
     }
 
+    /// Each sample takes a pose of its window, not before its predecessor's, so that the sum of squared distances is
+    /// least; the earliest of equals. Dynamic programming, O(total length of the windows).
     fn rising(&self, recording: &Track, samples: &[usize], windows: &[Range<usize>]) -> Vec<usize> {
         // own[row][j − first]: the best up to j ends at j itself.
         let mut own: Vec<Vec<bool>> = Vec::with_capacity(samples.len());

@@ -78,6 +78,8 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
+    /// Leg after leg: along each from where the blend before it ended to where the next one begins, then the blend. A
+    /// zone's radius is at most half of both of its legs; zones of no size stop in the corner.
     fn all(&mut self) -> Result<(), Stop> {
         let Some(first) = self.orders.first() else { return Ok(()) };
         let mut corner = self.follower.arm.forward(&self.joints) * first.tool;

@@ -127,6 +127,8 @@ struct Ground {
 }
 
 impl Ground {
+    /// Gradient noise in octaves, wavelengths λ halving from the longest down to two cells, each of an amplitude ∝ λ^H;
+    /// together their standard deviation is the relief asked for, as far as that of gradient noise is ¼.
     fn fractal(&mut self, recipe: &Recipe) {
         let mut wave = LONGEST_WAVE.min(recipe.size_m);
         // Gradient noise has a standard deviation of about a quarter; octaves of variance λ^(2H) add up to the relief's.

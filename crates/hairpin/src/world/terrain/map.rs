@@ -248,6 +248,8 @@ fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 }
 
 impl Terrain for ElevationMap {
+    /// Cubic convolution of the 4 × 4 cells around (Keys 1981), along x, then along y: height (m), slope (1), bend
+    /// (1/m) as (∂xx, ∂xy, ∂yy). One missing cell among the sixteen makes a hole.
     #[inline]
     fn patch(&self, x: f64, y: f64) -> Result<Patch, NoGround> {
         let Some(at) = self.locate(x, y) else { return Err(NoGround::OffMap { x, y }) };

@@ -122,6 +122,8 @@ pub fn add_rocks(map: &ElevationMap, rocks: &[Rock]) -> ElevationMap {
     })
 }
 
+/// Raises the cells whose centres lie under the rock by its height there: a rock stands on the ground that is, slopes
+/// and other rocks included.
 fn add(grid: &Grid, heights: &mut [f32], rock: &Rock) {
     let Grid { columns, rows, first_center, cell } = *grid;
     let reach = 0.5 * rock.diameter;
