@@ -9,6 +9,15 @@ use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 ///
 /// Source: Collet, Gotlieb, Lazaar & Mossige, "Stress testing of single-arm robots through constraint-based generation
 /// of continuous trajectories" (2019).
+///
+/// ```
+/// use hairpin::search::heaviest::Workspace;
+///
+/// let points = Workspace::PUBLISHED.points(40, 1);
+/// let arcs = Workspace::PUBLISHED.arcs(&points)?;
+/// assert!(arcs.symmetric() && (0.6..0.9).contains(&arcs.density()));
+/// # Ok::<(), hairpin::search::heaviest::ArcsMistake>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Workspace {
     /// Height of the centre above the floor, m.
@@ -26,6 +35,8 @@ impl Workspace {
     pub const HOLLOW: Self = Self { core: 0.43, ..Self::PUBLISHED };
 
     /// `count` points, uniform in the workspace, m; the same seed gives the same points.
+    ///
+    /// By rejection from the cube around the ball: 2.4 draws a point in the published one.
     pub fn points(&self, count: usize, seed: u64) -> Vec<Point3<f64>> {
         let mut random = stream(seed);
         let mut draws = std::iter::repeat_with(|| self.in_the_cube(&mut random));
