@@ -120,12 +120,11 @@ fn check(work: &Work, case: &Case) -> Answer {
         return finding(error.to_string());
     }
     let claims = matches!(case.evidence, Evidence::Witnessed | Evidence::ClearAllLinks | Evidence::ClearToolSphere);
-    if case.environment.is_none() && case.profile.is_none() && case.drive.is_none() && case.program.is_none() && !claims
-    {
+    let witness = case.witness.is_some();
+    if case.environment.is_none() && !witness && !claims {
         return Answer::NothingClaimed;
     }
     let verified = campaign::verify(&work.setup, &case);
-    let witness = case.profile.is_some() || case.drive.is_some() || case.program.is_some();
     match verified.proof {
         Some(proof) if witness || !claims => Answer::Checked {
             case: case.number,

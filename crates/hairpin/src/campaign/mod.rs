@@ -39,7 +39,7 @@ pub mod verdict;
 pub mod verify;
 
 pub use assumptions::assumptions;
-pub use case::{Case, CaseResult, Evidence, Reruns, Run, SeenLeg, Status, Timed};
+pub use case::{Case, CaseResult, Evidence, Reruns, Run, SeenLeg, Status, Timed, Witness};
 pub use compare::{Comparison, compare};
 pub use coverage::{Coverage, Grid};
 pub use curve::Curve;

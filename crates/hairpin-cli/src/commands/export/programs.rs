@@ -22,7 +22,7 @@ pub(super) fn write(work: &Work, cases: &[Case], format: Format) -> Result<Writt
     for case in cases {
         let mut case = case.clone();
         work.folder.read_witness(&mut case)?;
-        let Some(program) = &case.program else {
+        let Some(program) = case.program() else {
             written.missing.push(format!("case {} has no program: it is no arm's", case.id()));
             continue;
         };

@@ -99,7 +99,7 @@ fn check(work: &Work, arm: &ArmSetup, first: &Case) -> Result<Optimum, String> {
     let proven: Vec<String> = object["path"].as_array().into_iter().flatten().filter_map(names).collect();
     let mut first = first.clone();
     work.folder.read_witness(&mut first).map_err(|error| error.to_string())?;
-    let moves = first.program.as_ref().map_or(&[][..], |program| &program.moves);
+    let moves = first.program().map_or(&[][..], |program| &program.moves);
     let written: Vec<String> =
         moves.iter().flat_map(|m| m.motion.poses()).filter_map(|target| target.name.clone()).collect();
     if proven != written {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup, vary};
+use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup, Witness, vary};
 use hairpin::trajectory::Drive;
 use hairpin::trajectory::{Profile, ProfileLeg};
 use hairpin_formats::{atomic, rapid};
@@ -120,9 +120,9 @@ impl Repro {
             waypoints_m: case.waypoints.iter().map(|p| p.coords.into()).collect(),
             leg_times_s: case.leg_times.clone(),
             evidence: case.evidence.word().into(),
-            profile: case.profile.as_ref().map(|profile| profile.legs.iter().map(leg).collect()),
-            drive: case.drive.clone(),
-            program: case.program.as_ref().and_then(|program| rapid::module(program, &[]).ok()),
+            profile: case.profile().map(|profile| profile.legs.iter().map(leg).collect()),
+            drive: case.commands().cloned(),
+            program: case.program().and_then(|program| rapid::module(program, &[]).ok()),
             shrunk: None,
             scenario: scenario_of(setup, case, result),
         }
@@ -201,13 +201,15 @@ impl Repro {
             module.and_then(|module| module.program.checked().map_err(|error| error.to_string()))
         });
         let program = program.transpose().map_err(|error| format!("program: {error}"))?;
+        let profile = self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() });
         let waypoints = self.waypoints_m.iter().map(|p| Point3::from(*p)).collect();
         Ok(Case {
             leg_times: self.leg_times_s.clone(),
             evidence,
-            profile: self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() }),
-            drive: self.drive.clone(),
-            program,
+            witness: profile
+                .map(Witness::from)
+                .or(self.drive.clone().map(Witness::from))
+                .or(program.map(Witness::from)),
             ..Case::bare(number, self.seed, waypoints)
         })
     }

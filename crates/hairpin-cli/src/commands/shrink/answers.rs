@@ -184,6 +184,6 @@ impl Answer {
 /// What an execution depends on.
 fn fingerprint(setup: &Setup, case: &Case, run: usize) -> String {
     let points: Vec<[f64; 3]> = case.waypoints.iter().map(|p| p.coords.into()).collect();
-    let all = serde_json::json!([setup.scenario, case.seed, run, points, case.leg_times, case.drive]);
+    let all = serde_json::json!([setup.scenario, case.seed, run, points, case.leg_times, case.commands()]);
     sha256(&all.to_string())
 }

@@ -19,7 +19,7 @@ const MET: f64 = 1e-6;
 /// met, every joint stay within its bounds, and, where all links are claimed to be clear, none may be in a part of the cell, nor, followed by the
 /// proof's own equations, come nearer to one than was claimed; nor may the tool where a zone cuts a corner. Sampled: what the graph proves between samples is not proven again. `None` for a case that has no program.
 pub(in crate::campaign) fn verify(setup: &ArmSetup, case: &Case) -> Option<Proof> {
-    case.program.as_ref()?;
+    case.program()?;
     let mut proof = Proof::default();
     let refuse = |what: String| Finding { field: what, value: f64::NAN, bound: 0.0, unit: "", leg: 0, at: 0.0 };
     let followed = program_of(case).and_then(|program| {

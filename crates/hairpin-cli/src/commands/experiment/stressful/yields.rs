@@ -190,6 +190,6 @@ fn witnessed(size: &Size, reach: &str, length: u64, trajectories: usize) -> Resu
 
 /// The witness's duration over one step a leg, where there is a witness.
 fn slower(case: &Case) -> Option<f64> {
-    let profile = case.profile.as_ref()?;
+    let profile = case.profile()?;
     Some(profile.duration() / (STEP_S * profile.legs.len() as f64))
 }
