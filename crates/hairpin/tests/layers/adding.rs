@@ -157,6 +157,9 @@ pub(crate) fn mistakes(house: &House, text: &str) -> Vec<String> {
             continue;
         };
         let counted = elsewhere(house, &row.own, example);
+        if !example.counted {
+            println!("{}: {} lines in {} files elsewhere", row.what, counted.values().sum::<usize>(), counted.len());
+        }
         if example.counted && counted != row.elsewhere {
             let told: Vec<String> = counted.iter().map(|(path, lines)| format!("`{path}` {lines}")).collect();
             wrong.push(format!("{}: its lines elsewhere are {}", row.what, told.join(", ")));

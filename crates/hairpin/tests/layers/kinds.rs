@@ -7,8 +7,11 @@ use super::house::{File, Found, House};
 use super::outline::{Mention, What};
 use super::patterns::patterns;
 
-/// What the kinds are called where an enum has a variant for each.
-const KINDS: &[&[&str]] = &[&["Flight", "Flyer"], &["Drive", "Driver", "Ground"], &["Arm"]];
+/// What the kinds, and the commands of each, are called where an enum has a variant for each.
+const KINDS: &[&[&str]] = &[&["Flight", "Flyer", "Profile"], &["Drive", "Driver", "Ground"], &["Arm", "Program"]];
+
+/// Sums of data: the module that declares one of them takes it apart for all others.
+const DATA: &[&str] = &["hairpin::campaign::case::Witness"];
 
 /// What the kinds answer: asking one for its own is asking which it is.
 const CALLS: &[&str] = &[".flight", ".drive", ".arm"];
@@ -81,7 +84,9 @@ fn names_a_kind(house: &House, file: &File, mention: &Mention) -> bool {
         let Some(What::Enum(variants)) = house.declared(&module, &name).map(|declared| &declared.what) else {
             return false;
         };
-        of_kinds(variants) && rest.first().is_some_and(|named| variants.iter().any(|(variant, _)| variant == named))
+        let own = module == file.module && DATA.contains(&format!("{module}::{name}").as_str());
+        !own && of_kinds(variants)
+            && rest.first().is_some_and(|named| variants.iter().any(|(variant, _)| variant == named))
     })
 }
 
@@ -101,6 +106,7 @@ fn asking_what_a_robot_is_is_counted() {
             one("match", 2),
         ),
         ("fn f(k: Kind) { if let Kind::Arm = k {} }", one("let", 1)),
+        ("fn f(k: Kind) { while let Some(Kind::Arm) = k {} }", one("let", 1)),
         ("fn f(k: Kind) { let Kind::Flight(x) = k else { return }; }", one("let", 1)),
         ("fn f(k: Kind) -> bool { matches!(k.of(1, 2), Kind::Flight(..) | Kind::Arm) }", one("matches", 1)),
         ("fn f(k: Kind) -> bool { k == Kind::Arm }", one("==", 1)),
@@ -130,6 +136,14 @@ fn asking_what_a_robot_is_is_counted() {
     ] {
         assert_eq!(found("hairpin_formats::header", &format!("{import} {text}")), Vec::new(), "{text}");
     }
+    let witness =
+        "pub enum Witness { Profile(P), Drive(D), Program(Q) } fn f(w: W) { if let Witness::Drive(d) = w {} }";
+    let elsewhere = "use super::case::Witness; fn f(w: W) { if let Some(Witness::Program(p)) = w {} }";
+    let house = super::forged::house(&[("hairpin::campaign::case", witness), ("hairpin::campaign::verify", elsewhere)]);
+    assert_eq!(
+        places(&house).iter().map(|place| place.path.as_str()).collect::<Vec<_>>(),
+        ["hairpin::campaign::verify"]
+    );
     let own = "use crate::campaign::setup::Kind; fn f(k: Kind) { match k { Kind::Arm => 1, _ => 2 } }";
     assert_eq!(found("hairpin::campaign::arm::solve", own), Vec::new(), "a kind knows itself");
     assert_eq!(found("hairpin::campaign::army", own), one("match", 1));
