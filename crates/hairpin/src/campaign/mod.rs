@@ -10,7 +10,6 @@ pub mod digits;
 pub mod drive;
 pub mod environment;
 pub mod execute;
-pub mod experiment;
 pub mod explain;
 pub mod flight;
 pub mod generate;

@@ -1,8 +1,14 @@
 //! One classical Runge-Kutta step, which every simulation and every sampled reach set takes.
+//!
+//! One step method with a fixed step, and no error control: a run must have the same steps on every machine, and how
+//! large they may be is settled by tests against halved steps. The proof (`verification`) integrates by collocation of
+//! its own and never by this.
 
 use nalgebra::SVector;
 
 /// A fixed-size real vector: all that integrators and planners ask of states and controls.
+///
+/// Implemented for `SVector<f64, N>` alone; there is no reason to implement it for anything else.
 pub trait Vector: Copy + Send + Sync + 'static {
     /// Number of components.
     const LEN: usize;

@@ -7,6 +7,21 @@
 //! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have replays of their
 //! own, in the plane (`drive`) and on the ground (`ground`); moves of arms are followed by their own equations ([`verify_arm_moves`]). That no path through a graph is heavier is checked bound by
 //! bound ([`verify_heaviest`]; [`verify_walk`] where points may come several times, [`verify_triples`] where moves may pass points).
+//!
+//! | what was claimed | checked by | how |
+//! | --- | --- | --- |
+//! | a flight ([`Claim`]) | [`verify`] | rotor speeds by Taylor series, collocation of order 12 |
+//! | a drive in the plane | [`replay_drive`] | Runge-Kutta on a grid of its own, 2000 steps or more |
+//! | a drive on the ground | [`replay_ground`], [`verify_drives`] | midpoint rule, rests by differences |
+//! | a distance kept | [`verify_clear`], [`verify_clear_ground`] | Taylor sums; chords of a replay |
+//! | an arm's moves, a graph of them | [`verify_arm_moves`], [`verify_arm_graph`] | dense samples, Gauss-Newton |
+//! | no path is heavier | [`verify_heaviest`], [`verify_walk`], [`verify_triples`] | every bound or the search again |
+//!
+//! Claims are plain numbers, as a campaign's files hold them, and may hold anything: nothing here panics on a file, and
+//! what is no number is a finding. An empty list of findings is the proof; each finding says what, how much, against
+//! which bound, and where. Proofs of drives, arms and distances on the ground are numerical: they hold to the
+//! tolerances and steps that are stated with them, and what narrower things do between samples they do not see. Bounds
+//! of paths are exact.
 
 mod arm;
 mod body;

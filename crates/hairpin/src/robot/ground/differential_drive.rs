@@ -52,6 +52,8 @@ pub struct DifferentialDriveLimits {
 }
 
 /// A differential drive's numbers, SI, all checked. Built by [`DifferentialDriveDescription::build`].
+///
+/// Body frame at the middle of the axle; castors are not modelled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DifferentialDrive {
     /// Name, as in `data/robots`.
@@ -108,6 +110,8 @@ impl DifferentialDrive {
 
     /// The drive as the generator steers it, at its default speed v: the outer wheel keeps its limits, so that
     /// |κ| ≤ 2 (v_w − v)/(b v) and |κ′| ≤ 2 a_w/(b v²).
+    ///
+    /// From v ± ω b/2 within ±v_w with ω = κ v; and with v constant, v̇_r = ½ b v² κ′ within a_w.
     pub fn vehicle(&self) -> Rover {
         let v = self.default_speed;
         let limits = Limits {

@@ -17,6 +17,8 @@ pub(super) fn between(from: &Isometry3<f64>, to: &Isometry3<f64>, share: f64) ->
 }
 
 /// `base_from_link` of the base and the six links.
+///
+/// The product of exponentials, frame by frame: T_k = T_{k−1} · parent_from_joint · exp(q_k [axis_k]).
 pub(super) fn links(claim: &ArmMovesClaim, q: &[f64; 6]) -> [Isometry3<f64>; 7] {
     let mut frames = [Isometry3::identity(); 7];
     for (k, joint) in claim.joints.iter().enumerate() {

@@ -57,6 +57,8 @@ pub enum ArmSolidForm<'a> {
 }
 
 /// A move from where the one before it ended.
+///
+/// Orientation along straight moves and arcs turns about one axis in proportion to the way.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ArmMoveClaim {
     /// All joints in step, to these angles (rad), at which the tool is at the pose if one is given.
@@ -68,6 +70,8 @@ pub enum ArmMoveClaim {
 }
 
 /// An arm, its cell, and a program.
+///
+/// Frames: joints from the base on, `tool` on link 6, solids in the base.
 pub struct ArmMovesClaim<'a> {
     /// From the base on.
     pub joints: &'a [ArmJointClaim; 6],
