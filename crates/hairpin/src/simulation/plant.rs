@@ -32,7 +32,6 @@ pub(super) const ROTORS: usize = 13;
 ///
 /// ```
 /// use hairpin::math::integrate::rk4_step;
-/// use hairpin::robot::Dynamics;
 /// use hairpin::robot::quadrotor::QuadrotorDescription;
 /// use hairpin::simulation::Plant;
 /// use nalgebra::{Vector3, Vector4};

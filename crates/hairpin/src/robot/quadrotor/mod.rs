@@ -43,7 +43,6 @@ pub struct Rotor {
 ///
 /// ```
 /// use hairpin::robot::quadrotor::{QuadrotorDescription, level_rest};
-/// use hairpin::robot::Dynamics;
 /// use nalgebra::Vector4;
 ///
 /// let file = serde_json::json!({
