@@ -195,7 +195,7 @@ fn obstacles_are_clear_of_the_witness_that_is_certified() {
     let sets = ["generate.search.stress=\"clearance\"", balls, "generate.certify=true"];
     looped(here, "generate", "certified", &sets);
     let found = cases(&here.join("certified"));
-    assert!(found.iter().all(|case| case.profile.is_some() && case.environment.is_some()));
+    assert!(found.iter().all(|case| case.profile().is_some() && case.environment.is_some()));
     let verified = json(here, &["verify", "certified"]);
     assert_eq!((&verified["checked"], &verified["failed"]), (&2.into(), &0.into()), "{verified}");
 }

@@ -23,8 +23,12 @@ fn every_shipped_scenario_gives_nine_tenths_of_its_cases() {
             if let Some(length) = setup.scenario.length() {
                 assert_eq!(case.waypoints.len() as u64, length, "{name}");
             }
-            assert_eq!(case.evidence == Evidence::Witnessed, case.profile.is_some() || case.drive.is_some(), "{name}");
-            assert_eq!(case.evidence == Evidence::ClearAllLinks, case.program.is_some(), "{name}");
+            assert_eq!(
+                case.evidence == Evidence::Witnessed,
+                case.profile().is_some() || case.commands().is_some(),
+                "{name}"
+            );
+            assert_eq!(case.evidence == Evidence::ClearAllLinks, case.program().is_some(), "{name}");
         }
     }
 }

@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use thiserror::Error;
 
 const PREFIX: &str = ".hairpin-";
@@ -26,6 +27,23 @@ pub struct WriteError {
 /// Whatever the system refuses; the temporary file is gone then, and an old `path` is as it was.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     write_with(path, |file| file.write_all(bytes))
+}
+
+/// Writes `what` as [`json_text`] has it.
+///
+/// # Errors
+/// As [`write()`]; data that JSON cannot hold.
+pub fn write_json(path: &Path, what: &impl Serialize) -> Result<(), WriteError> {
+    let text = json_text(what).map_err(|error| WriteError { path: path.into(), cause: error.into() })?;
+    write(path, text.as_bytes())
+}
+
+/// JSON as our files have it: indented, with a line's end.
+///
+/// # Errors
+/// Data that JSON cannot hold.
+pub fn json_text(what: &impl Serialize) -> Result<String, serde_json::Error> {
+    Ok(serde_json::to_string_pretty(what)? + "\n")
 }
 
 /// Hands `fill` a temporary file beside `path` and renames it to `path` once its bytes are on disk. A process killed at

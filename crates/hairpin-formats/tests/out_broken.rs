@@ -53,7 +53,7 @@ fn dictionary() -> DataType {
 fn profiles_survive_another_writer() {
     let place = tempfile::tempdir().unwrap();
     let path = place.path().join("0000.parquet");
-    let witness = campaign().cases[0].profile.clone().unwrap();
+    let witness = campaign().cases[0].profile().cloned().unwrap();
     profile::write(&path, &witness).unwrap();
     rewrite(&path, |name, column| match name {
         "leg" => as_type(column, DataType::Int16),
@@ -127,7 +127,7 @@ fn a_wrong_value_is_named_with_its_place() {
     let path = place.path().join("0000.parquet");
     let campaign = campaign();
     let tamper = |wanted: &'static str, row: usize, value: f64| {
-        profile::write(&path, campaign.cases[0].profile.as_ref().unwrap()).unwrap();
+        profile::write(&path, campaign.cases[0].profile().unwrap()).unwrap();
         rewrite(&path, |name, column| {
             let mut values: Vec<f64> = match name == wanted {
                 true => cast(column, &DataType::Float64)
@@ -155,11 +155,11 @@ fn a_wrong_value_is_named_with_its_place() {
             other => panic!("{column}[{row}] = {value}: {other:?}"),
         }
     }
-    profile::write(&path, campaign.cases[0].profile.as_ref().unwrap()).unwrap();
+    profile::write(&path, campaign.cases[0].profile().unwrap()).unwrap();
     rewrite(&path, |name, column| (name != "c7").then(|| column.clone()));
     let message = profile::read(&path).unwrap_err().to_string();
     assert!(message.contains("0000.parquet") && message.contains("c7") && message.contains("missing"), "{message}");
-    profile::write(&path, campaign.cases[0].profile.as_ref().unwrap()).unwrap();
+    profile::write(&path, campaign.cases[0].profile().unwrap()).unwrap();
     rewrite(&path, |name, column| if name == "c1" { as_type(column, DataType::Utf8) } else { Some(column.clone()) });
     assert!(matches!(profile::read(&path), Err(TableError::Column { column, .. }) if column == "c1"));
 }
@@ -173,7 +173,7 @@ fn no_broken_file_panics() {
     let mut refused = 0;
     for kind in 0..3_u64 {
         match kind {
-            0 => profile::write(&path, campaign.cases[0].profile.as_ref().unwrap()).unwrap(),
+            0 => profile::write(&path, campaign.cases[0].profile().unwrap()).unwrap(),
             1 => results::write(&path, &campaign.cases, &campaign.results).unwrap(),
             _ => runs::write_run(&path, &campaign.runs[1]).unwrap(),
         }

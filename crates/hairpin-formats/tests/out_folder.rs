@@ -5,6 +5,7 @@ mod out_campaign;
 use std::fs;
 use std::path::Path;
 
+use hairpin::campaign::Witness;
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
 use hairpin_formats::parquet::runs::RunFacts;
 use out_campaign::{campaign, planned};
@@ -91,8 +92,8 @@ fn legs_are_as_many_as_there_are_between_waypoints() {
     let place = tempfile::tempdir().unwrap();
     let folder = written(place.path());
     let mut edited = campaign().cases;
-    let legs = &mut edited[0].profile.as_mut().unwrap().legs;
-    legs.pop();
+    let Some(Witness::Profile(profile)) = &mut edited[0].witness else { panic!("the first case has a profile") };
+    profile.legs.pop();
     folder.write_cases(&edited).unwrap();
     let told = folder.read_cases().unwrap_err().to_string();
     assert!(told.contains("0000.parquet") && told.contains("another number of legs"), "{told}");

@@ -21,7 +21,7 @@ fn certified(reach: &str, length: usize, step_s: f64, limits: Value) -> (Setup, 
 
 /// What a case without a witness is: as it was before it was asked about.
 fn check_unwitnessed(case: &Case, claimed: Evidence, step_s: f64) {
-    assert_eq!((case.evidence, &case.profile), (claimed, &None), "case {}", case.number);
+    assert_eq!((case.evidence, &case.witness), (claimed, &None), "case {}", case.number);
     assert!(case.leg_times.iter().all(|time| *time == step_s), "case {}: {:?}", case.number, case.leg_times);
 }
 
@@ -33,7 +33,7 @@ fn yes_where_there_is_time_and_thrust() {
         let what = format!("case {}", case.number);
         assert_eq!((case.certified, case.evidence), (Some("yes"), Evidence::Witnessed), "{what}");
         check_witness(&setup, case, &what);
-        let legs = &case.profile.as_ref().expect("a witness").legs;
+        let legs = &case.profile().expect("a witness").legs;
         assert!(legs.iter().map(|leg| leg.duration).eq(case.leg_times.iter().copied()), "{what}: other leg times");
     }
 }

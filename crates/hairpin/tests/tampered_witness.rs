@@ -4,7 +4,15 @@ mod campaigns;
 
 use campaigns::{asked, run, setup};
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Evidence, verify};
+use hairpin::campaign::{Case, Evidence, Witness, verify};
+use hairpin::trajectory::Profile;
+
+fn profile_of(case: &mut Case) -> &mut Profile {
+    match &mut case.witness {
+        Some(Witness::Profile(profile)) => profile,
+        other => panic!("not a profile: {other:?}"),
+    }
+}
 
 #[test]
 fn any_coefficient_off_by_a_percent_is_found() {
@@ -16,11 +24,11 @@ fn any_coefficient_off_by_a_percent_is_found() {
         let proof = verify(&setup, case).proof.expect("a proof");
         assert!(proof.findings.is_empty(), "{name}, untouched: {:?}", proof.findings);
 
-        let legs = case.profile.as_ref().expect("a witness").legs.len();
+        let legs = case.profile().expect("a witness").legs.len();
         let mut tampered = [0; 3];
         for (leg, axis, power) in (0..legs).flat_map(|l| (0..3).flat_map(move |a| (0..8).map(move |p| (l, a, p)))) {
             let mut wrong = case.clone();
-            let coefficient = &mut wrong.profile.as_mut().expect("a witness").legs[leg].coefficients[axis][power];
+            let coefficient = &mut profile_of(&mut wrong).legs[leg].coefficients[axis][power];
             if *coefficient == 0.0 {
                 continue;
             }

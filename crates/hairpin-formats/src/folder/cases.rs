@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::Case;
+use hairpin::campaign::{Case, Witness};
 use hairpin::trajectory::Track;
 use hairpin::trajectory::program::Program;
 
@@ -26,13 +26,13 @@ impl CampaignFolder {
     /// A file cannot be written.
     pub fn write_new_cases(&self, all: &[Case], old: usize) -> Result<(), FolderError> {
         for case in &all[old..] {
-            if let Some(witness) = &case.profile {
+            if let Some(witness) = case.profile() {
                 profile::write(&self.profile_path(case.number), witness)?;
             }
-            if let Some(witness) = &case.drive {
+            if let Some(witness) = case.commands() {
                 drive::write(&self.profile_path(case.number), witness)?;
             }
-            if let Some(program) = &case.program {
+            if let Some(program) = case.program() {
                 self.write_program(case, program)?;
             }
         }
@@ -53,9 +53,7 @@ impl CampaignFolder {
         let mut all = self.read_cases_without_profiles()?;
         for case in &mut all {
             self.read_witness(case)?;
-            let legs = case.profile.as_ref().map(|witness| witness.legs.len());
-            let legs = legs.or(case.drive.as_ref().map(|witness| witness.legs.len()));
-            if legs.is_some_and(|legs| legs + 1 != case.waypoints.len()) {
+            if case.witness.as_ref().and_then(Witness::legs).is_some_and(|legs| legs + 1 != case.waypoints.len()) {
                 let what = "has another number of legs than between its waypoints";
                 return Err(FolderError::Contradiction {
                     path: self.profile_path(case.number),
@@ -106,17 +104,13 @@ impl CampaignFolder {
     /// # Errors
     /// The file is broken.
     pub fn read_witness(&self, case: &mut Case) -> Result<(), FolderError> {
-        let path = self.program_path(case.number);
-        if path.exists() {
-            case.program = Some(self.read_program(&path, case.number)?);
-        }
-        let path = self.profile_path(case.number);
-        if path.exists() {
-            if drive::is_drive(&path)? {
-                case.drive = Some(drive::read(&path)?);
-            } else {
-                case.profile = Some(profile::read(&path)?);
-            }
+        let (program, profile) = (self.program_path(case.number), self.profile_path(case.number));
+        if program.exists() {
+            case.witness = Some(self.read_program(&program, case.number)?.into());
+        } else if profile.exists() {
+            let drive = drive::is_drive(&profile)?;
+            let witness = if drive { drive::read(&profile)?.into() } else { profile::read(&profile)?.into() };
+            case.witness = Some(witness);
         }
         Ok(())
     }

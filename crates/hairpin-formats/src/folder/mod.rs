@@ -27,11 +27,14 @@
 //! own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
 
 mod cases;
+mod copy;
 mod error;
 mod forget;
+mod graph;
 mod json;
 mod judged;
 mod runs;
+mod scenario;
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -42,6 +45,7 @@ use hairpin::judgement::Stress;
 use crate::atomic::{self, WriteError};
 
 pub use error::FolderError;
+pub use graph::graph_decimals;
 
 const SCENARIO: &str = "scenario.toml";
 const GENERATION: &str = "generation.json";

@@ -7,6 +7,7 @@ use hairpin::campaign::arm::{Baseline, Moves};
 use serde::Deserialize;
 
 use super::resolve::read_file;
+use crate::atomic::json_text;
 use crate::folder::{BASELINE, MOVES};
 
 /// Either file that a campaign folder keeps.
@@ -54,9 +55,8 @@ pub(super) fn read(path: &Path) -> Result<(Baseline, Vec<u8>), String> {
 
 fn written(baseline: Result<Baseline, impl ToString>) -> Result<(Baseline, Vec<u8>), String> {
     let baseline = baseline.map_err(|error| error.to_string())?;
-    let mut bytes = serde_json::to_vec_pretty(&baseline).map_err(|error| error.to_string())?;
-    bytes.push(b'\n');
-    Ok((baseline, bytes))
+    let text = json_text(&baseline).map_err(|error| error.to_string())?;
+    Ok((baseline, text.into_bytes()))
 }
 
 fn parse(bytes: &[u8], path: &Path) -> Result<Kept, String> {

@@ -36,10 +36,3 @@ pub(super) fn attach(scenario: &mut Scenario, folder: &Path) -> Result<(), Wrong
     let above = folder.join("..");
     read(scenario, if folder.join(NAME).is_file() { folder } else { &above })
 }
-
-/// `model` as it is written.
-pub fn model_text(model: &ScoreModel) -> String {
-    let mut text = serde_json::to_string_pretty(model).unwrap_or_default();
-    text.push('\n');
-    text
-}

@@ -22,7 +22,6 @@ use hairpin::campaign::scenario::{KeyPath, RobotKind};
 use toml::Table;
 
 pub use arm::arm_for;
-pub use learned::model_text;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};

@@ -64,7 +64,7 @@ fn case(number: usize, evidence: Evidence) -> Case {
         bound: (number != 1).then_some(4.0),
         evidence,
         certified: (number == 1).then_some("unknown"),
-        profile,
+        witness: profile.map(Into::into),
         ..Case::bare(number, 0xFEDC_BA98_7654_3210 - number as u64, waypoints)
     }
 }

@@ -79,6 +79,61 @@ impl SeenLeg {
     }
 }
 
+/// The commands behind a case, by what carries them out.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Witness {
+    /// The flat outputs of a flight as polynomials of time, leg by leg.
+    Profile(Profile),
+    /// The segments and speeds of a drive.
+    Drive(Drive),
+    /// What an arm runs.
+    Program(Program),
+}
+
+impl From<Profile> for Witness {
+    fn from(profile: Profile) -> Self {
+        Self::Profile(profile)
+    }
+}
+
+impl From<Drive> for Witness {
+    fn from(drive: Drive) -> Self {
+        Self::Drive(drive)
+    }
+}
+
+impl From<Program> for Witness {
+    fn from(program: Program) -> Self {
+        Self::Program(program)
+    }
+}
+
+impl Witness {
+    /// Legs between waypoints; `None` for a program, whose moves may be fewer or more.
+    pub fn legs(&self) -> Option<usize> {
+        match self {
+            Self::Profile(profile) => Some(profile.legs.len()),
+            Self::Drive(drive) => Some(drive.legs.len()),
+            Self::Program(_) => None,
+        }
+    }
+
+    /// The profile, if it is one.
+    pub fn profile(&self) -> Option<&Profile> {
+        if let Self::Profile(profile) = self { Some(profile) } else { None }
+    }
+
+    /// The commands of a drive, if they are.
+    pub fn commands(&self) -> Option<&Drive> {
+        if let Self::Drive(drive) = self { Some(drive) } else { None }
+    }
+
+    /// The program, if it is one.
+    pub fn program(&self) -> Option<&Program> {
+        if let Self::Program(program) = self { Some(program) } else { None }
+    }
+}
+
 /// A generated trajectory: case `number`, counted from 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
@@ -102,12 +157,8 @@ pub struct Case {
     pub evidence: Evidence,
     /// Answer of a certification asked for afterwards: `yes`, `no` or `unknown`.
     pub certified: Option<&'static str>,
-    /// The control witness of a flight.
-    pub profile: Option<Profile>,
-    /// The control witness of a drive.
-    pub drive: Option<Drive>,
-    /// What an arm runs.
-    pub program: Option<Program>,
+    /// The commands that it claims to be carried out by; `None` where it claims no more than its waypoints.
+    pub witness: Option<Witness>,
     /// What was found beside the waypoints of a flight or drive.
     pub environment: Option<Environment>,
 }
@@ -126,11 +177,24 @@ impl Case {
             bound: None,
             evidence: Evidence::Unchecked,
             certified: None,
-            profile: None,
-            drive: None,
-            program: None,
+            witness: None,
             environment: None,
         }
+    }
+
+    /// The polynomials of its witness, if it has these.
+    pub fn profile(&self) -> Option<&Profile> {
+        self.witness.as_ref()?.profile()
+    }
+
+    /// The drive that is its witness, if it is one.
+    pub fn commands(&self) -> Option<&Drive> {
+        self.witness.as_ref()?.commands()
+    }
+
+    /// The program that is its witness, if it is one.
+    pub fn program(&self) -> Option<&Program> {
+        self.witness.as_ref()?.program()
     }
 
     /// The name in files: at least four digits.

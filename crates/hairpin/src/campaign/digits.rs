@@ -13,6 +13,12 @@ pub fn number(value: Option<f64>) -> String {
     }
 }
 
+/// `value` ≥ 0 with its first three digits.
+pub fn three_digits(value: f64) -> String {
+    let decimals = if value > 0.0 { (2.0 - libm::log10(value).floor()).clamp(0.0, 12.0) as usize } else { 0 };
+    format!("{value:.decimals$}")
+}
+
 /// A share from 0 to 1 as `31 %`; below 10 % with one decimal.
 pub fn percent(share: Option<f64>) -> String {
     match share {

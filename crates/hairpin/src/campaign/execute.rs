@@ -69,7 +69,7 @@ fn carry_out(setup: &Setup, mission: &Mission, case: &Case) -> Result<Flight, Si
 fn flight_order<'a>(mission: &'a Mission, case: &'a Case) -> flight::Order<'a> {
     flight::Order {
         waypoints: &mission.waypoints,
-        profile: case.profile.as_ref(),
+        profile: case.profile(),
         accept: mission.accept,
         time_limit: mission.time_limit,
         seed: mission.seed,

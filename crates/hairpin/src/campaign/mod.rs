@@ -10,7 +10,6 @@ pub mod digits;
 pub mod drive;
 pub mod environment;
 pub mod execute;
-pub mod experiment;
 pub mod explain;
 pub mod flight;
 pub mod generate;
@@ -39,7 +38,7 @@ pub mod verdict;
 pub mod verify;
 
 pub use assumptions::assumptions;
-pub use case::{Case, CaseResult, Evidence, Reruns, Run, SeenLeg, Status, Timed};
+pub use case::{Case, CaseResult, Evidence, Reruns, Run, SeenLeg, Status, Timed, Witness};
 pub use compare::{Comparison, compare};
 pub use coverage::{Coverage, Grid};
 pub use curve::Curve;

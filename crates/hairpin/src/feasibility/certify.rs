@@ -1,4 +1,7 @@
 //! A witness searched afterwards for waypoints that something else found: yes, no, or unknown.
+//!
+//! Hull-feasible waypoints are a guess about dynamics; a certificate is the polynomial flight itself. "No" is only said
+//! of what no dynamics could do: distances, times, walls.
 
 use nalgebra::{Point3, Vector3};
 
@@ -13,6 +16,9 @@ const ROUNDS: usize = 100;
 const SLOWER: f64 = 1.12;
 
 /// What is known of a waypoint list.
+///
+/// Of the authors' trajectories that are "valid by construction" a third need more than full thrust: `Unknown` and `No`
+/// are what that looks like here.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Certificate {
     /// A control witness: level at every waypoint, at rest at both ends, all limits proven.
@@ -60,6 +66,8 @@ pub enum Impossible {
 /// Waypoint velocities are those of the minimum-snap curve for the current leg times (in [`LegTiming`]'s range). A leg that
 /// is refused gets more time, and when it has all it may get, less velocity at its ends; the whole is then tried again,
 /// so that leg times and velocities settle together. A witness that takes too long as a whole is none.
+///
+/// At most a hundred rounds, each judging legs until one fails; deterministic.
 pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming, longest_flight: f64) -> Certificate {
     let (shortest, longest) = timing.range();
     if let Some(impossible) = impossible(judge, waypoints, longest, longest_flight) {
@@ -132,6 +140,9 @@ fn first_guess(judge: &LegJudge, length: f64) -> f64 {
     (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
 }
 
+/// What no controller can do within the limits, whatever its inputs: a waypoint that the world does not allow, a leg
+/// longer than the fastest goes in its longest time, and a flight that takes longer than is allowed even if it gains
+/// speed at full acceleration all along.
 fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64, longest_flight: f64) -> Option<Impossible> {
     let max_speed = judge.limits().max_speed;
     let outside = waypoints

@@ -1,4 +1,6 @@
 //! Numbers that must be seen to differ.
+//!
+//! A verdict never says "0.50 m > 0.50 m".
 
 /// Two numbers with as many decimals as it takes to see that they differ, and how far a value below zero is below it: at least `least`.
 pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {

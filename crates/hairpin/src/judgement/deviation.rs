@@ -1,4 +1,7 @@
 //! Which leg each sample belongs to, and how far it is from the reference.
+//!
+//! "Deviation" is from a reference that was asked for: the leg's segment by default, since what a controller makes of a
+//! corner is a matter of overshoot, not of distance from a line nobody commanded.
 
 use nalgebra::Point3;
 

@@ -1,4 +1,7 @@
 //! How partial trajectories of the beam get their scores as they grow: leg by leg, or as a whole.
+//!
+//! What a sum over legs cannot say: that the second leg undoes the first, that a controller is still swinging. Such a
+//! score is of a whole partial trajectory, may be dear, and may have to be refused.
 
 use super::objective::{Aggregate, LegView, Objective};
 
@@ -15,6 +18,9 @@ pub struct Parent<'a, M> {
 
 /// What scores partial trajectories over nodes `N`. An [`Objective`] does it leg by leg ([`ByLegs`]); what knows a score only of the
 /// whole, as executions do, or cannot score all, implements this.
+///
+/// Order is fixed: [`Growth::meet`] with all legs of a parent, then [`Growth::extend`] for each in the same order; a
+/// growth may thereby deal a budget out over them.
 pub trait Growth<N> {
     /// What is carried along a partial trajectory.
     type Memory: Clone;

@@ -10,6 +10,8 @@ use super::task::{Found, Task};
 use crate::feasibility::reach::{Leg, LegFeatures, Reach};
 
 /// A node of a task without an end.
+///
+/// `Over` keeps the node that it was entered from apart, since trajectories that end elsewhere are other trajectories.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum OpenNode<N> {
     /// The reach set's own.
@@ -23,6 +25,8 @@ pub enum OpenNode<N> {
 /// ```text
 /// task(start) · score(objective) · settings.length + 1 · may_arrive   →   closed(found)
 /// ```
+///
+/// A wrapper, so that no search has a second way to end: beam, exact, uniform and loop see one more candidate.
 #[derive(Debug, Clone)]
 pub struct OpenEnd<R> {
     inner: R,

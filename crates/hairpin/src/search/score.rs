@@ -1,4 +1,8 @@
 //! Scores by hand: what is called stressful of a leg.
+//!
+//! Pure numbers but for `Ground`, and hypotheses: which of them predicts what a controller handles badly is measured
+//! (EXPERIMENTS.md), and differs from controller to controller. `random` and the `high-velocity` family are the paper's
+//! (Hildebrandt et al., ISSTA 2020), the others ours.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -10,6 +14,9 @@ use crate::math::power::{power, square};
 use crate::math::random::hashed_unit;
 
 /// The scores that have names.
+///
+/// With Λ_T = 1 − |α − T|/T: 1 at the turn T, 0 straight on, and at T = 90° also 0 for a leg straight back. α in [0,
+/// π]; on a first leg 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Score {
     /// A uniform number in [0, 1) per pair of waypoints, a pure function of `seed` and the two indices.
@@ -113,6 +120,9 @@ impl Score {
     }
 
     /// The score called `name`. `v_max` (m/s) is the farthest sampled end ÷ step; `seed` is that of `random`.
+    ///
+    /// # Errors
+    /// An unknown name; a top speed that is no positive number.
     pub fn named(name: &str, seed: u64, v_max: f64) -> Result<Self, ScoreMistake> {
         let score = match name {
             "random" => return Ok(Score::Random { seed }),

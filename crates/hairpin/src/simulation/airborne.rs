@@ -48,6 +48,8 @@ pub fn fly(
 ///
 /// It halts at the moment a waypoint is reached, before anything is decided that depends on the next one. That takes a controller
 /// which knows of one waypoint at a time ([`super::ControllerKind::plans_ahead`]). Copies share the log of what they have flown together.
+///
+/// `Clone` copies plant, loops, streams and progress: what a beam carries along with a partial trajectory.
 #[derive(Debug, Clone)]
 pub struct Airborne {
     run: ClosedLoop,

@@ -1,4 +1,7 @@
 //! Closes the loop over plant and controller.
+//!
+//! Three clocks, all whole multiples of the physics' step: physics, rate loop (about 1 ms), outer loop (the
+//! controller's own). Looks at waypoints and hazards and the log have theirs.
 
 use multiversion::multiversion;
 use nalgebra::{Point3, Vector3};
@@ -34,6 +37,8 @@ pub struct Sortie<'a> {
 }
 
 /// How a run is simulated, ended and logged.
+///
+/// Numbers out of bounds are an error that names the field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlySettings {
     /// Step of the physics, s: 1e-5 … 1e-3.

@@ -1,4 +1,7 @@
 //! What ends a run early: ground, obstacles, walls, turning over; and the note that the world was left.
+//!
+//! Looked at every 10 ms: chords between looks, not points, are held against obstacles. What the run is judged by is
+//! the judge's; this only ends it.
 
 use nalgebra::{Point3, Vector3};
 

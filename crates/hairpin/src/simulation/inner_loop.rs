@@ -1,4 +1,13 @@
 //! The loops that every controller flies on: attitude to body rates, body rates to moments, moments to rotor speeds.
+//!
+//! ```text
+//! attitude   ω_wanted = ω_ff + 2 k sgn(e_w) e,          e = q* ⊗ q_wanted, k = 0.35 · bandwidth
+//! rates      α = p (ω_wanted − ω) + i ∫ − d ω̇ + α_ff + ω × Iω / I,   ω through a gyro low-pass of 30 Hz
+//! rotors     w² by the mixer
+//! ```
+//!
+//! One set of loops under every controller, so that what is compared is what they ask for. Gains follow from the
+//! robot's rotor lag; none is tuned to a course.
 
 use nalgebra::{Vector3, Vector4};
 use wide::f64x4;

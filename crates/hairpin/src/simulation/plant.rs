@@ -8,6 +8,8 @@ use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// [x y z, qw qx qy qz, vx vy vz, p q r, w1 w2 w3 w4]: position and velocity in the world, `world_from_body`, body
 /// rates, rotor speeds; m, m/s, rad/s.
+///
+/// The first thirteen are a [`crate::robot::quadrotor::QuadrotorState`].
 pub type PlantState = SVector<f64, 17>;
 
 /// Index of the position in a [`PlantState`].
@@ -25,6 +27,31 @@ pub(super) const ROTORS: usize = 13;
 ///
 /// u are the rotor speeds asked for, w the actual ones, T the lag, a the velocity of the air, F and M the force (world)
 /// and moment (body) disturbing it. Without lag w = u and the rotor states stay as they are.
+///
+/// The claim's equations ([`Quadrotor`]) with three terms more, none of which a planner knows. Commands beyond the
+/// rotors' limits are the controller's to avoid; [`Stepper`](super::Stepper) takes them as they are.
+///
+/// ```
+/// use hairpin::math::integrate::rk4_step;
+/// use hairpin::robot::Dynamics;
+/// use hairpin::robot::quadrotor::QuadrotorDescription;
+/// use hairpin::simulation::Plant;
+/// use nalgebra::{Vector3, Vector4};
+///
+/// let file = serde_json::json!({
+///     "kind": "quadrotor", "name": "toy", "mass_kg": 0.5, "thrust_to_weight": 2.0, "rotor_time_constant_s": 0.05,
+///     "rotors": [{ "x_m": 0.1, "y_m": 0.1, "spin": 1.0 }, { "x_m": -0.1, "y_m": 0.1, "spin": -1.0 },
+///                { "x_m": -0.1, "y_m": -0.1, "spin": 1.0 }, { "x_m": 0.1, "y_m": -0.1, "spin": -1.0 }],
+/// });
+/// let robot = serde_json::from_value::<QuadrotorDescription>(file)?.build()?;
+/// let plant = Plant::new(&robot);
+/// // Rotors at rest, hover asked for: after one time constant they turn at 1 − 1/e of it, and the robot has dropped.
+/// let hover = Vector4::repeat(robot.hover_speed());
+/// let start = Plant::at_rest(&Vector3::new(0.0, 0.0, 5.0), &Vector4::zeros());
+/// let end = (0..50).fold(start, |x, _| rk4_step(|x| plant.derivative(x, &hover), &x, 0.001));
+/// assert!((end[13] / hover[0] - (1.0 - (-1f64).exp())).abs() < 1e-6 && end[2] < 5.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Plant {
     pub(super) inverse_mass: f64,
@@ -116,6 +143,9 @@ impl Dynamics for Plant {
 
     const STATE: &'static [Quantity] = &QUANTITIES;
 
+    /// ṗ = v; q̇ = ½ q ⊗ (0, ω); v̇ = (R e₃ u₁ − (c₁ + c₂|v − w|)(v − w) + f)/m − g e₃; J ω̇ = τ + d − c_m|ω|ω − ω ×
+    /// Jω; Ω̇ = (Ω_cmd − Ω)/T_m, or Ω = Ω_cmd where T_m = 0. World frame for p, v, air w and force f; body frame for ω
+    /// and moments.
     fn derivative(&self, state: &PlantState, control: &Vector4<f64>) -> PlantState {
         let q = &state.as_slice()[ATTITUDE..ATTITUDE + 4];
         let v: Vector3<f64> = state.fixed_rows::<3>(VELOCITY).into_owned();

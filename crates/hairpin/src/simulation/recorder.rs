@@ -1,4 +1,7 @@
 //! The log of a run: poses and channels at a fixed rate, in columns that are allocated once.
+//!
+//! Columns are the judge's and the files' (names with units). Copies of a run in mid-air share the log of what they
+//! flew together.
 
 use std::sync::Arc;
 

@@ -36,6 +36,21 @@ const ROUNDING: f64 = 1e-9;
 const RESOLUTION: f64 = 1e-4;
 
 /// All solids that the path comes too near to, with the place where it is nearest to them.
+///
+/// Doubles with 1 nm of room, not intervals. A path that touches a solid at exactly the clearance is decided by that
+/// room.
+///
+/// ```
+/// use hairpin::verification::{ClearClaim, ClearSolid, Leg, verify_clear};
+///
+/// // Along x past a ball of 1 m whose centre is 3 m aside: 2 m are left.
+/// let along = [[0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 8], [0.0; 8]];
+/// let legs = [Leg { duration: 2.0, coefficients: along }];
+/// let solids = [ClearSolid::Ball([5.0, 3.0, 0.0], 1.0)];
+/// let claim = |clearance| ClearClaim { legs: &legs, solids: &solids, clearance };
+/// assert!(verify_clear(&claim(1.9)).is_empty());
+/// assert_eq!(verify_clear(&claim(2.1)).len(), 1);
+/// ```
 pub fn verify_clear(claim: &ClearClaim) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (number, solid) in claim.solids.iter().enumerate() {

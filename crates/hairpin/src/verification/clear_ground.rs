@@ -15,6 +15,8 @@ pub struct ClearDisc {
 }
 
 /// What is planned.
+///
+/// `Straight` is for reach sets that claim no more than straight legs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClearDrive<'a> {
     /// Commands, each leg from its own start.

@@ -7,6 +7,8 @@ use super::pace::{PaceClaim, check_speeds};
 use crate::world::terrain::Terrain;
 
 /// One leg of a drive as it was written.
+///
+/// As the campaign's table of legs has it: a leg stands on its own, and joints are checked beside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveLegClaim {
     /// x, y (m), ψ (rad), κ (1/m) at its first waypoint.
@@ -58,6 +60,8 @@ pub struct DrivesClaim<'a> {
 }
 
 /// What a leg may leave open, and what it must keep.
+///
+/// In a campaign position, heading and curvature are the precision that the generator itself was asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveTolerances {
     /// Distance from the leg's last waypoint, m.
@@ -87,6 +91,9 @@ const ROUNDING: f64 = 1e-6;
 
 /// Integrates the written commands of every leg on the ground: each must end in the next waypoint's pose, keep its bounds,
 /// and begin where the one before ends. Whatever is wrong is a finding; nothing panics on what a file may hold.
+///
+/// Fields of findings: `legs[k].end…`, `legs[k].start…`, bounds and speeds by their names. One replay a leg, 2000 steps
+/// or more each.
 pub fn verify_drives<T: Terrain>(
     vehicle: &GroundVehicle,
     terrain: &T,

@@ -3,6 +3,8 @@
 use std::fmt::Display;
 
 /// What a proof may leave open.
+///
+/// What a proof was held to belongs to it: reports state these beside the findings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
     /// Distance from the next waypoint at the end of a leg, and from the polynomial on the way, m.
@@ -60,6 +62,8 @@ pub struct EndError {
 }
 
 /// Something that does not hold.
+///
+/// `value` and `bound` in `unit`, with `value` > `bound` (of a minimum `value` < `bound`), or not a number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// What: `legs[2].end.velocity`, `legs[0].rotor3.max`, `legs`, ….
@@ -77,6 +81,8 @@ pub struct Finding {
 }
 
 /// What verification found, condition by condition.
+///
+/// Worst values are told whether or not they violate anything.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proof {
     /// Leg by leg, from each leg's own start: distance from the next waypoint, m.

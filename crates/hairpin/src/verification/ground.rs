@@ -8,6 +8,8 @@ use super::twist::{Place, carry};
 use crate::world::terrain::{NoGround, Terrain};
 
 /// The vehicle, as plain numbers.
+///
+/// Units in the names, as in files: what is compared here is a file with a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroundVehicle {
     /// How it stands.
@@ -113,6 +115,9 @@ const TURN_STEP: f64 = 0.005;
 /// wheels at each; an exact vehicle is carried from rest to rest by the twist between them. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
 /// drive that begins in reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a
 /// turn in place, the wheels swing to what comes.
+///
+/// ẋ, ẏ, ψ̇ are Howard and Kelly's (IJRR 26(2), 2007) of the commanded twist after slip; with `exact` they are not
+/// rates at all, but the rest whose screw from the last one has that twist.
 ///
 /// # Errors
 /// [`Stopped`] where the ground ends or the body finds no rest.

@@ -1,4 +1,7 @@
 //! The speeds of a drive as they were written: do they fit together, and could the vehicle keep them?
+//!
+//! Between two knots v² is linear, so that acceleration is constant, (v₁² − v₀²)/2Δs, and a stretch takes 2Δs/(v₀ +
+//! v₁): no other integral is needed.
 
 use super::drive::DrivePiece;
 use super::finding::Collector;

@@ -17,6 +17,9 @@ use crate::math::power::square;
 /// A coefficient c_i that is off by 1 % moves a derivative of order k at the leg's end by 0.01 c_i i!/(i−k)! T^(i−k),
 /// which is found if it exceeds [`Tolerances::knots`] plus 1e-12 of the sum of that derivative's terms: at the default,
 /// with legs of 0.8 s and longer, every coefficient of magnitude 1e-6 m/s^i or more.
+///
+/// Each leg is integrated at halved steps until two runs agree to what [`Tolerances::accuracy`] asks for, so that
+/// accuracy is estimated and not assumed.
 pub fn verify(body: &Body, claim: &Claim, tolerances: &Tolerances) -> Proof {
     let mut proof = Proof::default();
     let refuse =
@@ -48,6 +51,9 @@ pub fn verify(body: &Body, claim: &Claim, tolerances: &Tolerances) -> Proof {
 
 /// The end error of the whole flight, open loop, with rotors that lag behind the demand: what the claim leaves out.
 /// `None` where the claim or the body cannot be flown at all. Without a time constant the rotors do not lag.
+///
+/// ẇ = (w_demanded − w)/τ for each rotor. The claim leaves lag out, since snap jumps at waypoints and rotor speeds with
+/// it; this number says how much that is.
 pub fn open_loop_with_lag(body: &Body, claim: &Claim) -> Option<EndError> {
     let sound = claim.legs.len() + 1 == claim.waypoints.len() && claim.legs.iter().all(Leg::is_finite);
     let first = claim.legs.first().filter(|_| sound && body.is_physical())?;
@@ -64,6 +70,8 @@ pub fn open_loop_with_lag(body: &Body, claim: &Claim) -> Option<EndError> {
     Some(end_error(&state, claim))
 }
 
+/// At both ends of every leg: position at the waypoint, velocity that of the leg before (rest at the flight's ends),
+/// thrust that carries the weight and points up, no turning; each within `knots` and the rounding of its polynomial.
 fn check_knots(proof: &mut Proof, body: &Body, claim: &Claim, tolerances: &Tolerances) {
     let ends: Vec<f64> = claim
         .legs
@@ -86,6 +94,9 @@ fn check_knots(proof: &mut Proof, body: &Body, claim: &Claim, tolerances: &Toler
     }
 }
 
+/// Flies each leg twice: from the state that its own polynomial begins with, which must end in the state at the next
+/// waypoint; and from where the leg before was flown to, so that what errors add up to over the whole flight is known
+/// ([`Proof::open_loop`]) without being judged.
 fn fly_legs(proof: &mut Proof, flyer: &Flyer, claim: &Claim, tolerances: &Tolerances) {
     let mut began = 0.0;
     let mut chained = level(claim.waypoints[0], velocity_at(&claim.legs[0], 0.0));

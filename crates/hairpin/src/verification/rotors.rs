@@ -1,4 +1,7 @@
 //! Rotor speeds against the robot's limits, all along a leg.
+//!
+//! A grid of [`Tolerances::grid`] and golden sections where an extreme comes within 2 % of a limit (of squared speed):
+//! what the claim proved by enclosures is looked for again by samples.
 
 use super::claim::Leg;
 use super::finding::{Collector, Proof, Tolerances, Worst, note};

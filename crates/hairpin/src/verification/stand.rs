@@ -2,6 +2,9 @@
 //!
 //! Nothing is shared with the robot's own suspension: wheels are placed by matrices, derivatives are differences, the linear
 //! systems are solved by a general decomposition.
+//!
+//! F(q) = 0 by Newton with central differences of width 1e-6 to 1e-2, an inverse Jacobian borrowed from the
+//! neighbouring rest as long as it helps, halved steps, and the same order of falls as the claim's own, typed again.
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
@@ -169,6 +172,12 @@ impl Rest {
         if upright { Ok(()) } else { Err(NoRest::NotFound) }
     }
 
+    /// Newton's method for F(q) = 0 from where the last place came to rest: q ← q − J⁺ F(q).
+    ///
+    /// First the neighbour's J⁺ is used again, as long as each step is at most half of the one before (not on four
+    /// wheels, whose gaps end at a least that depends on it). Then a J of its own is taken at each iteration, by
+    /// central differences, and the step, at most [`FARTHEST`], is halved until ‖F‖ falls; every other [`LEAPS`]
+    /// iterations take it whole, which leads out of corners. At rest where a step is below [`CLOSED`] (m and rad).
     fn approach<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
         if *stand == Stand::Level {
             return Ok(());
@@ -274,6 +283,8 @@ fn wheels(stand: &Stand, unknowns: &Unknowns) -> ([Vector3<f64>; 6], usize, f64)
     }
 }
 
+/// ∂F/∂q by central differences, whose error is O(width²) where the ground is smooth; columns of unknowns that the
+/// stand does not have are 0.
 fn jacobian<T: Terrain>(
     stand: &Stand,
     terrain: &T,

@@ -3,6 +3,9 @@
 //! Commanded are vx, vy and ωz in the body; vz, ωx and ωy are whatever keeps the wheels on the ground. So the next rest is the one that
 //! a motion with these three leads to: it is looked for, and the twist is measured between the two poses as a screw. No rates of
 //! angles, no gradient of the suspension.
+//!
+//! log of the relative pose: rotation R₀ᵀR₁ as axis times angle, translation by the screw's mean frame. Three numbers
+//! of it are commanded, three are the ground's.
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -9,6 +9,8 @@
 //! a point that is visited less often has so many times neither its a nor its b spent.
 
 /// A path and what proves that it is the heaviest.
+///
+/// The proof's steps are read in any order; one that is missing, or a way out of a part that no branch has, is told.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WalkClaim {
     /// Number of points.
@@ -58,6 +60,8 @@ pub fn verify_walk(claim: &WalkClaim) -> Vec<String> {
     check_path(claim).and_then(|()| check_tree(claim)).err().into_iter().collect()
 }
 
+/// The path on its own, O(n² + its length): it leads from the asked start to the asked end, no point comes more than
+/// `visits` times, every arc exists and none is used twice, and its costs, summed in 128 bits, are the cost claimed.
 fn check_path(claim: &WalkClaim) -> Result<(), String> {
     let n = claim.points;
     if n == 0 || claim.costs.len() != n * n || claim.visits == 0 {
@@ -89,6 +93,13 @@ fn check_path(claim: &WalkClaim) -> Result<(), String> {
     if sum == i128::from(claim.cost) { Ok(()) } else { Err(format!("the path costs {sum}, not {}", claim.cost)) }
 }
 
+/// Goes through the tree from its root with what is decided of every arc: free, used, gone. O(steps · n²).
+///
+/// A leaf is closed if its bound is no more than the cost claimed. A split names points C, never the dummy among them:
+/// a path either meets none of C, which is the branch without them and may be missing only where a used arc touches C;
+/// or it leaves C, for it has to come back to the dummy. The k-th way uses one arc that leads out of C and has those of
+/// the ways before it gone; after the last one no arc out of C may be left. So no path is lost. Steps refer to later
+/// ones only and each is met exactly once: the walk ends, and nothing of the claim goes unread.
 fn check_tree(claim: &WalkClaim) -> Result<(), String> {
     let nodes = claim.points + 1;
     let start: Vec<u8> =
@@ -169,6 +180,8 @@ fn without(states: &[u8], touches: impl Fn(usize) -> bool) -> Vec<u8> {
     states.iter().enumerate().map(left).collect()
 }
 
+/// The bound of this file's head for given prices, exact in 128 bits. It holds for any prices whatever, so that where
+/// they came from needs no trust: poor ones make a weak bound, never a wrong one.
 fn bound(claim: &WalkClaim, states: &[u8], prices: &[i64]) -> Option<i128> {
     let nodes = claim.points + 1;
     if prices.len() != 2 * nodes {

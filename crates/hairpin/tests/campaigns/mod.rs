@@ -73,7 +73,7 @@ pub(crate) fn check_witness(setup: &Setup, case: &Case, what: &str) {
     let proof = verify(setup, case).proof.expect("a witnessed case has a proof");
     assert!(proof.findings.is_empty(), "{what}: {:?}", proof.findings);
     let radius = setup.flight().expect("a flight").robot.clearance_radius;
-    for leg in &case.profile.as_ref().expect("a witness").legs {
+    for leg in &case.profile().expect("a witness").legs {
         for k in 0..=1000 {
             let t = leg.duration * f64::from(k) / 1000.0;
             let horner = |c: &[f64; 8]| c.iter().rev().fold(0.0, |sum, c| sum * t + c);

@@ -58,9 +58,7 @@ fn read_cases(table: &Table) -> Result<Vec<Case>, TableError> {
                 evidence: Evidence::from_word(&evidence[row])
                     .ok_or_else(|| word("evidence", &evidence[row], "unchecked, hull-feasible or witnessed"))?,
                 certified: certified[row].as_ref().map(known).transpose()?,
-                profile: None,
-                drive: None,
-                program: None,
+                witness: None,
                 environment: environments[row].clone(),
             })
         })

@@ -89,7 +89,7 @@ pub(in crate::campaign) fn run(
 /// # Errors
 /// There is none, as in a folder that was edited.
 pub(super) fn program_of(case: &Case) -> Result<&Program, SimulationError> {
-    case.program.as_ref().ok_or_else(|| SimulationError::new("program", "none".into(), "the program of the case"))
+    case.program().ok_or_else(|| SimulationError::new("program", "none".into(), "the program of the case"))
 }
 
 /// The recording with the leg that is being driven, the velocity, and the joints in degrees.

@@ -36,7 +36,7 @@ impl ArmSetup<'_> {
     pub fn moves(&self, cases: &[Case], runs: &[RunDeviation]) -> Moves {
         let of = |case: &Case| {
             let own: Vec<&RunDeviation> = runs.iter().filter(|run| run.case == case.number).collect();
-            CaseMoves::of(case, case.program.as_ref()?, &own)
+            CaseMoves::of(case, case.program()?, &own)
         };
         Moves { cases: cases.iter().filter_map(of).collect() }
     }

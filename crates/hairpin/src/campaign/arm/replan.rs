@@ -18,7 +18,7 @@ impl Replanner {
     /// # Errors
     /// A case whose program is no way from home through the scenario's cloud and back, in a sentence's part.
     pub(in crate::campaign) fn new(setup: &ArmSetup, case: &Case) -> Result<Self, String> {
-        let program = case.program.clone().ok_or("the case has no program")?;
+        let program = case.program().cloned().ok_or("the case has no program")?;
         let graph = graph_of(setup)?;
         let between = program.moves.get(1..program.moves.len().saturating_sub(1)).unwrap_or_default();
         let row = |name: &str| (0..graph.points()).find(|row| setup.point_name(*row) == name);
@@ -66,7 +66,7 @@ impl Replanner {
             leg_times,
             score: costs.iter().sum::<i64>() as f64 * self.graph.unit,
             bound: None,
-            program: Some(program),
+            witness: Some(program.into()),
             ..self.case.clone()
         })
     }

@@ -192,9 +192,7 @@ impl ArmSetup<'_> {
                 ArmMode::Cartesian => Evidence::ClearToolSphere,
             },
             certified: None,
-            profile: None,
-            drive: None,
-            program: Some(program),
+            witness: Some(program.into()),
             environment: None,
         }
     }

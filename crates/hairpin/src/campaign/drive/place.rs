@@ -60,7 +60,7 @@ pub(in crate::campaign) fn place(
 impl<'a> Claimed<'a> {
     /// What stands behind `case`; `None` for a drive that the ground does not carry.
     fn by(setup: &DriveSetup, case: &'a Case) -> Option<Self> {
-        let Some(drive) = &case.drive else { return Some(Self::Straight(&case.waypoints)) };
+        let Some(drive) = case.commands() else { return Some(Self::Straight(&case.waypoints)) };
         let site = DriveSite::new(setup.planner, setup.map, setup.keep_out);
         DriveLooks::along(&site, &settings(setup).ok()?, drive).map(Self::Drive)
     }

@@ -20,7 +20,7 @@ pub(in crate::campaign) fn track(setup: &DriveSetup, case: &Case) -> Result<Trac
 
 /// The commands of `case`, or the straight way where it has none.
 pub(super) fn drive_of(setup: &DriveSetup, case: &Case) -> Drive {
-    case.drive.clone().unwrap_or_else(|| straight_legs(setup, &case.waypoints))
+    case.commands().cloned().unwrap_or_else(|| straight_legs(setup, &case.waypoints))
 }
 
 /// The timed reference of a mission at `rate` (Hz).

@@ -21,7 +21,7 @@ pub(in crate::campaign) fn replan(
     let on_ground = |p: &Point3<f64>| Some(Point3::new(p.x, p.y, setup.map.patch(p.x, p.y).ok()?.height));
     let waypoints: Vec<Point3<f64>> = points.iter().map(on_ground).collect::<Option<_>>()?;
     let undriven = |leg_times| Case { waypoints: waypoints.clone(), leg_times, bound: None, ..case.clone() };
-    if let Some(drive) = &case.drive {
+    if let Some(drive) = case.commands() {
         let passings: Vec<Passing> = indices
             .iter()
             .zip(&waypoints)
@@ -29,7 +29,7 @@ pub(in crate::campaign) fn replan(
             .collect::<Option<_>>()?;
         let drive = Solver::new(*setup).ok()?.through(case.graph, &passings)?;
         let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
-        return Some(Case { drive: Some(drive), ..undriven(leg_times) });
+        return Some(Case { witness: Some(drive.into()), ..undriven(leg_times) });
     }
     if case.leg_times.is_empty() {
         return Some(undriven(Vec::new()));

@@ -84,13 +84,13 @@ impl<'a> Solver<'a> {
         if let Some(stepwise) = &self.stepwise {
             return Some(Plan { seen: stepwise.follows(&waypoints)?, waypoints, bound: None, ..plan.clone() });
         }
-        let old = plan.drive.as_ref()?;
+        let old = plan.witness.as_ref()?.commands()?;
         let passings: Option<Vec<Passing>> =
             waypoints.iter().enumerate().map(|(index, p)| Some(old.passing(index)?.moved_to(p))).collect();
         let drive = self.through(graph, &passings?)?;
         let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
         // No search saw its legs.
-        Some(Plan { waypoints, leg_times, seen: Vec::new(), drive: Some(drive), bound: None, ..plan.clone() })
+        Some(Plan { waypoints, leg_times, seen: Vec::new(), witness: Some(drive.into()), bound: None, ..plan.clone() })
     }
 
     /// The drive over waypoints passed as `passings` say, in order, solved as one of graph number `graph` is.
@@ -162,7 +162,7 @@ impl<'a> Solver<'a> {
             let drive = roadmap.drive(&found.nodes)?;
             // With stops, which the search does not see before it knows what follows what.
             let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
-            Some(Plan { leg_times, drive: Some(drive), ..Plan::new(&found, points, Evidence::Witnessed) })
+            Some(Plan { leg_times, witness: Some(drive.into()), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
         let score = learned(self.setup.scenario, &graph.looped).unwrap_or(AnyScore::Named(Score::Ground));
         let also = beside(&graph.looped);

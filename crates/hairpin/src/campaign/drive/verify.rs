@@ -15,7 +15,7 @@ use crate::verification::{
 /// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that claims no
 /// witness.
 pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
-    let drive = case.drive.as_ref()?;
+    let drive = case.commands()?;
     let legs = leg_claims(case, drive);
     let waypoints = waypoints_of(case);
     let claim = DrivesClaim { waypoints: &waypoints, legs: &legs, speed: drive.speed, turn_rate: drive.turn_rate };
@@ -72,7 +72,7 @@ pub(in crate::campaign) fn verify_environment(
             found.above(format_args!("keep_out[{number}].radius_m"), disc.radius, placed.radius_m, "m");
         }
     }
-    let legs = case.drive.as_ref().map(|drive| leg_claims(case, drive));
+    let legs = case.commands().map(|drive| leg_claims(case, drive));
     let waypoints = waypoints_of(case);
     let claim = ClearGroundClaim {
         drive: legs.as_deref().map_or(ClearDrive::Straight(&waypoints), ClearDrive::Legs),

@@ -62,7 +62,7 @@ impl Certifier {
                 plan.certified = Some("yes");
                 plan.evidence = Evidence::Witnessed;
                 plan.leg_times = profile.legs.iter().map(|leg| leg.duration).collect();
-                plan.profile = Some(profile);
+                plan.witness = Some(profile.into());
             }
             Certificate::No(_) => plan.certified = Some("no"),
             Certificate::Unknown { .. } => plan.certified = Some("unknown"),

@@ -42,7 +42,7 @@ pub(in crate::campaign) fn place(
 /// Whether every planned leg of `case` keeps the robot's radius from `shape`: its witness everywhere on it, else its straight legs.
 fn leaves_clear(setup: &FlightSetup, case: &Case, shape: &Shape) -> bool {
     let radius = setup.robot.clearance_radius;
-    let Some(profile) = &case.profile else {
+    let Some(profile) = case.profile() else {
         return case.waypoints.windows(2).all(|leg| shape.segment_distance(&leg[0], &leg[1]) >= radius);
     };
     let obstacle = Obstacle { name: String::new(), shape: shape.clone() };
@@ -53,7 +53,7 @@ fn leaves_clear(setup: &FlightSetup, case: &Case, shape: &Shape) -> bool {
 
 /// The plan as a chain of segments.
 fn way(case: &Case) -> Vec<Point3<f64>> {
-    let Some(profile) = &case.profile else { return case.waypoints.clone() };
+    let Some(profile) = case.profile() else { return case.waypoints.clone() };
     let along = profile
         .legs
         .iter()

@@ -34,7 +34,7 @@ fn locate(leg_times: &[f64], t: f64) -> (usize, f64) {
 
 fn sample(case: &Case, t: f64) -> (usize, Timed) {
     let (leg, tau) = locate(&case.leg_times, t);
-    if let Some(profile) = &case.profile {
+    if let Some(profile) = case.profile() {
         let piece = &profile.legs[leg];
         return (leg, Timed { t, position: piece.position(tau), velocity: piece.derivative(tau, 1) });
     }
@@ -64,7 +64,7 @@ pub(in crate::campaign) fn track(robot: &Quadrotor, case: &Case) -> Result<Track
     for &t in &times {
         let (leg, tau) = locate(&case.leg_times, t);
         let now = sample(case, t).1;
-        let attitude = match (&case.profile, &flatness) {
+        let attitude = match (case.profile(), &flatness) {
             (Some(profile), Some(flatness)) => flatness.body_state(&profile.legs[leg], tau).attitude,
             _ => UnitQuaternion::identity(),
         };
@@ -82,5 +82,5 @@ pub(in crate::campaign) fn track(robot: &Quadrotor, case: &Case) -> Result<Track
 /// The case at 1 m/s along its legs; those of no length take a stamp's time.
 fn paced(case: &Case) -> Case {
     let leg_times = case.waypoints.windows(2).map(|leg| (leg[1] - leg[0]).norm().max(1.0 / RATE)).collect();
-    Case { leg_times, profile: None, ..case.clone() }
+    Case { leg_times, witness: None, ..case.clone() }
 }

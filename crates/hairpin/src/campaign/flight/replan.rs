@@ -24,7 +24,7 @@ pub(in crate::campaign) fn replan(setup: &FlightSetup, case: &Case, points: &[Po
         Some(Case {
             waypoints: points.to_vec(),
             leg_times,
-            profile: None,
+            witness: None,
             bound: None,
             certified: None,
             ..case.clone()
@@ -38,7 +38,7 @@ pub(in crate::campaign) fn replan(setup: &FlightSetup, case: &Case, points: &[Po
             };
             let Certificate::Yes(profile) = answer else { return None };
             let leg_times = profile.legs.iter().map(|leg| leg.duration).collect();
-            Some(Case { profile: Some(profile), certified: case.certified, ..unwitnessed(leg_times)? })
+            Some(Case { witness: Some(profile.into()), certified: case.certified, ..unwitnessed(leg_times)? })
         }
         _ if made_elsewhere => unwitnessed(Vec::new()),
         _ => {

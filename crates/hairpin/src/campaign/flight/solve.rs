@@ -105,7 +105,7 @@ impl<'a> Solver<'a> {
                 let Certificate::Yes(profile) = set.through(points) else { return None };
                 let leg_times = profile.legs.iter().map(|leg| leg.duration).collect();
                 // No search chose its velocities.
-                Some(Plan { leg_times, seen: Vec::new(), profile: Some(profile), ..plan })
+                Some(Plan { leg_times, seen: Vec::new(), witness: Some(profile.into()), ..plan })
             }
         }
     }

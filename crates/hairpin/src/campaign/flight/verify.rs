@@ -13,7 +13,7 @@ use super::FlightSetup;
 /// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances: the proof,
 /// and the end error of the whole flight with rotor lag. `None` for a case that claims no witness.
 pub(in crate::campaign) fn verify(robot: &Quadrotor, case: &Case) -> Option<(Proof, Option<EndError>)> {
-    let profile = case.profile.as_ref()?;
+    let profile = case.profile()?;
     let body = body_of(robot);
     let waypoints: Vec<[f64; 3]> = case.waypoints.iter().map(|p| [p.x, p.y, p.z]).collect();
     let legs: Vec<Leg> =
@@ -112,7 +112,7 @@ pub(in crate::campaign) fn verify_environment(
         let fine = gust.duration_s == lasts && lasts > 0.0;
         found.unless(fine, "discrete_gust.duration_s", gust.duration_s, lasts, "s");
     }
-    let legs = match &case.profile {
+    let legs = match case.profile() {
         Some(profile) => {
             profile.legs.iter().map(|leg| Leg { duration: leg.duration, coefficients: leg.coefficients }).collect()
         }

@@ -68,7 +68,7 @@ impl<'a> Witness<'a> {
         let plan = |found: Found<WitnessNode>| {
             let profile = roadmap.profile(&found.nodes).ok()?;
             let fits = profile.duration() <= longest;
-            fits.then(|| Plan { profile: Some(profile), ..Plan::new(&found, points, Evidence::Witnessed) })
+            fits.then(|| Plan { witness: Some(profile.into()), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
         let top_speed = self.judge.top_speed();
         let question = Question {

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use super::graph::{Executions, Outcome, Partials, Plan, Wanted, fingerprint};
 use super::scenario::{EXECUTED, SearchMethod};
 use super::setup::Kind;
-use super::{Case, Scenario, Setup, Stop, Tally, arm, drive, flight, trial, vary};
+use super::{Case, Scenario, Setup, Stop, Tally, Witness, arm, drive, flight, trial, vary};
 use crate::math::random::case_seed;
 use crate::simulation::Airborne;
 use crate::trajectory::program::{Motion, Program};
@@ -197,7 +197,7 @@ struct Collector<'a> {
 
 impl<'a> Collector<'a> {
     fn new(setup: &'a Setup, known: &Known) -> Self {
-        let seen = known.cases.iter().map(|case| fingerprint(met(&case.waypoints, case.program.as_ref()))).collect();
+        let seen = known.cases.iter().map(|case| fingerprint(met(&case.waypoints, case.program()))).collect();
         let tally = Tally { stopped: false, ..known.tally.clone() };
         Self { setup, tally, cases: known.cases.len(), seen }
     }
@@ -221,7 +221,7 @@ impl<'a> Collector<'a> {
             if self.cases as u64 >= wanted {
                 break;
             }
-            if !self.seen.insert(fingerprint(met(&plan.waypoints, plan.program.as_ref()))) {
+            if !self.seen.insert(fingerprint(met(&plan.waypoints, plan.witness.as_ref().and_then(Witness::program)))) {
                 self.tally.duplicates += 1;
                 continue;
             }

@@ -2,12 +2,9 @@
 
 use nalgebra::Point3;
 
-use crate::campaign::{Case, Environment, Evidence, SeenLeg};
+use crate::campaign::{Case, Environment, Evidence, SeenLeg, Witness};
 use crate::math::random::case_seed;
 use crate::search::Found;
-use crate::trajectory::Drive;
-use crate::trajectory::Profile;
-use crate::trajectory::program::Program;
 
 /// A trajectory that a graph gave.
 #[derive(Debug, Clone)]
@@ -19,9 +16,7 @@ pub(in crate::campaign) struct Plan {
     pub(in crate::campaign) bound: Option<f64>,
     pub(in crate::campaign) evidence: Evidence,
     pub(in crate::campaign) certified: Option<&'static str>,
-    pub(in crate::campaign) profile: Option<Profile>,
-    pub(in crate::campaign) drive: Option<Drive>,
-    pub(in crate::campaign) program: Option<Program>,
+    pub(in crate::campaign) witness: Option<Witness>,
     /// What was found beside the waypoints.
     pub(in crate::campaign) environment: Option<Environment>,
 }
@@ -37,9 +32,7 @@ impl Plan {
             bound: None,
             evidence,
             certified: None,
-            profile: None,
-            drive: None,
-            program: None,
+            witness: None,
             environment: None,
         }
     }
@@ -57,9 +50,7 @@ impl Plan {
             bound: self.bound,
             evidence: self.evidence,
             certified: self.certified,
-            profile: self.profile,
-            drive: self.drive,
-            program: self.program,
+            witness: self.witness,
             environment: self.environment,
         }
     }

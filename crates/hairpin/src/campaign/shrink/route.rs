@@ -26,7 +26,10 @@ impl Route {
     /// That of `case` as it is.
     pub(super) fn of(case: &Case) -> Self {
         let stop = |(index, at): (usize, &Point3<f64>)| Stop { index, at: *at };
-        Self { stops: case.waypoints.iter().enumerate().map(stop).collect(), ends: usize::from(case.program.is_some()) }
+        Self {
+            stops: case.waypoints.iter().enumerate().map(stop).collect(),
+            ends: usize::from(case.program().is_some()),
+        }
     }
 
     /// Places among the stops that may go.

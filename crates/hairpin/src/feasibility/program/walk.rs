@@ -40,6 +40,8 @@ const MOST_REMEDIES: usize = 50;
 ///
 /// Straight and circular moves keep one branch of the inverse kinematics; limits, singularities and what links and tool meet are proven
 /// between samples ([`follow`]). After a move that is refused the arm is taken to stand at its target.
+///
+/// After a refused move the walk goes on from its target, so that one mistake is one finding.
 pub fn check(
     arm: &Arm,
     program: &Program,

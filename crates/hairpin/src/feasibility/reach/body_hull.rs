@@ -90,6 +90,8 @@ struct Bin {
 }
 
 /// The hulls of all bins.
+///
+/// Nodes are (previous, current, heading, bin): (points²) · headings · bins at most, of which a search meets few.
 #[derive(Debug, Clone)]
 pub struct BodyHull {
     grid: BodyGrid,
@@ -165,6 +167,8 @@ impl BodyHull {
 }
 
 impl Reach<BodyNode> for BodyHull {
+    /// Waypoints within the outline of the state's bin, seen from its body, and no farther than the top speed goes in
+    /// one step or the farthest run ended. Each takes heading and bin from the run that ended nearest to it.
     fn legs(&self, from: &BodyNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<BodyNode>>) {
         let bin = &self.bins[from.bin as usize];
         let here = candidates[from.current as usize];

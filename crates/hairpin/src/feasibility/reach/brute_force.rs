@@ -80,6 +80,9 @@ struct Bin {
 }
 
 /// Reach by brute force; `legs` simulates on first sight of a cell.
+///
+/// Far dearer than a hull until its cells are known; its use is to be the oracle, and to say what the hull's
+/// assumptions cost.
 pub struct BruteForce {
     model: Quadrotor,
     speeds: Vec<Vector4<f64>>,
@@ -121,6 +124,8 @@ impl BruteForce {
         self.bins.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
+    /// The end points of all sampled runs from the cell's middle, and their hull; simulated once, then looked up, until
+    /// more than `remembered` cells make it forget them all.
     fn bin(&self, carried: &[i32; 6], velocity: &Vector3<f64>) -> Arc<Bin> {
         let edge = if self.settings.velocity_bin > 0.0 { self.settings.velocity_bin } else { 1e-9 };
         // Without quadratic drag velocity is carried on by a constant factor: one cell, at rest.

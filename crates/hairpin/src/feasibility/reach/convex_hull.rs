@@ -39,6 +39,8 @@ pub(super) fn convex_hull(simd: Simd, points: &[Vector3<f64>], extent: f64) -> O
     None
 }
 
+/// The hull of the extremes first, then grown by those points alone that lie outside of its planes or less than ten
+/// tolerances inside; the rest cannot be a corner.
 fn attempt(
     simd: Simd,
     points: &[Vector3<f64>],

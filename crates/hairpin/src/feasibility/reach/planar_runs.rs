@@ -8,6 +8,8 @@ use crate::robot::rover::Rover;
 ///
 /// Its two inputs are the speed and the curvature that it is asked for; v and κ follow within |v̇| ≤ acceleration and
 /// |κ′| ≤ most_rate and stay within their bounds.
+///
+/// Rovers, cars and differential drives by the same numbers that generator and certifier take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanarVehicle {
     /// Least (negative: in reverse) and largest speed, m/s.

@@ -42,6 +42,8 @@ fn probes(min: &Vector3<f64>, max: &Vector3<f64>) -> Probes {
 }
 
 kernel! {
+    /// Greedy cover (Johnson 1974): next is the half-space that cuts off most of the probes not yet cut off, until none
+    /// cuts any more. Probes are bits of words, 64 at a step.
     fn choose(planes: &[Plane], probes: &Probes, cuts: &mut [[u64; WORDS]], order: &mut Vec<u32>) {
         for (&[nx, ny, nz, b], cuts) in planes.iter().zip(&mut *cuts) {
             for ([x, y, z], cut) in probes.iter().zip(cuts) {

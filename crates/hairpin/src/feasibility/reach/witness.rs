@@ -1,4 +1,8 @@
 //! `witness`: a roadmap of waypoint states, whose legs each have a control witness.
+//!
+//! Nodes are (waypoint, velocity): rest at start and end, M velocities elsewhere. n waypoints make up to (n M)² legs,
+//! judged lazily, once each. Sound for the model, complete for nothing: a leg that no rung of times allows may be
+//! flyable by another curve.
 
 #[cfg(test)]
 mod tests;
@@ -29,6 +33,8 @@ pub struct WitnessNode {
 }
 
 /// How a roadmap is drawn.
+///
+/// More velocities find more, at the square of their number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoadmapSettings {
     /// Velocities per waypoint, M; 0 is taken as 1.
@@ -253,6 +259,8 @@ impl<'a> Roadmap<'a> {
         (to - from).norm() / self.judge.limits().max_speed
     }
 
+    /// All legs out of a state, judged at the first question and kept. Waypoints farther than the top speed goes in the
+    /// longest rung are not looked at; each leg keeps the shortest rung that holds.
     fn kept_legs(&self, from: usize) -> Arc<[Judged]> {
         if let Some(legs) = &self.kept.borrow()[from] {
             return Arc::clone(legs);

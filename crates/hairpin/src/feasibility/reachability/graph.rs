@@ -3,6 +3,8 @@
 use super::refusal::Refusal;
 
 /// For every ordered pair of N points: possible at a cost, or refused with a reason.
+///
+/// n² entries; a reason is a number into a list of refusals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReachabilityGraph {
     points: usize,

@@ -6,6 +6,8 @@ use super::joint::CircleError;
 use crate::robot::arm::{Margin, Singularity};
 
 /// Why a move between two points is not possible.
+///
+/// Shares are of the move, 0 at its start; angles in rad; axes from 0 inside, from 1 in sentences.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refusal {
     /// The tool's sphere meets a part of the cell, or could not be proven not to.

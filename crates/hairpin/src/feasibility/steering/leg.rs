@@ -13,6 +13,9 @@ use crate::trajectory::ProfileLeg;
 use crate::world::World;
 
 /// A waypoint state: position, velocity, and the acceleration and jerk with which the robot is level there.
+///
+/// Value and three derivatives at both ends fix a polynomial of degree 7 in each axis. Snap is not zero there, so rotor
+/// speeds jump at waypoints: rotor lag is outside the claim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegEnd {
     /// m, world frame.
@@ -28,6 +31,9 @@ pub struct LegEnd {
 }
 
 /// Judges legs of one robot in one world under one set of limits.
+///
+/// Sound for its model (rigid body, drag, no lag, no wind) and not complete: legs have one shape for a given time,
+/// level at both ends.
 #[derive(Debug, Clone)]
 pub struct LegJudge {
     flatness: Flatness,

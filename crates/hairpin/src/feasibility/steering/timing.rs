@@ -1,6 +1,8 @@
 //! How long legs may take: one fixed step, or a ladder of times of which the shortest feasible is taken.
 
 /// Leg times in s.
+///
+/// `Ladder` takes the shortest feasible rung: legs as fast as they can be, to a ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LegTiming {
     /// Every leg takes this long.

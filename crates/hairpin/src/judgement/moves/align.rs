@@ -1,4 +1,8 @@
 //! Where along its planned path a recorded motion is: monotone alignment in position and orientation.
+//!
+//! d² = |Δp|² + (weight θ)², θ by the quaternions' chord: a move that only turns has a length, too. The whole alignment
+//! is one dynamic program of samples × poses; beyond a million cells every k-th sample is aligned first and the others
+//! between their neighbours.
 
 use std::ops::Range;
 
@@ -97,6 +101,8 @@ impl Way {
         windows.collect()
     }
 
+    /// Each sample takes a pose of its window, not before its predecessor's, so that the sum of squared distances is
+    /// least; the earliest of equals. Dynamic programming, O(total length of the windows).
     fn rising(&self, recording: &Track, samples: &[usize], windows: &[Range<usize>]) -> Vec<usize> {
         // own[row][j − first]: the best up to j ends at j itself.
         let mut own: Vec<Vec<bool>> = Vec::with_capacity(samples.len());

@@ -1,4 +1,7 @@
 //! A campaign's programs against those of an earlier release: what is told of all of them together.
+//!
+//! Many moves, two metrics: at 3 σ a few of a thousand lie outside by chance, and how many is said
+//! ([`Regression::expected_by_chance`]).
 
 use super::compare::{Comparison, Metric, MoveComparison, Outcome};
 use super::trend::Trend;

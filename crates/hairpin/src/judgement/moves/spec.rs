@@ -4,6 +4,8 @@ use super::measure::Measured;
 use crate::judgement::Violation;
 
 /// What is within spec. A limit that is `None` is not judged; a target that is not reached always is.
+///
+/// Inside m and s; violations are told in mm and ms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MoveLimits {
     /// Largest distance from the path, m.
@@ -48,6 +50,8 @@ pub fn move_violations(measured: &Measured, limits: &MoveLimits) -> Vec<Violatio
 }
 
 /// Of several runs the gravest violation, or the value that comes nearest to its limit: run, what, where, and its limit.
+///
+/// By value over limit: the move that used up the largest share of what it may.
 pub fn worst_of(runs: &[Measured], limits: &MoveLimits) -> Option<(usize, Violation)> {
     let mut worst: Option<(usize, Violation, f64)> = None;
     let mut offer = |run: usize, violation: Violation| {

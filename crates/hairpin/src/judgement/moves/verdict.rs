@@ -22,6 +22,8 @@ pub struct JudgedMoves<'a> {
 }
 
 /// `FAIL k/n moves …` (1), `REGRESSION new against old …` (1), `PASS n/n moves …` (0) or `INCONCLUSIVE …` (5) where nothing is limited.
+///
+/// Exit codes as of all verdicts: 0 within spec, 1 a violation or a regression, 5 nothing to judge by.
 pub fn moves_verdict(judged: &JudgedMoves) -> Verdict {
     let moves = judged.runs.first().map_or(0, |run| run.moves.len());
     let mut failed: Vec<usize> = Vec::new();

@@ -1,4 +1,7 @@
 //! A car as the kinematic bicycle: the front axle is steered, the rear one follows.
+//!
+//! ψ̇ = v tan(δ)/L: no slip angle, so that it holds where tyres hold. Kinematic bicycle as in Rajamani, "Vehicle
+//! Dynamics and Control" (2nd ed. 2012), §2.2, written for the rear axle.
 
 use nalgebra::{Isometry3, SVector, Vector2};
 use schemars::JsonSchema;
@@ -60,6 +63,28 @@ pub struct CarLimits {
 }
 
 /// A car's numbers, SI, all checked. Built by [`CarDescription::build`].
+///
+/// ```
+/// use hairpin::robot::ground::{CarDescription, CarKind, CarLimits};
+///
+/// let limits = CarLimits { steering_deg: 30.0, steering_rate_deg_s: 30.0, speed_m_s: 8.0, acceleration_m_s2: 2.0 };
+/// let car = CarDescription {
+///     kind: CarKind::Car,
+///     name: "shuttle".into(),
+///     source: String::new(),
+///     caveat: String::new(),
+///     wheelbase_m: 2.5,
+///     length_m: None,
+///     width_m: None,
+///     speed_m_s: Some(2.0),
+///     limits,
+/// }
+/// .build()?;
+/// let tightest = 1.0 / car.vehicle().limits.curvature;
+/// assert!((tightest - 2.5 / 30f64.to_radians().tan()).abs() < 1e-12); // L / tan δ
+/// assert_eq!(car.estimated, ["length_m", "width_m"]);
+/// # Ok::<(), hairpin::robot::rover::RoverError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Car {
     /// Name, as in `data/robots`.
@@ -119,6 +144,9 @@ impl CarDescription {
 impl Car {
     /// The car as the generator of drives steers it, at its default speed v: |κ| ≤ tan(δ)/L, |κ′| ≤ δ̇/(L v), which the
     /// steering keeps at every angle.
+    ///
+    /// dκ/ds = δ̇ (1 + tan²δ)/(L v) is least at δ = 0, so that the bound is kept at every angle. Speed is the default
+    /// one: faster drives of the same path would steer faster.
     pub fn vehicle(&self) -> Rover {
         let limits = Limits {
             curvature: libm::tan(self.steering) / self.wheelbase,

@@ -1,4 +1,7 @@
 //! A differential drive: two wheels on one axle, each with a speed of its own.
+//!
+//! v = (v_r + v_l)/2, ω = (v_r − v_l)/b for rim speeds v_l, v_r at distance b: limits are the wheels', and how fast it
+//! can turn depends on how fast it goes.
 
 use nalgebra::{Isometry3, SVector, Vector2};
 use schemars::JsonSchema;
@@ -54,6 +57,8 @@ pub struct DifferentialDriveLimits {
 }
 
 /// A differential drive's numbers, SI, all checked. Built by [`DifferentialDriveDescription::build`].
+///
+/// Body frame at the middle of the axle; castors are not modelled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DifferentialDrive {
     /// Name, as in `data/robots`.
@@ -110,6 +115,8 @@ impl DifferentialDrive {
 
     /// The drive as the generator steers it, at its default speed v: the outer wheel keeps its limits, so that
     /// |κ| ≤ 2 (v_w − v)/(b v) and |κ′| ≤ 2 a_w/(b v²).
+    ///
+    /// From v ± ω b/2 within ±v_w with ω = κ v; and with v constant, v̇_r = ½ b v² κ′ within a_w.
     pub fn vehicle(&self) -> Rover {
         let v = self.default_speed;
         let limits = Limits {

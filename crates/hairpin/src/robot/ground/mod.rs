@@ -1,5 +1,10 @@
 //! Cars and differential drives on flat ground: kinematic models, their files, and the vehicle that the generator of drives
 //! takes them for.
+//!
+//! Each has equations of its own ([`crate::robot::Dynamics`], five states, for plants and sampled reach sets) and a
+//! `vehicle()`: the numbers by which generator of drives, controllers and judge take it for a [`Rover`] without
+//! suspension, with bounds on κ and κ′ that its own limits imply at its default speed. So a car's drive is one that the
+//! car's own equations can follow.
 
 mod car;
 mod differential_drive;

@@ -1,4 +1,7 @@
 //! What a robot file leaves out, derived from what it has by stated physical models. All of it is marked `estimated`.
+//!
+//! A file of mass, layout, thrust to weight and top speed is enough to fly. What is filled in here decides details of a
+//! flight, not whether it is one; how far each guess is from known robots stands beside it.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,8 @@
 //! What driving takes: the force along the way, and the torque that each wheel has a share of it to turn with.
+//!
+//! Quasi-static: no inertia but that along the way, no transfer of load between wheels. A necessary condition, then:
+//! what is refused for torque could not be driven by any sharing of it, what is accepted may still spin a wheel that
+//! carries little.
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -8,6 +12,8 @@ use super::error::{RoverError, within, wrong};
 use super::{Rover, Settled, Suspension};
 
 /// Mass, gravity and rolling resistance: what wheels carry and overcome.
+///
+/// Loads in `mass` are as rigid as the vehicle; the centre of mass stays where the file has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weight {
     /// Of the vehicle with its load, kg.
@@ -31,6 +37,8 @@ pub struct ForcesDescription {
 }
 
 /// What the wheels do for a motion, quasi-static.
+///
+/// Torque is about the axle of one wheel, τ = F r/n; power is traction times speed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Effort {
     /// Along the way, N; negative where they brake.

@@ -1,4 +1,8 @@
 //! Four wheels on a rigid body: three unknowns (z, φ, θ), four contacts, least squares by Gauss-Newton.
+//!
+//! min over (z, φ, θ) of Σ F_i²: four wheels on a rigid body touch four points in a plane only by luck, so that the
+//! rest is the plane nearest to all four contacts, and wheels may stand millimetres over the ground or in it.
+//! Gauss-Newton: JᵀJ Δ = −JᵀF.
 
 use nalgebra::Vector3;
 
@@ -8,6 +12,8 @@ use super::solve::eliminate;
 use crate::world::terrain::Terrain;
 
 /// Places of the wheels' centres in the body frame, m.
+///
+/// Any four places; files give the left side and mirror it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FourWheel {
     /// Front left, front right, rear left, rear right.

@@ -14,6 +14,9 @@ use super::solve::eliminate;
 use crate::world::terrain::Terrain;
 
 /// Geometry of the left side, m; the right one is its mirror image.
+///
+/// The differential makes the rockers turn equal and opposite: β left, −β right. Six wheels, six unknowns: on ground
+/// without kinks the rest is isolated and Newton converges quadratically.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RockerBogie {
     /// Pivot of the rocker on the body.
@@ -67,6 +70,8 @@ impl RockerBogie {
     }
 
     /// Centres of the six wheels in the body frame: left rocker wheel and bogie wheels, then right.
+    ///
+    /// `joints` = [β, ρ_left, ρ_right], rad; m.
     pub fn wheels(&self, joints: &[f64; 3]) -> [Vector3<f64>; 6] {
         let (left, right) = (self.side(1.0, joints[0], joints[1]), self.side(-1.0, joints[0], joints[2]));
         [left.at[0], left.at[1], left.at[2], right.at[0], right.at[1], right.at[2]]

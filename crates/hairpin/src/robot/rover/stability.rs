@@ -26,6 +26,8 @@ impl Rover {
     /// is h over the ground has atan(w / 2h) − φ on a side slope φ. Quasi-static: no inertial forces.
     /// Without wheels nothing tips: π/2.
     ///
+    /// O(n³) in the n ≤ 6 contacts: every pair that all others lie on one side of is an edge of the cone.
+    ///
     /// # Errors
     /// [`NoGround`] below a wheel.
     pub fn tip_over_margin<T: Terrain>(&self, terrain: &T, at: [f64; 3], pose: &Settled) -> Result<f64, NoGround> {
@@ -65,6 +67,8 @@ impl Rover {
     /// ground is higher. Infinite without wheels.
     ///
     /// The underside is looked at on a grid of 0.1 m or finer, its rim included; what is narrower can be missed.
+    ///
+    /// At most 25 × 25 places of the underside, each one height of the map.
     ///
     /// # Errors
     /// [`NoGround`] below the body.

@@ -19,6 +19,9 @@ use crate::feasibility::reach::Reach;
 pub use run::Snapshot;
 
 /// How a graph is searched. The defaults are the paper's, and ours where it has none.
+///
+/// Iterations · width expansions at most, each one reach set (remembered) and as many scores as it has legs; memory is
+/// `frontier` partial trajectories, which share their beginnings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamSettings {
     /// Waypoints of a trajectory, both ends included; below 2 there is no trajectory.
@@ -63,6 +66,8 @@ impl Default for BeamSettings {
 }
 
 /// Why a graph ended.
+///
+/// Only `Exhausted { proof: true }` says anything of trajectories that were not found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ended {
     /// `per_graph` trajectories were found.
@@ -104,6 +109,8 @@ pub struct BeamOutcome<N> {
 
 /// Searches one graph. `may_arrive(node, steps)` is a necessary test: false only if no `steps` legs lead from `node` to the
 /// end.
+///
+/// No bound on how far from the best an answer is: [`super::exact()`] has one.
 pub fn beam<N, R, O>(
     task: &Task<'_, N, R>,
     objective: &O,
@@ -119,6 +126,8 @@ where
 }
 
 /// [`beam`] with scores that are not those of legs; `settings.aggregate` is not used.
+///
+/// For scores of executions ([`super::in_loop::Executed`]): a growth may refuse to score, and says when to end.
 pub fn beam_grown<N, R, G>(
     task: &Task<'_, N, R>,
     growth: &mut G,
@@ -134,6 +143,8 @@ where
 }
 
 /// [`beam`], showing every iteration to `observe`.
+///
+/// For figures: the golden test redraws the paper's fig. 4 from these snapshots.
 pub fn beam_observed<N, R, O>(
     task: &Task<'_, N, R>,
     objective: &O,

@@ -1,4 +1,7 @@
 //! A good trajectory without revisits where the best cannot be proven: a beam over lengths in the order of the bound.
+//!
+//! Layer by layer, the `width` best labels of each by bound; dominance by the set of visited waypoints, as a 64-bit
+//! hash. What it finds is a trajectory; only the gap to the bound is told of its quality.
 
 use std::collections::HashMap;
 

@@ -12,12 +12,17 @@ use crate::feasibility::reach::{Leg, Reach};
 
 impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
     /// All legs that a trajectory of at most `length` waypoints can use: from `start` at `candidates[0]`, by `reach`.
+    ///
+    /// With trajectories of L waypoints a leg v→w is kept where d(start, v) + 1 + d(w, end) ≤ L − 1 in legs: what no
+    /// such walk uses would only be carried along.
     pub fn explore<R: Reach<N> + ?Sized>(start: N, candidates: &'a [Point3<f64>], reach: &R, length: usize) -> Self {
         Self::grow(start, candidates, length, |from, out| reach.legs(from, candidates, out)).trimmed(length)
     }
 
     /// The same from a list of (from, leg); their order does not matter. Of legs between the same two nodes the first
     /// in the list is taken.
+    ///
+    /// For reach sets that were judged before, and for tests by enumeration.
     pub fn from_legs(start: N, candidates: &'a [Point3<f64>], legs: &[(N, Leg<N>)], length: usize) -> Self {
         let mut order: Vec<u32> = (0..legs.len() as u32).collect();
         let key = |&i: &u32| {
@@ -34,6 +39,8 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
         Self::grow(start, candidates, length, legs_of).trimmed(length)
     }
 
+    /// Breadth first from `start`, one layer a leg: nodes at depth `length` − 1 and beyond get no legs. O(nodes +
+    /// legs), each node's legs asked for once.
     fn grow(
         start: N,
         candidates: &'a [Point3<f64>],
@@ -82,6 +89,9 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
 impl<N: Copy> LegGraph<'_, N> {
     /// Without the legs that no trajectory without revisits has: into the start, from the end on, and back to the only
     /// waypoint that their first node can be entered from. What is left are still walks, but far fewer. Itself where that was done before.
+    ///
+    /// Trajectories without revisits are all still there; walks that fly straight back are not, which tightens every
+    /// bound taken over walks.
     pub fn without_returns(&self, length: usize) -> Cow<'_, Self> {
         if self.without_returns == Some(length) {
             Cow::Borrowed(self)

@@ -1,4 +1,7 @@
 //! The best that is still to come: the dynamic program over legs, last leg first.
+//!
+//! Backwards from the end, so that what a partial trajectory can still become is looked up and not searched (Bellman
+//! 1957). Layers near the start hold values only of the few nodes that a walk meets there.
 
 use super::super::objective::Aggregate;
 use super::LegGraph;

@@ -3,6 +3,10 @@
 //! A path is closed by a dummy point: one start arc from it, one end arc to it; a point that is left out has a loop.
 //! Then every point has exactly two arcs (one in and one out where arcs are directed), a loop being both. Arcs, starts,
 //! loops and ends are numbered in this order.
+//!
+//! Rules are sums: Σ of shares at a point = 2 (or 1 in and 1 out), one start, one end. What a rule has no more room for
+//! is out, what it cannot do without is in; of each chain of chosen arcs the other end is kept, so that no arc closes a
+//! circle.
 
 use super::problem::{Arcs, Ends};
 

@@ -10,6 +10,9 @@
 //! numbers a_i (rows) and b_j (columns) no circulation is heavier than
 //!
 //!   Σ s_i a_i + Σ s_j b_j + Σ_open (c_ij − a_i − b_j)⁺ + Σ_in (c_ij − a_i − b_j) + Σ_loops visits · (−a_i − b_i)⁺.
+//!
+//! At most n · visits augmentations of O(n²) each. Integer prices prove optimality, and infeasibility by a bound that
+//! falls without end.
 
 use super::problem::{Arcs, Ends, NONE};
 
@@ -128,6 +131,7 @@ struct Transport<'a> {
 const FAR: i64 = i64::MAX;
 
 impl<'a> Transport<'a> {
+    /// Sets out from prices with which no open arc has a positive reduced cost: all b_j = 0, a_i the most in its row.
     fn new(net: &'a Net) -> Self {
         let n = net.nodes;
         let mut supply: Vec<i64> = (0..n).map(|node| net.supply(node)).collect();
@@ -167,6 +171,8 @@ impl<'a> Transport<'a> {
         if from == to { 0 } else { self.net.costs[from * self.net.nodes + to] }
     }
 
+    /// One shortest augmenting way a unit of supply; with no way left the prices grow into a proof that there is no
+    /// circulation.
     fn solve(mut self) -> Circulation {
         let n = self.net.nodes;
         let overfull = (0..n).find(|node| self.supply[*node] < 0);
@@ -189,6 +195,9 @@ impl<'a> Transport<'a> {
     }
 
     /// Dijkstra from a row to the nearest column with demand left, over rows (0 … n) and columns (n …).
+    ///
+    /// Lengths are reduced costs, ≥ 0 as prices keep every arc that could send more at a reduced value ≤ 0 and every
+    /// one that could send less at ≥ 0; they then move by what is left to the distance found, which keeps this. O(n²).
     fn shortest(&mut self, row: usize) -> Option<usize> {
         let n = self.net.nodes;
         self.distance.fill(FAR);

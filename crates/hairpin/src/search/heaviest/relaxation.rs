@@ -1,4 +1,8 @@
 //! What both Lagrangian relaxations have in common: multipliers, and what they say of each choice.
+//!
+//! Degrees are relaxed, connectedness is kept: what is left is a spanning structure that a greedy algorithm solves
+//! exactly. Both relaxations are integral, so that their bounds are those of the linear program with the connectedness
+//! constraints.
 
 use super::choices::{Arc, Choice, Choices, IN, Made, OUT};
 

@@ -1,4 +1,7 @@
 //! A path as a closed tour through a dummy point, so that both ends move like any other place; points may be left out.
+//!
+//! An array and its inverse: successors, predecessors and "between" in O(1), turning a stretch in O(its length), of the
+//! shorter side where costs are symmetric.
 
 use super::problem::{Arcs, Ends, NONE};
 
@@ -12,6 +15,8 @@ pub(super) struct Table {
 }
 
 impl Table {
+    /// The table with the dummy as point n: its arcs cost 0 where a path may begin or end, and a missing arc costs more
+    /// than any two arcs bring in, so that no gain is bought with one.
     pub(super) fn new(arcs: &Arcs, ends: Ends) -> Self {
         let n = arcs.points();
         // Worth more than any two arcs that a repair could lose.

@@ -13,6 +13,8 @@ use super::problem::{Arcs, Ends};
 pub(super) type Arrow = (usize, usize);
 
 /// One look at a problem: prices whose bound closes it, or what follows.
+///
+/// Checked by the formula of `circulation`: a sum over arcs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WalkStep {
     /// Prices of rows, then of columns; the dummy's are the last of both.
@@ -33,6 +35,8 @@ pub struct Split {
 }
 
 /// A proof that no path is heavier than the best: steps from number 0.
+///
+/// [`crate::verification::verify_walk`] recomputes each bound and that the ways out of a part are all there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WalkProof {
     /// How often a point may come.
@@ -88,6 +92,9 @@ struct Branch {
 }
 
 impl Search<'_> {
+    /// Best first: the open branch of the greatest bound is split, or closed by its parent's prices where its bound is
+    /// no more than the best path found (or the weight it has to be above). What stays open when stopped is the bound
+    /// of the answer.
     pub(super) fn run(&self, region: &Region) -> Walks {
         let mut net = Net::new(self.arcs, self.ends, self.visits as i64);
         region.within.iter().for_each(|arc| net.decide(*arc, State::In));
@@ -231,6 +238,9 @@ fn apart(net: &Net, used: &[Arrow]) -> Option<Vec<usize>> {
 
 /// A path from a circulation: parts are joined to the dummy's where that costs least, and left out where nothing joins them. `None` where
 /// what must be used would be left out.
+///
+/// One exchange after another, the one of greatest gain first: an arc of each part crosswise, or an arc for a way by a
+/// point with visits left.
 fn joined(net: &Net, used: &[Arrow]) -> Option<(i64, Vec<usize>)> {
     let mut used = used.to_vec();
     loop {

@@ -25,6 +25,8 @@ const CROSSED: f64 = 0.25;
 const NEARBY: f64 = 0.4;
 
 /// What is asked for.
+///
+/// `executions` counts failed ones too, so that it bounds the time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvolveSettings {
     /// Waypoints of a trajectory, both ends included.
@@ -80,6 +82,9 @@ struct Evolution<'g, 'a, N, F> {
 
 /// Evolves trajectories of `graph` from `first` (repetitions are executed once). `execute` gives `None` where an execution failed, which
 /// counts against the budget; it is told the stress that the pool's last has.
+///
+/// `first` is executed in its order; of the budget what is left goes to children. `best_so_far` never falls and has one
+/// entry for each execution.
 pub fn evolve<N, F>(
     graph: &LegGraph<'_, N>,
     first: &[Found<N>],

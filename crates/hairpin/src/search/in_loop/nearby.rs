@@ -1,5 +1,8 @@
 //! One waypoint of a trajectory put to a place near it: stress hardly jumps from place to place, so what is next to a stressful trajectory is
 //! often more so.
+//!
+//! The sixteen nearest waypoints that the trajectory does not use; both legs at the moved waypoint must be legs of the
+//! graph.
 
 use rand::RngExt;
 

@@ -13,6 +13,8 @@ use crate::search::objective::{Additive, LegView};
 use crate::search::task::Found;
 
 /// What is asked for.
+///
+/// With `resumes` a leg costs one; without, a partial trajectory of n legs costs n, for it is flown from the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartialSettings {
     /// Waypoints of a trajectory, both ends included.
@@ -76,6 +78,8 @@ enum Unscored {
 }
 
 /// What executes partial trajectories over nodes `N`.
+///
+/// Errors are counts: what failed has used its legs up.
 pub trait Execute<N> {
     /// A robot and its controller where a partial trajectory has led them.
     type State;
@@ -93,6 +97,9 @@ pub trait Execute<N> {
 }
 
 /// Scores by what `execute` measures; `objective` tells which legs are executed first where not all can be.
+///
+/// Which legs of an expansion are executed is settled when it meets them: half are those that `objective` puts first,
+/// half are drawn. The others stand behind what they extend.
 #[derive(Debug)]
 pub struct Executed<'o, O, E> {
     settings: PartialSettings,
@@ -253,6 +260,9 @@ where
         (f64::NEG_INFINITY, Rc::new(Step { before: None, node: *node, waypoint: 0, duration: 0.0, ran }))
     }
 
+    /// Chooses the legs of this parent that are to be executed, as the budget's share allows: half of them those that
+    /// the plain objective puts first, half drawn by a hash of leg and depth, so that no order of calls changes the
+    /// draw.
     fn meet<'l>(&mut self, parent: &Parent<Self::Memory>, legs: impl Iterator<Item = LegView<'l>>) {
         let done = parent.length as u64 - 1;
         (self.next, self.barren) = (0, false);
@@ -277,6 +287,8 @@ where
         }
     }
 
+    /// An executed leg's score is the stress measured; a leg passed over inherits its parent's, one unit in the last
+    /// place lower, so that what was measured leads; a parent whose own run failed has no legs.
     fn extend(&mut self, parent: &Parent<Self::Memory>, leg: &LegView<'_>, to: &N) -> Option<(f64, Self::Memory)> {
         let done = parent.length as u64;
         let before = Some(Rc::clone(parent.memory));

@@ -1,4 +1,7 @@
 //! A stretch of a trajectory grown anew: a random walk of a given number of legs between two nodes.
+//!
+//! A randomised depth-first search with a budget of looks: it finds a stretch where there are many, and gives up where
+//! there are few.
 
 use rand::RngExt;
 

@@ -27,6 +27,8 @@ const LEAST_FACTOR: f64 = 0.05;
 const AROUND_WORST: f64 = 0.7;
 
 /// What is asked for.
+///
+/// `step` is where σ begins and `largest` where it ends growing; both of the order of a leg.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShiftSettings {
     /// Executions at most.
@@ -56,6 +58,9 @@ pub struct Shifted<P> {
 
 /// Moves `points`, whose execution came to `trial`. `feasible` plans through given waypoints; `execute` carries a plan out,
 /// and is told the stress of the best so far.
+///
+/// Only feasible plans are executed; drawing them is free. Accepted where the stress is no less, so that plateaus are
+/// walked.
 pub fn shift<P>(
     points: &[Point3<f64>],
     trial: Trial,

@@ -1,4 +1,7 @@
 //! Progress along a section over time: constant acceleration between knots, averaged over a moving window for an S-curve.
+//!
+//! A window T averages progress, never position: the path stays the path. Where the averaged law asks too much of a
+//! joint, caps are lowered there and the passes repeated, at most eight times; then all of it is slowed down.
 
 use super::grid::Section;
 use super::profile::{Knots, Limits};

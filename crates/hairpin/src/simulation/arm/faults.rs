@@ -6,6 +6,9 @@ use crate::robot::arm::AXES;
 use crate::simulation::SimulationError;
 
 /// One fault. Axes count from 1.
+///
+/// Each leaves a mark that the oracle must tell apart: lag grows with speed, backlash with reversals, an offset with
+/// neither, a delay shifts all later times.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
     /// Play of an axis: its link moves only once the drive has crossed it.

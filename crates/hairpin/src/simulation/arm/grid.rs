@@ -1,4 +1,7 @@
 //! A path from one stop to the next as numbers: nodes with joint angles, and a cubic between each two.
+//!
+//! Nodes are inverse kinematics, what is between them Hermite cubics with slopes by differences: on a straight line the
+//! tool is off by less than a micrometre (test).
 
 use nalgebra::Isometry3;
 

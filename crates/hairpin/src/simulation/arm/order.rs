@@ -37,6 +37,8 @@ pub enum Zone {
 }
 
 /// One move.
+///
+/// Frames are multiplied out and names resolved: what is left is geometry in the base and numbers in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Order {
     /// What reports call it, such as `p17→p09`.

@@ -1,4 +1,8 @@
 //! From moves to sections of path: legs, the blends between them, and the joint angles along both.
+//!
+//! A zone of radius r adds the end of one move and the beginning of the next about their corner: u = 1 − (r/ℓ₁)(1 −
+//! w)², v = (r/ℓ₂) w², p = p₁(u) + p₂(v) − C, w in [0, 1], a parabola between straight lines
+//! (docs/virtual-controller.md). s grows by 2r, so that the path is C¹ in s.
 
 use nalgebra::Isometry3;
 
@@ -74,6 +78,8 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
+    /// Leg after leg: along each from where the blend before it ended to where the next one begins, then the blend. A
+    /// zone's radius is at most half of both of its legs; zones of no size stop in the corner.
     fn all(&mut self) -> Result<(), Stop> {
         let Some(first) = self.orders.first() else { return Ok(()) };
         let mut corner = self.follower.arm.forward(&self.joints) * first.tool;

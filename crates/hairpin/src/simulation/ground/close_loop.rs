@@ -18,6 +18,8 @@ use crate::trajectory::{Direction, Drive, Ended, Flight};
 use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// What drives where.
+///
+/// `vehicle` and `nominal` are the same type: what the planner was told, and what is true.
 #[derive(Debug, Clone, Copy)]
 pub struct GroundSortie<'a> {
     /// The vehicle as it is: its slip, its latency and its lags act.
@@ -35,6 +37,8 @@ pub struct GroundSortie<'a> {
 }
 
 /// What is added to the vehicle's own imperfections.
+///
+/// The default adds nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct GroundConditions {
     /// A command acts this much later, s, on top of the vehicle's own latency.

@@ -1,5 +1,8 @@
 //! Where a run stands in its plan: progress along a section, stops between sections, turns in place. The same for every
 //! controller; what differs is how each steers.
+//!
+//! Speed and progress are nobody's controller's: all steer along the same plan at the same pace, so that a comparison
+//! is of steering. What commands under way still bring is reckoned with.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -168,6 +171,9 @@ impl<'a> Guide<'a> {
         speed_at(stations, ahead).min(braking).max(creeping).min(most)
     }
 
+    /// Sections one after the other. A way begins when the wheels stand as its first station needs and the vehicle
+    /// stands still, or patience ends; it ends within [`ARRIVED`] of its length. A turn ends within [`TURNED`]; its
+    /// rate is the least of the plan's, in proportion to the angle left, and what can still be braked, √(2 α |left|).
     fn next(&mut self, measured: &Measured, dt: f64) -> Task<'a> {
         let plan = self.plan;
         loop {

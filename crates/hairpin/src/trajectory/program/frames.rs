@@ -1,4 +1,8 @@
 //! What the flange carries and what poses are given in, as programs declare them.
+//!
+//! base_from_tcp = base_from_user · user_from_object · object_from_tcp for a tool that is held; flange = that ·
+//! (flange_from_tcp)⁻¹. A tool that stands in the cell with a held work object is read and written, and told as such;
+//! arms here do not execute it.
 
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 

@@ -1,4 +1,7 @@
 //! Distances of points from solids, each by a formula of its own.
+//!
+//! Triangles: the nearest of all, and inside by the sum of solid angles (4π inside, 0 outside), where the claim has a
+//! winding number and eleven separating directions.
 
 use nalgebra::{Point3, Vector3};
 

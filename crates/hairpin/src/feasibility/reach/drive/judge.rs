@@ -80,6 +80,8 @@ fn may_be_short(settings: &DriveSettings, ends: &Ends, way: Way) -> bool {
     flat::least_length(&query, &bent) <= settings.detour * ends.distance
 }
 
+/// Solve, follow, time, score, in the order of what they cost. The duration is that of the speed profile of this leg
+/// alone, turns in place added at their rate; demands are shares of what the limits allow.
 fn driven(site: &DriveSite, settings: &DriveSettings, ends: &Ends, way: Way) -> Result<Solved, LegRefusal> {
     let segments = solved(site, settings, ends, way, &settings.speed.into())?;
     let turning = settings.speed * ends.direction.rate(metres(&segments)).abs();

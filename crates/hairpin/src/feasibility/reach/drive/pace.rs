@@ -7,6 +7,8 @@ use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::{Gear, Motion, Segment};
 
 /// How speeds follow each other along a drive.
+///
+/// Speeds are of whole drives: they follow once the legs are known, by one pass forward and one back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pace {
     /// The commanded speed all along: changes of gear and turns in place take no time to stop for.
@@ -110,6 +112,9 @@ struct Shape {
 }
 
 impl Shape {
+    /// Reads off segments what a profile over them needs: how many stretches of one gear there are, how long the first
+    /// and the last one are, the gears at both ends, and the top speed at which the steering still follows every
+    /// clothoid.
     fn of(segments: &[Segment], speed: f64, response: &Response) -> Self {
         let gear = |segment: &Segment| matches!(segment.motion, Motion::Arc { .. }).then_some(segment.gear);
         let mut shape = Self { stretches: 0, lengths: [0.0; 2], ends: [None; 2], top: speed };

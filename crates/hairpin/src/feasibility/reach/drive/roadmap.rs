@@ -19,6 +19,8 @@ use crate::trajectory::drive::{Planar, Segment};
 use crate::trajectory::{Direction, Drive, DriveLeg, Passing, SpeedProfile};
 
 /// A node: a waypoint and one of its headings, passed with straight wheels.
+///
+/// Curvature is 0 at every node but the start's, so that legs join whatever comes before and after.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DriveNode {
     /// The waypoint.
@@ -263,6 +265,8 @@ impl<'a> DriveRoadmap<'a> {
         apart(&self.points[a], &self.points[b])
     }
 
+    /// All legs out of a state, solved at the first question and kept, with what they were refused for in the tally.
+    /// Only waypoints at a leg's distance are tried, every headed state of each.
     fn kept_legs(&self, from: usize) -> Arc<[Kept]> {
         if let Some(legs) = &self.kept.borrow()[from] {
             return Arc::clone(legs);

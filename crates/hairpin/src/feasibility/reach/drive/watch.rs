@@ -193,6 +193,9 @@ impl Watcher<'_> {
         })
     }
 
+    /// One look: curvature, keep-outs, map or rest of the wheels, and every [`BELLY_STEP`] metres the belly. `metres`
+    /// is what was driven since the look before: a keep-out within that of the vehicle asks for shorter steps, and
+    /// refuses in the last look.
     fn kept(&mut self, at: &Planar, metres: f64, upright: f64, settled: &Settled) -> Result<(), LegRefusal> {
         let (site, settings) = (self.site, self.settings);
         if at.curvature.abs() > settings.bounds.most * KEPT {

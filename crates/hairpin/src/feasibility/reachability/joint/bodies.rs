@@ -17,6 +17,9 @@ const APART: usize = 3;
 const ROUNDING: f64 = 1e-9;
 
 /// Everything of an arm that takes up room, and what stands around it.
+///
+/// Neighbours in the chain are not held against one another: joint limits keep them apart. The base is not held against
+/// the cell.
 #[derive(Debug)]
 pub struct Bodies<'a> {
     arm: &'a Arm,

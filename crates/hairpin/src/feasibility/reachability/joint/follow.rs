@@ -6,6 +6,8 @@ use crate::feasibility::reachability::Refusal;
 use crate::robot::arm::{AXES, Arm, Branch, Joints, Sweep, Tool};
 
 /// What is asked of a move.
+///
+/// `locate` costs more and says where; a graph's refusals need not know.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FollowSettings {
     /// Least margin to every singularity on straight and circular moves, a pure number.
@@ -46,6 +48,8 @@ const FIRST_PIECE: [f64; 2] = [0.08, 0.3];
 /// On a piece of half width h around a sample, no joint is farther from the sample's angle than rate·h (`Arm::bounds_around`); limits
 /// hold on all of it if they hold with that room, and no link meets anything if its distance exceeds what these turns can move
 /// it (`Chain::displacement`). Otherwise the piece is halved. So what is found free is free between samples as well.
+///
+/// No branch can change unseen: a joint turns at most 0.5 rad on half a piece, and margins keep singularities away.
 ///
 /// # Errors
 /// The first reason along the move.
@@ -165,6 +169,10 @@ impl Walk<'_> {
         undecided
     }
 
+    /// One piece, |s − at| ≤ half: the joints at its middle, bounds on how far each turns from there (rates · half),
+    /// then margins, limits and bodies with these. Holds where all hold over the whole piece; refused where the middle
+    /// itself breaks one; open where only the bounds do, or a joint turns too far to tell neighbours apart, which
+    /// halving settles.
     fn judge(&mut self, at: f64, half: f64, sweep: &Sweep, last: &Joints, last_turns: &Joints) -> Judged {
         let closed = matches!(self.arm.kinematics, crate::robot::arm::Kinematics::Opw(_));
         let Some(q) = self.solve(at, last) else {

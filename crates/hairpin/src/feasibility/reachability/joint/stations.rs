@@ -32,6 +32,9 @@ pub enum MoveKind {
 }
 
 /// Settings of a joint-mode graph.
+///
+/// One posture a point: the given configuration, else the branch in which most points can be met, on the turns nearest
+/// to home.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointSettings {
     /// How the arm moves.
@@ -77,6 +80,8 @@ pub struct Alternative {
 
 /// Every ordered pair of `stations`: whether `arm` with `tool` can move from one to the other in `cell`, by what reason not, and what
 /// it costs. Both moves in joints between home and every point are checked as well.
+///
+/// n² moves followed, each from its start's posture; 2n more from home and back.
 pub fn joint(
     arm: &Arm,
     tool: &Tool,

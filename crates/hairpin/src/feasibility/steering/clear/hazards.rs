@@ -6,6 +6,8 @@ use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::world::terrain::KeepOuts;
 
 /// Places to keep out of, as a drive from some pose meets them.
+///
+/// One list serves drives in any frame: places stay in the map, drives bring their start.
 #[derive(Debug, Clone, Copy)]
 pub struct Hazards<'a> {
     /// The places, in the map.
@@ -37,6 +39,8 @@ const TURN: f64 = 0.5;
 
 /// Radius of the circle about the body's origin that all wheels and the underside stay within, whichever way it turns, m; 0 for a
 /// vehicle that is a point.
+///
+/// max of ‖(|x| + r, y)‖ over wheels of radius r and of the underside's farthest corner.
 pub fn footprint(rover: &Rover) -> f64 {
     let (wheels, count, radius) = rover.suspension.wheels(&[0.0; 3]);
     let belly = &rover.body.belly;

@@ -3,6 +3,9 @@
 use super::flat;
 
 /// A family of controls.
+///
+/// Parameters beyond the conditions ([`Control::parameters`] − [`Control::conditions`]) are free to keep bounds, lower
+/// a cost or go around places.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Control {
     /// Constant curvature: (κ, L). Heading and curvature at the end are as they come.

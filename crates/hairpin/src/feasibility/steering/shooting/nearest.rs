@@ -5,6 +5,8 @@ use super::solve::{Choices, least_length, single_arc};
 use crate::trajectory::drive::{Segment, SegmentList};
 
 /// A goal that can be reached, near one that cannot.
+///
+/// The metric is in metres: a heading counts as the arc that it turns on the tightest circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
     /// The goal.

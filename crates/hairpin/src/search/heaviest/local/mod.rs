@@ -3,6 +3,10 @@
 //! Chains of 2-opt moves (Lin & Kernighan 1973) where costs are symmetric, moves of short stretches (Or 1976) and of any
 //! stretch without turning it (Or-3opt) everywhere; points are put in, taken out and exchanged; kicks swap two
 //! neighbouring stretches. Every move looks only at each point's candidates.
+//!
+//! Only points whose surroundings changed are looked at again. Missing arcs cost a penalty, so that a tour may pass
+//! through what is no path and come out of it. Nothing of the proof depends on this room: the cost of a path that it
+//! finds is summed anew.
 
 mod chain;
 mod stretches;

@@ -1,6 +1,9 @@
 //! Good paths of many points by simulated annealing over orders: what is turned, moved, exchanged, put in and left out is drawn.
 //!
 //! S. Kirkpatrick, C. D. Gelatt, M. P. Vecchi, *Optimization by simulated annealing*, Science 220 (1983).
+//!
+//! Each change is judged by the best cut of the whole order, O(length); four chains beside each other, from named
+//! seeds, so that threads change nothing.
 
 use std::collections::BTreeSet;
 
@@ -39,6 +42,8 @@ pub(super) fn annealed(
     met.into_iter().rev().take(count).collect()
 }
 
+/// One chain of Metropolis steps: worse by d is taken with probability e^(−d/T), T falling geometrically from `hot` to
+/// [`COLD`] times the largest cost. Orders without a way are passed through at a fine of that cost, never kept.
 fn chain_of(
     question: &Question,
     first: &[usize],

@@ -79,6 +79,8 @@ pub enum TriplesMistake {
 }
 
 /// Costs of triples: t(i, k, j) ≥ 0 of the move from i through k to j, or no such move.
+///
+/// n³ numbers of 8 bytes: 1 GB at 500 points.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Triples {
     points: usize,
@@ -124,6 +126,8 @@ impl Triples {
     /// The most that the points cost in this order, and the places in it of the points that are passed on the way; `None` where there is no way.
     ///
     /// best_k = max(best_{k−1} + c(p_{k−1}, p_k), best_{k−2} + t(p_{k−2}, p_{k−1}, p_k)); of equals the arc.
+    ///
+    /// Linear in the order's length.
     pub fn best_on(&self, arcs: &Arcs, order: &[usize]) -> Option<(i64, Vec<usize>)> {
         if order.is_empty() || order.iter().any(|point| *point >= self.points) {
             return None;

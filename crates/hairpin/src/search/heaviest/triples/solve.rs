@@ -25,6 +25,9 @@ const FIRST_KICKS: u64 = 200;
 ///
 /// # Errors
 /// Ends that are no points.
+///
+/// # Panics
+/// If `triples` are of another number of points than `arcs`: a mistake of the caller's.
 pub fn heaviest_with_triples(
     arcs: &Arcs,
     triples: &Triples,

@@ -4,6 +4,8 @@
 //! point several times, so that f(m, j) = max(max_i f(m−1, i) + c(i, j), max_{i, k} f(m−2, i) + t(i, k, j) − λ_k) − λ_j finds it. Prices go along the
 //! subgradient 1 − visits. After N. Christofides, A. Mingozzi, P. Toth, *State-space relaxation procedures for the computation of bounds to routing
 //! problems*, Networks 11 (1981).
+//!
+//! One step costs n · (arcs + triples) additions; the number of steps is what [`WORK`] of them allow.
 
 use super::problem::{IMPOSSIBLE, Question, possible};
 

@@ -1,4 +1,7 @@
 //! Places on the ground that no vehicle may enter: circles and polygons seen from above, by signed distances.
+//!
+//! In plan: heights play no part, and a bridge cannot be passed under. Vehicles keep the circle around all wheels and
+//! the underside out of them (floor 5); here a vehicle is a point and a distance.
 
 mod index;
 mod shape;
@@ -18,6 +21,22 @@ pub struct KeepOut {
 }
 
 /// Places to keep out of, checked, with a tree of boxes over them, so that hundreds cost little more than one.
+///
+/// Found by descending the tree only into boxes that can hold something nearer: about log n shapes a query.
+///
+/// ```
+/// use hairpin::world::terrain::{KeepOut, KeepOutShape, KeepOuts};
+///
+/// let circle = |name: &str, x| KeepOut {
+///     name: name.into(),
+///     shape: KeepOutShape::Circle { center_m: [x, 0.0], radius_m: 1.0 },
+/// };
+/// let places = KeepOuts::new(vec![circle("west", -5.0), circle("east", 5.0)])?;
+/// let nearest = places.nearest(3.0, 0.0).expect("there are two");
+/// assert_eq!((nearest.keep_out.name.as_str(), nearest.distance), ("east", 1.0));
+/// assert_eq!(places.segment_distance([0.0, -2.0], [0.0, 2.0]), 4.0);
+/// # Ok::<(), hairpin::world::WorldError>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct KeepOuts {
     list: Vec<KeepOut>,
@@ -65,6 +84,8 @@ impl KeepOuts {
     }
 
     /// The one nearest to (`x`, `y`), or the one it is deepest in.
+    ///
+    /// Inside overlapping ones the deepest, that is the least signed distance.
     pub fn nearest(&self, x: f64, y: f64) -> Option<Nearest<'_>> {
         self.least([x, y], 0.0, |shape| shape.distance(x, y))
     }

@@ -3,6 +3,9 @@
 use crate::world::WorldError;
 
 /// A place seen from above, world frame, m.
+///
+/// The border belongs to it. A polygon's inside is by the even-odd rule, so that the order of its corners does not
+/// matter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum KeepOutShape {
     /// All points within `radius_m` of `center_m`.
@@ -24,6 +27,8 @@ const LARGEST: f64 = 1e7;
 
 impl KeepOutShape {
     /// Distance of (`x`, `y`) to the border, m; negative inside.
+    ///
+    /// Polygons: the nearest edge, and the number of edges that a ray to the east crosses. Linear in the corners.
     pub fn distance(&self, x: f64, y: f64) -> f64 {
         match self {
             Self::Circle { center_m, radius_m } => libm::hypot(x - center_m[0], y - center_m[1]) - radius_m,

@@ -18,6 +18,8 @@ pub enum Gears {
 }
 
 /// A path of continuous curvature: straights, arcs and clothoids. Curvature may jump at cusps, where the vehicle stands.
+///
+/// Cusps cost no length here and time elsewhere: the vehicle stands there.
 #[derive(Debug, Clone, Copy)]
 pub struct Path {
     length_m: f64,

@@ -1,4 +1,8 @@
 //! Turns of continuous curvature: how the vehicle gets onto a circle, how far it stays, how it gets off.
+//!
+//! A turn from zero curvature onto a circle and back deflects by κ²/κ′ at least; its centre lies at (R sin μ, R cos μ)
+//! of its start, with R and μ the circle's alone (Fraichard and Scheuer 2004), so that words of such turns are
+//! spelt like Dubins' with another radius.
 
 use std::f64::consts::{PI, TAU};
 

@@ -114,6 +114,10 @@ fn dot(a: &Row, b: &Row) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// One pass over the grid: end position x = L Σ w cos θ, y = L Σ w sin θ with θ(u) = L p·I(u) (and the swing of the
+/// wheels' direction), turn L p·I(1), end curvatures p·B, and end slopes p·B′ = 0 where a clock rests. The Jacobian is
+/// exact: ∂x/∂pᵢ = −L² Σ w sin θ Iᵢ, ∂x/∂L = Σ w cos θ − Σ w L p·I sin θ. Excesses over bounds are looked at at the
+/// same nodes and the two ends.
 fn shoot(grid: &Grid, task: &Task, free: &Free, from: f64, strict: f64) -> Shot {
     let Free { parameters: p, length } = free;
     let (length, last) = (*length, UNKNOWNS - 1);

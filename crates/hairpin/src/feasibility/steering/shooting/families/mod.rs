@@ -4,6 +4,13 @@
 //! All are linear in their parameters, κ(u) = Σ pᵢ Bᵢ(u), and differ in the functions Bᵢ and in what u measures; so one
 //! shooting solves them all (`descend`), from the flat solver's answer and from Dubins' words, whose turns say which ways around there
 //! are. What is answered are polynomials of arc length: exact where the family is of that kind, otherwise fitted.
+//!
+//! | family | u | Bᵢ(u) |
+//! | --- | --- | --- |
+//! | arc length | s/L | Legendre's Pᵢ(2u − 1) |
+//! | time | t/T | Legendre's Pᵢ(2u − 1) |
+//! | knots | s/L | the natural spline through unit i |
+//! | velocities | t/T | Pᵢ(2u − 1)/v(u) |
 
 mod basis;
 mod clock;

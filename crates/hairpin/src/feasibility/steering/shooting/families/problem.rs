@@ -8,6 +8,8 @@ use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::SegmentList;
 
 /// A boundary-value problem with speed and direction of travel: a query in the frame that looks along the first direction of travel.
+///
+/// The frame looks along the first direction of travel; a body that crabs stands turned in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Problem {
     /// Where to; driven forward. Its yaw is the change of the body's heading.

@@ -103,6 +103,10 @@ struct Search<'a> {
     longest: f64,
 }
 
+/// Starts from the flat solver's curve, then the given guides, then words of arcs and lines of one and more radii,
+/// shortest first; each a descent. Ends with a drive that keeps everything and is hardly longer than the least length
+/// of any, when starts are used up, or at `stop`. With a cost, further descents begin at the best found and at the flat
+/// curve.
 fn search(
     problem: &Problem,
     control: Control,

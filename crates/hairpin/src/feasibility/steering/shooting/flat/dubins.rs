@@ -2,6 +2,9 @@
 //! and their turns say which ways around there are.
 //!
 //! L. E. Dubins, On curves of minimal length with a constraint on average curvature, Amer. J. Math. 79 (1957).
+//!
+//! LSL, RSR, LSR, RSL, LRL, RLR. A path with |κ| ≤ κ_max is never shorter than the shortest word of radius 1/κ_max, so
+//! that what a word's length refuses needs no solver.
 
 use std::f64::consts::{PI, TAU};
 

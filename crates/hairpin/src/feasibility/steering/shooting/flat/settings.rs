@@ -78,6 +78,8 @@ pub struct Answer {
 }
 
 /// How it ended.
+///
+/// `Infeasible` is about this family of curves: another control, a reversal or a turn in place may do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Status {
     /// The goal is met within the precision, both bounds hold.

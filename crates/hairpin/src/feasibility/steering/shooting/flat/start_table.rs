@@ -30,6 +30,9 @@ pub const NONE: Entry = [0.0; 5];
 pub const ENTRIES: usize = NODES[0] * NODES[1] * NODES[2];
 
 /// A table of arcs; 180 kB.
+///
+/// Saves nothing over Dubins' words (docs/rover-generator.md, "Start values"), and is therefore off; kept since the
+/// source's user guide has one.
 #[derive(Clone, PartialEq)]
 pub struct StartTable {
     steering: f64,

@@ -52,6 +52,8 @@ pub enum Status {
 }
 
 /// What was found.
+///
+/// `Ok` is the prediction's own word; the drive counts once a replay agrees.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
     /// How it ended.

@@ -42,6 +42,8 @@ impl Steps {
 }
 
 /// What stays the same along a prediction.
+///
+/// Everything that E depends on beside the commands; the same for all predictions of one solve.
 pub struct Course<'a, T> {
     /// The vehicle.
     pub rover: &'a Rover,

@@ -43,6 +43,8 @@ pub enum Cause {
 }
 
 /// One moment of a motion, as an observer gets it.
+///
+/// Enough for limits, keep-outs, costs and torque to be looked at without predicting again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Driven {
     /// Metres of commanded travel so far.

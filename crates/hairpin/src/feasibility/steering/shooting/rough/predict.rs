@@ -25,6 +25,30 @@ const COARSE: f64 = 2e-3;
 /// Follows `segments` from `start`; `observe` sees every step's middle. Where the speeds come to rest, to change gear or to turn in
 /// place, the wheels swing to what comes before the vehicle goes on; at a constant speed they follow with their lag.
 ///
+/// Steps of 6 cm agree with steps of 2 mm within a millimetre (test). One settled pose a step, on the stack.
+///
+/// ```
+/// use hairpin::feasibility::steering::shooting::rough::{Course, Steps, predict};
+/// use hairpin::robot::rover::RoverDescription;
+/// use hairpin::trajectory::drive::{Gear, Planar, Segment};
+/// use hairpin::trajectory::{Direction, SpeedProfile};
+/// use hairpin::world::terrain::Flat;
+///
+/// let file = serde_json::json!({ "kind": "rover", "name": "point", "limits": { "curvature_1_m": 1.0 } });
+/// let rover = serde_json::from_value::<RoverDescription>(file)?.build()?;
+/// let course = Course {
+///     rover: &rover,
+///     terrain: &Flat,
+///     speed: SpeedProfile::from(1.0),
+///     direction: Direction::default(),
+///     steps: Steps::default(),
+/// };
+/// let commands = [Segment::straight(3.0, Gear::Forward), Segment::straight(1.0, Gear::Reverse)];
+/// let end = predict(&course, &Planar::default(), &commands, |_| {})?.end;
+/// assert!((end.x - 2.0).abs() < 1e-9 && end.y.abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`Blocked`]: the ground ends, or the suspension finds no rest.
 pub fn predict<T: Terrain>(
@@ -102,6 +126,10 @@ struct Walk {
 }
 
 impl Walk {
+    /// One segment by the midpoint rule, in equal steps no longer than the course's: rates at the last rest lead half a
+    /// step ahead, the vehicle is settled there, and the rates at that rest lead over the whole step. `go_on` sees each
+    /// middle and may end the drive (`Ok(false)`); `Blocked` is where no rest was found. Turns in place end with
+    /// straight wheels, changes of gear with wheels that have swung to what comes, where speeds are not constant.
     fn drive<T: Terrain>(
         &mut self,
         course: &Course<'_, T>,

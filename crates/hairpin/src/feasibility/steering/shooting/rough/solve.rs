@@ -127,6 +127,8 @@ fn confirmed<T: Terrain>(task: &Task<'_, '_, T>, course: &Course<'_, T>, segment
     again.is_ok_and(|again| miss(task.goal, &again.end, task.precision).residual <= ENOUGH)
 }
 
+/// Learned goal, then bent commands where no goal met it, then cheaper commands where a cost is asked for. Cheaper ones
+/// are taken only if a finer prediction confirms them.
 fn sought<T: Terrain>(
     task: &Task<'_, '_, T>,
     settings: &Settings,

@@ -1,4 +1,6 @@
 //! Steering that follows its command late: first order, with a bounded rate.
+//!
+//! Near rest steps in metres are long in seconds: they are parted until each is short beside the time constant.
 
 use crate::robot::rover::Response;
 

@@ -24,6 +24,12 @@ pub(super) fn end(simd: Simd, chain: &Chain) -> End {
 }
 
 kernel! {
+    /// All pieces at once by Gauss-Legendre nodes. In a piece of length h from turn θ₀ and curvatures κ₀ to κ₁: θ(τ) =
+    /// θ₀ + hκ₀τ + ½h(κ₁ − κ₀)τ², τ ∈ [0, 1]; x = Σ h∫cos θ dτ, y = Σ h∫sin θ dτ.
+    ///
+    /// Derivatives come from the same nodes: ∂x/∂p = −Σ h∫ sin θ ∂θ/∂p dτ and ∂y/∂p = Σ h∫ cos θ ∂θ/∂p dτ, with ∂θ/∂κ_m
+    /// piecewise quadratic and then constant; and as θ is proportional to L at fixed knots, L ∂x/∂L = x − Σ h∫ θ sin θ
+    /// dτ.
     fn integrate(chain: &Chain, out: &mut End) {
         let rule = Gauss::<NODES>::RULE;
         let mut heading = [0.0; PIECES];
