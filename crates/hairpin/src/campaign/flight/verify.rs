@@ -88,7 +88,12 @@ pub(in crate::campaign) fn verify_environment(
             // A shape that was not asked for has no size at all.
             match solid {
                 ClearSolid::Ball(_, radius) => {
-                    found.above(format_args!("obstacles[{number}].radius_m"), *radius, placed.radius_m.unwrap_or_default(), "m");
+                    found.above(
+                        format_args!("obstacles[{number}].radius_m"),
+                        *radius,
+                        placed.radius_m.unwrap_or_default(),
+                        "m",
+                    );
                 }
                 ClearSolid::Box(_, size) => {
                     for (axis, (edge, most)) in size.iter().zip(placed.size_m.unwrap_or_default()).enumerate() {

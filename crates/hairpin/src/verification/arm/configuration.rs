@@ -64,8 +64,7 @@ impl Arm<'_> {
     /// What is wrong with the configuration of `q` where `wanted` is asked for.
     pub(super) fn other_than(&self, q: &[f64; 6], wanted: &[i32; 4]) -> Option<String> {
         let cfx = self.cfx(q);
-        let inside =
-            |axis: usize, quadrant: i32| (q[axis] - middle_of(quadrant)).abs() <= FRAC_PI_4 + BORDER;
+        let inside = |axis: usize, quadrant: i32| (q[axis] - middle_of(quadrant)).abs() <= FRAC_PI_4 + BORDER;
         let [cf1, cf4, cf6, asked] = *wanted;
         let same = cfx == asked && inside(0, cf1) && inside(3, cf4) && inside(5, cf6);
         (!same).then(|| {

@@ -34,7 +34,11 @@ pub fn verify_arm_program(claim: &ArmClaim, program: &ArmProgramClaim) -> ArmPro
     let mut findings = path.findings.clone();
     if program.moves.len() != program.waypoints.len() {
         let (moves, waypoints) = (program.moves.len(), program.waypoints.len());
-        findings.push(ArmMoveFinding { index: 0, at: 0.0, what: format!("{moves} moves lead to {waypoints} waypoints") });
+        findings.push(ArmMoveFinding {
+            index: 0,
+            at: 0.0,
+            what: format!("{moves} moves lead to {waypoints} waypoints"),
+        });
     }
     findings.extend(wrong_corners(&path, program, &ends));
     findings.sort_by_key(|finding| finding.index);
@@ -77,12 +81,7 @@ fn straight(program: &ArmProgramClaim, index: usize) -> bool {
 }
 
 /// The first thing that does not hold on the way about a corner: links may come as near to the cell as they can without touching it.
-fn wrong_corner(
-    path: &ArmPath,
-    program: &ArmProgramClaim,
-    index: usize,
-    around: &[Vector3<f64>],
-) -> Option<String> {
+fn wrong_corner(path: &ArmPath, program: &ArmProgramClaim, index: usize, around: &[Vector3<f64>]) -> Option<String> {
     let singularity = if path.leads(index) { program.singularity } else { 0.0 };
     let asked = Asked { clearance: program.clear.then_some(0.0), around, singularity };
     let count = (2.0 * path.cut(index) / CORNER_STEP).ceil().max(LEAST_SAMPLES);
@@ -121,12 +120,7 @@ impl Arm<'_> {
     }
 
     /// Joint angles and pose that a move with `tool` (`link6_from_tcp`) begins at: the point that the one before was told, where it was told one.
-    fn begun(
-        &self,
-        before: Option<&Leg>,
-        start: &[f64; 6],
-        tool: &Isometry3<f64>,
-    ) -> ([f64; 6], Isometry3<f64>) {
+    fn begun(&self, before: Option<&Leg>, start: &[f64; 6], tool: &Isometry3<f64>) -> ([f64; 6], Isometry3<f64>) {
         let joints = before.map_or(start, Leg::end);
         let told = before.filter(|leg| leg.tool() == tool).and_then(|leg| leg.pose(1.0));
         (*joints, told.unwrap_or_else(|| self.place(tool, joints)))

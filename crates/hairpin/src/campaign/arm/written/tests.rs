@@ -9,7 +9,7 @@ use crate::math::random::{Stream, stream, unit};
 use crate::robot::arm::{JointLimit, Opw};
 use crate::simulation::arm::{Order, Plan, PlanSettings, RunSettings};
 use crate::trajectory::program::{JointTarget, NO_EXTERNAL, Speed, Tool, WorkObject, Zone};
-use crate::verification::{ArmClaim, ArmPath, ArmPiece, ArmProgramClaim, ArmProgramReplay, verify_arm_program};
+use crate::verification::{ArmClaim, ArmPath, ArmPiece, ArmProgramClaim, verify_arm_program};
 
 /// A small arm of 0.58 m whose arm's plane passes `b` beside axis 1, its axes counting as `signs` say.
 fn arm(b: f64, signs: Joints) -> Arm {
@@ -74,7 +74,8 @@ fn any(random: &mut Stream, most: f64) -> Isometry3<f64> {
 /// demanded where `configured`.
 fn random_program(arm: &Arm, random: &mut Stream, configured: bool) -> Program {
     let tools = [Tool::flange(), Tool { tcp: any(random, 0.3), ..Tool::flange() }];
-    let object = |random: &mut Stream| WorkObject { user: any(random, 2.0), object: any(random, 2.0), ..WorkObject::base() };
+    let object =
+        |random: &mut Stream| WorkObject { user: any(random, 2.0), object: any(random, 2.0), ..WorkObject::base() };
     let objects = [WorkObject::base(), object(random)];
     let mut program = Program::new("Random", "main", tools[0].clone(), objects[0].clone());
     program.tools = tools.to_vec();
@@ -162,7 +163,13 @@ fn look_at_it() {
             claimed(arm, &program, |claim| {
                 let moves = moves(arm, &program);
                 let waypoints = vec![Point3::origin(); moves.len()];
-                let asked = ArmProgramClaim { start: start(&program), moves: &moves, waypoints: &waypoints, singularity: 0.01, clear: false };
+                let asked = ArmProgramClaim {
+                    start: start(&program),
+                    moves: &moves,
+                    waypoints: &waypoints,
+                    singularity: 0.01,
+                    clear: false,
+                };
                 let replay = verify_arm_program(claim, &asked);
                 match (plan.stop(), replay.findings.first()) {
                     (None, None) => {}
@@ -171,7 +178,10 @@ fn look_at_it() {
                         return;
                     }
                     (stop, finding) => {
-                        println!("arm {number} seed {seed}: {stop:?} {} | {finding:?}", stop.map_or(String::new(), |s| s.reason.to_string()));
+                        println!(
+                            "arm {number} seed {seed}: {stop:?} {} | {finding:?}",
+                            stop.map_or(String::new(), |s| s.reason.to_string())
+                        );
                         disagree += 1;
                         return;
                     }
@@ -184,26 +194,58 @@ fn look_at_it() {
                 let mut worst_end = 0.0f64;
                 let mut histogram = [0; 16];
                 for (k, m) in planned.moves().iter().enumerate() {
-                    let end = if pieces.contains(&ArmPiece::Corner(k)) { path.at(ArmPiece::Corner(k), 0.5) } else { path.at(ArmPiece::Along(k, [0.0, 1.0]), 1.0) }.unwrap();
+                    let end = if pieces.contains(&ArmPiece::Corner(k)) {
+                        path.at(ArmPiece::Corner(k), 0.5)
+                    } else {
+                        path.at(ArmPiece::Along(k, [0.0, 1.0]), 1.0)
+                    }
+                    .unwrap();
                     worst_end = worst_end.max(off(&end.1, &planned.track().poses()[m.end]));
                     if seed < 8 {
-                    let own: Vec<ArmPiece> = pieces.iter().copied().filter(|p| match p { ArmPiece::Along(i, _) => *i == k, ArmPiece::Corner(i) => *i == k || *i + 1 == k }).collect();
-                    for i in (begin + 1..m.end).step_by(7) {
-                        let d = distance(&path, &own, &planned.track().poses()[i]);
-                        let bin = (-d.max(1e-15).log10()) as usize;
-                        histogram[bin] += 1;
-                        if d > 2e-6 { for j in i.saturating_sub(3)..i+4 { let q = &planned.track().poses()[j]; println!("   {j} t {} p {:?} d {:e}", planned.track().times()[j], q.translation.vector.as_slice(), distance(&path, &own, q)); } println!("arm {number} seed {seed} move {k} pose {i} of {begin}..{}: {d:e} {own:?} {:?}", m.end, std::mem::discriminant(&program.moves[k].motion)); }
-                    }
+                        let own: Vec<ArmPiece> = pieces
+                            .iter()
+                            .copied()
+                            .filter(|p| match p {
+                                ArmPiece::Along(i, _) => *i == k,
+                                ArmPiece::Corner(i) => *i == k || *i + 1 == k,
+                            })
+                            .collect();
+                        for i in (begin + 1..m.end).step_by(7) {
+                            let d = distance(&path, &own, &planned.track().poses()[i]);
+                            let bin = (-d.max(1e-15).log10()) as usize;
+                            histogram[bin] += 1;
+                            if d > 2e-6 {
+                                for j in i.saturating_sub(3)..i + 4 {
+                                    let q = &planned.track().poses()[j];
+                                    println!(
+                                        "   {j} t {} p {:?} d {:e}",
+                                        planned.track().times()[j],
+                                        q.translation.vector.as_slice(),
+                                        distance(&path, &own, q)
+                                    );
+                                }
+                                println!(
+                                    "arm {number} seed {seed} move {k} pose {i} of {begin}..{}: {d:e} {own:?} {:?}",
+                                    m.end,
+                                    std::mem::discriminant(&program.moves[k].motion)
+                                );
+                            }
+                        }
                     }
                     begin = m.end;
                 }
                 let run = plan.execute(&RunSettings { lag: 0.0, ..RunSettings::default() }, &[], 1).unwrap();
                 let last = run.recording.len() - 1;
-                let joints: Joints = std::array::from_fn(|j| run.recording.channel(&format!("q{}_rad", j + 1)).unwrap()[last]);
+                let joints: Joints =
+                    std::array::from_fn(|j| run.recording.channel(&format!("q{}_rad", j + 1)).unwrap()[last]);
                 let other = path.at(*pieces.last().unwrap(), 1.0).unwrap().0;
                 let apart = (0..6).map(|j| (joints[j] - other[j]).abs()).fold(0.0, f64::max);
-                if apart > 1e-8 || worst_end > 1e-9 { println!("arm {number} seed {seed}: joints {apart:e} ends {worst_end:e}"); }
-                if seed < 8 { println!("{number} {seed} {histogram:?}"); }
+                if apart > 1e-8 || worst_end > 1e-9 {
+                    println!("arm {number} seed {seed}: joints {apart:e} ends {worst_end:e}");
+                }
+                if seed < 8 {
+                    println!("{number} {seed} {histogram:?}");
+                }
             });
         }
         println!("arm {number}: whole {whole} stopped {stopped} disagree {disagree}");
