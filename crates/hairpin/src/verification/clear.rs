@@ -6,7 +6,7 @@
 //! is no such plane, a place is deeper than another by no more than the way between them.
 
 use super::claim::Leg;
-use super::finding::Finding;
+use super::finding::{Collector, Finding};
 
 /// A solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,14 +65,10 @@ pub fn verify_clear(claim: &ClearClaim) -> Vec<Finding> {
             approach(leg, solid, claim.clearance - ROUNDING, [0.0, leg.duration], here, &mut nearest, DEPTH);
             began += leg.duration;
         }
-        findings.extend(nearest.map(|near| Finding {
-            field: format!("environment.obstacles[{number}].clearance"),
-            value: near.distance,
-            bound: claim.clearance,
-            unit: "m",
-            leg: near.leg,
-            at: near.at,
-        }));
+        if let Some(Near { distance, leg, at }) = nearest {
+            let mut found = Collector::about(&mut findings, "environment").at(leg, at);
+            found.unless(false, format_args!("obstacles[{number}].clearance"), distance, claim.clearance, "m");
+        }
     }
     findings
 }

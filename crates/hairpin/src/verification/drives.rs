@@ -1,7 +1,7 @@
 //! The proof of a drive over several waypoints: every leg replayed from its own start.
 
 use super::drive::{DriveClaim, DrivePiece, replay_drive};
-use super::finding::{Finding, Proof, Worst, note};
+use super::finding::{Collector, Finding, Proof, Worst, note};
 use super::ground::{GroundClaim, GroundVehicle, replay_ground};
 use super::pace::{PaceClaim, check_speeds};
 use crate::world::terrain::Terrain;
@@ -101,17 +101,9 @@ pub fn verify_drives<T: Terrain>(
     tolerances: &DriveTolerances,
 ) -> Proof {
     let mut proof = Proof::default();
-    let finding = |field: String, value: f64, bound: f64, unit: &'static str, leg: usize, at: f64| Finding {
-        field,
-        value,
-        bound,
-        unit,
-        leg,
-        at,
-    };
     if claim.legs.is_empty() || claim.legs.len() + 1 != claim.waypoints.len() {
         let (found, wanted) = (claim.legs.len() as f64, claim.waypoints.len() as f64 - 1.0);
-        proof.findings.push(finding("legs".into(), found, wanted, "", 0, 0.0));
+        proof.findings.push(Finding { field: "legs".into(), value: found, bound: wanted, unit: "", leg: 0, at: 0.0 });
         return proof;
     }
     let mut at = 0.0;
@@ -127,39 +119,32 @@ pub fn verify_drives<T: Terrain>(
             duration: leg.duration,
             most_acceleration: tolerances.most_acceleration,
         };
-        check_speeds(&pace, |field, value, bound, unit| {
-            proof.findings.push(finding(format!("legs[{number}].{field}"), value, bound, unit, number, at));
-        });
+        check_speeds(&pace, &mut Collector::on_leg(&mut proof.findings, number, at));
         at += leg.duration;
-        let mut exceed = |what: &str, value: f64, bound: f64, unit: &'static str| {
-            if value.is_nan() || value > bound {
-                let field = format!("legs[{number}].{what}");
-                proof.findings.push(finding(field, value, bound, unit, number, at));
-            }
-        };
+        let mut found = Collector::on_leg(&mut proof.findings, number, at);
         let ([crab, last], crab_rate) = (leg.direction, leg.crab_rate());
         let [least, greatest] = tolerances.directions;
         for (what, direction) in [("direction.start.excess", crab), ("direction.end.excess", last)] {
-            exceed(what, (least - direction).max(direction - greatest), SAME, "rad");
+            found.above(what, (least - direction).max(direction - greatest), SAME, "rad");
         }
         // In the plane: the commands themselves, whatever they lead to.
         let plane =
             DriveClaim { start_curvature: leg.from[3], crab, crab_rate, end: [0.0; 3], end_curvature: leg.to[3] };
         let commands = replay_drive(&leg.pieces, &plane);
         let kept = |bound: f64| bound * (1.0 + ROUNDING);
-        exceed("curvature", commands.max_curvature, kept(tolerances.most_curvature), "1/m");
-        exceed("curvature_rate", commands.max_curvature_rate, kept(tolerances.most_curvature_rate), "1/m²");
-        exceed("curvature_jump", commands.max_jump, tolerances.curvature, "1/m");
-        exceed("start.curvature", commands.start_error_curvature.abs(), tolerances.curvature, "1/m");
+        found.above("curvature", commands.max_curvature, kept(tolerances.most_curvature), "1/m");
+        found.above("curvature_rate", commands.max_curvature_rate, kept(tolerances.most_curvature_rate), "1/m²");
+        found.above("curvature_jump", commands.max_jump, tolerances.curvature, "1/m");
+        found.above("start.curvature", commands.start_error_curvature.abs(), tolerances.curvature, "1/m");
         match replay_ground(&leg.pieces, vehicle, terrain, &leg.ground()) {
-            Err(stopped) => exceed("stopped_after", stopped.after_m, f64::NEG_INFINITY, "m"),
+            Err(stopped) => found.above("stopped_after", stopped.after_m, f64::NEG_INFINITY, "m"),
             Ok(replay) => {
                 let position = libm::hypot(replay.error[0], replay.error[1]);
-                exceed("end.position", position, tolerances.position, "m");
-                exceed("end.yaw", replay.error[2].abs(), tolerances.yaw, "rad");
-                exceed("end.curvature", replay.error_curvature.abs(), tolerances.curvature, "1/m");
-                exceed("tilt", replay.max_tilt, kept(tolerances.most_tilt), "rad");
-                exceed("wheel_torque", replay.max_torque, kept(tolerances.most_torque), "N·m");
+                found.above("end.position", position, tolerances.position, "m");
+                found.above("end.yaw", replay.error[2].abs(), tolerances.yaw, "rad");
+                found.above("end.curvature", replay.error_curvature.abs(), tolerances.curvature, "1/m");
+                found.above("tilt", replay.max_tilt, kept(tolerances.most_tilt), "rad");
+                found.above("wheel_torque", replay.max_torque, kept(tolerances.most_torque), "N·m");
                 note(&mut proof.position, position, number, at);
                 note(&mut proof.attitude, replay.error[2].abs(), number, at);
                 proof.steps += replay.steps;
@@ -185,10 +170,7 @@ fn check_joint(proof: &mut Proof, claim: &DrivesClaim, number: usize, at: f64) {
     if off > worst.value {
         *worst = Worst { value: off, leg: number, at };
     }
-    if off.is_nan() || off > SAME {
-        let field = format!("legs[{number}].joint");
-        proof.findings.push(Finding { field, value: off, bound: SAME, unit: "m", leg: number, at });
-    }
+    Collector::on_leg(&mut proof.findings, number, at).above("joint", off, SAME, "m");
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::body::{Body, State, attitude_error, level};
 use super::claim::{Claim, Leg};
 use super::demand::Singular;
-use super::finding::{EndError, Finding, Proof, Tolerances, exceed, note};
+use super::finding::{Collector, EndError, Finding, Proof, Tolerances, note};
 use super::gauss::Gauss;
 use super::knots::mismatches;
 use super::replay::{Flyer, Replay, Trouble};
@@ -88,14 +88,8 @@ fn check_knots(proof: &mut Proof, body: &Body, claim: &Claim, tolerances: &Toler
             let end = if knot.at_end { "end" } else { "start" };
             let (name, unit) =
                 [("position", "m"), ("velocity", "m/s"), ("acceleration", "m/s²"), ("jerk", "m/s³")][knot.order];
-            proof.findings.push(Finding {
-                field: format!("legs[{}].{end}.{name}", knot.leg),
-                value: knot.difference,
-                bound: knot.allowed,
-                unit,
-                leg: knot.leg,
-                at,
-            });
+            let mut found = Collector::on_leg(&mut proof.findings, knot.leg, at);
+            found.unless(false, format_args!("{end}.{name}"), knot.difference, knot.allowed, unit);
         }
     }
 }
@@ -119,12 +113,13 @@ fn fly_legs(proof: &mut Proof, flyer: &Flyer, claim: &Claim, tolerances: &Tolera
                 let target = level(claim.waypoints[number + 1], velocity);
                 check_end(proof, &replay, &target, number, began + leg.duration, tolerances);
                 note(&mut proof.path, replay.path.0, number, began + replay.path.1);
-                exceed(proof, "path", replay.path.0, tolerances.position, "m", (number, began + replay.path.1));
+                let mut found = Collector::on_leg(&mut proof.findings, number, began + replay.path.1);
+                found.above("path", replay.path.0, tolerances.position, "m");
                 proof.steps += replay.steps;
             }
             Err(trouble) => {
                 whole = false;
-                proof.findings.push(unflown(trouble, number, began, tolerances));
+                unflown(proof, trouble, number, began, tolerances);
             }
         }
         began += leg.duration;
@@ -140,10 +135,11 @@ fn check_end(proof: &mut Proof, replay: &Replay, target: &State, leg: usize, at:
     note(&mut proof.velocity, velocity, leg, at);
     note(&mut proof.attitude, attitude, leg, at);
     note(&mut proof.rates, rates, leg, at);
-    exceed(proof, "flown.position", position, tolerances.position, "m", (leg, at));
-    exceed(proof, "flown.velocity", velocity, tolerances.velocity, "m/s", (leg, at));
-    exceed(proof, "flown.attitude", attitude, tolerances.attitude, "rad", (leg, at));
-    exceed(proof, "flown.rates", rates, tolerances.rates, "rad/s", (leg, at));
+    let mut found = Collector::on_leg(&mut proof.findings, leg, at);
+    found.above("flown.position", position, tolerances.position, "m");
+    found.above("flown.velocity", velocity, tolerances.velocity, "m/s");
+    found.above("flown.attitude", attitude, tolerances.attitude, "rad");
+    found.above("flown.rates", rates, tolerances.rates, "rad/s");
 }
 
 fn velocity_at(leg: &Leg, tau: f64) -> [f64; 3] {
@@ -159,11 +155,11 @@ fn end_error(state: &State, claim: &Claim) -> EndError {
     }
 }
 
-fn unflown(trouble: Trouble, leg: usize, began: f64, tolerances: &Tolerances) -> Finding {
+fn unflown(proof: &mut Proof, trouble: Trouble, leg: usize, began: f64, tolerances: &Tolerances) {
     let (what, value, bound, unit, tau) = match trouble {
         Trouble::Singular(tau, Singular::FreeFall(thrust)) => ("thrust", thrust, f64::MIN_POSITIVE, "N", tau),
         Trouble::Singular(tau, Singular::Yaw(sine)) => ("yaw", sine, f64::MIN_POSITIVE, "", tau),
         Trouble::Steps(_, change) => ("integration", change, tolerances.accuracy, "", 0.0),
     };
-    Finding { field: format!("legs[{leg}].{what}"), value, bound, unit, leg, at: began + tau }
+    Collector::on_leg(&mut proof.findings, leg, began + tau).unless(false, what, value, bound, unit);
 }

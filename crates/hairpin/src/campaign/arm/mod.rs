@@ -20,6 +20,7 @@ mod seen;
 mod solve;
 mod station;
 mod verify;
+mod written;
 
 pub(super) use assumptions::{act, claim, search, verdict};
 pub use claim::GraphAgain;

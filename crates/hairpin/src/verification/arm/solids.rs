@@ -81,3 +81,16 @@ fn solid_angle(triangle: &[Point3<f64>; 3], p: &Point3<f64>) -> f64 {
     let below = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
     2.0 * libm::atan2(a.dot(&b.cross(&c)), below)
 }
+
+/// Whether words hold at a distance of `room` (m) from a point, in one of the directions `around`; of other forms the distance tells.
+pub(super) fn holds_around(form: &ArmSolidForm, p: &Point3<f64>, room: f64, around: &[Vector3<f64>]) -> bool {
+    let ArmSolidForm::Where(holds) = form else { return false };
+    around.iter().any(|direction| holds(&(p + direction * room)))
+}
+
+/// Directions to the corners, edges and faces of a cube, of length 1.
+pub(super) fn to_all_sides() -> Vec<Vector3<f64>> {
+    let side = |i: usize| i as f64 - 1.0;
+    let cube = (0..27).map(|i| Vector3::new(side(i % 3), side(i / 3 % 3), side(i / 9)));
+    cube.filter_map(|v| v.try_normalize(0.0)).collect()
+}
