@@ -128,7 +128,8 @@ impl Quadrotor {
     }
 
     /// x' = f(x, u) of the rigid body with drag in still air; u are the rotor speeds, rad/s. Integrated by
-    /// `rk4_step(|x| robot.derivative(x, &u), &x, h)` of [`crate::math::integrate`], with [`Self::normalize`] after each step.
+    /// `rk4_step(|x| robot.derivative(x, &u), &x, h)` of [`crate::math::integrate`], with [`Self::normalize`] after
+    /// each step.
     pub fn derivative(&self, state: &QuadrotorState, speeds: &Vector4<f64>) -> QuadrotorState {
         let u = self.wrench(speeds);
         let drag = self.drag_force(&Vector3::new(state[7], state[8], state[9]));

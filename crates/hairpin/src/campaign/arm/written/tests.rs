@@ -1,4 +1,5 @@
-//! Programs followed twice, by the virtual controller and by the proof, which share no equation: both must come to the same places.
+//! Programs followed twice, by the virtual controller and by the proof, which share no equation: both must come to the
+//! same places.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -70,8 +71,8 @@ fn any(random: &mut Stream, most: f64) -> Isometry3<f64> {
     Isometry3::from_parts(vector(0.1).into(), UnitQuaternion::from_scaled_axis(vector(most)))
 }
 
-/// A program of every kind of move from where its first posture puts the arm, through tools and work objects, with stops and zones. Configurations are
-/// demanded where `configured`.
+/// A program of every kind of move from where its first posture puts the arm, through tools and work objects, with
+/// stops and zones. Configurations are demanded where `configured`.
 fn random_program(arm: &Arm, random: &mut Stream, configured: bool) -> Program {
     let tools = [Tool::flange(), Tool { tcp: any(random, 0.3), ..Tool::flange() }];
     let object =
