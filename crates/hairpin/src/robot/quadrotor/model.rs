@@ -10,7 +10,7 @@ use crate::math::rotation;
 
 /// x, y, z, qw, qx, qy, qz (`world_from_body`), vx, vy, vz (world), p, q, r (body), SI units.
 ///
-/// m, m/s, rad/s; |(qw, qx, qy, qz)| = 1 after [`Dynamics::normalize`].
+/// m, m/s, rad/s; |(qw, qx, qy, qz)| = 1 after each step.
 pub type QuadrotorState = SVector<f64, 13>;
 
 /// The interface form x, y, z, φ, θ, ψ, vx, vy, vz, p, q, r. Singular at θ = ±90°: there roll is given as 0.
