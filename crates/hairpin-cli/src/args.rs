@@ -19,7 +19,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use compare::{Compare, FailOn};
-pub(crate) use experiment::{Experiment, ExperimentName};
+pub(crate) use experiment::Experiment;
 pub(crate) use explain::Explain;
 pub(crate) use import::Import;
 pub(crate) use learn::Learn;
@@ -30,7 +30,7 @@ pub(crate) use pipeline::{
 pub(crate) use requirements::Requirements;
 pub(crate) use select::{Select, SelectBy};
 pub(crate) use shrink::Shrink;
-pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerCost, SteerFrame};
+pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerFrame};
 pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
 
 /// Finds the trajectories a robot handles worst, and proves that they are ones it could have flown.
@@ -195,8 +195,8 @@ pub(crate) struct Threads {
 /// The version of the kernels.
 #[derive(Debug, Args)]
 pub(crate) struct Kernels {
-    /// Run all kernels at one SIMD level that every machine has, and record `portable` as the campaign's level: it goes on
-    /// on any machine. The results are those of every other level, bit for bit; it is only slower
+    /// Run all kernels at one SIMD level that every machine has, and record `portable` as the campaign's level: it goes
+    /// on on any machine. The results are those of every other level, bit for bit; it is only slower
     #[arg(long)]
     pub(crate) portable: bool,
 }
@@ -220,7 +220,8 @@ pub(crate) struct Simulate {
 
 #[derive(Debug, Args)]
 pub(crate) struct Bench {
-    /// Only those whose name begins so, such as beam; rover-worst is the table of the worst queries of the rover generator
+    /// Only those whose name begins so, such as beam; rover-worst is the table of the worst queries of the rover
+    /// generator
     pub(crate) name: Option<String>,
     /// Flat queries of each family of rover-worst; a hundredth of it on the ground
     #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
@@ -228,7 +229,8 @@ pub(crate) struct Bench {
     /// Length of the campaign whose memory is measured
     #[arg(long, value_name = "M", default_value_t = 0.2)]
     pub(crate) minutes: f64,
-    /// Write the questions of the max-load benches as tables of costs into DIR instead, with DIR/questions.json, for other solvers
+    /// Write the questions of the max-load benches as tables of costs into DIR instead, with DIR/questions.json, for
+    /// other solvers
     #[arg(long, value_name = "DIR")]
     pub(crate) write: Option<PathBuf>,
     /// How many questions of each bench --write writes

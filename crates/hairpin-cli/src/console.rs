@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal, Write};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tracing::level_filters::LevelFilter;
+use tracing_subscriber::filter::LevelFilter;
 
 /// A line of results. A reader that has gone away (`| head`) is no mistake: what is left to say is not said.
 pub(crate) fn say(line: &str) {
@@ -45,16 +45,6 @@ pub(crate) fn progress(what: &'static str, of: usize) -> ProgressBar {
     let template = format!("{{msg:>10}} {{bar:32{colour}}} {{pos}}/{{len}}  {{eta}} left");
     let style = ProgressStyle::with_template(&template).unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::with_draw_target(Some(of as u64), target).with_style(style).with_message(what)
-}
-
-/// Names that a line has room for.
-const TOLD: usize = 8;
-
-/// `0003, 0007 and 12 more`: as many of `names` as a line has room for.
-pub(crate) fn some(names: &[String]) -> String {
-    let more = names.len().saturating_sub(TOLD);
-    let told = names[..names.len() - more].join(", ");
-    if more == 0 { told } else { format!("{told} and {more} more") }
 }
 
 /// Rows under headers, columns as wide as they need; the first row is the header.

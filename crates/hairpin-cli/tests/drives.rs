@@ -234,7 +234,8 @@ fn a_drive_that_is_planned_to_creep_is_not_stuck() {
     assert_eq!(results[0].ended, "done");
 }
 
-/// Scores of straight legs have every term; an outline is kept clear of what is to be kept out of; a car stops for its cusps.
+/// Scores of straight legs have every term; an outline is kept clear of what is to be kept out of; a car stops for its
+/// cusps.
 #[test]
 fn cars_shunt_and_every_reach_set_takes_every_score() {
     let folder = tempfile::tempdir().unwrap();

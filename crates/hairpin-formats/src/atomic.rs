@@ -1,10 +1,11 @@
-//! Every file we write appears whole or not at all: a temporary name in the same folder, then a rename. What is no file (a
-//! pipe, a device) is written to where it stands.
+//! Every file we write appears whole or not at all: a temporary name in the same folder, then a rename. What is no file
+//! (a pipe, a device) is written to where it stands.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use thiserror::Error;
 
 const PREFIX: &str = ".hairpin-";
@@ -28,10 +29,27 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     write_with(path, |file| file.write_all(bytes))
 }
 
+/// Writes `what` as [`json_text`] has it.
+///
+/// # Errors
+/// As [`write()`]; data that JSON cannot hold.
+pub fn write_json(path: &Path, what: &impl Serialize) -> Result<(), WriteError> {
+    let text = json_text(what).map_err(|error| WriteError { path: path.into(), cause: error.into() })?;
+    write(path, text.as_bytes())
+}
+
+/// JSON as our files have it: indented, with a line's end.
+///
+/// # Errors
+/// Data that JSON cannot hold.
+pub fn json_text(what: &impl Serialize) -> Result<String, serde_json::Error> {
+    Ok(serde_json::to_string_pretty(what)? + "\n")
+}
+
 /// Hands `fill` a temporary file beside `path` and renames it to `path` once its bytes are on disk. A process killed at
 /// any moment leaves the old file or the new one, and at worst a temporary that [`remove_leftovers`] takes away. A link
-/// stays a link to the file that is written. A pipe or a device gets the bytes themselves: a rename would put a file in its
-/// place.
+/// stays a link to the file that is written. A pipe or a device gets the bytes themselves: a rename would put a file in
+/// its place.
 ///
 /// # Errors
 /// As [`write()`], and whatever `fill` returns.

@@ -1,8 +1,7 @@
 //! Proofs of heaviest paths hold for another program, and break when anything of them is changed.
 
-use hairpin::campaign::experiment::robtest::{Costs, Question};
 use hairpin::math::random::{named_seed, stream, unit};
-use hairpin::search::heaviest::{Arcs, Ends, Heaviest, HeaviestSettings, Method, Next, heaviest};
+use hairpin::search::heaviest::{Arcs, Ends, Heaviest, HeaviestSettings, Method, Next, Workspace, heaviest};
 use hairpin::verification::{HeaviestClaim, NextClaim, StepClaim, TreeClaim, verify_heaviest};
 
 /// A random table: sparse to dense, directed or not.
@@ -130,12 +129,14 @@ fn with_sixteen_points_both_ways_give_the_heaviest_path_and_a_claim_that_holds()
     assert!((1..40).contains(&by_branching), "{by_branching} of 40 by branching: one way is not tried");
 }
 
-/// Points in narrow clusters, where a single tree says little: with subgradients alone thousands of splits left the first two open.
+/// Points in narrow clusters, where a single tree says little: with subgradients alone thousands of splits left the
+/// first two open.
 #[test]
 fn clusters_are_proven_with_few_splits_and_the_proof_holds() {
     for index in [1, 8, 5] {
         let seed = named_seed(1, "robtest", 30_000 + index);
-        let arcs = Costs::Distance.of(&Question::clustered(30, 4, 0.01, seed).unwrap().graph(), seed).unwrap();
+        let workspace = Workspace::PUBLISHED;
+        let arcs = workspace.arcs(&workspace.clustered(30, 4, 0.01, seed)).unwrap();
         let settings = HeaviestSettings { proof: true, most_nodes: Some(20), ..Default::default() };
         let found = heaviest(&arcs, &settings, &|| false).unwrap();
         assert!(found.proven, "{index}: {:?}", found.gap_percent());

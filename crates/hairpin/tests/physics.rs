@@ -4,7 +4,6 @@ use differential_equations::prelude::*;
 use hairpin::math::integrate::rk4_step;
 use hairpin::math::random::{named_seed, stream};
 use hairpin::math::rotation;
-use hairpin::robot::Dynamics;
 use hairpin::robot::quadrotor::published::{angular_acceleration, euler_rates, thrust_direction};
 use hairpin::robot::quadrotor::{
     EulerState, Quadrotor, QuadrotorDescription, QuadrotorState, from_euler_state, level_rest, to_euler_state,

@@ -6,7 +6,6 @@ use hairpin::feasibility::reach::{
 };
 use hairpin::math::random::{Stream, named_seed, stream};
 use hairpin::math::simd::Simd;
-use hairpin::robot::Dynamics;
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorState, level_rest};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use rand::RngExt;

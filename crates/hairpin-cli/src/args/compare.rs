@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 /// Pairs have the same case number, seed and waypoints. Exit code 1 where a case fails in B that passes in A; with
-/// `--fail-on regression` also where a metric got worse: Wilcoxon's signed-rank test, corrected for the number of metrics
-/// (Holm), below 0.05. Exit code 5 where pairs there are and none could be compared: executors failed, or data are inconclusive.
+/// `--fail-on regression` also where a metric got worse: Wilcoxon's signed-rank test, corrected for the number of
+/// metrics (Holm), below 0.05. Exit code 5 where pairs there are and none could be compared: executors failed, or data
+/// are inconclusive.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// Judged campaign folder: before
@@ -18,7 +19,8 @@ pub(crate) struct Compare {
     /// What exit code 1 is for
     #[arg(long, value_enum, default_value_t = FailOn::NewlyFailing)]
     pub(crate) fail_on: FailOn,
-    /// Deviations that differ by no more than this are unchanged, m; runs of another program are never equal to the last digit
+    /// Deviations that differ by no more than this are unchanged, m; runs of another program are never equal to the
+    /// last digit
     #[arg(long, value_name = "M", default_value_t = 1e-6, value_parser = super::numbers::not_negative, allow_negative_numbers = true)]
     pub(crate) tolerance_m: f64,
     /// One JSON object on stdout

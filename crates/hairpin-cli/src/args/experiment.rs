@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-/// Each prints its table beside what the paper printed, and writes tables as CSV and figures as SVG. EXPERIMENTS.md shows them.
+/// Each prints its table beside what the paper printed, and writes tables as CSV and figures as SVG. EXPERIMENTS.md
+/// shows them.
 #[derive(Debug, Args)]
 pub(crate) struct Experiment {
     /// Which one
@@ -51,4 +52,22 @@ pub(crate) enum ExperimentName {
     RobtestCosts,
     /// Rough terrain trajectory generator, 2006: its requirements and the tests of its results document
     RoverRequirements,
+}
+
+impl ExperimentName {
+    /// The name of its sheet.
+    pub(crate) fn sheet(self) -> String {
+        self.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_can_be_typed_is_what_the_laboratory_has() {
+        let typed = ExperimentName::value_variants().iter().map(|name| name.sheet());
+        assert!(typed.eq(hairpin_lab::experiment::names()));
+    }
 }

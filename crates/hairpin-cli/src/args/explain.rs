@@ -1,12 +1,14 @@
 //! `hairpin explain`.
 
 use clap::Args;
+use hairpin_jobs::explain::ExplainSettings;
 
 use super::numbers::{LARGEST_SEED, seconds};
 use super::{Kernels, Threads};
 
-/// Searches a fixed number of graphs, counts where candidates for legs are lost, by limit, and where nothing is feasible
-/// changes one key at a time, as little as helps. Exit code 3 where nothing is feasible, else 0. Nothing is written.
+/// Searches a fixed number of graphs, counts where candidates for legs are lost, by limit, and where nothing is
+/// feasible changes one key at a time, as little as helps. Exit code 3 where nothing is feasible, else 0. Nothing is
+/// written.
 #[derive(Debug, Args)]
 pub(crate) struct Explain {
     /// Scenario file, the name of a shipped scenario or robot, or a campaign folder's scenario.toml
@@ -18,7 +20,7 @@ pub(crate) struct Explain {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED), allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
     /// Graphs that are sampled and searched; with every change the same ones
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = ExplainSettings::default().graphs, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     pub(crate) graphs: u64,
     /// Seconds after which no further change is tried
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]

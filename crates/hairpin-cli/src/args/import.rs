@@ -14,7 +14,8 @@ pub(crate) struct Import {
     /// The arm: a shipped name, an arm's file or a URDF
     #[arg(long, value_name = "ARM", default_value = "irb120", requires = "check")]
     pub(crate) robot: String,
-    /// What stands around it: a scenario of an arm, by file or name, with its arm, obstacles, clearance and the tool's radius
+    /// What stands around it: a scenario of an arm, by file or name, with its arm, obstacles, clearance and the tool's
+    /// radius
     #[arg(long, value_name = "CELL", requires = "check", conflicts_with = "robot")]
     pub(crate) cell: Option<String>,
     /// The procedure to execute; `main` if there is one, else the first that no other calls

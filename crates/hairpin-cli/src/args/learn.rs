@@ -6,8 +6,9 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hairpin::judgement::Stress;
 
-/// Learns per-leg stress from the executed legs of a campaign, as a polynomial of what the search saw of them. Degree and penalty
-/// are chosen by 10-fold cross-validation over trajectories; the quality told is that on trajectories that took no part.
+/// Learns per-leg stress from the executed legs of a campaign, as a polynomial of what the search saw of them. Degree
+/// and penalty are chosen by 10-fold cross-validation over trajectories; the quality told is that on trajectories that
+/// took no part.
 #[derive(Debug, Args)]
 pub(crate) struct Learn {
     /// Campaign folder

@@ -7,10 +7,11 @@ use clap::{Args, ValueEnum};
 use super::Threads;
 use super::numbers::{LARGEST_SEED, seconds};
 
-/// The path through a graph that costs most, in which no point comes twice (or --visits). Points may be left out; ends are free unless fixed.
+/// The path through a graph that costs most, in which no point comes twice (or --visits). Points may be left out; ends
+/// are free unless fixed.
 ///
-/// The answer tells cost, upper bound, gap, and whether it is proven. A time limit or Ctrl-C gives the best so far. Exit code 3:
-/// there is no such path, 5: none was found yet.
+/// The answer tells cost, upper bound, gap, and whether it is proven. A time limit or Ctrl-C gives the best so far.
+/// Exit code 3: there is no such path, 5: none was found yet.
 #[derive(Debug, Args)]
 pub(crate) struct MaxLoad {
     /// Arm, cell: a shipped arm's name, a robot file, or a scenario; with --cloud
@@ -19,10 +20,12 @@ pub(crate) struct MaxLoad {
     /// Costs of the arcs: N lines of N numbers ≥ 0, empty where there is no arc; row = from
     #[arg(long, value_name = "COSTS.csv", required_unless_present = "cloud", conflicts_with = "cloud")]
     pub(crate) graph: Option<PathBuf>,
-    /// Points of an arm: x_mm,y_mm,z_mm, and if wanted q1 to q4 and cf1,cf4,cf6,cfx; or the robtargets of a RAPID module; needs CELL
+    /// Points of an arm: x_mm,y_mm,z_mm, and if wanted q1 to q4 and cf1,cf4,cf6,cfx; or the robtargets of a RAPID
+    /// module; needs CELL
     #[arg(long, value_name = "POINTS.csv", requires = "cell")]
     pub(crate) cloud: Option<PathBuf>,
-    /// Campaign folder for the programs of --cloud, with the graph and the reasons of refused moves; then `hairpin export OUT --to rapid`
+    /// Campaign folder for the programs of --cloud, with the graph and the reasons of refused moves; then `hairpin
+    /// export OUT --to rapid`
     #[arg(long, value_name = "OUT", requires = "cloud")]
     pub(crate) out: Option<PathBuf>,
     /// Replace the campaign in --out

@@ -78,7 +78,8 @@ pub(crate) struct Execute {
     pub(crate) executor: Option<String>,
     #[command(flatten)]
     pub(crate) saved: Saved,
-    /// Of arms: logs of a real controller instead of runs of ours, `*` for CASE-RUN (sets execute.logs): 'nightly/*.csv'
+    /// Of arms: logs of a real controller instead of runs of ours, `*` for CASE-RUN (sets execute.logs):
+    /// 'nightly/*.csv'
     #[arg(long, value_name = "PATTERN", conflicts_with_all = ["missions", "executor"])]
     pub(crate) logs: Option<String>,
     /// Run every violation N times again with other noise (sets execute.flaky.reruns): how often does it come again?

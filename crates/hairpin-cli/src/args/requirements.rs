@@ -8,8 +8,8 @@ use super::terrain::MapFlags;
 
 /// Every value is measured in this run. Exit code 0 if every requirement is met, 1 if not.
 ///
-/// The source is T. Howard's rough terrain trajectory generator for planetary rovers (2006): its requirements R-1 … R-17 and the
-/// 19 tests of its results document.
+/// The source is T. Howard's rough terrain trajectory generator for planetary rovers (2006): its requirements R-1 …
+/// R-17 and the 19 tests of its results document.
 #[derive(Debug, Args)]
 pub(crate) struct Requirements {
     /// Whose requirements
@@ -32,21 +32,6 @@ pub(crate) struct Requirements {
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-impl Requirements {
-    /// Those of rovers on the embedded ground, by `queries` of each large family.
-    pub(crate) fn of_rovers(queries: u32) -> Self {
-        Self {
-            of: Generator::Rover,
-            terrain: None,
-            map: MapFlags::default(),
-            rocks: None,
-            queries,
-            write_regression: None,
-            json: false,
-        }
-    }
 }
 
 /// Generators that have requirements.

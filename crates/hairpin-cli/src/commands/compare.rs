@@ -1,45 +1,26 @@
 //! `hairpin compare`: two campaign folders, paired by case and seed.
 
-use std::path::Path;
-
+use hairpin::campaign::Comparison;
 use hairpin::campaign::digits::number;
-use hairpin::campaign::{Case, CaseResult, Comparison, compare};
+use hairpin_jobs::Problem;
+use hairpin_jobs::compare::{Compared, compare, unpaired};
+use hairpin_jobs::names::listed;
 use serde_json::json;
 
 use crate::args::{Compare, FailOn};
-use crate::folder::{self, Work};
-use crate::problem::Problem;
-use crate::{console, folder::look};
+use crate::console;
+use crate::exit::{DONE, FINDING, INCONCLUSIVE};
 
-/// Exit code where pairs there are, and none of them could be compared.
-const INCONCLUSIVE: u8 = 5;
-
-/// Runs the command: 0, or 1 on newly failing cases and, where that was asked for, on regression; 5 where no pair could be compared.
+/// Runs the command: 0, or 1 on newly failing cases and, where that was asked for, on regression; 5 where no pair could
+/// be compared.
 pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
-    let (a, b) = (look(&asked.a)?, look(&asked.b)?);
-    let differences = folder::differences(&a.setup.scenario, &b.setup.scenario);
-    if std::mem::discriminant(&a.setup.scenario) != std::mem::discriminant(&b.setup.scenario) {
-        return Err(Problem::input(format!(
-            "{} and {} are of different kinds of robots ({} and {}): there is nothing to pair",
-            asked.a.display(),
-            asked.b.display(),
-            a.setup.robot_name(),
-            b.setup.robot_name()
-        )));
-    }
-    let compared = compare(&judged(&a, &asked.a)?, &judged(&b, &asked.b)?, asked.tolerance_m);
-    if compared.pairs == 0 {
-        return Err(Problem::input(format!(
-            "no case of {a} has a partner in {b} with the same number, seed, waypoints and environment ({}): fly the same trajectories in \
-             both under one --seed, such as by hairpin export {a} --to waypoints and hairpin execute {b} --missions {a}/missions",
-            reasons(&compared),
-            a = asked.a.display(),
-            b = asked.b.display(),
-        )));
-    }
+    let Compared { comparison: compared, differences } = compare(&asked.a, &asked.b, asked.tolerance_m)?;
     let regression = asked.fail_on == FailOn::Regression && compared.regresses();
-    let worse = u8::from(!compared.newly_failing.is_empty() || regression);
-    let code = if compared.inconclusive() { INCONCLUSIVE } else { worse };
+    let code = match (compared.inconclusive(), !compared.newly_failing.is_empty() || regression) {
+        (true, _) => INCONCLUSIVE,
+        (false, true) => FINDING,
+        (false, false) => DONE,
+    };
     if asked.json {
         let mut object = json!(compared);
         object["verdict"] = json!(compared.sentence());
@@ -48,28 +29,14 @@ pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
         object["scenario_differences"] = json!(differences);
         console::say(&object.to_string());
     } else {
-        tell(&compared, &differences);
+        in_words(&compared, &differences);
     }
     Ok(code)
 }
 
-/// Every case with its result.
-fn judged(work: &Work, path: &Path) -> Result<Vec<(Case, CaseResult)>, Problem> {
-    let cases = work.folder.read_cases_without_profiles()?;
-    let mut results = work.folder.read_results()?;
-    if results.len() < cases.len() || cases.is_empty() {
-        return Err(Problem::input(format!("not judged yet: hairpin judge {}", path.display())));
-    }
-    let pair = |case: Case| {
-        let index = results.iter().position(|result| result.case == case.number)?;
-        Some((case, results.swap_remove(index)))
-    };
-    Ok(cases.into_iter().filter_map(pair).collect())
-}
-
-fn tell(compared: &Comparison, differences: &[String]) {
+fn in_words(compared: &Comparison, differences: &[String]) {
     if !differences.is_empty() {
-        console::warn(&format!("the scenarios differ in {}", console::some(differences)));
+        console::warn(&format!("the scenarios differ in {}", listed(differences)));
     }
     if differences.iter().any(|key| key.starts_with("spec.")) {
         console::warn("Warning: what passes and fails is by each folder's own spec");
@@ -106,24 +73,13 @@ fn tell(compared: &Comparison, differences: &[String]) {
         ("not compared (executor failed or inconclusive)", &compared.undecided),
     ] {
         if !names.is_empty() {
-            console::say(&format!("{what}: {}", console::some(names)));
+            console::say(&format!("{what}: {}", listed(names)));
         }
     }
     if !compared.unpaired.is_empty() {
-        console::say(&format!("not paired: {}", reasons(compared)));
+        console::say(&format!("not paired: {}", unpaired(compared)));
     }
     console::say(&compared.sentence());
-}
-
-/// `0003, 0007 (only in A); 0009 (other waypoints)`.
-fn reasons(compared: &Comparison) -> String {
-    let whys = ["only in A", "only in B", "another seed", "other waypoints", "another environment"];
-    let group = |why: &&str| {
-        let names: Vec<String> =
-            compared.unpaired.iter().filter(|one| one.why == *why).map(|one| one.case.clone()).collect();
-        (!names.is_empty()).then(|| format!("{} ({why})", console::some(&names)))
-    };
-    whys.iter().filter_map(group).collect::<Vec<_>>().join("; ")
 }
 
 fn signed(value: f64) -> String {

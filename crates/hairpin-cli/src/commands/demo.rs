@@ -3,15 +3,16 @@
 use std::path::Path;
 
 use hairpin_formats::scenario::setup_for;
+use hairpin_jobs::stress::stress_begun;
+use hairpin_jobs::work::make;
+use hairpin_jobs::{Deadline, Problem, Watch};
 
 use super::{new, stress};
 use crate::args::{Demo, Kind};
-use crate::folder::{self, Work};
-use crate::interrupt::Deadline;
-use crate::problem::Problem;
+use crate::settings;
 
 /// Runs the command.
-pub(crate) fn run(demo: &Demo) -> Result<u8, Problem> {
+pub(crate) fn run(demo: &Demo, watch: &dyn Watch) -> Result<u8, Problem> {
     let scenario = match demo.kind {
         Kind::Quadrotor => "demo-quadrotor",
         Kind::Rover => "demo-rover",
@@ -23,9 +24,9 @@ pub(crate) fn run(demo: &Demo) -> Result<u8, Problem> {
         }
         Kind::Arm => "demo-arm",
     };
-    folder::take_threads(&demo.threads);
-    let setup = setup_for(scenario, &[])?.with_simd(folder::simd(&demo.kernels));
+    settings::take_threads(&demo.threads);
+    let setup = setup_for(scenario, &[])?.with_simd(settings::simd(&demo.kernels));
     let replaceable = demo.force || demo.out == Path::new("hairpin-demo");
-    let work = Work { folder: folder::make(&demo.out, &setup, false, replaceable)?, setup };
-    stress::campaign(&work, Deadline::after(None), &[], demo.json)
+    let work = make(&demo.out, setup, settings::if_there(false, replaceable))?;
+    Ok(stress::say(&stress_begun(work, Deadline::after(None), Vec::new(), watch)?, demo.json))
 }

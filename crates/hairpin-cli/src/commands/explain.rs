@@ -1,30 +1,26 @@
 //! `hairpin explain`: why nothing, or little, is feasible.
 
-use std::time::Instant;
-
-use hairpin::campaign::Stop;
-use hairpin::campaign::explain::{Deaths, explain};
-use hairpin_formats::scenario::setup_for;
+use hairpin::campaign::explain::Deaths;
+use hairpin_jobs::explain::{ExplainSettings, explain};
+use hairpin_jobs::{Problem, Watch, sets};
 use serde_json::json;
 
 use crate::args::Explain;
-use crate::interrupt::{self, Deadline};
-use crate::problem::Problem;
-use crate::{console, folder};
+use crate::{console, settings};
 
 /// Runs the command: 0 where something is feasible, 3 where nothing is.
-pub(crate) fn run(asked: &Explain) -> Result<u8, Problem> {
-    folder::take_threads(&asked.threads);
-    let mut sets = folder::split(&asked.sets)?;
-    sets.extend(asked.seed.map(|seed| ("seed".to_owned(), seed.to_string())));
-    let setup = setup_for(&asked.scenario, &sets)?.with_simd(folder::simd(&asked.kernels));
-    let (began, deadline) = (Instant::now(), Deadline::after(asked.time_limit));
-    let stop = Stop { cancelled: &interrupt::asked, progress: &|_, _| {}, clock: &|| began.elapsed().as_secs_f64() };
-    let found = explain(&setup, asked.graphs, &stop, &|| deadline.passed())?;
-    if interrupt::asked() {
-        return Err(Problem::Interrupted("stopped".into()));
-    }
-    let verdict = found.verdict(&setup);
+pub(crate) fn run(asked: &Explain, watch: &dyn Watch) -> Result<u8, Problem> {
+    settings::take_threads(&asked.threads);
+    let mut all = settings::split(&asked.sets)?;
+    all.extend(asked.seed.map(sets::seed));
+    let settings = ExplainSettings {
+        scenario: asked.scenario.clone(),
+        sets: all,
+        graphs: asked.graphs,
+        time_limit_s: asked.time_limit,
+        simd: settings::simd(&asked.kernels),
+    };
+    let (found, verdict) = explain(&settings, watch)?;
     if asked.json {
         let mut object = json!(found);
         object["verdict"] = json!(verdict.sentence);

@@ -2,20 +2,20 @@
 
 use hairpin::campaign;
 use hairpin::judgement::Verdict;
+use hairpin_jobs::generate::{Generated, generate};
+use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
-use super::parts;
+use super::answer::point_to_explain;
 use crate::args::Generate;
-use crate::interrupt::Deadline;
-use crate::problem::Problem;
-use crate::{console, folder};
+use crate::exit::DONE;
+use crate::{console, settings};
 
 /// Runs the command: 0 with at least one case, or when the time limit was the reason for none; 3 without.
-pub(crate) fn run(generate: &Generate) -> Result<u8, Problem> {
-    let arguments = &generate.campaign;
-    let work = folder::begin(arguments, None)?;
-    let deadline = Deadline::after(arguments.time_limit);
-    let (cases, tally) = parts::generate(&work, deadline)?;
+pub(crate) fn run(asked: &Generate, watch: &dyn Watch) -> Result<u8, Problem> {
+    let arguments = &asked.campaign;
+    settings::take_threads(&arguments.threads);
+    let Generated { work, cases, tally } = generate(&settings::campaign(arguments, None)?, watch)?;
     let asked = work.setup.scenario.search().cases;
     let outcome = if cases.is_empty() && !tally.stopped {
         campaign::verdict(&work.setup, &cases, &[], &tally)
@@ -23,7 +23,7 @@ pub(crate) fn run(generate: &Generate) -> Result<u8, Problem> {
         let word = cases.first().map_or("none", |case| case.evidence.word());
         Verdict {
             sentence: format!("GENERATED {}/{asked} cases from {} graphs ({word})", cases.len(), tally.graphs),
-            exit_code: 0,
+            exit_code: DONE,
         }
     };
     if arguments.json {
@@ -37,7 +37,7 @@ pub(crate) fn run(generate: &Generate) -> Result<u8, Problem> {
         console::say(&object.to_string());
     } else {
         console::say(&outcome.sentence);
-        parts::point_to_explain(&work, outcome.exit_code);
+        point_to_explain(&work, outcome.exit_code);
     }
     Ok(outcome.exit_code)
 }

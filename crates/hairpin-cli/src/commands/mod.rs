@@ -1,7 +1,7 @@
-//! What each command means; one file each. `parts` are the four parts of `stress`, on an open campaign folder.
+//! What each command means; one file each: arguments become the settings of a job, and its result words.
 
+mod answer;
 pub(crate) mod bench;
-mod certificate;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod demo;
@@ -9,13 +9,13 @@ pub(crate) mod execute;
 pub(crate) mod experiment;
 pub(crate) mod explain;
 pub(crate) mod export;
+mod findings;
 pub(crate) mod generate;
 pub(crate) mod import;
 pub(crate) mod judge;
 pub(crate) mod learn;
 pub(crate) mod max_load;
 pub(crate) mod new;
-mod parts;
 pub(crate) mod replay;
 pub(crate) mod report;
 pub(crate) mod requirements;

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use hairpin_formats::{atomic, template};
+use hairpin_jobs::Problem;
 use serde_json::json;
 
 use crate::args::{Kind, New};
 use crate::console;
-use crate::problem::Problem;
+use crate::exit::DONE;
 
 /// Runs the command.
 pub(crate) fn run(new: &New) -> Result<u8, Problem> {
@@ -20,11 +21,11 @@ pub(crate) fn run(new: &New) -> Result<u8, Problem> {
     }
     atomic::write(path, text.as_bytes())?;
     if new.json {
-        console::say(&json!({ "exit_code": 0, "file": file }).to_string());
+        console::say(&json!({ "exit_code": DONE, "file": file }).to_string());
     } else {
         console::say(&format!("{file} written; now: hairpin stress {file}"));
     }
-    Ok(0)
+    Ok(DONE)
 }
 
 /// The kind's name in files.

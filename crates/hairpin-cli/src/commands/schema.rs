@@ -1,13 +1,15 @@
 //! `hairpin schema`: JSON Schema from the types that read the files.
 
+use hairpin_formats::atomic::json_text;
 use hairpin_formats::schema::{
     arm_scenario_schema, arm_schema, car_schema, differential_drive_schema, drive_scenario_schema, robot_schema,
     rover_schema, scenario_schema,
 };
+use hairpin_jobs::Problem;
 
 use crate::args::{Document, Schema};
 use crate::console;
-use crate::problem::Problem;
+use crate::exit::DONE;
 
 /// Runs the command.
 pub(crate) fn run(schema: &Schema) -> Result<u8, Problem> {
@@ -21,6 +23,6 @@ pub(crate) fn run(schema: &Schema) -> Result<u8, Problem> {
         Document::Car => car_schema(),
         Document::DifferentialDrive => differential_drive_schema(),
     };
-    console::say(&serde_json::to_string_pretty(&schema).map_err(Problem::input)?);
-    Ok(0)
+    console::say_text(&json_text(&schema).map_err(Problem::input)?);
+    Ok(DONE)
 }

@@ -1,123 +1,76 @@
 //! `hairpin shrink`: a violating case reduced to the shortest feasible one that still violates.
 
-mod answers;
-
-use std::path::Path;
-use std::time::Instant;
-
 use hairpin::campaign::report::violation;
-use hairpin::campaign::{Case, CaseResult, Shrunk};
 use hairpin::judgement::Violation;
+use hairpin_jobs::shrink::{ShrinkSettings, Shrinking, ShrunkCase};
+use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
-use super::parts::{Repro, ShrunkFrom};
 use crate::args::Shrink;
-use crate::console;
-use crate::folder::{self, Work};
-use crate::interrupt;
-use crate::problem::Problem;
-use answers::Answers;
-
-/// Names that a sentence has room for.
-const TOLD: usize = 12;
+use crate::exit::DONE;
+use crate::{console, settings};
 
 /// Runs the command: 0 when there is a smaller case, or none can be.
-pub(crate) fn run(asked: &Shrink) -> Result<u8, Problem> {
-    let work = folder::open(&asked.folder, &[], &[], Some(&asked.kernels))?;
-    let (case, result) = violating(&work, asked)?;
-    let (before, kind) = (case.waypoints.len(), result.violations[0].what.clone());
+pub(crate) fn run(asked: &Shrink, watch: &dyn Watch) -> Result<u8, Problem> {
+    let shrinking = Shrinking::open(ShrinkSettings {
+        folder: asked.folder.clone(),
+        case: asked.case,
+        budget: asked.budget,
+        time_limit_s: asked.time_limit,
+        out: asked.out.clone(),
+        simd: settings::simd(&asked.kernels),
+    })?;
+    let (case, violated) = (&shrinking.case, &shrinking.result.violations[0]);
+    let before = case.waypoints.len();
     if !asked.json {
-        console::say(&format!("case {}: {before} waypoints, {}", case.id(), violation(&result.violations[0])));
+        console::say(&format!("case {}: {before} waypoints, {}", case.id(), violation(violated)));
     }
-    let began = Instant::now();
-    let target = asked.out.clone().unwrap_or_else(|| work.folder.file(&format!("repro/{}-shrunk.json", case.id())));
-    let mut answers = Answers::take_up(&work, &case, &result, asked);
-    let shrunk = answers.search(&work.setup, &case, &result)?;
-    repro(&work, &shrunk, &result, before, answers.runs())?.write(&target)?;
-    let told =
-        Told { shrunk: &shrunk, before, kind: &kind, runs: answers.runs(), seconds: began.elapsed().as_secs_f64() };
+    let found = shrinking.search(watch)?;
+    let answer = Answer { found: &found, before, what: &violated.what };
     if asked.json {
-        console::say(&told.object(answers.fresh(), &target).to_string());
+        console::say(&answer.object().to_string());
     } else {
-        console::say(&told.sentence());
-        console::warn(&format!("repro: {} (hairpin replay runs it)", target.display()));
+        console::say(&answer.sentence());
+        console::warn(&format!("repro: {} (hairpin replay runs it)", found.target.display()));
     }
-    if interrupt::asked() {
-        return Err(Problem::Interrupted(format!("stopped; {} is kept, the same command goes on", target.display())));
+    if watch.stopped() {
+        let target = found.target.display();
+        return Err(Problem::Interrupted(format!("stopped; {target} is kept, the same command goes on")));
     }
-    Ok(0)
-}
-
-/// The case that was asked for, with its profile, and its result.
-fn violating(work: &Work, asked: &Shrink) -> Result<(Case, CaseResult), Problem> {
-    let folder = asked.folder.display();
-    let cases = work.folder.read_cases()?;
-    let there = named(&cases);
-    let case = cases.into_iter().find(|case| case.number == asked.case);
-    let case = case.ok_or_else(|| Problem::input(format!("--case {}: {folder} has {there}", asked.case)))?;
-    let result = work.folder.read_results()?.into_iter().find(|result| result.case == case.number);
-    let result = result.ok_or_else(|| Problem::input(format!("not judged yet: hairpin judge {folder}")))?;
-    if result.violations.is_empty() {
-        return Err(Problem::input(format!("case {} does not violate: there is nothing to shrink", case.id())));
-    }
-    Ok((case, result))
-}
-
-/// `the cases 0001, 0003, 0004`; of many the first ones and the last.
-fn named(cases: &[Case]) -> String {
-    let names: Vec<String> = cases.iter().map(Case::id).collect();
-    match names.as_slice() {
-        [] => "no cases".into(),
-        [one] => format!("the case {one} alone"),
-        [some @ .., last] if names.len() > TOLD => format!("the cases {}, … {last}", some[..TOLD - 1].join(", ")),
-        all => format!("the cases {}", all.join(", ")),
-    }
-}
-
-fn repro(work: &Work, shrunk: &Shrunk, before: &CaseResult, waypoints: usize, runs: u64) -> Result<Repro, Problem> {
-    let setup = work.setup.changed(shrunk.scenario.clone())?;
-    Ok(Repro {
-        shrunk: Some(ShrunkFrom {
-            waypoints,
-            violations: before.violations.iter().map(violation).collect(),
-            simplified: shrunk.simplified.clone(),
-            finished: shrunk.finished,
-            runs,
-        }),
-        ..Repro::of(&setup, &shrunk.case, &shrunk.result)
-    })
+    Ok(DONE)
 }
 
 /// What came of it.
-struct Told<'a> {
-    shrunk: &'a Shrunk,
+struct Answer<'a> {
+    found: &'a ShrunkCase,
+    /// Waypoints of the case.
     before: usize,
-    kind: &'a str,
-    runs: u64,
-    seconds: f64,
+    /// What it violated first.
+    what: &'a str,
 }
 
-impl Told<'_> {
+impl Answer<'_> {
     /// `14 waypoints -> 3, still 0.53 m > 0.50 m (38 runs, 9 s)`.
     fn sentence(&self) -> String {
-        let after = self.shrunk.case.waypoints.len();
-        let without = match self.shrunk.simplified.as_slice() {
+        let after = self.found.shrunk.case.waypoints.len();
+        let without = match self.found.shrunk.simplified.as_slice() {
             [] => String::new(),
             words => format!("; {}", words.join(", ")),
         };
-        let open = if self.shrunk.finished { "" } else { "; stopped, the same command goes on" };
+        let open = if self.found.shrunk.finished { "" } else { "; stopped, the same command goes on" };
         format!(
             "{} waypoints -> {after}, still {} ({} runs, {:.0} s){without}{open}",
             self.before,
             self.still(),
-            self.runs,
-            self.seconds
+            self.found.runs,
+            self.found.time.as_secs_f64()
         )
     }
 
     fn still(&self) -> String {
-        let Some(found) = self.shrunk.result.violations.iter().find(|violation| violation.what == self.kind) else {
-            return self.kind.into();
+        let Some(found) = self.found.shrunk.result.violations.iter().find(|violation| violation.what == self.what)
+        else {
+            return self.what.into();
         };
         found.event().unwrap_or_else(|| {
             let (value, limit) = found.printed();
@@ -127,24 +80,24 @@ impl Told<'_> {
         })
     }
 
-    fn object(&self, fresh: u64, target: &Path) -> serde_json::Value {
-        let violation: Option<&Violation> = self.shrunk.result.violations.iter().find(|v| v.what == self.kind);
+    fn object(&self) -> serde_json::Value {
+        let violation: Option<&Violation> = self.found.shrunk.result.violations.iter().find(|v| v.what == self.what);
         json!({
             "verdict": self.sentence(),
-            "exit_code": 0,
-            "case": self.shrunk.case.id(),
+            "exit_code": DONE,
+            "case": self.found.shrunk.case.id(),
             "waypoints_before": self.before,
-            "waypoints": self.shrunk.case.waypoints.len(),
-            "what": self.kind,
+            "waypoints": self.found.shrunk.case.waypoints.len(),
+            "what": self.what,
             "value": violation.map(|violation| violation.value),
             "limit": violation.map(|violation| violation.limit),
-            "evidence": self.shrunk.case.evidence.word(),
-            "simplified": self.shrunk.simplified,
-            "finished": self.shrunk.finished,
-            "runs": self.runs,
-            "runs_now": fresh,
-            "time_s": self.seconds,
-            "repro": target,
+            "evidence": self.found.shrunk.case.evidence.word(),
+            "simplified": self.found.shrunk.simplified,
+            "finished": self.found.shrunk.finished,
+            "runs": self.found.runs,
+            "runs_now": self.found.fresh,
+            "time_s": self.found.time.as_secs_f64(),
+            "repro": self.found.target,
         })
     }
 }

@@ -1,29 +1,21 @@
 //! `hairpin stress`: generate, execute, judge, report.
 
-use super::parts::{self, Answer, Replayed};
+use hairpin_jobs::stress::{Stressed, stress};
+use hairpin_jobs::{Problem, Watch};
+
+use super::answer::Answer;
 use crate::args::Stress;
-use crate::folder::{self, Work};
-use crate::interrupt::Deadline;
-use crate::problem::Problem;
+use crate::settings;
 
 /// Runs the command.
-pub(crate) fn run(stress: &Stress) -> Result<u8, Problem> {
-    let planned = folder::plan(&stress.campaign, stress.executor.as_deref())?;
-    let deadline = Deadline::after(stress.campaign.time_limit);
-    // Before anything of an older campaign in the folder is replaced: a saved case may turn out to be none.
-    let replayed = parts::replay_saved(&planned.setup, &planned.path, stress.saved.repro.as_deref())?;
-    let work = planned.begin()?;
-    campaign(&work, deadline, &replayed, stress.campaign.json)
+pub(crate) fn run(asked: &Stress, watch: &dyn Watch) -> Result<u8, Problem> {
+    settings::take_threads(&asked.campaign.threads);
+    let settings = settings::campaign(&asked.campaign, asked.executor.as_deref())?;
+    Ok(say(&stress(&settings, asked.saved.repro.as_deref(), watch)?, asked.campaign.json))
 }
 
-/// The whole campaign in an open folder, after what was `replayed`.
-pub(crate) fn campaign(work: &Work, deadline: Deadline, replayed: &[Replayed], json: bool) -> Result<u8, Problem> {
-    let (cases, tally) = parts::generate(work, deadline)?;
-    parts::execute(work, &cases)?;
-    let judgement = parts::judge(work, &cases, &tally, replayed)?;
-    let verdict = parts::with_saved(&judgement.verdict, replayed);
-    parts::report(work, &cases, &tally, &verdict, (&judgement.moves, judgement.regression.as_ref()))?;
-    let asked = tally.asked(work.setup.scenario.search().cases);
-    let answer = Answer { work, asked, cases: &cases, judgement: &judgement, verdict: &verdict, replayed };
-    Ok(answer.say(json))
+/// Says what came of a whole campaign, and gives the exit code.
+pub(super) fn say(stressed: &Stressed, json: bool) -> u8 {
+    let Stressed { work, cases, tally, judgement, verdict, replayed } = stressed;
+    Answer { work, cases, tally, judgement, verdict, replayed }.say(json)
 }

@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::SCENARIO;
 use crate::atomic::WriteError;
 use crate::parquet::TableError;
+use crate::scenario;
 
 /// Why a campaign folder cannot be used.
 #[derive(Debug, Error)]
@@ -18,11 +19,24 @@ pub enum FolderError {
     /// A table cannot be read.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// Its scenario cannot be written.
+    #[error(transparent)]
+    Scenario(#[from] scenario::WriteError),
     /// A file cannot be read.
     #[error("cannot read {}: {cause}", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
+        /// The system's answer.
+        cause: io::Error,
+    },
+    /// A file cannot be copied.
+    #[error("cannot copy {} to {}: {cause}", from.display(), to.display())]
+    Copy {
+        /// The file.
+        from: PathBuf,
+        /// Where it was to go.
+        to: PathBuf,
         /// The system's answer.
         cause: io::Error,
     },

@@ -11,9 +11,7 @@ use crate::atomic;
 
 impl CampaignFolder {
     pub(super) fn write_json(&self, name: &str, what: &impl Serialize) -> Result<(), FolderError> {
-        let mut text = serde_json::to_string_pretty(what).expect("plain data");
-        text.push('\n');
-        Ok(atomic::write(&self.file(name), text.as_bytes())?)
+        Ok(atomic::write_json(&self.file(name), what)?)
     }
 
     pub(super) fn read_json<T: DeserializeOwned>(&self, name: &str) -> Result<T, FolderError> {

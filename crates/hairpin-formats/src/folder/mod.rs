@@ -23,15 +23,18 @@
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
 //! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
 //!
-//! Files are written one by one and each at once, in an order in which each says no more than those before it: the cases'
-//! own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
+//! Files are written one by one and each at once, in an order in which each says no more than those before it: the
+//! cases' own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
 
 mod cases;
+mod copy;
 mod error;
 mod forget;
+mod graph;
 mod json;
 mod judged;
 mod runs;
+mod scenario;
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -42,6 +45,7 @@ use hairpin::judgement::Stress;
 use crate::atomic::{self, WriteError};
 
 pub use error::FolderError;
+pub use graph::graph_decimals;
 
 const SCENARIO: &str = "scenario.toml";
 const GENERATION: &str = "generation.json";
@@ -168,7 +172,8 @@ impl CampaignFolder {
         self.read_json(GENERATION)
     }
 
-    /// Writes where the largest stress executed in a graph rose, a row each, and where it stood at the end; nothing to say leaves no file.
+    /// Writes where the largest stress executed in a graph rose, a row each, and where it stood at the end; nothing to
+    /// say leaves no file.
     ///
     /// # Errors
     /// The file cannot be written.

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use hairpin::campaign::Run;
 
 use super::{CampaignFolder, FolderError, RUNS};
+use crate::atomic;
+use crate::executor::Failed;
 use crate::parquet::runs::{self, RunFacts};
 
 impl CampaignFolder {
@@ -53,6 +55,16 @@ impl CampaignFolder {
     /// `reruns/CASE-K.parquet`.
     pub fn rerun_path(&self, case: usize, again: usize) -> PathBuf {
         self.path.join("reruns").join(format!("{case:04}-{again}.parquet"))
+    }
+
+    /// Writes `executor-CASE-RUN.log`: why a program of the user's failed to fly a run, and the end of its stderr.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_executor_log(&self, case: usize, run: usize, failed: &Failed) -> Result<(), FolderError> {
+        let Failed { failure, stderr } = failed;
+        let text = format!("{failure}\n\n--- the end of its stderr ---\n{stderr}");
+        Ok(atomic::write(&self.file(&format!("executor-{case:04}-{run}.log")), text.as_bytes())?)
     }
 
     /// Writes `runs.parquet`, once all runs are executed.

@@ -9,8 +9,9 @@ use hairpin::campaign::baseline::{Baseline, Moves};
 use hairpin::campaign::scenario::RegressionLimit;
 use serde::Deserialize;
 
-use super::files::{Wrong, attached};
+use super::attached::{Wrong, attached};
 use super::resolve::read_file;
+use crate::atomic::json_text;
 use crate::checksum::sha256;
 use crate::folder::{BASELINE, MOVES};
 
@@ -37,8 +38,8 @@ pub(super) fn attach(limit: &mut RegressionLimit, find: &dyn Fn(&str) -> PathBuf
     Ok(attached(Arc::new(baseline), bytes, BASELINE, &given))
 }
 
-/// Reads the baseline at `path`: a judged campaign folder, on top of the baseline that it has itself; its `moves.json`; or a `baseline.json`.
-/// Gives it, and the text that another campaign keeps of it.
+/// Reads the baseline at `path`: a judged campaign folder, on top of the baseline that it has itself; its `moves.json`;
+/// or a `baseline.json`. Gives it, and the text that another campaign keeps of it.
 ///
 /// # Errors
 /// Nothing there, a folder that was not judged, another JSON, fewer than two runs of a program: in a sentence's part.
@@ -74,9 +75,8 @@ fn read(path: &Path) -> Result<(Baseline, Vec<u8>), String> {
 
 fn written(baseline: Result<Baseline, impl ToString>) -> Result<(Baseline, Vec<u8>), String> {
     let baseline = baseline.map_err(|error| error.to_string())?;
-    let mut bytes = serde_json::to_vec_pretty(&baseline).map_err(|error| error.to_string())?;
-    bytes.push(b'\n');
-    Ok((baseline, bytes))
+    let text = json_text(&baseline).map_err(|error| error.to_string())?;
+    Ok((baseline, text.into_bytes()))
 }
 
 fn parse(bytes: &[u8], path: &Path) -> Result<Kept, String> {

@@ -7,7 +7,7 @@ use hairpin::campaign::Attached;
 use hairpin::campaign::attachments::{CloudPoint, CostMatrix};
 use hairpin::campaign::scenario::CostTable;
 
-use super::files::{Wrong, attached, ending};
+use super::attached::{Wrong, attached, ending};
 use super::resolve::read_file;
 use crate::checksum::sha256;
 use crate::{cloud, costs, rapid};

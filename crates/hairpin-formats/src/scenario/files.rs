@@ -1,30 +1,16 @@
-//! The files that a scenario names: what they hold goes beside its keys, which from then on name the copies of a campaign's folder.
+//! The files that a scenario names: what they hold goes beside its keys, which from then on name the copies of a
+//! campaign's folder.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use hairpin::campaign::scenario::{Named, NamedMesh};
-use hairpin::campaign::{Attached, Attachments, Resolved, Scenario};
+use hairpin::campaign::{Attachments, Resolved, Scenario};
 
+use super::attached::Wrong;
 use super::report::Report;
 use super::resolve::read_file;
 use super::{baseline, cell, learned, terrain, user_score};
 use crate::mesh::read_mesh;
-
-/// A mistake in a key that names a file.
-pub(super) struct Wrong {
-    pub(super) key: String,
-    pub(super) value: String,
-    /// What it must be, or why it cannot be read.
-    pub(super) bound: String,
-}
-
-impl Wrong {
-    pub(super) fn message(&self) -> String {
-        let Self { key, value, bound } = self;
-        format!("`{key}` = {value:?}: {bound}")
-    }
-}
 
 /// Reads all files of `scenario`, each from where `find` says it lies, and all that is wrong with them.
 pub(super) fn read(scenario: &mut Scenario, find: &dyn Fn(&str) -> PathBuf) -> (Attachments, Vec<Wrong>) {
@@ -49,7 +35,8 @@ fn told<T>(read: Result<T, Wrong>, wrong: &mut Vec<Wrong>) -> Option<T> {
     read.map_err(|one| wrong.push(one)).ok()
 }
 
-/// Reads what a resolved scenario names in `folder`, as beside a repro file, or in the folder above: its map, its cloud.
+/// Reads what a resolved scenario names in `folder`, as beside a repro file, or in the folder above: its map, its
+/// cloud.
 ///
 /// # Errors
 /// A file cannot be read, or is another one.
@@ -68,16 +55,6 @@ pub fn attach(mut scenario: Scenario, folder: &Path) -> Result<Resolved, Report>
             Err(report)
         }
     }
-}
-
-/// A file as it is kept.
-pub(super) fn attached<T: ?Sized>(read: Arc<T>, bytes: Vec<u8>, name: &str, given: &str) -> Attached<T> {
-    Attached { read, bytes: bytes.into(), name: name.to_owned(), given: given.to_owned() }
-}
-
-/// The ending of a file's name, in small letters.
-pub(super) fn ending(file: &str) -> String {
-    Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
 fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf) -> Result<(), Wrong> {

@@ -7,7 +7,7 @@ use hairpin::campaign::Attached;
 use hairpin::campaign::learn::{NAME, ScoreModel};
 use hairpin::campaign::scenario::LEARNED;
 
-use super::files::{Wrong, attached};
+use super::attached::{Wrong, attached};
 use super::resolve::read_file;
 
 /// Reads the model of `score`, if that is learned; `key` is its key. A resolved scenario's is [`NAME`].
@@ -23,11 +23,4 @@ pub(super) fn read(
     let model = attached(Arc::new(model), bytes, NAME, score);
     *score = format!("{LEARNED}{NAME}");
     Ok(Some(model))
-}
-
-/// `model` as it is written.
-pub fn model_text(model: &ScoreModel) -> String {
-    let mut text = serde_json::to_string_pretty(model).unwrap_or_default();
-    text.push('\n');
-    text
 }

@@ -1,6 +1,7 @@
 //! Scenario files in and out. Reading resolves, and checks by building: what comes out is a setup.
 
 mod arm;
+mod attached;
 mod baseline;
 mod cell;
 mod files;
@@ -24,7 +25,6 @@ use toml::Table;
 
 pub use arm::arm_for;
 pub use files::attach;
-pub use learned::model_text;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
@@ -51,8 +51,8 @@ pub fn read_setup(text: &str, file: &str, base: &Path, sets: &[(String, String)]
     }
 }
 
-/// The setup of the scenario that `name_or_path` means: a shipped scenario's name, a scenario file, or a robot's name or file, which
-/// is put into the shipped scenario of its kind.
+/// The setup of the scenario that `name_or_path` means: a shipped scenario's name, a scenario file, or a robot's name
+/// or file, which is put into the shipped scenario of its kind.
 ///
 /// # Errors
 /// As [`read_setup`]; nothing of that name.
@@ -82,7 +82,8 @@ pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup,
     read_setup(around.text, around.path, Path::new(""), &sets)
 }
 
-/// The setup of an arm for the points of a file: that of a shipped name or a file, or a bare cell around a robot's name or file.
+/// The setup of an arm for the points of a file: that of a shipped name or a file, or a bare cell around a robot's name
+/// or file.
 ///
 /// # Errors
 /// As [`read_setup`]; nothing of that name.

@@ -7,7 +7,7 @@ use hairpin::campaign::scenario::{DriveScenario, Frame, TerrainSection};
 use hairpin::campaign::{Attached, Scenario};
 use hairpin::world::terrain::ElevationMap;
 
-use super::files::{Wrong, attached, ending};
+use super::attached::{Wrong, attached, ending};
 use super::resolve::read_file;
 use crate::checksum::sha256;
 use crate::frames::other_yaw;

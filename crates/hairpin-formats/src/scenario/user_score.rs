@@ -1,7 +1,8 @@
 //! Scores of the user's own: the Python file that `score = "python:FILE"` names.
 //!
-//! The file defines `score(leg)` and, if legs leave something to the next, `left(leg)`; `leg` is a dictionary. Both must be functions of
-//! the leg alone. Python runs beside hairpin, one process for each thread that asks; nothing of the file runs but where legs are to be scored.
+//! The file defines `score(leg)` and, if legs leave something to the next, `left(leg)`; `leg` is a dictionary. Both
+//! must be functions of the leg alone. Python runs beside hairpin, one process for each thread that asks; nothing of
+//! the file runs but where legs are to be scored.
 
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader, Write};
@@ -17,7 +18,7 @@ use hairpin::campaign::scenario::PYTHON;
 use hairpin::campaign::user_score::{LegFacts, NAME};
 use hairpin::campaign::{Attached, LegScorer};
 
-use super::files::{Wrong, attached};
+use super::attached::{Wrong, attached};
 use super::resolve::read_file;
 use crate::executor::{self, Tail};
 
@@ -30,7 +31,8 @@ const AFTERMATH: Duration = Duration::from_millis(300);
 /// Between two looks at whether an answer is still wanted.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Reads the score of the user's own that `score` names, if it does; `key` is its key. A resolved scenario's is [`NAME`].
+/// Reads the score of the user's own that `score` names, if it does; `key` is its key. A resolved scenario's is
+/// [`NAME`].
 pub(super) fn read(
     key: &str,
     score: &mut String,

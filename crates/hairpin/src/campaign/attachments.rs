@@ -1,5 +1,5 @@
-//! What the files hold that a scenario names. It lies beside the keys, is read once, by the door, and is found by what a key says: a score
-//! that is drawn has the model that was read if it names its file, and none otherwise.
+//! What the files hold that a scenario names. It lies beside the keys, is read once, by the door, and is found by what
+//! a key says: a score that is drawn has the model that was read if it names its file, and none otherwise.
 
 use std::fmt;
 use std::sync::Arc;

@@ -1,4 +1,5 @@
-//! What runs did on the moves of their programs, as plain numbers: `moves.json`, and of earlier releases `baseline.json`.
+//! What runs did on the moves of their programs, as plain numbers: `moves.json`, and of earlier releases
+//! `baseline.json`.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -97,8 +98,8 @@ impl Baseline {
     /// The baseline, if it is one.
     ///
     /// # Errors
-    /// No release; a case without moves, or fewer than two runs of one in the last release; lists of other lengths; numbers that are
-    /// no times and distances.
+    /// No release; a case without moves, or fewer than two runs of one in the last release; lists of other lengths;
+    /// numbers that are no times and distances.
     pub fn checked(self) -> Result<Self, BaselineError> {
         let refuse = |release: &str, case, what| Err(BaselineError { release: release.into(), case, what });
         let Some(last) = self.releases.last() else { return refuse("", 0, "there is no release".into()) };

@@ -8,8 +8,8 @@ pub(super) trait Build: Sized {
     /// The scenario's keys.
     type Keys;
 
-    /// Builds it from a scenario whose keys were checked before some of them were drawn. What the keys of `known` say alike is not built
-    /// again but shared with it.
+    /// Builds it from a scenario whose keys were checked before some of them were drawn. What the keys of `known` say
+    /// alike is not built again but shared with it.
     ///
     /// # Errors
     /// A key whose value makes no robot or no world.

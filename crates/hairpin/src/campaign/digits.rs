@@ -1,7 +1,7 @@
 //! Numbers as people read them: the one place that rounds, so that table, report, JUnit and verdict agree.
 
-/// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing. Nothing is never less than
-/// nothing: what these digits do not show has no sign.
+/// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing. Nothing is
+/// never less than nothing: what these digits do not show has no sign.
 pub fn number(value: Option<f64>) -> String {
     match value {
         None => "–".into(),
@@ -11,6 +11,12 @@ pub fn number(value: Option<f64>) -> String {
         Some(v) if v.abs() < 999.95 => format!("{v:.1}"),
         Some(v) => format!("{v:.0}"),
     }
+}
+
+/// `value` ≥ 0 with its first three digits.
+pub fn three_digits(value: f64) -> String {
+    let decimals = if value > 0.0 { (2.0 - libm::log10(value).floor()).clamp(0.0, 12.0) as usize } else { 0 };
+    format!("{value:.decimals$}")
 }
 
 /// A share from 0 to 1 as `31 %`; below 10 % with one decimal.

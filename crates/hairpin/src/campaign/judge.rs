@@ -93,7 +93,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
 }
 
 /// What one run measured; `None` where it was not carried out or cannot be judged.
-pub(super) fn measures_of(setup: &Setup, case: &Case, run: &Run) -> Option<Measures> {
+pub fn measures_of(setup: &Setup, case: &Case, run: &Run) -> Option<Measures> {
     let flight = run.outcome.as_ref().ok()?;
     let judged = judge_run(setup, case, &Planned::default(), run, flight).ok()?.ok()?;
     Some(judged.measures)
@@ -197,7 +197,8 @@ fn judge_run(
     }))
 }
 
-/// How far the robot, a ball or a disc about its origin, is from what it must not meet, m; `None` where there is nothing.
+/// How far the robot, a ball or a disc about its origin, is from what it must not meet, m; `None` where there is
+/// nothing.
 fn clearance_of(setup: &Setup) -> Option<Box<Clearance<'_>>> {
     match setup.kind() {
         Kind::Flight(setup) => {

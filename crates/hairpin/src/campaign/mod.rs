@@ -1,4 +1,5 @@
-//! Floor 7: the pipeline. A scenario in; cases generated, executed and judged; one file per job. No files, no arguments.
+//! Floor 7: the pipeline. A scenario in; cases generated, executed and judged; one file per job. No files, no
+//! arguments.
 
 pub mod arm;
 pub mod assumptions;
@@ -13,7 +14,6 @@ pub mod curve;
 pub mod digits;
 pub mod drive;
 pub mod execute;
-pub mod experiment;
 pub mod explain;
 pub mod flight;
 pub mod generate;
@@ -24,6 +24,7 @@ pub mod judge;
 pub mod learn;
 mod machine;
 pub mod mission;
+pub mod own_controller;
 mod placement;
 pub mod planned;
 pub mod report;
@@ -53,6 +54,7 @@ pub use generate::{Known, Optimum, generate, optima};
 pub use influence::{Influence, RunDeviation, influences};
 pub use judge::{judge, judge_runs};
 pub use mission::{Mission, mission, mission_again};
+pub use own_controller::AnyController;
 pub use planned::{PlanError, planned};
 pub use scenario::{Distribution, Environment, Mistake, Scenario};
 pub use setup::{Kind, Setup};

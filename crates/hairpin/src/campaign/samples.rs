@@ -2,12 +2,13 @@
 
 use super::judge::measures_of;
 use super::learn::{LegSample, MoveFeatures, MoveSample, ScoreModel};
+use super::scenario::Subject;
 use super::{Case, Run, Setup};
 use crate::judgement::{LegMeasures, Measures, Stress};
 use crate::math::ridge::NoFit;
 
-/// The legs of `case` with the stress that each of `runs` put on them. Legs that a run did not come to, and cases whose legs no search
-/// saw (missions made elsewhere), give none.
+/// The legs of `case` with the stress that each of `runs` put on them. Legs that a run did not come to, and cases whose
+/// legs no search saw (missions made elsewhere), give none.
 pub fn leg_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> Vec<LegSample> {
     let mut samples = Vec::new();
     for run in runs {
@@ -33,11 +34,12 @@ pub(super) fn samples_of(case: &Case, measures: &Measures, stress: Stress) -> Ve
 /// # Errors
 /// [`NoFit`].
 pub fn learn(setup: &Setup, stress: Stress, samples: &[LegSample]) -> Result<ScoreModel, NoFit> {
-    ScoreModel::learn(stress, setup.scenario.subject(), samples)
+    ScoreModel::learn(stress, executed(setup), samples)
 }
 
-/// The moves of `case` between points of the cloud with the stress that each of `runs` put on them, and what the graph knew of them; of moves whose
-/// angles are not known (Cartesian mode), on arcs, and of those that a run did not come to there are none.
+/// The moves of `case` between points of the cloud with the stress that each of `runs` put on them, and what the graph
+/// knew of them; of moves whose angles are not known (Cartesian mode), on arcs, and of those that a run did not come to
+/// there are none.
 pub fn move_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> Vec<MoveSample> {
     let Some(features) = setup.arm().map(|arm| arm.moves_seen(case)) else { return Vec::new() };
     let measured = runs.iter().filter_map(|run| measures_of(setup, case, run));
@@ -57,5 +59,14 @@ pub fn move_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) ->
 /// # Errors
 /// [`NoFit`].
 pub fn learn_moves(setup: &Setup, stress: Stress, samples: &[MoveSample]) -> Result<ScoreModel, NoFit> {
-    ScoreModel::learn_moves(stress, setup.scenario.subject(), samples)
+    ScoreModel::learn_moves(stress, executed(setup), samples)
+}
+
+/// Whose legs they are, and who executed them.
+fn executed(setup: &Setup) -> Subject {
+    let subject = setup.scenario.subject();
+    match setup.own_controller() {
+        Some(own) => Subject { controller: own.name().into(), ..subject },
+        None => subject,
+    }
 }

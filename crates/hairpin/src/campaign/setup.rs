@@ -14,7 +14,7 @@ use super::machine::{Look, Machine};
 use super::scenario::{Mistake, Scenario};
 use super::user_score::LegScorer;
 use super::vary;
-use super::{Case, Environment};
+use super::{AnyController, Case, Environment};
 use crate::math::simd::Simd;
 
 /// A resolved scenario and what it describes. What draws leave as it is they share.
@@ -27,6 +27,7 @@ pub struct Setup {
     /// Version of the kernels that generate and execute.
     pub simd: Simd,
     machine: Machine,
+    own_controller: Option<AnyController>,
 }
 
 /// A setup, by what its robot does.
@@ -41,14 +42,16 @@ pub enum Kind<'a> {
 }
 
 impl Setup {
-    /// Builds robot and world of a resolved scenario, and looks at every key that has a bound, also at the ends of what `[vary]` may make of it.
+    /// Builds robot and world of a resolved scenario, and looks at every key that has a bound, also at the ends of what
+    /// `[vary]` may make of it.
     ///
     /// # Errors
     /// Every key whose value is out of bounds, in the order of the file.
     pub fn build(resolved: Resolved) -> Result<Self, Vec<Mistake>> {
         let Resolved { scenario, attachments } = resolved;
         let machine = Machine::of(&scenario, &attachments, None, Look::All)?;
-        Self { scenario, attachments: attachments.into(), simd: Simd::default(), machine }.checked()
+        let attachments = attachments.into();
+        Self { scenario, attachments, simd: Simd::default(), machine, own_controller: None }.checked()
     }
 
     /// The same, which tells the first mistake alone.
@@ -59,7 +62,8 @@ impl Setup {
         Self::build(resolved.into()).map_err(first)
     }
 
-    /// The setup of another scenario with the same files, which is looked at as [`Self::new`] does; the kernels stay these.
+    /// The setup of another scenario with the same files, which is looked at as [`Self::new`] does; kernels and
+    /// controller stay these.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -80,7 +84,30 @@ impl Setup {
         Self { simd, ..self }
     }
 
-    /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; the kernels stay these.
+    /// The same executed by a controller of the caller's own, wherever the scenario's would execute: runs, searches
+    /// that execute, re-runs, candidates of a shrinking. What is told of the campaign names it.
+    ///
+    /// The scenario's own keys stay as they are. A folder keeps a scenario and no code, so one that is written of this
+    /// names the controller in its report and verdict only, and is resumed and replayed by those who have the code.
+    ///
+    /// # Errors
+    /// A controller of another kind of robot, or without a name; a scenario that has a command executed, or varies what
+    /// only ours have.
+    pub fn with_controller(self, controller: impl Into<AnyController>) -> Result<Self, Mistake> {
+        let controller = controller.into();
+        match controller.mistake(&self.scenario) {
+            Some(mistake) => Err(mistake),
+            None => Ok(Self { own_controller: Some(controller), ..self }),
+        }
+    }
+
+    /// The controller of the caller's own.
+    pub(super) fn own_controller(&self) -> Option<&AnyController> {
+        self.own_controller.as_ref()
+    }
+
+    /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; kernels and controller stay
+    /// these.
     pub(super) fn of_draw(&self, scenario: Scenario) -> Result<Self, Mistake> {
         let machine = Machine::of(&scenario, &self.attachments, self.known(), Look::Built).map_err(first)?;
         Ok(self.with(scenario, machine))
@@ -130,7 +157,8 @@ impl Setup {
     }
 
     fn with(&self, scenario: Scenario, machine: Machine) -> Self {
-        Self { scenario, attachments: self.attachments.clone(), simd: self.simd, machine }
+        let (attachments, own_controller) = (self.attachments.clone(), self.own_controller.clone());
+        Self { scenario, attachments, simd: self.simd, machine, own_controller }
     }
 
     fn check(&self, scenario: Scenario) -> Result<Self, Vec<Mistake>> {
@@ -148,14 +176,22 @@ impl Setup {
 
     /// The setup by what its robot does.
     pub fn kind(&self) -> Kind<'_> {
-        let Self { scenario, attachments, simd, machine } = self;
+        let Self { scenario, attachments, simd, machine, own_controller } = self;
         let simd = *simd;
         match (scenario, machine) {
             (Scenario::Flight(scenario), Machine::Flyer(Flyer { robot, world })) => {
-                Kind::Flight(FlightSetup { scenario, attachments, robot, world, simd })
+                let controller = match own_controller {
+                    Some(AnyController::Flight(controller)) => Some(controller),
+                    _ => None,
+                };
+                Kind::Flight(FlightSetup { scenario, attachments, robot, world, controller, simd })
             }
             (Scenario::Drive(scenario), Machine::Driver(Driver { rover, planner, map, keep_out })) => {
-                Kind::Drive(DriveSetup { scenario, attachments, rover, planner, map, keep_out, simd })
+                let controller = match own_controller {
+                    Some(AnyController::Drive(controller)) => Some(controller),
+                    _ => None,
+                };
+                Kind::Drive(DriveSetup { scenario, attachments, rover, planner, map, keep_out, controller, simd })
             }
             (Scenario::Arm(scenario), Machine::Arm(station)) => {
                 Kind::Arm(ArmSetup { scenario, attachments, station, simd })
@@ -196,6 +232,11 @@ impl Setup {
     /// The score of the user's own, if that is what legs are scored by.
     pub fn user_score(&self) -> Option<&dyn LegScorer> {
         self.attachments.user_score(self.scenario.score()).map(|user| &*user.read)
+    }
+
+    /// The word of the controller that executes, the caller's or ours; `None` where a command does.
+    pub fn controller(&self) -> Option<&str> {
+        self.own_controller().map(AnyController::name).or(self.scenario.controller())
     }
 
     /// The robot's name.

@@ -83,7 +83,7 @@ pub fn how_obtained(setup: &Setup) -> Vec<String> {
     }
     let name = setup.robot_name();
     let stand_in = if setup.caveat().is_empty() { name.to_owned() } else { format!("{name} stand-in") };
-    let who = match (setup.scenario.executor().command, setup.scenario.controller()) {
+    let who = match (setup.scenario.executor().command, setup.controller()) {
         (Some(command), None) => format!("executor `{command}`"),
         (_, Some(controller)) => controller.into(),
         (None, None) => "no controller".into(),

@@ -1,4 +1,7 @@
 //! A witness searched afterwards for waypoints that something else found: yes, no, or unknown.
+//!
+//! Hull-feasible waypoints are a guess about dynamics; a certificate is the polynomial flight itself. "No" is only said
+//! of what no dynamics could do: distances, times, walls.
 
 use nalgebra::{Point3, Vector3};
 
@@ -13,6 +16,9 @@ const ROUNDS: usize = 100;
 const SLOWER: f64 = 1.12;
 
 /// What is known of a waypoint list.
+///
+/// Of the authors' trajectories that are "valid by construction" a third need more than full thrust: `Unknown` and `No`
+/// are what that looks like here.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Certificate {
     /// A control witness: level at every waypoint, at rest at both ends, all limits proven.
@@ -54,12 +60,14 @@ pub enum Impossible {
     },
 }
 
-/// Searches a witness for `waypoints` (m) flown in order, from rest to rest, in `longest_flight` (s; infinite: no limit)
-/// at most.
+/// Searches a witness for `waypoints` (m) flown in order, from rest to rest, in `longest_flight` (s; infinite: no
+/// limit) at most.
 ///
-/// Waypoint velocities are those of the minimum-snap curve for the current leg times (in [`LegTiming`]'s range). A leg that
-/// is refused gets more time, and when it has all it may get, less velocity at its ends; the whole is then tried again,
-/// so that leg times and velocities settle together. A witness that takes too long as a whole is none.
+/// Waypoint velocities are those of the minimum-snap curve for the current leg times (in [`LegTiming`]'s range). A leg
+/// that is refused gets more time, and when it has all it may get, less velocity at its ends; the whole is then tried
+/// again, so that leg times and velocities settle together. A witness that takes too long as a whole is none.
+///
+/// At most a hundred rounds, each judging legs until one fails; deterministic.
 pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming, longest_flight: f64) -> Certificate {
     let (shortest, longest) = timing.range();
     if let Some(impossible) = impossible(judge, waypoints, longest, longest_flight) {
@@ -114,8 +122,8 @@ fn slow_down(leg: usize, times: &mut [f64], share: &mut [f64], longest: f64) -> 
     moved
 }
 
-/// The level states at the waypoints, with minimum-snap velocities times `share`; at rest where the curve cannot be solved
-/// for.
+/// The level states at the waypoints, with minimum-snap velocities times `share`; at rest where the curve cannot be
+/// solved for.
 fn ends(judge: &LegJudge, waypoints: &[Point3<f64>], times: &[f64], share: &[f64]) -> Vec<LegEnd> {
     let curve = minimum_snap(waypoints, times).unwrap_or_default();
     let velocity = |k: usize| {
@@ -132,6 +140,9 @@ fn first_guess(judge: &LegJudge, length: f64) -> f64 {
     (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
 }
 
+/// What no controller can do within the limits, whatever its inputs: a waypoint that the world does not allow, a leg
+/// longer than the fastest goes in its longest time, and a flight that takes longer than is allowed even if it gains
+/// speed at full acceleration all along.
 fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64, longest_flight: f64) -> Option<Impossible> {
     let max_speed = judge.limits().max_speed;
     let outside = waypoints
@@ -153,8 +164,8 @@ fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64, longest
     outside.or_else(too_far).or_else(too_long)
 }
 
-/// The least time, s, in which a path of `length` (m) is flown from rest where the speed grows by `acceleration` (m/s²) at
-/// most, up to `max_speed` (m/s): √(2L/a) below that speed, L/v + v/2a beyond.
+/// The least time, s, in which a path of `length` (m) is flown from rest where the speed grows by `acceleration` (m/s²)
+/// at most, up to `max_speed` (m/s): √(2L/a) below that speed, L/v + v/2a beyond.
 fn least_time(length: f64, acceleration: f64, max_speed: f64) -> f64 {
     if 2.0 * length * acceleration <= max_speed * max_speed {
         (2.0 * length / acceleration).sqrt()

@@ -1,4 +1,8 @@
 //! Whether a polynomial path stays in the world and clear of obstacles everywhere, not just at samples.
+//!
+//! p(τ) = Σ b_i B_i(τ/T): the path is a convex combination of its control points, so it stays in their box; and it
+//! stays within max ‖b_i − chord_i‖ of its chord, which a segment's distance to a solid then decides. Both gaps fall
+//! with the square of a piece's length. At most 2¹² pieces.
 
 use nalgebra::{Point3, Vector3};
 
@@ -13,6 +17,25 @@ const DEPTH: u32 = 12;
 const TOUCH: f64 = 1e-9;
 
 /// The space that a robot's centre may use: `keep_in_margin` inside the walls and `clearance` away from obstacles.
+///
+/// ```
+/// use hairpin::feasibility::FreeSpace;
+/// use hairpin::math::polynomial::septic;
+/// use hairpin::trajectory::ProfileLeg;
+/// use hairpin::world::{Obstacle, Shape, World};
+/// use nalgebra::Vector3;
+///
+/// let ball = Obstacle { name: "ball".into(), shape: Shape::sphere([5.0, 5.0, 2.0], 1.0)? };
+/// let world = World::new(Vector3::new(10.0, 10.0, 4.0), 0.2, vec![ball])?;
+/// let across = |y: f64| {
+///     let axis = |from: f64, to: f64| septic(&[from, 0.0, 0.0, 0.0], &[to, 0.0, 0.0, 0.0], 3.0);
+///     ProfileLeg { duration: 3.0, coefficients: [axis(1.0, 9.0), axis(y, y), axis(2.0, 2.0)] }
+/// };
+/// let free = FreeSpace::new(&world, 0.3);
+/// assert!(free.contains(&across(2.0)).is_ok());
+/// assert!(free.contains(&across(5.5)).is_err()); // 0.5 m beside the centre
+/// # Ok::<(), hairpin::world::WorldError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct FreeSpace {
     low: Point3<f64>,
@@ -78,8 +101,8 @@ impl FreeSpace {
 
     /// Proves that the whole leg lies in the free space.
     ///
-    /// A path lies in the hull of its Bernstein control points, and no farther from its chord than they do; pieces that this
-    /// does not decide are halved. A wall may be touched (to 1e-9 m).
+    /// A path lies in the hull of its Bernstein control points, and no farther from its chord than they do; pieces that
+    /// this does not decide are halved. A wall may be touched (to 1e-9 m).
     ///
     /// # Errors
     /// The wall or obstacle that is violated, or that is nearer than 1/4096 of the leg can resolve.

@@ -1,8 +1,13 @@
 //! What a leg must keep to, and the evidence when it does not.
+//!
+//! There is no trait for limits: one that is a function of a moment alone cannot be bounded between moments, so limits
+//! are a fixed list, each with its enclosure (`steering::proof`) or its convex hull (`collision`).
 
 use std::f64::consts::FRAC_PI_2;
 
 /// Limits that a task adds to those of the robot and the world.
+///
+/// Tighter than the robot's own where they are given; the rotors' limits hold anyway.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Largest speed, m/s; infinite: no cap.
@@ -18,6 +23,8 @@ impl Default for Limits {
 }
 
 /// What can be violated; `margin` of [`Infeasible`] has the unit given here.
+///
+/// Signed margins: ≥ 0 is feasible. Names in reports are [`Limit::name_and_unit`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
     /// The speed, m/s.
@@ -55,6 +62,8 @@ impl Limit {
 }
 
 /// Why a leg is refused.
+///
+/// `Violates` is a fact about the leg; `Unproven` is one about the effort: the leg may be feasible, and is refused.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Infeasible {
     /// A limit is violated at `at`, s since the leg began, by `-margin` (signed margin < 0 in the limit's unit).

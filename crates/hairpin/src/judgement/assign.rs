@@ -1,5 +1,8 @@
 //! Which part of a path a sample belongs to, where nobody told: monotone assignment, never the nearest part, since
 //! paths cross and revisit.
+//!
+//! A dynamic program over samples × pieces, as in dynamic time warping (Sakoe and Chiba, IEEE ASSP 26(1), 1978) with
+//! pieces that may be skipped. The nearest leg would be wrong wherever a path crosses itself, and a stressful one does.
 
 use nalgebra::Point3;
 
@@ -45,6 +48,9 @@ pub(super) fn monotone(samples: &[Point3<f64>], weights: &[f64], pieces: &[Piece
     assigned
 }
 
+/// Halves the samples (Hirschberg, CACM 18, 1975): least sums of weighted squared distances of the first half ending by
+/// each piece and of the second half from it on meet at the piece where the middle belongs. O(samples · pieces) time,
+/// O(pieces) memory.
 fn split(samples: &[Point3<f64>], weights: &[f64], pieces: &[Piece], offset: usize, out: &mut [usize]) {
     if pieces.len() == 1 || samples.is_empty() {
         out.fill(offset);

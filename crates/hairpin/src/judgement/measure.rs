@@ -17,20 +17,41 @@ use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 ///   h_i = (t_i+1 − t_i−1)/2, over the samples that count (see [`Settings::corner`]);
 /// - overshoot at waypoint k = max over samples of (p_i − q_i)·u_k−1, at least 0, with q_i = w_k while leg k−1 is
 ///   flown, and q_i = the point of leg k's segment nearest to p_i while leg k is flown; against a path
-///   ([`super::Reference::Path`]) q_i = its place for p_i in both cases: how far the robot is carried on in the direction in
+///   ([`super::Reference::Path`]) q_i = its place for p_i in both cases: how far the robot is carried on in the
+///   direction in
 ///   which it came, beyond where it should be. Going straight on is no overshoot;
 /// - acceleration ‖v_i+1 − v_i−1‖/(t_i+1 − t_i−1) with the channels `vx_m_s`, `vy_m_s`, `vz_m_s` (one-sided at the
 ///   ends), or the second divided difference of positions where they are missing; speed rate: |‖v_i+1‖ − ‖v_i−1‖| over
 ///   the same time;
 /// - tip-over margin: least value of the channel `tip_over_margin_deg`;
-/// - tilt: 2 asin √(q_x² + q_y²), the angle between the body's upward axis and the world's; not of tracks with joints, whose pose is a tool's;
+/// - tilt: 2 asin √(q_x² + q_y²), the angle between the body's upward axis and the world's; not of tracks with joints,
+///   whose pose is a tool's;
 /// - saturation: mean over time of the channel `saturated`;
-/// - joint effort: Σ_i h_i Σ_k q̈_k², q̈ the second divided difference of the channels `q1_rad`, `q2_rad` …: with a recording's noise of σ it
-///   has about 6σ²/Δ⁴ a second and joint too much.
+/// - joint effort: Σ_i h_i Σ_k q̈_k², q̈ the second divided difference of the channels `q1_rad`, `q2_rad` …: with a
+///   recording's noise of σ it has about 6σ²/Δ⁴ a second and joint too much.
 ///
 /// The leg comes from the channel `leg`; the number of waypoints less one, "all reached", counts as the last leg.
 /// Without the channel samples are assigned to legs monotonically along the path, and the result says so. Maxima are
 /// over samples: nothing is assumed of the motion between them.
+///
+/// Units are SI, angles in degrees. Linear in the samples where the executor told legs; samples × 256 pieces where they
+/// are assigned.
+///
+/// ```
+/// use hairpin::judgement::{Settings, measure};
+/// use hairpin::trajectory::{Channel, Track};
+/// use nalgebra::{Isometry3, Point3};
+///
+/// // Along x from 0 to 10 m, 0.2 m beside the leg half-way.
+/// let poses = (0..=10).map(|i| Isometry3::translation(f64::from(i), if i == 5 { 0.2 } else { 0.0 }, 1.0)).collect();
+/// let leg = Channel { name: "leg".into(), values: vec![0.0; 11] };
+/// let track = Track::new((0..=10).map(f64::from).collect(), poses, vec![leg])?;
+/// let waypoints = [Point3::new(0.0, 0.0, 1.0), Point3::new(10.0, 0.0, 1.0)];
+/// let measures = measure(&track, &waypoints, &Settings::default())?;
+/// assert!((measures.max_deviation - 0.2).abs() < 1e-12 && measures.t_worst == 5.0);
+/// assert!((measures.mean_deviation - 0.02).abs() < 1e-12 && measures.total_time == 10.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// [`JudgementError`].
@@ -114,6 +135,8 @@ fn time_weights(times: &[f64]) -> Vec<f64> {
     (0..=last).map(|i| 0.5 * (times[(i + 1).min(last)] - times[i.saturating_sub(1)])).collect()
 }
 
+/// Greatest and mean distance off the path (m), the mean weighted by the time that each sample stands for; samples
+/// whose distance is not known count for neither.
 fn measure_deviation(measures: &mut Measures, times: &[f64], weights: &[f64], legs: &[usize], off: &[Off]) {
     let mut worst = -1.0;
     for (i, (&leg, off)) in legs.iter().zip(off).enumerate() {
@@ -137,6 +160,9 @@ fn measure_deviation(measures: &mut Measures, times: &[f64], weights: &[f64], le
     }
 }
 
+/// How far the track got beyond its place, in a leg's direction, (p − p₀)·d (m): for the sample's own leg and, in its
+/// direction, for the one before. p₀ is the sample's place on the path, else the leg's end (for the leg before: its
+/// nearest point).
 fn measure_overshoot(
     measures: &mut Measures,
     times: &[f64],
@@ -166,6 +192,8 @@ fn measure_overshoot(
     measures.overshoots = measures.legs.iter().map(|leg| leg.overshoot).collect();
 }
 
+/// Accelerations |Δv|/Δt (m/s²): over two intervals where the track tells velocities, at its two ends over one; else of
+/// the velocities between three positions. Beside it the rate of the speed alone, |Δ|v||/Δt, which bends leave out.
 fn measure_acceleration(measures: &mut Measures, track: &Track, positions: &[Point3<f64>], legs: &[usize]) {
     let times = track.times();
     let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| track.channel(name));
@@ -233,6 +261,8 @@ fn measure_tip_over(measures: &mut Measures, times: &[f64], margins: &[f64], leg
     }
 }
 
+/// The angle between body z and world z, 2 asin √(q_x² + q_y²), in degrees: accurate near upright, where a cosine would
+/// round.
 fn measure_tilt(measures: &mut Measures, track: &Track, legs: &[usize]) {
     let mut worst = (-1.0, 0.0);
     let mut of_legs = vec![-1.0_f64; measures.legs.len()];
@@ -251,6 +281,8 @@ fn measure_tilt(measures: &mut Measures, track: &Track, legs: &[usize]) {
     }
 }
 
+/// ∫ Σ_k q̈_k² dt in rad²/s³, second differences at unequal steps weighted by the samples' times; the two end samples
+/// have none.
 fn measure_effort(measures: &mut Measures, track: &Track, weights: &[f64], legs: &[usize]) {
     let joints: Vec<&[f64]> = (1..).map_while(|k| track.channel(&format!("q{k}_rad"))).collect();
     if joints.is_empty() {

@@ -1,4 +1,20 @@
-//! Floor 5, the verdict: metrics on tracks, specs, statistics. It knows poses in time and nothing of robots or planners.
+//! Floor 5, the verdict: metrics on tracks, specs, statistics. It knows poses in time and nothing of robots or
+//! planners.
+//!
+//! Data flow, the same for a simulation, an executor of the user's and a real log:
+//!
+//! ```text
+//! Track + waypoints + Settings ─ measure ─▶ Measures ─ violations(Limits) ─▶ Violation, gravest first
+//!                                              │
+//!                                              └ Stress: the one number that a search or a model is about
+//! cases of a campaign ─ share, statistics ─▶ verdict: one sentence, one exit code
+//! two sets of runs ─ paired: signed rank, medians, Holm ─▶ whether one is worse than chance has it
+//! an arm's recordings + PlannedPath ─ moves ─▶ each move: deviation, lateness, trend, regression
+//! ```
+//!
+//! Nothing here asks how a motion came about: the judge gets obstacles as a distance function and a reference as
+//! points, so that what judges our simulator judges hardware. Larger is worse, but for clearances and margins. Maxima
+//! are over samples; the judge proves nothing between them.
 
 mod apart;
 mod assign;

@@ -1,4 +1,7 @@
 //! Paired comparison: the same tests under two conditions, and whether one of them was worse than chance has it.
+//!
+//! Two sets of runs of the same cases differ by case far more than by condition; differences of pairs take the cases
+//! out.
 
 use super::statistics::binomial_share_half;
 
@@ -6,6 +9,8 @@ use super::statistics::binomial_share_half;
 const MOST_COUNTED: usize = 50;
 
 /// Wilcoxon's signed-rank test of paired differences.
+///
+/// `plus` + `minus` = n(n + 1)/2. Zero differences carry no sign and are left out (Wilcoxon's own rule).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SignedRank {
     /// Differences that are not zero: only these have a rank.
@@ -24,10 +29,20 @@ pub struct SignedRank {
 
 /// Tests `differences`; ranks are of their sizes, ties sharing the mean of theirs. `None` where one is not finite.
 ///
-/// Up to 50 ranked differences every one of the 2^n assignments of signs to the ranks is counted, so that ties change nothing
-/// of its exactness. Above, W⁺ is taken as normal with mean n(n+1)/4 and variance n(n+1)(2n+1)/24 − Σ(t³ − t)/48 over
-/// groups of t ties, with a continuity correction of ½. Wilcoxon: Individual comparisons by ranking methods, 1945;
-/// Kerby: The simple difference formula, 2014.
+/// Up to 50 ranked differences every one of the 2^n assignments of signs to the ranks is counted, so that ties change
+/// nothing of its exactness. Above, W⁺ is taken as normal with mean n(n+1)/4 and variance n(n+1)(2n+1)/24 − Σ(t³ −
+/// t)/48 over groups of t ties, with a continuity correction of ½. Wilcoxon: Individual comparisons by ranking methods,
+/// 1945; Kerby: The simple difference formula, 2014.
+///
+/// Counting takes n · W steps for a rank sum W ≤ n(n + 1): at most a hundred thousand.
+///
+/// ```
+/// use hairpin::judgement::signed_rank;
+///
+/// let test = signed_rank(&[0.3, 0.1, 0.5, 0.2, 0.4, 0.6]).expect("finite");
+/// assert!(test.exact && test.rank_biserial == 1.0);
+/// assert_eq!(test.p, 2.0 / 64.0); // all six of one sign: 2 of 2⁶ assignments
+/// ```
 pub fn signed_rank(differences: &[f64]) -> Option<SignedRank> {
     if !differences.iter().all(|difference| difference.is_finite()) {
         return None;
@@ -78,6 +93,8 @@ fn approximated(n: usize, plus: f64, ties: f64) -> f64 {
 }
 
 /// A median and between which values of the sample it lies.
+///
+/// The interval needs no assumption but independence: with fewer than six values none has 95 %.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Median {
     /// Of the sample; the mean of the two middle values of an even number.
@@ -86,9 +103,9 @@ pub struct Median {
     pub interval: Option<[f64; 2]>,
 }
 
-/// The median of `values` with the interval of order statistics that covers it with at least `confidence` (0 < c < 1): from
-/// the k-th smallest to the k-th largest value, k the largest with 2 P(B(n, ½) < k) ≤ 1 − c. `None` without values, or
-/// with one that is not finite. Thompson: On confidence ranges for the median, 1936.
+/// The median of `values` with the interval of order statistics that covers it with at least `confidence` (0 < c < 1):
+/// from the k-th smallest to the k-th largest value, k the largest with 2 P(B(n, ½) < k) ≤ 1 − c. `None` without
+/// values, or with one that is not finite. Thompson: On confidence ranges for the median, 1936.
 pub fn median(values: &[f64], confidence: f64) -> Option<Median> {
     if values.is_empty() || !values.iter().all(|value| value.is_finite()) {
         return None;
@@ -108,9 +125,12 @@ pub fn median(values: &[f64], confidence: f64) -> Option<Median> {
     Some(Median { value, interval })
 }
 
-/// `p` made larger for as many tests as there are, so that none of them is called significant by their number alone: the
-/// k-th smallest times what is left of them, never smaller than the one before. Holm: A simple sequentially rejective
-/// multiple test procedure, 1979.
+/// `p` made larger for as many tests as there are, so that none of them is called significant by their number alone:
+/// the k-th smallest times what is left of them, never smaller than the one before. Holm: A simple sequentially
+/// rejective multiple test procedure, 1979.
+///
+/// The chance of any false finding among all tests stays below the level that one is held to, whatever their
+/// dependence.
 pub fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|&a, &b| p[a].total_cmp(&p[b]));
@@ -162,7 +182,8 @@ mod tests {
 
     #[test]
     fn published_example() {
-        // Darwin's maize (Fisher: The Design of Experiments, 1935): 15 pairs; R's wilcox.test gives V = 96, p = 0.04126.
+        // Darwin's maize (Fisher: The Design of Experiments, 1935): 15 pairs; R's wilcox.test gives V = 96, p =
+        // 0.04126.
         let eighths = [49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48].map(f64::from);
         let found = signed_rank(&eighths).unwrap();
         assert_eq!((found.plus, found.minus, found.ranked), (96.0, 24.0, 15));

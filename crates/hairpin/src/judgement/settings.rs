@@ -6,6 +6,9 @@ use thiserror::Error;
 use crate::trajectory::Track;
 
 /// What the deviation is the distance from.
+///
+/// `Leg` is the paper's (Hildebrandt et al., ISSTA 2020); `NearestLeg` spares controllers that advance early or late;
+/// `Path` is for motions whose corners were programmed round.
 #[derive(Debug, Clone, Copy, Default)]
 pub enum Reference<'a> {
     /// The segment of the leg being flown.
@@ -18,9 +21,13 @@ pub enum Reference<'a> {
 }
 
 /// Signed distance of a position to the nearest obstacle, m, the robot's radius subtracted; +∞: none.
+///
+/// The same function that claims and plants ask (`world`), or one over obstacles that were not there when it was flown.
 pub type Clearance<'a> = dyn Fn(&Point3<f64>) -> f64 + Sync + 'a;
 
 /// How a track is judged.
+///
+/// The default judges every sample against its leg.
 #[derive(Clone, Copy, Default)]
 pub struct Settings<'a> {
     /// What the deviation is the distance from.

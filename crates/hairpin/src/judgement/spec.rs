@@ -1,10 +1,15 @@
 //! Limits, and which of them a run violates.
+//!
+//! A limit is a number and a sense (at most, or at least); an event is a violation without one. Their order is the
+//! order in which a reader wants to know.
 
 use super::apart::apart;
 use super::{LegMeasures, Measures};
 use crate::trajectory::{Ended, Flight};
 
 /// What is within spec. A limit that is `None` is not judged; a crash and leaving the world always are.
+///
+/// A value equal to its limit is within spec.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Largest deviation, m.
@@ -42,15 +47,19 @@ impl Default for Limits {
 }
 
 /// One violated limit of a run, in numbers.
+///
+/// `what`, `unit` and the numbers are what JSON, JUnit and the sentence are made of: one form for all.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
-    /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`, `late`; or an
-    /// event: `crash`, of a ground vehicle `tip-over`, `belly-contact`, `stuck` or `off-map`, of an arm `halted`, `left-world`, `unfinished`.
+    /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`,
+    /// `late`; or an event: `crash`, of a ground vehicle `tip-over`, `belly-contact`, `stuck` or `off-map`, of an arm
+    /// `halted`, `left-world`, `unfinished`.
     pub what: String,
     /// The measured value in `unit`; of a crash of any kind and of leaving the world the time, s; of an unfinished run
     /// the number of waypoints reached.
     pub value: f64,
-    /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished run the number of waypoints.
+    /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished run the number of
+    /// waypoints.
     pub limit: f64,
     /// Unit, as printed: `m`, `m/s²`, `s`, `°`, empty.
     pub unit: String,
@@ -109,6 +118,22 @@ impl Violation {
 
 /// The limits that a run violates, the gravest first: a crash, leaving the world, an unfinished mission, then by
 /// excess over the limit relative to the limit; equals in the order of [`Limits`].
+///
+/// Relative excess is (value − limit)/|limit|, of a limit of 0 the excess itself.
+///
+/// ```
+/// use hairpin::judgement::{LegMeasures, Limits, Measures, violations};
+/// use hairpin::trajectory::{Ended, Flight, Track};
+/// use nalgebra::Isometry3;
+///
+/// let track = Track::new(vec![0.0, 1.0], vec![Isometry3::identity(); 2], vec![])?;
+/// let flight = Flight { track, ended: Ended::Done, left_world: None, reached: vec![Some(0.0), Some(1.0)] };
+/// let measures = Measures { max_deviation: 0.65, legs: vec![LegMeasures::default()], ..Measures::default() };
+/// let found = violations(&measures, &flight, &Limits { deviation: Some(0.5), ..Limits::default() });
+/// assert_eq!(found.len(), 1);
+/// assert_eq!(found[0].printed(), ("0.65 m".into(), "0.50 m".into()));
+/// # Ok::<(), hairpin::trajectory::TrackError>(())
+/// ```
 pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violation> {
     let mut found = events(measures, flight, limits);
     let largest = |value: fn(&LegMeasures) -> f64| {

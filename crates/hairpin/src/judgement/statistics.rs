@@ -1,8 +1,14 @@
 //! Statistics of measured values and of shares of cases.
+//!
+//! Exact where it can be: intervals of shares by the binomial itself and not by a normal approximation, which is wrong
+//! at exactly the small counts that matter here. Special functions are made of `libm`'s, so that a verdict has the same
+//! digits on every machine.
 
 use crate::math::power::{power, square};
 
 /// A distribution in evo's names and order.
+///
+/// n in the denominators, as evo has them: of the values at hand, not estimates for a population.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Statistics {
     /// Largest value.
@@ -23,6 +29,8 @@ pub struct Statistics {
 
 impl Statistics {
     /// Of `values`, which must be finite; `None` without values or with one that is not finite.
+    ///
+    /// O(n log n), for the median's sake; sums over sorted values, so that their order does not change a digit.
     pub fn of(values: &[f64]) -> Option<Self> {
         if values.is_empty() || !values.iter().all(|x| x.is_finite()) {
             return None;
@@ -48,6 +56,8 @@ impl Statistics {
 }
 
 /// Fisher-Pearson skewness g₁ = m₃ / m₂^1.5 with central moments over n; `None` where all values are equal.
+///
+/// Positive: a long tail of large values.
 pub fn skewness(values: &[f64]) -> Option<f64> {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
@@ -61,6 +71,9 @@ pub fn skewness(values: &[f64]) -> Option<f64> {
 /// Spearman's rank correlation ρ of paired values, −1 … 1: Pearson's correlation of their ranks, equal values sharing
 /// the mean of theirs. `None` for fewer than three pairs, lists of unequal length, or where all values of one list are
 /// equal: a constant ranks nothing. Spearman: The proof and measurement of association between two things, 1904.
+///
+/// What drives a violation is seldom linear: ranks ask only whether more of the one goes with more of the other. O(n
+/// log n).
 pub fn rank_correlation(x: &[f64], y: &[f64]) -> Option<f64> {
     if x.len() != y.len() || x.len() < 3 || x.iter().chain(y).any(|value| value.is_nan()) {
         return None;
@@ -88,6 +101,9 @@ fn centred_ranks(values: &[f64]) -> Vec<f64> {
 }
 
 /// An observed share with its exact interval, all 0 … 1.
+///
+/// For random cases only: of cases that were searched for their stress a share says nothing about the population, and
+/// the verdict gives none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Share {
     /// k / n.
@@ -103,6 +119,16 @@ pub struct Share {
 /// With α = 1 − c: low is the α/2 quantile of Beta(k, n − k + 1) and 0 for k = 0; high is the 1 − α/2 quantile of
 /// Beta(k + 1, n − k) and 1 for k = n. `None` for n = 0, k > n or a confidence outside (0, 1).
 /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial, 1934.
+///
+/// Coverage is at least the confidence for every true share.
+///
+/// ```
+/// use hairpin::judgement::{rule_of_three, share};
+///
+/// let found = share(3, 200, 0.95).expect("some cases");
+/// assert!((found.low - 0.0031).abs() < 1e-4 && (found.high - 0.0432).abs() < 1e-4);
+/// assert_eq!(rule_of_three(200), 0.015);
+/// ```
 pub fn share(k: usize, n: usize, confidence: f64) -> Option<Share> {
     if n == 0 || k > n || !(confidence > 0.0 && confidence < 1.0) {
         return None;
@@ -120,12 +146,18 @@ pub(super) fn binomial_share_half(n: usize, k: usize) -> f64 {
 }
 
 /// Upper bound of a share at 95 % when none of `n` violated: the rule of three, 3/n, at most 1.
+///
+/// (1 − p)ⁿ = 0.05 gives p ≈ 3/n: −ln 0.05 = 2.996. Hanley and Lippman-Hand, JAMA 249(13), 1983.
 pub fn rule_of_three(n: usize) -> f64 {
     if n == 0 { 1.0 } else { (3.0 / n as f64).min(1.0) }
 }
 
-/// The t beyond which Student's distribution with `freedom` ≥ 1 degrees lies, on both sides together, as often as a normal one
-/// lies beyond `sigma` standard deviations: P(|T| > t) = erfc(σ/√2), and P(|T| > t) = I_x(ν/2, ½) with x = ν/(ν + t²).
+/// The t beyond which Student's distribution with `freedom` ≥ 1 degrees lies, on both sides together, as often as a
+/// normal one lies beyond `sigma` standard deviations: P(|T| > t) = erfc(σ/√2), and P(|T| > t) = I_x(ν/2, ½) with x =
+/// ν/(ν + t²).
+///
+/// With 4 degrees of freedom 3 σ is t = 6.6: few runs know their own spread badly. Infinite where the tail is below
+/// what doubles hold.
 pub fn student_quantile(freedom: usize, sigma: f64) -> f64 {
     let freedom = freedom as f64;
     let x = beta_quantile(0.5 * freedom, 0.5, libm::erfc(sigma * std::f64::consts::FRAC_1_SQRT_2));

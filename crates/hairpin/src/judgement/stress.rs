@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::{LegMeasures, Measures};
 
 /// What is called stressful in execution; larger is worse.
+///
+/// All of [`Measures`] that a search may maximise. Of a run it is the judge's own number; of a leg that leg's, of which
+/// the run's is the largest, the sum or the mean, as the measure is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stress {
@@ -24,8 +27,8 @@ pub enum Stress {
     Saturation,
     /// Least distance from obstacles, with its sign turned, m.
     Clearance,
-    /// Of what stands on the ground the least angle by which it would have had to lean further to tip over, with its sign turned; of what
-    /// flies the largest angle of its upward axis from the world's; degrees.
+    /// Of what stands on the ground the least angle by which it would have had to lean further to tip over, with its
+    /// sign turned; of what flies the largest angle of its upward axis from the world's; degrees.
     Tilt,
     /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³.
     JointEffort,
@@ -108,6 +111,8 @@ impl Stress {
     }
 
     /// The leg that a run owes its stress to, the first of equals; `None` where no leg was measured.
+    ///
+    /// Where a search in the loop changes a trajectory, and where a report points.
     pub fn worst_leg(self, measures: &Measures) -> Option<usize> {
         let mut worst: Option<(usize, f64)> = None;
         for (number, leg) in measures.legs.iter().enumerate() {

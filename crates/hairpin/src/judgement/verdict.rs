@@ -4,6 +4,10 @@
 //! Exit codes: 0 within spec, 1 violation, 3 nothing feasible, 4 executor failed, 5 inconclusive or invalid data
 //! (2, wrong input, is no verdict). A violation is a fact whatever else went wrong, so it comes first; then a failed
 //! executor, because what was not flown was not judged; then data or an interval that allow no verdict.
+//!
+//! One sentence, whatever the robot: outcome, how obtained, worst and where, share with its interval, evidence. What
+//! was not counted is said, what was derived has its word, and an interval that straddles a limit is INCONCLUSIVE, not
+//! a pass.
 
 use super::spec::Violation;
 use super::statistics::{rule_of_three, share};
@@ -38,6 +42,8 @@ pub struct Worst<'a> {
 }
 
 /// What a campaign came to.
+///
+/// Counts, not cases: what they rest on stays with the campaign.
 #[derive(Debug, Clone, Copy)]
 pub struct Judged<'a> {
     /// How obtained, in order: `["simulated", "anafi stand-in", "minimum-snap"]`.
@@ -96,6 +102,16 @@ impl Default for Judged<'_> {
 /// Cases that the executor failed to fly or whose data are inconclusive count neither as pass nor as fail: the share
 /// is of the others. Without a share limit one violating case is a FAIL. With one, the Clopper-Pearson interval of
 /// the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it.
+///
+/// ```
+/// use hairpin::judgement::{Judged, verdict};
+///
+/// let none = verdict(&Judged { how: &["simulated"], cases: 200, asked: 200, ..Judged::default() });
+/// assert_eq!(none.exit_code, 0);
+/// assert!(none.sentence.contains("share at most 1.5 % (3/N, 95 %)"));
+/// let some = verdict(&Judged { how: &["simulated"], cases: 200, asked: 200, failed: 3, ..Judged::default() });
+/// assert!(some.exit_code == 1 && some.sentence.starts_with("FAIL 3/200"));
+/// ```
 pub fn verdict(judged: &Judged) -> Verdict {
     let counted = judged.cases.saturating_sub(judged.executor_failed + judged.inconclusive);
     let interval = share(judged.failed, counted, judged.confidence);

@@ -1,5 +1,8 @@
 //! Sine and cosine of many angles at once, without branches, so that compilers put them into SIMD lanes; only
 //! additions and multiplications, so that every machine gives the same bits.
+//!
+//! Used where a million attitudes are integrated at once. Elsewhere `libm::sincos` is exact to a unit in the last place
+//! and takes any angle.
 
 /// 1.5 · 2⁵²: adding and subtracting it rounds to the nearest integer.
 const ROUND: f64 = 6_755_399_441_055_744.0;
@@ -10,6 +13,10 @@ const PI_LOW: f64 = f64::from_bits(0x3e84_442d_1846_9899);
 /// sin and cos of `angle` (rad, |angle| < 10⁶), each within 2·10⁻¹³.
 ///
 /// angle = r + qπ with |r| ≤ π/2; Taylor polynomials in r, sign (−1)^q.
+///
+/// Reduction in two parts after Cody and Waite, "Software Manual for the Elementary Functions" (1980): q π₁ is exact
+/// while |q| < 2³⁰, so that the absolute error of r stays near one of the angle's own units in the last place. Beyond
+/// 10⁶ rad nothing is promised.
 #[inline(always)]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     let q = (angle * std::f64::consts::FRAC_1_PI + ROUND) - ROUND;

@@ -1,8 +1,14 @@
 //! One classical Runge-Kutta step, which every simulation and every sampled reach set takes.
+//!
+//! One step method with a fixed step, and no error control: a run must have the same steps on every machine, and how
+//! large they may be is settled by tests against halved steps. The proof (`verification`) integrates by collocation of
+//! its own and never by this.
 
 use nalgebra::SVector;
 
 /// A fixed-size real vector: all that integrators and planners ask of states and controls.
+///
+/// Implemented for `SVector<f64, N>` alone; there is no reason to implement it for anything else.
 pub trait Vector: Copy + Send + Sync + 'static {
     /// Number of components.
     const LEN: usize;
@@ -35,7 +41,7 @@ impl<const N: usize> Vector for SVector<f64, N> {
 /// One step of length `h` (s) of the classical fourth-order Runge-Kutta method for x' = f(x).
 ///
 /// Controls and time enter through the closure: `rk4_step(|x| robot.derivative(x, &u), &x, h)`. States on a manifold
-/// (unit quaternions) are to be normalised afterwards, by [`crate::robot::Dynamics::normalize`].
+/// (unit quaternions) are to be normalised afterwards.
 pub fn rk4_step<V: Vector>(f: impl Fn(&V) -> V, x: &V, h: f64) -> V {
     let k1 = f(x);
     let k2 = f(&x.add_scaled(&k1, 0.5 * h));

@@ -1,4 +1,10 @@
 //! Proven bounds of a function between samples: on a short interval a function is a line plus a bounded rest.
+//!
+//! A limit holds on a leg if it holds at every time of it, not at samples. A formula written against [`Smooth`] is
+//! evaluated once on numbers, to see whether a sample violates, and once on enclosures of whole pieces, to see whether
+//! anything between samples can: f > limit at a centre is a violation that is real; upper(f) ≤ limit is its absence,
+//! proven up to rounding; else the piece is halved. The excess of upper(f) over the true maximum is O(h²), so that
+//! pieces near no limit are settled at once. Four pieces are looked at together, one in each lane.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -6,6 +12,9 @@ use wide::f64x4;
 
 /// What a closed form needs of its numbers, so that one formula serves a point (`f64`), four points (`f64x4`) and
 /// four intervals ([`Enclosure`]).
+///
+/// No division and no branch: quotients go through [`Smooth::recip`], whose answer says itself if it proves nothing, so
+/// that lanes never part.
 pub trait Smooth:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self> + Neg<Output = Self>
 {
@@ -14,11 +23,17 @@ pub trait Smooth:
     /// The square of the function.
     fn square(self) -> Self;
     /// Square root of a function that is nowhere negative.
+    ///
+    /// Of an enclosure by Taylor's formula with remainder where the function is bounded away from 0, and [0, √upper]
+    /// where that is tighter: a norm that comes near 0 keeps a bound.
     fn sqrt(self) -> Self;
     /// Reciprocal; worthless (infinite or NaN) unless the function is proven positive.
+    ///
+    /// Of an enclosure: 1/(x₀ + δ) = 1/x₀ − δ/x₀² + δ²/(x₀²(x₀ + δ)), the last term bounded from below at x₀ + δ.
     fn recip(self) -> Self;
-    /// `self / norm`, one component of the unit vector along a vector of length `norm`. Where the vector vanishes it has no
-    /// direction: a point gives 0, the mean of all directions; an enclosure gives [−1, 1], which holds every one.
+    /// `self / norm`, one component of the unit vector along a vector of length `norm`. Where the vector vanishes it
+    /// has no direction: a point gives 0, the mean of all directions; an enclosure gives [−1, 1], which holds every
+    /// one.
     fn direction(self, norm: Self) -> Self;
 }
 
@@ -27,6 +42,20 @@ pub trait Smooth:
 /// A Taylor model of degree 1 (Makino, Berz, "Taylor models and other validated functional inclusion methods", 2003):
 /// `middle` is the function's value at the interval's centre, so a violation there is real, and the bounds converge
 /// with the square of the width. Rounding is not directed; who compares with a limit leaves room for it.
+///
+/// u = (t − t_c)/h for an interval of half width h around t_c. `middle` and `slope` are exact but for rounding, all
+/// uncertainty is in `rest` ≥ 0; ∞ there is "no bound", which every comparison reads as "not proven".
+///
+/// ```
+/// use hairpin::math::interval::{Enclosure, Smooth};
+/// use wide::f64x4;
+///
+/// // t on [0.9, 1.1] in each of four lanes, and t² there: in truth [0.81, 1.21].
+/// let t = Enclosure::taylor(&[f64x4::splat(1.0), f64x4::splat(1.0)], f64x4::splat(0.1));
+/// let square = t.square();
+/// assert!(square.lower().to_array()[0] <= 0.81 && square.upper().to_array()[0] >= 1.21);
+/// assert!(square.upper().to_array()[0] < 1.22);
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Enclosure {
     /// Value at the centre.
@@ -39,6 +68,10 @@ pub struct Enclosure {
 
 impl Enclosure {
     /// The enclosure of Σ d_k h^k/k! u^k, from the derivatives `d` at the centre and half the width `h`.
+    ///
+    /// Exact for polynomials whose derivatives are all given: `rest` = Σ_{k ≥ 2} |d_k| hᵏ/k!. `d[k]` has the unit of
+    /// the value over sᵏ, `h` is in s and > 0. Of anything else the last derivative must be a bound over the whole
+    /// interval, not its value at the centre.
     #[inline(always)]
     pub fn taylor(d: &[f64x4], h: f64x4) -> Self {
         let mut rest = f64x4::ZERO;

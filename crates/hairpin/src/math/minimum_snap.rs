@@ -2,6 +2,16 @@
 //!
 //! Richter, Bry, Roy, "Polynomial trajectory planning for aggressive quadrotor flight in dense indoor environments"
 //! (ISRR 2013), unconstrained form: the unknowns are not coefficients but the free derivatives at the interior points.
+//!
+//! Per axis and segment the cost is a quadratic form of the end data d = (p, v, a, j at both ends):
+//!
+//! ```text
+//! J = ∫₀ᵀ (p⁗)² dt = dᵀ Q(T) d,     Q(T)_ij = q_ij T^(m_i + m_j − 7),   m = (0, 1, 2, 3, 0, 1, 2, 3)
+//! ```
+//!
+//! Positions are given and the ends are at rest, so that v, a, j at the n − 2 interior points are all that is free:
+//! ∂J/∂(v, a, j)_k = 0 is a system of 3 × 3 blocks, each tied to its neighbours alone, with one right-hand side per
+//! axis. The stationary curve is the interpolating spline of degree 7 and class C⁶. Times are not optimised here.
 
 use nalgebra::{Matrix3, Point3, SMatrix};
 use thiserror::Error;
@@ -9,9 +19,13 @@ use thiserror::Error;
 use super::power::power;
 
 /// One segment: `c[axis][i]` in m/s^i, p_axis(τ) = Σ c_i τ^i, τ ∈ [0, T].
+///
+/// τ runs from 0 at the segment's own start. World frame; axes x, y, z.
 pub type SegmentCoefficients = [[f64; 8]; 3];
 
 /// Why there is no minimum-snap curve.
+///
+/// All but `IllConditioned` are mistakes of the caller, found before anything is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum MinimumSnapError {
     /// At least two points, and one time per segment.
@@ -44,7 +58,24 @@ pub enum MinimumSnapError {
 /// The piecewise 7th-order polynomial from rest to rest through `points` (m) that minimises ∫‖p⁗‖² dt, for segment
 /// times `times` (s); three derivatives are zero at both ends, and six are continuous in between.
 ///
-/// The velocity at point k is `c[axis][1]` of the segment that starts there. Block-tridiagonal elimination: linear time.
+/// The velocity at point k is `c[axis][1]` of the segment that starts there. Block-tridiagonal elimination: linear
+/// time.
+///
+/// Elimination without pivoting between blocks: they are principal blocks of a positive definite matrix. Scaling by the
+/// mean segment time keeps them comparable; what ratios of times beyond that do to the digits is seen at the end, as
+/// coefficients that are not finite.
+///
+/// ```
+/// use hairpin::math::minimum_snap::minimum_snap;
+/// use nalgebra::Point3;
+///
+/// let corner = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [4.0, 4.0, 1.0]].map(Point3::from);
+/// let curve = minimum_snap(&corner, &[2.0, 2.0])?;
+/// assert_eq!((curve[0][0][0], curve[0][0][1]), (0.0, 0.0)); // at the start, at rest
+/// let through = curve[1]; // by symmetry the corner is passed at 45°
+/// assert!((through[0][0] - 4.0).abs() < 1e-9 && (through[0][1] - through[1][1]).abs() < 1e-9);
+/// # Ok::<(), hairpin::math::minimum_snap::MinimumSnapError>(())
+/// ```
 ///
 /// # Errors
 /// Wrong counts, times that are not positive, points that are not finite, times too unequal.
@@ -77,6 +108,9 @@ pub fn minimum_snap(points: &[Point3<f64>], times: &[f64]) -> Result<Vec<Segment
 }
 
 /// The polynomial on [0, 1] with the given value and first three derivatives at either end.
+///
+/// `start` and `end` are (p, p′, p″, p‴) with respect to σ ∈ [0, 1]: of a segment of T seconds (p, T v, T² a, T³ j).
+/// Coefficients in powers of σ.
 pub fn hermite(start: &[f64; 4], end: &[f64; 4]) -> [f64; 8] {
     let low = [start[0], start[1], start[2] / 2.0, start[3] / 6.0];
     // What the low orders leave undone at the far end.

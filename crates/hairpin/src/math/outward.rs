@@ -1,11 +1,32 @@
 //! Intervals with outward rounding, and centred forms over one parameter: what turns a computation into a proof.
 //!
-//! IEEE 754 rounds + − · ÷ √ to nearest, so that the true result lies within the neighbouring numbers of the computed one: every
-//! operation widens its bounds to them. (Moore, Kearfott, Cloud, "Introduction to Interval Analysis", 2009, ch. 2, 3 and 6.)
+//! IEEE 754 rounds + − · ÷ √ to nearest, so that the true result lies within the neighbouring numbers of the computed
+//! one: every operation widens its bounds to them. (Moore, Kearfott, Cloud, "Introduction to Interval Analysis", 2009,
+//! ch. 2, 3 and 6.)
+//!
+//! ```text
+//! f(T) ⊆ F(T)                                the natural extension: every operation replaced by its interval form
+//! f(T) ⊆ F(m) + F′(T) (T − m)                the centred form, m in T
+//! ```
+//!
+//! A comparison that holds for all numbers of the intervals holds for the real numbers behind them: what is "clear" by
+//! [`Interval::low`] > 0 is proven, not measured. What does not hold is undecided, never false: widths grow with the
+//! formula, and halving T narrows them again.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// All numbers from `low` to `high`.
+///
+/// Closed; low ≤ high. Infinite ends stand for "no bound". Operations turn NaN into no bound. Constants that doubles do
+/// not hold (0.1) are the caller's to enclose.
+///
+/// ```
+/// use hairpin::math::outward::Interval;
+///
+/// let third = Interval::point(1.0) / Interval::point(3.0); // ⅓ is no double, but lies inside
+/// let one = third + third + third;
+/// assert!(one.contains(1.0) && one.low < one.high && one.high - one.low < 1e-14);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     /// Lower bound.
@@ -46,6 +67,8 @@ impl Interval {
     }
 
     /// x², never negative.
+    ///
+    /// Tighter than x·x, which does not know that both factors are one number.
     pub fn square(self) -> Self {
         let magnitude = self.abs();
         let out = Self::outward(magnitude.low * magnitude.low, magnitude.high * magnitude.high);
@@ -53,6 +76,8 @@ impl Interval {
     }
 
     /// √max(x, 0).
+    ///
+    /// Arguments below 0 come from rounding of sums of squares; they count as 0.
     pub fn sqrt(self) -> Self {
         let out = Self::outward(self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
         Self { low: out.low.max(0.0), high: out.high }
@@ -80,6 +105,8 @@ impl Interval {
     }
 
     /// The smallest interval around both.
+    ///
+    /// May hold numbers that neither does.
     pub fn hull(self, o: Self) -> Self {
         Self { low: self.low.min(o.low), high: self.high.max(o.high) }
     }
@@ -135,6 +162,9 @@ impl Div for Interval {
 }
 
 /// What formulas are made of, so that one text serves numbers, intervals and centred forms.
+///
+/// Operations of [`Interval`] and [`Centred`] contain those of the numbers: f(x) ∈ F(X) for every x ∈ X, by induction
+/// over the formula.
 pub trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -194,10 +224,16 @@ impl Real for Interval {
     }
 }
 
-/// A function of one parameter t on an interval T: its range, its value at the middle m of T, and the range of its slope.
+/// A function of one parameter t on an interval T: its range, its value at the middle m of T, and the range of its
+/// slope.
 ///
-/// f(T) ⊆ range ∩ (f(m) + f′(T)(T − m)): bounds converge with the square of T's width, so that bisecting decides also where a
-/// segment passes closely by. Where a formula has a kink the slope's range holds those of both sides (Lipschitz slopes).
+/// f(T) ⊆ range ∩ (f(m) + f′(T)(T − m)): bounds converge with the square of T's width, so that bisecting decides also
+/// where a segment passes closely by. Where a formula has a kink the slope's range holds those of both sides (Lipschitz
+/// slopes).
+///
+/// The mean value form of Moore, Kearfott, Cloud (2009); slopes over kinks as generalised gradients (Clarke,
+/// "Optimization and Nonsmooth Analysis", 1983). Parameters of two operands must be the same T: constants have none and
+/// go with any.
 #[derive(Debug, Clone, Copy)]
 pub struct Centred {
     range: Interval,
@@ -209,12 +245,16 @@ pub struct Centred {
 
 impl Centred {
     /// The parameter itself on `t`.
+    ///
+    /// Slope 1, range T. The one source of dependence: what is built from it knows how it moves with t.
     pub fn parameter(t: Interval) -> Self {
         let m = Interval::point(t.middle());
         Self { range: t, middle: m, slope: Interval::point(1.0), offset: t - m }
     }
 
     /// Some number of an interval that does not depend on the parameter.
+    ///
+    /// For data that is known to an interval only. Its uncertainty does not shrink as T does.
     pub fn anywhere_in(range: Interval) -> Self {
         Self { range, middle: range, slope: Interval::point(0.0), offset: Interval::point(0.0) }
     }

@@ -1,6 +1,13 @@
 //! Polynomials of degree 7 on [0, T]: built from what they do at both ends, and bounded by their Bernstein form.
+//!
+//! A leg between two states is one such polynomial per axis (m, m/s, m/s², m/s³ at the ends; s): eight conditions,
+//! eight coefficients, so that a leg costs no solve. In Bernstein form, B_i(σ) = C(7, i) σⁱ (1 − σ)⁷⁻ⁱ, σ = τ/T, the
+//! B_i are ≥ 0 and sum to 1, which makes min b_i ≤ p(τ) ≤ max b_i a bound between samples; each halving takes the gap
+//! to a quarter (Farin, "Curves and Surfaces for CAGD", 5th ed. 2002, ch. 4-5).
 
 /// Coefficients c_i of Σ c_i τ^i.
+///
+/// On [0, T], τ in s: c_i has the unit of the value over sⁱ.
 pub type Septic = [f64; 8];
 
 /// The binomials C(7, i).
@@ -9,6 +16,21 @@ const CHOOSE_7: [f64; 8] = [1.0, 7.0, 21.0, 35.0, 35.0, 21.0, 7.0, 1.0];
 /// The one polynomial of degree 7 with value, first, second and third derivative `start` at 0 and `end` at `duration`.
 ///
 /// Solved in σ = τ/T, where c₀…c₃ are read off `start` and c₄…c₇ solve a 4 × 4 system whose inverse is constant.
+///
+/// With r the residues of the cubic c₀ + c₁σ + c₂σ² + c₃σ³ at σ = 1, (c₄ … c₇) = M r for the constant M of the rows
+/// below (the same as [`crate::math::minimum_snap::hermite`] takes). Coefficients are returned in powers of τ.
+/// `duration` T > 0 is the caller's to see to: T → 0 makes them infinite, never wrong in silence.
+///
+/// ```
+/// use hairpin::math::polynomial::{control_points, septic};
+///
+/// // From rest to rest over 1 m in 2 s: value, velocity, acceleration, jerk at either end.
+/// let leg = septic(&[0.0; 4], &[1.0, 0.0, 0.0, 0.0], 2.0);
+/// let middle: f64 = leg.iter().sum(); // at τ = 1 s
+/// assert!((middle - 0.5).abs() < 1e-12);
+/// // Its control points prove that it never leaves [0, 1].
+/// assert!(control_points(&leg, 2.0).iter().all(|b| (-1e-12..1.0 + 1e-12).contains(b)));
+/// ```
 #[inline]
 pub fn septic(start: &[f64; 4], end: &[f64; 4], duration: f64) -> Septic {
     let t = duration;
@@ -30,6 +52,9 @@ pub fn septic(start: &[f64; 4], end: &[f64; 4], duration: f64) -> Septic {
 
 /// Control points b_0…b_7 of the same polynomial on [0, `duration`]: p(τ) = Σ b_i B_i(τ/T) lies in their hull, and
 /// b_0, b_7 are its values at the ends.
+///
+/// b_j = Σ_{i ≤ j} C(j, i)/C(7, i) c_i Tⁱ. Derivatives are bounded likewise: those of p have the control points 7
+/// (b_{j+1} − b_j)/T.
 #[inline]
 pub fn control_points(c: &Septic, duration: f64) -> [f64; 8] {
     // b_j = Σ_{i ≤ j} C(j, i)/C(7, i) c_i T^i, summed along Pascal's triangle.
@@ -48,6 +73,9 @@ pub fn control_points(c: &Septic, duration: f64) -> [f64; 8] {
 }
 
 /// The control points of both halves, by de Casteljau's construction at the middle.
+///
+/// The union of both hulls lies in the old hull, so bisecting never loosens a bound. 28 averages, no multiplication but
+/// by ½: exact but for rounding of sums.
 #[inline]
 pub fn halve(b: &[f64; 8]) -> ([f64; 8], [f64; 8]) {
     let (mut work, mut left, mut right) = (*b, [0.0; 8], [0.0; 8]);

@@ -8,6 +8,9 @@ pub fn square(x: f64) -> f64 {
 }
 
 /// xⁿ, by squaring: the factors x^(2^k) of n's binary digits, multiplied from the lowest on.
+///
+/// At most 2 log₂ n products. n = 0 gives 1, also of NaN. The order of products, and so the last bit, depends on n
+/// alone.
 #[inline]
 pub fn power(x: f64, mut n: usize) -> f64 {
     let (mut product, mut factor) = (1.0, x);

@@ -1,6 +1,18 @@
 //! Gauss–Legendre quadrature on [0, 1], its nodes computed by the compiler.
 
 /// Nodes and weights of the rule with `N` points: exact for polynomials up to degree 2N − 1.
+///
+/// ∫₀ᴸ f(s) ds ≈ L Σ w_i f(L x_i), with the error (N!)⁴ / ((2N + 1) ((2N)!)³) · L²ᴺ⁺¹ f⁽²ᴺ⁾(ξ): a smooth integrand that
+/// bends little over L costs few points. Golub and Welsch, Math. Comp. 23 (1969) have the theory; here N is small
+/// enough for Newton from the usual cosines.
+///
+/// ```
+/// use hairpin::math::quadrature::Gauss;
+///
+/// let rule = Gauss::<5>::RULE;
+/// let integral: f64 = rule.nodes.iter().zip(&rule.weights).map(|(t, w)| w * t.powi(9)).sum();
+/// assert!((integral - 0.1).abs() < 1e-15); // ∫ t⁹ dt, exact to degree 9
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Gauss<const N: usize> {
     /// Rising, within (0, 1).
@@ -13,6 +25,8 @@ impl<const N: usize> Gauss<N> {
     /// The rule. Nodes are the roots of the Legendre polynomial `P_N(2t − 1)`, found by Newton's method.
     pub const RULE: Self = Self::new();
 
+    /// Roots of the Legendre polynomial P_N by Newton's method from cos(π(i + ¾)/(N + ½)), weights 1/((1 − x²) P_N′²)
+    /// for the unit interval; at compile time.
     const fn new() -> Self {
         let mut rule = Self { nodes: [0.0; N], weights: [0.0; N] };
         let mut i = 0;

@@ -1,4 +1,9 @@
 //! Reproducible random streams: every consumer names its own, so that no result depends on order or threads.
+//!
+//! Whoever draws asks for a stream by root seed, purpose and number, and draws from that alone. So a case can be drawn
+//! again by itself, threads may take cases in any order, and a new consumer changes no numbers of the old ones. PCG:
+//! O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for Random Number Generation"
+//! (HMC-CS-2014-0905).
 
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
@@ -8,6 +13,8 @@ pub type Stream = Pcg64Mcg;
 
 /// The seed of case number `case` under the root seed: the first 8 bytes (little-endian) of
 /// BLAKE3(`root` as u64 LE ‖ `case` as u64 LE). It never depends on worker, shard or order.
+///
+/// The same as any language with BLAKE3 computes: what a report names as a case's seed can be checked from outside.
 pub fn case_seed(root: u64, case: u64) -> u64 {
     let mut hasher = blake3::Hasher::new();
     hasher.update(&root.to_le_bytes());
@@ -16,6 +23,9 @@ pub fn case_seed(root: u64, case: u64) -> u64 {
 }
 
 /// The seed of a stream with a purpose of its own (`label`), number `index` of its kind, under `root`.
+///
+/// BLAKE3(`root` as u64 LE ‖ `label` ‖ `index` as u64 LE), the first 8 bytes. Labels are never reused for another
+/// purpose, nor renamed: the name is the stream.
 pub fn named_seed(root: u64, label: &str, index: u64) -> u64 {
     let mut hasher = blake3::Hasher::new();
     hasher.update(&root.to_le_bytes());
@@ -25,6 +35,14 @@ pub fn named_seed(root: u64, label: &str, index: u64) -> u64 {
 }
 
 /// The generator for `seed`: its 128-bit state is BLAKE3 of the seed, so that neighbouring seeds share nothing.
+///
+/// ```
+/// use hairpin::math::random::{named_seed, stream, unit};
+///
+/// let draws = |index| { let mut s = stream(named_seed(1, "documentation", index)); [unit(&mut s), unit(&mut s)] };
+/// assert_eq!(draws(0), draws(0));
+/// assert_ne!(draws(0), draws(1));
+/// ```
 pub fn stream(seed: u64) -> Stream {
     let digest = blake3::hash(&seed.to_le_bytes());
     let mut state = [0u8; 16];
@@ -33,12 +51,17 @@ pub fn stream(seed: u64) -> Stream {
 }
 
 /// A uniform number in [0, 1) from the 53 leading bits of the next word.
+///
+/// A multiple of 2⁻⁵³; 0 is possible, 1 is not.
 pub fn unit(stream: &mut Stream) -> f64 {
     (stream.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
 /// A uniform number in [0, 1) that is a pure function of `seed` and `words` (SplitMix64 finaliser over each word):
 /// a random score per leg without any state, the same whenever it is asked for.
+///
+/// Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators" (OOPSLA 2014). Not for cryptography, nor for
+/// long sequences.
 pub fn hashed_unit(seed: u64, words: &[u64]) -> f64 {
     let mut h = seed;
     for &word in words {
@@ -48,6 +71,10 @@ pub fn hashed_unit(seed: u64, words: &[u64]) -> f64 {
 }
 
 /// `N` independent standard normal numbers by Marsaglia's polar method, with `libm`: the same bits on every machine.
+///
+/// Pairs by rejection from the unit disc (accepted with π/4): the number of words taken varies, so a stream that draws
+/// normals has no fixed position for what follows. An odd `N` throws the last partner away. Marsaglia and Bray, SIAM
+/// Review 6(3), 1964.
 pub fn standard_normals<const N: usize>(stream: &mut Stream) -> [f64; N] {
     let mut out = [0.0; N];
     for pair in out.chunks_mut(2) {

@@ -1,9 +1,16 @@
 //! Which version of the kernels runs. They are compiled for several SIMD levels and chosen from when they are called.
+//!
+//! Kernels are the few loops that a search spends its time in: half-space tests, monomials, distances. Each is written
+//! once, as plain Rust over lanes of `f64`, and compiled for each level; nothing is `unsafe` and no `target-cpu` is set
+//! for the whole program.
 
 /// The version of the kernels to run.
 ///
-/// All versions give the same bits: no product is fused with a sum, lanes have the same number everywhere, and sums keep
-/// their order. Tests hold every kernel to it.
+/// All versions give the same bits: no product is fused with a sum, lanes have the same number everywhere, and sums
+/// keep their order. Tests hold every kernel to it.
+///
+/// `Portable` rests on the compiler's baseline alone and not on that promise: with it a result can be held against
+/// another machine's level by level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Simd {
     /// The widest that this machine has.

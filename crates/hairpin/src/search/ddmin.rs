@@ -1,12 +1,25 @@
 //! Delta debugging: from a list that fails to a short part of it that still does.
 //!
-//! Zeller, Hildebrandt: Simplifying and isolating failure-inducing input, IEEE Transactions on Software Engineering 28, 2002.
+//! Zeller, Hildebrandt: Simplifying and isolating failure-inducing input, IEEE Transactions on Software Engineering 28,
+//! 2002.
 
-/// A part of `items`, in their order, that `fails` and from which no single item can be taken any more; `items` themselves are
-/// known to fail and are not asked about. `fails` gives `None` to stop early: the shortest part so far is the answer.
+/// A part of `items`, in their order, that `fails` and from which no single item can be taken any more; `items`
+/// themselves are known to fail and are not asked about. `fails` gives `None` to stop early: the shortest part so far
+/// is the answer.
 ///
-/// In rounds of finer and finer pieces: each piece alone, then all but one piece; whatever fails goes on in the place of the
-/// whole. Asks about n² + 3n parts at most, and about few where failing is local.
+/// In rounds of finer and finer pieces: each piece alone, then all but one piece; whatever fails goes on in the place
+/// of the whole. Asks about n² + 3n parts at most, and about few where failing is local.
+///
+/// 1-minimal, not minimal: a smaller part elsewhere in the list may fail too.
+///
+/// ```
+/// use hairpin::search::ddmin;
+///
+/// // Fails wherever both 3 and 7 are.
+/// let list: Vec<u32> = (0..16).collect();
+/// let part = ddmin(&list, &mut |part| Some(part.contains(&3) && part.contains(&7)));
+/// assert_eq!(part, [3, 7]);
+/// ```
 pub fn ddmin<T: Copy>(items: &[T], fails: &mut dyn FnMut(&[T]) -> Option<bool>) -> Vec<T> {
     let mut kept = items.to_vec();
     let mut pieces = 2;
@@ -29,6 +42,8 @@ enum Smaller<T> {
     Nothing,
 }
 
+/// One round of ddmin (Zeller & Hildebrandt, IEEE TSE 28, 2002): each piece alone, then each piece's rest; `None` where
+/// the test could not be asked any more.
 fn round<T: Copy>(kept: &[T], pieces: usize, fails: &mut dyn FnMut(&[T]) -> Option<bool>) -> Option<Smaller<T>> {
     let pieces = pieces.min(kept.len());
     let bound = |piece: usize| piece * kept.len() / pieces;

@@ -1,8 +1,27 @@
 //! Floor 6: scores and the searches over them. Points, a reach set and a score come in; nothing else is known.
 //!
 //! [`beam()`] is algorithms 1 and 2 of the paper on one graph; [`exact()`] is dynamic programming over the legs of a
-//! [`graph`]: best, k best, counts, the proof that none exists; [`uniform()`] draws evenly from all that is feasible. [`heaviest`] is the
-//! path of maximal cost through a graph of arcs that visits no point twice. [`ddmin()`] finds the part of a list that it takes to fail.
+//! [`graph`]: best, k best, counts, the proof that none exists; [`uniform()`] draws evenly from all that is feasible.
+//! [`heaviest`] is the path of maximal cost through a graph of arcs that visits no point twice. [`ddmin()`] finds the
+//! part of a list that it takes to fail.
+//!
+//! | asked | room | answer |
+//! | --- | --- | --- |
+//! | good trajectories of a large graph, soon | [`mod@beam`] | found, and why it ended |
+//! | the best, proven | [`mod@exact`] | k best, an upper bound, how many there are |
+//! | what is typical | [`mod@uniform`] | draws, each trajectory equally likely |
+//! | the worst as executed | [`in_loop`] | trajectories by their executed stress |
+//! | the heaviest tour of an arm's points | [`heaviest`] | paths, a bound, a certificate |
+//! | the shortest part that still fails | [`mod@ddmin`] | that part |
+//!
+//! Data flow of the first four: points + [`crate::feasibility::reach::Reach`] + a start's node make a [`Task`]; the
+//! beam asks legs as it goes, the others build a [`LegGraph`] once; a score ([`Score`], any closure, anything that is
+//! [`Objective`] or [`Additive`]) says what a leg is worth, [`Aggregate`] what legs come to; a [`Found`] says which
+//! waypoints, nodes and times. What executes or simulates comes in as a closure or trait: no search knows a robot, a
+//! world or a file.
+//!
+//! Every search is deterministic: ties by waypoint index, draws from named seeds, the same answer on any number of
+//! threads. Limits are counts; who has a clock passes a closure.
 
 pub mod beam;
 pub mod ddmin;

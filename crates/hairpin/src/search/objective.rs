@@ -1,4 +1,6 @@
 //! What a search asks of a score, leg by leg, and how legs add up to a trajectory.
+//!
+//! A search only ever adds a leg to something it has: that is all the interface. Larger is more stressful throughout.
 
 use nalgebra::Point3;
 use schemars::JsonSchema;
@@ -7,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::feasibility::reach::LegFeatures;
 
 /// A leg as a score sees it: the joint of waypoint `from` and waypoint `to`.
+///
+/// Units as in [`LegFeatures`]. The first leg of a trajectory is that with `from` = 0.
 #[derive(Debug, Clone, Copy)]
 pub struct LegView<'a> {
     /// The graph, m: 0 the start, the last the end.
@@ -25,6 +29,9 @@ pub struct LegView<'a> {
 /// never starts again from its first waypoint. [`super::exact()`] takes those that are [`Additive`].
 ///
 /// Any `Fn(&LegView) -> f64` is an objective without memory.
+///
+/// A pure function of memory and leg: the same partial trajectory has one score however it was come to. Scores that are
+/// executed are a [`super::Growth`] instead.
 pub trait Objective {
     /// What is carried along a partial trajectory.
     type Memory: Clone;
@@ -42,6 +49,10 @@ pub trait Objective {
 /// ```text
 /// score of leg k = own(leg k) + left(leg k − 1),     left(leg 0) = 0
 /// ```
+///
+/// Because of `left`, pairs of legs are within reach of a dynamic program over single legs: it carries two numbers a
+/// node in place of a graph over pairs. Any polynomial of one leg's own features is additive, a product of two legs'
+/// features is not.
 pub trait Additive: Objective {
     /// What the leg scores whatever was flown before it.
     fn own(&self, leg: &LegView<'_>) -> f64;
@@ -80,6 +91,9 @@ impl<F: Fn(&LegView<'_>) -> f64> Objective for F {
 }
 
 /// How the scores of legs become the score of a trajectory.
+///
+/// Associative, so that a dynamic program may add from either end; floating-point sums are taken in one order all the
+/// same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Aggregate {
@@ -100,6 +114,8 @@ impl Aggregate {
     }
 
     /// The score after one more leg (or after more legs that score `leg` together).
+    ///
+    /// −∞ + ∞ counts as −∞: a worthless leg makes a worthless trajectory, never a NaN that compares with nothing.
     pub fn add(self, total: f64, leg: f64) -> f64 {
         match self {
             Aggregate::Sum => {

@@ -1,7 +1,8 @@
 //! Tasks without an end: any waypoint may be the last one.
 //!
-//! The searches look for trajectories to one end. Here that end is a sink: one more candidate behind the graph's own, to which
-//! every node has a leg without duration and without stress. A trajectory of L waypoints with a free end is one of L + 1 to the sink.
+//! The searches look for trajectories to one end. Here that end is a sink: one more candidate behind the graph's own,
+//! to which every node has a leg without duration and without stress. A trajectory of L waypoints with a free end is
+//! one of L + 1 to the sink.
 
 use nalgebra::Point3;
 
@@ -10,11 +11,14 @@ use super::task::{Found, Task};
 use crate::feasibility::reach::{Leg, LegFeatures, Reach};
 
 /// A node of a task without an end.
+///
+/// `Over` keeps the node that it was entered from apart, since trajectories that end elsewhere are other trajectories.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum OpenNode<N> {
     /// The reach set's own.
     At(N),
-    /// The sink, entered from this node: trajectories that end in different nodes are not compared as if they had the same future.
+    /// The sink, entered from this node: trajectories that end in different nodes are not compared as if they had the
+    /// same future.
     Over(N),
 }
 
@@ -23,6 +27,8 @@ pub enum OpenNode<N> {
 /// ```text
 /// task(start) · score(objective) · settings.length + 1 · may_arrive   →   closed(found)
 /// ```
+///
+/// A wrapper, so that no search has a second way to end: beam, exact, uniform and loop see one more candidate.
 #[derive(Debug, Clone)]
 pub struct OpenEnd<R> {
     inner: R,

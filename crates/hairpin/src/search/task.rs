@@ -1,4 +1,6 @@
 //! What every search is given and what it gives back.
+//!
+//! Length counts waypoints, both ends included: L waypoints are L − 1 legs.
 
 use nalgebra::Point3;
 
@@ -9,6 +11,20 @@ use crate::feasibility::reach::Reach;
 /// A trajectory of length L is a list of L waypoints, both ends included, from `candidates[0]` to the last candidate.
 /// No waypoint follows itself. With revisits any other repetition is allowed, that of start and end included; without,
 /// every waypoint of the trajectory is used once.
+///
+/// ```
+/// use hairpin::feasibility::reach::{Sphere, StepNode, StepReach, StepSettings};
+/// use hairpin::search::{BeamSettings, LegView, Task, beam};
+/// use nalgebra::Point3;
+///
+/// // Legs of at most 6 m in 1 s; what is long is stressful.
+/// let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 3.0], [8.0, 4.0]].map(|[x, y]| Point3::new(x, y, 1.0));
+/// let reach = StepReach::new(&Sphere { radius: 6.0 }, &points, StepSettings::default());
+/// let task = Task { start: StepNode { previous: 0, current: 0 }, candidates: &points, reach: &reach };
+/// let settings = BeamSettings { length: 4, ..BeamSettings::default() };
+/// let outcome = beam(&task, &|leg: &LegView<'_>| leg.features.v_out, |_, _| true, &settings);
+/// assert_eq!(outcome.found[0].waypoints, [0, 2, 1, 4]); // 4√2 + 4 + 4√2 m
+/// ```
 #[derive(Debug)]
 pub struct Task<'a, N, R: ?Sized> {
     /// The node at rest at the start: waypoint 0.
@@ -27,6 +43,8 @@ impl<N, R: Reach<N> + ?Sized> Task<'_, N, R> {
 }
 
 /// A trajectory that a search returns.
+///
+/// `leg_times` has one entry fewer than `waypoints`; index k belongs to the leg from waypoint k to k + 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found<N> {
     /// Indices into the graph, both ends included.

@@ -1,4 +1,9 @@
 //! Uniform over all feasible trajectories of a graph: the honest random baseline.
+//!
+//! The number of walks from each node with s legs to go, N_s(v) = Σ over legs v→w of N_{s−1}(w), makes drawing exact:
+//! rank r in [0, N) is resolved leg by leg (Nijenhuis and Wilf, "Combinatorial Algorithms", 2nd ed. 1978). Integers up
+//! to 2¹²⁸; beyond, floating point in proportion. Trajectories without revisits are the draws that have none: still
+//! uniform, by rejection.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -11,6 +16,8 @@ use super::task::Found;
 use crate::math::random::{Stream, stream};
 
 /// What is asked for.
+///
+/// Where few walks are free of revisits (long ones) `draws` ends the sampling: the outcome then has fewer than wanted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniformSettings {
     /// Waypoints of a trajectory, both ends included; at most the length the graph was built for.
@@ -45,6 +52,8 @@ pub struct UniformOutcome<N> {
 }
 
 /// Draws walks of one length from the start to the end, each equally likely.
+///
+/// Built once in O(legs · length), drawn from in O(length · legs of a node).
 #[derive(Debug)]
 pub struct Sampler<'g, 'a, N> {
     graph: &'g LegGraph<'a, N>,
@@ -124,6 +133,21 @@ fn below(rng: &mut Stream, bound: u128) -> u128 {
 }
 
 /// Draws `wanted` trajectories of `graph`, each equally likely, scored under `objective`.
+///
+/// ```
+/// use hairpin::feasibility::reach::{Everywhere, StepNode, StepReach, StepSettings};
+/// use hairpin::search::{Count, LegGraph, LegView, UniformSettings, uniform};
+/// use nalgebra::Point3;
+///
+/// // Five points, all legs: 3 · 2 ways from the first over two others to the last.
+/// let points: Vec<Point3<f64>> = (0..5).map(|i| Point3::new(f64::from(i), 0.0, 1.0)).collect();
+/// let reach = StepReach::new(&Everywhere, &points, StepSettings::default());
+/// let graph = LegGraph::explore(StepNode { previous: 0, current: 0 }, &points, &reach, 4);
+/// let settings = UniformSettings { length: 4, wanted: 200, ..UniformSettings::default() };
+/// let drawn = uniform(&graph, &|leg: &LegView<'_>| leg.features.length, 1, &settings);
+/// assert_eq!((drawn.found.len(), drawn.distinct), (200, 6));
+/// assert_eq!(drawn.walks, Count::Exact(6)); // no way back over a leg is left among them
+/// ```
 pub fn uniform<N, O>(graph: &LegGraph<'_, N>, objective: &O, seed: u64, settings: &UniformSettings) -> UniformOutcome<N>
 where
     N: Copy,

@@ -1,11 +1,14 @@
 //! Closes the loop over plant and controller.
+//!
+//! Three clocks, all whole multiples of the physics' step: physics, rate loop (about 1 ms), outer loop (the
+//! controller's own). Looks at waypoints and hazards and the log have theirs.
 
 use multiversion::multiversion;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 use wide::f64x4;
 
 use super::SimulationError;
-use super::controllers::{ControllerSettings, Measured, Pilot};
+use super::command::{FlightCommand, FlightState};
 use super::disturbance::{Conditions, Disturbances};
 use super::inner_loop::InnerLoop;
 use super::lanes::vector;
@@ -34,6 +37,8 @@ pub struct Sortie<'a> {
 }
 
 /// How a run is simulated, ended and logged.
+///
+/// Numbers out of bounds are an error that names the field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlySettings {
     /// Step of the physics, s: 1e-5 … 1e-3.
@@ -99,7 +104,6 @@ pub(super) struct ClosedLoop {
     motion: Motion,
     disturbances: Disturbances,
     inner: InnerLoop,
-    pub(super) pilot: Pilot,
     /// Time between two ticks of the rate loop, s, and physics steps in it.
     pub(super) period: f64,
     steps: u32,
@@ -111,7 +115,6 @@ pub(super) struct ClosedLoop {
 impl ClosedLoop {
     pub(super) fn new(
         sortie: &Sortie,
-        controller: &ControllerSettings,
         conditions: &Conditions,
         settings: &FlySettings,
         seed: u64,
@@ -132,7 +135,6 @@ impl ClosedLoop {
             stepper: Stepper::new(&plant, settings.step),
             motion: Motion::new(&plant, &start),
             disturbances: Disturbances::new(robot, conditions, settings.step, seed),
-            pilot: Pilot::new(controller, robot, sortie.waypoints, sortie.profile)?,
             plant,
             inner,
             period,
@@ -142,10 +144,22 @@ impl ClosedLoop {
         })
     }
 
-    /// The outer loop's turn.
-    pub(super) fn turn(&mut self, dt: f64, (target, hold): (Vector3<f64>, bool)) {
-        let velocity = vector(self.motion.velocity);
-        self.inner.follow(self.pilot.control(dt, &Measured { position: self.position(), velocity, target, hold }));
+    /// What is measured at `t`.
+    #[inline]
+    pub(super) fn state(&self, t: f64) -> FlightState {
+        let [w, x, y, z] = self.motion.quaternion();
+        FlightState {
+            t,
+            position: self.position(),
+            velocity: vector(self.motion.velocity),
+            attitude: UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z)),
+            rates: vector(self.motion.rates),
+        }
+    }
+
+    /// The outer loop's command, given in `state` for `dt` s.
+    pub(super) fn follow(&mut self, dt: f64, state: &FlightState, command: &FlightCommand) {
+        self.inner.follow(dt, state, command);
     }
 
     pub(super) fn fly_at(&mut self, simd: Simd, ticks: u64) {
@@ -216,8 +230,9 @@ impl ClosedLoop {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::controllers::Pilot;
     use crate::simulation::tests::{cage, shipped};
-    use crate::simulation::{DiscreteGust, Gusts};
+    use crate::simulation::{Controller, ControllerSettings, DiscreteGust, Gusts, Reference};
 
     /// The dispatched ticks against the same ticks compiled for the least of machines.
     #[test]
@@ -230,12 +245,16 @@ mod tests {
         for robot in shipped() {
             for conditions in [Conditions::default(), stormy] {
                 let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
-                let controller = ControllerSettings::default();
-                let start = || ClosedLoop::new(&sortie, &controller, &conditions, &settings, 1).unwrap();
-                let (mut dispatched, mut plain) = (start(), start());
+                let start = || {
+                    let pilot = Pilot::new(&ControllerSettings::default(), &robot).unwrap();
+                    (ClosedLoop::new(&sortie, &conditions, &settings, 1).unwrap(), pilot)
+                };
+                let ((mut dispatched, mut ours), (mut plain, mut theirs)) = (start(), start());
+                let reference = Reference { waypoints: &waypoints, next: 1, accept: 1.0, plan: None };
                 for turn in 0..500 {
-                    for run in [&mut dispatched, &mut plain] {
-                        run.turn(0.01, (waypoints[1].coords, false));
+                    for (run, pilot) in [(&mut dispatched, &mut ours), (&mut plain, &mut theirs)] {
+                        let state = run.state(0.01 * f64::from(turn));
+                        run.follow(0.01, &state, &pilot.control(0.01, &state, &reference).unwrap());
                     }
                     dispatched.fly_at(Simd::Widest, 10);
                     plain.fly_at(Simd::Portable, 10);

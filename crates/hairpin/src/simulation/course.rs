@@ -2,8 +2,9 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::controllers::Schedule;
-use crate::trajectory::Ended;
+use super::controller::{Reference, Schedule};
+use crate::robot::quadrotor::Quadrotor;
+use crate::trajectory::{Ended, Profile};
 
 /// Progress along waypoints, both ends included.
 ///
@@ -94,10 +95,9 @@ impl Course {
         self.leg
     }
 
-    /// Where to go, and whether to stay there.
-    pub(crate) fn target(&self) -> (Vector3<f64>, bool) {
-        let last = self.waypoints.len() - 1;
-        (self.waypoints[self.next.min(last)].coords, self.next > last)
+    /// Where to go, by `plan` where there is one.
+    pub(crate) fn reference<'a>(&'a self, plan: Option<&'a Profile>) -> Reference<'a, Quadrotor> {
+        Reference { waypoints: &self.waypoints, next: self.next, accept: self.accept, plan }
     }
 
     /// When the course was over, s.

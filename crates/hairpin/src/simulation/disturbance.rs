@@ -1,4 +1,7 @@
 //! What disturbs a flight: wind, gusts, and force and moment noise, the same for the same seed.
+//!
+//! Streams are named by the run's seed: gusts without noise are the same gusts as with it. Constant wind and the
+//! discrete gust draw nothing.
 
 use nalgebra::Vector3;
 
@@ -8,6 +11,9 @@ use crate::math::random::{Stream, named_seed, standard_normals, stream};
 use crate::robot::quadrotor::Quadrotor;
 
 /// Gusts on top of the wind: an Ornstein-Uhlenbeck process per axis, in its stationary distribution from the start.
+///
+/// a_{k+1} = e^(−h/τ) a_k + σ √(1 − e^(−2h/τ)) n: exact for any step, stationary from the first sample on. First order,
+/// where Dryden's lateral filters are second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gusts {
     /// Standard deviation per axis, m/s.
@@ -41,6 +47,8 @@ impl DiscreteGust {
 }
 
 /// Air and noise of a run.
+///
+/// World frame; wind is where the air goes to. The default is still air without noise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Conditions {
     /// Constant velocity of the air, m/s.
@@ -82,6 +90,9 @@ impl Conditions {
 }
 
 /// The disturbances of one run, drawn step by step.
+///
+/// Noise of density S (N²·s) is held for a step of h: standard deviation √(S/h), so that its effect on velocity does
+/// not depend on h.
 #[derive(Debug, Clone)]
 pub struct Disturbances {
     wind: Vector3<f64>,

@@ -1,4 +1,7 @@
 //! What ends a run early: ground, obstacles, walls, turning over; and the note that the world was left.
+//!
+//! Looked at every 10 ms: chords between looks, not points, are held against obstacles. What the run is judged by is
+//! the judge's; this only ends it.
 
 use nalgebra::{Point3, Vector3};
 
@@ -11,6 +14,11 @@ const AIRBORNE: f64 = 0.3;
 const TUMBLE_TIME: f64 = 0.5;
 /// Farther than this from the origin nothing is simulated any more, m.
 const FARTHEST: f64 = 1e5;
+
+/// Whether a robot at `position` with its body z axis `up` is where nothing is simulated any more.
+pub(crate) fn is_lost(position: &Vector3<f64>, up: f64) -> bool {
+    !(position.norm_squared() < FARTHEST * FARTHEST && up.is_finite())
+}
 
 /// Watches one run.
 #[derive(Debug, Clone)]
@@ -38,7 +46,7 @@ impl Hazards {
     /// around an earlier position that is known to be clear, so nothing between two notes is missed but the bulge of
     /// the path over its chord (below 1 mm at 10 ms and 8 g). A world is left through its sides and its ceiling.
     pub(crate) fn note(&mut self, world: &World, t: f64, position: &Vector3<f64>, up: f64) -> Option<Ended> {
-        if !(position.norm_squared() < FARTHEST * FARTHEST && up.is_finite()) {
+        if is_lost(position, up) {
             return Some(Ended::Tumble);
         }
         let p = Point3::from(*position);

@@ -1,16 +1,19 @@
-//! The loops that every controller flies on: attitude to body rates, body rates to moments, moments to rotor speeds.
+//! The loops that every controller flies on: velocity to thrust, attitude to body rates, body rates to moments, moments
+//! to rotor speeds. A command enters at its own.
 
-use nalgebra::{Vector3, Vector4};
+use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use wide::f64x4;
 
-use super::controllers::Demand;
+use super::command::{Demand, FlightCommand, FlightState};
+use super::controllers::{Cascade, stable_waypoint};
 use super::lanes::{coupled, lanes, vector};
 use super::mixer::{Mixed, Mixer};
 use super::step::Motion;
 use crate::robot::quadrotor::Quadrotor;
 
-/// Bandwidth of the closed rate loop, rad/s. FlightGoggles' own rate loop, 9 e + 3 ∫e − 0.3 ω̇, closes at 7 rad/s, which
-/// leaves the position loop three loops above it too slow to settle a 10 m step within 6 s: this is three times as fast.
+/// Bandwidth of the closed rate loop, rad/s. FlightGoggles' own rate loop, 9 e + 3 ∫e − 0.3 ω̇, closes at 7 rad/s,
+/// which leaves the position loop three loops above it too slow to settle a 10 m step within 6 s: this is three times
+/// as fast.
 const RATE_BANDWIDTH: f64 = 21.0;
 /// Integral over proportional gain, 1/s: as in FlightGoggles.
 const INTEGRAL_RATIO: f64 = 1.0 / 3.0;
@@ -29,21 +32,33 @@ const ATTITUDE_EVERY: u32 = 4;
 const YAW_WEIGHT: f64 = 0.4;
 /// Least thrust asked for, in g: without any there is no moment either.
 const LEAST_THRUST: f64 = 0.05;
-/// Largest body rate asked for, rad/s: tilt, yaw.
+/// Largest body rate that the attitude loop asks for, rad/s: tilt, yaw.
 const MAX_RATES: (f64, f64) = (12.0, 2.0);
 
-/// Attitude and rate loop of one robot, with the mixer below them. Vectors have a spare lane for the thrust.
+/// What the attitude loop follows.
+#[derive(Debug, Clone, Copy)]
+enum Followed {
+    Force(Demand),
+    /// Thrust per mass, m/s², and `world_from_body`.
+    Attitude(f64, UnitQuaternion<f64>),
+    /// Nothing: the rates were asked for themselves.
+    Rates,
+}
+
+/// Velocity, attitude and rate loop of one robot, with the mixer below them. Vectors have a spare lane for the thrust.
 #[derive(Debug, Clone)]
 pub(crate) struct InnerLoop {
     mixer: Mixer,
     /// (Izz − Iyy)/Ixx and its cyclic kin.
     gyroscopic: f64x4,
     gravity: f64,
-    demand: Demand,
-    /// The demand's angular acceleration as the damping lets it through.
+    inverse_mass: f64,
+    velocity: Cascade,
+    followed: Followed,
+    /// The command's angular acceleration as the damping lets it through.
     fed_forward: f64x4,
-    /// What the attitude loop last asked for: body rates, rad/s; thrust per mass, m/s², in the last lane, alone; and
-    /// ticks until its next turn.
+    /// What the rate loop follows: body rates, rad/s; thrust per mass, m/s², in the last lane, alone; and ticks until
+    /// the attitude loop's next turn.
     wanted: f64x4,
     thrust: f64x4,
     to_attitude: u32,
@@ -74,7 +89,9 @@ impl InnerLoop {
             mixer: Mixer::new(robot)?,
             gyroscopic: lanes(&Vector3::new((i.z - i.y) / i.x, (i.x - i.z) / i.y, (i.y - i.x) / i.z)),
             gravity: robot.gravity,
-            demand: Demand::along(Vector3::z() * robot.gravity),
+            inverse_mass: 1.0 / robot.mass,
+            velocity: stable_waypoint::cascade(robot),
+            followed: Followed::Force(Demand::along(Vector3::z() * robot.gravity)),
             fed_forward: f64x4::ZERO,
             wanted: f64x4::ZERO,
             thrust: f64x4::new([0.0, 0.0, 0.0, robot.gravity]),
@@ -90,13 +107,33 @@ impl InnerLoop {
         })
     }
 
-    /// The demand from now on.
-    pub(crate) fn follow(&mut self, demand: Demand) {
+    /// The command from now on, for `dt` s, as it was given in `state`.
+    pub(crate) fn follow(&mut self, dt: f64, state: &FlightState, command: &FlightCommand) {
+        if !matches!(command, FlightCommand::Velocity(_)) {
+            self.velocity.restart();
+        }
+        let demand = match command {
+            FlightCommand::Velocity(wanted) => self.velocity.follow(dt, state, wanted),
+            FlightCommand::Acceleration(wanted) => Demand::along(wanted + Vector3::z() * self.gravity),
+            FlightCommand::Force(demand) => *demand,
+            FlightCommand::Attitude { thrust, attitude } => {
+                self.fed_forward = f64x4::ZERO;
+                self.followed = Followed::Attitude(thrust * self.inverse_mass, *attitude);
+                return;
+            }
+            FlightCommand::Rates { thrust, rates } => {
+                self.fed_forward = f64x4::ZERO;
+                self.wanted = lanes(rates);
+                self.push(thrust * self.inverse_mass);
+                self.followed = Followed::Rates;
+                return;
+            }
+        };
         self.fed_forward = lanes(&(demand.angular_acceleration * (1.0 + self.d)));
-        self.demand = demand;
+        self.followed = Followed::Force(demand);
     }
 
-    /// Rotor speeds for the demand in force, from the measured motion.
+    /// Rotor speeds for the command in force, from the measured motion.
     #[inline(always)]
     pub(crate) fn command(&mut self, motion: &Motion) -> Mixed {
         if self.to_attitude == 0 {
@@ -123,27 +160,33 @@ impl InnerLoop {
 
     /// The attitude loop's turn.
     fn turn(&mut self, motion: &Motion) {
-        self.wanted = lanes(&self.rates(&motion.quaternion()));
-        // The part of the wanted force along the thrust axis: a robot that is still turning does not push sideways.
-        let thrust = self.demand.force.dot(&vector(motion.up)).max(LEAST_THRUST * self.gravity);
-        self.thrust = f64x4::new([0.0, 0.0, 0.0, thrust]);
+        let (thrust, rates) = match &self.followed {
+            Followed::Force(demand) => {
+                let thrust = demand.force.dot(&vector(motion.up));
+                (thrust, demand.rates + self.towards(&demand.attitude, &motion.quaternion()))
+            }
+            Followed::Attitude(thrust, attitude) => (*thrust, self.towards(attitude, &motion.quaternion())),
+            Followed::Rates => return,
+        };
+        self.wanted = lanes(&rates);
+        self.push(thrust);
     }
 
-    /// ω = ω_ff + 2 k sgn(e_w) e for the error quaternion e = q* ⊗ q_wanted, yaw weighed less, bounded.
-    fn rates(&self, q: &[f64; 4]) -> Vector3<f64> {
-        let ([w, x, y, z], [a, b, c, d]) = (*q, self.demand.attitude);
+    /// Thrust per mass from now on, m/s².
+    fn push(&mut self, thrust: f64) {
+        self.thrust = f64x4::new([0.0, 0.0, 0.0, thrust.max(LEAST_THRUST * self.gravity)]);
+    }
+
+    /// ω = 2 k sgn(e_w) e for the error quaternion e = q* ⊗ q_wanted, yaw weighed less, bounded.
+    fn towards(&self, wanted: &UnitQuaternion<f64>, q: &[f64; 4]) -> Vector3<f64> {
+        let ([w, x, y, z], [a, b, c, d]) = (*q, [wanted.w, wanted.i, wanted.j, wanted.k]);
         let scalar = w * a + x * b + y * c + z * d;
         let error =
             Vector3::new(w * b - x * a - y * d + z * c, w * c + x * d - y * a - z * b, w * d - x * c + y * b - z * a);
         let gain = if scalar < 0.0 { -2.0 * self.attitude } else { 2.0 * self.attitude };
         let turn = error * gain;
         let (tilt, yaw) = MAX_RATES;
-        self.demand.rates
-            + Vector3::new(
-                turn.x.min(tilt).max(-tilt),
-                turn.y.min(tilt).max(-tilt),
-                (YAW_WEIGHT * turn.z).min(yaw).max(-yaw),
-            )
+        Vector3::new(turn.x.min(tilt).max(-tilt), turn.y.min(tilt).max(-tilt), (YAW_WEIGHT * turn.z).min(yaw).max(-yaw))
     }
 
     /// The rotor speeds of level hover, as far as the limits allow.

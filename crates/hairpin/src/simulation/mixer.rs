@@ -1,4 +1,8 @@
 //! Thrust and moments into rotor speeds, and what is given up first when the rotors cannot do it all.
+//!
+//! w² = M⁻¹ (m a, τ), clipped by priority and not component by component: a clipped roll moment is a crash, a clipped
+//! yaw moment a turn that comes late. The same order of priorities as in Faessler, Falanga and Scaramuzza, IEEE RA-L
+//! 2(2), 2017.
 
 use nalgebra::{Matrix4, Vector4};
 use wide::f64x4;
@@ -53,6 +57,9 @@ impl Mixer {
         self.saturate(wanted.to_array())
     }
 
+    /// Squared rotor speeds s = thrust · c + roll · r + pitch · p + yaw · y, each kept within [least, most]: roll and
+    /// pitch first, both by the largest common share that some thrust still allows; then thrust as near to what is
+    /// asked as that leaves; then the yaw that is left room for.
     #[cold]
     fn saturate(&self, [roll, pitch, yaw, thrust]: [f64; 4]) -> Mixed {
         let [per_roll, per_pitch, per_yaw, collective] = self.inverse.map(|c| Vector4::from(c.to_array()));

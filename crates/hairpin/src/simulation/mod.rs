@@ -1,12 +1,14 @@
 //! Floor 5, the act: plants with what the claim leaves out, controllers, and the loop closed over them.
 //!
-//! One verb a kind of robot: [`fly`] flies a robot along a course (or [`Airborne`], leg by leg), [`ground::drive`] drives a vehicle along its plan, and each says
-//! what happened. The act shares the robot's numbers with
-//! the claim and nothing else.
+//! One verb a kind of robot: [`fly`] flies a robot along a course (or [`Airborne`], leg by leg), [`ground::drive`]
+//! drives a vehicle along its plan, and each says what happened; [`fly_with`] and [`ground::drive_with`] do so by a
+//! [`Controller`] of the caller's own. The act shares the robot's numbers with the claim and nothing else.
 
 mod airborne;
 pub mod arm;
 mod close_loop;
+mod command;
+mod controller;
 mod controllers;
 mod course;
 mod disturbance;
@@ -17,6 +19,7 @@ mod lanes;
 mod mixer;
 mod plant;
 mod recorder;
+mod run;
 mod step;
 
 #[cfg(test)]
@@ -24,28 +27,52 @@ mod tests;
 
 use thiserror::Error;
 
-pub use airborne::{Airborne, fly};
+pub use airborne::Airborne;
 pub use close_loop::{FlySettings, Sortie};
+pub use command::{Demand, FlightCommand, FlightState};
+pub use controller::{Controlled, Controller, Fault, Misbehaviour, OwnController, Reference, Schedule};
 pub use controllers::{ControllerKind, ControllerSettings, SegmentTimes};
 pub use disturbance::{Conditions, DiscreteGust, Disturbances, Gusts};
 pub use plant::{Plant, PlantState};
+pub use run::{fly, fly_with};
 pub use step::{Motion, Stepper};
 
-/// Why a flight cannot be simulated.
+/// Why a run cannot be simulated.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("{field} = {value}: must be {bound}")]
-pub struct SimulationError {
-    /// The setting.
-    pub field: &'static str,
-    /// The offending value, or what is wrong with it.
-    pub value: String,
-    /// What it must be.
-    pub bound: &'static str,
+pub enum SimulationError {
+    /// A setting out of bounds.
+    #[error("{field} = {value}: must be {bound}")]
+    Setting {
+        /// The setting.
+        field: &'static str,
+        /// The offending value, or what is wrong with it.
+        value: String,
+        /// What it must be.
+        bound: &'static str,
+    },
+    /// A controller that gave no command.
+    #[error("controller `{name}` at t = {t} s: {why}")]
+    Controller {
+        /// Its name in reports.
+        name: String,
+        /// When, s.
+        t: f64,
+        /// What was wrong.
+        why: Misbehaviour,
+    },
 }
 
 impl SimulationError {
     /// A mistake in `field`.
     pub(crate) fn new(field: &'static str, value: String, bound: &'static str) -> Self {
-        Self { field, value, bound }
+        Self::Setting { field, value, bound }
+    }
+
+    /// The setting that is out of bounds; `controller` where none is.
+    pub fn field(&self) -> &'static str {
+        match self {
+            Self::Setting { field, .. } => field,
+            Self::Controller { .. } => "controller",
+        }
     }
 }

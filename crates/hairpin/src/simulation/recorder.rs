@@ -1,34 +1,26 @@
 //! The log of a run: poses and channels at a fixed rate, in columns that are allocated once.
+//!
+//! Columns are the judge's and the files' (names with units). Copies of a run in mid-air share the log of what they
+//! flew together.
 
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Translation3};
 
+use super::plant::Plant;
 use super::step::Motion;
 use crate::math::rotation::unit_quaternion;
 use crate::trajectory::{Channel, Track};
 
-const NAMES: [&str; 12] = [
-    "leg",
-    "vx_m_s",
-    "vy_m_s",
-    "vz_m_s",
-    "p_rad_s",
-    "q_rad_s",
-    "r_rad_s",
-    "rotor1_rad_s",
-    "rotor2_rad_s",
-    "rotor3_rad_s",
-    "rotor4_rad_s",
-    "saturated",
-];
+/// `leg`, those of the plant, `saturated`.
+const COLUMNS: usize = Plant::CHANNELS.len() + 2;
 
 /// A part of the log.
 #[derive(Debug, Clone, Default)]
 struct Samples {
     times: Vec<f64>,
     poses: Vec<Isometry3<f64>>,
-    columns: [Vec<f64>; NAMES.len()],
+    columns: [Vec<f64>; COLUMNS],
 }
 
 /// Columns being filled, and earlier parts of the log, which copies share.
@@ -88,8 +80,8 @@ impl Recorder {
             true => self.open,
             false => self.joined(),
         };
-        let channels =
-            NAMES.into_iter().zip(columns).map(|(name, values)| Channel { name: name.into(), values }).collect();
+        let names = std::iter::once("leg").chain(Plant::CHANNELS).chain(["saturated"]);
+        let channels = names.zip(columns).map(|(name, values)| Channel { name: name.into(), values }).collect();
         Track::new(times, poses, channels).expect("our own samples are finite and in order")
     }
 

@@ -10,6 +10,8 @@ use super::lanes::{coupled, lanes, lanes4, norm_squared, transform};
 use super::plant::{ATTITUDE, POSITION, Plant, PlantState, RATES, ROTORS, VELOCITY};
 
 /// A plant's state on its way, and what a step hands on to the next.
+///
+/// A [`PlantState`] in SIMD lanes, with what the multistep part remembers of the step before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     pub(super) position: f64x4,
@@ -76,6 +78,9 @@ impl Motion {
 }
 
 /// The constants of a step of fixed length.
+///
+/// Second order: errors fall with h². The rotor lag, w(t + h) = u + (w − u) e^(−h/T), and the mean of w² over the step
+/// are exact, which is what allows 1 ms at lags of 20 ms.
 #[derive(Debug, Clone, Copy)]
 pub struct Stepper {
     /// h, h/2 and h/4 in every lane, as are the other scalars: a broadcast costs an instruction.

@@ -1,8 +1,20 @@
-//! The path of a ground vehicle as it is commanded: arcs whose curvature is a polynomial of arc length, and turns in place.
+//! The path of a ground vehicle as it is commanded: arcs whose curvature is a polynomial of arc length, and turns in
+//! place.
+//!
+//! ```text
+//! ψ̇ = ± v κ(s)     κ(s) = a₀ + a₁ s + … + a₅ s⁵     ẋ = ± v cos(ψ + δ)     ẏ = ± v sin(ψ + δ)
+//! ```
+//!
+//! in the plane; on the ground the same commands and what lean and slip make of them. + is forward, − in reverse; s
+//! counts metres from the segment's start, always upwards. Lines, arcs and clothoids are polynomials of degree 0 and 1,
+//! so that one form holds all that solvers find.
 
 use serde::{Deserialize, Serialize};
 
 /// What one [`Segment`] of a drive does.
+///
+/// κ > 0 has the turning centre on the left in both gears: in reverse the body then turns right, since ψ̇ has the
+/// gear's sign.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Motion {
@@ -103,6 +115,8 @@ impl Segment {
 }
 
 /// A pose over the ground with its curvature.
+///
+/// Flat ground, or the place (x, y, ψ) at which a suspension settles. The world's x is east, its y north.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Planar {
     /// East, m.
@@ -133,6 +147,20 @@ pub fn shortened(segments: &[Segment], mut metres: f64) -> SegmentList {
 pub const MOST_SEGMENTS: usize = 40;
 
 /// A drive of few segments, kept in place: [`MOST_SEGMENTS`] at most, nothing on the heap.
+///
+/// A solver's answer: on the stack, `Copy`, so that solving needs no heap. 40 segments are more than any family here
+/// makes; what does not fit is refused by [`SegmentList::push`].
+///
+/// ```
+/// use hairpin::trajectory::drive::{Gear, Segment, SegmentList};
+///
+/// let mut drive = SegmentList::EMPTY;
+/// for segment in [Segment::straight(2.0, Gear::Forward), Segment::clothoid(1.0, 0.0, 0.5, Gear::Forward)] {
+///     drive.push(segment).expect("room for forty");
+/// }
+/// assert_eq!(drive.iter().map(Segment::length_m).sum::<f64>(), 3.0);
+/// assert_eq!(drive[1].curvature_at(0.5), 0.25);
+/// ```
 #[derive(Clone, Copy)]
 pub struct SegmentList {
     segments: [Segment; MOST_SEGMENTS],

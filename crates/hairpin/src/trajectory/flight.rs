@@ -1,8 +1,14 @@
 //! A motion as it was executed: its track and why it ended.
+//!
+//! What a run says beside its track cannot be had from poses: which leg was being flown, what was reached, and what
+//! ended it.
 
 use super::Track;
 
 /// Why a run ended.
+///
+/// `Done` and `Time` are ends, all others crashes to a judge. A crash is a finding about the controller, not a failure
+/// of the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ended {
     /// The last waypoint was reached, and the time judged after it is over.
@@ -32,7 +38,8 @@ pub enum Ended {
 }
 
 impl Ended {
-    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `tip-over`, `belly-contact`, `stuck`, `halted`, `off-map`, `crash`.
+    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `tip-over`, `belly-contact`, `stuck`,
+    /// `halted`, `off-map`, `crash`.
     pub fn word(self) -> &'static str {
         match self {
             Ended::Done => "done",

@@ -1,4 +1,8 @@
 //! A drive over several waypoints: the commands of each leg, and the speeds at which they are driven.
+//!
+//! A witness of a drive, as files keep it: segments of [`super::drive`] for each leg, the speeds over them, the
+//! direction of travel. Poses at both ends are kept beside the commands, so that a replay can start each leg where it
+//! says it starts and be held to where it says it ends.
 
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
@@ -9,6 +13,9 @@ use super::speed::SpeedProfile;
 use super::timing::Timing;
 
 /// One leg of a [`Drive`]: what is commanded from one waypoint to the next.
+///
+/// `from` and `to` are what was solved for; between them the segments, integrated from `from` on the ground the drive
+/// is for, end at `to` within the generator's precision.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DriveLeg {
     /// Pose and curvature at its first waypoint.
@@ -24,6 +31,8 @@ pub struct DriveLeg {
 }
 
 /// How a waypoint of a [`Drive`] is passed.
+///
+/// All that two legs must agree on at a waypoint beside their speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passing {
     /// Pose and curvature.
@@ -45,7 +54,8 @@ impl DriveLeg {
         Timing::new(&self.speed, &self.segments)
     }
 
-    /// Whether the vehicle stands at the leg's beginning and at its end, as far as the leg knows: before and after turns in place.
+    /// Whether the vehicle stands at the leg's beginning and at its end, as far as the leg knows: before and after
+    /// turns in place.
     pub fn turns_at_ends(&self) -> [bool; 2] {
         let turns = |segment: Option<&Segment>| segment.is_some_and(|s| matches!(s.motion, Motion::Turn { .. }));
         [turns(self.segments.first()), turns(self.segments.last())]
@@ -53,9 +63,13 @@ impl DriveLeg {
 }
 
 /// The path of a whole mission, leg after leg: the witness of a ground vehicle's trajectory.
+///
+/// Time is not stored: it follows from segments and speeds by [`super::Timing`], and turns in place take
+/// |angle|/turn_rate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drive {
-    /// The legs in the order they are driven; each begins where the one before ends, as fast, and in its direction of travel.
+    /// The legs in the order they are driven; each begins where the one before ends, as fast, and in its direction of
+    /// travel.
     pub legs: Vec<DriveLeg>,
     /// The highest speed along the path, m/s, > 0.
     pub speed: f64,

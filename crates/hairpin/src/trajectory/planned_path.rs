@@ -1,4 +1,7 @@
 //! A planned motion for the judge: poses in planned time, and where along them each move passes its target.
+//!
+//! For the judge of arms, whose moves are curves with rounded corners: deviation is measured from what was programmed,
+//! not from straight legs between targets.
 
 use super::Track;
 

@@ -1,8 +1,14 @@
 //! The control witness of a flight as plain numbers: one 7th-order polynomial per leg and axis.
+//!
+//! For a multirotor position (and yaw) is a flat output: with p(t) in C⁴ and yaw 0 the thrust, the attitude, the rates
+//! and the rotor speeds follow in closed form (Mellinger and Kumar, ICRA 2011), so that these coefficients are the
+//! controls. That they keep the robot's limits is not said here; `feasibility` claims it and `verification` proves it.
 
 use nalgebra::{Point3, Vector3};
 
 /// One leg: p_axis(τ) = Σ c_i τ^i, τ ∈ [0, duration], position in m in the world frame, yaw 0.
+///
+/// Low orders first: 24 numbers and a duration are a leg.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfileLeg {
     /// Duration T in s, > 0.
@@ -12,6 +18,18 @@ pub struct ProfileLeg {
 }
 
 /// A whole flight, leg after leg, from t = 0.
+///
+/// ```
+/// use hairpin::math::polynomial::septic;
+/// use hairpin::trajectory::{Profile, ProfileLeg};
+///
+/// let climb = septic(&[0.0; 4], &[2.0, 0.0, 0.0, 0.0], 2.0); // 2 m up in 2 s, rest to rest
+/// let leg = ProfileLeg { duration: 2.0, coefficients: [[0.0; 8], [0.0; 8], climb] };
+/// let flight = Profile { legs: vec![leg.clone(), leg] };
+/// let (number, tau) = flight.locate(3.0).expect("it has legs");
+/// assert_eq!((number, tau), (1, 1.0));
+/// assert!((flight.legs[number].position(tau).z - 1.0).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Profile {
     /// The legs in flight order.
@@ -20,6 +38,8 @@ pub struct Profile {
 
 impl ProfileLeg {
     /// The `order`-th time derivative of the position at τ (order 0: the position itself), by Horner's rule.
+    ///
+    /// m/s^order. Σ_{i ≥ order} i!/(i − order)! c_i τ^(i − order); zero from order 8 on.
     pub fn derivative(&self, tau: f64, order: usize) -> Vector3<f64> {
         Vector3::from_fn(|axis, _| {
             let mut value = 0.0;
@@ -44,6 +64,8 @@ impl Profile {
     }
 
     /// The leg flown at `t` and the time since it began; t is clamped to the flight. `None` for an empty profile.
+    ///
+    /// At a joint the later leg, with τ = 0.
     pub fn locate(&self, t: f64) -> Option<(usize, f64)> {
         let mut start = 0.0;
         let last = self.legs.len().checked_sub(1)?;

@@ -1,10 +1,22 @@
 //! Speed along a stretch: constant, a ramp, or a trapezoid, and the time that each makes of the metres.
+//!
+//! ```text
+//! constant    v
+//! ramp        v² = v₀² + (v_f² − v₀²) s/L
+//! trapezoid   v₀ → cruise → v_f with ±a; top² = a L + (v₀² + v_f²)/2 where the cruise is not reached
+//! ```
+//!
+//! Everything is piecewise of constant acceleration over metres, so that v² is piecewise linear in s, and time and
+//! place are each other's closed inverse.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// How speed depends on time, m/s. Where a drive stops on the way (to change gear or to turn in place) ramps and trapezoids
-/// stop there too; a constant speed knows no stops.
+/// How speed depends on time, m/s. Where a drive stops on the way (to change gear or to turn in place) ramps and
+/// trapezoids stop there too; a constant speed knows no stops.
+///
+/// The velocity constraint of a boundary-value drive (v at both ends): the path does not depend on it unless the
+/// steering lags, which is why speed is laid over a solved path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SpeedProfile {
@@ -20,7 +32,8 @@ pub enum SpeedProfile {
         /// v_f ≥ 0; one of both is more than 0.
         end: f64,
     },
-    /// From v₀ to the cruising speed, on with it, and from there to v_f; where there is no room for it, with a lower top.
+    /// From v₀ to the cruising speed, on with it, and from there to v_f; where there is no room for it, with a lower
+    /// top.
     Trapezoid {
         /// v₀, from 0 to `cruise`.
         start: f64,
@@ -47,6 +60,8 @@ pub struct SpeedError {
 
 impl SpeedProfile {
     /// The profile itself, if its numbers make one.
+    ///
+    /// Nothing that passed is NaN, infinite or stands still from end to end.
     ///
     /// # Errors
     /// The first number that is not finite or out of its bound.
@@ -106,7 +121,8 @@ impl SpeedProfile {
         }
     }
 
-    /// The speeds of a stretch of `length` metres, ≥ 0, that is driven from `start` to `end`, which are the profile's own or 0.
+    /// The speeds of a stretch of `length` metres, ≥ 0, that is driven from `start` to `end`, which are the profile's
+    /// own or 0.
     pub(super) fn between(&self, start: f64, end: f64, length: f64) -> Speeds {
         let (cruise, acceleration) = match *self {
             Self::Constant { speed } => {
@@ -131,6 +147,9 @@ impl SpeedProfile {
     }
 
     /// The speeds of a drive of `length` metres without stops.
+    ///
+    /// `length` in m, ≥ 0. Where there is no room for both slopes the one that is needed is steeper than asked;
+    /// [`Speeds::hardest`] tells.
     pub fn over(&self, length: f64) -> Speeds {
         self.between(self.start(), self.end(), length)
     }
@@ -174,6 +193,16 @@ impl Phase {
 }
 
 /// Speed and time along one stretch: up to three phases of constant acceleration.
+///
+/// ```
+/// use hairpin::trajectory::SpeedProfile;
+///
+/// let profile = SpeedProfile::Trapezoid { start: 0.0, cruise: 2.0, end: 0.0, acceleration: 1.0 }.checked()?;
+/// let speeds = profile.over(10.0); // 2 m up, 6 m at 2 m/s, 2 m down
+/// assert!((speeds.duration() - 7.0).abs() < 1e-12 && speeds.speed_at(1.0) == f64::sqrt(2.0));
+/// assert!((speeds.place_at(speeds.time_at(3.7)) - 3.7).abs() < 1e-12);
+/// # Ok::<(), hairpin::trajectory::SpeedError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Speeds {
     phases: [Phase; 3],

@@ -1,9 +1,14 @@
 //! Speed and time along a whole drive: stretches between its stops.
+//!
+//! A stop is where the gear changes or the vehicle turns in place. Stretches between stops are timed apart: rest at
+//! every stop, the profile's own speeds at the outer ends only.
 
 use super::drive::{MOST_SEGMENTS, Motion, Segment};
 use super::speed::{SpeedProfile, Speeds};
 
 /// Speed and time along a whole drive, with its stops.
+///
+/// On the stack; a query walks the stretches, of which a leg has one or two.
 #[derive(Debug, Clone, Copy)]
 pub struct Timing {
     stretches: [(f64, Speeds); MOST_SEGMENTS],
@@ -118,6 +123,8 @@ impl Timing {
     }
 
     /// Metres with the speed there, v² linear between: what another integration needs to know.
+    ///
+    /// Pairs (m, m/s): the proof integrates time over them by its own means, ∫ ds/v.
     pub fn knots(&self) -> Vec<[f64; 2]> {
         if let Some(speed) = self.constant {
             return vec![[0.0, speed]];

@@ -1,4 +1,7 @@
 //! Poses in time with named columns: the one form in which planned and flown motions meet the judge and the files.
+//!
+//! A flight log, our own simulator and a planned path come to this one form, so that a judge of tracks judges them all.
+//! Units are in the names of channels, as they are in columns of files.
 
 use nalgebra::{Isometry3, Point3};
 use thiserror::Error;
@@ -7,6 +10,8 @@ use thiserror::Error;
 pub const ATTITUDE_UNKNOWN: &str = "attitude_unknown";
 
 /// A named column beside the poses, one value per stamp.
+///
+/// SI by its name's suffix: `_m`, `_m_s`, `_rad_s`; shares and numbers have none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
     /// Name with its unit, as it is written to files: `vx_m_s`, `rotor1_rad_s`, `leg`.
@@ -16,6 +21,18 @@ pub struct Channel {
 }
 
 /// `times.len() == poses.len() ==` every channel's length; times rise strictly, s; poses are `world_from_body`.
+///
+/// ```
+/// use hairpin::trajectory::{Channel, Track};
+/// use nalgebra::Isometry3;
+///
+/// let poses = (0..3).map(|i| Isometry3::translation(f64::from(i), 0.0, 1.0)).collect();
+/// let leg = Channel { name: "leg".into(), values: vec![0.0; 3] };
+/// let track = Track::new(vec![0.0, 0.5, 1.0], poses, vec![leg])?.with_velocities();
+/// assert_eq!(track.channel("vx_m_s"), Some([2.0; 3].as_slice()));
+/// assert!(Track::new(vec![0.0, 0.0], vec![Isometry3::identity(); 2], vec![]).is_err()); // times must rise
+/// # Ok::<(), hairpin::trajectory::TrackError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Track {
     times: Vec<f64>,
@@ -60,6 +77,8 @@ pub enum TrackError {
 
 impl Track {
     /// Checks and takes the columns.
+    ///
+    /// Linear in stamps times columns. Quaternions are taken as they are: finite, not renormalised.
     ///
     /// # Errors
     /// Unequal lengths, stamps that do not rise strictly, numbers that are not finite.
@@ -109,8 +128,11 @@ impl Track {
         Point3::from(self.poses[index].translation.vector)
     }
 
-    /// The same track with the channels `vx_m_s`, `vy_m_s`, `vz_m_s`: the way from the stamp before to the stamp after by the time between
-    /// them, at both ends to the only neighbour; 0 of a single stamp.
+    /// The same track with the channels `vx_m_s`, `vy_m_s`, `vz_m_s`: the way from the stamp before to the stamp after
+    /// by the time between them, at both ends to the only neighbour; 0 of a single stamp.
+    ///
+    /// v_i = (p_{i+1} − p_{i−1})/(t_{i+1} − t_{i−1}): of second order on even stamps, and what a log has that tells no
+    /// velocities.
     pub fn with_velocities(mut self) -> Self {
         let last = self.len().saturating_sub(1);
         let mut velocity: [Vec<f64>; 3] = Default::default();

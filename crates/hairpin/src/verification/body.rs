@@ -14,6 +14,8 @@ pub struct RotorPlace {
 }
 
 /// A quadrotor's numbers, SI.
+///
+/// Numbers of the robot's file again, not the robot: nothing here can call its equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// Mass, kg.

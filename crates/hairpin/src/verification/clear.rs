@@ -1,12 +1,13 @@
 //! Whether a planned path keeps its distance from solids, between samples too.
 //!
-//! A solid S is convex. From its point nearest to a place p, outside it by the distance d, the unit vector n points to p, and S lies behind the
-//! plane there: every place q is outside S by n·(q − p) + d at least. Of a piece of a leg about its middle p(m), h being half its duration, that
-//! leaves d − Σ_k |n·p⁽ᵏ⁾(m)|/k! hᵏ: the Taylor sum of a polynomial is exact. Where that does not decide, the piece is halved. Inside S, where there
-//! is no such plane, a place is deeper than another by no more than the way between them.
+//! A solid S is convex. From its point nearest to a place p, outside it by the distance d, the unit vector n points to
+//! p, and S lies behind the plane there: every place q is outside S by n·(q − p) + d at least. Of a piece of a leg
+//! about its middle p(m), h being half its duration, that leaves d − Σ_k |n·p⁽ᵏ⁾(m)|/k! hᵏ: the Taylor sum of a
+//! polynomial is exact. Where that does not decide, the piece is halved. Inside S, where there is no such plane, a
+//! place is deeper than another by no more than the way between them.
 
 use super::claim::Leg;
-use super::finding::Finding;
+use super::finding::{Collector, Finding};
 
 /// A solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +37,21 @@ const ROUNDING: f64 = 1e-9;
 const RESOLUTION: f64 = 1e-4;
 
 /// All solids that the path comes too near to, with the place where it is nearest to them.
+///
+/// Doubles with 1 nm of room, not intervals. A path that touches a solid at exactly the clearance is decided by that
+/// room.
+///
+/// ```
+/// use hairpin::verification::{ClearClaim, ClearSolid, Leg, verify_clear};
+///
+/// // Along x past a ball of 1 m whose centre is 3 m aside: 2 m are left.
+/// let along = [[0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 8], [0.0; 8]];
+/// let legs = [Leg { duration: 2.0, coefficients: along }];
+/// let solids = [ClearSolid::Ball([5.0, 3.0, 0.0], 1.0)];
+/// let claim = |clearance| ClearClaim { legs: &legs, solids: &solids, clearance };
+/// assert!(verify_clear(&claim(1.9)).is_empty());
+/// assert_eq!(verify_clear(&claim(2.1)).len(), 1);
+/// ```
 pub fn verify_clear(claim: &ClearClaim) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (number, solid) in claim.solids.iter().enumerate() {
@@ -50,14 +66,10 @@ pub fn verify_clear(claim: &ClearClaim) -> Vec<Finding> {
             approach(leg, solid, claim.clearance - ROUNDING, [0.0, leg.duration], here, &mut nearest, DEPTH);
             began += leg.duration;
         }
-        findings.extend(nearest.map(|near| Finding {
-            field: format!("environment.obstacles[{number}].clearance"),
-            value: near.distance,
-            bound: claim.clearance,
-            unit: "m",
-            leg: near.leg,
-            at: near.at,
-        }));
+        if let Some(Near { distance, leg, at }) = nearest {
+            let mut found = Collector::about(&mut findings, "environment").at(leg, at);
+            found.unless(false, format_args!("obstacles[{number}].clearance"), distance, claim.clearance, "m");
+        }
     }
     findings
 }
@@ -72,8 +84,8 @@ struct Near {
     at: f64,
 }
 
-/// Puts the nearest place of a piece into `nearest` where it is nearer than `least`, or not shown not to be, and nearer than what is there.
-/// `here`: the leg, and when it begins.
+/// Puts the nearest place of a piece into `nearest` where it is nearer than `least`, or not shown not to be, and nearer
+/// than what is there. `here`: the leg, and when it begins.
 fn approach(
     leg: &Leg,
     solid: &ClearSolid,
@@ -114,7 +126,8 @@ fn taylor(leg: &Leg, tau: f64) -> [[f64; 8]; 3] {
     })
 }
 
-/// By how much a solid that lies in the direction −`away` is nearer within `h` s, at most; `None`: one in any direction.
+/// By how much a solid that lies in the direction −`away` is nearer within `h` s, at most; `None`: one in any
+/// direction.
 fn approaches(around: &[[f64; 8]; 3], away: Option<[f64; 3]>, h: f64) -> f64 {
     let sum = |c: &dyn Fn(usize) -> f64| (1..8).rev().fold(0.0, |sum, k| (sum + c(k).abs()) * h);
     match away {

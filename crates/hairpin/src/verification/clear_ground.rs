@@ -1,7 +1,8 @@
-//! Whether a planned drive keeps its distance from discs on the ground, between the steps of its replay too, and whether these lie on the map.
+//! Whether a planned drive keeps its distance from discs on the ground, between the steps of its replay too, and
+//! whether these lie on the map.
 
 use super::drives::DriveLegClaim;
-use super::finding::Finding;
+use super::finding::{Collector, Finding};
 use super::ground::{GroundVehicle, follow_ground};
 use crate::world::terrain::Terrain;
 
@@ -15,6 +16,8 @@ pub struct ClearDisc {
 }
 
 /// What is planned.
+///
+/// `Straight` is for reach sets that claim no more than straight legs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClearDrive<'a> {
     /// Commands, each leg from its own start.
@@ -39,34 +42,31 @@ pub struct ClearGroundClaim<'a> {
 /// What rounding may take, m.
 const ROUNDING: f64 = 1e-9;
 
-/// All discs that are none, that are not all on the map, or that a leg comes too near to, with the leg that comes nearest.
+/// All discs that are none, that are not all on the map, or that a leg comes too near to, with the leg that comes
+/// nearest.
 ///
-/// A step of the replay that turns the body by Δψ, and its direction of travel by Δδ, leaves its chord c by no more than c (|Δψ| + |Δδ|)/4,
-/// as a curve does whose direction changes by so much. A leg that cannot be replayed is as near as can be.
+/// A step of the replay that turns the body by Δψ, and its direction of travel by Δδ, leaves its chord c by no more
+/// than c (|Δψ| + |Δδ|)/4, as a curve does whose direction changes by so much. A leg that cannot be replayed is as near
+/// as can be.
 pub fn verify_clear_ground<T: Terrain>(vehicle: &GroundVehicle, terrain: &T, claim: &ClearGroundClaim) -> Vec<Finding> {
     let mut findings = Vec::new();
-    let mut exceed = |number: usize, what: &str, value: f64, bound: f64, leg: usize, at: f64| {
-        let field = format!("environment.keep_out[{number}].{what}");
-        findings.push(Finding { field, value, bound, unit: "m", leg, at });
-    };
     let legs = claim.drive.legs(vehicle, terrain);
     for (number, disc) in claim.discs.iter().enumerate() {
         let ClearDisc { center, radius } = *disc;
-        if !(center.iter().all(|x| x.is_finite()) && radius.is_finite() && radius > 0.0) {
-            exceed(number, "radius", radius, 0.0, 0, 0.0);
+        let mut found = Collector::about(&mut findings, &format!("environment.keep_out[{number}]"));
+        let sound = center.iter().all(|x| x.is_finite()) && radius.is_finite() && radius > 0.0;
+        found.unless(sound, "radius", radius, 0.0, "m");
+        if !sound {
             continue;
         }
         let (low, high) = claim.extent;
         let outside = |i: usize| (low[i] + radius - center[i]).max(center[i] + radius - high[i]);
         let outside = outside(0).max(outside(1));
-        if outside > ROUNDING {
-            exceed(number, "outside", outside, 0.0, 0, 0.0);
-        }
+        found.unless(outside <= ROUNDING, "outside", outside, 0.0, "m");
         let nearest = legs.iter().enumerate().map(|(leg, (began, steps))| (steps.distance(disc), leg, *began));
         let Some((distance, leg, at)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
-        if distance < claim.clearance - ROUNDING {
-            exceed(number, "clearance", distance, claim.clearance, leg, at);
-        }
+        let clear = distance >= claim.clearance - ROUNDING;
+        found.at(leg, at).unless(clear, "clearance", distance, claim.clearance, "m");
     }
     findings
 }

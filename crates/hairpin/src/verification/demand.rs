@@ -2,6 +2,9 @@
 //!
 //! Thrust vector F = m (p̈ + g e₃) + (c₁ + c₂|v|) v, attitude R with z_b = F/|F| and yaw 0, ω from Ṙ = R [ω]×,
 //! τ = I ω̇ + ω × Iω + c_a |ω| ω. All as series in time to the order needed, so that no derivative is written out.
+//!
+//! The same physics as `feasibility`'s flatness map, by another calculus: there derivatives are written out and
+//! bounded, here series are multiplied. A sign wrong in either shows as a flight that does not arrive.
 
 use nalgebra::{Vector3, Vector4};
 

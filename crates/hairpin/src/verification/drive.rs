@@ -1,6 +1,8 @@
 //! Replay of a ground vehicle's drive on flat ground: what was written, integrated again, against what was asked.
 
 /// One piece of a drive as it was written.
+///
+/// Again apart from `trajectory`'s segments, so that reading a drive and proving it share no code.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DrivePiece {
     /// κ(s) = Σ aᵢ sⁱ for s from 0 to `length_m`; ψ̇ = direction · v · κ.
@@ -35,6 +37,8 @@ pub struct DriveClaim {
 }
 
 /// What the drive does.
+///
+/// Errors are signed; NaN in, NaN out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveReplay {
     /// Where it ends less where it should, in the start's frame: x, y (m), yaw (rad, in (−π, π]).
@@ -66,9 +70,21 @@ const TRACED: usize = 60;
 /// Steps of one piece at most: a piece that would need more turns by more than a thousand circles.
 const MOST_STEPS: f64 = 1e6;
 
-/// Integrates x' = direction·cos(ψ + δ), y' = direction·sin(ψ + δ), ψ' = direction·κ(s), δ = crab + crab_rate · metres, over
-/// every piece by the classical Runge-Kutta method, [`LEAST_STEPS`] steps or more in all, and looks for the largest curvature on the same grid, bisected
-/// where it is largest. Numbers that are none give errors that are none.
+/// Integrates x' = direction·cos(ψ + δ), y' = direction·sin(ψ + δ), ψ' = direction·κ(s), δ = crab + crab_rate · metres,
+/// over every piece by the classical Runge-Kutta method, [`LEAST_STEPS`] steps or more in all, and looks for the
+/// largest curvature on the same grid, bisected where it is largest. Numbers that are none give errors that are none.
+///
+/// ```
+/// use hairpin::verification::{DriveClaim, DrivePiece, LEAST_STEPS, replay_drive};
+///
+/// // A quarter of a circle of 2 m to the left ends at (2, 2), heading left.
+/// let quarter = std::f64::consts::FRAC_PI_2;
+/// let piece = DrivePiece::Arc { length_m: 2.0 * quarter, curvature: [0.5, 0.0, 0.0, 0.0, 0.0, 0.0], direction: 1.0 };
+/// let claim =
+///     DriveClaim { start_curvature: 0.5, crab: 0.0, crab_rate: 0.0, end: [2.0, 2.0, quarter], end_curvature: 0.5 };
+/// let replay = replay_drive(&[piece], &claim);
+/// assert!(replay.error.iter().all(|e| e.abs() < 1e-9) && replay.steps >= LEAST_STEPS);
+/// ```
 pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
     let total: f64 = pieces.iter().map(DrivePiece::length).sum();
     let mut state = [0.0; 3];
@@ -83,7 +99,8 @@ pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
         reversals: 0,
         steps: 0,
     };
-    // Curvature and direction at the end of the piece before; a turn in place leaves the wheels straight and no direction.
+    // Curvature and direction at the end of the piece before; a turn in place leaves the wheels straight and no
+    // direction.
     let mut before: (f64, Option<f64>) = (claim.start_curvature, None);
     let mut last_direction = None;
     let mut driven = 0.0;
@@ -119,8 +136,8 @@ pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
     replay
 }
 
-/// Poses along a drive, x, y (m), yaw (rad) in the start's frame, for drawing: for each piece that moves its direction and
-/// its poses, both ends included.
+/// Poses along a drive, x, y (m), yaw (rad) in the start's frame, for drawing: for each piece that moves its direction
+/// and its poses, both ends included.
 pub fn trace_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> Vec<(f64, Vec<[f64; 3]>)> {
     let mut state = [0.0; 3];
     let mut traced = Vec::new();
@@ -176,6 +193,9 @@ fn steps(length: f64, total: f64, curvature: &[f64; 6]) -> usize {
     share.max(length * most / LONGEST_TURN).ceil().clamp(16.0, MOST_STEPS) as usize
 }
 
+/// x′ = ±cos(ψ + δ₀ + δ₁s), y′ = ±sin(ψ + δ₀ + δ₁s), ψ′ = ±κ(s) over `length` metres, by the classical Runge-Kutta
+/// method, error O(h⁴). `crab` is (δ₀ in rad, δ₁ in rad/m), `direction` the gear's sign; lengths count driven metres in
+/// either gear.
 fn integrate(
     start: [f64; 3],
     crab: [f64; 2],

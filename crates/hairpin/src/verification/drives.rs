@@ -1,12 +1,14 @@
 //! The proof of a drive over several waypoints: every leg replayed from its own start.
 
 use super::drive::{DriveClaim, DrivePiece, replay_drive};
-use super::finding::{Finding, Proof, Worst, note};
+use super::finding::{Collector, Finding, Proof, Worst, note};
 use super::ground::{GroundClaim, GroundVehicle, replay_ground};
 use super::pace::{PaceClaim, check_speeds};
 use crate::world::terrain::Terrain;
 
 /// One leg of a drive as it was written.
+///
+/// As the campaign's table of legs has it: a leg stands on its own, and joints are checked beside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveLegClaim {
     /// x, y (m), ψ (rad), κ (1/m) at its first waypoint.
@@ -15,7 +17,8 @@ pub struct DriveLegClaim {
     pub to: [f64; 4],
     /// The commands.
     pub pieces: Vec<DrivePiece>,
-    /// Metres of the leg, rising from 0, with the commanded speed there, m/s; v² is linear between, and as at the ends beyond.
+    /// Metres of the leg, rising from 0, with the commanded speed there, m/s; v² is linear between, and as at the ends
+    /// beyond.
     pub speed: Vec<[f64; 2]>,
     /// Planned duration, s.
     pub duration: f64,
@@ -58,6 +61,8 @@ pub struct DrivesClaim<'a> {
 }
 
 /// What a leg may leave open, and what it must keep.
+///
+/// In a campaign position, heading and curvature are the precision that the generator itself was asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveTolerances {
     /// Distance from the leg's last waypoint, m.
@@ -85,8 +90,11 @@ const SAME: f64 = 1e-9;
 /// Bounds are kept up to this share of them: what a replay on a grid may see of rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Integrates the written commands of every leg on the ground: each must end in the next waypoint's pose, keep its bounds,
-/// and begin where the one before ends. Whatever is wrong is a finding; nothing panics on what a file may hold.
+/// Integrates the written commands of every leg on the ground: each must end in the next waypoint's pose, keep its
+/// bounds, and begin where the one before ends. Whatever is wrong is a finding; nothing panics on what a file may hold.
+///
+/// Fields of findings: `legs[k].end…`, `legs[k].start…`, bounds and speeds by their names. One replay a leg, 2000 steps
+/// or more each.
 pub fn verify_drives<T: Terrain>(
     vehicle: &GroundVehicle,
     terrain: &T,
@@ -94,17 +102,9 @@ pub fn verify_drives<T: Terrain>(
     tolerances: &DriveTolerances,
 ) -> Proof {
     let mut proof = Proof::default();
-    let finding = |field: String, value: f64, bound: f64, unit: &'static str, leg: usize, at: f64| Finding {
-        field,
-        value,
-        bound,
-        unit,
-        leg,
-        at,
-    };
     if claim.legs.is_empty() || claim.legs.len() + 1 != claim.waypoints.len() {
         let (found, wanted) = (claim.legs.len() as f64, claim.waypoints.len() as f64 - 1.0);
-        proof.findings.push(finding("legs".into(), found, wanted, "", 0, 0.0));
+        proof.findings.push(Finding { field: "legs".into(), value: found, bound: wanted, unit: "", leg: 0, at: 0.0 });
         return proof;
     }
     let mut at = 0.0;
@@ -120,39 +120,32 @@ pub fn verify_drives<T: Terrain>(
             duration: leg.duration,
             most_acceleration: tolerances.most_acceleration,
         };
-        check_speeds(&pace, |field, value, bound, unit| {
-            proof.findings.push(finding(format!("legs[{number}].{field}"), value, bound, unit, number, at));
-        });
+        check_speeds(&pace, &mut Collector::on_leg(&mut proof.findings, number, at));
         at += leg.duration;
-        let mut exceed = |what: &str, value: f64, bound: f64, unit: &'static str| {
-            if value.is_nan() || value > bound {
-                let field = format!("legs[{number}].{what}");
-                proof.findings.push(finding(field, value, bound, unit, number, at));
-            }
-        };
+        let mut found = Collector::on_leg(&mut proof.findings, number, at);
         let ([crab, last], crab_rate) = (leg.direction, leg.crab_rate());
         let [least, greatest] = tolerances.directions;
         for (what, direction) in [("direction.start.excess", crab), ("direction.end.excess", last)] {
-            exceed(what, (least - direction).max(direction - greatest), SAME, "rad");
+            found.above(what, (least - direction).max(direction - greatest), SAME, "rad");
         }
         // In the plane: the commands themselves, whatever they lead to.
         let plane =
             DriveClaim { start_curvature: leg.from[3], crab, crab_rate, end: [0.0; 3], end_curvature: leg.to[3] };
         let commands = replay_drive(&leg.pieces, &plane);
         let kept = |bound: f64| bound * (1.0 + ROUNDING);
-        exceed("curvature", commands.max_curvature, kept(tolerances.most_curvature), "1/m");
-        exceed("curvature_rate", commands.max_curvature_rate, kept(tolerances.most_curvature_rate), "1/m²");
-        exceed("curvature_jump", commands.max_jump, tolerances.curvature, "1/m");
-        exceed("start.curvature", commands.start_error_curvature.abs(), tolerances.curvature, "1/m");
+        found.above("curvature", commands.max_curvature, kept(tolerances.most_curvature), "1/m");
+        found.above("curvature_rate", commands.max_curvature_rate, kept(tolerances.most_curvature_rate), "1/m²");
+        found.above("curvature_jump", commands.max_jump, tolerances.curvature, "1/m");
+        found.above("start.curvature", commands.start_error_curvature.abs(), tolerances.curvature, "1/m");
         match replay_ground(&leg.pieces, vehicle, terrain, &leg.ground()) {
-            Err(stopped) => exceed("stopped_after", stopped.after_m, f64::NEG_INFINITY, "m"),
+            Err(stopped) => found.above("stopped_after", stopped.after_m, f64::NEG_INFINITY, "m"),
             Ok(replay) => {
                 let position = libm::hypot(replay.error[0], replay.error[1]);
-                exceed("end.position", position, tolerances.position, "m");
-                exceed("end.yaw", replay.error[2].abs(), tolerances.yaw, "rad");
-                exceed("end.curvature", replay.error_curvature.abs(), tolerances.curvature, "1/m");
-                exceed("tilt", replay.max_tilt, kept(tolerances.most_tilt), "rad");
-                exceed("wheel_torque", replay.max_torque, kept(tolerances.most_torque), "N·m");
+                found.above("end.position", position, tolerances.position, "m");
+                found.above("end.yaw", replay.error[2].abs(), tolerances.yaw, "rad");
+                found.above("end.curvature", replay.error_curvature.abs(), tolerances.curvature, "1/m");
+                found.above("tilt", replay.max_tilt, kept(tolerances.most_tilt), "rad");
+                found.above("wheel_torque", replay.max_torque, kept(tolerances.most_torque), "N·m");
                 note(&mut proof.position, position, number, at);
                 note(&mut proof.attitude, replay.error[2].abs(), number, at);
                 proof.steps += replay.steps;
@@ -178,10 +171,7 @@ fn check_joint(proof: &mut Proof, claim: &DrivesClaim, number: usize, at: f64) {
     if off > worst.value {
         *worst = Worst { value: off, leg: number, at };
     }
-    if off.is_nan() || off > SAME {
-        let field = format!("legs[{number}].joint");
-        proof.findings.push(Finding { field, value: off, bound: SAME, unit: "m", leg: number, at });
-    }
+    Collector::on_leg(&mut proof.findings, number, at).above("joint", off, SAME, "m");
 }
 
 #[cfg(test)]
@@ -201,7 +191,8 @@ mod tests {
         most_acceleration: f64::INFINITY,
     };
 
-    /// A quarter of a circle of radius 2 with clothoids of no length, then straight on: curvature jumps at the joint only.
+    /// A quarter of a circle of radius 2 with clothoids of no length, then straight on: curvature jumps at the joint
+    /// only.
     fn legs() -> Vec<DriveLegClaim> {
         let quarter = std::f64::consts::FRAC_PI_2;
         let arc = |curvature: f64, length_m: f64| DrivePiece::Arc {

@@ -1,6 +1,10 @@
 //! What a proof asks for and what it found.
 
+use std::fmt::Display;
+
 /// What a proof may leave open.
+///
+/// What a proof was held to belongs to it: reports state these beside the findings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
     /// Distance from the next waypoint at the end of a leg, and from the polynomial on the way, m.
@@ -58,6 +62,8 @@ pub struct EndError {
 }
 
 /// Something that does not hold.
+///
+/// `value` and `bound` in `unit`, with `value` > `bound` (of a minimum `value` < `bound`), or not a number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// What: `legs[2].end.velocity`, `legs[0].rotor3.max`, `legs`, ….
@@ -75,6 +81,8 @@ pub struct Finding {
 }
 
 /// What verification found, condition by condition.
+///
+/// Worst values are told whether or not they violate anything.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proof {
     /// Leg by leg, from each leg's own start: distance from the next waypoint, m.
@@ -115,16 +123,47 @@ pub(super) fn note(worst: &mut Worst, value: f64, leg: usize, at: f64) {
     }
 }
 
-/// A finding if `value` exceeds `bound` or is no number.
-pub(super) fn exceed(
-    proof: &mut Proof,
-    what: &str,
-    value: f64,
-    bound: f64,
-    unit: &'static str,
-    (leg, at): (usize, f64),
-) {
-    if value > bound || value.is_nan() {
-        proof.findings.push(Finding { field: format!("legs[{leg}].{what}"), value, bound, unit, leg, at });
+/// Collects what does not hold of one thing at one place.
+#[derive(Debug)]
+pub struct Collector<'a> {
+    into: &'a mut Vec<Finding>,
+    about: String,
+    leg: usize,
+    at: f64,
+}
+
+impl<'a> Collector<'a> {
+    /// Of `about`, which every field is a part of, at the start.
+    pub fn about(into: &'a mut Vec<Finding>, about: &str) -> Self {
+        Self { into, about: format!("{about}."), leg: 0, at: 0.0 }
+    }
+
+    /// Of a leg, at a time since the start (s).
+    pub fn on_leg(into: &'a mut Vec<Finding>, leg: usize, at: f64) -> Self {
+        Self { into, about: format!("legs[{leg}]."), leg, at }
+    }
+
+    /// The same on a leg, at a time since the start (s).
+    pub fn at(self, leg: usize, at: f64) -> Self {
+        Self { leg, at, ..self }
+    }
+
+    /// A finding unless it `holds`.
+    pub fn unless(&mut self, holds: bool, field: impl Display, value: f64, bound: f64, unit: &'static str) {
+        if !holds {
+            let Self { into, about, leg, at } = self;
+            into.push(Finding { field: format!("{about}{field}"), value, bound, unit, leg: *leg, at: *at });
+        }
+    }
+
+    /// What does not hold, in words alone.
+    pub fn refuse(&mut self, what: String) {
+        let Self { into, leg, at, .. } = self;
+        into.push(Finding { field: what, value: f64::NAN, bound: 0.0, unit: "", leg: *leg, at: *at });
+    }
+
+    /// A finding if `value` is above `bound`, or no number.
+    pub fn above(&mut self, field: impl Display, value: f64, bound: f64, unit: &'static str) {
+        self.unless(value <= bound, field, value, bound, unit);
     }
 }

@@ -1,6 +1,9 @@
 //! Gauss collocation: the implicit Runge-Kutta method of order 12 with 6 stages. It keeps quadratic invariants, so a
 //! rotation matrix stays one. Its coefficients are computed here, not copied.
 //! Hairer, Nørsett, Wanner: Solving Ordinary Differential Equations I, section II.7.
+//!
+//! Symplectic and symmetric of order 2s = 12: ẋ at the nodes of Gauss' quadrature, x(t + c_i h) = x + h Σ_j a_ij
+//! f(x_j). RᵀR is a quadratic invariant, so that no renormalisation hides an error.
 
 /// Stages.
 pub(super) const STAGES: usize = 6;

@@ -2,12 +2,25 @@
 //! found it.
 //!
 //! Shares nothing with the search: trees by Prim's algorithm on the whole table, arborescences by contraction of one
-//! circle at a time, sums in 128 bits; what follows from choices is found by going over all rules again and again. Where
-//! there is no tree of steps, the heaviest path is searched again, backwards over subsets.
+//! circle at a time, sums in 128 bits; what follows from choices is found by going over all rules again and again.
+//! Where there is no tree of steps, the heaviest path is searched again, backwards over subsets.
 
 use super::heaviest_choices::{Chosen, IN, Layout, OPEN, OUT};
 
 /// A path and what proves it.
+///
+/// ```
+/// use hairpin::verification::{HeaviestClaim, verify_heaviest};
+///
+/// // Points at 0, 1 and 5 on a line, no tree: the path is searched again.
+/// let at = [0_i64, 1, 5];
+/// let costs = at.iter().flat_map(|a| at.map(|b| (*a != b).then_some((a - b).abs()))).collect();
+/// let (start, end, tree) = (None, None, None);
+/// let mut claim = HeaviestClaim { points: 3, costs, start, end, path: vec![0, 2, 1], cost: 9, tree };
+/// assert!(verify_heaviest(&claim).is_empty());
+/// (claim.path, claim.cost) = (vec![0, 1, 2], 5); // a path of that cost, but not the heaviest
+/// assert!(!verify_heaviest(&claim).is_empty());
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct HeaviestClaim {
     /// Number of points.
@@ -27,6 +40,8 @@ pub struct HeaviestClaim {
 }
 
 /// A branching tree: steps from number 0.
+///
+/// The tree must cover the problem: each step is reached once, and each branch has both of its sides.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TreeClaim {
     /// Multipliers are in units of cost / scale.
@@ -82,6 +97,9 @@ pub struct PathFinding {
 pub const MOST_SEARCHED_AGAIN: usize = 22;
 
 /// All that does not hold; empty: the path is one of this cost, and none is heavier.
+///
+/// With a tree n² to n³ a step and probe; without one 2ⁿ n², up to [`MOST_SEARCHED_AGAIN`] points. Costs are whole, so
+/// that "no heavier" is a bound below cost + 1.
 pub fn verify_heaviest(claim: &HeaviestClaim) -> Vec<PathFinding> {
     let mut findings = Vec::new();
     let mut find = |step: Option<usize>, what: String| findings.push(PathFinding { step, what });
@@ -157,6 +175,10 @@ fn search_again(claim: &HeaviestClaim) -> Option<i64> {
 
 type Finding = (Option<usize>, String);
 
+/// Goes through the tree with the choices made so far; each step ends closed, goes on as a later step that knows more,
+/// or branches on one choice, out and in. Closed means: its bound is below cost + 1, in the tree's scale, or its
+/// choices contradict each other. With costs · scale below 2⁶⁰ and multipliers up to 2⁶⁰ no sum in 128 bits is rounded
+/// or wraps.
 fn check_tree(claim: &HeaviestClaim, tree: &TreeClaim) -> Result<(), Finding> {
     let n = claim.points;
     let arc = |from: usize, to: usize| claim.costs[from * n + to].filter(|_| from != to);

@@ -1,6 +1,9 @@
 //! Bounds at given multipliers, recomputed: Prim 1957 for undirected arcs, Edmonds 1967 for directed ones.
 //!
 //! The equations are those of `docs/heaviest-paths.md`; a probe is one more choice that is tried.
+//!
+//! Slow on purpose: O(n²) for a tree, O(n³) for an arborescence, whatever the table, without the search's keys, orders
+//! or warm starts.
 
 use super::heaviest_choices::{Chosen, IN, Layout, OUT};
 

@@ -1,4 +1,7 @@
 //! Choices of a path with loops for what it leaves out, and what follows from them, by going over all rules.
+//!
+//! Fixpoint of all rules, looked at one after the other until none changes anything: what the search propagates by
+//! queues.
 
 pub(super) const OPEN: u8 = 0;
 pub(super) const OUT: u8 = 1;

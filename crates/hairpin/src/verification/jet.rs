@@ -1,4 +1,7 @@
 //! Truncated Taylor series in time: c0 + c1 t + c2 t². Differentiation becomes arithmetic.
+//!
+//! a + b t + c t² with products, reciprocals and roots cut after t²: derivatives to second order without differences
+//! and without a formula for each.
 
 use std::ops::{Add, Mul, Sub};
 

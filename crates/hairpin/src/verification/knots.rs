@@ -2,6 +2,8 @@
 //!
 //! These conditions tie every coefficient: c_i enters the position at the leg's end as c_i T^i, the velocity as
 //! i c_i T^(i−1) and so on, and each of those is compared with a number that does not contain it.
+//!
+//! The tolerance is of sums: each derivative's own terms say how much rounding it may carry.
 
 use super::body::Body;
 use super::claim::{Claim, Leg};

@@ -5,8 +5,9 @@
 //! from truncated Taylor series of the thrust vector (`demand`), the rigid body with a rotation matrix
 //! (`body`), implicit Gauss collocation of order 12 (`gauss`). Nothing is shared with feasibility, search,
 //! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have replays of their
-//! own, in the plane (`drive`) and on the ground (`ground`); moves of arms are followed by their own equations ([`verify_arm_moves`]). That no path through a graph is heavier is checked bound by
-//! bound ([`verify_heaviest`]; [`verify_walk`] where points may come several times, [`verify_triples`] where moves may pass points).
+//! own, in the plane (`drive`) and on the ground (`ground`); programs and graphs of arms are followed by equations of
+//! their own (`arm`). That no path through a graph is heavier is checked bound by bound ([`verify_heaviest`];
+//! [`verify_walk`] where points may come several times, [`verify_triples`] where moves may pass points).
 
 mod arm;
 mod body;
@@ -37,8 +38,9 @@ mod walk;
 mod tests;
 
 pub use arm::{
-    ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm, ArmWay,
-    ArmWayClaim, verify_arm_graph, verify_arm_moves,
+    ArmBodyClaim, ArmBuild, ArmClaim, ArmJointClaim, ArmMotion, ArmMoveFinding, ArmPath, ArmPiece, ArmProgramClaim,
+    ArmProgramMove, ArmProgramReplay, ArmSolidClaim, ArmSolidForm, ArmTarget, ArmWay, ArmWayClaim, verify_arm_graph,
+    verify_arm_program,
 };
 pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
@@ -46,7 +48,7 @@ pub use clear::{ClearClaim, ClearSolid, verify_clear};
 pub use clear_ground::{ClearDisc, ClearDrive, ClearGroundClaim, verify_clear_ground};
 pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive, trace_drive};
 pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
-pub use finding::{EndError, Finding, Proof, Tolerances, Worst};
+pub use finding::{Collector, EndError, Finding, Proof, Tolerances, Worst};
 pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Haul, Stopped, replay_ground};
 pub use heaviest::{HeaviestClaim, MOST_SEARCHED_AGAIN, NextClaim, PathFinding, StepClaim, TreeClaim, verify_heaviest};
 pub use heaviest_triples::{MOST_TRIPLES_AGAIN, TriplesClaim, verify_triples};

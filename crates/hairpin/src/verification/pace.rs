@@ -1,6 +1,10 @@
 //! The speeds of a drive as they were written: do they fit together, and could the vehicle keep them?
+//!
+//! Between two knots v² is linear, so that acceleration is constant, (v₁² − v₀²)/2Δs, and a stretch takes 2Δs/(v₀ +
+//! v₁): no other integral is needed.
 
 use super::drive::DrivePiece;
+use super::finding::Collector;
 
 /// The speeds of one leg, and what they are held to.
 #[derive(Debug, Clone, Copy)]
@@ -27,54 +31,50 @@ const ROUNDING: f64 = 1e-6;
 /// Speeds below this are none, m/s: √(2 a · rounding of metres).
 const STILL: f64 = 1e-4;
 
-/// Tells `found` of every speed that is none, too high, or does not join, of stops that are none, accelerations beyond the bound, and
-/// of a duration that the speeds do not give: field, value, bound, unit.
-pub(super) fn check_speeds(claim: &PaceClaim, mut found: impl FnMut(&str, f64, f64, &'static str)) {
+/// Puts into `found` every speed that is none, too high, or does not join, stops that are none, accelerations beyond
+/// the bound, and a duration that the speeds do not give.
+pub(super) fn check_speeds(claim: &PaceClaim, found: &mut Collector) {
     let knots = claim.knots;
     let sound = |[s, v]: &[f64; 2]| s.is_finite() && (0.0..=claim.speed * (1.0 + ROUNDING)).contains(v);
     if let Some([_, bad]) = knots.iter().find(|knot| !sound(knot)) {
-        return found("speed", *bad, claim.speed, "m/s");
+        return found.unless(false, "speed", *bad, claim.speed, "m/s");
     }
     let (Some(first), Some(last)) = (knots.first(), knots.last()) else {
-        return found("speed", f64::NAN, claim.speed, "m/s");
+        return found.unless(false, "speed", f64::NAN, claim.speed, "m/s");
     };
     if let Some(pair) = knots.windows(2).find(|pair| pair[1][0] < pair[0][0] - 1e-9) {
-        return found("speed.metres", pair[1][0], pair[0][0], "m");
+        return found.unless(false, "speed.metres", pair[1][0], pair[0][0], "m");
     }
     if let Some((_, before)) = claim.before {
         let jump = (first[1] - before.last().map_or(f64::NAN, |knot| knot[1])).abs();
-        if jump.is_nan() || jump > 1e-9 {
-            found("speed_jump", jump, 1e-9, "m/s");
-        }
+        found.above("speed_jump", jump, 1e-9, "m/s");
     }
     if claim.most_acceleration.is_finite() {
-        check_stops(claim, first[1], last[1], &mut found);
+        check_stops(claim, first[1], last[1], found);
         for pair in knots.windows(2) {
             let ([s, v], [t, w]) = (pair[0], pair[1]);
             let off = (w * w - v * v).abs() - 2.0 * claim.most_acceleration * (1.0 + ROUNDING) * (t - s);
             // Knots at one place are one knot, but for rounding.
-            if off > STILL * STILL {
-                found("acceleration", (w * w - v * v).abs() / (2.0 * (t - s)), claim.most_acceleration, "m/s²");
-            }
+            let fast = off > STILL * STILL;
+            let acceleration = (w * w - v * v).abs() / (2.0 * (t - s));
+            found.unless(!fast, "acceleration", acceleration, claim.most_acceleration, "m/s²");
         }
     }
     let total: f64 = claim.pieces.iter().map(DrivePiece::length).sum();
     let taken = seconds(claim, total);
-    if (taken - claim.duration).abs().total_cmp(&(ROUNDING * (1.0 + claim.duration))).is_gt() {
-        found("duration", claim.duration, taken, "s");
-    }
+    let longer = (taken - claim.duration).abs().total_cmp(&(ROUNDING * (1.0 + claim.duration))).is_gt();
+    found.unless(!longer, "duration", claim.duration, taken, "s");
 }
 
 /// The vehicle stands where it begins and ends, where the gear changes, and before and after turns in place.
-fn check_stops(claim: &PaceClaim, first: f64, last: f64, found: &mut impl FnMut(&str, f64, f64, &'static str)) {
+fn check_stops(claim: &PaceClaim, first: f64, last: f64, found: &mut Collector) {
     let gear = |piece: Option<&DrivePiece>| match piece {
         Some(DrivePiece::Arc { direction, .. }) => Some(*direction),
         _ => None,
     };
     let mut stands = |speed: f64| {
-        if speed > STILL {
-            found("stop", speed, 0.0, "m/s");
-        }
+        let moves = speed > STILL;
+        found.unless(!moves, "stop", speed, 0.0, "m/s");
     };
     let begins = gear(claim.pieces.first());
     if begins.is_none() || claim.before.is_none_or(|(pieces, _)| gear(pieces.last()) != begins) {
@@ -146,9 +146,10 @@ mod tests {
         let mut claim = sound;
         change(&mut claim, &mut knots);
         let claim = PaceClaim { knots: &knots, ..claim };
-        let mut fields = Vec::new();
-        check_speeds(&claim, |field, _, _, _| fields.push(field.to_owned()));
-        fields.join(" ")
+        let mut findings = Vec::new();
+        check_speeds(&claim, &mut Collector::on_leg(&mut findings, 0, 0.0));
+        let fields = findings.iter().filter_map(|finding| finding.field.strip_prefix("legs[0]."));
+        fields.collect::<Vec<_>>().join(" ")
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::body::{Body, State, attitude_error, level};
 use super::claim::{Claim, Leg};
 use super::demand::Singular;
-use super::finding::{EndError, Finding, Proof, Tolerances, exceed, note};
+use super::finding::{Collector, EndError, Finding, Proof, Tolerances, note};
 use super::gauss::Gauss;
 use super::knots::mismatches;
 use super::replay::{Flyer, Replay, Trouble};
@@ -17,6 +17,9 @@ use crate::math::power::square;
 /// A coefficient c_i that is off by 1 % moves a derivative of order k at the leg's end by 0.01 c_i i!/(i−k)! T^(i−k),
 /// which is found if it exceeds [`Tolerances::knots`] plus 1e-12 of the sum of that derivative's terms: at the default,
 /// with legs of 0.8 s and longer, every coefficient of magnitude 1e-6 m/s^i or more.
+///
+/// Each leg is integrated at halved steps until two runs agree to what [`Tolerances::accuracy`] asks for, so that
+/// accuracy is estimated and not assumed.
 pub fn verify(body: &Body, claim: &Claim, tolerances: &Tolerances) -> Proof {
     let mut proof = Proof::default();
     let refuse =
@@ -48,6 +51,9 @@ pub fn verify(body: &Body, claim: &Claim, tolerances: &Tolerances) -> Proof {
 
 /// The end error of the whole flight, open loop, with rotors that lag behind the demand: what the claim leaves out.
 /// `None` where the claim or the body cannot be flown at all. Without a time constant the rotors do not lag.
+///
+/// ẇ = (w_demanded − w)/τ for each rotor. The claim leaves lag out, since snap jumps at waypoints and rotor speeds with
+/// it; this number says how much that is.
 pub fn open_loop_with_lag(body: &Body, claim: &Claim) -> Option<EndError> {
     let sound = claim.legs.len() + 1 == claim.waypoints.len() && claim.legs.iter().all(Leg::is_finite);
     let first = claim.legs.first().filter(|_| sound && body.is_physical())?;
@@ -64,6 +70,8 @@ pub fn open_loop_with_lag(body: &Body, claim: &Claim) -> Option<EndError> {
     Some(end_error(&state, claim))
 }
 
+/// At both ends of every leg: position at the waypoint, velocity that of the leg before (rest at the flight's ends),
+/// thrust that carries the weight and points up, no turning; each within `knots` and the rounding of its polynomial.
 fn check_knots(proof: &mut Proof, body: &Body, claim: &Claim, tolerances: &Tolerances) {
     let ends: Vec<f64> = claim
         .legs
@@ -80,18 +88,15 @@ fn check_knots(proof: &mut Proof, body: &Body, claim: &Claim, tolerances: &Toler
             let end = if knot.at_end { "end" } else { "start" };
             let (name, unit) =
                 [("position", "m"), ("velocity", "m/s"), ("acceleration", "m/s²"), ("jerk", "m/s³")][knot.order];
-            proof.findings.push(Finding {
-                field: format!("legs[{}].{end}.{name}", knot.leg),
-                value: knot.difference,
-                bound: knot.allowed,
-                unit,
-                leg: knot.leg,
-                at,
-            });
+            let mut found = Collector::on_leg(&mut proof.findings, knot.leg, at);
+            found.unless(false, format_args!("{end}.{name}"), knot.difference, knot.allowed, unit);
         }
     }
 }
 
+/// Flies each leg twice: from the state that its own polynomial begins with, which must end in the state at the next
+/// waypoint; and from where the leg before was flown to, so that what errors add up to over the whole flight is known
+/// ([`Proof::open_loop`]) without being judged.
 fn fly_legs(proof: &mut Proof, flyer: &Flyer, claim: &Claim, tolerances: &Tolerances) {
     let mut began = 0.0;
     let mut chained = level(claim.waypoints[0], velocity_at(&claim.legs[0], 0.0));
@@ -108,12 +113,13 @@ fn fly_legs(proof: &mut Proof, flyer: &Flyer, claim: &Claim, tolerances: &Tolera
                 let target = level(claim.waypoints[number + 1], velocity);
                 check_end(proof, &replay, &target, number, began + leg.duration, tolerances);
                 note(&mut proof.path, replay.path.0, number, began + replay.path.1);
-                exceed(proof, "path", replay.path.0, tolerances.position, "m", (number, began + replay.path.1));
+                let mut found = Collector::on_leg(&mut proof.findings, number, began + replay.path.1);
+                found.above("path", replay.path.0, tolerances.position, "m");
                 proof.steps += replay.steps;
             }
             Err(trouble) => {
                 whole = false;
-                proof.findings.push(unflown(trouble, number, began, tolerances));
+                unflown(proof, trouble, number, began, tolerances);
             }
         }
         began += leg.duration;
@@ -129,10 +135,11 @@ fn check_end(proof: &mut Proof, replay: &Replay, target: &State, leg: usize, at:
     note(&mut proof.velocity, velocity, leg, at);
     note(&mut proof.attitude, attitude, leg, at);
     note(&mut proof.rates, rates, leg, at);
-    exceed(proof, "flown.position", position, tolerances.position, "m", (leg, at));
-    exceed(proof, "flown.velocity", velocity, tolerances.velocity, "m/s", (leg, at));
-    exceed(proof, "flown.attitude", attitude, tolerances.attitude, "rad", (leg, at));
-    exceed(proof, "flown.rates", rates, tolerances.rates, "rad/s", (leg, at));
+    let mut found = Collector::on_leg(&mut proof.findings, leg, at);
+    found.above("flown.position", position, tolerances.position, "m");
+    found.above("flown.velocity", velocity, tolerances.velocity, "m/s");
+    found.above("flown.attitude", attitude, tolerances.attitude, "rad");
+    found.above("flown.rates", rates, tolerances.rates, "rad/s");
 }
 
 fn velocity_at(leg: &Leg, tau: f64) -> [f64; 3] {
@@ -148,11 +155,11 @@ fn end_error(state: &State, claim: &Claim) -> EndError {
     }
 }
 
-fn unflown(trouble: Trouble, leg: usize, began: f64, tolerances: &Tolerances) -> Finding {
+fn unflown(proof: &mut Proof, trouble: Trouble, leg: usize, began: f64, tolerances: &Tolerances) {
     let (what, value, bound, unit, tau) = match trouble {
         Trouble::Singular(tau, Singular::FreeFall(thrust)) => ("thrust", thrust, f64::MIN_POSITIVE, "N", tau),
         Trouble::Singular(tau, Singular::Yaw(sine)) => ("yaw", sine, f64::MIN_POSITIVE, "", tau),
         Trouble::Steps(_, change) => ("integration", change, tolerances.accuracy, "", 0.0),
     };
-    Finding { field: format!("legs[{leg}].{what}"), value, bound, unit, leg, at: began + tau }
+    Collector::on_leg(&mut proof.findings, leg, began + tau).unless(false, what, value, bound, unit);
 }

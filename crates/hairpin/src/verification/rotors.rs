@@ -1,7 +1,10 @@
 //! Rotor speeds against the robot's limits, all along a leg.
+//!
+//! A grid of [`Tolerances::grid`] and golden sections where an extreme comes within 2 % of a limit (of squared speed):
+//! what the claim proved by enclosures is looked for again by samples.
 
 use super::claim::Leg;
-use super::finding::{Finding, Proof, Tolerances, Worst, exceed, note};
+use super::finding::{Collector, Proof, Tolerances, Worst, note};
 use super::replay::{Flyer, Trouble};
 
 /// Rotor speeds against their limits on a grid, refined around each rotor's extremes where they come near a limit.
@@ -45,12 +48,12 @@ pub(super) fn check_rotors(
         let rounding = 1e-9 * highest;
         let (name, unit) = (format!("rotor{}", rotor + 1), "rad/s");
         if high.0 > highest + rounding {
-            exceed(proof, &format!("{name}.max"), high_speed, fastest, unit, (number, began + high.1));
+            let mut found = Collector::on_leg(&mut proof.findings, number, began + high.1);
+            found.above(format_args!("{name}.max"), high_speed, fastest, unit);
         }
-        if low.0 < lowest - rounding {
-            let (field, at) = (format!("legs[{number}].{name}.min"), began + low.1);
-            proof.findings.push(Finding { field, value: low_speed, bound: slowest, unit, leg: number, at });
-        }
+        let mut found = Collector::on_leg(&mut proof.findings, number, began + low.1);
+        let slow = low.0 < lowest - rounding;
+        found.unless(!slow, format_args!("{name}.min"), low_speed, slowest, unit);
     }
     Ok(())
 }

@@ -1,7 +1,11 @@
-//! How a vehicle stands on the ground, for the proof: a chain of rotations, contacts, and Newton's method with differences.
+//! How a vehicle stands on the ground, for the proof: a chain of rotations, contacts, and Newton's method with
+//! differences.
 //!
-//! Nothing is shared with the robot's own suspension: wheels are placed by matrices, derivatives are differences, the linear
-//! systems are solved by a general decomposition.
+//! Nothing is shared with the robot's own suspension: wheels are placed by matrices, derivatives are differences, the
+//! linear systems are solved by a general decomposition.
+//!
+//! F(q) = 0 by Newton with central differences of width 1e-6 to 1e-2, an inverse Jacobian borrowed from the
+//! neighbouring rest as long as it helps, halved steps, and the same order of falls as the claim's own, typed again.
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
@@ -64,7 +68,8 @@ const GUESSES: [(f64, f64); 14] = [
     (0.25, 0.1),
     (0.75, 0.1),
 ];
-/// Joints, and the angles by which they are folded before the rest of a body that falls is looked for from where it stood, in turn.
+/// Joints, and the angles by which they are folded before the rest of a body that falls is looked for from where it
+/// stood, in turn.
 const FALLS: [(usize, f64); 12] = [
     (3, 0.6),
     (3, -0.6),
@@ -136,7 +141,8 @@ impl Rest {
         Err(refused)
     }
 
-    /// Brings the body to rest at `place`, near the rest it had before; where it falls over an edge, wherever it comes to rest.
+    /// Brings the body to rest at `place`, near the rest it had before; where it falls over an edge, wherever it comes
+    /// to rest.
     pub(super) fn carry_on<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
         let before = self.unknowns;
         if self.follow(stand, terrain, place).is_ok() {
@@ -169,6 +175,12 @@ impl Rest {
         if upright { Ok(()) } else { Err(NoRest::NotFound) }
     }
 
+    /// Newton's method for F(q) = 0 from where the last place came to rest: q ← q − J⁺ F(q).
+    ///
+    /// First the neighbour's J⁺ is used again, as long as each step is at most half of the one before (not on four
+    /// wheels, whose gaps end at a least that depends on it). Then a J of its own is taken at each iteration, by
+    /// central differences, and the step, at most [`FARTHEST`], is halved until ‖F‖ falls; every other [`LEAPS`]
+    /// iterations take it whole, which leads out of corners. At rest where a step is below [`CLOSED`] (m and rad).
     fn approach<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
         if *stand == Stand::Level {
             return Ok(());
@@ -274,6 +286,8 @@ fn wheels(stand: &Stand, unknowns: &Unknowns) -> ([Vector3<f64>; 6], usize, f64)
     }
 }
 
+/// ∂F/∂q by central differences, whose error is O(width²) where the ground is smooth; columns of unknowns that the
+/// stand does not have are 0.
 fn jacobian<T: Terrain>(
     stand: &Stand,
     terrain: &T,

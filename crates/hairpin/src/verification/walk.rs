@@ -1,14 +1,18 @@
-//! The proof that no path is heavier that comes back to points: every bound of a branching tree recomputed, and that its branches leave nothing out.
+//! The proof that no path is heavier that comes back to points: every bound of a branching tree recomputed, and that
+//! its branches leave nothing out.
 //!
-//! Shares nothing with the search. Point n is a dummy before the first point and after the last. A path uses each arc at most once, enters and
-//! leaves each point equally often and at most `visits` times, the dummy once. So for any prices a_i of leaving and b_j of entering, with
-//! s_i = visits (1 of the dummy), its cost is at most
+//! Shares nothing with the search. Point n is a dummy before the first point and after the last. A path uses each arc
+//! at most once, enters and leaves each point equally often and at most `visits` times, the dummy once. So for any
+//! prices a_i of leaving and b_j of entering, with s_i = visits (1 of the dummy), its cost is at most
 //!
-//!   Σ s_i (a_i + b_i) + Σ_free max(0, c_ij − a_i − b_j) + Σ_used (c_ij − a_i − b_j) + Σ_points visits · max(0, −a_i − b_i):
+//!   Σ s_i (a_i + b_i) + Σ_free max(0, c_ij − a_i − b_j) + Σ_used (c_ij − a_i − b_j) + Σ_points visits · max(0, −a_i −
+//!   b_i):
 //!
 //! a point that is visited less often has so many times neither its a nor its b spent.
 
 /// A path and what proves that it is the heaviest.
+///
+/// The proof's steps are read in any order; one that is missing, or a way out of a part that no branch has, is told.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WalkClaim {
     /// Number of points.
@@ -45,7 +49,8 @@ pub struct SplitClaim {
     pub points: Vec<usize>,
     /// The step without them; `None` where one of them must be met, because an arc there is used.
     pub without: Option<usize>,
-    /// From, to (the number of points for the dummy), and the step in which this arc is used and those before it are not.
+    /// From, to (the number of points for the dummy), and the step in which this arc is used and those before it are
+    /// not.
     pub ways: Vec<(usize, usize, usize)>,
 }
 
@@ -58,6 +63,8 @@ pub fn verify_walk(claim: &WalkClaim) -> Vec<String> {
     check_path(claim).and_then(|()| check_tree(claim)).err().into_iter().collect()
 }
 
+/// The path on its own, O(n² + its length): it leads from the asked start to the asked end, no point comes more than
+/// `visits` times, every arc exists and none is used twice, and its costs, summed in 128 bits, are the cost claimed.
 fn check_path(claim: &WalkClaim) -> Result<(), String> {
     let n = claim.points;
     if n == 0 || claim.costs.len() != n * n || claim.visits == 0 {
@@ -89,6 +96,13 @@ fn check_path(claim: &WalkClaim) -> Result<(), String> {
     if sum == i128::from(claim.cost) { Ok(()) } else { Err(format!("the path costs {sum}, not {}", claim.cost)) }
 }
 
+/// Goes through the tree from its root with what is decided of every arc: free, used, gone. O(steps · n²).
+///
+/// A leaf is closed if its bound is no more than the cost claimed. A split names points C, never the dummy among them:
+/// a path either meets none of C, which is the branch without them and may be missing only where a used arc touches C;
+/// or it leaves C, for it has to come back to the dummy. The k-th way uses one arc that leads out of C and has those of
+/// the ways before it gone; after the last one no arc out of C may be left. So no path is lost. Steps refer to later
+/// ones only and each is met exactly once: the walk ends, and nothing of the claim goes unread.
 fn check_tree(claim: &WalkClaim) -> Result<(), String> {
     let nodes = claim.points + 1;
     let start: Vec<u8> =
@@ -129,7 +143,8 @@ fn check_tree(claim: &WalkClaim) -> Result<(), String> {
             }
             let index = from * nodes + to;
             let mut used = states_of_ways.clone();
-            // An arc that is gone cannot be used: nothing is left there, and what its step says of it holds all the same.
+            // An arc that is gone cannot be used: nothing is left there, and what its step says of it holds all the
+            // same.
             used[index] = if used[index] == GONE { GONE } else { USED };
             children.push((*child, used));
             states_of_ways[index] = GONE;
@@ -162,13 +177,15 @@ fn cost(claim: &WalkClaim, index: usize) -> Option<i64> {
     }
 }
 
-/// What is left where no path meets the points: every arc that touches one of them is gone. Where one of those must be used there is no such
-/// path, and letting it go only asks for more.
+/// What is left where no path meets the points: every arc that touches one of them is gone. Where one of those must be
+/// used there is no such path, and letting it go only asks for more.
 fn without(states: &[u8], touches: impl Fn(usize) -> bool) -> Vec<u8> {
     let left = |(index, state): (usize, &u8)| if touches(index) { GONE } else { *state };
     states.iter().enumerate().map(left).collect()
 }
 
+/// The bound of this file's head for given prices, exact in 128 bits. It holds for any prices whatever, so that where
+/// they came from needs no trust: poor ones make a weak bound, never a wrong one.
 fn bound(claim: &WalkClaim, states: &[u8], prices: &[i64]) -> Option<i128> {
     let nodes = claim.points + 1;
     if prices.len() != 2 * nodes {

@@ -3,6 +3,8 @@
 use nalgebra::{Point3, Vector3};
 
 /// The box min ≤ p ≤ max, m.
+///
+/// Closed, min ≤ max in each axis; a single point is a box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// Smallest corner.
@@ -30,6 +32,8 @@ impl Bounds {
     }
 
     /// Distance between two boxes, m; 0 where they meet.
+    ///
+    /// A lower bound of the distance between anything in the one and anything in the other.
     pub fn distance_to(&self, other: &Bounds) -> f64 {
         gap(self.min - other.max, other.min - self.max)
     }

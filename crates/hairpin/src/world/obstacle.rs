@@ -1,4 +1,7 @@
 //! Solid shapes, built from plain numbers, and their distances to points and segments.
+//!
+//! Keys are those of the world's file, with the unit in the name; inside everything is m. Balls, boxes and capsules
+//! have closed forms; hulls and meshes go through [`super::solid`].
 
 use nalgebra::{Point3, Vector3};
 
@@ -18,6 +21,20 @@ pub struct Obstacle {
 }
 
 /// The kinds of solid, world frame, m.
+///
+/// Variants are public for `match`; [`Shape::sphere`] and its siblings check, and [`super::World::new`] checks again.
+/// Coordinates and sizes beyond 10⁷ m are refused.
+///
+/// ```
+/// use hairpin::world::Shape;
+/// use nalgebra::Point3;
+///
+/// let cube = Shape::cuboid([0.0, 0.0, 0.0], [2.0, 2.0, 2.0])?;
+/// assert_eq!(cube.signed_distance(&Point3::new(4.0, 5.0, 0.0)), 5.0); // 3-4-5 from the edge
+/// assert_eq!(cube.signed_distance(&Point3::new(0.5, 0.0, 0.0)), -0.5);
+/// assert_eq!(Shape::sphere([0.0; 3], -1.0).unwrap_err().field, "sphere.radius_m");
+/// # Ok::<(), hairpin::world::WorldError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub enum Shape {
     /// A ball.
@@ -79,6 +96,9 @@ impl Shape {
 
     /// The convex hull of points.
     ///
+    /// Points inside the hull are dropped. Quickhull in floating point: a hull that leaves a given point more than 1e-7
+    /// of its size outside is refused, not returned.
+    ///
     /// # Errors
     /// `hull.points_m`: fewer than four, not finite, in one plane.
     pub fn hull(points_m: &[[f64; 3]]) -> Result<Self, WorldError> {
@@ -87,6 +107,9 @@ impl Shape {
     }
 
     /// The inside of a closed triangle mesh; `triangles` are vertex indices from 0, wound either way round.
+    ///
+    /// Vertices with equal coordinates are merged; a surface wound inside out is turned. Self-intersections are the
+    /// caller's to see to. The inside counts: a segment wholly within a mesh is met by it.
     ///
     /// # Errors
     /// `mesh.vertices_m`: not finite. `mesh.triangles`: an index out of range, an open or inconsistently wound
@@ -99,6 +122,12 @@ impl Shape {
     }
 
     /// Distance of `p` to the solid, m; negative inside.
+    ///
+    /// ```text
+    /// ball ‖p − c‖ − r      capsule dist(p, ab) − r      box ‖max(|p − c| − h, 0)‖ + min(max_i(|p − c| − h)_i, 0)
+    /// ```
+    ///
+    /// 1-Lipschitz in `p`, so that a clearance at a sample bounds it around the sample.
     pub fn signed_distance(&self, p: &Point3<f64>) -> f64 {
         match self {
             Shape::Sphere { center, radius } => (p - center).norm() - radius,
@@ -110,6 +139,9 @@ impl Shape {
 
     /// Smallest signed distance of the points of the segment `a`–`b` to the solid, m; ≤ 0 if they meet. For hulls
     /// and meshes that are met the value is an upper bound (the deeper end's, or 0).
+    ///
+    /// min over t in [0, 1] of the signed distance of a + t (b − a). Never the line's: what lies beyond an end does not
+    /// count.
     pub fn segment_distance(&self, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
         match self {
             Shape::Sphere { center, radius } => segment::point_distance(center, a, b) - radius,

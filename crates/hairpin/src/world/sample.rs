@@ -1,4 +1,7 @@
 //! Points drawn from the free space of a world: independent and uniform, in clusters, or a scrambled Sobol sequence.
+//!
+//! Waypoints of a graph are drawn here once, and what a search can find lies among them. One graph is one seed; the
+//! same seed draws the same points whatever the machine.
 
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
@@ -10,20 +13,28 @@ use super::World;
 use crate::math::random::{Stream, standard_normals, stream, unit};
 
 /// How points are spread.
+///
+/// Clusters: distance d = spacing · 10^(−u), u uniform in [0, 1), so that every decade-share of lengths is equally
+/// frequent; the direction is that of a normal vector. Sobol: low discrepancy in x, y, z, the first three of four
+/// Owen-scrambled dimensions (Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sampling {
     /// Independent and uniform.
     #[default]
     Uniform,
-    /// Every other one uniform, the others about one of those before: in any direction, at a distance that is even in its logarithm from a
-    /// tenth of the mean spacing, (free room ÷ points)^(1/dimensions), to all of it. Short legs, which uniform points hardly have.
+    /// Every other one uniform, the others about one of those before: in any direction, at a distance that is even in
+    /// its logarithm from a tenth of the mean spacing, (free room ÷ points)^(1/dimensions), to all of it. Short legs,
+    /// which uniform points hardly have.
     Clustered,
     /// An Owen-scrambled Sobol sequence (Burley 2020), at most 65 536 draws long.
     Sobol,
 }
 
 /// Why there are not enough points.
+///
+/// `share` tells what is wrong better than the count: at 0.1 % the space is too tight for the clearance, not the draws
+/// too few.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SamplingError {
     /// The free space is too small a part of the volume.
@@ -63,6 +74,9 @@ const SOBOL_LENGTH: usize = 1 << 16;
 
 /// `count` points at least the keep-in margin inside the walls and at least `clearance` (m) from every obstacle, by
 /// rejection from at most 1 000 `count` + 10 000 draws. A pure function of its arguments.
+///
+/// The law is that of [`Sampling`] restricted to {p : wall distance ≥ margin, obstacle distance ≥ clearance}. Points in
+/// order of the draws, world frame, m; expected cost is `count` over the free share, each draw one [`World::is_free`].
 ///
 /// # Errors
 /// [`SamplingError`], with the share of the volume that was found free.
@@ -126,8 +140,8 @@ pub(crate) fn short_way<const D: usize>(spacing: f64, random: &mut Stream) -> [f
     way.map(|part| part * (distance / norm))
 }
 
-/// The first `count` free points among the first `draws`, or how many there were and their share. A draw is told its number and the points
-/// found before it.
+/// The first `count` free points among the first `draws`, or how many there were and their share. A draw is told its
+/// number and the points found before it.
 fn reject(
     world: &World,
     count: usize,

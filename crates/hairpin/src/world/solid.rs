@@ -1,4 +1,9 @@
 //! Convex hulls and closed triangle meshes. The only file that sees parry, whose types are glam's.
+//!
+//! A hull keeps its face planes: inside it the signed distance is max over faces of n·p − offset, in closed form. A
+//! mesh's inside is told by the nearest feature's pseudo-normal (Bærentzen and Aanæs, "Signed distance computation
+//! using the angle weighted pseudonormal", IEEE TVCG 11(3), 2005, as parry has it); distances go through a tree of
+//! boxes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,6 +19,9 @@ use crate::math::power::power;
 use crate::math::segment::segment_distance;
 
 /// A solid bounded by a closed, outward-oriented triangle surface.
+///
+/// Copies share the surface. Built by [`super::Shape::hull`] and [`super::Shape::mesh`] alone, so that an open or flat
+/// one does not exist.
 #[derive(Clone)]
 pub struct Solid {
     surface: Arc<TriMesh>,
@@ -135,6 +143,8 @@ impl Solid {
 
     /// Smallest distance between the segment a–b and the solid, m. Where they meet: 0, or the deeper end's signed
     /// distance, a lower bound of the depth.
+    ///
+    /// A best-first descent of the box tree; each triangle costs three pairs of segments and one crossing.
     pub fn segment_distance(&self, a: &Point3<f64>, b: &Point3<f64>) -> f64 {
         let ends = self.signed_distance(a).min(self.signed_distance(b));
         if ends <= 0.0 {

@@ -17,7 +17,8 @@ pub(crate) struct Effort {
     /// Difference from the speeds at both ends that counts as there, m/s; 0.01 if not given
     #[arg(long, value_name = "M_S", value_parser = positive, allow_hyphen_values = true)]
     pub(crate) tolerance_speed_m_s: Option<f64>,
-    /// Steps of each search at most; 20 in the plane (60 for knots and functions of time), 30 predictions on the ground if not given
+    /// Steps of each search at most; 20 in the plane (60 for knots and functions of time), 30 predictions on the ground
+    /// if not given
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) iterations: Option<u32>,
     /// Share of each step that is taken, from 0.01 to 1

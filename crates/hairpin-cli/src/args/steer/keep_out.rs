@@ -12,7 +12,8 @@ pub(crate) struct Corners(pub(crate) Vec<[f64; 2]>);
 
 #[derive(Debug, Args)]
 pub(crate) struct KeepOutFlags {
-    /// Places to keep out of: keep_out = [{ name, circle = { center_m, radius_m } }, ...] or polygon = { points_m }, as in scenarios
+    /// Places to keep out of: keep_out = [{ name, circle = { center_m, radius_m } }, ...] or polygon = { points_m }, as
+    /// in scenarios
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) keep_out: Option<PathBuf>,
     /// A round place to keep out of, such as a rock, m in the map (x east, y north); may be given again

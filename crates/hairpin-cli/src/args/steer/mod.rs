@@ -14,14 +14,15 @@ use super::terrain::{MapFlags, NoData};
 use effort::Effort;
 pub(crate) use effort::StartTable;
 pub(crate) use keep_out::KeepOutFlags;
-use names::{SteerControl, SteerKinematics};
-pub(crate) use names::{SteerCost, SteerFrame};
+pub(crate) use names::SteerFrame;
+use names::{SteerControl, SteerCost, SteerKinematics};
 
 /// Every answer is replayed by an integration of its own; `ok` means that the replay ends in the goal within 1 cm,
 /// 0.01 rad and 0.01 1/m and keeps the vehicle's curvature and curvature rate.
 ///
 /// Q.csv: id,x,y,yaw,k0,kf (from the start, m, rad, 1/m) or id,sx,sy,syaw,x,y,yaw,k0,kf; optional columns v0, vf,
-/// direction, direction_end, frame, max_curvature, tolerance_m. R.csv has one row a segment: its curvature is a0 + a1 s + … + a5 s^5.
+/// direction, direction_end, frame, max_curvature, tolerance_m. R.csv has one row a segment: its curvature is a0 + a1 s
+/// + … + a5 s^5.
 #[derive(Debug, Args)]
 pub(crate) struct Steer {
     /// Vehicle: a shipped rover's name, such as generic, or a robot file
@@ -81,7 +82,8 @@ pub(crate) struct Steer {
     pub(crate) no_data: NoData,
     #[command(flatten)]
     pub(crate) keep_out: KeepOutFlags,
-    /// What becomes small along the drive once it meets its goal: of quintics in the plane any, curvature or rate; on the ground any
+    /// What becomes small along the drive once it meets its goal: of quintics in the plane any, curvature or rate; on
+    /// the ground any
     #[arg(long, value_enum, default_value_t = SteerCost::Any, value_name = "NAME")]
     pub(crate) cost: SteerCost,
     #[command(flatten)]

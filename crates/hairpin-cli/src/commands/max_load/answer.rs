@@ -1,20 +1,19 @@
 //! The answer, for people and for machines.
 
-use std::time::Duration;
-
 use hairpin::search::heaviest::{Heaviest, Outcome};
+use hairpin_jobs::max_load::{Graph, MaxLoad as Answer};
 use serde_json::{Value, json};
 
 use super::code;
-use super::graph::Graph;
 use crate::args::MaxLoad;
 use crate::console;
 
-pub(super) fn tell(asked: &MaxLoad, graph: &Graph, found: &Heaviest, time: Duration) {
+pub(super) fn tell(asked: &MaxLoad, answer: &Answer) {
     if asked.json {
-        console::say(&object(asked, graph, found, time).to_string());
+        console::say(&object(asked, answer).to_string());
         return;
     }
+    let Answer { graph, found, time, .. } = answer;
     let points = graph.arcs.points();
     if graph.scale() > 1 {
         console::warn(&format!("costs are searched as whole numbers: × {}", graph.scale()));
@@ -72,7 +71,7 @@ fn reason(asked: &MaxLoad, graph: &Graph, found: &Heaviest) -> String {
     }
 }
 
-fn object(asked: &MaxLoad, graph: &Graph, found: &Heaviest, time: Duration) -> Value {
+fn object(asked: &MaxLoad, Answer { graph, found, time, .. }: &Answer) -> Value {
     let best = found.paths.first();
     let value = |cost: i64| graph.value(cost);
     let mut object = json!({

@@ -1,52 +1,37 @@
 //! The heaviest programs of an arm through a cloud of points.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use hairpin::campaign::arm::{ArmGraph, graph_of};
-use hairpin::campaign::{Setup, Stop};
-use hairpin::search::heaviest::{Heaviest, Outcome};
-use hairpin_formats::scenario::arm_setup_for;
+use hairpin::search::heaviest::Outcome;
+use hairpin_jobs::max_load::{CloudAnswer, CloudSearch, CloudSettings, search_cloud};
+use hairpin_jobs::sets::Set;
+use hairpin_jobs::{Problem, Watch};
 use serde_json::{Value, json};
 
 use super::code;
 use crate::args::MaxLoad;
-use crate::commands::parts;
-use crate::console;
-use crate::folder::{self, Work};
-use crate::interrupt::{self, Deadline};
-use crate::problem::Problem;
+use crate::exit::NOTHING_FEASIBLE;
+use crate::{console, settings};
 
 /// Runs the command on `points` in `cell`.
-pub(super) fn run(asked: &MaxLoad, points: &Path, cell: &str) -> Result<u8, Problem> {
-    let setup = arm_setup_for(cell, points, &sets(asked)?)?;
-    let Some(arm) = setup.arm() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
-    let (begun, deadline) = (Instant::now(), Deadline::after(asked.time_limit));
-    let stop = Stop {
-        cancelled: &|| interrupt::asked() || deadline.passed(),
-        progress: &|_, _| {},
-        clock: &|| begun.elapsed().as_secs_f64(),
+pub(super) fn run(asked: &MaxLoad, points: &Path, cell: &str, watch: &dyn Watch) -> Result<u8, Problem> {
+    let settings =
+        CloudSettings { cell: cell.into(), points: points.into(), sets: sets(asked)?, time_limit_s: asked.time_limit };
+    let searched = match search_cloud(&settings, watch)? {
+        CloudAnswer::Searched(searched) => searched,
+        CloudAnswer::Nothing { reason, time } => return Ok(nothing(asked, &reason, time)),
     };
-    let graph = graph_of(&arm);
-    let found =
-        graph.as_ref().map_err(Clone::clone).and_then(|graph| arm.heaviest(graph, &stop).map(|found| (graph, found)));
-    let (graph, found) = match found {
-        Ok(found) => found,
-        Err(reason) => return Ok(nothing(asked, &reason, begun.elapsed())),
-    };
-    tell(asked, &setup, graph, &found, begun.elapsed());
+    tell(asked, &searched);
     if let Some(out) = &asked.out {
-        let folder = folder::make(out, &setup, false, asked.force)?;
-        let work = Work { folder, setup: setup.clone() };
-        let cases = arm.cases(graph, &found);
-        parts::keep_programs(&work, &arm, graph, &cases, &stop)?;
+        searched.keep(out, settings::if_there(false, asked.force), watch)?;
     }
-    Ok(code(&found))
+    Ok(code(&searched.found))
 }
 
 /// The flags as keys of the scenario.
-fn sets(asked: &MaxLoad) -> Result<Vec<(String, String)>, Problem> {
-    let mut sets = folder::split(&asked.sets)?;
+fn sets(asked: &MaxLoad) -> Result<Vec<Set>, Problem> {
+    let mut sets = settings::split(&asked.sets)?;
     let mut set = |key: &str, value: Option<String>| sets.extend(value.map(|value| (key.to_owned(), value)));
     set("generate.search.start", asked.start.map(|row| row.to_string()));
     set("generate.search.end", asked.end.map(|row| row.to_string()));
@@ -57,7 +42,7 @@ fn sets(asked: &MaxLoad) -> Result<Vec<(String, String)>, Problem> {
     Ok(sets)
 }
 
-fn tell(asked: &MaxLoad, setup: &Setup, graph: &ArmGraph, found: &Heaviest, time: Duration) {
+fn tell(asked: &MaxLoad, CloudSearch { setup, graph, found, time, .. }: &CloudSearch) {
     let value = |cost: i64| cost as f64 * graph.unit;
     let best = found.paths.first();
     if asked.json {
@@ -126,15 +111,14 @@ fn tell(asked: &MaxLoad, setup: &Setup, graph: &ArmGraph, found: &Heaviest, time
 
 /// No program, because no point or no move is possible.
 fn nothing(asked: &MaxLoad, reason: &str, time: Duration) -> u8 {
-    const NOTHING: u8 = 3;
     if asked.json {
         let object = json!({
             "path": Value::Null, "cost": Value::Null, "bound": Value::Null, "gap_percent": Value::Null, "proven": true,
-            "time_s": time.as_secs_f64(), "method": "graph", "reason": reason, "exit_code": NOTHING,
+            "time_s": time.as_secs_f64(), "method": "graph", "reason": reason, "exit_code": NOTHING_FEASIBLE,
         });
         console::say(&object.to_string());
     } else {
         console::say(&format!("NOTHING FEASIBLE: {reason}"));
     }
-    NOTHING
+    NOTHING_FEASIBLE
 }

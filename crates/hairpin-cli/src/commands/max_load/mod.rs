@@ -3,24 +3,20 @@
 mod answer;
 mod certificate;
 mod cloud;
-mod graph;
-mod walk;
 
-use std::time::Instant;
-
-use hairpin::search::heaviest::{Ends, Heaviest, HeaviestSettings, Method, Outcome, heaviest};
+use hairpin::search::heaviest::{Ends, Heaviest, HeaviestSettings, Method, Outcome};
+use hairpin_jobs::max_load::{MaxLoadSettings, max_load};
+use hairpin_jobs::{Problem, Watch};
 
 use crate::args::{MaxLoad, SearchMethod};
-use crate::folder;
-use crate::interrupt::{self, Deadline};
-use crate::problem::Problem;
-use graph::Graph;
+use crate::exit::{DONE, INCONCLUSIVE, NOTHING_FEASIBLE};
+use crate::settings;
 
 /// Runs the command: 3 if there is no path, 5 if none was found in time.
-pub(crate) fn run(asked: &MaxLoad) -> Result<u8, Problem> {
-    folder::take_threads(&asked.threads);
+pub(crate) fn run(asked: &MaxLoad, watch: &dyn Watch) -> Result<u8, Problem> {
+    settings::take_threads(&asked.threads);
     let path = match (&asked.graph, &asked.cloud, &asked.cell) {
-        (_, Some(points), Some(cell)) => return cloud::run(asked, points, cell),
+        (_, Some(points), Some(cell)) => return cloud::run(asked, points, cell, watch),
         (Some(path), ..) => path,
         _ => {
             return Err(Problem::input(
@@ -28,49 +24,48 @@ pub(crate) fn run(asked: &MaxLoad) -> Result<u8, Problem> {
             ));
         }
     };
-    let graph = Graph::read(path)?;
-    if let Some(path) = &asked.verify {
-        return certificate::verify(asked, path, &graph);
+    if let Some(file) = &asked.verify {
+        return certificate::verify(path, file, asked.json);
     }
-    if asked.visits > 1 {
-        return walk::run(asked, &graph);
-    }
-    let settings = settings(asked, &graph)?;
-    let (begun, deadline) = (Instant::now(), Deadline::after(asked.time_limit));
-    let found = heaviest(&graph.arcs, &settings, &|| interrupt::asked() || deadline.passed());
-    let found = found.map_err(Problem::input)?;
-    answer::tell(asked, &graph, &found, begun.elapsed());
+    let answer = max_load(
+        &MaxLoadSettings {
+            graph: path.clone(),
+            min_cost: asked.min_cost.clone(),
+            visits: asked.visits.into(),
+            time_limit_s: asked.time_limit,
+            search: HeaviestSettings {
+                ends: Ends { start: asked.start, end: asked.end },
+                method: method(asked.method),
+                programs: asked.programs.into(),
+                seed: asked.seed,
+                most_nodes: asked.nodes,
+                proof: asked.certificate.is_some(),
+                ..HeaviestSettings::default()
+            },
+        },
+        watch,
+    )?;
+    answer::tell(asked, &answer);
     if let Some(out) = &asked.certificate {
-        certificate::write(out, &graph, settings.ends, &found, None)?;
+        answer.write_certificate(out)?;
     }
-    Ok(code(&found))
+    Ok(code(&answer.found))
 }
 
-fn settings(asked: &MaxLoad, graph: &Graph) -> Result<HeaviestSettings, Problem> {
-    let method = match asked.method {
+fn method(method: SearchMethod) -> Method {
+    match method {
         SearchMethod::Auto => Method::Auto,
         SearchMethod::Subsets => Method::Subsets,
         SearchMethod::Branch => Method::Branch,
         SearchMethod::Local => Method::Local,
         SearchMethod::Dfs => Method::Dfs,
-    };
-    let min_cost = asked.min_cost.as_deref().map(|text| graph.at_least(text)).transpose()?;
-    Ok(HeaviestSettings {
-        ends: Ends { start: asked.start, end: asked.end },
-        min_cost,
-        method,
-        programs: asked.programs.into(),
-        seed: asked.seed,
-        most_nodes: asked.nodes,
-        proof: asked.certificate.is_some(),
-        ..HeaviestSettings::default()
-    })
+    }
 }
 
 fn code(found: &Heaviest) -> u8 {
     match found.outcome {
-        Outcome::Found => 0,
-        Outcome::Infeasible | Outcome::BelowMinCost => 3,
-        Outcome::NotFound => 5,
+        Outcome::Found => DONE,
+        Outcome::Infeasible | Outcome::BelowMinCost => NOTHING_FEASIBLE,
+        Outcome::NotFound => INCONCLUSIVE,
     }
 }

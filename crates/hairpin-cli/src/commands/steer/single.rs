@@ -5,24 +5,23 @@ use hairpin::feasibility::steering::shooting::solve::{Method, Solution};
 use hairpin::verification::DriveReplay;
 use hairpin_formats::atomic;
 use hairpin_formats::steering::{Asked, Frame, Piece, Status, svg};
+use hairpin_jobs::steer::{
+    Answered, Question, Remedies, Vehicle, goal_in_the_map, in_frame, limit_name, pieces, stretches,
+};
+use hairpin_jobs::{Problem, Watch};
 use serde_json::{Value, json};
 
-use super::answered::{Answered, named};
-use super::exported;
-use super::question::{asked, pieces, seen, stretches, typed};
-use super::remedy::Remedies;
-use super::vehicle::Vehicle;
-use crate::args::Steer;
+use crate::args::{Steer, SteerFrame};
 use crate::console;
-use crate::problem::Problem;
+use crate::exit::{DONE, INCONCLUSIVE, NOTHING_FEASIBLE};
 
-pub(super) fn run(steer: &Steer, vehicle: &Vehicle, to: &str) -> Result<u8, Problem> {
-    let asked = asked(steer, to)?;
+pub(super) fn run(steer: &Steer, vehicle: &Vehicle, to: &str, watch: &dyn Watch) -> Result<u8, Problem> {
+    let asked = question(steer, to)?.asked();
     let answered = vehicle.answer(&asked);
     let code = match answered.status {
-        Status::Ok => 0,
-        Status::Infeasible => 3,
-        Status::NotConverged | Status::TimeLimit => 5,
+        Status::Ok => DONE,
+        Status::Infeasible => NOTHING_FEASIBLE,
+        Status::NotConverged | Status::TimeLimit => INCONCLUSIVE,
         Status::Invalid => {
             let field = answered.limit.map_or("", |(limit, _)| limit);
             let speeds = ["speed", "v0", "vf", "cruise", "acceleration"];
@@ -39,18 +38,54 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, to: &str) -> Result<u8, Prob
         let picture = svg(&stretches(solution, &asked), &[[0.0; 3], asked.goal]).map_err(Problem::input)?;
         atomic::write(plot, picture.as_bytes())?;
     }
-    exported::write(steer, vehicle, &asked, &answered)?;
+    vehicle.write_states(&asked, &answered, [steer.path.as_deref(), steer.wheels.as_deref()], watch)?;
     let remedies = vehicle.remedies(&asked, &answered);
     if steer.json {
         let mut object = object(vehicle, &answered, asked.frame, code);
-        exported::add(&mut object, vehicle, &asked, &answered);
+        add(&mut object, json!(vehicle.summary(&asked, &answered)));
         add_remedies(&mut object, &remedies, &asked);
         console::say(&object.to_string());
     } else {
         words(vehicle, &answered, asked.frame).iter().for_each(|line| console::say(line));
-        told(&remedies, &asked).iter().for_each(|line| console::say(line));
+        in_words(&remedies, &asked).iter().for_each(|line| console::say(line));
     }
     Ok(code)
+}
+
+/// The question of the flags: `--from` and `--to` are poses of one map.
+fn question(steer: &Steer, to: &str) -> Result<Question, Problem> {
+    Ok(Question {
+        from: steer.from.as_deref().map(|from| state("--from", from)).transpose()?,
+        to: state("--to", to)?,
+        free_end: to.split(',').count() == 3,
+        frame: match steer.frame {
+            SteerFrame::Enu => Frame::Enu,
+            SteerFrame::Ned => Frame::Ned,
+        },
+        direction: steer.direction,
+        direction_end: steer.direction_end,
+        max_curvature: steer.max_curvature,
+        tolerance_m: steer.tolerance_m,
+    })
+}
+
+/// X,Y,YAW or X,Y,YAW,CURVATURE.
+fn state(flag: &str, text: &str) -> Result<[f64; 4], Problem> {
+    let refuse = || Problem::input(format!("{flag} {text}: must be X,Y,YAW or X,Y,YAW,CURVATURE in m, rad, 1/m"));
+    let numbers: Option<Vec<f64>> =
+        text.split(',').map(|cell| cell.trim().parse().ok().filter(|number: &f64| number.is_finite())).collect();
+    match numbers.ok_or_else(refuse)?[..] {
+        [x, y, yaw] => Ok([x, y, yaw, 0.0]),
+        [x, y, yaw, curvature] => Ok([x, y, yaw, curvature]),
+        _ => Err(refuse()),
+    }
+}
+
+/// Puts the keys of `more` behind those of `object`.
+fn add(object: &mut Value, more: Value) {
+    if let (Value::Object(object), Value::Object(more)) = (object, more) {
+        object.extend(more);
+    }
 }
 
 /// What would help, as JSON: goals as `--to` takes them.
@@ -66,26 +101,26 @@ fn add_remedies(object: &mut Value, remedies: &Remedies, asked: &Asked) {
         }
     }
     if let Some((after_m, at)) = &remedies.standstill {
-        let [x, y, yaw] = seen(asked.frame, [at.x, at.y, at.yaw]);
+        let [x, y, yaw] = in_frame(asked.frame, [at.x, at.y, at.yaw]);
         object["standstill"] = json!({ "after_m": after_m, "x": x, "y": y, "yaw": yaw });
     }
     for (key, goal) in [("nearest_goal", &remedies.nearest), ("goal_on_the_way", &remedies.on_the_way)] {
         if let Some(goal) = goal {
-            let [x, y, yaw, kf] = typed(asked, goal);
+            let [x, y, yaw, kf] = goal_in_the_map(asked, goal);
             object[key] = json!({ "x": x, "y": y, "yaw": yaw, "kf": kf });
         }
     }
 }
 
 /// What would help, in words.
-fn told(remedies: &Remedies, asked: &Asked) -> Vec<String> {
+fn in_words(remedies: &Remedies, asked: &Asked) -> Vec<String> {
     let flags = [("--reversals", remedies.with_reversals_m), ("--turns", remedies.with_turns_m)];
     let mut lines: Vec<String> = flags
         .into_iter()
         .filter_map(|(flag, metres)| Some(format!("{flag} would do it in {:.3} m", metres?)))
         .collect();
     if let Some((after_m, at)) = &remedies.standstill {
-        let [x, y, yaw] = seen(asked.frame, [at.x, at.y, at.yaw]);
+        let [x, y, yaw] = in_frame(asked.frame, [at.x, at.y, at.yaw]);
         lines.push(format!("the ground ends the drive after {after_m:.3} m, at {x:.3},{y:.3},{yaw:.3}"));
     }
     let goals = [
@@ -94,7 +129,7 @@ fn told(remedies: &Remedies, asked: &Asked) -> Vec<String> {
     ];
     for (what, goal) in goals {
         if let Some(goal) = goal {
-            let [x, y, yaw, kf] = typed(asked, goal);
+            let [x, y, yaw, kf] = goal_in_the_map(asked, goal);
             lines.push(format!("{what}: --to {x:.4},{y:.4},{yaw:.4},{kf:.4}"));
         }
     }
@@ -113,7 +148,7 @@ fn method(method: Method) -> &'static str {
 fn arc_lacks(solution: &Solution) -> Option<(&'static str, f64)> {
     match solution.arc {
         Some(ArcStatus::Infeasible { limit, excess }) if solution.method != Method::SingleArc => {
-            Some((named(limit), excess))
+            Some((limit_name(limit), excess))
         }
         _ => None,
     }
@@ -170,14 +205,13 @@ fn words(vehicle: &Vehicle, answered: &Answered, frame: Frame) -> Vec<String> {
         });
     }
     lines.push(console::table(&table));
-    let DriveReplay {
-        error: [x, y, yaw], error_curvature, max_curvature, max_curvature_rate, length, reversals, ..
-    } = replay;
+    let DriveReplay { error: [.., yaw], error_curvature, max_curvature, max_curvature_rate, length, reversals, .. } =
+        replay;
     lines.push(format!(
         "{status} ({name}, {}){limit}: {length:.3} m, {reversals} reversals, |κ| ≤ {max_curvature:.4} 1/m, |κ'| ≤ {max_curvature_rate:.4} 1/m²; \
          replayed: {:.1e} m, {:.1e} rad, {:.1e} 1/m off; {:.1} µs, {} iterations",
         method(solution.method),
-        libm::hypot(*x, *y),
+        answered.missed_m().unwrap_or_default(),
         yaw.abs(),
         error_curvature.abs(),
         answered.solving.as_secs_f64() * 1e6,

@@ -6,12 +6,14 @@ use rayon::prelude::*;
 
 use super::ArmSetup;
 use super::graph::{ArmGraph, allowed};
+use super::written::{build_of, joints_of, moves_of};
 use crate::campaign::scenario::MoveName;
-use crate::robot::arm::{AXES, Configuration, Joints};
-use crate::simulation::arm::{Order, Target, Zone};
+use crate::campaign::{Case, Evidence};
+use crate::robot::arm::{AXES, Configuration, Joints, Kinematics};
+use crate::trajectory::program::Program;
 use crate::verification::{
-    ArmBodyClaim, ArmJointClaim, ArmMoveClaim, ArmMoveFinding, ArmMovesClaim, ArmSolidClaim, ArmSolidForm, ArmWay,
-    ArmWayClaim, verify_arm_graph, verify_arm_moves,
+    ArmBodyClaim, ArmClaim, ArmMoveFinding, ArmProgramClaim, ArmProgramReplay, ArmSolidClaim, ArmSolidForm, ArmWay,
+    ArmWayClaim, verify_arm_graph, verify_arm_program,
 };
 use crate::world::cell::{Region, Words};
 use crate::world::{Shape, Solid};
@@ -32,19 +34,29 @@ pub struct GraphAgain {
 }
 
 impl ArmSetup<'_> {
-    /// Follows every move of `orders` by code of its own: bounds, targets, the distance that links and tool keep from the cell, and what the tool's point may
-    /// meet where zones cut corners.
-    pub(super) fn followed_again(&self, orders: &[Order]) -> Vec<ArmMoveFinding> {
-        let zone = |order: &Order| match order.zone {
-            Zone::Fine => 0.0,
-            Zone::Radius(radius) => radius,
+    /// Follows `program`, which must be one that a controller executes, by code of its own: frames, postures, bounds,
+    /// targets, corners that are cut, and, where all links are claimed to be clear, the distance that links and tool
+    /// keep from the cell.
+    pub(super) fn followed_again(&self, case: &Case, program: &Program) -> ArmProgramReplay {
+        // The angles at the end of a move in joints are claimed of arms alone of which a configuration does not tell
+        // them.
+        let told = |pose: &Isometry3<f64>, wanted: &Configuration| match self.station.arm.kinematics {
+            Kinematics::Opw(_) => None,
+            Kinematics::Chain => self.posture(pose, wanted),
         };
-        let zones: Vec<f64> = orders.iter().map(zone).collect();
-        self.claimed(&self.moves_of(orders), &zones, verify_arm_moves)
+        let moves = moves_of(program, told);
+        let claim = ArmProgramClaim {
+            start: self.station.home,
+            moves: &moves,
+            waypoints: &case.waypoints,
+            singularity: self.plan_settings().singularity,
+            clear: case.evidence == Evidence::ClearAllLinks,
+        };
+        self.claimed(|arm| verify_arm_program(arm, &claim))
     }
 
-    /// Follows every move that `graph` has, between points, from home and back, by code of its own; what does not hold, in words. In Cartesian mode, which
-    /// knows no joints, there is nothing to follow.
+    /// Follows every move that `graph` has, between points, from home and back, by code of its own; what does not hold,
+    /// in words. In Cartesian mode, which knows no joints, there is nothing to follow.
     pub fn graph_again(&self, graph: &ArmGraph) -> GraphAgain {
         let Some(postures) = &graph.postures else { return GraphAgain::default() };
         let (n, home) = (graph.points(), self.station.home);
@@ -77,22 +89,18 @@ impl ArmSetup<'_> {
             format!("{}→{via}{}: {} at {:.0} % of the move", name(from), name(to), finding.what, 100.0 * finding.at)
         };
         let look = |part: &[ArmWayClaim]| -> Vec<String> {
-            let found = self.claimed(&[], &[], |claim| verify_arm_graph(claim, &with_home, &at_home, part));
+            let found = self.claimed(|claim| verify_arm_graph(claim, &with_home, &at_home, part));
             found.into_iter().map(|finding| told(part, finding)).collect()
         };
         let findings: Vec<Vec<String>> = moves.par_chunks(SHARE).map(look).collect();
         GraphAgain { moves: moves.len(), findings: findings.concat() }
     }
 
-    /// Hands arm, tool, cell, `moves` and `zones` to `look`.
-    fn claimed<T>(&self, moves: &[ArmMoveClaim], zones: &[f64], look: impl FnOnce(&ArmMovesClaim) -> T) -> T {
+    /// Hands arm, tool and cell to `look`.
+    fn claimed<T>(&self, look: impl FnOnce(&ArmClaim) -> T) -> T {
         let station = self.station;
         let chain = &station.arm.chain;
-        let joints: [ArmJointClaim; AXES] = std::array::from_fn(|k| ArmJointClaim {
-            parent_from_joint: chain.joints[k].origin,
-            axis: chain.joints[k].axis,
-            bounds: [station.arm.limits[k].lower, station.arm.limits[k].upper],
-        });
+        let joints = joints_of(&station.arm);
         let links = station.arm.links.iter().enumerate().skip(1);
         let mut bodies: Vec<ArmBodyClaim> = links
             .flat_map(|(link, body)| {
@@ -126,31 +134,15 @@ impl ArmSetup<'_> {
                 Some(ArmSolidClaim { name: &part.name, tool_only: words.is_some(), form })
             })
             .collect();
-        let claim = ArmMovesClaim {
+        look(&ArmClaim {
             joints: &joints,
-            tool: chain.flange * station.tool.tcp,
+            build: build_of(&station.arm),
+            flange: chain.flange,
+            tool: station.tool.tcp,
             bodies: &bodies,
             solids: &solids,
             clearance: self.scenario.generate.moves.clearance_mm * 1e-3 + allowed(self.scenario),
-            start: station.home,
-            moves,
-            zones,
-        };
-        look(&claim)
-    }
-
-    /// Targets as they are; where a pose is met in joints its angles are the ones of its configuration, which the proof holds to the pose.
-    fn moves_of(&self, orders: &[Order]) -> Vec<ArmMoveClaim> {
-        let joints = |pose: &Isometry3<f64>, configuration: &Option<Configuration>| -> Joints {
-            configuration.and_then(|wanted| self.posture(pose, &wanted)).unwrap_or(self.station.home)
-        };
-        let one = |order: &Order| match &order.target {
-            Target::Joints(end) => ArmMoveClaim::Joints(*end, None),
-            Target::Joint(pose, configuration) => ArmMoveClaim::Joints(joints(pose, configuration), Some(*pose)),
-            Target::Line(pose, _) => ArmMoveClaim::Straight(*pose),
-            Target::Arc(via, pose, _) => ArmMoveClaim::Arc(*via, *pose),
-        };
-        orders.iter().map(one).collect()
+        })
     }
 }
 

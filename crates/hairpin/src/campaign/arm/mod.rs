@@ -1,6 +1,7 @@
 //! Arms: a cell and a cloud of points, the reachability graph between them, and the programs that load the arm most.
 
 mod assumptions;
+mod build;
 mod cell;
 mod check;
 mod claim;
@@ -21,6 +22,7 @@ mod seen;
 mod solve;
 mod station;
 mod verify;
+mod written;
 
 pub(super) use assumptions::{act, claim, search, verdict};
 pub use claim::GraphAgain;

@@ -50,8 +50,8 @@ impl CaseMoves {
     }
 }
 
-/// What the controller is told, in a few letters: targets to a micrometre and a millionth of a degree or a quaternion's part, speeds, zones,
-/// tools and work objects; no names, and nothing of how the program was found.
+/// What the controller is told, in a few letters: targets to a micrometre and a millionth of a degree or a quaternion's
+/// part, speeds, zones, tools and work objects; no names, and nothing of how the program was found.
 fn digest(program: &Program) -> String {
     let mut told: Vec<f64> = Vec::new();
     program.tools.iter().for_each(|tool| tell_pose(&mut told, &tool.tcp));

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::ArmSetup;
 use super::frame::frame_of;
 use crate::campaign::attachments::{Attachments, CloudPoint};
 use crate::campaign::scenario::{ArmScenario, ArmTask, DrawnPoints, Mistake, PointsFrame, PointsSource};
@@ -28,15 +27,8 @@ pub(super) fn count(task: &ArmTask, files: &Attachments) -> u64 {
     task.count(files.cloud(&task.points).map_or(0, |cloud| cloud.len() as u64))
 }
 
-impl ArmSetup<'_> {
-    /// How many points the scenario asks for: where none of those to be drawn fits there are fewer.
-    pub fn asked_points(&self) -> u64 {
-        count(&self.scenario.task, self.attachments)
-    }
-}
-
-/// The points of a resolved scenario. `fits` says whether the arm can stand at a drawn pose, and `reach` is the ball (centre and
-/// radius, m, base frame) that it can stand in.
+/// The points of a resolved scenario. `fits` says whether the arm can stand at a drawn pose, and `reach` is the ball
+/// (centre and radius, m, base frame) that it can stand in.
 ///
 /// # Errors
 /// The key of a point that is no point, or places for some of the drawn ones only.

@@ -1,17 +1,10 @@
 //! What a scenario of an arm describes: the arm with its tool, the cell around it, and the points of the cloud.
 
-use std::sync::Arc;
-
 use nalgebra::{Isometry3, Vector3};
 
-use super::cell::cell_of;
-use super::check;
-use super::frame::{frame_of, mistake};
-use super::graph::stands;
-use super::points::{CellPoint, points_of};
+use super::points::{CellPoint, count};
 use crate::campaign::attachments::Attachments;
-use crate::campaign::build::Build;
-use crate::campaign::scenario::{ArmScenario, Mistake, PointsSource};
+use crate::campaign::scenario::ArmScenario;
 use crate::robot::arm::{Arm, Joints, Tool, WorkObject};
 use crate::world::cell::{Cell, Part, Region};
 
@@ -45,71 +38,11 @@ pub struct ArmSetup<'a> {
     pub simd: crate::math::simd::Simd,
 }
 
-impl Build for Arc<Station> {
-    type Keys = ArmScenario;
-
-    fn build(keys: &ArmScenario, files: &Attachments, known: Option<(&ArmScenario, &Self)>) -> Result<Self, Mistake> {
-        match known {
-            Some((old, known)) if same_station(old, keys) => Ok(known.clone()),
-            _ => station_of(keys, files).map(Self::new),
-        }
+impl ArmSetup<'_> {
+    /// How many points the scenario asks for: where none of those to be drawn fits there are fewer.
+    pub fn asked_points(&self) -> u64 {
+        count(&self.scenario.task, self.attachments)
     }
-
-    fn check(
-        keys: &ArmScenario,
-        files: &Attachments,
-        known: Option<(&ArmScenario, &Self)>,
-    ) -> Result<Self, Vec<Mistake>> {
-        check::check(keys, files, || Self::build(keys, files, known))
-    }
-}
-
-/// Whether two scenarios with the same files describe one station.
-fn same_station(a: &ArmScenario, b: &ArmScenario) -> bool {
-    // Where points are drawn they are such that the arm can stand at, as the moves between them are to be proven clear.
-    let drawn_alike = || {
-        let (a_moves, b_moves) = (&a.generate.moves, &b.generate.moves);
-        (a.seed, a.generate.mode, a.spec.path) == (b.seed, b.generate.mode, b.spec.path) && a_moves == b_moves
-    };
-    let drawn = matches!(a.task.points, PointsSource::Drawn(_));
-    (&a.robot, &a.world, &a.task) == (&b.robot, &b.world, &b.task) && (!drawn || drawn_alike())
-}
-
-/// Builds what a resolved scenario describes.
-///
-/// # Errors
-/// The key whose value makes no arm, tool, work object, obstacle or point.
-fn station_of(scenario: &ArmScenario, files: &Attachments) -> Result<Station, Mistake> {
-    let arm = scenario.robot.resolved()?.build().map_err(|error| mistake("robot", error))?;
-    let tool = &scenario.world.tool;
-    let tool = Tool::new(&tool.name, tool.tcp_mm, tool.q1_q4, tool.radius_mm, tool.mass_kg, tool.cog_mm)
-        .map_err(|error| mistake("world.tool", error))?;
-    let object = &scenario.world.wobj;
-    let object =
-        WorkObject::new(&object.name, (object.uframe_mm, object.uframe_q1_q4), (object.oframe_mm, object.oframe_q1_q4))
-            .map_err(|error| mistake("world.wobj", error))?;
-    // User frames stand in the world; the arm's programs are in its base.
-    let world_from_base = frame_of("world.base_frame", &scenario.world.base_frame)?;
-    let work_object = WorkObject { user: world_from_base.inverse() * object.user, ..object };
-    let cell = cell_of(&scenario.world)?;
-    let home = scenario.task.home_deg.map(f64::to_radians);
-    if let Some((axis, _)) = arm.outside_limits(&home) {
-        let limit = &arm.limits[axis];
-        return Err(Mistake {
-            key: format!("task.home_deg[{axis}]"),
-            value: scenario.task.home_deg[axis].to_string(),
-            bound: format!(
-                "within axis {}'s bounds, {:.1} … {:.1}°",
-                axis + 1,
-                limit.lower.to_degrees(),
-                limit.upper.to_degrees()
-            ),
-        });
-    }
-    let mut station = Station { arm, tool, work_object, cell, points: Vec::new(), home };
-    let reach = station.reach();
-    station.points = points_of(scenario, files, &station.work_object, reach, |pose| stands(&station, scenario, pose))?;
-    Ok(station)
 }
 
 impl Station {
@@ -131,9 +64,9 @@ impl Station {
         cell
     }
 
-    /// A ball (centre and radius, m) that holds every place the tool's point can be at: around the second joint at rest, as far as all
-    /// lengths after it add up to, and what the first joint carries it around.
-    fn reach(&self) -> (Vector3<f64>, f64) {
+    /// A ball (centre and radius, m) that holds every place the tool's point can be at: around the second joint at
+    /// rest, as far as all lengths after it add up to, and what the first joint carries it around.
+    pub(super) fn reach(&self) -> (Vector3<f64>, f64) {
         let chain = &self.arm.chain;
         let shoulder = (chain.joints[0].origin * chain.joints[1].origin).translation.vector;
         let links: f64 = chain.joints[2..].iter().map(|joint| joint.origin.translation.vector.norm()).sum();

@@ -57,8 +57,8 @@ impl Findings {
         }
     }
 
-    /// Whether a score that a file tells was read: a model, which must be of the legs of `subject`, or one of the user's own. `false` where
-    /// `score` names no file.
+    /// Whether a score that a file tells was read: a model, which must be of the legs of `subject`, or one of the
+    /// user's own. `false` where `score` names no file.
     pub(in crate::campaign) fn score_of_file(
         &mut self,
         key: &str,
@@ -112,7 +112,8 @@ impl Findings {
         self.require(some, key, "{}", &format!("given {keys}"));
     }
 
-    /// Whether `count` obstacles of an environment are for the stress that is searched; `execution`: a flight or a drive.
+    /// Whether `count` obstacles of an environment are for the stress that is searched; `execution`: a flight or a
+    /// drive.
     pub(in crate::campaign) fn placed(&mut self, search: &SearchSection, count: u64, execution: &str) {
         let key = "generate.environment.obstacles";
         let bound = format!(

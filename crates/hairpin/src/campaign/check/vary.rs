@@ -36,7 +36,8 @@ const MOST_CHOICES: usize = 1000;
 /// Smallest share of draws that a truncation may keep.
 const LEAST_SHARE: f64 = 0.01;
 
-/// All mistakes of `[vary]` in a scenario whose nominal values have none; `built` gives those of a scenario that was drawn.
+/// All mistakes of `[vary]` in a scenario whose nominal values have none; `built` gives those of a scenario that was
+/// drawn.
 pub(in crate::campaign) fn check_vary(scenario: &Scenario, built: &dyn Fn(&Scenario) -> Vec<Mistake>) -> Vec<Mistake> {
     let mut nominal = Tree::new(scenario);
     let entries = scenario.vary().iter();

@@ -104,12 +104,17 @@ pub(in crate::campaign) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
             said.push(format!("Executed by `{command}`; legs are those that it reported."));
         }
         (_, controller) => {
-            let controller = controller.unwrap_or(GroundControllerKind::Predictive);
+            let who = match setup.controller {
+                Some(own) => format!("`{}`, the caller's own, knows the nominal vehicle and the plan", own.name()),
+                None => {
+                    let ours = controller.unwrap_or(GroundControllerKind::Predictive);
+                    format!("`{}` with hairpin's own gains knows the nominal vehicle and the map", ours.word())
+                }
+            };
             let latency = execute.latency_s.unwrap_or(setup.rover.response.latency);
             said.push(format!(
                 "Simulated: suspension at rest at every step, slip by slope, latency {latency} s, steering lag and rate; \
-                 controller `{}` with hairpin's own gains knows the nominal vehicle and the map, and its pose exactly.",
-                controller.word()
+                 controller {who}, and its pose exactly."
             ));
             if let Some([east, north, up]) = execute.external_force_n {
                 said.push(format!(

@@ -43,12 +43,6 @@ pub(in crate::campaign) fn drive(
         clearance_radius: own.radius(),
         drive: &plan,
     };
-    let resolve = |from: &Planar, to: &Planar, gear: Gear, direction| solve(nominal, from, to, gear, direction);
-    let controller = match execute.controller_in_force().unwrap_or(GroundControllerKind::Predictive) {
-        GroundControllerKind::PurePursuit => GroundController::PurePursuit,
-        GroundControllerKind::Stanley => GroundController::Stanley,
-        GroundControllerKind::Predictive => GroundController::Predictive(&resolve),
-    };
     let conditions = GroundConditions {
         latency: execute.latency_s.unwrap_or(0.0),
         noise: execute.noise,
@@ -57,11 +51,20 @@ pub(in crate::campaign) fn drive(
     };
     let settings =
         DriveSettings { accept: order.accept, time_limit: Some(order.time_limit), ..DriveSettings::default() };
+    if let Some(controller) = own.controller {
+        return ground::drive_with(&sortie, controller, &conditions, &settings, order.seed);
+    }
+    let resolve = |from: &Planar, to: &Planar, gear: Gear, direction| solve(nominal, from, to, gear, direction);
+    let controller = match execute.controller_in_force().unwrap_or(GroundControllerKind::Predictive) {
+        GroundControllerKind::PurePursuit => GroundController::PurePursuit,
+        GroundControllerKind::Stanley => GroundController::Stanley,
+        GroundControllerKind::Predictive => GroundController::Predictive(&resolve),
+    };
     ground::drive(&sortie, &controller, &conditions, &settings, order.seed)
 }
 
-/// Commands in one gear from `from` to `to` on the ground, travelling in `direction`, as far as the nominal vehicle goes; `None` where
-/// there are none.
+/// Commands in one gear from `from` to `to` on the ground, travelling in `direction`, as far as the nominal vehicle
+/// goes; `None` where there are none.
 fn solve(setup: &DriveSetup, from: &Planar, to: &Planar, gear: Gear, direction: Direction) -> Option<SegmentList> {
     let bounds = setup.bounds();
     let within = |at: &Planar| Planar { curvature: at.curvature.clamp(-bounds.most, bounds.most), ..*at };

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use super::check;
 use crate::campaign::attachments::Attachments;
-use crate::campaign::build::Build;
 use crate::campaign::scenario::{
     DriveScenario, GeneratorName, GroundDescription, Mistake, NoData, ProfileName, RobotSource, TerrainSection,
 };
@@ -12,6 +10,7 @@ use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite
 use crate::feasibility::steering::shooting::{Curvatures, Precision, flat, rough};
 use crate::math::simd::Simd;
 use crate::robot::rover::{Response, Rover};
+use crate::simulation::OwnController;
 use crate::trajectory::Direction;
 use crate::world::terrain::generate::{Recipe, generate};
 use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
@@ -33,6 +32,8 @@ pub struct DriveSetup<'a> {
     pub map: &'a Arc<ElevationMap>,
     /// Where nothing may drive.
     pub keep_out: &'a KeepOuts,
+    /// A controller of the caller's own in the place of the scenario's.
+    pub controller: Option<&'a OwnController<Rover>>,
     /// Version of the kernels.
     pub simd: Simd,
 }
@@ -119,27 +120,6 @@ pub(in crate::campaign) struct Driver {
     pub(in crate::campaign) map: Arc<ElevationMap>,
     /// Where nothing may drive.
     pub(in crate::campaign) keep_out: Arc<KeepOuts>,
-}
-
-impl Build for Driver {
-    type Keys = DriveScenario;
-
-    fn build(
-        keys: &DriveScenario,
-        files: &Attachments,
-        known: Option<(&DriveScenario, &Self)>,
-    ) -> Result<Self, Mistake> {
-        let [rover, planner] = Self::rovers(keys, known)?;
-        Ok(Self { rover, planner, map: Self::map(keys, files, known)?, keep_out: Self::keep_out(keys, known)? })
-    }
-
-    fn check(
-        keys: &DriveScenario,
-        files: &Attachments,
-        known: Option<(&DriveScenario, &Self)>,
-    ) -> Result<Self, Vec<Mistake>> {
-        check::check(keys, files, known)
-    }
 }
 
 impl Driver {

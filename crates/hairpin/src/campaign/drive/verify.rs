@@ -8,12 +8,12 @@ use crate::feasibility::reach::drive::Pace;
 use crate::trajectory::Drive;
 use crate::trajectory::drive::Planar;
 use crate::verification::{
-    ClearDisc, ClearDrive, ClearGroundClaim, DriveLegClaim, DriveTolerances, DrivesClaim, Finding, Proof,
+    ClearDisc, ClearDrive, ClearGroundClaim, Collector, DriveLegClaim, DriveTolerances, DrivesClaim, Finding, Proof,
     verify_clear_ground, verify_drives,
 };
 
-/// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that claims no
-/// witness.
+/// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that
+/// claims no witness.
 pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
     let drive = case.commands()?;
     let legs = leg_claims(case, drive);
@@ -37,9 +37,10 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
     Some(verify_drives(&ground_vehicle(setup.planner), setup.map.as_ref(), &claim, &tolerances))
 }
 
-/// What does not hold of the environment of `case`: its keep-outs are discs on the map that the plan keeps the vehicle's radius from,
-/// everywhere, no more and no larger ones than were `asked` for; the force is horizontal and no larger than was asked for; and there is nothing
-/// else. Where nothing was asked for, as with missions from elsewhere, any force and disc is as good as another. Nothing for a case without one.
+/// What does not hold of the environment of `case`: its keep-outs are discs on the map that the plan keeps the
+/// vehicle's radius from, everywhere, no more and no larger ones than were `asked` for; the force is horizontal and no
+/// larger than was asked for; and there is nothing else. Where nothing was asked for, as with missions from elsewhere,
+/// any force and disc is as good as another. Nothing for a case without one.
 pub(in crate::campaign) fn verify_environment(
     setup: &DriveSetup,
     asked: Option<DriveEnvironmentSection>,
@@ -51,30 +52,25 @@ pub(in crate::campaign) fn verify_environment(
     let discs: Vec<ClearDisc> =
         circles.map(|circle| ClearDisc { center: circle.center_m, radius: circle.radius_m }).collect();
     let mut findings = Vec::new();
-    let mut wrong = |fine: bool, field: &str, value: f64, bound: f64, unit| {
-        if !fine {
-            findings.push(Finding { field: format!("environment.{field}"), value, bound, unit, leg: 0, at: 0.0 });
-        }
-    };
+    let mut found = Collector::about(&mut findings, "environment");
     // What has no size is met by nothing.
     for (number, disc) in discs.iter().enumerate() {
-        wrong(disc.radius > 0.0, &format!("keep_out[{number}].radius_m"), disc.radius, 0.0, "m");
+        found.unless(disc.radius > 0.0, format_args!("keep_out[{number}].radius_m"), disc.radius, 0.0, "m");
     }
-    let mut exceed = |field: &str, value: f64, bound: f64, unit| wrong(value <= bound, field, value, bound, unit);
     // What no search of drives finds is not known to be clear, or to act at all.
     let others = keep_out.len() - discs.len() + obstacles.len();
-    exceed("obstacles", others as f64, 0.0, "");
-    exceed("wind_m_s", f64::from(u8::from(wind_m_s.is_some() || discrete_gust.is_some())), 0.0, "");
+    found.above("obstacles", others as f64, 0.0, "");
+    found.above("wind_m_s", f64::from(u8::from(wind_m_s.is_some() || discrete_gust.is_some())), 0.0, "");
     let [east, north, up] = external_force_n.unwrap_or_default();
     // A vector at its bound may be rounded beyond it; what was not asked for among other things is not there.
     let most = asked.map_or(f64::INFINITY, |asked| asked.external_force_n.unwrap_or_default() * (1.0 + 1e-12));
-    exceed("external_force_n", libm::hypot(east, north), most, "N");
-    exceed("external_force_n[2]", up.abs(), 0.0, "N");
+    found.above("external_force_n", libm::hypot(east, north), most, "N");
+    found.above("external_force_n[2]", up.abs(), 0.0, "N");
     let count = |asked: DriveEnvironmentSection| asked.obstacles.map_or(0, |placed| placed.count);
-    exceed("keep_out", discs.len() as f64, asked.map_or(f64::INFINITY, |asked| count(asked) as f64), "");
+    found.above("keep_out", discs.len() as f64, asked.map_or(f64::INFINITY, |asked| count(asked) as f64), "");
     if let Some(placed) = asked.and_then(|asked| asked.obstacles) {
         for (number, disc) in discs.iter().enumerate() {
-            exceed(&format!("keep_out[{number}].radius_m"), disc.radius, placed.radius_m, "m");
+            found.above(format_args!("keep_out[{number}].radius_m"), disc.radius, placed.radius_m, "m");
         }
     }
     let legs = case.commands().map(|drive| leg_claims(case, drive));

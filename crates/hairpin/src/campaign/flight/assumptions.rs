@@ -60,15 +60,18 @@ pub(in crate::campaign) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
     if let (Some(command), None) = (&execute.command, execute.controller_in_force()) {
         said.push(format!("Executed by `{command}`; legs are those that it reported."));
-    } else if let Some(controller) = execute.controller_in_force() {
-        said.push(format!(
-            "Simulated: rigid body with rotor lag and drag at {} s, controller `{}` with hairpin's own gains, fixed by \
-             step responses; noise {}.",
-            execute.step_s,
-            controller.word(),
-            if execute.noise { "on" } else { "off" }
-        ));
+        return;
     }
+    let who = match (setup.controller, execute.controller_in_force()) {
+        (Some(own), _) => format!("`{}`, the caller's own, on hairpin's inner loops", own.name()),
+        (None, Some(ours)) => format!("`{}` with hairpin's own gains, fixed by step responses", ours.word()),
+        (None, None) => return,
+    };
+    said.push(format!(
+        "Simulated: rigid body with rotor lag and drag at {} s, controller {who}; noise {}.",
+        execute.step_s,
+        if execute.noise { "on" } else { "off" }
+    ));
 }
 
 /// What deviation is.

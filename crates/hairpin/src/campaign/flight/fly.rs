@@ -26,8 +26,11 @@ pub(in crate::campaign) struct Order<'a> {
 
 /// Carries out `order`; `setup` is the run's own.
 pub(in crate::campaign) fn fly(setup: &FlightSetup, order: &Order) -> Result<Flight, SimulationError> {
-    let (sortie, settings) = (sortie(setup, order), settings(setup, order));
-    simulation::fly(&sortie, &controller(setup), &conditions(setup), &settings, order.seed)
+    let (sortie, conditions, settings) = (sortie(setup, order), conditions(setup), settings(setup, order));
+    match setup.controller {
+        Some(own) => simulation::fly_with(&sortie, own, &conditions, &settings, order.seed),
+        None => simulation::fly(&sortie, &controller(setup), &conditions, &settings, order.seed),
+    }
 }
 
 /// Ready to be flown leg by leg from the first waypoint of `order`; its controller must be one that [`goes_on`].
@@ -36,9 +39,9 @@ pub(in crate::campaign) fn at_start(setup: &FlightSetup, order: &Order) -> Resul
     Airborne::at_start(&sortie, &controller(setup), &conditions(setup), &settings, order.seed)
 }
 
-/// Whether the scenario's controller can be flown leg by leg.
+/// Whether the controller can be flown leg by leg: of a stranger nobody knows how far it looks ahead.
 pub(in crate::campaign) fn goes_on(setup: &FlightSetup) -> bool {
-    !controller(setup).kind.plans_ahead()
+    setup.controller.is_none() && !controller(setup).kind.plans_ahead()
 }
 
 fn sortie<'a>(setup: &FlightSetup<'a>, order: &Order<'a>) -> Sortie<'a> {

@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use super::check;
 use crate::campaign::attachments::Attachments;
-use crate::campaign::build::Build;
 use crate::campaign::scenario::{FlightScenario, Mistake, ObstacleSection, RobotSource, WorldSection};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription};
+use crate::simulation::OwnController;
 use crate::world::{Obstacle, Shape, World, WorldError};
 
 /// A resolved scenario of flights and what it describes.
@@ -23,6 +22,8 @@ pub struct FlightSetup<'a> {
     pub robot: &'a Quadrotor,
     /// The space.
     pub world: &'a World,
+    /// A controller of the caller's own in the place of the scenario's.
+    pub controller: Option<&'a OwnController<Quadrotor>>,
     /// Version of the kernels that generate and fly.
     pub simd: Simd,
 }
@@ -34,22 +35,6 @@ pub(in crate::campaign) struct Flyer {
     pub(in crate::campaign) robot: Arc<Quadrotor>,
     /// The space.
     pub(in crate::campaign) world: Arc<World>,
-}
-
-impl Build for Flyer {
-    type Keys = FlightScenario;
-
-    fn build(keys: &FlightScenario, _: &Attachments, known: Option<(&FlightScenario, &Self)>) -> Result<Self, Mistake> {
-        Ok(Self { robot: Self::robot(keys, known)?, world: Self::world(keys, known)? })
-    }
-
-    fn check(
-        keys: &FlightScenario,
-        files: &Attachments,
-        known: Option<(&FlightScenario, &Self)>,
-    ) -> Result<Self, Vec<Mistake>> {
-        check::check(keys, files, known)
-    }
 }
 
 impl Flyer {

@@ -4,13 +4,14 @@ use crate::campaign::Case;
 use crate::campaign::scenario::EnvironmentSection;
 use crate::robot::quadrotor::Quadrotor;
 use crate::verification::{
-    self, Body, Claim, ClearClaim, ClearSolid, EndError, Finding, Leg, Proof, RotorPlace, Tolerances, verify_clear,
+    self, Body, Claim, ClearClaim, ClearSolid, Collector, EndError, Finding, Leg, Proof, RotorPlace, Tolerances,
+    verify_clear,
 };
 
 use super::FlightSetup;
 
-/// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances: the proof,
-/// and the end error of the whole flight with rotor lag. `None` for a case that claims no witness.
+/// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances: the
+/// proof, and the end error of the whole flight with rotor lag. `None` for a case that claims no witness.
 pub(in crate::campaign) fn verify(robot: &Quadrotor, case: &Case) -> Option<(Proof, Option<EndError>)> {
     let profile = case.profile()?;
     let body = body_of(robot);
@@ -38,9 +39,9 @@ fn body_of(robot: &Quadrotor) -> Body {
     }
 }
 
-/// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere, they are in the world,
-/// no more and no larger than was `asked` for, and wind and gust are no faster. Where nothing was asked for, as with missions from elsewhere,
-/// any is as good as another. Nothing for a case without one.
+/// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere,
+/// they are in the world, no more and no larger than was `asked` for, and wind and gust are no faster. Where nothing
+/// was asked for, as with missions from elsewhere, any is as good as another. Nothing for a case without one.
 pub(in crate::campaign) fn verify_environment(
     setup: &FlightSetup,
     asked: Option<EnvironmentSection>,
@@ -56,25 +57,21 @@ pub(in crate::campaign) fn verify_environment(
             ball.or(obstacle.cuboid.map(|cuboid| ClearSolid::Box(cuboid.center_m, cuboid.size_m)))
         })
         .collect();
-    let mut wrong = |fine: bool, field: String, value: f64, bound: f64, unit| {
-        if !fine {
-            findings.push(Finding { field: format!("environment.{field}"), value, bound, unit, leg: 0, at: 0.0 });
-        }
-    };
+    let mut found = Collector::about(&mut findings, "environment");
     // What has no size is met by nothing.
     for (number, solid) in solids.iter().enumerate() {
         let (key, least) = match solid {
             ClearSolid::Ball(_, radius) => ("radius_m", *radius),
             ClearSolid::Box(_, size) => ("size_m", size.iter().copied().fold(f64::INFINITY, f64::min)),
         };
-        wrong(least > 0.0, format!("obstacles[{number}].{key}"), least, 0.0, "m");
+        found.unless(least > 0.0, format_args!("obstacles[{number}].{key}"), least, 0.0, "m");
     }
-    let mut exceed = |field: String, value: f64, bound: f64, unit| wrong(value <= bound, field, value, bound, unit);
-    // Shapes that are none of these, and what is for drives, are found by no search: that they are clear, or act, is not known.
+    // Shapes that are none of these, and what is for drives, are found by no search: that they are clear, or act, is
+    // not known.
     let others = environment.obstacles.len() - solids.len() + environment.keep_out.len();
-    exceed("obstacles".into(), others as f64, 0.0, "");
+    found.above("obstacles", others as f64, 0.0, "");
     let force = environment.external_force_n.map_or(0.0, |force| force.iter().map(|part| part.abs()).sum());
-    exceed("external_force_n".into(), force, 0.0, "N");
+    found.above("external_force_n", force, 0.0, "N");
     for (number, solid) in solids.iter().enumerate() {
         let (centre, half) = match solid {
             ClearSolid::Ball(centre, radius) => (centre, [*radius; 3]),
@@ -83,20 +80,25 @@ pub(in crate::campaign) fn verify_environment(
         let size = setup.world.size();
         let outside = |i: usize| (half[i] - centre[i]).max(centre[i] + half[i] - size[i]);
         let outside = (0..3).map(outside).fold(f64::NEG_INFINITY, f64::max);
-        exceed(format!("obstacles[{number}].outside"), outside, 0.0, "m");
+        found.above(format_args!("obstacles[{number}].outside"), outside, 0.0, "m");
     }
     let count = |asked: EnvironmentSection| asked.obstacles.map_or(0, |placed| placed.count);
-    exceed("obstacles".into(), solids.len() as f64, asked.map_or(f64::INFINITY, |asked| count(asked) as f64), "");
+    found.above("obstacles", solids.len() as f64, asked.map_or(f64::INFINITY, |asked| count(asked) as f64), "");
     if let Some(placed) = asked.and_then(|asked| asked.obstacles) {
         for (number, solid) in solids.iter().enumerate() {
             // A shape that was not asked for has no size at all.
             match solid {
                 ClearSolid::Ball(_, radius) => {
-                    exceed(format!("obstacles[{number}].radius_m"), *radius, placed.radius_m.unwrap_or_default(), "m");
+                    found.above(
+                        format_args!("obstacles[{number}].radius_m"),
+                        *radius,
+                        placed.radius_m.unwrap_or_default(),
+                        "m",
+                    );
                 }
                 ClearSolid::Box(_, size) => {
                     for (axis, (edge, most)) in size.iter().zip(placed.size_m.unwrap_or_default()).enumerate() {
-                        exceed(format!("obstacles[{number}].size_m[{axis}]"), *edge, most, "m");
+                        found.above(format_args!("obstacles[{number}].size_m[{axis}]"), *edge, most, "m");
                     }
                 }
             }
@@ -107,14 +109,14 @@ pub(in crate::campaign) fn verify_environment(
     let most = |bound: fn(&EnvironmentSection) -> Option<f64>| {
         asked.map_or(f64::INFINITY, |asked| bound(&asked).unwrap_or_default() * (1.0 + 1e-12))
     };
-    exceed("wind_m_s".into(), environment.wind_m_s.map_or(0.0, speed), most(|asked| asked.wind_m_s), "m/s");
+    found.above("wind_m_s", environment.wind_m_s.map_or(0.0, speed), most(|asked| asked.wind_m_s), "m/s");
     if let Some(gust) = environment.discrete_gust {
-        exceed("discrete_gust.velocity_m_s".into(), speed(gust.velocity_m_s), most(|asked| asked.gust_m_s), "m/s");
+        found.above("discrete_gust.velocity_m_s", speed(gust.velocity_m_s), most(|asked| asked.gust_m_s), "m/s");
         // None that began before the flight, nor a shorter one, which would be steeper.
-        wrong(gust.start_s >= 0.0, "discrete_gust.start_s".into(), gust.start_s, 0.0, "s");
+        found.unless(gust.start_s >= 0.0, "discrete_gust.start_s", gust.start_s, 0.0, "s");
         let lasts = asked.map_or(gust.duration_s, |asked| asked.gust_s);
         let fine = gust.duration_s == lasts && lasts > 0.0;
-        wrong(fine, "discrete_gust.duration_s".into(), gust.duration_s, lasts, "s");
+        found.unless(fine, "discrete_gust.duration_s", gust.duration_s, lasts, "s");
     }
     let legs = match case.profile() {
         Some(profile) => {

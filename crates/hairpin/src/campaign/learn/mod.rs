@@ -1,5 +1,6 @@
 //! Learned scores: the stress of executed legs, as a polynomial of what a search sees of them.
 
+mod feature;
 mod fit;
 mod legs;
 mod model;
@@ -8,8 +9,9 @@ mod parts;
 mod resample;
 mod score;
 
+pub use feature::Feature;
 pub use legs::LegSample;
-pub use model::{Feature, HeldOut, ModelMistake, ScoreModel};
+pub use model::{HeldOut, ModelMistake, ScoreModel};
 pub use moves::{MoveFeatures, MoveSample};
 pub(super) use score::AnyScore;
 

@@ -3,22 +3,13 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::Feature;
 use super::legs;
 use super::moves::MoveFeatures;
 use crate::campaign::scenario::{ARM_MOVES, Subject};
 use crate::feasibility::reach::LegFeatures;
 use crate::judgement::Stress;
 use crate::math::ridge::{LANES, PolynomialRidge, Validation, monomials_of};
-
-/// A feature of legs that models are made of.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Feature {
-    /// Its name.
-    pub name: String,
-    /// Its unit.
-    pub unit: String,
-}
 
 /// How well trajectories that the model has not seen are told.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

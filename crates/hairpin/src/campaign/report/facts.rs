@@ -49,7 +49,7 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
     let setup = pieces.setup;
     let scenario = &setup.scenario;
     let caveat = if setup.caveat().is_empty() { String::new() } else { format!(" ({})", setup.caveat()) };
-    let executor = match (scenario.controller(), scenario.executor().command) {
+    let executor = match (setup.controller(), scenario.executor().command) {
         (Some(controller), _) => format!("{controller}, simulated"),
         (None, Some(command)) => format!("`{command}`"),
         (None, None) => setup.recordings().map_or("none".into(), |logs| format!("logs `{logs}`, hardware")),

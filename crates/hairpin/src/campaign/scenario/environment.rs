@@ -1,11 +1,13 @@
-//! What a case met beside its waypoints, where that was searched for: wind, a gust, a steady force, obstacles. It is part of the case.
+//! What a case met beside its waypoints, where that was searched for: wind, a gust, a steady force, obstacles. It is
+//! part of the case.
 
 use serde::{Deserialize, Serialize};
 
 use super::{DiscreteGustSection, KeepOutSection, Mistake, ObstacleSection};
 use crate::campaign::digits::number;
 
-/// Found with the waypoints of a flight or drive; keys and units are those of `[world]`, those of the force of `[execute]`.
+/// Found with the waypoints of a flight or drive; keys and units are those of `[world]`, those of the force of
+/// `[execute]`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Environment {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::{Distribution, Environment, Mistake, Named, Origin, Scenario, SearchSection, Subject, Terms};
+use super::{Distribution, Environment, Mistake, Named, Origin, SearchSection, Subject, Terms};
 
 /// Who executes a campaign's trajectories, and how often.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -158,8 +158,8 @@ pub trait Keys {
         self.search().executes(self.score())
     }
 
-    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours. Trajectories that are there already are
-    /// anybody's to execute.
+    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours. Trajectories that
+    /// are there already are anybody's to execute.
     ///
     /// # Errors
     /// The method of search, or the score.
@@ -174,13 +174,5 @@ pub trait Keys {
         };
         let bound = "another one, or execute.controller given: a command is not executed in the loop";
         Err(Mistake { key: key.into(), value, bound: bound.into() })
-    }
-}
-
-impl Scenario {
-    /// The same scenario with these distributions.
-    pub fn with_vary(mut self, vary: BTreeMap<String, Distribution>) -> Self {
-        *self.vary_mut() = vary;
-        self
     }
 }

@@ -1,11 +1,12 @@
-//! The kinds of scenarios: one line each.
+//! The kinds of scenarios: two lines each.
 
+use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{ArmScenario, DriveScenario, FlightScenario, GroundDescription, Keys};
+use super::{ArmScenario, Distribution, DriveScenario, FlightScenario, GroundDescription, Keys};
 
 /// What tells one kind of scenarios from others: what `robot.kind` says.
 #[derive(Debug, Clone, Copy)]
@@ -29,17 +30,23 @@ impl RobotKind {
     }
 }
 
-macro_rules! kinds {
-    ($($(#[$doc:meta])* $Kind:ident($Keys:ty) of $words:expr, $own:ident;)+) => {
-        /// A scenario file; the robot's `kind` tells which.
-        #[derive(Debug, Clone, PartialEq, Serialize)]
-        #[serde(untagged)]
-        pub enum Scenario {
-            $($(#[$doc])* $Kind(Box<$Keys>),)+
-        }
+/// A scenario file; the robot's `kind` tells which.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Scenario {
+    /// Of what flies.
+    Flight(Box<FlightScenario>),
+    /// Of what drives.
+    Drive(Box<DriveScenario>),
+    /// Of an arm.
+    Arm(Box<ArmScenario>),
+}
 
-        /// Robots that do not say their kind are of the first. Readers are not generic, so that those of all sections are compiled once,
-        /// with this crate.
+/// Of each kind the words of `robot.kind` and a method that gives its own keys. Robots that do not say their kind are
+/// of the first.
+macro_rules! kinds {
+    ($($Kind:ident($Keys:ty) of $words:expr, $own:ident;)+) => {
+        /// Readers are not generic, so that those of all sections are compiled once, with this crate.
         const KINDS: &[RobotKind] = &[$(RobotKind {
             words: $words,
             read: |value| serde_json::from_value(value).map(Scenario::$Kind),
@@ -61,7 +68,8 @@ macro_rules! kinds {
         }
 
         impl Scenario {
-            $($(#[$doc])* pub fn $own(&self) -> Option<&$Keys> {
+            $(/// Its keys, if it is of this kind.
+            pub fn $own(&self) -> Option<&$Keys> {
                 match self {
                     Self::$Kind(keys) => Some(keys),
                     _ => None,
@@ -72,12 +80,17 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// Of what flies.
     Flight(FlightScenario) of &["quadrotor"], flight;
-    /// Of what drives.
     Drive(DriveScenario) of GroundDescription::KINDS, drive;
-    /// Of an arm.
     Arm(ArmScenario) of &["arm"], arm;
+}
+
+impl Scenario {
+    /// The same scenario with these distributions.
+    pub fn with_vary(mut self, vary: BTreeMap<String, Distribution>) -> Self {
+        *self.vary_mut() = vary;
+        self
+    }
 }
 
 impl<'de> Deserialize<'de> for Scenario {

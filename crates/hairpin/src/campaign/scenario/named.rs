@@ -1,4 +1,5 @@
-//! The keys of a scenario that name files, whatever moves in it: what the door reads, and renames to the copies of a campaign's folder.
+//! The keys of a scenario that name files, whatever moves in it: what the door reads, and renames to the copies of a
+//! campaign's folder.
 
 use super::{CostTable, RegressionLimit, TerrainSection};
 

@@ -22,7 +22,8 @@ pub struct Subject {
 pub const ARM_MOVES: &str = "moves of an arm";
 
 impl Subject {
-    /// Of a robot that is called `name`, whose legs have the speeds that they really have, or else their length over the step.
+    /// Of a robot that is called `name`, whose legs have the speeds that they really have, or else their length over
+    /// the step.
     pub(super) fn of<D: Serialize>(
         robot: &RobotSource<D>,
         name: impl Fn(&D) -> &str,

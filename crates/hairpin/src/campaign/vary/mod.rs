@@ -12,8 +12,8 @@ use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 
 pub(super) use tree::Tree;
 
-/// How often a truncated draw is repeated. [`super::Setup::build`] refuses truncations that keep less than one draw in a
-/// hundred, so this many failures in a row have a probability of 10⁻⁴³.
+/// How often a truncated draw is repeated. [`super::Setup::build`] refuses truncations that keep less than one draw in
+/// a hundred, so this many failures in a row have a probability of 10⁻⁴³.
 const REDRAWS: usize = 10_000;
 
 /// The values of run number `run` of the case with `case_seed`; none for run 0. Keys in alphabetical order.
@@ -37,7 +37,8 @@ pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario,
     Ok(drawn)
 }
 
-/// The scenario of a case's plan: with the values that were drawn for it in place of the nominal ones, and only runs left to vary.
+/// The scenario of a case's plan: with the values that were drawn for it in place of the nominal ones, and only runs
+/// left to vary.
 ///
 /// # Errors
 /// As [`apply`].

@@ -1,8 +1,8 @@
 //! Reach by simulating every sampled run from the node's own state: the oracle of `hull`, and what is used where the
 //! identity behind `hull` breaks: quadratic drag, or an attitude or rates that are carried over a waypoint.
 //!
-//! What is carried is put into cells, and a run starts from its cell's middle: a cell's hull depends on nothing else, so
-//! it may be simulated once and remembered, or forgotten and simulated again, with the same result.
+//! What is carried is put into cells, and a run starts from its cell's middle: a cell's hull depends on nothing else,
+//! so it may be simulated once and remembered, or forgotten and simulated again, with the same result.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -80,6 +80,9 @@ struct Bin {
 }
 
 /// Reach by brute force; `legs` simulates on first sight of a cell.
+///
+/// Far dearer than a hull until its cells are known; its use is to be the oracle, and to say what the hull's
+/// assumptions cost.
 pub struct BruteForce {
     model: Quadrotor,
     speeds: Vec<Vector4<f64>>,
@@ -121,6 +124,8 @@ impl BruteForce {
         self.bins.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
+    /// The end points of all sampled runs from the cell's middle, and their hull; simulated once, then looked up, until
+    /// more than `remembered` cells make it forget them all.
     fn bin(&self, carried: &[i32; 6], velocity: &Vector3<f64>) -> Arc<Bin> {
         let edge = if self.settings.velocity_bin > 0.0 { self.settings.velocity_bin } else { 1e-9 };
         // Without quadratic drag velocity is carried on by a constant factor: one cell, at rest.

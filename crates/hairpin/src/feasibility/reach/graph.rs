@@ -1,4 +1,7 @@
 //! A graph's waypoints, and the box test over all of them at once.
+//!
+//! Single precision with a margin for its rounding: the box test may keep a point that is outside by a rounding, never
+//! lose one.
 
 use nalgebra::{Point3, Vector3};
 

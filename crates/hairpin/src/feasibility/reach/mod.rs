@@ -1,4 +1,21 @@
 //! Reach sets: which waypoints follow a node of the search, and what is known of the legs to them.
+//!
+//! | set | a waypoint follows if | sound | one look |
+//! | --- | --- | --- | --- |
+//! | [`none`] | it is another one | no | nothing |
+//! | [`sphere`] | it is within top speed × step | no | a box test |
+//! | [`hull`] | second difference in one polytope K | no: a filter | half-spaces in lanes |
+//! | [`brute_force`] | the same, simulated for each cell of what is carried | no: a filter | a hull, remembered |
+//! | [`body_hull`] | in the hull of its bin, turned by the heading | no: a filter | a polygon |
+//! | [`witness`] | a polynomial leg is proven | yes, for the model | a leg judged once |
+//! | [`drive`] | a boundary-value drive is solved on the map | yes, for the prediction | a leg solved once |
+//!
+//! To a search all are one trait, [`Reach`]. Step-wise sets are a [`StepSet`] bound to a graph's points by
+//! [`StepReach`]; what forbids single legs (obstacles) is put around any of them by [`Filtered`].
+//!
+//! With a convex K and average velocities a trajectory w is feasible iff w_{k+1} − 2w_k + w_{k−1} ∈ K for all k:
+//! feasibility is a second difference, states are pairs of waypoints, and exact search is a dynamic program over
+//! triples (`search::exact`).
 
 pub mod body_hull;
 pub mod brute_force;
@@ -37,6 +54,8 @@ pub use witness::{Roadmap, RoadmapLeg, RoadmapSettings, WitnessLegs, WitnessNode
 
 /// What a score sees of a leg, from its first waypoint. For step-wise sets speeds are leg ÷ step, for `witness`
 /// those at the leg's ends. On a flyer's first leg `v_in` = 0 and `turn` = 0.
+///
+/// Features are what a learned model may depend on: whoever adds one changes what models mean.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LegFeatures {
     /// Entry speed, m/s.
@@ -70,6 +89,8 @@ pub struct Leg<N> {
 
 /// A reach set: appends to `out` every feasible leg from `from` to a candidate, in rising order of `waypoint`;
 /// the current waypoint is never its own successor. `candidates` is the graph: index 0 the start, the last the end.
+///
+/// The same legs for the same node whenever asked, so that searches may forget and ask again.
 pub trait Reach<N> {
     /// Appends the feasible legs from `from` to `out`.
     fn legs(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>);
@@ -82,6 +103,9 @@ impl<N, R: Reach<N> + ?Sized> Reach<N> for &R {
 }
 
 /// The node of step-wise reach sets: the last two waypoints, as indices into the graph. The start is (0, 0).
+///
+/// u32 indices into the graph's candidates. Velocity at `current` is (current − previous)/step or 0, as the set's
+/// settings say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct StepNode {
     /// The waypoint before; equal to `current` at the start.

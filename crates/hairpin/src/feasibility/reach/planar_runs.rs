@@ -8,6 +8,8 @@ use crate::robot::rover::Rover;
 ///
 /// Its two inputs are the speed and the curvature that it is asked for; v and κ follow within |v̇| ≤ acceleration and
 /// |κ′| ≤ most_rate and stay within their bounds.
+///
+/// Rovers, cars and differential drives by the same numbers that generator and certifier take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanarVehicle {
     /// Least (negative: in reverse) and largest speed, m/s.
@@ -57,7 +59,8 @@ impl PlanarVehicle {
         BodyHull::sampled(&grid, |state, shares| self.run(step, state, shares))
     }
 
-    /// (x, y, ψ) and (v, κ) after `step` s from the origin with (v, κ) = `state`; `shares` (0 … 1) of the inputs between their bounds.
+    /// (x, y, ψ) and (v, κ) after `step` s from the origin with (v, κ) = `state`; `shares` (0 … 1) of the inputs
+    /// between their bounds.
     ///
     /// By the midpoint rule in 64 steps.
     pub fn run(&self, step: f64, state: [f64; 2], shares: [f64; 2]) -> ([f64; 3], [f64; 2]) {

@@ -1,4 +1,7 @@
 //! A convex polytope as half-spaces: made from points, and asked whether it holds others.
+//!
+//! Membership is what a search spends its time in: half-spaces in groups of eight lanes, ordered so that what is
+//! outside is refused by the first group mostly.
 
 use nalgebra::Vector3;
 use thiserror::Error;
@@ -41,6 +44,8 @@ pub enum NoPolytope {
 type Group = [[f64; GROUP]; 4];
 
 /// {x : n_i · x ≤ b_i for every facet i}, |n_i| = 1, with everything asked of it precomputed.
+///
+/// m. Every point that it was made of is inside, by a last digit if need be.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polytope {
     /// Padded with half-spaces that hold everywhere.
@@ -132,7 +137,8 @@ impl Polytope {
     }
 }
 
-/// A loop and not [`Iterator::all`], which the kernels' vector instructions are not handed down to where it is not inlined.
+/// A loop and not [`Iterator::all`], which the kernels' vector instructions are not handed down to where it is not
+/// inlined.
 #[inline(always)]
 fn holds(groups: &[Group], x: &Vector3<f64>) -> bool {
     for [nx, ny, nz, b] in groups {

@@ -12,8 +12,8 @@ const WORD: usize = 64;
 /// Points in words, one row per coordinate.
 type Probes = [[[f64; WORD]; 3]; WORDS];
 
-/// Numbers of `planes` such that each cuts off most of what those before it left of the box from `min` to `max`, counted
-/// on evenly spread points; those that cut off nothing more keep their order.
+/// Numbers of `planes` such that each cuts off most of what those before it left of the box from `min` to `max`,
+/// counted on evenly spread points; those that cut off nothing more keep their order.
 pub(super) fn refusal_order(simd: Simd, planes: &[Plane], min: &Vector3<f64>, max: &Vector3<f64>) -> Vec<u32> {
     let mut cuts = vec![[0; WORDS]; planes.len()];
     let mut order = Vec::with_capacity(planes.len());
@@ -42,6 +42,8 @@ fn probes(min: &Vector3<f64>, max: &Vector3<f64>) -> Probes {
 }
 
 kernel! {
+    /// Greedy cover (Johnson 1974): next is the half-space that cuts off most of the probes not yet cut off, until none
+    /// cuts any more. Probes are bits of words, 64 at a step.
     fn choose(planes: &[Plane], probes: &Probes, cuts: &mut [[u64; WORDS]], order: &mut Vec<u32>) {
         for (&[nx, ny, nz, b], cuts) in planes.iter().zip(&mut *cuts) {
             for ([x, y, z], cut) in probes.iter().zip(cuts) {

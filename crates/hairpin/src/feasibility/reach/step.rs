@@ -8,6 +8,9 @@ use super::{Leg, LegFeatures, Reach, StepNode};
 use crate::math::simd::Simd;
 
 /// A set of displacements for one step of fixed duration: the end is `x0 + v0·carry + d` with `d` in the set.
+///
+/// `bounding_box` must hold the set; [`StepSet::contains`] decides. Both in m, relative to where the entry velocity
+/// alone would carry.
 pub trait StepSet: Sync {
     /// Corners of a box around the set, m; infinite for a set without bounds. Waypoints well outside are not asked for.
     fn bounding_box(&self) -> (Vector3<f64>, Vector3<f64>);
@@ -53,6 +56,8 @@ impl Default for StepSettings {
 const CHUNK: usize = 8;
 
 /// A [`StepSet`] bound to the waypoints of one graph.
+///
+/// One look is a box test over all waypoints in single precision (64 a word), then the set over those that are left.
 #[derive(Debug, Clone)]
 pub struct StepReach<'a, S> {
     set: &'a S,
@@ -143,6 +148,7 @@ struct Waiting {
 }
 
 impl<S: StepSet> Reach<StepNode> for StepReach<'_, S> {
+    /// Members in the order of their numbers; features eight at a time in vector lanes, the same bits as one by one.
     fn legs(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
         debug_assert_eq!(candidates.len(), self.graph.points().len(), "the reach set is bound to another graph");
         let here = self.graph.point(from.current);

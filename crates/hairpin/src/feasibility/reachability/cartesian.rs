@@ -1,4 +1,5 @@
-//! The graph of the tool's sphere alone: every pair of points against every part of the cell, proven or in plain floating point.
+//! The graph of the tool's sphere alone: every pair of points against every part of the cell, proven or in plain
+//! floating point.
 
 use nalgebra::Point3;
 
@@ -11,6 +12,8 @@ use crate::math::simd::Simd;
 use crate::world::cell::Cell;
 
 /// How sure an answer must be.
+///
+/// `Fast` agrees with `Certified` away from contact, and claims nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Level {
     /// Free is proven; what is neither proven free nor met is refused and called undecided.
@@ -31,10 +34,28 @@ pub struct CartesianSettings {
     pub simd: Simd,
 }
 
-/// For every pair of `points` (base frame, m), whether the straight move between them is free of every part of the cell. Both
-/// directions are alike. Costs are distances in whole micrometres.
+/// For every pair of `points` (base frame, m), whether the straight move between them is free of every part of the
+/// cell. Both directions are alike. Costs are distances in whole micrometres.
 ///
 /// A pair's refusal names the first part that it meets, in the cell's order.
+///
+/// n²/2 segments times the parts of the cell, on one thread.
+///
+/// ```
+/// use hairpin::feasibility::reachability::{CartesianSettings, Level, cartesian};
+/// use hairpin::math::simd::Simd;
+/// use hairpin::world::Shape;
+/// use hairpin::world::cell::{Cell, Part, Region};
+/// use nalgebra::Point3;
+///
+/// let ball = Part { name: "ball".into(), region: Region::Shape(Shape::sphere([0.0, 0.0, 0.0], 0.2)?) };
+/// let points = [[-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], [0.0, 0.5, 0.0]].map(Point3::from);
+/// let settings = CartesianSettings { radius: 0.05, level: Level::Certified, simd: Simd::default() };
+/// let graph = cartesian(&points, &Cell { parts: vec![ball] }, &settings);
+/// assert!(!graph.is_free(0, 1)); // through the ball
+/// assert_eq!(graph.cost(0, 2), Some(707_107)); // µm
+/// # Ok::<(), hairpin::world::WorldError>(())
+/// ```
 pub fn cartesian(points: &[Point3<f64>], cell: &Cell, settings: &CartesianSettings) -> ReachabilityGraph {
     let (n, parts) = (points.len(), cell.parts.len());
     // 0 free, 2k + 1 part k is met, 2k + 2 part k is undecided.

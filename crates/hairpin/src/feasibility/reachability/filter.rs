@@ -1,9 +1,10 @@
-//! A float filter with derived error bounds: of one point against all others, which segments are proven clear of a region, and which
-//! are proven to meet it. What it leaves open is left to interval arithmetic.
+//! A float filter with derived error bounds: of one point against all others, which segments are proven clear of a
+//! region, and which are proven to meet it. What it leaves open is left to interval arithmetic.
 //!
-//! Coordinates are taken relative to the region's centre, so that they are known up to η; M bounds them and the region's sizes. With
-//! unit round-off u = 2⁻⁵³ every polynomial below has an error bound c·u·Mᵏ whose constant is derived in docs/arms.md and
-//! rounded up to a power of two. A comparison that holds with that bound holds in the real numbers.
+//! Coordinates are taken relative to the region's centre, so that they are known up to η; M bounds them and the
+//! region's sizes. With unit round-off u = 2⁻⁵³ every polynomial below has an error bound c·u·Mᵏ whose constant is
+//! derived in docs/arms.md and rounded up to a power of two. A comparison that holds with that bound holds in the real
+//! numbers.
 
 // NaN of 0/0 must become a bound here, not stay NaN.
 #![allow(clippy::manual_clamp)]
@@ -149,7 +150,8 @@ fn upright(axis: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()])
 }
 
-/// Error bounds of squares of lengths (degree 2) and of the determinant (degree 4); with coordinates known up to η, η ≥ 4u M.
+/// Error bounds of squares of lengths (degree 2) and of the determinant (degree 4); with coordinates known up to η, η ≥
+/// 4u M.
 impl Scale {
     /// Of a sum of three products of coordinates or differences: 36 M η + 64 u M² ≤ 64 M η.
     fn square(self) -> f64 {
@@ -162,6 +164,10 @@ impl Scale {
 }
 
 kernel! {
+    /// Bit 0, clear: both ends outside of the ball and the line's nearest point not between them, b > 0 or c < 0, or
+    /// the whole line outside, (a − r²)d − b² > 0, with a = |u|², b = u·(v − u), c = v·(v − u), d = |v − u|², each
+    /// beyond its error bound. Bit 1, met: the segment's nearest point, computed however roughly, lies inside beyond
+    /// the bound.
     fn ball(from: [f64; 3], r: f64, scale: Scale, points: [&[f64]; 3], out: &mut [u64]) {
         let [xs, ys, zs] = points;
         let (e2, e4, rr) = (scale.square(), scale.determinant(), r * r);
@@ -225,6 +231,9 @@ kernel! {
 }
 
 kernel! {
+    /// Bit 0 by separating axes of the box grown by r (an outer bound of the rounded box: nothing near its edges is
+    /// proven clear by this test). Bit 1 by a witness: the middle of what the grown box's slabs leave of the segment,
+    /// inside of the box or closer than r to it.
     fn cuboid(from: [f64; 3], half: [f64; 3], r: f64, scale: Scale, points: [&[f64]; 3], out: &mut [u64]) {
         let [xs, ys, zs] = points;
         let (e1, e2, rr) = (16.0 * scale.eta, scale.square(), r * r);
@@ -249,6 +258,9 @@ kernel! {
 }
 
 kernel! {
+    /// Bit 0: beyond a disc at both ends, past the shell in the plane as [`ball`] has it, or, between the discs,
+    /// nowhere closer to the axis than the radius. Bit 1 by a witness in the middle of what discs and shell leave,
+    /// inside of the shell grown by r below the disc's height, or of the shell itself below the height grown by r.
     fn cylinder(from: [f64; 3], sizes: [f64; 3], scale: Scale, points: [&[f64]; 3], out: &mut [u64]) {
         let [xs, ys, zs] = points;
         let Scale { m, eta } = scale;

@@ -1,8 +1,11 @@
-//! The reachability graph: which moves between the points of a cloud are possible, at what cost, and why the others are not.
+//! The reachability graph: which moves between the points of a cloud are possible, at what cost, and why the others are
+//! not.
 
 use super::refusal::Refusal;
 
 /// For every ordered pair of N points: possible at a cost, or refused with a reason.
+///
+/// n² entries; a reason is a number into a list of refusals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReachabilityGraph {
     points: usize,

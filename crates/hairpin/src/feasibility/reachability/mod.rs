@@ -1,4 +1,11 @@
 //! Which moves between the points of a cloud an arm can make: the reachability graph, proven.
+//!
+//! Two modes with one answer, [`ReachabilityGraph`]: [`cartesian()`], the tool's sphere on straight segments, each pair
+//! proven in about the time of a float test; and [`mod@joint`], the whole arm followed in one configuration. Costs are
+//! whole numbers, so that the search over the graph is exact.
+//!
+//! Data flow of a Cartesian pair: float filter with derived error bounds (`filter`) → separating direction in intervals
+//! (`segment`) → bisection in t (`segment`) → clear, hit, or undecided, which is refused. Derivations: docs/arms.md.
 
 mod cartesian;
 mod filter;

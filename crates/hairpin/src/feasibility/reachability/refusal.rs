@@ -6,6 +6,8 @@ use super::joint::CircleError;
 use crate::robot::arm::{Margin, Singularity};
 
 /// Why a move between two points is not possible.
+///
+/// Shares are of the move, 0 at its start; angles in rad; axes from 0 inside, from 1 in sentences.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refusal {
     /// The tool's sphere meets a part of the cell, or could not be proven not to.
@@ -76,7 +78,8 @@ pub enum Refusal {
     },
     /// Start, point on the way and end give no arc.
     NoArc(CircleError),
-    /// The points of an arc have different orientations: what a controller does with that of the point on the way is its own affair.
+    /// The points of an arc have different orientations: what a controller does with that of the point on the way is
+    /// its own affair.
     Turned {
         /// The larger angle between the start's orientation and another's, rad.
         turn: f64,

@@ -4,6 +4,14 @@
 //! c_ω|ω|ω; no rotor lag, no wind. Thrust demand: Mellinger, Kumar, "Minimum snap trajectory generation and control
 //! for quadrotors" (ICRA 2011); with drag: Faessler, Franchi, Scaramuzza (RA-L 2018), here isotropic, so that the
 //! attitude follows from the force alone.
+//!
+//! One formula, three kinds of number: `f64` for a moment, `f64x4` for four, [`crate::math::interval::Enclosure`] for
+//! four intervals of time. So what is proven between samples is the same expression as what is sampled.
+//!
+//! ```text
+//! F = m (v̇ + g e₃) + c₁ v + c₂ |v| v      tan θ = Fx/Fz      sin φ = −Fy/|F|      ψ = 0
+//! (p, q, r) = (φ̇, θ̇ cos φ, −θ̇ sin φ)      τ = I ω̇ + ω × Iω + c_ω |ω| ω      w² = M⁻¹ (|F|, τ)
+//! ```
 
 use nalgebra::{Matrix4, UnitQuaternion, Vector3};
 use thiserror::Error;
@@ -18,6 +26,8 @@ use crate::trajectory::ProfileLeg;
 pub const LEAST_VERTICAL_THRUST: f64 = 0.02;
 
 /// Velocity, acceleration, jerk and snap of a path, SI, world frame.
+///
+/// Order four is needed: rotor speeds depend on snap through ω̇.
 #[derive(Debug, Clone, Copy)]
 pub struct FlatState<N> {
     /// m/s.
@@ -31,6 +41,9 @@ pub struct FlatState<N> {
 }
 
 /// What a flat state demands of the body.
+///
+/// Thrust is that of all rotors together. Negative squares of rotor speeds are demands that cannot be met; they stay
+/// visible.
 #[derive(Debug, Clone, Copy)]
 pub struct Demand<N> {
     /// Speed, m/s.
@@ -62,6 +75,28 @@ pub struct BodyState {
 pub struct DependentRotors;
 
 /// The flatness map of one robot.
+///
+/// ```
+/// use hairpin::feasibility::steering::Flatness;
+/// use hairpin::robot::quadrotor::QuadrotorDescription;
+/// use hairpin::trajectory::ProfileLeg;
+///
+/// let file = serde_json::json!({
+///     "kind": "quadrotor", "name": "toy", "mass_kg": 0.5, "thrust_to_weight": 2.0,
+///     "rotors": [{ "x_m": 0.1, "y_m": 0.1, "spin": 1.0 }, { "x_m": -0.1, "y_m": 0.1, "spin": -1.0 },
+///                { "x_m": -0.1, "y_m": -0.1, "spin": 1.0 }, { "x_m": 0.1, "y_m": -0.1, "spin": -1.0 }],
+/// });
+/// let robot = serde_json::from_value::<QuadrotorDescription>(file)?.build()?;
+/// // Standing still asks for hover; accelerating ahead at g asks for a nose 45° down.
+/// let mut leg = ProfileLeg { duration: 1.0, coefficients: [[0.0; 8]; 3] };
+/// let flat = Flatness::new(&robot)?;
+/// assert!((flat.body_state(&leg, 0.0).rotors[0] - robot.hover_speed()).abs() < 1e-9);
+/// leg.coefficients[0][2] = 0.5 * robot.gravity;
+/// let wind_free = Flatness::new(&hairpin::robot::quadrotor::Quadrotor { drag_quadratic: 0.0, ..robot })?;
+/// let (_, pitch, _) = wind_free.body_state(&leg, 0.5).attitude.euler_angles();
+/// assert!((pitch - std::f64::consts::FRAC_PI_4).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Flatness {
     mass: f64,
@@ -105,9 +140,10 @@ impl Flatness {
 
     /// Drag and its first and second time derivative, N, N/s, N/s², given the speed.
     ///
-    /// With n = v/|v|: |v|˙ = n·a, and (|v|˙˙) v = (a·a − (n·a)² + v·j) n, which stays bounded as v → 0 though n does not
-    /// settle: |v|v is once differentiable at v = 0 and the second derivative jumps there. An enclosure takes n in
-    /// [−1, 1]³ then, which holds both sides of the jump; a point takes the mean, which at a rest end (a = j = 0) is exact.
+    /// With n = v/|v|: |v|˙ = n·a, and (|v|˙˙) v = (a·a − (n·a)² + v·j) n, which stays bounded as v → 0 though n does
+    /// not settle: |v|v is once differentiable at v = 0 and the second derivative jumps there. An enclosure takes n in
+    /// [−1, 1]³ then, which holds both sides of the jump; a point takes the mean, which at a rest end (a = j = 0) is
+    /// exact.
     #[inline(always)]
     fn drag<N: Smooth>(&self, v: &[N; 3], a: &[N; 3], j: &[N; 3], speed: N) -> [[N; 3]; 3] {
         let linear = self.drag_linear;
@@ -127,6 +163,9 @@ impl Flatness {
 
     /// Acceleration and jerk (m/s², m/s³) with which the robot is level and without rates at velocity `v`:
     /// a = −D(v)/m, j = −(∂D/∂v) a/m; and the second time derivative of the drag there, N/s².
+    ///
+    /// With these a leg begins and ends level and without rates whatever its velocity: F = m g e₃, Ḟ = 0. Without drag
+    /// all three are 0.
     pub fn level(&self, velocity: &Vector3<f64>) -> [Vector3<f64>; 3] {
         let v = [velocity.x, velocity.y, velocity.z];
         let (zero, speed) = ([0.0; 3], velocity.norm());
@@ -173,8 +212,10 @@ impl Flatness {
     /// Everything that a flat state demands.
     ///
     /// With yaw 0, R = Ry(θ) Rx(φ) and body z along F: tan θ = Fx/Fz, sin φ = −Fy/|F|; rates (φ̇, θ̇ cos φ, −θ̇ sin φ);
-    /// moments I ω̇ + ω × I ω + c_ω|ω|ω; rotor speeds by the inverse of the mixing matrix. All derivatives are analytic.
-    /// Meaningless unless Fz > 0, which the caller checks.
+    /// moments I ω̇ + ω × I ω + c_ω|ω|ω; rotor speeds by the inverse of the mixing matrix. All derivatives are
+    /// analytic. Meaningless unless Fz > 0, which the caller checks.
+    ///
+    /// No branch on N, so that lanes never part. Rates in rad/s and moments in N·m in the body frame.
     #[inline(always)]
     pub fn demand<N: Smooth>(&self, flat: &FlatState<N>) -> Demand<N> {
         let speed = Self::speed(&flat.velocity);

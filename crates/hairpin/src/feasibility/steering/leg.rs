@@ -13,6 +13,9 @@ use crate::trajectory::ProfileLeg;
 use crate::world::World;
 
 /// A waypoint state: position, velocity, and the acceleration and jerk with which the robot is level there.
+///
+/// Value and three derivatives at both ends fix a polynomial of degree 7 in each axis. Snap is not zero there, so rotor
+/// speeds jump at waypoints: rotor lag is outside the claim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegEnd {
     /// m, world frame.
@@ -28,6 +31,9 @@ pub struct LegEnd {
 }
 
 /// Judges legs of one robot in one world under one set of limits.
+///
+/// Sound for its model (rigid body, drag, no lag, no wind) and not complete: legs have one shape for a given time,
+/// level at both ends.
 #[derive(Debug, Clone)]
 pub struct LegJudge {
     flatness: Flatness,
@@ -40,7 +46,8 @@ pub struct LegJudge {
 }
 
 impl LegJudge {
-    /// The judge for `robot` in `world`. The robot's clearance radius is kept to obstacles, the world's keep-in margin to walls.
+    /// The judge for `robot` in `world`. The robot's clearance radius is kept to obstacles, the world's keep-in margin
+    /// to walls.
     ///
     /// # Errors
     /// [`DependentRotors`].
@@ -104,8 +111,8 @@ impl LegJudge {
 
     /// The leg from `from` to `to` in `duration`, if every limit holds at every instant of it.
     ///
-    /// Necessary tests come first: mean speed; rotor speeds at both ends, in closed form from the end snap; speed, thrust,
-    /// tilt and walls at four instants. What passes is proven by [`Self::prove`].
+    /// Necessary tests come first: mean speed; rotor speeds at both ends, in closed form from the end snap; speed,
+    /// thrust, tilt and walls at four instants. What passes is proven by [`Self::prove`].
     ///
     /// # Errors
     /// The limit that fails, where, and by how much.

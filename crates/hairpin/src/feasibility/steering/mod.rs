@@ -1,4 +1,11 @@
 //! Steering: one leg from one state to another, with the controls that fly it.
+//!
+//! | for | file | unknowns | ends |
+//! | --- | --- | --- | --- |
+//! | flights | [`leg`], [`proof`], [`flatness`] | none: one polynomial of degree 7 an axis | level, without rates |
+//! | drives in the plane | [`shooting`] | a curve of κ(s) | pose and curvature |
+//! | drives on the ground | [`shooting::rough`] | the flat goal | predicted pose and curvature |
+//! | drives around places | [`clear`] | the same, and which way round | the same, clear all along |
 
 pub mod clear;
 pub mod flatness;

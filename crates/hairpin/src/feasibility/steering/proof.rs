@@ -1,5 +1,10 @@
 //! Proof that a leg keeps to the body's limits at every instant: enclosures of everything demanded, halved until
 //! they decide.
+//!
+//! On an interval of time every demanded quantity is middle ± slope ± rest; upper(f) within the limit for all of them
+//! is a proof on the whole interval, a violation at a centre is a refusal with evidence, anything else is halved. A
+//! violation of 1 ms between samples cannot be missed. Accepting is proven up to rounding, refusing may be conservative
+//! by the shortest interval.
 
 use wide::f64x4;
 
@@ -17,6 +22,8 @@ const ROUNDING: f64 = 1e-9;
 const WAITING: usize = 128;
 
 /// How hard the bound between samples tries.
+///
+/// A larger budget decides more legs near their limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProofSettings {
     /// Equal intervals that a leg is cut into first; 4 … 64.

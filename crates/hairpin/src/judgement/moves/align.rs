@@ -1,4 +1,8 @@
 //! Where along its planned path a recorded motion is: monotone alignment in position and orientation.
+//!
+//! d² = |Δp|² + (weight θ)², θ by the quaternions' chord: a move that only turns has a length, too. The whole alignment
+//! is one dynamic program of samples × poses; beyond a million cells every k-th sample is aligned first and the others
+//! between their neighbours.
 
 use std::ops::Range;
 
@@ -22,7 +26,8 @@ pub(super) struct Way {
     weight: f64,
 }
 
-/// Cells of the alignment at most; above it only every few samples are aligned over the whole path, the others between them.
+/// Cells of the alignment at most; above it only every few samples are aligned over the whole path, the others between
+/// them.
 const MOST_CELLS: usize = 1 << 20;
 
 impl Way {
@@ -57,8 +62,8 @@ impl Way {
     }
 
     /// The nearest pose of the path to each sample, in order: the rising sequence j(0) ≤ j(1) ≤ … that minimises
-    /// Σ d(sample_i, pose_j(i))², among equals the one that stays behind longest. Poses may be skipped. Where the recording tells its
-    /// move, poses of that one and its neighbours alone are looked at.
+    /// Σ d(sample_i, pose_j(i))², among equals the one that stays behind longest. Poses may be skipped. Where the
+    /// recording tells its move, poses of that one and its neighbours alone are looked at.
     fn nearest(&self, recording: &Track) -> Vec<usize> {
         let samples = recording.len();
         let windows = self.windows(recording);
@@ -97,6 +102,8 @@ impl Way {
         windows.collect()
     }
 
+    /// Each sample takes a pose of its window, not before its predecessor's, so that the sum of squared distances is
+    /// least; the earliest of equals. Dynamic programming, O(total length of the windows).
     fn rising(&self, recording: &Track, samples: &[usize], windows: &[Range<usize>]) -> Vec<usize> {
         // own[row][j − first]: the best up to j ends at j itself.
         let mut own: Vec<Vec<bool>> = Vec::with_capacity(samples.len());

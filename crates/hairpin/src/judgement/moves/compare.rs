@@ -1,4 +1,7 @@
 //! Non-regression: each move of new runs against the spread of a baseline's repeats.
+//!
+//! A release is not judged against a number but against how much the earlier one differs from itself. Few repeats make
+//! a wide band: that is what Student's t is for.
 
 use super::MovesError;
 use super::measure::{Measured, MoveMeasures};
@@ -24,6 +27,8 @@ pub struct Release<'a> {
 }
 
 /// How wide a baseline's band is.
+///
+/// Below the floors nothing is told apart, whatever the spread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Band {
     /// Standard deviations, were the spread known exactly.
@@ -42,6 +47,8 @@ impl Default for Band {
 }
 
 /// Where new runs lie.
+///
+/// Better is told, and is no regression; it often means that something is left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// Within the band.
@@ -79,6 +86,8 @@ impl MoveComparison {
 }
 
 /// All moves of two releases.
+///
+/// Durations and deviations of every move; a move that is worse in both counts once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// Name of the baseline.
@@ -122,8 +131,8 @@ impl Comparison {
 /// Compares the moves of `new` with those of `baseline`.
 ///
 /// With k and m runs, means b and n and pooled variance s² of the two, a move is worse where n − b > h,
-/// h = max(t·s·√(1/k + 1/m), floor): t is Student's quantile of as rare an excess as `sigma` standard deviations, with k + m − 2 degrees
-/// of freedom, for few runs know their spread badly.
+/// h = max(t·s·√(1/k + 1/m), floor): t is Student's quantile of as rare an excess as `sigma` standard deviations, with
+/// k + m − 2 degrees of freedom, for few runs know their spread badly.
 ///
 /// # Errors
 /// Fewer than two runs of the baseline, no new run, runs of different programs, settings out of bounds.

@@ -5,6 +5,8 @@ use super::align::Way;
 use crate::trajectory::{PlannedPath, Track};
 
 /// Which times are judged.
+///
+/// An arm that starts late is late: taking an offset off hides exactly that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Clock {
     /// Those of the recording: a late start is late.
@@ -15,10 +17,12 @@ pub enum Clock {
 }
 
 /// How recordings are measured.
+///
+/// `arrival` is applied to the plan as to the recording, so that the servo's lag at a stop does not count as lateness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasureSettings {
-    /// A target counts as arrived at when this much of the way to it (m) is left, in the plan and in the recording alike: the last of
-    /// an approach takes a servo for ever.
+    /// A target counts as arrived at when this much of the way to it (m) is left, in the plan and in the recording
+    /// alike: the last of an approach takes a servo for ever.
     pub arrival: f64,
     /// For alignment alone 1 rad counts as this many metres; 0 where the recording has no orientation.
     pub turn_weight: f64,
@@ -34,6 +38,8 @@ impl Default for MeasureSettings {
 }
 
 /// One move of one recording.
+///
+/// m and s; a move without samples (shorter than the log's period) has no deviation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MoveMeasures {
     /// As in the plan.
@@ -46,7 +52,8 @@ pub struct MoveMeasures {
     pub arrived: Option<f64>,
     /// When it was to arrive, s.
     pub planned: f64,
-    /// Since the arrival before, s; of the first move since the start of the clock, or since it set out where the offset is removed.
+    /// Since the arrival before, s; of the first move since the start of the clock, or since it set out where the
+    /// offset is removed.
     pub duration: Option<f64>,
     /// The same as planned, s.
     pub planned_duration: f64,
@@ -60,6 +67,8 @@ impl MoveMeasures {
 }
 
 /// By how much the recording's clock differs from the plan's: estimated, told, and not applied unless asked for.
+///
+/// 1.4826 · median |x − median| estimates σ of a normal spread and does not mind outliers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Offset {
     /// Median of all arrivals' lateness, s.
@@ -85,8 +94,11 @@ pub struct Measured {
 
 /// Measures `recording` against the planned path, move by move.
 ///
-/// Samples are aligned with the path monotonely; arrival is when progress along it first comes within `arrival` of a target's, between
-/// samples by linear interpolation.
+/// Samples are aligned with the path monotonely; arrival is when progress along it first comes within `arrival` of a
+/// target's, between samples by linear interpolation.
+///
+/// Deviation is the distance of positions from the polyline of planned poses, of the segments beside the aligned one.
+/// Samples · poses, in the whole at most a million.
 ///
 /// # Errors
 /// A plan without a move, fewer than two samples, settings out of their bounds.

@@ -1,5 +1,18 @@
-//! The oracle of programs: recordings of an arm against its planned path, move by move, against a spec and against what an earlier
-//! release did. It knows poses in time and nothing of arms.
+//! The oracle of programs: recordings of an arm against its planned path, move by move, against a spec and against what
+//! an earlier release did. It knows poses in time and nothing of arms.
+//!
+//! | step | file |
+//! | --- | --- |
+//! | where on the path each sample is | `align`: monotone, in position and orientation |
+//! | deviation, arrival and duration of each move | [`measure_moves`] |
+//! | against limits | [`move_violations`], [`moves_verdict`] |
+//! | against an earlier release's repeats | [`compare`], [`Regression`] |
+//! | over all releases | [`trend`] |
+//!
+//! Clocks are not fitted in silence: the offset of a recording is estimated, told, and taken off only where it was
+//! asked for. After Collet, Gotlieb, Lazaar and Mossige, "Stress testing of single-arm robots through constraint-based
+//! generation of continuous trajectories" (2019), whose oracle compares positions and times against thresholds and
+//! earlier versions.
 
 mod align;
 mod compare;

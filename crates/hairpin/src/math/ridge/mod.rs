@@ -1,14 +1,20 @@
-//! Polynomial ridge regression: how a number depends on a few others, with degree and penalty chosen by cross-validation.
+//! Polynomial ridge regression: how a number depends on a few others, with degree and penalty chosen by
+//! cross-validation.
 //!
-//! With standardised, clamped inputs z = clamp((x − c)/s, z_min, z_max), monomials m_j(z) of total degree ≤ p, standardised
-//! too, and penalty λ > 0:
+//! With standardised, clamped inputs z = clamp((x − c)/s, z_min, z_max), monomials m_j(z) of total degree ≤ p,
+//! standardised too, and penalty λ > 0:
 //!
 //! ```text
 //! y ≈ b + Σ w_j m_j(z),     w = argmin ‖y − b − M w‖²/n + λ ‖w‖²,     (MᵀM/n + λ I) w = Mᵀ(y − b)/n
 //! ```
 //!
-//! Inputs beyond those that were fitted count as at the edge: a search for the largest value would otherwise be led to where
-//! a polynomial knows nothing. Source: Hoerl and Kennard, Technometrics 12(1), 1970.
+//! Inputs beyond those that were fitted count as at the edge: a search for the largest value would otherwise be led to
+//! where a polynomial knows nothing. Source: Hoerl and Kennard, Technometrics 12(1), 1970.
+//!
+//! Data flow: [`Rows`] → standardised inputs → monomials, run by run → sums MᵀM, Mᵀy of each fold → one Cholesky
+//! factorisation for each fold, degree and penalty → [`PolynomialRidge`]. A fold's training sums are all sums less its
+//! own, so that cross-validation costs one pass over the rows whatever the number of folds. With m monomials and n
+//! rows: n m² to sum, m³/3 for each of folds × 8 penalties × degrees.
 
 mod monomials;
 mod sums;
@@ -28,6 +34,9 @@ const PENALTIES: [f64; 8] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0];
 const SMALL: usize = 128;
 
 /// Rows to learn from: row i has inputs `inputs[i]`, value `values[i]`, and belongs to `groups[i]`.
+///
+/// Groups are trajectories: legs of one share their controller's state, and a fold that held some of them would be told
+/// of the others.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rows {
     /// Inputs, all rows of one length.
@@ -85,6 +94,26 @@ pub enum NoFit {
 }
 
 /// A fitted polynomial.
+///
+/// Plain numbers that say all: serialised, it is a model's file. Inputs keep the caller's units (standardising takes
+/// them away), values theirs.
+///
+/// ```
+/// use hairpin::math::ridge::{PolynomialRidge, Rows};
+///
+/// // y = x² on [−1, 1], twenty rows in ten groups.
+/// let x = |row: usize| row as f64 / 9.5 - 1.0;
+/// let rows = Rows {
+///     inputs: (0..20).map(|row| vec![x(row)]).collect(),
+///     values: (0..20).map(|row| x(row) * x(row)).collect(),
+///     groups: (0..20).map(|row| row % 10).collect(),
+/// };
+/// let (model, quality) = PolynomialRidge::choose(&rows, 3, 5)?;
+/// assert!(model.degree >= 2 && quality.r2 > 0.999);
+/// assert!((model.value(&[0.5]) - 0.25).abs() < 1e-3);
+/// assert_eq!(model.value(&[7.0]), model.value(&[1.0])); // beyond the data: as at its edge
+/// # Ok::<(), hairpin::math::ridge::NoFit>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PolynomialRidge {
@@ -94,7 +123,8 @@ pub struct PolynomialRidge {
     pub penalty: f64,
     /// Inputs c that stand for 0, one per input.
     pub centre: Vec<f64>,
-    /// Standard deviations s, one per input; 0 for one that never differed or is a multiple of an earlier one: it is left out.
+    /// Standard deviations s, one per input; 0 for one that never differed or is a multiple of an earlier one: it is
+    /// left out.
     pub scale: Vec<f64>,
     /// Least and greatest z that were fitted, one pair per input.
     pub range: Vec<[f64; 2]>,
@@ -107,6 +137,9 @@ pub struct PolynomialRidge {
 }
 
 /// How well cross-validation found the choice to do.
+///
+/// R² = 1 − Σ(y − ŷ)²/Σ(y − ȳ)², every ŷ told by a fit without its group. The choice itself was made by these errors,
+/// so that they flatter it slightly; who tells of quality keeps groups out of choosing as well.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Validation {
@@ -128,8 +161,11 @@ impl Validation {
 }
 
 impl PolynomialRidge {
-    /// Fits `rows` with the degree (1 to `most_degree`) and the penalty whose mean squared error over `folds` folds is the
-    /// least; the first of equals. Groups are dealt to folds in the order in which they appear.
+    /// Fits `rows` with the degree (1 to `most_degree`) and the penalty whose mean squared error over `folds` folds is
+    /// the least; the first of equals. Groups are dealt to folds in the order in which they appear.
+    ///
+    /// Degrees end early where their monomials exceed 500. Penalties 1e-7 … 1, a decade apart, relative to monomials of
+    /// variance 1.
     ///
     /// # Errors
     /// [`NoFit`].
@@ -155,6 +191,8 @@ impl PolynomialRidge {
 
     /// Fits `rows` with this degree and penalty.
     ///
+    /// The penalty is on standardised monomials (variance 1), never on the intercept.
+    ///
     /// # Errors
     /// [`NoFit`], of fewer than two groups too.
     pub fn of(rows: &Rows, degree: u32, penalty: f64) -> Result<Self, NoFit> {
@@ -179,6 +217,8 @@ impl PolynomialRidge {
     }
 
     /// The value at `inputs`.
+    ///
+    /// b + Σ w_j m_j(z), one product for each monomial beyond the first degree and one for each weight.
     ///
     /// # Panics
     /// If their number is not [`Self::inputs`].

@@ -7,6 +7,8 @@ use super::opw::Opw;
 use super::{AXES, Joints};
 
 /// All points within `radius` of the segment a–b, in the link's frame, m.
+///
+/// Distances to capsules are those to their axes less the radius: a link's shape is where its drawing fits inside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capsule {
     /// One end of the axis.
@@ -29,6 +31,8 @@ pub struct Mass {
 }
 
 /// One link.
+///
+/// Index 0 is the base; link k is what axis k moves, in its own frame (`base_from_link` of [`super::Chain::frames`]).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Link {
     /// What it takes up.
@@ -37,8 +41,8 @@ pub struct Link {
     pub mass: Option<Mass>,
 }
 
-/// Radii of stand-in capsules as shares of upper arm + forearm: base, shoulder, upper arm, elbow, forearm, wrist, flange. Measured off
-/// the outlines of small arms; a file's own capsules replace them.
+/// Radii of stand-in capsules as shares of upper arm + forearm: base, shoulder, upper arm, elbow, forearm, wrist,
+/// flange. Measured off the outlines of small arms; a file's own capsules replace them.
 const SHARES: [f64; AXES + 1] = [0.15, 0.14, 0.11, 0.10, 0.08, 0.07, 0.055];
 
 /// Stand-in capsules along the dimensions of an arm.
@@ -72,9 +76,14 @@ pub(super) fn of_chain(chain: &Chain) -> [Vec<Capsule>; AXES + 1] {
 }
 
 impl Chain {
-    /// Upper bounds of how far a point of link `link` moves when every joint k turns by at most `turns[k]` (rad) from where
-    /// `axes` were taken: joints are turned from the tip inwards; each moves the point by at most its angle times the distance
-    /// from its axis, and that distance has grown by no more than what the joints beyond have moved the point.
+    /// Upper bounds of how far a point of link `link` moves when every joint k turns by at most `turns[k]` (rad) from
+    /// where `axes` were taken: joints are turned from the tip inwards; each moves the point by at most its angle times
+    /// the distance from its axis, and that distance has grown by no more than what the joints beyond have moved the
+    /// point.
+    ///
+    /// Σ over k, from the tip: `turns[k]` · (distance from axis k + what the joints beyond have added), since an arc is
+    /// no longer than angle times radius. `points` are those of the link whose hull it is: a capsule's two ends bound
+    /// its axis.
     pub fn displacement(
         axes: &[(Point3<f64>, Vector3<f64>); AXES],
         link: usize,

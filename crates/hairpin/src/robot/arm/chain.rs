@@ -1,4 +1,7 @@
 //! A serial chain of six turning joints: link frames, Jacobian, and numeric inverse kinematics by continuation.
+//!
+//! The one description of an arm's geometry that everything else is derived from; arms with a closed inverse are chains
+//! too ([`super::Opw::chain`]), so that links, Jacobian and bounds are computed once for all.
 
 use nalgebra::{Isometry3, Matrix6, Point3, Vector3, Vector6};
 
@@ -16,8 +19,8 @@ pub struct Joint {
 
 /// Six joints one after the other, and the flange on the last link.
 ///
-/// base_from_link_k = Π_{j ≤ k} origin_j · Rot(axis_j, q_j); base_from_flange = base_from_link_6 · flange. Lengths in m, angles in
-/// rad. Any arm's forward kinematics are computed here, whatever its inverse.
+/// base_from_link_k = Π_{j ≤ k} origin_j · Rot(axis_j, q_j); base_from_flange = base_from_link_6 · flange. Lengths in
+/// m, angles in rad. Any arm's forward kinematics are computed here, whatever its inverse.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
     /// The joints, from the base on.
@@ -47,6 +50,8 @@ const LONGEST_STEP: f64 = 0.3;
 
 impl Chain {
     /// All link frames at the joint angles `q`, rad.
+    ///
+    /// Six products of transforms; every other quantity of a posture starts from these.
     pub fn frames(&self, q: &Joints) -> Frames {
         let mut frames = [Isometry3::identity(); AXES + 1];
         for (k, joint) in self.joints.iter().enumerate() {
@@ -69,6 +74,9 @@ impl Chain {
     }
 
     /// The Jacobian at `point` of the last link: column k is (a_k × (p − o_k), a_k), m/rad above 1.
+    ///
+    /// The geometric Jacobian: (ṗ, ω) = J q̇ in the base frame, `point` fixed to the last link, m. Rows 0-2 in m/rad,
+    /// 3-5 pure.
     pub fn jacobian(&self, frames: &Frames, point: &Point3<f64>) -> Matrix6<f64> {
         let mut jacobian = Matrix6::zeros();
         for (k, (origin, axis)) in self.axes(frames).iter().enumerate() {
@@ -79,6 +87,8 @@ impl Chain {
     }
 
     /// Upper bound of the distance from the base to the flange, m.
+    ///
+    /// Σ of the lengths of all offsets: no posture has the flange farther out. A scale, not the largest distance.
     pub fn reach(&self) -> f64 {
         self.joints.iter().map(|joint| joint.origin.translation.vector.norm()).sum::<f64>()
             + self.flange.translation.vector.norm()
@@ -87,8 +97,12 @@ impl Chain {
     /// Joint angles near `seed` whose flange is at `target`, by damped Newton steps
     /// Δq = Jᵀ(J Jᵀ + λ²I)⁻¹ e on the twist e from the flange to the target, λ² falling with |e|.
     ///
-    /// `None` if 30 steps do not meet the target within 1e-11 m and rad. (Nakamura, Hanafusa, "Inverse kinematic solutions with
-    /// singularity robustness for robot manipulator control", 1986; damping by the error: Sugihara, 2011.)
+    /// `None` if 30 steps do not meet the target within 1e-11 m and rad. (Nakamura, Hanafusa, "Inverse kinematic
+    /// solutions with singularity robustness for robot manipulator control", 1986; damping by the error: Sugihara,
+    /// 2011.)
+    ///
+    /// The error is of the pose: shift in m and rotation vector in rad, weighed alike. Steps are cut to 0.3 rad a
+    /// joint. Quadratic near the solution; deterministic.
     pub fn inverse_near(&self, target: &Isometry3<f64>, seed: &Joints) -> Option<Iterated> {
         let mut q = *seed;
         for iterations in 0..=MOST_ITERATIONS {

@@ -1,4 +1,8 @@
 //! Which of the eight solutions, and which quadrants: the configuration numbers that controllers keep beside a pose.
+//!
+//! A pose alone does not say how an arm reaches it. Controllers keep these four numbers beside each target and refuse a
+//! move whose end has others: ABB, "Technical reference manual: RAPID Instructions, Functions and Data types",
+//! confdata.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
@@ -6,6 +10,8 @@ use std::fmt;
 use super::Joints;
 
 /// Which of the eight inverse solutions of an arm with a spherical wrist.
+///
+/// For signs of +1 the three bits are the signs of f, sin e and sin θ5 in [`super::Opw`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Branch {
     /// The wrist centre lies behind axis 1.

@@ -1,4 +1,7 @@
 //! An arm as a file has it: mm, degrees and kg in the names, what is missing derived and marked `estimated`.
+//!
+//! Either seven lengths ([`OpwDescription`]) or six joints ([`ChainDescription`], as URDF has them); never both, so
+//! that an arm has one geometry.
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 use schemars::JsonSchema;
@@ -149,6 +152,8 @@ pub struct CapsuleDescription {
 }
 
 /// Mass of a link.
+///
+/// Products of inertia are taken to be 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MassDescription {

@@ -1,4 +1,7 @@
 //! Joint torques of a motion: the recursive Newton-Euler algorithm.
+//!
+//! Masses are seldom public: where a file has none, costs that would take torques say that they take accelerations
+//! instead.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -16,8 +19,11 @@ impl Arm {
     /// Torques (N m) that the motion q, q̇, q̈ takes with `tool` on the flange, gravity along −z of the base:
     /// τ = M(q) q̈ + C(q, q̇) q̇ + g(q), without friction and motors' inertia. `None` without masses.
     ///
-    /// Outwards velocities and accelerations of the links, inwards forces and moments; O(n). (Luh, Walker, Paul, "On-line computational
-    /// scheme for mechanical manipulators", 1980.)
+    /// Outwards velocities and accelerations of the links, inwards forces and moments; O(n). (Luh, Walker, Paul,
+    /// "On-line computational scheme for mechanical manipulators", 1980.)
+    ///
+    /// q in rad, q̇ in rad/s, q̈ in rad/s². The tool is a point mass at its centre of mass; links have principal axes
+    /// along their frames.
     pub fn torques(&self, tool: &Tool, q: &Joints, speed: &Joints, acceleration: &Joints) -> Option<Joints> {
         let frames = self.chain.frames(q);
         let axes = self.chain.axes(&frames);

@@ -1,4 +1,23 @@
 //! Arms of six turning joints: kinematics both ways, limits, singularities, links as solids, tools and work objects.
+//!
+//! ```text
+//! base_from_link_k = Π_{j ≤ k} origin_j · Rot(axis_j, q_j)      base_from_tcp = base_from_flange · flange_from_tcp
+//! ẋ = J(q) q̇        τ = M(q) q̈ + C(q, q̇) q̇ + g(q)
+//! ```
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `chain` | forward kinematics, Jacobian, Newton's inverse: for every arm |
+//! | `opw` | the closed inverse, eight branches: for spherical wrists |
+//! | `configuration` | cf1, cf4, cf6, cfx of a controller's robtarget |
+//! | `singularity` | margins without unit |
+//! | `rates` | bounds of joints on a whole piece of a tool move, from one sample |
+//! | `body` | links as capsules, how far a turn moves them |
+//! | `dynamics` | recursive Newton-Euler |
+//! | `tool` | tools and work objects |
+//!
+//! Inside m and rad; the base is the frame of the cell; files have mm and degrees, quaternions w first. Floor 5 follows
+//! moves with these, floor 5's act executes them, and the proof has equations of its own.
 
 mod body;
 mod chain;
@@ -33,9 +52,13 @@ use nalgebra::Isometry3;
 pub const AXES: usize = 6;
 
 /// Joint angles, rad, from the base on.
+///
+/// q₁ … q₆. Angles may be on any turn within the limits: q and q + 2π are different postures of an arm.
 pub type Joints = [f64; AXES];
 
 /// What one joint may do.
+///
+/// The bounds are the joint's own; coupling between axes (as of parallel rods) is not modelled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointLimit {
     /// Least angle, rad.
@@ -65,6 +88,26 @@ pub enum Kinematics {
 }
 
 /// An arm: numbers only, all checked.
+///
+/// ```
+/// use hairpin::robot::arm::ArmDescription;
+///
+/// let file = serde_json::json!({
+///     "kind": "arm", "name": "IRB 120", "opw": { "a1_mm": 0.0, "a2_mm": -70.0, "c1_mm": 290.0, "c2_mm": 270.0,
+///         "c3_mm": 302.0, "c4_mm": 72.0, "offsets_deg": [0.0, 0.0, -90.0, 0.0, 0.0, 0.0] },
+///     "joints": { "lower_deg": [-165.0, -110.0, -110.0, -160.0, -120.0, -400.0],
+///         "upper_deg": [165.0, 110.0, 70.0, 160.0, 120.0, 400.0],
+///         "speed_deg_s": [250.0, 250.0, 250.0, 320.0, 320.0, 420.0] },
+/// });
+/// let arm = serde_json::from_value::<ArmDescription>(file)?.build()?;
+/// let q = [0.3, 0.2, -0.1, 0.5, 0.8, -0.4];
+/// let flange = arm.forward(&q);
+/// // Among its inverse solutions is the one that it came from.
+/// let nearest = arm.inverse(&flange, &q).into_iter().map(|s| (0..6).map(|k| (s[k] - q[k]).abs()).sum::<f64>());
+/// assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-9);
+/// assert!(arm.margin(&q).value > 0.0 && arm.outside_limits(&q).is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Arm {
     /// Name in reports.
@@ -91,8 +134,12 @@ impl Arm {
         self.chain.forward(q)
     }
 
-    /// Joint angles whose flange is at `flange`, with every angle on the turn nearest to `near`: of arms with a closed form all
-    /// solutions in the order of cfx, of others the one that Newton finds from `near`. Limits are not looked at.
+    /// Joint angles whose flange is at `flange`, with every angle on the turn nearest to `near`: of arms with a closed
+    /// form all solutions in the order of cfx, of others the one that Newton finds from `near`. Limits are not looked
+    /// at.
+    ///
+    /// `flange` is `base_from_flange`. Eight solutions at most with a closed form, none where the wrist centre is out
+    /// of reach, one or none by Newton; a target may have more on other turns ([`Arm::turns_of`]).
     pub fn inverse(&self, flange: &Isometry3<f64>, near: &Joints) -> Vec<Joints> {
         match &self.kinematics {
             Kinematics::Opw(opw) => opw.solutions(flange, near[3]).map(|q| nearest_turns(&q, near)).collect(),
@@ -100,7 +147,11 @@ impl Arm {
         }
     }
 
-    /// The solution of `branch` on the turns nearest to `near`; without a closed form the one that Newton finds from `near`.
+    /// The solution of `branch` on the turns nearest to `near`; without a closed form the one that Newton finds from
+    /// `near`.
+    ///
+    /// Following a move means asking for one branch all along it: `near` chooses the turns, and axis 4 where the wrist
+    /// is stretched.
     pub fn inverse_in(&self, flange: &Isometry3<f64>, branch: Branch, near: &Joints) -> Option<Iterated> {
         match &self.kinematics {
             Kinematics::Opw(opw) => {
@@ -125,6 +176,9 @@ impl Arm {
     }
 
     /// The nearest singularity at `q`.
+    ///
+    /// Wrist |sin θ5|, elbow |sin e|, shoulder |f|/(c2 + k); chains 1/‖J⁻¹‖. Pure numbers, comparable between arms of
+    /// different sizes.
     pub fn margin(&self, q: &Joints) -> Margin {
         let Kinematics::Opw(opw) = &self.kinematics else {
             return Margin { of: Singularity::Chain, value: self.chain_margin(q) };
@@ -146,6 +200,8 @@ impl Arm {
     }
 
     /// Every way to reach the same flange pose as `q` by whole turns of joints, within the limits.
+    ///
+    /// The product over axes of the turns that each allows, the first axis slowest: of an axis with ±400° up to three.
     pub fn turns_of(&self, q: &Joints) -> Vec<Joints> {
         let mut all = vec![*q];
         for (axis, limit) in self.limits.iter().enumerate() {

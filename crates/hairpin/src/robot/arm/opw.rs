@@ -1,4 +1,8 @@
-//! Six-axis arms with an ortho-parallel basis and a spherical wrist: the closed inverse kinematics, all eight solutions.
+//! Six-axis arms with an ortho-parallel basis and a spherical wrist: the closed inverse kinematics, all eight
+//! solutions.
+//!
+//! c = p − c4 R e_z; f = ±√(c_x² + c_y² − b²); θ1 = atan2(c_y, c_x) − atan2(b, f); two links c2 and k = √(a2² + c3²) in
+//! the arm's plane; the wrist from W = R₀₃ᵀR = Rz(θ4) Ry(θ5) Rz(θ6). Three signs, eight solutions, no iteration.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,10 +15,13 @@ use crate::math::rotation::from_rotation_vector;
 
 /// Dimensions (m) of an ortho-parallel basis with a spherical wrist, and how its axes count.
 ///
-/// In the angles θ_k = sign_k·q_k − offset_k the arm points straight up at θ = 0; axes 1, 4, 6 turn about z, axes 2, 3, 5
-/// about y. The shoulder lies at (a1, b, c1), the elbow c2 above it, the wrist centre at (a2, c3) from the elbow, the flange
-/// c4 beyond. (Brandstötter, Angerer, Hofbaur, "An analytical solution of the inverse kinematics problem of industrial serial
-/// manipulators with an ortho-parallel basis and a spherical wrist", Austrian Robotics Workshop 2014.)
+/// In the angles θ_k = sign_k·q_k − offset_k the arm points straight up at θ = 0; axes 1, 4, 6 turn about z, axes 2, 3,
+/// 5 about y. The shoulder lies at (a1, b, c1), the elbow c2 above it, the wrist centre at (a2, c3) from the elbow, the
+/// flange c4 beyond. (Brandstötter, Angerer, Hofbaur, "An analytical solution of the inverse kinematics problem of
+/// industrial serial manipulators with an ortho-parallel basis and a spherical wrist", Austrian Robotics Workshop
+/// 2014.)
+///
+/// Offsets in rad, signs ±1, both by axis; `a2` is negative where the forearm lies above the elbow, as on many arms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Opw {
     /// Shoulder before axis 1.
@@ -112,6 +119,9 @@ impl Opw {
     /// Joint angles in (−π, π] at which the flange is at `flange`, in one branch; `None` out of reach.
     ///
     /// Where the wrist is stretched (sin θ5 = 0) only θ4 + θ6 is determined, and `q4` (rad) is taken for axis 4.
+    ///
+    /// Angles satisfy [`Opw::forward`] to rounding, about 1e-15 of a turn away from singularities; limits are not
+    /// looked at.
     pub fn solve(&self, flange: &Isometry3<f64>, branch: Branch, q4: f64) -> Option<Joints> {
         let rotation = flange.rotation.to_rotation_matrix();
         let r = rotation.matrix();
@@ -157,6 +167,8 @@ impl Opw {
     }
 
     /// Every solution at which the flange is at `flange`, in the order of cfx; see [`Opw::solve`] for `q4`.
+    ///
+    /// At most eight; fewer where the wrist centre is too near axis 1 or out of the two links' reach.
     pub fn solutions(&self, flange: &Isometry3<f64>, q4: f64) -> impl Iterator<Item = Joints> {
         (0..8).filter_map(move |cfx| self.solve(flange, Branch::from_cfx(cfx), q4))
     }

@@ -1,8 +1,9 @@
-//! Proven bounds of joint angles along a straight tool move, between samples: what makes collision and limit checks sound.
+//! Proven bounds of joint angles along a straight tool move, between samples: what makes collision and limit checks
+//! sound.
 //!
-//! From a sample the pose moves on for `half` in the move's parameter either way. The wrist centre then stays within V·half of
-//! where it was, so the margins of all three singularities have lower bounds, and with them the rates of all joints have upper
-//! ones. The derivation is in docs/arms.md.
+//! From a sample the pose moves on for `half` in the move's parameter either way. The wrist centre then stays within
+//! V·half of where it was, so the margins of all three singularities have lower bounds, and with them the rates of all
+//! joints have upper ones. The derivation is in docs/arms.md.
 
 use nalgebra::{Isometry3, Matrix6};
 
@@ -11,7 +12,10 @@ use super::singularity::{Margin, Singularity};
 use super::{AXES, Arm, Joints, Kinematics};
 use crate::math::power::square;
 
-/// How fast the tool's point moves (m) and turns (rad) per unit of the move's parameter, at most, and where it sits on the flange.
+/// How fast the tool's point moves (m) and turns (rad) per unit of the move's parameter, at most, and where it sits on
+/// the flange.
+///
+/// In m and rad per unit of the parameter s in [0, 1]: of a straight move its length and its turn.
 #[derive(Debug, Clone, Copy)]
 pub struct Sweep {
     /// Speed of the tool's point.
@@ -23,6 +27,9 @@ pub struct Sweep {
 }
 
 /// What holds on a whole piece of a move.
+///
+/// On [s − half, s + half] of the move: q_k stays within `rates[k]` · half of the sample, and no singularity comes
+/// nearer than `margin`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PieceBounds {
     /// Upper bounds of |dq_k/ds|, rad.
@@ -32,8 +39,11 @@ pub struct PieceBounds {
 }
 
 impl Arm {
-    /// Bounds that hold within `half` (in the move's parameter) of a sample with joint angles `q`; `None` where a singularity
-    /// cannot be excluded: halve the piece.
+    /// Bounds that hold within `half` (in the move's parameter) of a sample with joint angles `q`; `None` where a
+    /// singularity cannot be excluded: halve the piece.
+    ///
+    /// O(1), one sample; sound up to rounding, since it bounds the exact inverse's derivative and not a sampled one.
+    /// Narrower pieces get tighter bounds, so that halving ends.
     pub fn bounds_around(&self, q: &Joints, sweep: &Sweep, half: f64) -> Option<PieceBounds> {
         match &self.kinematics {
             Kinematics::Opw(opw) => of_opw(opw, q, sweep, half),

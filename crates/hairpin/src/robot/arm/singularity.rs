@@ -3,6 +3,9 @@
 use std::fmt;
 
 /// The singularities by name.
+///
+/// Near one, joint rates grow as the reciprocal of the margin for the same motion of the tool: a margin of 0.05 is
+/// twenty times the rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Singularity {
     /// Axes 4 and 6 are in line: margin |sin θ5|.

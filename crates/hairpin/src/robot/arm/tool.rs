@@ -1,10 +1,15 @@
 //! What the flange carries and what the points are given in.
+//!
+//! base_from_target = base_from_object · object_from_target, and the flange goes to base_from_target ·
+//! (flange_from_tcp)⁻¹. As RAPID's tooldata and wobjdata have them; a stationary tool is not known.
 
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
 use super::description::{ArmError, place, within, wrong};
 
 /// A tool on the flange.
+///
+/// Its solid is the capsule of `radius` from the flange's origin to the tool's point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tool {
     /// Name in programs.
@@ -92,6 +97,8 @@ impl WorkObject {
 const UNIT: f64 = 1e-3;
 
 /// The unit quaternion of the numbers (w, x, y, z) of a door.
+///
+/// Within the tolerance it is normalised: four written decimals are enough, a mistyped component is not.
 ///
 /// # Errors
 /// `field` where their length is not 1 within 0.001: rotations are never guessed.

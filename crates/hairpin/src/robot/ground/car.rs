@@ -1,12 +1,11 @@
-//! A car as the kinematic bicycle: the front axle is steered, the rear one follows.
+//! A car as the kinematic bicycle: ẋ = v cosψ, ẏ = v sinψ, ψ̇ = v tan(δ)/L at the middle of the rear axle; the front
+//! one is steered.
 
-use nalgebra::{Isometry3, SVector, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Named, named, planar_pose};
+use super::{Named, named};
 use crate::robot::rover::{Belly, Limits, Response, Rover, RoverError, within};
-use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// The `kind` of a car's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -60,6 +59,28 @@ pub struct CarLimits {
 }
 
 /// A car's numbers, SI, all checked. Built by [`CarDescription::build`].
+///
+/// ```
+/// use hairpin::robot::ground::{CarDescription, CarKind, CarLimits};
+///
+/// let limits = CarLimits { steering_deg: 30.0, steering_rate_deg_s: 30.0, speed_m_s: 8.0, acceleration_m_s2: 2.0 };
+/// let car = CarDescription {
+///     kind: CarKind::Car,
+///     name: "shuttle".into(),
+///     source: String::new(),
+///     caveat: String::new(),
+///     wheelbase_m: 2.5,
+///     length_m: None,
+///     width_m: None,
+///     speed_m_s: Some(2.0),
+///     limits,
+/// }
+/// .build()?;
+/// let tightest = 1.0 / car.vehicle().limits.curvature;
+/// assert!((tightest - 2.5 / 30f64.to_radians().tan()).abs() < 1e-12); // L / tan δ
+/// assert_eq!(car.estimated, ["length_m", "width_m"]);
+/// # Ok::<(), hairpin::robot::rover::RoverError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Car {
     /// Name, as in `data/robots`.
@@ -119,6 +140,9 @@ impl CarDescription {
 impl Car {
     /// The car as the generator of drives steers it, at its default speed v: |κ| ≤ tan(δ)/L, |κ′| ≤ δ̇/(L v), which the
     /// steering keeps at every angle.
+    ///
+    /// dκ/ds = δ̇ (1 + tan²δ)/(L v) is least at δ = 0, so that the bound is kept at every angle. Speed is the default
+    /// one: faster drives of the same path would steer faster.
     pub fn vehicle(&self) -> Rover {
         let limits = Limits {
             curvature: libm::tan(self.steering) / self.wheelbase,
@@ -136,40 +160,5 @@ impl Car {
         let outline =
             Belly { front: self.wheelbase + overhang, rear: -overhang, half_width: 0.5 * self.width, height: 0.0 };
         Named { name, caveat, source, estimated, outline }.vehicle(limits, response, self.default_speed)
-    }
-}
-
-/// ẋ = v cosψ, ẏ = v sinψ, ψ̇ = v tan(δ)/L; v̇ and δ̇ are the controls. The position is that of the rear axle's middle.
-impl Dynamics for Car {
-    type State = SVector<f64, 5>;
-    type Control = Vector2<f64>;
-
-    const STATE: &'static [Quantity] = &[
-        Quantity::new("x", "m"),
-        Quantity::new("y", "m"),
-        Quantity::new("yaw", "rad"),
-        Quantity::new("speed", "m_s"),
-        Quantity::new("steering", "rad"),
-    ];
-
-    fn derivative(&self, state: &Self::State, control: &Self::Control) -> Self::State {
-        let (sin, cos) = libm::sincos(state[2]);
-        let v = state[3];
-        SVector::from([v * cos, v * sin, v * libm::tan(state[4]) / self.wheelbase, control[0], control[1]])
-    }
-
-    fn control_bounds(&self) -> Bounds<Self::Control> {
-        let max = Vector2::new(self.acceleration, self.steering_rate);
-        Bounds { min: -max, max }
-    }
-
-    fn pose(&self, state: &Self::State) -> Isometry3<f64> {
-        planar_pose(state[0], state[1], state[2])
-    }
-
-    /// Speed and steering angle stop at their limits.
-    fn normalize(&self, state: &mut Self::State) {
-        state[3] = state[3].clamp(-self.speed, self.speed);
-        state[4] = state[4].clamp(-self.steering, self.steering);
     }
 }

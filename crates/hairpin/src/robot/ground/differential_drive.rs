@@ -1,13 +1,12 @@
-//! A differential drive: two wheels on one axle, each with a speed of its own.
+//! A differential drive: two wheels on one axle, each with a speed of its own. ẋ = v cosψ, ẏ = v sinψ, ψ̇ = ω at the
+//! axle's middle.
 
-use nalgebra::{Isometry3, SVector, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Named, named, planar_pose};
+use super::{Named, named};
 use crate::math::power::square;
 use crate::robot::rover::{Belly, Limits, Response, Rover, RoverError, within};
-use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// The `kind` of a differential drive's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -33,7 +32,8 @@ pub struct DifferentialDriveDescription {
     pub caveat: String,
     /// Distance of the wheels.
     pub track_m: f64,
-    /// Radius of the circle about the axle's middle that holds the robot; 0.8 times the distance of the wheels if not given.
+    /// Radius of the circle about the axle's middle that holds the robot; 0.8 times the distance of the wheels if not
+    /// given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
     /// Speed where none is given; half of the wheels' largest if not given, which leaves the other half to turning.
@@ -54,6 +54,8 @@ pub struct DifferentialDriveLimits {
 }
 
 /// A differential drive's numbers, SI, all checked. Built by [`DifferentialDriveDescription::build`].
+///
+/// Body frame at the middle of the axle; castors are not modelled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DifferentialDrive {
     /// Name, as in `data/robots`.
@@ -110,6 +112,8 @@ impl DifferentialDrive {
 
     /// The drive as the generator steers it, at its default speed v: the outer wheel keeps its limits, so that
     /// |κ| ≤ 2 (v_w − v)/(b v) and |κ′| ≤ 2 a_w/(b v²).
+    ///
+    /// From v ± ω b/2 within ±v_w with ω = κ v; and with v constant, v̇_r = ½ b v² κ′ within a_w.
     pub fn vehicle(&self) -> Rover {
         let v = self.default_speed;
         let limits = Limits {
@@ -126,45 +130,5 @@ impl DifferentialDrive {
         // The circle as the rectangle of no width that has its radius.
         let outline = Belly { front: self.radius, rear: -self.radius, ..Belly::default() };
         Named { name, caveat, source, estimated, outline }.vehicle(limits, response, v)
-    }
-}
-
-/// ẋ = v cosψ, ẏ = v sinψ, ψ̇ = ω; v̇ and ω̇ are the controls. The position is that of the axle's middle.
-impl Dynamics for DifferentialDrive {
-    type State = SVector<f64, 5>;
-    type Control = Vector2<f64>;
-
-    const STATE: &'static [Quantity] = &[
-        Quantity::new("x", "m"),
-        Quantity::new("y", "m"),
-        Quantity::new("yaw", "rad"),
-        Quantity::new("speed", "m_s"),
-        Quantity::new("turn_rate", "rad_s"),
-    ];
-
-    fn derivative(&self, state: &Self::State, control: &Self::Control) -> Self::State {
-        let (sin, cos) = libm::sincos(state[2]);
-        SVector::from([state[3] * cos, state[3] * sin, state[4], control[0], control[1]])
-    }
-
-    /// Each alone; together the wheels bound them: |v̇| + b/2 |ω̇| ≤ a_w.
-    fn control_bounds(&self) -> Bounds<Self::Control> {
-        let max = Vector2::new(self.wheel_acceleration, 2.0 * self.wheel_acceleration / self.track);
-        Bounds { min: -max, max }
-    }
-
-    fn pose(&self, state: &Self::State) -> Isometry3<f64> {
-        planar_pose(state[0], state[1], state[2])
-    }
-
-    /// Each wheel's speed stops at its limit.
-    fn normalize(&self, state: &mut Self::State) {
-        let half = 0.5 * self.track;
-        let most = self.wheel_speed;
-        let (left, right) = (state[3] - half * state[4], state[3] + half * state[4]);
-        if left.abs() > most || right.abs() > most {
-            let (left, right) = (left.clamp(-most, most), right.clamp(-most, most));
-            (state[3], state[4]) = (0.5 * (left + right), (right - left) / self.track);
-        }
     }
 }

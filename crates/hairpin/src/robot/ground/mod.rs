@@ -1,5 +1,5 @@
-//! Cars and differential drives on flat ground: kinematic models, their files, and the vehicle that the generator of drives
-//! takes them for.
+//! Cars and differential drives on flat ground: their files, and the vehicle that the generator of drives and the plant
+//! take them for.
 
 mod car;
 mod differential_drive;
@@ -12,9 +12,6 @@ pub use differential_drive::{
     DifferentialDrive, DifferentialDriveDescription, DifferentialDriveKind, DifferentialDriveLimits,
 };
 
-use nalgebra::{Isometry3, Translation3};
-
-use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
 use crate::robot::rover::{Belly, Body, Kinematics, Limits, Response, Rover, RoverError, Slip, Suspension, Wheels};
 
 fn named(name: &str) -> Result<String, RoverError> {
@@ -22,11 +19,6 @@ fn named(name: &str) -> Result<String, RoverError> {
         return Err(RoverError { field: "name".into(), value: "\"\"".into(), bound: "a name for reports".into() });
     }
     Ok(name.to_owned())
-}
-
-/// `world_from_body` of x, y, ψ.
-fn planar_pose(x: f64, y: f64, yaw: f64) -> Isometry3<f64> {
-    Isometry3::from_parts(Translation3::new(x, y, 0.0), unit_quaternion(&quaternion_from_euler(0.0, 0.0, yaw)))
 }
 
 /// What car and differential drive have in common as vehicles without suspension.

@@ -1,8 +1,4 @@
-use nalgebra::{SVector, Vector2};
-
 use super::*;
-use crate::math::integrate::rk4_step;
-use crate::robot::{Dynamics, Vector};
 
 fn text(name: &str) -> String {
     let path = format!("{}/../../data/robots/ground/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -16,85 +12,6 @@ fn car() -> Car {
 fn drive() -> DifferentialDrive {
     let text = text("differential-drive");
     toml::from_str::<DifferentialDriveDescription>(&text).expect("its keys").build().expect("its numbers")
-}
-
-/// The state after `time` s in `steps` steps.
-fn integrated<D: Dynamics<State = SVector<f64, 5>>>(
-    robot: &D,
-    start: [f64; 5],
-    control: &D::Control,
-    time: f64,
-    steps: usize,
-    euler: bool,
-) -> SVector<f64, 5> {
-    let h = time / steps as f64;
-    (0..steps).fold(SVector::from(start), |x, _| {
-        if euler {
-            x.add_scaled(&robot.derivative(&x, control), h)
-        } else {
-            rk4_step(|x| robot.derivative(x, control), &x, h)
-        }
-    })
-}
-
-#[test]
-fn constant_steering_is_a_circle_of_the_bicycles_radius() {
-    let car = car();
-    let (v, steering, time) = (2.0, 0.3_f64, 1.7);
-    let radius = car.wheelbase / steering.tan();
-    let end = integrated(&car, [0.0, 0.0, 0.0, v, steering], &Vector2::zeros(), time, 200, false);
-    let turned = v * time / radius;
-    assert!((end[0] - radius * turned.sin()).abs() < 1e-6 && (end[1] - radius * (1.0 - turned.cos())).abs() < 1e-6);
-    assert!((end[2] - turned).abs() < 1e-12);
-    // Backwards round the same circle.
-    let back = integrated(&car, [0.0, 0.0, 0.0, -v, steering], &Vector2::zeros(), time, 200, false);
-    assert!((back[0] + end[0]).abs() < 1e-9 && (back[1] - end[1]).abs() < 1e-9 && (back[2] + end[2]).abs() < 1e-12);
-}
-
-#[test]
-fn spirals_turn_by_the_integral_of_their_rates() {
-    // Steering at a constant rate: ψ = −v/(L δ̇) ln cos(δ̇ t).
-    let car = car();
-    let (v, rate, time) = (1.5, 0.5, 0.7);
-    let end = integrated(&car, [0.0, 0.0, 0.0, v, 0.0], &Vector2::new(0.0, rate), time, 400, false);
-    let turned = -v / (car.wheelbase * rate) * (rate * time).cos().ln();
-    assert!((end[2] - turned).abs() < 1e-9, "{} {turned}", end[2]);
-    // A differential drive with constant accelerations: ψ = ω t + α t²/2, a clothoid if v is constant.
-    let drive = drive();
-    let (w, alpha, time) = (0.3, 0.8, 1.5);
-    let end = integrated(&drive, [0.0, 0.0, 0.0, 0.1, w], &Vector2::new(0.0, alpha), time, 300, false);
-    assert!((end[2] - (w * time + 0.5 * alpha * time * time)).abs() < 1e-12);
-    let n = 20_000;
-    let place = (0..n).fold([0.0, 0.0], |p: [f64; 2], i| {
-        let t = (f64::from(i) + 0.5) * time / f64::from(n);
-        let yaw = w * t + 0.5 * alpha * t * t;
-        [p[0] + 0.1 * yaw.cos() * time / f64::from(n), p[1] + 0.1 * yaw.sin() * time / f64::from(n)]
-    });
-    assert!((end[0] - place[0]).abs() < 1e-9 && (end[1] - place[1]).abs() < 1e-9);
-}
-
-#[test]
-fn eulers_steps_come_to_the_runge_kutta_end_in_proportion() {
-    let car = car();
-    let control = Vector2::new(0.8, -0.4);
-    let start = [0.5, -0.3, 1.0, 1.0, 0.2];
-    let fine = integrated(&car, start, &control, 1.0, 1000, false);
-    let error = |steps| (integrated(&car, start, &control, 1.0, steps, true) - fine).norm();
-    let (coarse, half) = (error(500), error(1000));
-    assert!(half < 2e-3 && (coarse / half - 2.0).abs() < 0.02, "{coarse} {half}");
-}
-
-#[test]
-fn limits_of_state_stop_it_and_wheels_bound_together() {
-    let car = car();
-    let mut state = SVector::from([0.0, 0.0, 0.0, 99.0, -2.0]);
-    car.normalize(&mut state);
-    assert_eq!((state[3], state[4]), (car.speed, -car.steering));
-    let drive = drive();
-    let mut state = SVector::from([0.0, 0.0, 0.0, drive.wheel_speed, 0.5 * drive.turn_rate()]);
-    drive.normalize(&mut state);
-    let (left, right) = (state[3] - 0.5 * drive.track * state[4], state[3] + 0.5 * drive.track * state[4]);
-    assert!((right - drive.wheel_speed).abs() < 1e-15 && (left - 0.5 * drive.wheel_speed).abs() < 1e-15);
 }
 
 #[test]

@@ -1,4 +1,8 @@
 //! A quadrotor as a file has it: units in the names, what is missing derived and marked `estimated`.
+//!
+//! Keys that are left out are derived in the order in which they can be: kf and the largest rotor speed from each other
+//! and the thrust to weight; km and the body's radius from the layout; drag from the top speed or the discs; top speed
+//! from thrust and drag. A key that is given is never changed.
 
 use nalgebra::{Matrix4, Vector3, Vector4};
 use schemars::JsonSchema;
@@ -115,6 +119,12 @@ impl QuadrotorDescription {
     /// Noise and aerodynamic moment that are not given are zero. Everything else that is not given is derived (the
     /// models are documented in `derived.rs`) and its key listed in [`Quadrotor::estimated`]. From `mass_kg`, `rotors`,
     /// `thrust_to_weight` and `max_speed_m_s` alone comes a robot that flies.
+    ///
+    /// ```text
+    /// thrust to weight  = 4 kf w_max² / (m g)
+    /// given twice       : must agree within 1 %
+    /// hover             : every rotor's share of the weight within its limits
+    /// ```
     ///
     /// # Errors
     /// The first key whose value is out of bounds, with the bound: not finite, absurd in magnitude, a layout that

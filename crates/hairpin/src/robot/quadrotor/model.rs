@@ -1,15 +1,21 @@
 //! The equations of a quadrotor: rotor mixing, the rigid body with a quaternion, and the 12-state interface.
+//!
+//! 13 numbers inside, 12 at the doors: Euler angles are singular at θ = ±90°, which sampled rotor speeds do reach,
+//! quaternions nowhere.
 
-use nalgebra::{Isometry3, Matrix4, SVector, Translation3, Vector3, Vector4};
+use nalgebra::{Matrix4, SVector, Vector3, Vector4};
 
 use super::Quadrotor;
 use crate::math::rotation;
-use crate::robot::{Bounds, Dynamics, Quantity};
 
 /// x, y, z, qw, qx, qy, qz (`world_from_body`), vx, vy, vz (world), p, q, r (body), SI units.
+///
+/// m, m/s, rad/s; |(qw, qx, qy, qz)| = 1 after each step.
 pub type QuadrotorState = SVector<f64, 13>;
 
 /// The interface form x, y, z, φ, θ, ψ, vx, vy, vz, p, q, r. Singular at θ = ±90°: there roll is given as 0.
+///
+/// m, rad, m/s (world), rad/s (body): the paper's order.
 pub type EulerState = SVector<f64, 12>;
 
 /// Level, at rest, at the origin.
@@ -30,6 +36,8 @@ pub fn to_euler_state(state: &QuadrotorState) -> EulerState {
 }
 
 /// The quaternion form of a 12-state.
+///
+/// Inverse of [`to_euler_state`] except at the poles, where the attitude is the same and roll and yaw may differ.
 pub fn from_euler_state(state: &EulerState) -> QuadrotorState {
     let q = rotation::quaternion_from_euler(state[3], state[4], state[5]);
     QuadrotorState::from_fn(|i, _| match i {
@@ -43,6 +51,9 @@ impl Quadrotor {
     /// M with (u1, u2, u3, u4) = M·(w1², …, w4²): total thrust N, roll, pitch, yaw moments N·m.
     ///
     /// Row by row: kf; kf·y_i; −kf·x_i; km·spin_i.
+    ///
+    /// Columns are rotors in the file's order. For the paper's plus layout with arm d: u₂ = d kf (w₂² − w₄²), u₃ = d kf
+    /// (w₃² − w₁²), u₄ = km (w₁² − w₂² + w₃² − w₄²).
     pub fn mixing(&self) -> Matrix4<f64> {
         let (kf, km) = (self.thrust_coefficient, self.moment_coefficient);
         Matrix4::from_fn(|row, i| match row {
@@ -55,6 +66,9 @@ impl Quadrotor {
 
     /// The inverse of [`Self::mixing`]: squared rotor speeds from (u1, …, u4). `None` for a layout that cannot make
     /// all four independently, which [`super::QuadrotorDescription::build`] refuses.
+    ///
+    /// Squared speeds may come out negative or beyond the limits: that the wrench cannot be had is for the caller to
+    /// see.
     pub fn unmixing(&self) -> Option<Matrix4<f64>> {
         // Thrusts first, so that the matrix to invert is well scaled: columns (1, y, −x, spin·km/kf).
         let per_thrust = self.mixing() / self.thrust_coefficient;
@@ -73,6 +87,8 @@ impl Quadrotor {
     }
 
     /// Drag force on the body, N, in the frame of `air_velocity`: −c₁ v − c₂ |v| v of the velocity through the air.
+    ///
+    /// Isotropic: no difference between a body's broad and narrow side, no lift.
     pub fn drag_force(&self, air_velocity: &Vector3<f64>) -> Vector3<f64> {
         -(self.drag_linear + self.drag_quadratic * air_velocity.norm()) * air_velocity
     }
@@ -81,6 +97,9 @@ impl Quadrotor {
     /// world frame (drag, wind, noise), N.
     ///
     /// p' = v, q' = ½ q ⊗ (0, ω), m v' = R(q) e₃ u1 − m g e₃ + force, I ω' = moments − c|ω|ω − ω × I ω.
+    ///
+    /// Newton-Euler about the centre of mass. `state` as [`QuadrotorState`], `thrust` in N, `moments` in N·m in the
+    /// body frame, `force` in N in the world frame; result per second.
     pub fn rigid_body(
         &self,
         state: &QuadrotorState,
@@ -107,44 +126,18 @@ impl Quadrotor {
         }
         derivative
     }
-}
 
-/// The rigid body with drag in still air; controls are the four rotor speeds, rad/s.
-impl Dynamics for Quadrotor {
-    type State = QuadrotorState;
-    type Control = Vector4<f64>;
-    const STATE: &'static [Quantity] = &[
-        Quantity::new("x", "m"),
-        Quantity::new("y", "m"),
-        Quantity::new("z", "m"),
-        Quantity::new("qw", ""),
-        Quantity::new("qx", ""),
-        Quantity::new("qy", ""),
-        Quantity::new("qz", ""),
-        Quantity::new("vx", "m_s"),
-        Quantity::new("vy", "m_s"),
-        Quantity::new("vz", "m_s"),
-        Quantity::new("p", "rad_s"),
-        Quantity::new("q", "rad_s"),
-        Quantity::new("r", "rad_s"),
-    ];
-
-    fn derivative(&self, state: &QuadrotorState, control: &Vector4<f64>) -> QuadrotorState {
-        let u = self.wrench(control);
+    /// x' = f(x, u) of the rigid body with drag in still air; u are the rotor speeds, rad/s. Integrated by
+    /// `rk4_step(|x| robot.derivative(x, &u), &x, h)` of [`crate::math::integrate`], with [`Self::normalize`] after
+    /// each step.
+    pub fn derivative(&self, state: &QuadrotorState, speeds: &Vector4<f64>) -> QuadrotorState {
+        let u = self.wrench(speeds);
         let drag = self.drag_force(&Vector3::new(state[7], state[8], state[9]));
         self.rigid_body(state, u[0], &Vector3::new(u[1], u[2], u[3]), &drag)
     }
 
-    fn control_bounds(&self) -> Bounds<Vector4<f64>> {
-        Bounds { min: Vector4::repeat(self.rotor_speed.0), max: Vector4::repeat(self.rotor_speed.1) }
-    }
-
-    fn pose(&self, state: &QuadrotorState) -> Isometry3<f64> {
-        let translation = Translation3::new(state[0], state[1], state[2]);
-        Isometry3::from_parts(translation, rotation::unit_quaternion(&state.as_slice()[3..7]))
-    }
-
-    fn normalize(&self, state: &mut QuadrotorState) {
+    /// Scales the quaternion to norm 1, which a step of an integrator leaves by its error.
+    pub fn normalize(&self, state: &mut QuadrotorState) {
         rotation::renormalize(&mut state.as_mut_slice()[3..7]);
     }
 }

@@ -1,4 +1,7 @@
 //! The published program's integration, for comparison only: one explicit Euler step of the Euler-angle equations.
+//!
+//! Nothing of hairpin's own claims rests on this file: it exists so that the paper's numbers can be reproduced beside
+//! an integration that converges.
 
 use nalgebra::{Vector3, Vector4};
 
@@ -12,6 +15,9 @@ use super::model::EulerState;
 /// singular at θ = ±90° like the equations (finite there in floating point, and meaningless).
 ///
 /// Source: Hildebrandt et al., Feasible and Stressful Trajectory Generation for Mobile Robots, ISSTA 2020, eqs. 1-4.
+///
+/// `state` and result are 12-states; `speeds` in rad/s in the order of [`Quadrotor::rotors`]; `step` in s. Quadratic
+/// drag, rotor lag and the aerodynamic moment are left out.
 pub fn single_step(robot: &Quadrotor, state: &EulerState, speeds: &Vector4<f64>, step: f64) -> EulerState {
     let u = robot.wrench(speeds);
     let mut next = *state;
@@ -32,6 +38,8 @@ pub fn single_step(robot: &Quadrotor, state: &EulerState, speeds: &Vector4<f64>,
 }
 
 /// (ṗ, q̇, ṙ), rad/s².
+///
+/// ṗ = (u₂ − (Izz − Iyy) q r)/Ixx and cyclically (the paper's eq. 2, with signs as in Euler's equations).
 pub fn angular_acceleration(robot: &Quadrotor, u: &Vector4<f64>, p: f64, q: f64, r: f64) -> Vector3<f64> {
     let inertia = robot.inertia;
     Vector3::new(
@@ -42,6 +50,8 @@ pub fn angular_acceleration(robot: &Quadrotor, u: &Vector4<f64>, p: f64, q: f64,
 }
 
 /// (φ̇, θ̇, ψ̇), rad/s, of body rates; infinite or meaningless at θ = ±90°.
+///
+/// φ̇ = p + (q sinφ + r cosφ) tanθ, θ̇ = q cosφ − r sinφ, ψ̇ = (q sinφ + r cosφ)/cosθ.
 pub fn euler_rates(roll: f64, pitch: f64, rates: &Vector3<f64>) -> Vector3<f64> {
     let (sin, cos) = libm::sincos(roll);
     let yawing = rates.y * sin + rates.z * cos;

@@ -1,4 +1,7 @@
 //! What a rover's wheels carry: centre of mass and underside, given or estimated.
+//!
+//! Margins need more of a body than its wheels. Where a file says nothing the guess is the one that flatters least
+//! among simple ones, and is named in `estimated`.
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -8,6 +11,8 @@ use super::Suspension;
 use super::error::{RoverError, place, within, wrong};
 
 /// The rigid body on the suspension, in its own frame.
+///
+/// Body frame; the centre of mass is rigid with it, whatever the joints do.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Body {
     /// Centre of mass of the whole vehicle, m.
@@ -17,6 +22,8 @@ pub struct Body {
 }
 
 /// A level rectangle below the body, m.
+///
+/// Front ≥ rear. Its plane is z = height in the body frame; what hangs lower is not looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Belly {
     /// Its front edge, x.
@@ -44,8 +51,8 @@ pub struct BellyDescription {
 }
 
 impl Body {
-    /// Checked numbers, or estimates: the centre of mass over the middle of the wheels, the underside between the outermost
-    /// wheels, both at the height of the body's origin, or of the wheels' centres if that is higher.
+    /// Checked numbers, or estimates: the centre of mass over the middle of the wheels, the underside between the
+    /// outermost wheels, both at the height of the body's origin, or of the wheels' centres if that is higher.
     pub(super) fn build(
         suspension: &Suspension,
         centre_of_mass: Option<&[f64; 3]>,

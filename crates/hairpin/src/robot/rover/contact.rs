@@ -1,4 +1,8 @@
 //! One rule of contact for every wheel: a sphere on the tangent plane of the ground below its centre.
+//!
+//! The wheel is a ball: its centre lies on the offset surface z = c(x, y) = h + r √(1 + h_x² + h_y²) over the point
+//! below it. Sharp edges are smoothed by the map, not by the wheel; on the Mars Yard the rule differs from "the point
+//! under the axle" by 10 mm in the mean, so that there is one rule for all.
 
 use nalgebra::Vector3;
 

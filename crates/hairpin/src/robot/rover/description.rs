@@ -1,4 +1,7 @@
 //! A rover as a file has it: units in the names, what is missing derived and marked `estimated`.
+//!
+//! What binds is what is given: a limit that is left out is infinite, but for the change of curvature, without which no
+//! path has a best shape. Geometry is that of the left side.
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -20,6 +23,8 @@ pub enum RoverKind {
 }
 
 /// A rover's file. Needed: `name` and `limits.curvature_1_m`; without `suspension` it is a point in the plane.
+///
+/// `load_kg` may be drawn from run to run while the plan knows the empty vehicle; `slip_…` are for the mass without it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoverDescription {
@@ -81,6 +86,8 @@ fn is_zero(value: &f64) -> bool {
 }
 
 /// Geometry in the body frame: x forward, y left, z up, m; left side given, right side mirrored.
+///
+/// A rocker-bogie whose wheels leave the pose undetermined (in line, or at one place) is refused when it is built.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SuspensionDescription {
@@ -135,6 +142,8 @@ pub struct LimitsDescription {
 }
 
 /// Delays and lags; none if not given.
+///
+/// Delays are the act's: a planner's legs are made without latency, which controllers then meet.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResponseDescription {

@@ -1,4 +1,8 @@
 //! Four wheels on a rigid body: three unknowns (z, φ, θ), four contacts, least squares by Gauss-Newton.
+//!
+//! min over (z, φ, θ) of Σ F_i²: four wheels on a rigid body touch four points in a plane only by luck, so that the
+//! rest is the plane nearest to all four contacts, and wheels may stand millimetres over the ground or in it.
+//! Gauss-Newton: JᵀJ Δ = −JᵀF.
 
 use nalgebra::Vector3;
 
@@ -8,6 +12,8 @@ use super::solve::eliminate;
 use crate::world::terrain::Terrain;
 
 /// Places of the wheels' centres in the body frame, m.
+///
+/// Any four places; files give the left side and mirror it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FourWheel {
     /// Front left, front right, rear left, rear right.
@@ -18,8 +24,8 @@ pub struct FourWheel {
 
 /// Gauss-Newton steps; a warm start takes three.
 const MOST_STEPS: usize = 50;
-/// Steps after which each is half as long as the one before: where the rest lies on a kink of the map, steps lead to it from both of its sides
-/// and grow no shorter by themselves.
+/// Steps after which each is half as long as the one before: where the rest lies on a kink of the map, steps lead to it
+/// from both of its sides and grow no shorter by themselves.
 const SWINGING: usize = 20;
 /// Least squares converges linearly where gaps remain: steps of this share of a coarse gap end the iteration.
 const SHORT: f64 = 0.01;

@@ -2,6 +2,30 @@
 //!
 //! Body frame: x forward, y left, z up (REP-103). Roll φ > 0 lifts the left side, pitch θ > 0 lowers the nose, yaw ψ
 //! turns left; R = Rz(ψ) Ry(θ) Rx(φ).
+//!
+//! The pose has six numbers and three are free: at a place (x, y, ψ) the ground and the suspension settle z, φ, θ and
+//! the joints. So a drive is integrated in the plane, and at every step
+//!
+//! ```text
+//! settle    F(z, φ, θ, joints; x, y, ψ) = 0              one gap for each wheel           (suspension)
+//! rates     (ẋ, ẏ, ψ̇) from vx, vy, ωz and the lean       slip by the sine of the slope    (motion)
+//! wheels    v_w = v + ω × r_w                             steer angles, rolling speeds     (wheels)
+//! forces    F = m g (sin(climb) + c cosφ cosθ) + m v̇     torque of each wheel             (forces)
+//! margins   tipping, underside                            by force-angle, by a grid        (stability)
+//! ```
+//!
+//! | type | is |
+//! | --- | --- |
+//! | [`Rover`] | all numbers of a vehicle; built by [`RoverDescription::build`] |
+//! | [`Suspension`] | level, [`FourWheel`] (least squares), [`RockerBogie`] (square Newton) |
+//! | [`Settled`], [`Gradient`], [`Unsettled`] | a rest, how it changes with the place, or why there is none |
+//! | [`Rates`], [`Slip`], [`Kinematics`] | the body's motion over the ground |
+//! | [`Wheels`], [`Twist`], [`WheelMotion`] | the wheels' motion that belongs to it |
+//! | [`Weight`], [`Effort`] | what it takes |
+//! | [`Body`], [`Belly`] | centre of mass, underside |
+//!
+//! After T. Howard and A. Kelly, "Optimal rough terrain trajectory generation for wheeled mobile robots", IJRR 26(2),
+//! 2007.
 
 mod body;
 mod contact;
@@ -33,6 +57,29 @@ pub use suspension::Suspension;
 pub use wheels::{Steering, Twist, WheelMotion, Wheels, WheelsDescription};
 
 /// A rover's numbers, SI, all checked and finite. Built by [`RoverDescription::build`].
+///
+/// Also what a car or a differential drive is planned as: then [`Suspension::Level`], and no weight.
+///
+/// ```
+/// use hairpin::robot::rover::{RoverDescription, Settled, Twist};
+/// use hairpin::world::terrain::Flat;
+///
+/// let file = serde_json::json!({
+///     "kind": "rover", "name": "cart", "steering": "all-wheel",
+///     "suspension": { "kind": "four-wheel", "wheel_radius_m": 0.1,
+///         "front_m": [0.4, 0.3, 0.0], "rear_m": [-0.4, 0.3, 0.0] },
+///     "centre_of_mass_m": [0.0, 0.0, 0.2],
+///     "limits": { "curvature_1_m": 1.0 },
+/// });
+/// let cart = serde_json::from_value::<RoverDescription>(file)?.build()?;
+/// let (rest, _) = cart.suspension.settle_cold(&Flat, [0.0, 0.0, 0.0])?;
+/// assert!((rest.z - 0.1).abs() < 1e-9); // the body's origin is at the height of the axles
+/// let margin = cart.tip_over_margin(&Flat, [0.0, 0.0, 0.0], &rest)?;
+/// assert!((margin - f64::atan2(0.3, 0.3)).abs() < 1e-9); // half the track over the height of the mass
+/// let (motions, count) = cart.wheel_motions(&Twist::along(0.0, 1.0, 1.0), &rest.joints, None);
+/// assert!(count == 4 && motions[0].steer > 0.0 && motions[2].steer < 0.0); // turning left
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rover {
     /// Name, as in `data/robots`.
@@ -64,6 +111,8 @@ pub struct Rover {
 }
 
 /// Bounds of a rover's motion; infinite where there is none.
+///
+/// κ and κ′ bind the commanded path, tilt and joints every place where the body is settled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Largest |κ|, 1/m.
@@ -83,6 +132,8 @@ pub struct Limits {
 }
 
 /// How the steering follows its command.
+///
+/// A commanded κ waits for the latency, then steers: τ δ̇ = δ_commanded − δ with |δ̇| bounded, κ = tan(δ)/steered_axle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
     /// A command acts this much later, s.

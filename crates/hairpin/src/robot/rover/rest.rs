@@ -1,4 +1,7 @@
 //! A body at rest on the ground: height, roll, pitch and joints, and how they change with its place.
+//!
+//! F_i = z_i − c(x_i, y_i) for wheel i's centre in the world; ∂F/∂(angle) = (axis × b)·Rᵀ∇F for a wheel at b in the
+//! body. The same linear system gives Newton's step and the gradient by the place.
 
 use nalgebra::{Matrix3, Vector3};
 use thiserror::Error;
@@ -6,6 +9,9 @@ use thiserror::Error;
 use crate::world::terrain::NoGround;
 
 /// A pose at rest on the ground.
+///
+/// A rest is a local one: rough ground has several, and which is found depends on the guess, as where a rover stands
+/// depends on where it came from.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Settled {
     /// Height of the body's origin, m.
@@ -20,6 +26,9 @@ pub struct Settled {
 
 /// How a settled pose changes with (x, y, ψ) while the wheels stay on the ground, by the implicit function theorem:
 /// F(q; x, y, ψ) = 0 gives dq = −F_q⁻¹ F_(x, y, ψ) d(x, y, ψ).
+///
+/// Exact for six-wheelers (F = 0 is square); for four wheels that of the Gauss-Newton model, which is exact where the
+/// gaps vanish. The map is C¹, so it jumps at cell borders.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gradient {
     /// Rows z, φ, θ, rocker, bogies; columns x, y (1/m), ψ (1/rad).
@@ -44,6 +53,8 @@ impl Gradient {
 }
 
 /// Why a body finds no rest.
+///
+/// Evidence, not an error of the caller's: a drive through such a place is refused for this reason.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Unsettled {
     /// A wheel has no ground below it.

@@ -2,9 +2,9 @@
 //!
 //! Equations (q = (z, φ, θ, β, ρ_l, ρ_r), side s = +1 left, −1 right):
 //! rocker: Ry(sβ) about the differential's pivot D_s; bogie: Ry(ρ_s) more about its joint;
-//! F_i(q) = p_z − c(p_x, p_y) = 0 for each wheel's centre p. Newton with the exact Jacobian; each bogie angle meets only its own two
-//! wheels and is eliminated by hand, which leaves four equations.
-//! Geometry: Balaram, Ohm & Ivlev 1996; Tarokh & McDermott 2005.
+//! F_i(q) = p_z − c(p_x, p_y) = 0 for each wheel's centre p. Newton with the exact Jacobian; each bogie angle meets
+//! only its own two wheels and is eliminated by hand, which leaves four equations. Geometry: Balaram, Ohm & Ivlev 1996;
+//! Tarokh & McDermott 2005.
 
 use nalgebra::Vector3;
 
@@ -14,6 +14,9 @@ use super::solve::eliminate;
 use crate::world::terrain::Terrain;
 
 /// Geometry of the left side, m; the right one is its mirror image.
+///
+/// The differential makes the rockers turn equal and opposite: β left, −β right. Six wheels, six unknowns: on ground
+/// without kinks the rest is isolated and Newton converges quadratically.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RockerBogie {
     /// Pivot of the rocker on the body.
@@ -67,6 +70,8 @@ impl RockerBogie {
     }
 
     /// Centres of the six wheels in the body frame: left rocker wheel and bogie wheels, then right.
+    ///
+    /// `joints` = [β, ρ_left, ρ_right], rad; m.
     pub fn wheels(&self, joints: &[f64; 3]) -> [Vector3<f64>; 6] {
         let (left, right) = (self.side(1.0, joints[0], joints[1]), self.side(-1.0, joints[0], joints[2]));
         [left.at[0], left.at[1], left.at[2], right.at[0], right.at[1], right.at[2]]

@@ -1,4 +1,7 @@
 //! A small dense linear solve with several right-hand sides, on the stack.
+//!
+//! Gauss-Jordan with partial pivoting. Sizes are constants (3 × 7, 4 × 8), and nothing is allocated: it runs for every
+//! look of every step of every drive.
 
 /// Solves A X = B in place for the augmented rows [A | B], `N` rows of `W` = N + number of right-hand sides; X is in
 /// the last columns afterwards. False if A is singular to working precision.

@@ -1,4 +1,8 @@
 //! How the body's motion becomes that of its wheels: v_w = v + ω × r_w gives steer angles and rolling speeds.
+//!
+//! One formula for every steering: the wheel at r_w moves by v + ω × r_w in the plane of the body, and what it cannot
+//! roll it scrubs. From it come the bounds on κ that steer joints allow, and the speeds and accelerations that motors
+//! must give.
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -8,6 +12,8 @@ use super::error::{RoverError, within};
 use super::{Rover, Suspension};
 
 /// Which wheels steer, and so how a vehicle turns.
+///
+/// With `Skid` no wheel steers and turning is scrubbing; the effective track, wider than the wheels', stands for that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Steering {
@@ -47,6 +53,8 @@ pub struct WheelsDescription {
 }
 
 /// How the wheels move the body, and their bounds; infinite where there is none.
+///
+/// Bounds are the same for every wheel. Torque needs the vehicle's weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wheels {
     /// Which ones steer.
@@ -110,6 +118,8 @@ impl Wheels {
 }
 
 /// The body's motion in the plane of its wheels, per second, per metre of travel or per radian, in body axes.
+///
+/// Scale is free: what [`Rover::wheel_motions`] answers is in the same measure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Twist {
     /// Along x.
@@ -132,6 +142,8 @@ impl Twist {
 }
 
 /// What one wheel does for a [`Twist`].
+///
+/// Rolling speed in rad/s is `rolls` times the body's speed over the wheel's radius.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WheelMotion {
     /// Steer angle, rad, left positive.
@@ -148,10 +160,14 @@ const AXLE: f64 = 1e-3;
 impl Rover {
     /// What each wheel does when the body moves by `twist` with its joints at `joints`, and how many wheels there are.
     ///
-    /// v_w = (ahead − turn · y_w, left + turn · x_w), r_w = (x_w, y_w) from the commanded point of the body; the articulation's own
-    /// rates are left out. A wheel that steers points along v_w, forwards or backwards: whichever is nearer to its angle `before`, as
-    /// far as its joint goes, or to straight ahead. One that does not steer rolls by the part of v_w ahead and scrubs by the rest. With
-    /// [`Steering::Skid`] |y_w| is half of the effective track. (Howard & Kelly 2007, eq. 7)
+    /// v_w = (ahead − turn · y_w, left + turn · x_w), r_w = (x_w, y_w) from the commanded point of the body; the
+    /// articulation's own rates are left out. A wheel that steers points along v_w, forwards or backwards: whichever is
+    /// nearer to its angle `before`, as far as its joint goes, or to straight ahead. One that does not steer rolls by
+    /// the part of v_w ahead and scrubs by the rest. With [`Steering::Skid`] |y_w| is half of the effective track.
+    /// (Howard & Kelly 2007, eq. 7)
+    ///
+    /// Left turn centre at 1/κ: a wheel at (x, y) stands at δ = atan2(κ x, 1 − κ y) and rolls √((1 − κ y)² + κ² x²)
+    /// metres a metre, for travel straight ahead.
     pub fn wheel_motions(
         &self,
         twist: &Twist,
@@ -226,6 +242,8 @@ impl Rover {
     }
 
     /// The largest |dδ/dκ| of a steered wheel for |κ| ≤ `most`, m: |x| / ((1 − κy)² + κ²x²); 0 where none steers.
+    ///
+    /// dδ/dκ of δ = atan(κ x/(1 − κ y)); times |κ̇| it bounds the steer joints' rates.
     pub fn steering_gain(&self, most: f64) -> f64 {
         let (wheels, count, _) = self.suspension.wheels(&[0.0; 3]);
         let steers = self.steers(&wheels[..count]);
@@ -251,9 +269,12 @@ impl Rover {
         }
     }
 
-    /// The largest |κ| straight ahead, 1/m, that the steer joints can reach: infinite without a limit below a right angle.
+    /// The largest |κ| straight ahead, 1/m, that the steer joints can reach: infinite without a limit below a right
+    /// angle.
     ///
     /// A wheel at (x, y) stands at atan(κx/(1 − κy)); the inner one of those farthest off goes farthest.
+    ///
+    /// From tan δ = |κ| |x|/(1 − |κ| |y|): |κ| = tan δ/(|x| + |y| tan δ), the least over the steered wheels.
     pub fn steerable_curvature(&self) -> f64 {
         let (wheels, count, _) = self.suspension.wheels(&[0.0; 3]);
         let steers = self.steers(&wheels[..count]);
@@ -314,7 +335,8 @@ mod tests {
             assert!((motion.steer - (x / radius).atan()).abs() < 1e-12, "{motion:?}");
             assert!((motion.rolls - kappa * radius.hypot(x)).abs() < 1e-12 && motion.scrubs == 0.0);
         }
-        // Front: the turning centre lies on the rear axle, 1/κ beside its middle; cot δ_outer − cot δ_inner = track / wheelbase.
+        // Front: the turning centre lies on the rear axle, 1/κ beside its middle; cot δ_outer − cot δ_inner = track /
+        // wheelbase.
         let front = motions(&rover("front", ""), Twist::along(0.0, kappa, 1.0));
         let cot = |wheel: &WheelMotion| 1.0 / wheel.steer.tan();
         assert!((cot(&front[1]) - cot(&front[0]) - 0.6 / 0.8).abs() < 1e-12);

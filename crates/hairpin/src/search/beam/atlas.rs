@@ -1,4 +1,7 @@
 //! The part of the graph that the beam has seen: nodes by number, their legs, and from where the end cannot be reached.
+//!
+//! Expanding the same node again costs nothing: its legs stay until there are too many. Dead ends are remembered by
+//! (node, steps left), exactly within the lookahead and by the caller's necessary test beyond it.
 
 use std::collections::HashMap;
 use std::hash::Hash;

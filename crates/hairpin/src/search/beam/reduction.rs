@@ -1,4 +1,7 @@
 //! Partial trajectories of equal length at the same node have the same futures: only the best few are worth keeping.
+//!
+//! The paper names it as future work. With revisits and a score without memory it is exact dominance: a future is a
+//! function of (node, length).
 
 use std::collections::HashMap;
 

@@ -1,4 +1,7 @@
 //! One graph's run: the spine of algorithm 2.
+//!
+//! Order of an iteration: select, complete or expand each selected one, bound the frontier, ask whether to go on. An
+//! entry that was overtaken by better twins since it was pushed is dropped as it comes up.
 
 use std::cmp::Ordering;
 use std::hash::Hash;

@@ -1,4 +1,7 @@
 //! Best-first search in the order of an exact bound: what comes off the queue complete is the best of what is left.
+//!
+//! Bounds never rise along a trajectory: rounding is clipped at the parent's bound, so that the order in which entries
+//! come off is the order of their truth.
 
 use std::cmp::Ordering;
 use std::collections::HashSet;
@@ -30,6 +33,10 @@ pub(super) struct BestFirst<N> {
     pub(super) expansions: u64,
 }
 
+/// A*: the partial trajectory of the greatest bound is extended first, the bound being its score with the best that
+/// could follow ([`Values`]). As no bound grows along a trajectory, the first complete one popped is the best, and so
+/// on to the `best`-th. Where the budget of expansions ends first, the bound at the top is what nothing left can
+/// exceed.
 pub(super) fn best_first<N: Copy>(
     graph: &LegGraph<'_, N>,
     scores: &LegScores,

@@ -1,4 +1,7 @@
 //! A good trajectory without revisits where the best cannot be proven: a beam over lengths in the order of the bound.
+//!
+//! Layer by layer, the `width` best labels of each by bound; dominance by the set of visited waypoints, as a 64-bit
+//! hash. What it finds is a trajectory; only the gap to the bound is told of its quality.
 
 use std::collections::HashMap;
 
@@ -24,8 +27,8 @@ struct Label {
     set: u64,
 }
 
-/// Best first, distinct; and the labels expanded. Of two labels at one node with the same waypoints visited the one of the lower bound is
-/// left out: whatever completes it completes the other one as well.
+/// Best first, distinct; and the labels expanded. Of two labels at one node with the same waypoints visited the one of
+/// the lower bound is left out: whatever completes it completes the other one as well.
 pub(super) fn descent<N: Copy>(
     graph: &LegGraph<'_, N>,
     scores: &LegScores,

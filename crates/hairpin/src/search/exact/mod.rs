@@ -2,7 +2,17 @@
 //!
 //! With revisits the bound is the truth: the k best trajectories come off the queue first. Without, the bound is that
 //! of walks which may come back, and the first trajectories without revisits that come off the queue are the
-//! best; where the queue would grow beyond its budget, a beam in the order of the bound finds a good one and its gap is told.
+//! best; where the queue would grow beyond its budget, a beam in the order of the bound finds a good one and its gap is
+//! told.
+//!
+//! ```text
+//! V_s(v)  best of the walks of s legs from v to the end             (graph::value, backwards)
+//! f = g ⊕ V                                                          A*: score so far, best still to come
+//! ```
+//!
+//! V is exact over walks, hence an admissible and consistent bound over trajectories without revisits: the first
+//! complete entry off the queue is the best (Hart, Nilsson and Raphael 1968). Where revisits are allowed no entry is
+//! ever expanded in vain, and the k best cost about k · length expansions.
 
 mod best_first;
 mod descent;
@@ -18,6 +28,8 @@ use super::objective::{Additive, Aggregate};
 use super::task::Found;
 
 /// What is asked for.
+///
+/// `expansions` is the one number that trades proof for time; memory grows with it, by the legs of each node expanded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactSettings {
     /// Waypoints of a trajectory, both ends included; at most the length the graph was built for.
@@ -41,6 +53,9 @@ impl Default for ExactSettings {
 }
 
 /// The answer.
+///
+/// `found[..proven]` are the best there are; of later ones only `bound` is known. Two trajectories through other nodes
+/// of the same waypoints count once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactOutcome<N> {
     /// Distinct trajectories, best first.
@@ -64,6 +79,20 @@ impl<N> ExactOutcome<N> {
 }
 
 /// The best trajectories of `graph` under a score that is additive over legs, or over pairs of them.
+///
+/// ```
+/// use hairpin::feasibility::reach::{Everywhere, StepNode, StepReach, StepSettings};
+/// use hairpin::search::{ExactSettings, LegGraph, LegView, exact};
+/// use nalgebra::Point3;
+///
+/// let points: Vec<Point3<f64>> = [0.0, 1.0, 5.0, 2.0, 3.0].map(|x| Point3::new(x, 0.0, 1.0)).into();
+/// let reach = StepReach::new(&Everywhere, &points, StepSettings::default());
+/// let graph = LegGraph::explore(StepNode { previous: 0, current: 0 }, &points, &reach, 4);
+/// let settings = ExactSettings { length: 4, best: 2, ..ExactSettings::default() };
+/// let answer = exact(&graph, &|leg: &LegView<'_>| leg.features.length, &settings);
+/// assert_eq!(answer.found[0].waypoints, [0, 2, 1, 4]); // 5 + 4 + 2 m
+/// assert_eq!((answer.proven, answer.gap()), (2, Some(0.0)));
+/// ```
 pub fn exact<N, O>(graph: &LegGraph<'_, N>, objective: &O, settings: &ExactSettings) -> ExactOutcome<N>
 where
     N: Copy,
@@ -74,6 +103,8 @@ where
 }
 
 /// Searches of one graph for several scores: what they share is done once.
+///
+/// Several scores of one graph (all scores by hand, for a search in the loop) share its count and its trimming.
 #[derive(Debug)]
 pub struct ExactSearch<'g, 'a, N: Copy> {
     graph: Cow<'g, LegGraph<'a, N>>,

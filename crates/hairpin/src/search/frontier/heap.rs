@@ -1,4 +1,6 @@
 //! A priority queue with two ends: the best is taken to be expanded, the worst dropped to keep memory bounded.
+//!
+//! O(log n) to push and to take from either end; no pointers, so that the frontier is one allocation.
 
 use std::cmp::Ordering;
 

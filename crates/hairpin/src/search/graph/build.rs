@@ -12,12 +12,17 @@ use crate::feasibility::reach::{Leg, Reach};
 
 impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
     /// All legs that a trajectory of at most `length` waypoints can use: from `start` at `candidates[0]`, by `reach`.
+    ///
+    /// With trajectories of L waypoints a leg v→w is kept where d(start, v) + 1 + d(w, end) ≤ L − 1 in legs: what no
+    /// such walk uses would only be carried along.
     pub fn explore<R: Reach<N> + ?Sized>(start: N, candidates: &'a [Point3<f64>], reach: &R, length: usize) -> Self {
         Self::grow(start, candidates, length, |from, out| reach.legs(from, candidates, out)).trimmed(length)
     }
 
     /// The same from a list of (from, leg); their order does not matter. Of legs between the same two nodes the first
     /// in the list is taken.
+    ///
+    /// For reach sets that were judged before, and for tests by enumeration.
     pub fn from_legs(start: N, candidates: &'a [Point3<f64>], legs: &[(N, Leg<N>)], length: usize) -> Self {
         let mut order: Vec<u32> = (0..legs.len() as u32).collect();
         let key = |&i: &u32| {
@@ -34,6 +39,8 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
         Self::grow(start, candidates, length, legs_of).trimmed(length)
     }
 
+    /// Breadth first from `start`, one layer a leg: nodes at depth `length` − 1 and beyond get no legs. O(nodes +
+    /// legs), each node's legs asked for once.
     fn grow(
         start: N,
         candidates: &'a [Point3<f64>],
@@ -81,7 +88,11 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
 
 impl<N: Copy> LegGraph<'_, N> {
     /// Without the legs that no trajectory without revisits has: into the start, from the end on, and back to the only
-    /// waypoint that their first node can be entered from. What is left are still walks, but far fewer. Itself where that was done before.
+    /// waypoint that their first node can be entered from. What is left are still walks, but far fewer. Itself where
+    /// that was done before.
+    ///
+    /// Trajectories without revisits are all still there; walks that fly straight back are not, which tightens every
+    /// bound taken over walks.
     pub fn without_returns(&self, length: usize) -> Cow<'_, Self> {
         if self.without_returns == Some(length) {
             Cow::Borrowed(self)
@@ -90,7 +101,8 @@ impl<N: Copy> LegGraph<'_, N> {
         }
     }
 
-    /// [`Self::without_returns`] of a graph that nobody needs as it was: dense graphs take hundreds of megabytes, which are cheaper kept than copied.
+    /// [`Self::without_returns`] of a graph that nobody needs as it was: dense graphs take hundreds of megabytes, which
+    /// are cheaper kept than copied.
     pub fn into_without_returns(self, length: usize) -> Self {
         if self.without_returns == Some(length) {
             return self;
@@ -121,7 +133,8 @@ impl<N: Copy> LegGraph<'_, N> {
         self.retain(|_, from, to| after[from as usize].saturating_add(1).saturating_add(before[to as usize]) <= most)
     }
 
-    /// The legs for which `keep(waypoints of the nodes, from, to)` holds, and the nodes that they lead to or start from; in place.
+    /// The legs for which `keep(waypoints of the nodes, from, to)` holds, and the nodes that they lead to or start
+    /// from; in place.
     fn retain(mut self, keep: impl Fn(&[u32], u32, u32) -> bool) -> Self {
         const GONE: u32 = u32::MAX;
         let mut number = vec![GONE; self.nodes()];
@@ -175,8 +188,8 @@ impl<N: Copy> LegGraph<'_, N> {
         distance
     }
 
-    /// Fewest legs to the end; `u32::MAX` where there is no way. In rounds over the nodes whose distance is not known: a list of the
-    /// legs backwards would take longer, for few rounds are needed.
+    /// Fewest legs to the end; `u32::MAX` where there is no way. In rounds over the nodes whose distance is not known:
+    /// a list of the legs backwards would take longer, for few rounds are needed.
     fn distances_to_end(&self) -> Vec<u32> {
         let nodes = 0..self.nodes() as u32;
         let mut distance: Vec<u32> = nodes.clone().map(|node| if self.at_end(node) { 0 } else { u32::MAX }).collect();

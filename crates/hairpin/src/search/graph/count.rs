@@ -1,10 +1,15 @@
 //! How many trajectories a graph has: exactly, of every length.
+//!
+//! Counting is the dynamic program over (+, ×) in place of (max, +). Zero is a proof that the graph has none; a count
+//! is what a share of found trajectories is held against.
 
 use std::fmt;
 
 use super::LegGraph;
 
 /// A number of trajectories.
+///
+/// `About` once a sum left 128 bits; from there on sums of doubles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Count {
     /// To the last one.
@@ -73,6 +78,8 @@ impl Counts {
 impl<N: Copy> LegGraph<'_, N> {
     /// Number of trajectories of every length: item ℓ counts those of ℓ waypoints, for ℓ = 0 ..= `length`. With
     /// revisits; without them it is an upper bound. Lengths beyond the one the graph was built for are undercounted.
+    ///
+    /// O(legs · length) additions, one layer in memory.
     pub fn counts_by_length(&self, length: usize) -> Vec<Count> {
         let mut counts = vec![Count::Exact(0), Count::Exact(0)];
         let mut layer = self.last_layer();
@@ -85,6 +92,8 @@ impl<N: Copy> LegGraph<'_, N> {
     }
 
     /// The whole backward pass for trajectories of up to `length` waypoints.
+    ///
+    /// All layers: nodes · length numbers of 16 bytes.
     pub fn counts(&self, length: usize) -> Counts {
         let mut layers = vec![self.last_layer()];
         while layers.len() < length {

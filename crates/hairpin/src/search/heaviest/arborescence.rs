@@ -1,9 +1,12 @@
 //! The bound of directed problems: a maximal arborescence from the dummy, on which points that are left out hang.
 //!
-//! L(μ) = Σᵢ μᵢ + μ_s + max over arborescences A of Σ_A w + max over allowed ends t of −μ_t, with w(i→j) = c(i, j) − μᵢ,
-//! w(start i) = −μ_s, w(loop i) = −μᵢ. Any path with loops for what it leaves out is such an arborescence with an end, and
-//! leaves each point and the start once; so it costs no more than L(μ), whatever the signs of μ. Edmonds 1967, by rounds
-//! of contracting all circles at once; the weights that are left are reduced costs: forcing an arc costs at least its own.
+//! L(μ) = Σᵢ μᵢ + μ_s + max over arborescences A of Σ_A w + max over allowed ends t of −μ_t, with w(i→j) = c(i, j) −
+//! μᵢ, w(start i) = −μ_s, w(loop i) = −μᵢ. Any path with loops for what it leaves out is such an arborescence with an
+//! end, and leaves each point and the start once; so it costs no more than L(μ), whatever the signs of μ. Edmonds 1967,
+//! by rounds of contracting all circles at once; the weights that are left are reduced costs: forcing an arc costs at
+//! least its own.
+//!
+//! All circles of best arcs are contracted at once, O(m) a round.
 
 use super::choices::{Choice, Choices, Made, OPEN, OUT};
 use super::relaxation::{Relaxation, best_ends};
@@ -51,6 +54,10 @@ impl Arborescence {
     }
 
     /// Contracts until no circle is left; the sum of what the points took, `None` if one cannot be entered.
+    ///
+    /// A round takes the best arc into each point but the root and lessens every arc by the best into its end; all
+    /// circles that best arcs close become one point each. What an arc has left when it vanishes into a circle, or in
+    /// the end, is its reduced cost (≤ 0). At most n rounds, O(m) each.
     fn contract(&mut self, points: usize) -> Option<i64> {
         let (mut count, mut total, mut number) = (points as u32 + 1, 0, 0);
         let mut root = points as u32;
@@ -223,6 +230,8 @@ impl Relaxation for Arborescence {
         }
     }
 
+    /// Out is what would bring the bound below the threshold by its reduced cost, and the ends that the best one leads
+    /// by as much. Nothing is decided in: that takes the second best arborescence for each arc.
     fn decided(
         &mut self,
         choices: &Choices,

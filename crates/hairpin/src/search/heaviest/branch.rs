@@ -2,6 +2,9 @@
 //!
 //! Every problem gets a few steps of its multipliers; then what cannot be any more is out, what must be is in, and a
 //! choice on which the relaxed solutions disagree splits what is left (Volgenant & Jonker 1982 for tours).
+//!
+//! Parts are shared out once, when 32 problems are open, a number that no thread count changes; each part is searched
+//! depth first with its own best, and proofs are put together afterwards.
 
 use rayon::prelude::*;
 
@@ -248,8 +251,8 @@ impl<'a, R: Relaxation> Branching<'a, R> {
         }
     }
 
-    /// The open choice that is in about half of the relaxed solutions: whether a point is met at all rather than arcs, which mean little
-    /// while that is open, and arcs rather than ends.
+    /// The open choice that is in about half of the relaxed solutions: whether a point is met at all rather than arcs,
+    /// which mean little while that is open, and arcs rather than ends.
     fn contested(&self, made: &Made) -> Option<usize> {
         let score = |id: &usize| {
             let off = (self.ascent.share(*id) - 0.5).abs();

@@ -3,6 +3,10 @@
 //! A path is closed by a dummy point: one start arc from it, one end arc to it; a point that is left out has a loop.
 //! Then every point has exactly two arcs (one in and one out where arcs are directed), a loop being both. Arcs, starts,
 //! loops and ends are numbered in this order.
+//!
+//! Rules are sums: Σ of shares at a point = 2 (or 1 in and 1 out), one start, one end. What a rule has no more room for
+//! is out, what it cannot do without is in; of each chain of chosen arcs the other end is kept, so that no arc closes a
+//! circle.
 
 use super::problem::{Arcs, Ends};
 
@@ -25,8 +29,8 @@ pub(super) struct Choices {
     pub(super) points: usize,
     pub(super) directed: bool,
     pub(super) arcs: Vec<Arc>,
-    /// Choices of each rule, rules one after another: of each point (its arcs out, where directed, then its arcs in), then
-    /// of starts and ends.
+    /// Choices of each rule, rules one after another: of each point (its arcs out, where directed, then its arcs in),
+    /// then of starts and ends.
     members: Vec<u32>,
     first: Vec<u32>,
     /// The rule of starts; that of ends follows.
@@ -77,8 +81,8 @@ impl Choices {
         Self::new(n, directed, list)
     }
 
-    /// The same with only the arcs that are among the `most` best of either of their points, by what multipliers leave of
-    /// their costs.
+    /// The same with only the arcs that are among the `most` best of either of their points, by what multipliers leave
+    /// of their costs.
     pub(super) fn near(&self, multipliers: &[i64], most: usize) -> Self {
         let mut of_point = vec![Vec::new(); self.points];
         for (id, arc) in self.arcs.iter().enumerate() {

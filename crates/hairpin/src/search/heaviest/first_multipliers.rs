@@ -1,4 +1,6 @@
 //! Where multipliers begin: each point's, in turn, where the bound without connectedness is least.
+//!
+//! Coordinate descent on the assignment bound: cheap, and closer to the end than zero.
 
 use super::problem::{Arcs, NONE};
 

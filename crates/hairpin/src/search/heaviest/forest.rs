@@ -1,9 +1,13 @@
 //! The bound of symmetric problems: a maximal spanning tree in which points that are left out hang on the dummy.
 //!
 //! L(λ) = Σᵢ 2λᵢ + λ_s + max over spanning trees T of Σ_T w + max over allowed ends t of −λ_t, with
-//! w(i, j) = c(i, j) − λᵢ − λⱼ, w(start i) = −λᵢ − λ_s, w(loop i) = −2λᵢ. Starts and loops join a point to the dummy. Any
-//! path with loops for what it leaves out is such a tree with an end, has two arcs at each point and one start, and so
-//! costs no more than L(λ), whatever the signs of λ. Held & Karp 1970; Kruskal 1956.
+//! w(i, j) = c(i, j) − λᵢ − λⱼ, w(start i) = −λᵢ − λ_s, w(loop i) = −2λᵢ. Starts and loops join a point to the dummy.
+//! Any path with loops for what it leaves out is such a tree with an end, has two arcs at each point and one start, and
+//! so costs no more than L(λ), whatever the signs of λ. Held & Karp 1970; Kruskal 1956.
+//!
+//! Replacing the tree's edge e by another one f changes L by w(f) − w(e). So a choice outside the tree is decided by
+//! the smallest weight on the tree's way between its points, one inside by the largest that could stand for it; both
+//! come out of Kruskal's joins.
 
 use super::choices::{Arc, Choice, Choices, IN, Made, OPEN, OUT};
 use super::relaxation::{Relaxation, best_ends};
@@ -237,6 +241,8 @@ impl<K: Key> Relaxation for Forest<K> {
         }
     }
 
+    /// Kruskal from the forced joins on. Keys are sorted anew with each λ, nearly in order from the last run; O(m log
+    /// m) at worst, near O(m) where the order has hardly changed.
     fn solve(&mut self, choices: &Choices, made: &Made, multipliers: &[i64], renew: bool) -> Option<i64> {
         if renew && !self.begin(choices, made) {
             self.begun_joins = u32::MAX;
@@ -305,6 +311,8 @@ impl<K: Key> Relaxation for Forest<K> {
         }
     }
 
+    /// By the bound with one choice turned over, none of them solved again: a join not in the tree costs the narrowest
+    /// join on its way, one in the tree its best replacement, an end the best end's lead over it.
     fn decided(
         &mut self,
         choices: &Choices,

@@ -1,8 +1,26 @@
 //! The path of maximal total cost through a graph in which no point comes twice; points may be left out, ends be fixed.
 //!
 //! [`heaviest`] proves it: by dynamic programming over subsets of few points, else by branch and bound on Lagrangian
-//! bounds that hold where points may be left out, under a path from local search. [`heaviest_walk`] lets points come several times. `docs/heaviest-paths.md` has the
-//! equations.
+//! bounds that hold where points may be left out, under a path from local search. [`heaviest_walk`] lets points come
+//! several times. `docs/heaviest-paths.md` has the equations.
+//!
+//! ```text
+//! max Σ c(i, j) over paths          each point at most once (or at most K times; or passed by a move on its way)
+//! ```
+//!
+//! | points | method | file |
+//! | --- | --- | --- |
+//! | to 14 | subsets, O(2ⁿ n²) | `subsets` |
+//! | to 16 | branch and bound first, subsets if it has to split much | `one` |
+//! | more | branch and bound under Lagrangian bounds | `root`, `branch` |
+//! | any, points K times | branch and bound on circulations | `walk` |
+//! | any, moves that pass points | subsets to 20, else annealing under walks with prices | `triples` |
+//!
+//! Costs are whole numbers (µm, µs, counts): every sum and bound is exact, and a certificate can be checked by
+//! addition. Data flow of branch and bound: a path by local search (`local`) → first multipliers → subgradient steps
+//! (`ascent`, means of solutions in `volume`) on a relaxation (`forest` where costs are symmetric, `arborescence` where
+//! they are not) → what the bound decides (`choices`) → splits (`branch`) → a tree of steps (`record`), which
+//! [`crate::verification::verify_heaviest`] recomputes.
 
 mod arborescence;
 mod ascent;

@@ -1,4 +1,7 @@
 //! The heaviest path by the method that is asked for, or by the one that suits.
+//!
+//! Which method suits is decided by the number of points and the memory allowed, never by a clock, so that one question
+//! has one answer.
 
 use super::arborescence::Arborescence;
 use super::dfs::depth_first;
@@ -81,6 +84,9 @@ fn simple_bound(arcs: &Arcs) -> i64 {
     (0..n).map(|from| (0..n).filter_map(|to| arcs.cost(from, to)).max().unwrap_or(0)).sum()
 }
 
+/// The relaxation that suits the table: spanning trees where it is symmetric, in 64 bits where weights and numbers of
+/// choices fit into one word side by side, else in 128; arborescences where it is not. The bound of an open search is
+/// that of its open branches over the scale, rounded down, as costs are whole.
 fn by_bounds(
     arcs: &Arcs,
     settings: &HeaviestSettings,

@@ -64,6 +64,20 @@ pub enum ArcsMistake {
 }
 
 /// Costs of the arcs of a directed graph: c(i, j) ≥ 0, or no arc. The diagonal has no meaning.
+///
+/// Dense: n² numbers of 8 bytes. Symmetric tables get the sharper of the two relaxations by themselves.
+///
+/// ```
+/// use hairpin::search::heaviest::{Arcs, HeaviestSettings, heaviest};
+///
+/// // Three points on a line at 0, 1 and 5: 0 to 5 and back to 1 is heavier than straight through.
+/// let at = [0_i64, 1, 5];
+/// let costs: Vec<Option<i64>> = at.iter().flat_map(|a| at.map(|b| (*a != b).then_some((a - b).abs()))).collect();
+/// let answer = heaviest(&Arcs::new(3, &costs)?, &HeaviestSettings::default(), &|| false)?;
+/// assert!(answer.proven && answer.bound == Some(9));
+/// assert_eq!(answer.paths[0].0, 9); // 5 + 4
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Arcs {
     points: usize,
@@ -74,6 +88,9 @@ pub struct Arcs {
 
 impl Arcs {
     /// The table in rows: `costs[i·points + j]` is the cost from i to j.
+    ///
+    /// The largest cost allowed is (2⁶³ − 1)/(32 (n + 2)): 2n multipliers of a few times a cost still sum within 64
+    /// bits.
     ///
     /// # Errors
     /// A table that is empty or not square, a negative cost, a cost whose sums could overflow.
@@ -152,6 +169,8 @@ impl Arcs {
 }
 
 /// Which ends of the path are fixed.
+///
+/// A free end costs nothing: of n points there are n starts and n ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Ends {
     /// First point; any if not given.
@@ -182,8 +201,8 @@ impl Ends {
         self.end.is_none_or(|end| end == point)
     }
 
-    /// A path that meets the ends, as a beginning: the heaviest arc that may be a path, or the fewest arcs by breadth-first
-    /// search if both ends are fixed; `None` if there is none.
+    /// A path that meets the ends, as a beginning: the heaviest arc that may be a path, or the fewest arcs by
+    /// breadth-first search if both ends are fixed; `None` if there is none.
     pub(super) fn first_path(self, arcs: &Arcs) -> Option<Vec<usize>> {
         let n = arcs.points();
         let (Some(start), Some(end)) = (self.start, self.end) else {

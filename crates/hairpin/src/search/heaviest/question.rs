@@ -6,6 +6,8 @@ use super::problem::{ArcsMistake, Ends};
 use super::record::Proof;
 
 /// How a path is searched.
+///
+/// `Local` gives a bound as well, that of the root; `Dfs` is there to be compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// Subsets for few points, else branch and bound; between the two, subsets where that is not proven at once.
@@ -35,6 +37,8 @@ impl Method {
 }
 
 /// What is wanted.
+///
+/// Limits are counts (`most_nodes`, `kicks`, `most_bytes`); a clock comes in as `stop`.
 #[derive(Debug, Clone)]
 pub struct HeaviestSettings {
     /// Fixed ends.
@@ -49,7 +53,8 @@ pub struct HeaviestSettings {
     pub seed: u64,
     /// Kicks of the local search in each round; as many as points if not given.
     pub kicks: Option<u64>,
-    /// Problems that each part of branch and bound looks at, at most: a limit that gives the same answer on any machine.
+    /// Problems that each part of branch and bound looks at, at most: a limit that gives the same answer on any
+    /// machine.
     pub most_nodes: Option<u64>,
     /// Bytes that the table of subsets may take.
     pub most_bytes: u64,
@@ -100,6 +105,8 @@ pub enum HeaviestMistake {
 }
 
 /// What came of it.
+///
+/// `Infeasible` and `BelowMinCost` are proven; `NotFound` is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// A path.
@@ -113,6 +120,9 @@ pub enum Outcome {
 }
 
 /// The heaviest path.
+///
+/// `bound` ≥ the heaviest path's cost, always; equal to `paths[0]`'s where proven. Costs and bound are in the table's
+/// unit.
 #[derive(Debug, Clone)]
 pub struct Heaviest {
     /// What came of it.

@@ -1,6 +1,9 @@
 //! The branching tree as it was searched: what a certificate says.
 
 /// One look at a problem: the multipliers, what their bound decides, and what was done then.
+///
+/// Multipliers alone fix the bound: whoever has the costs computes it again. `out` and `into` are claims that the bound
+/// supports: each by its opposite's bound being below the best.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Step {
     /// One integer a point, and one for starts, in units of cost / [`Proof::scale`].
@@ -33,8 +36,11 @@ pub enum Next {
 
 /// A proof that no path is heavier than the best: steps from number 0.
 ///
-/// Choices have numbers: the arc i→j is i·n + j (of an undirected arc, i < j), then follow n starts, n loops (a point is
-/// left out), and n ends.
+/// Choices have numbers: the arc i→j is i·n + j (of an undirected arc, i < j), then follow n starts, n loops (a point
+/// is left out), and n ends.
+///
+/// A tree in the order of search. A leaf is closed by a bound below what is wanted, one more than the best path's cost,
+/// or by choices that contradict each other: so no path is heavier.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Proof {
     /// Multipliers are in units of cost / scale.

@@ -1,4 +1,7 @@
 //! The whole problem before any branching: a good path, good multipliers, and few arcs left.
+//!
+//! A split costs many times what kicks cost: the root alternates local search under multipliers' potentials with
+//! subgradient steps until neither helps, and only then lets branching begin.
 
 use super::ascent::{Ascent, Ended, Pace};
 use super::best::Best;
@@ -52,7 +55,11 @@ struct Root<'a, R> {
     stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// Proves the heaviest path, or comes as far as it may; `path` meets the ends. The second value is the upper bound, scaled.
+/// Proves the heaviest path, or comes as far as it may; `path` meets the ends. The second value is the upper bound,
+/// scaled.
+///
+/// Root, then branching; begun again from the root whenever the first splits find a heavier path, which decides more
+/// before any split. `nodes` counts all of it.
 pub(super) fn prove<'a, R: Relaxation>(
     arcs: &'a Arcs,
     settings: &HeaviestSettings,
@@ -92,6 +99,8 @@ pub(super) fn prove<'a, R: Relaxation>(
 }
 
 impl<'a, R: Relaxation> Root<'a, R> {
+    /// Of more than 3 [`NEAR`] points, the ascent begins among each point's [`NEAR`] heaviest arcs. What it reaches
+    /// there is no bound of the whole; the multipliers it finds are those that the whole table begins with.
     fn new(
         arcs: &'a Arcs,
         settings: &HeaviestSettings,

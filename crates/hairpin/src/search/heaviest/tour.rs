@@ -1,4 +1,7 @@
 //! A path as a closed tour through a dummy point, so that both ends move like any other place; points may be left out.
+//!
+//! An array and its inverse: successors, predecessors and "between" in O(1), turning a stretch in O(its length), of the
+//! shorter side where costs are symmetric.
 
 use super::problem::{Arcs, Ends, NONE};
 
@@ -12,6 +15,8 @@ pub(super) struct Table {
 }
 
 impl Table {
+    /// The table with the dummy as point n: its arcs cost 0 where a path may begin or end, and a missing arc costs more
+    /// than any two arcs bring in, so that no gain is bought with one.
     pub(super) fn new(arcs: &Arcs, ends: Ends) -> Self {
         let n = arcs.points();
         // Worth more than any two arcs that a repair could lose.
@@ -30,8 +35,8 @@ impl Table {
                 costs[n * (n + 1) + i] = 0;
             }
         }
-        // Backwards is as good if the table is symmetric and the ends are alike; a path is then turned in the end. Where one
-        // end is fixed, its arc with the dummy is worth having.
+        // Backwards is as good if the table is symmetric and the ends are alike; a path is then turned in the end.
+        // Where one end is fixed, its arc with the dummy is worth having.
         let symmetric = arcs.symmetric();
         if symmetric {
             for i in 0..n {
@@ -116,8 +121,8 @@ impl Tour {
         self.order.iter().zip(after).map(|(a, b)| table.cost(*a, *b)).sum()
     }
 
-    /// Turns the stretch from `first` to `last` (going forward). If `mirror` allows it and the rest is shorter, turns the
-    /// rest, which gives the same tour seen from the other side; returns whether it did.
+    /// Turns the stretch from `first` to `last` (going forward). If `mirror` allows it and the rest is shorter, turns
+    /// the rest, which gives the same tour seen from the other side; returns whether it did.
     pub(super) fn reverse(&mut self, first: u32, last: u32, mirror: bool) -> bool {
         let n = self.order.len();
         let (mut i, mut j) = (self.at(first), self.at(last));

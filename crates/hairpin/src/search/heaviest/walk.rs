@@ -1,8 +1,9 @@
 //! The heaviest path in which points may come several times and no arc twice: branch and bound on circulations.
 //!
-//! A path is a circulation through the dummy that hangs together. Where the heaviest circulation does not, let C be the points of a part
-//! without the dummy: every path either leaves C out altogether, or uses an arc that leads out of C. So C is taken out in one branch, and in one
-//! branch each the first, second, … of those arcs is in, with those before it out. That ends, for every branch decides one arc more.
+//! A path is a circulation through the dummy that hangs together. Where the heaviest circulation does not, let C be the
+//! points of a part without the dummy: every path either leaves C out altogether, or uses an arc that leads out of C.
+//! So C is taken out in one branch, and in one branch each the first, second, … of those arcs is in, with those before
+//! it out. That ends, for every branch decides one arc more.
 
 use std::collections::BinaryHeap;
 
@@ -13,6 +14,8 @@ use super::problem::{Arcs, Ends};
 pub(super) type Arrow = (usize, usize);
 
 /// One look at a problem: prices whose bound closes it, or what follows.
+///
+/// Checked by the formula of `circulation`: a sum over arcs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WalkStep {
     /// Prices of rows, then of columns; the dummy's are the last of both.
@@ -28,11 +31,14 @@ pub struct Split {
     pub points: Vec<usize>,
     /// The step without them; `None` where an arc at one of them is in.
     pub without: Option<usize>,
-    /// Arcs that lead out of them, to the dummy (number n) where the path may end: each with the step in which it is in and those before it are out.
+    /// Arcs that lead out of them, to the dummy (number n) where the path may end: each with the step in which it is in
+    /// and those before it are out.
     pub ways: Vec<(usize, usize, usize)>,
 }
 
 /// A proof that no path is heavier than the best: steps from number 0.
+///
+/// [`crate::verification::verify_walk`] recomputes each bound and that the ways out of a part are all there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WalkProof {
     /// How often a point may come.
@@ -88,6 +94,9 @@ struct Branch {
 }
 
 impl Search<'_> {
+    /// Best first: the open branch of the greatest bound is split, or closed by its parent's prices where its bound is
+    /// no more than the best path found (or the weight it has to be above). What stays open when stopped is the bound
+    /// of the answer.
     pub(super) fn run(&self, region: &Region) -> Walks {
         let mut net = Net::new(self.arcs, self.ends, self.visits as i64);
         region.within.iter().for_each(|arc| net.decide(*arc, State::In));
@@ -229,8 +238,11 @@ fn apart(net: &Net, used: &[Arrow]) -> Option<Vec<usize>> {
     others.into_iter().map(of).min_by_key(|points| (points.len(), points[0]))
 }
 
-/// A path from a circulation: parts are joined to the dummy's where that costs least, and left out where nothing joins them. `None` where
-/// what must be used would be left out.
+/// A path from a circulation: parts are joined to the dummy's where that costs least, and left out where nothing joins
+/// them. `None` where what must be used would be left out.
+///
+/// One exchange after another, the one of greatest gain first: an arc of each part crosswise, or an arc for a way by a
+/// point with visits left.
 fn joined(net: &Net, used: &[Arrow]) -> Option<(i64, Vec<usize>)> {
     let mut used = used.to_vec();
     loop {

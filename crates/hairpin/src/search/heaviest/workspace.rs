@@ -1,14 +1,23 @@
 //! Questions of the published kind: points that an arm reaches, and arcs that keep clear of its base.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use super::problem::{Arcs, ArcsMistake};
-use crate::math::random::{Stream, stream, unit};
+use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 
 /// What an arm reaches: a ball around its shoulder, above the floor, without a core around the same centre.
 ///
-/// Source: Collet, Gotlieb, Lazaar & Mossige, "Stress testing of single-arm robots through constraint-based generation of
-/// continuous trajectories" (2019).
+/// Source: Collet, Gotlieb, Lazaar & Mossige, "Stress testing of single-arm robots through constraint-based generation
+/// of continuous trajectories" (2019).
+///
+/// ```
+/// use hairpin::search::heaviest::Workspace;
+///
+/// let points = Workspace::PUBLISHED.points(40, 1);
+/// let arcs = Workspace::PUBLISHED.arcs(&points)?;
+/// assert!(arcs.symmetric() && (0.6..0.9).contains(&arcs.density()));
+/// # Ok::<(), hairpin::search::heaviest::ArcsMistake>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Workspace {
     /// Height of the centre above the floor, m.
@@ -26,10 +35,27 @@ impl Workspace {
     pub const HOLLOW: Self = Self { core: 0.43, ..Self::PUBLISHED };
 
     /// `count` points, uniform in the workspace, m; the same seed gives the same points.
+    ///
+    /// By rejection from the cube around the ball: 2.4 draws a point in the published one.
     pub fn points(&self, count: usize, seed: u64) -> Vec<Point3<f64>> {
         let mut random = stream(seed);
         let mut draws = std::iter::repeat_with(|| self.in_the_cube(&mut random));
         draws.by_ref().filter(|point| self.contains(point)).take(count).collect()
+    }
+
+    /// `count` points in `clusters` clusters, as people teach them: normal with a deviation of `spread` m in each
+    /// coordinate about centres that are uniform in the workspace; the same seed gives the same points.
+    pub fn clustered(&self, count: usize, clusters: usize, spread: f64, seed: u64) -> Vec<Point3<f64>> {
+        let centres = self.points(clusters.max(1), named_seed(seed, "centres", 0));
+        let mut random = stream(named_seed(seed, "clusters", 0));
+        let mut near = |index: usize| loop {
+            let shift = Vector3::from(standard_normals::<3>(&mut random)) * spread;
+            let point = centres[index % centres.len()] + shift;
+            if self.contains(&point) {
+                return point;
+            }
+        };
+        (0..count).map(&mut near).collect()
     }
 
     /// The arcs between `points` in both directions, where the segment keeps clear of the core; costs are distances in
@@ -106,6 +132,20 @@ mod tests {
     /// Clear of a core that is a micrometre smaller.
     fn almost_clear(workspace: Workspace, from: &Point3<f64>, to: &Point3<f64>) -> bool {
         Workspace { core: workspace.core - 1e-6, ..workspace }.clear(from, to)
+    }
+
+    #[test]
+    fn clusters_are_as_wide_as_was_asked() {
+        let workspace = Workspace::PUBLISHED;
+        let points = workspace.clustered(300, 3, 0.02, 5);
+        let centres = workspace.points(3, named_seed(5, "centres", 0));
+        for (cluster, centre) in centres.iter().enumerate() {
+            let own: Vec<_> = points.iter().skip(cluster).step_by(3).collect();
+            assert_eq!(own.len(), 100);
+            let square: f64 = own.iter().map(|p| (*p - centre).norm_squared()).sum::<f64>() / 300.0;
+            assert!((0.015..0.025).contains(&square.sqrt()), "{square}");
+            assert!(own.iter().all(|p| workspace.contains(p)));
+        }
     }
 
     #[test]

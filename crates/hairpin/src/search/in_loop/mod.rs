@@ -1,8 +1,16 @@
 //! Simulation in the loop: trajectories are scored by executing them, under a budget of executions.
 //!
-//! [`evolve`] changes waypoint sequences within the legs of a graph, from the best that scores know of; [`shift`] then moves the
-//! waypoints themselves, as far as the reach set lets them; [`climb`] searches a few numbers beside them. They know executions only as a closure, which is told the
-//! stress from which on a trial is of use. [`Executed`] scores the partial trajectories of a beam by executing them leg by leg.
+//! [`evolve`] changes waypoint sequences within the legs of a graph, from the best that scores know of; [`shift`] then
+//! moves the waypoints themselves, as far as the reach set lets them; [`climb`] searches a few numbers beside them.
+//! They know executions only as a closure, which is told the stress from which on a trial is of use. [`Executed`]
+//! scores the partial trajectories of a beam by executing them leg by leg.
+//!
+//! Data flow: optima under scores and uniform draws → executed → [`evolve`] over sequences → [`shift`] of waypoints →
+//! [`climb`] over wind, gust or force, each given its share of one budget of executions. All randomness is seeded, each
+//! search is serial within a graph, and graphs are independent: a campaign is the same on any number of threads.
+//!
+//! A search for a maximum of a noisy function also finds luck; [`Trial::executions`] counts more than one where what
+//! would be kept is executed again.
 
 mod climb;
 mod evolve;
@@ -20,6 +28,8 @@ pub use partial::{Execute, Executed, PartialSettings, Path, Ran, Step};
 pub use shift::{ShiftSettings, Shifted, shift};
 
 /// What an execution came to.
+///
+/// A failed execution is no trial: closures then answer `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trial {
     /// The stress that is searched for; larger is worse for the robot.

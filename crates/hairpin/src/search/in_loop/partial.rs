@@ -1,8 +1,9 @@
 //! Partial trajectories scored by executing them, as a beam grows them, under a budget.
 //!
-//! The score is the stress so far. The budget counts legs; what is left of it is dealt to the expansions that a way to the end still
-//! takes, so that a trajectory is complete before it is spent, and a part is kept back for executing what is complete. A partial
-//! trajectory that the budget does not reach is taken to be as stressful as what it extends, behind all that was executed to that.
+//! The score is the stress so far. The budget counts legs; what is left of it is dealt to the expansions that a way to
+//! the end still takes, so that a trajectory is complete before it is spent, and a part is kept back for executing what
+//! is complete. A partial trajectory that the budget does not reach is taken to be as stressful as what it extends,
+//! behind all that was executed to that.
 
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -13,13 +14,16 @@ use crate::search::objective::{Additive, LegView};
 use crate::search::task::Found;
 
 /// What is asked for.
+///
+/// With `resumes` a leg costs one; without, a partial trajectory of n legs costs n, for it is flown from the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartialSettings {
     /// Waypoints of a trajectory, both ends included.
     pub length: usize,
     /// Whether its last leg only leads to the sink of a task without an end, and is not executed.
     pub free_end: bool,
-    /// The budget: executions of a whole trajectory. One of n legs counts n, and a partial one the legs that are executed for it.
+    /// The budget: executions of a whole trajectory. One of n legs counts n, and a partial one the legs that are
+    /// executed for it.
     pub executions: u64,
     /// Trajectories that executions are kept back for.
     pub wanted: usize,
@@ -76,11 +80,14 @@ enum Unscored {
 }
 
 /// What executes partial trajectories over nodes `N`.
+///
+/// Errors are counts: what failed has used its legs up.
 pub trait Execute<N> {
     /// A robot and its controller where a partial trajectory has led them.
     type State;
 
-    /// Executes `partial`, from its start or from a state and the number of legs that led to it; `whole`: it will not be extended.
+    /// Executes `partial`, from its start or from a state and the number of legs that led to it; `whole`: it will not
+    /// be extended.
     ///
     /// # Errors
     /// The number of legs that were executed in vain.
@@ -93,6 +100,9 @@ pub trait Execute<N> {
 }
 
 /// Scores by what `execute` measures; `objective` tells which legs are executed first where not all can be.
+///
+/// Which legs of an expansion are executed is settled when it meets them: half are those that `objective` puts first,
+/// half are drawn. The others stand behind what they extend.
 #[derive(Debug)]
 pub struct Executed<'o, O, E> {
     settings: PartialSettings,
@@ -102,7 +112,8 @@ pub struct Executed<'o, O, E> {
     left: u64,
     executed: u64,
     complete: usize,
-    /// Whether the budget refused anything when nothing was kept back any more, and whether it refused a whole trajectory.
+    /// Whether the budget refused anything when nothing was kept back any more, and whether it refused a whole
+    /// trajectory.
     spent: bool,
     stuck: bool,
     /// Which of the legs that were met are to be executed, and the next of them.
@@ -156,8 +167,8 @@ impl<'o, O: Additive, E> Executed<'o, O, E> {
         self.legs().saturating_mul(self.settings.wanted.saturating_sub(self.complete) as u64)
     }
 
-    /// Legs from a partial trajectory of `done` legs that one expansion executes: with `width` expansions for each leg up to the end the
-    /// budget lasts until then.
+    /// Legs from a partial trajectory of `done` legs that one expansion executes: with `width` expansions for each leg
+    /// up to the end the budget lasts until then.
     fn share(&self, done: u64) -> usize {
         let cost = |legs: u64| if self.settings.resumes { 1 } else { legs };
         let way: u64 = (done + 1..=self.legs()).map(cost).sum();
@@ -253,6 +264,9 @@ where
         (f64::NEG_INFINITY, Rc::new(Step { before: None, node: *node, waypoint: 0, duration: 0.0, ran }))
     }
 
+    /// Chooses the legs of this parent that are to be executed, as the budget's share allows: half of them those that
+    /// the plain objective puts first, half drawn by a hash of leg and depth, so that no order of calls changes the
+    /// draw.
     fn meet<'l>(&mut self, parent: &Parent<Self::Memory>, legs: impl Iterator<Item = LegView<'l>>) {
         let done = parent.length as u64 - 1;
         (self.next, self.barren) = (0, false);
@@ -277,6 +291,8 @@ where
         }
     }
 
+    /// An executed leg's score is the stress measured; a leg passed over inherits its parent's, one unit in the last
+    /// place lower, so that what was measured leads; a parent whose own run failed has no legs.
     fn extend(&mut self, parent: &Parent<Self::Memory>, leg: &LegView<'_>, to: &N) -> Option<(f64, Self::Memory)> {
         let done = parent.length as u64;
         let before = Some(Rc::clone(parent.memory));

@@ -25,10 +25,12 @@ pub enum Status {
 }
 
 /// What came of a program.
+///
+/// After the last set point samples go on for eight time constants of the slowest servo.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// `base_from_tcp` over time, with `speed_m_s` (of the tool's point since the last sample), `q1_rad` … `q6_rad`, `move` (from 0) and
-    /// `status` ([`Status`]).
+    /// `base_from_tcp` over time, with `speed_m_s` (of the tool's point since the last sample), `q1_rad` … `q6_rad`,
+    /// `move` (from 0) and `status` ([`Status`]).
     pub recording: Track,
     /// Where the program ended before its end, and why.
     pub stop: Option<Stop>,
@@ -47,6 +49,8 @@ struct Joint {
 
 impl Plan<'_> {
     /// Lets the servos follow the plan. The same `seed` gives the same recording.
+    ///
+    /// Linear in the duration over `interpolation`.
     ///
     /// # Errors
     /// Settings or faults out of their bounds.

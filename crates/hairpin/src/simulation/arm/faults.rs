@@ -6,6 +6,9 @@ use crate::robot::arm::AXES;
 use crate::simulation::SimulationError;
 
 /// One fault. Axes count from 1.
+///
+/// Each leaves a mark that the oracle must tell apart: lag grows with speed, backlash with reversals, an offset with
+/// neither, a delay shifts all later times.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
     /// Play of an axis: its link moves only once the drive has crossed it.
@@ -24,7 +27,8 @@ pub enum Fault {
     },
     /// The tool's point is elsewhere than the program says: `tcp_from_true_tcp`.
     ToolOffset(Isometry3<f64>),
-    /// The arm waits before it sets out for the first time at or after a move (from 0); what is blended into cannot wait.
+    /// The arm waits before it sets out for the first time at or after a move (from 0); what is blended into cannot
+    /// wait.
     DelayedStart {
         /// The move, from 0.
         order: usize,

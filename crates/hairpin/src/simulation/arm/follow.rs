@@ -8,6 +8,8 @@ use super::settings::PlanSettings;
 use crate::robot::arm::{Arm, Branch, Configuration, Joints, Margin, nearest_turns};
 
 /// Why an arm cannot go on.
+///
+/// With the numbers that a programmer needs: which axis, at what angle, beyond which bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reason {
     /// No joint angles put the tool there in this branch.
@@ -50,6 +52,8 @@ impl fmt::Display for Reason {
 }
 
 /// Where a program ended before its end.
+///
+/// `share` is of the move, to where the last pose could be had.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
     /// The move, from 0.
@@ -71,7 +75,8 @@ pub(super) struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    /// Joint angles for the flange in `branch`, on the turns nearest to `near`, within limits and away from singularities.
+    /// Joint angles for the flange in `branch`, on the turns nearest to `near`, within limits and away from
+    /// singularities.
     pub(super) fn solve(&mut self, flange: &Isometry3<f64>, branch: Branch, near: &Joints) -> Result<Joints, Reason> {
         let found = self.arm.inverse_in(flange, branch, near).ok_or(Reason::OutOfReach)?;
         self.iterations += u64::from(found.iterations);

@@ -1,4 +1,7 @@
 //! A path from one stop to the next as numbers: nodes with joint angles, and a cubic between each two.
+//!
+//! Nodes are inverse kinematics, what is between them Hermite cubics with slopes by differences: on a straight line the
+//! tool is off by less than a micrometre (test).
 
 use nalgebra::Isometry3;
 
@@ -71,7 +74,8 @@ impl Section {
         }
     }
 
-    /// Slopes at the nodes by differences of third and fourth order within each piece, the mean of both sides where pieces join.
+    /// Slopes at the nodes by differences of third and fourth order within each piece, the mean of both sides where
+    /// pieces join.
     pub(super) fn shape(&mut self) {
         let mut slopes = vec![[0.0; AXES]; self.s.len()];
         let pieces = self.joins.len() - 1;

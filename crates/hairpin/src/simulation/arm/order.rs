@@ -32,11 +32,14 @@ pub struct Speed {
 pub enum Zone {
     /// The arm stops there.
     Fine,
-    /// The path leaves the move this far (m) before its end, and joins the next as far behind its start; cut to half of each.
+    /// The path leaves the move this far (m) before its end, and joins the next as far behind its start; cut to half of
+    /// each.
     Radius(f64),
 }
 
 /// One move.
+///
+/// Frames are multiplied out and names resolved: what is left is geometry in the base and numbers in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Order {
     /// What reports call it, such as `p17→p09`.

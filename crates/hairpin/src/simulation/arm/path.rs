@@ -1,4 +1,8 @@
 //! From moves to sections of path: legs, the blends between them, and the joint angles along both.
+//!
+//! A zone of radius r adds the end of one move and the beginning of the next about their corner: u = 1 − (r/ℓ₁)(1 −
+//! w)², v = (r/ℓ₂) w², p = p₁(u) + p₂(v) − C, w in [0, 1], a parabola between straight lines
+//! (docs/virtual-controller.md). s grows by 2r, so that the path is C¹ in s.
 
 use nalgebra::Isometry3;
 
@@ -27,7 +31,8 @@ struct Leg<'a> {
     order: usize,
     given: &'a Order,
     curve: Curve,
-    /// What its whole share adds to s: the longest of the tool's way, its turn and (of joint moves) the largest joint turn.
+    /// What its whole share adds to s: the longest of the tool's way, its turn and (of joint moves) the largest joint
+    /// turn.
     length: f64,
     /// Metres of the tool's way and radians of its turn per unit of s.
     rates: [f64; 2],
@@ -74,6 +79,8 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
+    /// Leg after leg: along each from where the blend before it ended to where the next one begins, then the blend. A
+    /// zone's radius is at most half of both of its legs; zones of no size stop in the corner.
     fn all(&mut self) -> Result<(), Stop> {
         let Some(first) = self.orders.first() else { return Ok(()) };
         let mut corner = self.follower.arm.forward(&self.joints) * first.tool;
@@ -272,7 +279,8 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// From `leg` to `next` about their corner: the end of one and the beginning of the other, added, as s grows by 2·`radius`.
+    /// From `leg` to `next` about their corner: the end of one and the beginning of the other, added, as s grows by
+    /// 2·`radius`.
     fn blend(&mut self, leg: &Leg, next: &Leg, radius: f64, corner: &Joints) -> Result<(), Stop> {
         let (f, g) = (radius / leg.length, radius / next.length);
         let rates = [leg.rates[0].max(next.rates[0]), leg.rates[1].max(next.rates[1])];
@@ -311,7 +319,8 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// A smooth piece of `way` in s from the last node on, in at least `spans` equal steps. `at` gives what is at the share w.
+    /// A smooth piece of `way` in s from the last node on, in at least `spans` equal steps. `at` gives what is at the
+    /// share w.
     fn piece(
         &mut self,
         way: f64,

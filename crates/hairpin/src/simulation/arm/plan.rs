@@ -22,6 +22,8 @@ pub(super) struct Timed {
 }
 
 /// What a controller computes for a move; the same on every machine.
+///
+/// Counts, so that a cost made of them (`controller-load`) is the same on every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Load {
     /// Set points of its servos.
@@ -38,6 +40,8 @@ impl Load {
 }
 
 /// A program's path and time law.
+///
+/// Borrowed orders, owned path: executing it again with other faults or seeds costs no planning.
 #[derive(Debug)]
 pub struct Plan<'a> {
     pub(super) arm: &'a Arm,
@@ -51,7 +55,8 @@ pub struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// The plan of `orders` for an arm that stands at `start`, rad. Where it cannot be followed it ends at [`Plan::stop`].
+    /// The plan of `orders` for an arm that stands at `start`, rad. Where it cannot be followed it ends at
+    /// [`Plan::stop`].
     ///
     /// # Errors
     /// Settings or orders out of their bounds; no order; a start outside the joints' bounds.

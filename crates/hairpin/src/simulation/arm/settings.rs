@@ -3,11 +3,14 @@
 use crate::simulation::SimulationError;
 
 /// How speed rises and falls.
+///
+/// s_f(t) = (1/T) ∫ s over (t − T, t): jerk along the path at most a/T.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
     /// At constant acceleration where the limits do not change.
     Trapezoid,
-    /// The trapezoid's progress averaged over this time, s: jerk is bounded, the path stays the path, every stop comes that much later.
+    /// The trapezoid's progress averaged over this time, s: jerk is bounded, the path stays the path, every stop comes
+    /// that much later.
     SCurve(f64),
 }
 
@@ -34,6 +37,8 @@ impl Default for PlanSettings {
 }
 
 /// How servos follow and what is measured.
+///
+/// At constant speed v the tool is v · lag behind: 5 mm at 1 m/s with the default.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunSettings {
     /// Time between samples, s.
@@ -54,6 +59,8 @@ impl Default for RunSettings {
 }
 
 /// Standard deviations of what differs from run to run; 0 is none.
+///
+/// Normal, independent from sample to sample; `pause` is uniform. One seed, one recording.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Noise {
     /// Of each coordinate of the measured position, m.

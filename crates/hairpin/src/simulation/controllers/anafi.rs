@@ -6,8 +6,9 @@
 use nalgebra::Vector3;
 
 use super::cascade::{Cascade, Gains};
-use super::{Controller, Demand, Measured};
 use crate::robot::quadrotor::Quadrotor;
+use crate::simulation::command::{FlightCommand, FlightState};
+use crate::simulation::controller::{Controller, Fault, Reference};
 
 /// Fixed by `tests/step_responses.rs`.
 const GAINS: Gains = Gains {
@@ -37,15 +38,15 @@ impl Anafi {
     }
 }
 
-impl Controller for Anafi {
-    fn control(&mut self, dt: f64, measured: &Measured) -> Demand {
-        let error = measured.target - measured.position;
+impl Controller<Quadrotor> for Anafi {
+    fn control(&mut self, dt: f64, now: &FlightState, to: &Reference<Quadrotor>) -> Result<FlightCommand, Fault> {
+        let error = to.target() - now.position;
         let wanted = self.cascade.approach(&error);
         let speed = wanted.norm();
         // v² = 2 b d: the speed from which the rest of the way suffices to stop.
         let stopping = (2.0 * BRAKING * error.norm()).sqrt();
         let vertical = wanted.z.abs();
         let scale = (stopping / speed.max(1e-9)).min(MAX_VERTICAL_SPEED / vertical.max(1e-9)).min(1.0);
-        self.cascade.follow(dt, measured, &(wanted * scale))
+        Ok(FlightCommand::Force(self.cascade.follow(dt, now, &(wanted * scale))))
     }
 }

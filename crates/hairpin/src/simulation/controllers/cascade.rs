@@ -2,8 +2,9 @@
 
 use nalgebra::Vector3;
 
-use super::{Controller, Demand, Measured};
 use crate::robot::quadrotor::Quadrotor;
+use crate::simulation::command::{Demand, FlightCommand, FlightState};
+use crate::simulation::controller::{Controller, Fault, Reference};
 
 /// Gains and limits of a cascade, per axis x, y, z. They ask for accelerations, so they hold for any mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +51,11 @@ impl Cascade {
         }
     }
 
+    /// Forgets what was flown.
+    pub(crate) fn restart(&mut self) {
+        (self.integral, self.velocity, self.derivative) = (Vector3::zeros(), None, Vector3::zeros());
+    }
+
     /// Velocity towards a position error of `error` m, its direction kept by the speed limit.
     pub(crate) fn approach(&self, error: &Vector3<f64>) -> Vector3<f64> {
         let wanted = self.gains.position.component_mul(error);
@@ -59,12 +65,12 @@ impl Cascade {
 
     /// The demand that brings the measured velocity to `wanted` (m/s) within the envelope; the integral stops where
     /// the envelope binds, unless it winds up.
-    pub(crate) fn follow(&mut self, dt: f64, measured: &Measured, wanted: &Vector3<f64>) -> Demand {
+    pub(crate) fn follow(&mut self, dt: f64, state: &FlightState, wanted: &Vector3<f64>) -> Demand {
         let g = &self.gains;
-        let error = wanted - measured.velocity;
+        let error = wanted - state.velocity;
         // The derivative is the measurement's: a waypoint that is switched must not kick.
-        if let Some(before) = self.velocity.replace(measured.velocity) {
-            let slope = (before - measured.velocity) / dt;
+        if let Some(before) = self.velocity.replace(state.velocity) {
+            let slope = (before - state.velocity) / dt;
             self.derivative += (slope - self.derivative) * (dt / (DERIVATIVE_FILTER + dt));
         }
         let integral = self.integral + g.velocity_i.component_mul(&error) * dt;
@@ -77,10 +83,10 @@ impl Cascade {
     }
 }
 
-impl Controller for Cascade {
-    fn control(&mut self, dt: f64, measured: &Measured) -> Demand {
-        let wanted = self.approach(&(measured.target - measured.position));
-        self.follow(dt, measured, &wanted)
+impl Controller<Quadrotor> for Cascade {
+    fn control(&mut self, dt: f64, now: &FlightState, to: &Reference<Quadrotor>) -> Result<FlightCommand, Fault> {
+        let wanted = self.approach(&(to.target() - now.position));
+        Ok(FlightCommand::Force(self.follow(dt, now, &wanted)))
     }
 }
 

@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 
 use super::cascade::{Cascade, Gains};
-use super::{Controller, Demand, Measured};
 use crate::robot::quadrotor::Quadrotor;
+use crate::simulation::command::{FlightCommand, FlightState};
+use crate::simulation::controller::{Controller, Fault, Reference};
 
 /// Fixed by `tests/step_responses.rs`.
 const GAINS: Gains = Gains {
@@ -31,14 +32,14 @@ impl FixedVelocity {
     }
 }
 
-impl Controller for FixedVelocity {
-    fn control(&mut self, dt: f64, measured: &Measured) -> Demand {
-        let error = measured.target - measured.position;
-        let wanted = if measured.hold {
+impl Controller<Quadrotor> for FixedVelocity {
+    fn control(&mut self, dt: f64, now: &FlightState, to: &Reference<Quadrotor>) -> Result<FlightCommand, Fault> {
+        let error = to.target() - now.position;
+        let wanted = if to.holds() {
             self.cascade.approach(&error)
         } else {
             error.try_normalize(1e-6).unwrap_or(Vector3::zeros()) * self.speed
         };
-        self.cascade.follow(dt, measured, &wanted)
+        Ok(FlightCommand::Force(self.cascade.follow(dt, now, &wanted)))
     }
 }

@@ -6,9 +6,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::curve::{Curve, Sample};
-use super::{Controller, Demand, Measured, Schedule, level_heading, quaternion};
+use super::curve::{Curve, NOT_RESET, Pace, Sample, SegmentTimes};
 use crate::robot::quadrotor::Quadrotor;
+use crate::simulation::command::{Demand, FlightCommand, FlightState, attitude_of, level_heading};
+use crate::simulation::controller::{Controller, Fault, Reference, Schedule};
 
 /// Acceleration per position error, 1/s², and per velocity error, 1/s. Fixed by `tests/step_responses.rs`.
 const POSITION: f64 = 6.0;
@@ -16,10 +17,14 @@ const VELOCITY: f64 = 4.0;
 /// Largest correction of the acceleration, in g: a tracker far from its reference must not throw itself over.
 const MAX_CORRECTION: f64 = 1.0;
 
+/// Time between two turns, s.
+const PERIOD: f64 = 0.004;
+
 /// See the file's first line.
 #[derive(Debug, Clone)]
 pub(crate) struct Geometric {
-    curve: Curve,
+    pace: Pace,
+    curve: Option<Curve>,
     gravity: f64,
     /// Drag over mass, linear and quadratic.
     drag: (f64, f64),
@@ -27,10 +32,11 @@ pub(crate) struct Geometric {
 }
 
 impl Geometric {
-    /// Tracks `curve` from its start.
-    pub(crate) fn new(robot: &Quadrotor, curve: Curve) -> Self {
+    /// Tracks the planned profile, or a curve with leg times by `rule` where there is none.
+    pub(crate) fn new(robot: &Quadrotor, rule: SegmentTimes) -> Self {
         Self {
-            curve,
+            pace: Pace::new(robot, rule),
+            curve: None,
             gravity: robot.gravity,
             drag: (robot.drag_linear / robot.mass, robot.drag_quadratic / robot.mass),
             most: robot.max_thrust() / robot.mass,
@@ -38,26 +44,37 @@ impl Geometric {
     }
 }
 
-impl Controller for Geometric {
-    const PERIOD: f64 = 0.004;
+impl Controller<Quadrotor> for Geometric {
+    fn period(&self) -> Option<f64> {
+        Some(PERIOD)
+    }
 
-    fn control(&mut self, dt: f64, measured: &Measured) -> Demand {
-        let sample = self.curve.sample();
-        self.curve.advance(dt);
+    fn reset(&mut self, reference: &Reference<Quadrotor>) -> Result<(), Fault> {
+        self.curve = Some(match reference.plan.and_then(Curve::new) {
+            Some(curve) => curve,
+            None => Curve::through(reference.waypoints, &self.pace)?,
+        });
+        Ok(())
+    }
+
+    fn control(&mut self, dt: f64, now: &FlightState, _to: &Reference<Quadrotor>) -> Result<FlightCommand, Fault> {
+        let curve = self.curve.as_mut().ok_or(NOT_RESET)?;
+        let sample = curve.sample();
+        curve.advance(dt);
         let [force, slope, curvature] = thrust_and_derivatives(&sample, self.gravity, self.drag);
-        let error = (sample[0] - measured.position) * POSITION + (sample[1] - measured.velocity) * VELOCITY;
+        let error = (sample[0] - now.position) * POSITION + (sample[1] - now.velocity) * VELOCITY;
         let correction = error * (MAX_CORRECTION * self.gravity / error.norm().max(MAX_CORRECTION * self.gravity));
         let mut wanted = force + correction;
         // Below the horizon the attitude would turn over: keep some thrust up, and no more than there is.
         wanted.z = wanted.z.max(0.2 * self.gravity);
         wanted *= (self.most / wanted.norm()).min(1.0);
-        let axes = level_heading(&wanted);
+        let attitude = attitude_of(&level_heading(&wanted));
         let (rates, angular_acceleration) = body_rates(&force, &slope, &curvature, &level_heading(&force));
-        Demand { force: wanted, attitude: quaternion(&axes), rates, angular_acceleration }
+        Ok(FlightCommand::Force(Demand { force: wanted, attitude, rates, angular_acceleration }))
     }
 
     fn schedule(&self) -> Option<Schedule> {
-        Some(self.curve.schedule())
+        self.curve.as_ref().map(Curve::schedule)
     }
 }
 

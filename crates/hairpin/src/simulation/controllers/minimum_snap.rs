@@ -3,9 +3,10 @@
 use nalgebra::Vector3;
 
 use super::cascade::{Cascade, Gains};
-use super::curve::Curve;
-use super::{Controller, Demand, Measured, Schedule};
+use super::curve::{Curve, NOT_RESET, Pace, SegmentTimes};
 use crate::robot::quadrotor::Quadrotor;
+use crate::simulation::command::{FlightCommand, FlightState};
+use crate::simulation::controller::{Controller, Fault, Reference, Schedule};
 
 /// Fixed by `tests/step_responses.rs`.
 const GAINS: Gains = Gains {
@@ -25,30 +26,37 @@ const LEASH: f64 = 3.0;
 #[derive(Debug, Clone)]
 pub(crate) struct MinimumSnap {
     cascade: Cascade,
-    curve: Curve,
+    pace: Pace,
+    curve: Option<Curve>,
 }
 
 impl MinimumSnap {
-    /// Follows `curve` from its start.
-    pub(crate) fn new(robot: &Quadrotor, curve: Curve) -> Self {
-        Self { cascade: Cascade::new(robot, GAINS), curve }
+    /// Along a curve with leg times by `rule`.
+    pub(crate) fn new(robot: &Quadrotor, rule: SegmentTimes) -> Self {
+        Self { cascade: Cascade::new(robot, GAINS), pace: Pace::new(robot, rule), curve: None }
     }
 }
 
-impl Controller for MinimumSnap {
-    fn control(&mut self, dt: f64, measured: &Measured) -> Demand {
-        let [position, velocity, ..] = self.curve.sample();
-        let error = position - measured.position;
+impl Controller<Quadrotor> for MinimumSnap {
+    fn reset(&mut self, reference: &Reference<Quadrotor>) -> Result<(), Fault> {
+        self.curve = Some(Curve::through(reference.waypoints, &self.pace)?);
+        Ok(())
+    }
+
+    fn control(&mut self, dt: f64, now: &FlightState, _to: &Reference<Quadrotor>) -> Result<FlightCommand, Fault> {
+        let curve = self.curve.as_mut().ok_or(NOT_RESET)?;
+        let [position, velocity, ..] = curve.sample();
+        let error = position - now.position;
         let waits = error.norm() >= LEASH;
         if !waits {
-            self.curve.advance(dt);
+            curve.advance(dt);
         }
         let moving = if waits { Vector3::zeros() } else { velocity };
         let wanted = self.cascade.approach(&error) + moving;
-        self.cascade.follow(dt, measured, &wanted)
+        Ok(FlightCommand::Force(self.cascade.follow(dt, now, &wanted)))
     }
 
     fn schedule(&self) -> Option<Schedule> {
-        Some(self.curve.schedule())
+        self.curve.as_ref().map(Curve::schedule)
     }
 }

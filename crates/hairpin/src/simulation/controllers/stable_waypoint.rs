@@ -16,6 +16,6 @@ const GAINS: Gains = Gains {
     max_tilt: 0.5,
 };
 
-pub(super) fn cascade(robot: &Quadrotor) -> Cascade {
+pub(in crate::simulation) fn cascade(robot: &Quadrotor) -> Cascade {
     Cascade::new(robot, GAINS)
 }

@@ -1,29 +1,14 @@
 //! Where a run stands in its plan: progress along a section, stops between sections, turns in place. The same for every
-//! controller; what differs is how each steers.
+//! controller of ours; what differs is how each steers.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
+use super::command::{DriveCommand, DriveState};
 use super::plan::{Plan, Section, Station, acceleration_at, direction_at, heading, speed_at};
-use super::plant::Command;
 use crate::math::power::square;
 use crate::robot::rover::Rover;
 use crate::trajectory::drive::Planar;
-
-/// What a controller is told at its turn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Measured {
-    /// s.
-    pub(super) t: f64,
-    /// Where, and the curvature that the wheels are steered to.
-    pub(super) at: Planar,
-    /// Of the wheels, m/s.
-    pub(super) speed: f64,
-    /// φ and θ, rad.
-    pub(super) lean: [f64; 2],
-    /// Of travel in the body, as the wheels are steered, rad.
-    pub(super) direction: f64,
-}
 
 /// The part of a section that is being driven.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +35,7 @@ pub(super) enum Task<'a> {
     /// Follow the section.
     Follow(Along<'a>),
     /// Hold still, the wheels steered for what comes, or turn in place.
-    Hold(Command),
+    Hold(DriveCommand),
 }
 
 /// Farthest that the nearest station is looked for ahead of the last one, m.
@@ -90,7 +75,8 @@ pub(super) struct Guide<'a> {
 }
 
 impl<'a> Guide<'a> {
-    /// At the beginning of `plan`, driven at up to `speed` (m/s) and `turn_rate` (rad/s) by commands that act `latency` s late.
+    /// At the beginning of `plan`, driven at up to `speed` (m/s) and `turn_rate` (rad/s) by commands that act `latency`
+    /// s late.
     pub(super) fn new(plan: &'a Plan, nominal: &Rover, latency: f64, [speed, turn_rate]: [f64; 2]) -> Self {
         let response = &nominal.response;
         let swing = 2.0 * libm::atan(nominal.limits.curvature * response.steered_axle) / response.steering_rate;
@@ -129,7 +115,7 @@ impl<'a> Guide<'a> {
     }
 
     /// Takes note of where the vehicle is, and says what to do for the next `dt` s.
-    pub(super) fn task(&mut self, measured: &Measured, dt: f64) -> Task<'a> {
+    pub(super) fn task(&mut self, measured: &DriveState, dt: f64) -> Task<'a> {
         let task = self.next(measured, dt);
         let speed = if let Task::Follow(along) = &task { along.speed } else { 0.0 };
         self.under_way.push_back((measured.t, speed));
@@ -146,11 +132,13 @@ impl<'a> Guide<'a> {
         self.under_way.iter().enumerate().map(|(index, (_, speed))| speed * time(index)).sum()
     }
 
-    /// The speed to command `s` metres along `stations`: what is planned where the vehicle will be when the command has acted.
+    /// The speed to command `s` metres along `stations`: what is planned where the vehicle will be when the command has
+    /// acted.
     ///
-    /// With the acceleration a the way until then is v·dt + ½ a dt² behind the commands under way. Near the end half of what is left, so that
-    /// it is reached. Wheels that take any speed at once go by the plan's own v and a, which lead it out of rest.
-    fn pace(&self, stations: &[Station], measured: &Measured, s: f64, dt: f64) -> f64 {
+    /// With the acceleration a the way until then is v·dt + ½ a dt² behind the commands under way. Near the end half of
+    /// what is left, so that it is reached. Wheels that take any speed at once go by the plan's own v and a, which lead
+    /// it out of rest.
+    fn pace(&self, stations: &[Station], measured: &DriveState, s: f64, dt: f64) -> f64 {
         let end = stations[stations.len() - 1].s;
         let left = (end - s - self.coming(measured.t)).max(0.0);
         let most = self.speed.min(left / dt);
@@ -168,7 +156,7 @@ impl<'a> Guide<'a> {
         speed_at(stations, ahead).min(braking).max(creeping).min(most)
     }
 
-    fn next(&mut self, measured: &Measured, dt: f64) -> Task<'a> {
+    fn next(&mut self, measured: &DriveState, dt: f64) -> Task<'a> {
         let plan = self.plan;
         loop {
             match plan.sections.get(self.section) {
@@ -180,7 +168,11 @@ impl<'a> Guide<'a> {
                             && measured.speed.abs() < STILL;
                         if !ready && measured.t - since < self.patience {
                             let direction = stations[0].direction;
-                            return Task::Hold(Command { curvature: wanted, direction, ..Command::default() });
+                            return Task::Hold(DriveCommand {
+                                curvature: wanted,
+                                direction,
+                                ..DriveCommand::default()
+                            });
                         }
                         self.waiting = None;
                     }
@@ -204,7 +196,7 @@ impl<'a> Guide<'a> {
                     if left.abs() > TURNED {
                         let braking = (2.0 * self.acceleration * left.abs()).sqrt();
                         let rate = self.turn_rate.min(TURN_GAIN * left.abs()).min(braking);
-                        return Task::Hold(Command { turn_rate: rate.copysign(left), ..held(measured) });
+                        return Task::Hold(DriveCommand { turn_rate: rate.copysign(left), ..held(measured) });
                     }
                 }
             }
@@ -213,8 +205,8 @@ impl<'a> Guide<'a> {
         }
     }
 
-    /// The metres to the place on the section that is nearest to the vehicle, never behind the last station found and never
-    /// far ahead of it: a section may cross itself.
+    /// The metres to the place on the section that is nearest to the vehicle, never behind the last station found and
+    /// never far ahead of it: a section may cross itself.
     fn progress(&mut self, stations: &[Station], at: &Planar, sign: f64) -> f64 {
         let distance = |i: usize| square(stations[i].at.x - at.x) + square(stations[i].at.y - at.y);
         let from = self.nearest;
@@ -238,8 +230,8 @@ impl<'a> Guide<'a> {
 }
 
 /// Standing, with the wheels as they are.
-fn held(measured: &Measured) -> Command {
-    Command { curvature: measured.at.curvature, direction: measured.direction, ..Command::default() }
+fn held(measured: &DriveState) -> DriveCommand {
+    DriveCommand { curvature: measured.at.curvature, direction: measured.direction, ..DriveCommand::default() }
 }
 
 /// An angle in (−π, π].

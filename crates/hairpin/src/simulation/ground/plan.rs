@@ -1,8 +1,12 @@
 //! The planned drive as controllers and the judge see it: where its commands lead the vehicle that was planned with.
+//!
+//! Stations every 2 cm, between stops: progress along a section is monotone even where sections cross. Latency is left
+//! out, as plans leave it out.
 
 use nalgebra::Isometry3;
 
-use super::plant::{Command, Lost, Plant};
+use super::command::DriveCommand;
+use super::plant::{Lost, Plant};
 use crate::math::power::square;
 use crate::robot::rover::{Response, Rover};
 use crate::simulation::SimulationError;
@@ -65,21 +69,28 @@ pub(super) struct Plan {
     pub(super) sections: Vec<Section>,
     /// Duration as commanded, s.
     pub(super) duration: f64,
+    /// Poses in time with the channel `leg`.
+    pub(super) track: Track,
+}
+
+/// A plan that is being driven for the first time.
+#[derive(Default)]
+struct Draft {
+    sections: Vec<Section>,
+    duration: f64,
     times: Vec<f64>,
     poses: Vec<Isometry3<f64>>,
     legs: Vec<f64>,
 }
 
-/// Where the commands of `drive` lead the vehicle `nominal`, leg after leg from each leg's own start: poses over time with the
-/// channel `leg`. It is the path that a run is to be compared with ([`crate::trajectory::Track`] of
+/// Where the commands of `drive` lead the vehicle `nominal`, leg after leg from each leg's own start: poses over time
+/// with the channel `leg`. It is the path that a run is to be compared with ([`crate::trajectory::Track`] of
 /// `judgement::Reference::Path`), at the speeds that were planned. Latency is left out.
 ///
 /// # Errors
 /// A drive without legs or with numbers that are none; a place where the vehicle cannot stand.
 pub fn planned_track(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> Result<Track, SimulationError> {
-    let plan = Plan::new(nominal, terrain, drive)?;
-    let legs = Channel { name: "leg".into(), values: plan.legs };
-    Ok(Track::new(plan.times, plan.poses, vec![legs]).expect("our own samples are finite and in order"))
+    Ok(Plan::new(nominal, terrain, drive)?.track)
 }
 
 impl Plan {
@@ -91,9 +102,9 @@ impl Plan {
         at_once.limits.curvature = f64::INFINITY;
         at_once.limits.turns_in_place = true;
         at_once.response = Response { latency: 0.0, ..nominal.response };
-        let mut plan = Self { sections: vec![], duration: 0.0, times: vec![], poses: vec![], legs: vec![] };
+        let mut draft = Draft::default();
         for leg in 0..drive.legs.len() {
-            plan.add_leg(&at_once, terrain, drive, leg).map_err(|lost| {
+            draft.add_leg(&at_once, terrain, drive, leg).map_err(|lost| {
                 let bound = match lost {
                     Lost::NoGround => "over ground all along",
                     Lost::NoRest => "over ground on which the wheels find rest",
@@ -101,12 +112,34 @@ impl Plan {
                 SimulationError::new("drive.legs", format!("leg {leg}"), bound)
             })?;
         }
-        if plan.times.len() < 2 {
+        let Draft { sections, duration, times, poses, legs } = draft;
+        if times.len() < 2 {
             return Err(SimulationError::new("drive.legs", "no motion".into(), "of some length"));
         }
-        Ok(plan)
+        let legs = Channel { name: "leg".into(), values: legs };
+        let track = Track::new(times, poses, vec![legs]).expect("our own samples are finite and in order");
+        Ok(Self { sections, duration, track })
     }
 
+    /// The longest time that the plan takes to move by `way` m or turn by `angle` rad, s.
+    pub(super) fn longest_rest(&self, [way, angle]: [f64; 2]) -> f64 {
+        // Of two attitudes as quaternions.
+        let alike = libm::cos(0.5 * angle);
+        let times = self.track.times();
+        let (mut from, mut longest) = (0, 0.0_f64);
+        for (i, pose) in self.track.poses().iter().enumerate() {
+            let (moved, before) = (times[i] - times[from], &self.track.poses()[from]);
+            longest = longest.max(moved);
+            let off = (pose.translation.vector - before.translation.vector).norm();
+            if off > way || pose.rotation.coords.dot(&before.rotation.coords).abs() < alike {
+                from = i;
+            }
+        }
+        longest
+    }
+}
+
+impl Draft {
     fn add_leg(&mut self, vehicle: &Rover, terrain: &ElevationMap, drive: &Drive, leg: usize) -> Result<(), Lost> {
         let timing = drive.legs[leg].timing();
         let mut driven = 0.0;
@@ -124,11 +157,11 @@ impl Plan {
                     self.sections.push(Section::Turn { from: plant.yaw, angle: angle_rad, leg });
                     let parts = (angle_rad.abs() / TURN_SPACING).ceil();
                     let time = angle_rad.abs() / drive.turn_rate / parts;
-                    let command = Command {
+                    let command = DriveCommand {
                         turn_rate: drive.turn_rate.copysign(angle_rad),
                         curvature: plant.curvature(),
                         direction: plant.direction,
-                        ..Command::default()
+                        ..DriveCommand::default()
                     };
                     plant.speed = 0.0;
                     for _ in 0..parts as usize {
@@ -181,7 +214,8 @@ impl Plan {
                 let time = timing.time_over(driven + begun, step);
                 let curvature = segment.curvature_at(begun + 0.5 * step);
                 let direction = direction_at(begun + 0.5 * step);
-                plant.advance(&Command { speed: gear * step / time, curvature, turn_rate: 0.0, direction }, time)?;
+                plant
+                    .advance(&DriveCommand { speed: gear * step / time, curvature, turn_rate: 0.0, direction }, time)?;
                 self.duration += time;
             }
             let done = step * ((part + 1) * STEPS) as f64;
@@ -196,22 +230,6 @@ impl Plan {
         }
         plant.speed = 0.0;
         Ok(())
-    }
-
-    /// The longest time that the plan takes to move by `way` m or turn by `angle` rad, s.
-    pub(super) fn longest_rest(&self, [way, angle]: [f64; 2]) -> f64 {
-        // Of two attitudes as quaternions.
-        let alike = libm::cos(0.5 * angle);
-        let (mut from, mut longest) = (0, 0.0_f64);
-        for (i, pose) in self.poses.iter().enumerate() {
-            let (moved, before) = (self.times[i] - self.times[from], &self.poses[from]);
-            longest = longest.max(moved);
-            let off = (pose.translation.vector - before.translation.vector).norm();
-            if off > way || pose.rotation.coords.dot(&before.rotation.coords).abs() < alike {
-                from = i;
-            }
-        }
-        longest
     }
 
     fn note(&mut self, plant: &Plant, leg: usize) {
@@ -262,8 +280,8 @@ impl Section {
     }
 }
 
-/// Rise per metre along the way, and to the left of it, of a body that leans by `lean` (φ, θ) and travels along `direction`
-/// (rad) of itself with `sign`.
+/// Rise per metre along the way, and to the left of it, of a body that leans by `lean` (φ, θ) and travels along
+/// `direction` (rad) of itself with `sign`.
 pub(super) fn rises([roll, pitch]: [f64; 2], direction: f64, sign: f64) -> [f64; 2] {
     let (sin, cos) = libm::sincos(direction);
     let (ahead, left) = (-libm::sin(pitch), libm::cos(pitch) * libm::sin(roll));
@@ -292,7 +310,8 @@ pub(super) fn heading(direction: f64, sign: f64) -> f64 {
     direction + if sign < 0.0 { std::f64::consts::PI } else { 0.0 }
 }
 
-/// The planned direction of travel `s` commanded metres along `stations`, rad: between two linear, beyond the ends as there.
+/// The planned direction of travel `s` commanded metres along `stations`, rad: between two linear, beyond the ends as
+/// there.
 pub(super) fn direction_at(stations: &[Station], s: f64) -> f64 {
     let next = stations.partition_point(|station| station.s < s);
     let (Some(b), Some(a)) = (stations.get(next), stations.get(next.wrapping_sub(1))) else {
@@ -306,8 +325,8 @@ pub(super) fn turning(stations: &[Station], s: f64, ahead: f64) -> f64 {
     (direction_at(stations, s + ahead) - direction_at(stations, s)) / ahead
 }
 
-/// The place `s` commanded metres along `stations`, which are driven with `sign`: between two by linear interpolation, beyond the last
-/// straight on.
+/// The place `s` commanded metres along `stations`, which are driven with `sign`: between two by linear interpolation,
+/// beyond the last straight on.
 pub(super) fn station_at(stations: &[Station], s: f64, sign: f64) -> Planar {
     let next = stations.partition_point(|station| station.s < s);
     if next == 0 {

@@ -1,10 +1,11 @@
-//! Pure pursuit: the circle through the vehicle, along its way, that meets the path a lookahead further on. A controller of its
-//! own, and what others fall back on.
+//! Pure pursuit: the circle through the vehicle, along its way, that meets the path a lookahead further on. A
+//! controller of its own, and what others fall back on.
 //!
-//! κ + δ′ = 2 y / D², with y the distance of the point to the left of the way and D its distance; δ′ is what a direction of travel that
-//! turns in the body bends the way by. Source: Coulter 1992.
+//! κ + δ′ = 2 y / D², with y the distance of the point to the left of the way and D its distance; δ′ is what a
+//! direction of travel that turns in the body bends the way by. Source: Coulter 1992.
 
-use super::guide::{Along, Measured};
+use super::command::DriveState;
+use super::guide::Along;
 use super::plan::{station_at, turning};
 use crate::math::power::square;
 use crate::robot::rover::Rover;
@@ -26,7 +27,7 @@ impl PurePursuit {
     }
 
     /// Curvature to the point ahead, 1/m. In reverse the way leads backwards, and the wheels bend it the other way.
-    pub(super) fn steer(&self, measured: &Measured, along: &Along) -> f64 {
+    pub(super) fn steer(&self, measured: &DriveState, along: &Along) -> f64 {
         let ahead = RADII / self.most + TIME * along.speed;
         let target = station_at(along.stations, along.s + ahead, along.sign);
         let (sin, cos) = libm::sincos(measured.at.yaw + along.heading);

@@ -1,6 +1,7 @@
 use nalgebra::Vector3;
 
-use super::plant::{Command, Lost, Plant};
+use super::command::DriveCommand;
+use super::plant::{Lost, Plant};
 use crate::robot::rover::{Response, Rover, RoverDescription, Slip, Weight, Wheels};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::{ElevationMap, Grid, HoleRule};
@@ -19,7 +20,7 @@ fn plane(a: f64, b: f64) -> ElevationMap {
     ElevationMap::new(grid, &heights, HoleRule::Error).expect("a map")
 }
 
-const GO: Command = Command { speed: 0.1, curvature: 0.0, turn_rate: 0.0, direction: 0.0 };
+const GO: DriveCommand = DriveCommand { speed: 0.1, curvature: 0.0, turn_rate: 0.0, direction: 0.0 };
 
 #[test]
 fn slip_on_planes_is_the_closed_form() {
@@ -28,7 +29,7 @@ fn slip_on_planes_is_the_closed_form() {
         let vehicle = Rover { slip: Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 }, ..shipped(name) };
         for (slope, sign) in [(0.3_f64, 1.0), (0.3, -1.0), (-0.2, 1.0)] {
             let angle = slope.atan();
-            let command = Command { speed: sign * 0.1, ..GO };
+            let command = DriveCommand { speed: sign * 0.1, ..GO };
             let up = plane(slope, 0.0);
             let mut plant = Plant::new(&vehicle, &up, 0.0, &Planar::default()).unwrap();
             plant.advance(&command, 50.0).unwrap();
@@ -53,7 +54,7 @@ fn steering_lags_by_its_time_constant_and_rate() {
     let mut vehicle = shipped("rocky8");
     vehicle.response = Response { steering_time_constant: 0.5, steered_axle: 0.5, ..Response::default() };
     let mut plant = Plant::new(&vehicle, &level, 0.0, &Planar::default()).unwrap();
-    let command = Command { curvature: 0.8, ..GO };
+    let command = DriveCommand { curvature: 0.8, ..GO };
     plant.advance(&command, 0.7).unwrap();
     let angle = 0.4_f64.atan() * (1.0 - (-1.4_f64).exp());
     assert!((plant.curvature() - angle.tan() / 0.5).abs() < 1e-12);
@@ -62,7 +63,7 @@ fn steering_lags_by_its_time_constant_and_rate() {
     plant.advance(&command, 1.0).unwrap();
     assert!((plant.curvature() - 0.1_f64.tan() / 0.5).abs() < 1e-9, "{}", plant.curvature());
     // Never beyond what the wheels can.
-    plant.advance(&Command { curvature: 9.0, ..GO }, 60.0).unwrap();
+    plant.advance(&DriveCommand { curvature: 9.0, ..GO }, 60.0).unwrap();
     assert!((plant.curvature() - vehicle.limits.curvature).abs() < 1e-9);
 }
 
@@ -73,12 +74,12 @@ fn speeds_follow_with_the_bounded_acceleration_and_turns_wait_for_a_stop() {
     vehicle.limits.acceleration = 0.05;
     vehicle.limits.speed = 0.2;
     let mut plant = Plant::new(&vehicle, &level, 0.0, &Planar::default()).unwrap();
-    plant.advance(&Command { speed: 1.0, ..GO }, 2.0).unwrap();
+    plant.advance(&DriveCommand { speed: 1.0, ..GO }, 2.0).unwrap();
     // Half a t², the ramp's own area.
     assert!((plant.speed - 0.1).abs() < 1e-12 && (plant.x - 0.1).abs() < 1e-9, "{} {}", plant.speed, plant.x);
-    plant.advance(&Command { speed: 1.0, ..GO }, 10.0).unwrap();
+    plant.advance(&DriveCommand { speed: 1.0, ..GO }, 10.0).unwrap();
     assert_eq!(plant.speed, 0.2);
-    let turn = Command { turn_rate: 0.3, ..Command::default() };
+    let turn = DriveCommand { turn_rate: 0.3, ..DriveCommand::default() };
     plant.advance(&turn, 3.9).unwrap();
     assert!(plant.yaw == 0.0 && plant.speed > 0.0);
     plant.advance(&turn, 10.0).unwrap();
@@ -106,7 +107,7 @@ fn torque_leaves_the_acceleration_that_climbing_and_rolling_do_not_take() {
             let vehicle = heavy(torque, 0.05);
             let mut plant = Plant::new(&vehicle, &hill, 0.0, &Planar { x: -2.0, ..Planar::default() }).unwrap();
             let spare = 4.0 * torque / 0.12 / 50.0 - 3.71 * (angle.sin() + 0.05 * angle.cos());
-            plant.advance(&Command { speed: 0.4, ..GO }, 0.2).unwrap();
+            plant.advance(&DriveCommand { speed: 0.4, ..GO }, 0.2).unwrap();
             let expected = (spare * 0.2).clamp(0.0, 0.4);
             assert!((plant.speed - expected).abs() < 1e-6, "{slope} {torque}: {} m/s, {expected}", plant.speed);
             let told = plant.torque().expect("a weight");
@@ -114,7 +115,7 @@ fn torque_leaves_the_acceleration_that_climbing_and_rolling_do_not_take() {
             if (0.0..0.4).contains(&expected) && expected > 0.0 {
                 assert!((told - torque).abs() < 1e-6, "all that there is: {told} of {torque}");
             }
-            plant.advance(&Command { speed: 0.4, ..GO }, 5.0).unwrap();
+            plant.advance(&DriveCommand { speed: 0.4, ..GO }, 5.0).unwrap();
             let steady = plant.torque().expect("a weight");
             let needed = 50.0 * 3.71 * (angle.sin() + 0.05 * angle.cos()) * 0.12 / 4.0;
             assert!(spare <= 0.0 || (steady - needed).abs() < 1e-6, "{slope} {torque}: {steady}, not {needed}");
@@ -124,7 +125,7 @@ fn torque_leaves_the_acceleration_that_climbing_and_rolling_do_not_take() {
     let (hill, vehicle) = (plane(0.3, 0.0), heavy(0.8, 0.0));
     let mut plant = Plant::new(&vehicle, &hill, 0.0, &Planar::default()).unwrap();
     plant.speed = 0.4;
-    plant.advance(&Command { speed: 0.4, ..GO }, 10.0).unwrap();
+    plant.advance(&DriveCommand { speed: 0.4, ..GO }, 10.0).unwrap();
     let spare = 4.0 * 0.8 / 0.12 / 50.0 - 3.71 * 0.3_f64.atan().sin();
     let way = 0.4_f64.powi(2) / (-2.0 * spare) * 0.3_f64.atan().cos();
     assert!(plant.speed == 0.0 && (plant.x - way).abs() < 2e-3, "{} m, not {way}", plant.x);

@@ -5,6 +5,19 @@ use std::f64::consts::TAU;
 use nalgebra::{Point3, Vector3};
 
 /// An arc: p(s) = centre + cos(s·angle)·u + sin(s·angle)·(n × u), s ∈ [0, 1].
+///
+/// Orientation along it is the controller's to interpolate from start to end; the point on the way fixes the circle
+/// alone. Three points on a line within 1e-12 (the sine of their angle) have none.
+///
+/// ```
+/// use hairpin::trajectory::program::Arc;
+/// use nalgebra::Point3;
+///
+/// let [start, via, end] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]].map(Point3::from);
+/// let arc = Arc::through(&start, &via, &end).expect("not in line");
+/// assert!((arc.radius() - 1.0).abs() < 1e-12 && (arc.length() - std::f64::consts::PI).abs() < 1e-12);
+/// assert!((arc.point(0.5) - via).norm() < 1e-12);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arc {
     /// The circle's centre, m.

@@ -1,4 +1,8 @@
 //! What the flange carries and what poses are given in, as programs declare them.
+//!
+//! base_from_tcp = base_from_user · user_from_object · object_from_tcp for a tool that is held; flange = that ·
+//! (flange_from_tcp)⁻¹. A tool that stands in the cell with a held work object is read and written, and told as such;
+//! arms here do not execute it.
 
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 
@@ -77,7 +81,8 @@ impl WorkObject {
 
 /// How far |q|² may be from 1 for controllers to take q. (ABB, Technical reference manual, RAPID, `NOrient`.)
 const NORMALISED: f64 = 1e-5;
-/// Below it, in |q|² − 1, the components are kept as they are: they were rounded to nine decimals, and would not read back.
+/// Below it, in |q|² − 1, the components are kept as they are: they were rounded to nine decimals, and would not read
+/// back.
 const AS_WRITTEN: f64 = 1e-8;
 
 /// `(w, x, y, z)` as a rotation; what is slightly off is scaled.

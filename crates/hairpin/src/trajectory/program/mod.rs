@@ -1,7 +1,11 @@
 //! A robot's program as data: what RAPID, KRL and URScript all say, unrolled to one move after the other, in SI.
 //!
-//! Languages are read into a [`Program`] and written from one; nothing here knows any of them. Names of targets, speeds and
-//! zones are kept so that what is written can be recognised by who wrote it.
+//! Languages are read into a [`Program`] and written from one; nothing here knows any of them. Names of targets, speeds
+//! and zones are kept so that what is written can be recognised by who wrote it.
+//!
+//! Data flow: a language's file → [`Program`] → [`Program::checked`] → planned, executed and judged, or written in
+//! another language. Poses are in their work object, as they were written: nothing is resolved to the base before an
+//! arm asks for it, so that reading and writing is the identity.
 
 mod arc;
 mod check;
@@ -21,6 +25,18 @@ pub use target::{External, JointTarget, Motion, NO_EXTERNAL, PoseTarget};
 pub use zone::Zone;
 
 /// A program: moves in the order in which they are executed.
+///
+/// ```
+/// use hairpin::trajectory::program::{Motion, Move, PoseTarget, Program, Speed, Tool, WorkObject, Zone};
+/// use nalgebra::Isometry3;
+///
+/// let mut program = Program::new("Stress", "main", Tool::flange(), WorkObject::base());
+/// let target = PoseTarget::unnamed(Isometry3::translation(0.4, 0.0, 0.3)).named("p10");
+/// let speed = Speed::predefined("v1000").expect("controllers have it");
+/// program.moves.push(Move::new(Motion::Linear(target), speed, Zone::stop()));
+/// assert!(program.problems().is_empty());
+/// assert_eq!(program.moves[0].speed.tcp, 1.0); // m/s
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Program {
     /// Name of the module or file.
@@ -36,6 +52,8 @@ pub struct Program {
 }
 
 /// One move from wherever the arm is to a target.
+///
+/// A move begins where the one before ended, the first where the arm stands; `zone` is what happens at its own end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Move {
     /// How, and where to.
@@ -81,6 +99,8 @@ impl Program {
 
     /// The same program with no component of any speed above `cap`'s, for a first run: `_slow` after both names, cut to
     /// `longest` characters, and no move timed.
+    ///
+    /// For the first run on a real arm: the same path, slower.
     pub fn slowed(&self, cap: &Speed, longest: usize) -> Self {
         let named = |name: &str| {
             let room = longest.saturating_sub("_slow".len());

@@ -1,4 +1,6 @@
 //! How fast a move is programmed, with the speeds that ABB's controllers predefine.
+//!
+//! A move takes as long as the slowest of its four speeds says; an arm's own joint limits come on top.
 
 /// Programmed speeds; the slowest of them governs.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,8 +24,8 @@ const PREDEFINED: [u32; 25] = [
 ];
 
 impl Speed {
-    /// The speed that controllers predefine under `name` (`v5` to `v7000`, `vmax`), whatever its case: 500 °/s, 5000 mm/s
-    /// and 1000 °/s beside the number in mm/s.
+    /// The speed that controllers predefine under `name` (`v5` to `v7000`, `vmax`), whatever its case: 500 °/s, 5000
+    /// mm/s and 1000 °/s beside the number in mm/s.
     pub fn predefined(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         let tcp = match name.strip_prefix('v')? {
@@ -54,6 +56,8 @@ impl Speed {
     }
 
     /// No component above `cap`'s; with a predefined name where there is one, with its own where nothing changes.
+    ///
+    /// Component by component, min(self, cap).
     pub fn capped(&self, cap: &Self) -> Self {
         let mut slow = Self {
             name: None,

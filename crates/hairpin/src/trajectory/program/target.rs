@@ -9,6 +9,9 @@ pub type External = [Option<f64>; 6];
 pub const NO_EXTERNAL: External = [None; 6];
 
 /// A pose of the tool's centre point in the work object.
+///
+/// A pose has up to eight postures and more turns; `configuration` is which one is meant, the numbers of
+/// `robot::arm::Configuration`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseTarget {
     /// Its name; without one it is written in place.
@@ -33,6 +36,8 @@ pub struct JointTarget {
 }
 
 /// How a move gets where.
+///
+/// RAPID's MoveAbsJ, MoveJ, MoveL, MoveC. Arcs are those of [`super::Arc`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Motion {
     /// All axes at once to a posture.

@@ -1,6 +1,13 @@
-//! How near a move has to come to its target before the next one begins, with the zones that ABB's controllers predefine.
+//! How near a move has to come to its target before the next one begins, with the zones that ABB's controllers
+//! predefine.
+//!
+//! Inside a zone the controller leaves the programmed path for a corner to the next one: a point that must be met is
+//! `fine`.
 
 /// A stop, or a fly-by with the distances from the target at which the corner path begins.
+///
+/// Zones of tool and reorientation are lengths of the tool centre point's path: a move that only turns blends by the
+/// angle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zone {
     /// Its name; without one it is written in place.

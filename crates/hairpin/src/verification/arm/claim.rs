@@ -56,22 +56,25 @@ pub enum ArmSolidForm<'a> {
     Where(&'a dyn Fn(&Point3<f64>) -> bool),
 }
 
-/// A move from where the one before it ended.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ArmMoveClaim {
-    /// All joints in step, to these angles (rad), at which the tool is at the pose if one is given.
-    Joints([f64; 6], Option<Isometry3<f64>>),
-    /// The tool straight to the pose, turning about one axis.
-    Straight(Isometry3<f64>),
-    /// The tool on the arc through a point (m) to the pose, turning about one axis.
-    Arc(Point3<f64>, Isometry3<f64>),
+/// How an arm is built, where that tells which of several postures a program means.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ArmBuild {
+    /// Axis 1 upright, 2 and 3 across it, 4, 5 and 6 through one point, 4 and 6 square to 5; ±1 of each axis: whether
+    /// it turns as its angle counts.
+    SphericalWrist([f64; 6]),
+    /// Any other.
+    Chain,
 }
 
-/// An arm, its cell, and a program.
-pub struct ArmMovesClaim<'a> {
+/// An arm, what its flange carries, and what stands around it.
+pub struct ArmClaim<'a> {
     /// From the base on.
     pub joints: &'a [ArmJointClaim; 6],
-    /// `link6_from_tcp`.
+    /// How they are built.
+    pub build: ArmBuild,
+    /// `link6_from_flange`.
+    pub flange: Isometry3<f64>,
+    /// `flange_from_tcp` of what the flange carries.
     pub tool: Isometry3<f64>,
     /// Links and tool.
     pub bodies: &'a [ArmBodyClaim],
@@ -79,12 +82,57 @@ pub struct ArmMovesClaim<'a> {
     pub solids: &'a [ArmSolidClaim<'a>],
     /// What bodies keep from solids, m.
     pub clearance: f64,
-    /// Where the program starts, rad.
+}
+
+/// A pose to go to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ArmTarget {
+    /// `object_from_tcp`.
+    pub pose: Isometry3<f64>,
+    /// Quadrants of axes 1, 4 and 6 and which of the eight postures, where it must be met in one.
+    pub configuration: Option<[i32; 4]>,
+    /// Joint angles there, rad, as claimed of arms of which a configuration does not tell them.
+    pub angles: Option<[f64; 6]>,
+}
+
+/// How a move of a program leads from where the one before it ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ArmMotion {
+    /// All joints in step, to these angles, rad.
+    Posture([f64; 6]),
+    /// All joints in step, to a pose.
+    Joints(ArmTarget),
+    /// The tool straight, turning about one axis.
+    Straight(ArmTarget),
+    /// The tool on the arc through a point of the object (m), turning about one axis.
+    Arc(Point3<f64>, ArmTarget),
+}
+
+/// A move of a program as it was written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArmProgramMove {
+    /// How, and where to.
+    pub motion: ArmMotion,
+    /// `flange_from_tcp` that its targets are for.
+    pub tool: Isometry3<f64>,
+    /// `base_from_user` and `user_from_object` that they are in.
+    pub object: [Isometry3<f64>; 2],
+    /// How far (m) before its end the path may leave it; 0 where the arm stops.
+    pub zone: f64,
+}
+
+/// A program, and what is claimed of it.
+pub struct ArmProgramClaim<'a> {
+    /// Where the arm stands before it, rad.
     pub start: [f64; 6],
     /// Its moves.
-    pub moves: &'a [ArmMoveClaim],
-    /// Of each move how far (m) from its end a blend may leave it; 0 where the arm stops. None at all: it stops everywhere.
-    pub zones: &'a [f64],
+    pub moves: &'a [ArmProgramMove],
+    /// Where each of them is to end, m, base frame.
+    pub waypoints: &'a [Point3<f64>],
+    /// Least margin from singularities where the tool is led, a pure number.
+    pub singularity: f64,
+    /// Whether links and tool keep clear of the cell, and corners are cut between straight moves alone.
+    pub clear: bool,
 }
 
 /// Something that does not hold on a move.

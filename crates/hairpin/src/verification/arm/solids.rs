@@ -1,4 +1,7 @@
 //! Distances of points from solids, each by a formula of its own.
+//!
+//! Triangles: the nearest of all, and inside by the sum of solid angles (4π inside, 0 outside), where the claim has a
+//! winding number and eleven separating directions.
 
 use nalgebra::{Point3, Vector3};
 
@@ -77,4 +80,18 @@ fn solid_angle(triangle: &[Point3<f64>; 3], p: &Point3<f64>) -> f64 {
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
     let below = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
     2.0 * libm::atan2(a.dot(&b.cross(&c)), below)
+}
+
+/// Whether words hold at a distance of `room` (m) from a point, in one of the directions `around`; of other forms the
+/// distance tells.
+pub(super) fn holds_around(form: &ArmSolidForm, p: &Point3<f64>, room: f64, around: &[Vector3<f64>]) -> bool {
+    let ArmSolidForm::Where(holds) = form else { return false };
+    around.iter().any(|direction| holds(&(p + direction * room)))
+}
+
+/// Directions to the corners, edges and faces of a cube, of length 1.
+pub(super) fn to_all_sides() -> Vec<Vector3<f64>> {
+    let side = |i: usize| i as f64 - 1.0;
+    let cube = (0..27).map(|i| Vector3::new(side(i % 3), side(i / 3 % 3), side(i / 9)));
+    cube.filter_map(|v| v.try_normalize(0.0)).collect()
 }

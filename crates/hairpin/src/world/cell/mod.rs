@@ -1,4 +1,9 @@
-//! What stands around an arm: named regions to keep out of, a reach sphere to stay in, and inequations in the user's own words.
+//! What stands around an arm: named regions to keep out of, a reach sphere to stay in, and inequations in the user's
+//! own words.
+//!
+//! A region is asked three things: how near a segment comes ([`Region::segment_distance`], floating point), whether a
+//! formula over intervals decides ([`Region::formula`], for proofs), and what plane separates it ([`Region::nearest`],
+//! [`Region::support`]). Numbers here; the proof that a tool's segment is clear is put together from them on floor 5.
 
 mod near;
 mod region;
@@ -21,6 +26,9 @@ pub struct Part {
 }
 
 /// Everything around an arm, in the frame of its base, m.
+///
+/// Order is meaning: findings name a part by its index. What the arm stands on belongs in it like everything else;
+/// nothing is implied.
 #[derive(Debug, Clone, Default)]
 pub struct Cell {
     /// The regions, told by their index.

@@ -1,4 +1,7 @@
 //! How far a segment is from a region, in floating point: closed forms, and for words a search for room.
+//!
+//! With K the convex core of a region and x(t) = a + t (b − a), t ↦ dist(x(t), K)² is convex with the derivative 2
+//! (x(t) − π_K(x(t)))·(b − a), so that its sign brackets the minimum. No bound of rounding is claimed in this file.
 
 use nalgebra::{Point3, Vector3};
 
@@ -13,6 +16,8 @@ const HALVINGS: usize = 52;
 
 impl Region {
     /// Smallest signed distance of the segment a–b to the region, m; ≤ 0 where they meet, `None` for words.
+    ///
+    /// Exact to rounding for all but words; the segment's own points alone, no tool around them.
     pub fn segment_distance(&self, a: &Point3<f64>, b: &Point3<f64>) -> Option<f64> {
         Some(match self {
             Self::Shape(shape) => shape.segment_distance(a, b),
@@ -27,8 +32,10 @@ impl Region {
         })
     }
 
-    /// Whether every point within `room` (m, ≥ 0) of the segment a–b is outside the region. Words are asked for whole boxes, so that
-    /// `true` is certain and `false` may be cautious.
+    /// Whether every point within `room` (m, ≥ 0) of the segment a–b is outside the region. Words are asked for whole
+    /// boxes, so that `true` is certain and `false` may be cautious.
+    ///
+    /// Grown by `room`: of words the cube around the ball, halved along the segment at most ten times.
     pub fn is_clear(&self, a: &Point3<f64>, b: &Point3<f64>, room: f64) -> bool {
         match self {
             Self::Words(words) => room_around(words, a, b, room, 0),
@@ -36,7 +43,11 @@ impl Region {
         }
     }
 
-    /// Whether a point within `radius` (m, ≥ 0) of the segment a–b is in the region; of words, whether one of those looked at is.
+    /// Whether a point within `radius` (m, ≥ 0) of the segment a–b is in the region; of words, whether one of those
+    /// looked at is.
+    ///
+    /// Of words 33 points of the segment times the 27 of [`directions`]: what is found is in the region, what is not
+    /// may be.
     pub fn meets(&self, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> bool {
         match self {
             Self::Words(words) => (0..=SAMPLES).any(|i| {
@@ -83,8 +94,8 @@ fn room_around(words: &Words, a: &Point3<f64>, b: &Point3<f64>, room: f64, depth
 }
 
 impl Region {
-    /// From the nearest point of the region's core to `p`, m: zero inside. The core of a ball is its centre, of a capsule its axis; of
-    /// boxes and cylinders they themselves. `None` for everything else.
+    /// From the nearest point of the region's core to `p`, m: zero inside. The core of a ball is its centre, of a
+    /// capsule its axis; of boxes and cylinders they themselves. `None` for everything else.
     fn excess(&self, p: &Point3<f64>) -> Option<Vector3<f64>> {
         Some(match self {
             Self::Shape(Shape::Sphere { center, .. }) => p - center,
@@ -105,8 +116,12 @@ impl Region {
         })
     }
 
-    /// Where the segment a–b is nearest to the region's core, as its parameter, and the way there from the core, m; `None` as of
-    /// regions without a core. The distance is convex along the segment, so that its derivative's sign leads to the minimum.
+    /// Where the segment a–b is nearest to the region's core, as its parameter, and the way there from the core, m;
+    /// `None` as of regions without a core. The distance is convex along the segment, so that its derivative's sign
+    /// leads to the minimum.
+    ///
+    /// Secant steps with a bisection at every third: at most 52 evaluations of π_K, usually four or five. The vector is
+    /// 0 where the segment enters the core.
     pub fn nearest(&self, a: &Point3<f64>, b: &Point3<f64>) -> Option<(f64, Vector3<f64>)> {
         let d = b - a;
         let at = |t: f64| self.excess(&(a + d * t));
@@ -121,7 +136,8 @@ impl Region {
         }
         let (mut best, mut turns) = ((0.0, first), 0);
         while turns < HALVINGS && high.0 - low.0 > 1e-12 {
-            // The secant of a convex function's derivative, and now and then the middle, so that the interval does shrink.
+            // The secant of a convex function's derivative, and now and then the middle, so that the interval does
+            // shrink.
             let secant = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
             let t = if turns % 3 == 2 { 0.5 * (low.0 + high.0) } else { secant.clamp(low.0, high.0) };
             let excess = at(t)?;

@@ -1,4 +1,13 @@
 //! The kinds of region, as one formula each that numbers, intervals and centred forms can evaluate.
+//!
+//! | region | ≤ 0 exactly where the region, grown by r, is |
+//! | --- | --- |
+//! | ball | ‖p − c‖² − (R + r)² |
+//! | box, r > 0 | Σ_k max(\|p_k − c_k\| − h_k, 0)² − r²; with r = 0 the largest of the three excesses |
+//! | capsule | ‖w − s u‖² − (R + r)², s = clamp(w·u/u·u, 0, 1), w = p − a, u = b − a |
+//! | cylinder, r > 0 | max(e₁, 0)² + max(e₂, 0)² − r², e₁ along the axis past a disc, e₂ = ‖w × u‖/‖u‖ − R |
+//! | half-space | n·p − offset − r‖n‖ |
+//! | beyond | max(R − r, 0)² − ‖p − c‖² |
 
 use nalgebra::{Point3, Vector3};
 
@@ -7,6 +16,9 @@ use crate::math::outward::{Interval, Real};
 use crate::world::{Bounds, Shape, Solid, WorldError};
 
 /// Where something must not be; the base's frame, m.
+///
+/// A point of the border is inside: distance 0 is contact. Grown by r a box has round edges, a cylinder round rims: it
+/// is the Minkowski sum with a ball, not a larger box.
 #[derive(Debug, Clone)]
 pub enum Region {
     /// A ball, box, capsule, convex hull or closed mesh.
@@ -101,7 +113,12 @@ impl Region {
         Ok(Self::Beyond { center: center_m.into(), radius: positive("reach.radius_m", radius_m)? })
     }
 
-    /// A function of a point that is ≤ 0 exactly where the region, grown by `radius` (≥ 0), is; `None` for hulls, meshes and words.
+    /// A function of a point that is ≤ 0 exactly where the region, grown by `radius` (≥ 0), is; `None` for hulls,
+    /// meshes and words.
+    ///
+    /// `p` in m in the region's frame. With [`crate::math::outward::Interval`]s a value whose upper bound is < 0 proves
+    /// that every point enclosed is inside, one whose lower bound is > 0 that none is; with
+    /// [`crate::math::outward::Centred`] forms the bounds close quadratically as the segment is halved.
     pub fn formula<N: Real>(&self, p: [N; 3], radius: f64) -> Option<N> {
         let c = N::constant;
         let zero = c(0.0);
@@ -149,8 +166,11 @@ impl Region {
         })
     }
 
-    /// The support function of the region's core, max n·q over its points q, and the radius of the ball that grows it to the region:
-    /// bounds of both. `None` for regions without a core (see [`Region::nearest`]).
+    /// The support function of the region's core, max n·q over its points q, and the radius of the ball that grows it
+    /// to the region: bounds of both. `None` for regions without a core (see [`Region::nearest`]).
+    ///
+    /// n·x(t) > h(n) + (R + r)‖n‖ at both ends of a segment proves it farther than r from the region, whatever `n` is
+    /// and however it was found: the separating plane theorem needs no other premise.
     pub fn support(&self, n: &Vector3<f64>) -> Option<(Interval, f64)> {
         let i = Interval::point;
         let dot = |p: &Point3<f64>| i(n.x) * i(p.x) + i(n.y) * i(p.y) + i(n.z) * i(p.z);

@@ -1,4 +1,7 @@
 //! Inequations over x, y, z in the user's own words: `x^2 + y^2 < 190^2 and z < 480`.
+//!
+//! Data flow: text → tokens → a tree of terms and comparisons (once) → evaluated over numbers, intervals or centred
+//! forms (often). Numbers are in the text's own unit; points come in m and are scaled.
 
 mod parser;
 
@@ -19,6 +22,17 @@ pub struct WordsError {
 }
 
 /// A condition on a point, understood once and evaluated often.
+///
+/// ```
+/// use hairpin::world::cell::Words;
+///
+/// // Millimetres, as a cell's file has them; points are in m.
+/// let words = Words::parse("x^2 + y^2 < 190^2 and z < 480", 1000.0)?;
+/// assert!(words.holds([0.1, 0.1, 0.3]) && !words.holds([0.1, 0.1, 0.5]));
+/// let mistake = Words::parse("x < < 3", 1000.0).unwrap_err();
+/// assert_eq!(mistake.column, 5);
+/// # Ok::<(), hairpin::world::cell::WordsError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Words {
     text: String,
@@ -59,6 +73,9 @@ enum Term {
 impl Words {
     /// Understands `text`, whose x, y, z are in a unit of which `per_metre` make a metre (1000 for mm).
     ///
+    /// At most 1000 tokens and 100 nested parentheses, exponents whole and up to 64. A chain a < b < c is (a < b) and
+    /// (b < c).
+    ///
     /// # Errors
     /// [`WordsError`] with the column.
     pub fn parse(text: &str, per_metre: f64) -> Result<Self, WordsError> {
@@ -78,7 +95,12 @@ impl Words {
         }) == Some(true)
     }
 
-    /// Whether the words are true at every point (`Some(true)`) or at none (`Some(false)`) of the enclosed ones, m; proofs both.
+    /// Whether the words are true at every point (`Some(true)`) or at none (`Some(false)`) of the enclosed ones, m;
+    /// proofs both.
+    ///
+    /// Kleene's three-valued logic over the bounds of each difference left − right: `None` is "not decided on this
+    /// enclosure", and smaller ones may be. √ of what is below 0 counts as √0, as everywhere in
+    /// [`crate::math::outward`].
     pub fn holds_on<N: Real + Bounded>(&self, p: [N; 3]) -> Option<bool> {
         self.condition.at(&p.map(|c| c * N::constant(self.per_metre)), &|less: N, or_equal| {
             let Interval { low, high } = less.bounds();

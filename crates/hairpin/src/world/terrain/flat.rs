@@ -13,6 +13,8 @@ impl Terrain for Flat {
 }
 
 /// Ground by an analytic function of (x, y) with its derivatives.
+///
+/// Defined everywhere. That the derivatives are those of the height is not checked.
 #[derive(Debug, Clone, Copy)]
 pub struct Function<F>(pub F);
 

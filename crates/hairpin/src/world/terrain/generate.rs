@@ -1,8 +1,13 @@
 //! Terrain from a seed: fractal ground, craters, rocks.
 //!
 //! Fractal: octaves of gradient noise whose amplitude falls with the wavelength as λ^H (Turcotte 1987; Mars' H is about
-//! 0.7 at rover scale). Craters: cumulative number per area ∝ D⁻² of fresh bowls 0.2 D deep with a rim 0.04 D high (Pike 1977). Rocks:
-//! see [`super::rocks`].
+//! 0.7 at rover scale). Craters: cumulative number per area ∝ D⁻² of fresh bowls 0.2 D deep with a rim 0.04 D high
+//! (Pike 1977). Rocks: see [`super::rocks`].
+//!
+//! Order matters and is fixed: fractal ground, then craters, then rocks, each from its own stream, so that one recipe
+//! with other rocks keeps its craters. Turcotte, "A fractal interpretation of topography and geoid spectra on the
+//! Earth, Moon, Venus, and Mars", J. Geophys. Res. 92 (1987); Pike, "Size-dependence in the shape of fresh impact
+//! craters on the moon", in Impact and Explosion Cratering (1977).
 
 use std::f64::consts::TAU;
 
@@ -11,6 +16,10 @@ use super::rocks::Rocks;
 use crate::math::random::{hashed_unit, named_seed, stream, unit};
 
 /// What to make.
+///
+/// Octaves have wavelengths of 20 m (or the map's size), halved down to two cells, and amplitudes ∝ λ^H whose variances
+/// sum to `relief_m`² about. Craters are as fresh as 0.3 to 1, evenly, which scales depth and rim; the largest are a
+/// third of the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recipe {
     /// Edge length of the square map, m.
@@ -56,6 +65,16 @@ const DEPTH: f64 = 0.2;
 const RIM: f64 = 0.04;
 
 /// The map of `recipe`, its south-west corner at the origin; the same bytes from the same recipe on any machine.
+///
+/// ```
+/// use hairpin::world::terrain::{Terrain, generate::{Recipe, generate}};
+///
+/// let recipe = Recipe { size_m: 6.0, cell_m: 0.1, least_crater_m: f64::INFINITY, seed: 3, ..Recipe::default() };
+/// let (map, again) = (generate(&recipe)?, generate(&recipe)?);
+/// assert_eq!(map.height(3.0, 3.0)?, again.height(3.0, 3.0)?);
+/// assert!(map.height(3.0, 3.0)?.abs() < 2.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// Numbers out of bounds, by name.
@@ -108,9 +127,12 @@ struct Ground {
 }
 
 impl Ground {
+    /// Gradient noise in octaves, wavelengths λ halving from the longest down to two cells, each of an amplitude ∝ λ^H;
+    /// together their standard deviation is the relief asked for, as far as that of gradient noise is ¼.
     fn fractal(&mut self, recipe: &Recipe) {
         let mut wave = LONGEST_WAVE.min(recipe.size_m);
-        // Gradient noise has a standard deviation of about a quarter; octaves of variance λ^(2H) add up to the relief's.
+        // Gradient noise has a standard deviation of about a quarter; octaves of variance λ^(2H) add up to the
+        // relief's.
         let share = 1.0 - libm::pow(0.25, recipe.hurst.max(0.05));
         let mut amplitude = 4.0 * recipe.relief_m * share.sqrt();
         for octave in 0.. {

@@ -3,12 +3,19 @@
 //! Along one axis, with t in [0, 1] between the samples h₀ and h₁,
 //! h(t) = ½ [2h₀ + (h₁ − h₋₁) t + (2h₋₁ − 5h₀ + 4h₁ − h₂) t² + (3h₀ − 3h₁ + h₂ − h₋₁) t³];
 //! both axes in turn. Source: Catmull & Rom 1974, the cubic convolution of Keys 1981 with a = −½.
+//!
+//! The surface passes through every cell's height, is C¹, and depends on 4 × 4 cells. Heights are kept as f32, one in
+//! four bytes, and computed with as f64. The ring around the map continues the outermost slope, so that all of the
+//! extent between outermost cell *centres* is ground; the half cell outside them is not.
 
 use thiserror::Error;
 
 use super::{NoGround, Patch, Terrain, smooth};
 
 /// Where the cells of a map lie.
+///
+/// x east, y north. Cells need not be square. GeoTIFF's corner of a cell is half a cell off [`Grid::first_center`]; the
+/// doors convert.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
     /// Cells along x.
@@ -22,6 +29,9 @@ pub struct Grid {
 }
 
 /// What to do with cells without data.
+///
+/// `Fill` by the membrane over the hole's rim; `KeepOut` leaves NaN, which a look whose 4 × 4 cells touch it answers
+/// with [`NoGround::Hole`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HoleRule {
     /// A map with holes is refused.
@@ -74,6 +84,19 @@ pub enum MapError {
 }
 
 /// Heights on a grid; immutable once built.
+///
+/// ```
+/// use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, Terrain};
+///
+/// // 4 × 4 cells of 1 m, rising to the east; rows come from the north, as rasters have them.
+/// let grid = Grid { columns: 4, rows: 4, first_center: [0.5, 0.5], cell: [1.0, 1.0] };
+/// let heights: Vec<f32> = (0..16).map(|cell| (cell % 4) as f32).collect();
+/// let map = ElevationMap::new(grid, &heights, HoleRule::Error)?;
+/// let patch = map.patch(2.0, 2.0)?;
+/// assert!((patch.height - 1.5).abs() < 1e-12 && (patch.slope[0] - 1.0).abs() < 1e-12);
+/// assert!(map.patch(0.2, 2.0).is_err()); // outside the outermost cell centres
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct ElevationMap {
     grid: Grid,
@@ -88,6 +111,8 @@ pub struct ElevationMap {
 
 impl ElevationMap {
     /// A map of `heights` (m, rows from the north as rasters have them; NaN where there is no data).
+    ///
+    /// Memory is 4 bytes for each cell, and one for each where holes are filled. Linear in the cells.
     ///
     /// # Errors
     /// Grids of fewer than two cells a side, cells that are not positive, another number of heights, infinite
@@ -148,6 +173,8 @@ impl ElevationMap {
     }
 
     /// Whether the height at (`x`, `y`) rests on a cell that was filled in.
+    ///
+    /// Asks the 4 × 4 cells that the height depends on.
     pub fn is_filled(&self, x: f64, y: f64) -> bool {
         if self.filled.is_empty() {
             return false;
@@ -221,6 +248,8 @@ fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 }
 
 impl Terrain for ElevationMap {
+    /// Cubic convolution of the 4 × 4 cells around (Keys 1981), along x, then along y: height (m), slope (1), bend
+    /// (1/m) as (∂xx, ∂xy, ∂yy). One missing cell among the sixteen makes a hole.
     #[inline]
     fn patch(&self, x: f64, y: f64) -> Result<Patch, NoGround> {
         let Some(at) = self.locate(x, y) else { return Err(NoGround::OffMap { x, y }) };

@@ -1,4 +1,11 @@
 //! Ground as a height over the plane: what wheels stand on.
+//!
+//! Ground is a function z = h(x, y): no overhangs. Wheels need h and its slope for contact and the second derivatives
+//! for how a rest changes along the way; all three come from one look ([`Terrain::patch`]). Maps are C¹: slopes are
+//! continuous, second derivatives jump where cells meet, and who differentiates twice must expect it.
+//!
+//! [`Flat`] and [`Function`] are ground by formula, [`ElevationMap`] from a raster, [`generate::generate`] from a seed.
+//! [`KeepOuts`] lie over any of them.
 
 mod flat;
 pub mod generate;
@@ -18,6 +25,8 @@ pub use rocks::{Rock, Rocks, add_rocks};
 use thiserror::Error;
 
 /// Height of the ground at a point with its first and second derivatives.
+///
+/// The upward normal of the ground is (−∂h/∂x, −∂h/∂y, 1)/√(1 + ‖slope‖²).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Patch {
     /// h, m.
@@ -29,6 +38,8 @@ pub struct Patch {
 }
 
 /// Why there is no ground at a point.
+///
+/// An answer, not an accident: a wheel that leaves the map ends a prediction, and the place is told.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum NoGround {
     /// Outside the map.
@@ -50,6 +61,17 @@ pub enum NoGround {
 }
 
 /// Ground that can be asked for its height; world frame, metres, z up.
+///
+/// For a stranger's ground as well: whoever implements it owes `slope` and `bend` that are the derivatives of `height`.
+///
+/// ```
+/// use hairpin::world::terrain::{Function, Patch, Terrain};
+///
+/// // A slope of 10 % to the east.
+/// let ramp = Function(|x: f64, _: f64| Patch { height: 0.1 * x, slope: [0.1, 0.0], bend: [0.0; 3] });
+/// assert!((ramp.height(4.0, 0.0)? - 0.4).abs() < 1e-12);
+/// # Ok::<(), hairpin::world::terrain::NoGround>(())
+/// ```
 pub trait Terrain: Sync {
     /// Height and derivatives at (`x`, `y`).
     ///

@@ -1,8 +1,13 @@
 //! Rocks on the ground by their size-frequency distribution, as bumps of a map and as places to keep out of.
 //!
-//! The share of the area covered by rocks larger than D is F(D) = k e^(−q D), q = 1.79 + 0.152/k: M. Golombek and D. Rapp,
-//! Size-frequency distributions of rocks on Mars and Earth analog sites, J. Geophys. Res. 102 (1997), fitted to the sites of
-//! the Viking landers; k is 0.03 on smooth ground, 0.07 and 0.18 there. Half of each rock is above the ground.
+//! The share of the area covered by rocks larger than D is F(D) = k e^(−q D), q = 1.79 + 0.152/k: M. Golombek and D.
+//! Rapp, Size-frequency distributions of rocks on Mars and Earth analog sites, J. Geophys. Res. 102 (1997), fitted to
+//! the sites of the Viking landers; k is 0.03 on smooth ground, 0.07 and 0.18 there. Half of each rock is above the
+//! ground.
+//!
+//! Drawn by number: the density of diameters is −F′(D)/(πD²/4) ∝ e^(−qD)/D², by rejection from the exponential of F;
+//! rocks are added until their areas sum to F(D_least) of the ground, so that cover, not count, is what a scenario
+//! fixes.
 
 use std::f64::consts::PI;
 
@@ -20,6 +25,9 @@ pub struct Rock {
 }
 
 /// Which rocks to scatter.
+///
+/// Lengths in m. Expected number: ∫ k q e^(−qD)/(πD²/4) dD over the area, from the least diameter on; at most a
+/// million.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rocks {
     /// k: share of the ground that rocks of all sizes cover, 0 to 0.4.
@@ -33,7 +41,8 @@ pub struct Rocks {
 }
 
 impl Rocks {
-    /// The rocks on the rectangle from `low` to `high` (x, y in m), their middles evenly spread; the same ones from the same seed.
+    /// The rocks on the rectangle from `low` to `high` (x, y in m), their middles evenly spread; the same ones from the
+    /// same seed.
     ///
     /// # Errors
     /// Numbers out of bounds, by name.
@@ -88,6 +97,9 @@ impl Rock {
     /// Height over the ground it lies on at a `distance` from its middle, m.
     ///
     /// A half ball, but rounded at the foot, so that wheels meet slopes there, not walls.
+    ///
+    /// h(s) = R w √(2 − w), w = 1 − (s/R)², R half the diameter: R on top, 0 at the rim with a finite slope, where the
+    /// half ball R√w is a wall.
     pub fn height(&self, distance: f64) -> f64 {
         let radius = 0.5 * self.diameter;
         let share = distance / radius;
@@ -102,6 +114,8 @@ impl Rock {
 }
 
 /// `map` with `rocks` on it; where two overlap, one lies on the other.
+///
+/// Heights are sampled at cell centres: rocks below two cells in diameter are seen by chance.
 pub fn add_rocks(map: &ElevationMap, rocks: &[Rock]) -> ElevationMap {
     map.raised(|heights| {
         for rock in rocks {
@@ -110,6 +124,8 @@ pub fn add_rocks(map: &ElevationMap, rocks: &[Rock]) -> ElevationMap {
     })
 }
 
+/// Raises the cells whose centres lie under the rock by its height there: a rock stands on the ground that is, slopes
+/// and other rocks included.
 fn add(grid: &Grid, heights: &mut [f32], rock: &Rock) {
     let Grid { columns, rows, first_center, cell } = *grid;
     let reach = 0.5 * rock.diameter;

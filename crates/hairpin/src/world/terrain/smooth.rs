@@ -1,4 +1,7 @@
 //! Heights over holes: the membrane that spans them from their rims.
+//!
+//! ∇²h = 0 inside a hole, h as measured on its rim: by the maximum principle no filled height is beyond the rim's, so
+//! that a hole never becomes a peak. What is filled is counted and can be asked for, since no wheel was ever there.
 
 /// Sweeps of the relaxation on each level; more change the fill by less than the sensor's noise.
 const SWEEPS: usize = 60;

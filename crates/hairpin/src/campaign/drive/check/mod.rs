@@ -4,6 +4,7 @@ mod environment;
 
 use super::Driver;
 use crate::campaign::attachments::Attachments;
+use crate::campaign::build::Build;
 use crate::campaign::check::{Findings, check_executed, check_search};
 use crate::campaign::scenario::{
     ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, DriveTask, EXECUTED, GroundReach,
@@ -18,38 +19,47 @@ const LONGEST: u64 = 1_000;
 /// Nodes of the roadmap, waypoints × headings: legs are pairs of them, each a boundary-value problem.
 const MOST_NODES: u64 = 5_000;
 
-/// Builds what the keys describe, and looks at all of them.
-///
-/// # Errors
-/// Every nominal value that is out of bounds, in the order of the file.
-pub(super) fn check(
-    keys: &DriveScenario,
-    files: &Attachments,
-    known: Option<(&DriveScenario, &Driver)>,
-) -> Result<Driver, Vec<Mistake>> {
-    let mut found = Findings::default();
-    found.head(keys.hairpin, keys.seed);
-    let rovers = found.take(Driver::rovers(keys, known));
-    let rover = rovers.as_ref().map(|[rover, _]| &**rover);
-    check_ground(&keys.world, &mut found);
-    let keep_out = found.take(Driver::keep_out(keys, known));
-    check_task(&keys.task, rover, &mut found);
-    let map = Driver::map(keys, files, known);
-    let map = match found.0.is_empty() {
-        true => found.take(map).inspect(|map| check_places(&keys.task, map, &mut found)),
-        // What is wrong with the ground is told once all before it is right.
-        false => map.ok(),
-    };
-    check_generate(&keys.generate, rover, &mut found);
-    check_score(keys, files, &mut found);
-    environment::check(keys, rover, map.as_deref(), &mut found);
-    check_execute(&keys.execute, rover, &mut found);
-    check_spec(&keys.spec, &mut found);
-    match (rovers, map, keep_out) {
-        (Some([rover, planner]), Some(map), Some(keep_out)) if found.0.is_empty() => {
-            Ok(Driver { rover, planner, map, keep_out })
+impl Build for Driver {
+    type Keys = DriveScenario;
+
+    fn build(
+        keys: &DriveScenario,
+        files: &Attachments,
+        known: Option<(&DriveScenario, &Self)>,
+    ) -> Result<Self, Mistake> {
+        let [rover, planner] = Self::rovers(keys, known)?;
+        Ok(Self { rover, planner, map: Self::map(keys, files, known)?, keep_out: Self::keep_out(keys, known)? })
+    }
+
+    fn check(
+        keys: &DriveScenario,
+        files: &Attachments,
+        known: Option<(&DriveScenario, &Self)>,
+    ) -> Result<Self, Vec<Mistake>> {
+        let mut found = Findings::default();
+        found.head(keys.hairpin, keys.seed);
+        let rovers = found.take(Driver::rovers(keys, known));
+        let rover = rovers.as_ref().map(|[rover, _]| &**rover);
+        check_ground(&keys.world, &mut found);
+        let keep_out = found.take(Driver::keep_out(keys, known));
+        check_task(&keys.task, rover, &mut found);
+        let map = Driver::map(keys, files, known);
+        let map = match found.0.is_empty() {
+            true => found.take(map).inspect(|map| check_places(&keys.task, map, &mut found)),
+            // What is wrong with the ground is told once all before it is right.
+            false => map.ok(),
+        };
+        check_generate(&keys.generate, rover, &mut found);
+        check_score(keys, files, &mut found);
+        environment::check(keys, rover, map.as_deref(), &mut found);
+        check_execute(&keys.execute, rover, &mut found);
+        check_spec(&keys.spec, &mut found);
+        match (rovers, map, keep_out) {
+            (Some([rover, planner]), Some(map), Some(keep_out)) if found.0.is_empty() => {
+                Ok(Driver { rover, planner, map, keep_out })
+            }
+            _ => Err(found.0),
         }
-        _ => Err(found.0),
     }
 }
 

@@ -21,10 +21,11 @@ pub struct DriveGenerate {
     pub manoeuvres: Vec<Manoeuvre>,
     /// How speed changes along the way.
     pub speed: SpeedSection,
-    /// Direction of travel in the body, left positive: for vehicles that steer all wheels. `[least, greatest]`: each waypoint has one of
-    /// its own, drawn evenly, and along a leg it turns evenly from one to the other.
+    /// Direction of travel in the body, left positive: for vehicles that steer all wheels. `[least, greatest]`: each
+    /// waypoint has one of its own, drawn evenly, and along a leg it turns evenly from one to the other.
     pub direction_deg: DirectionDeg,
-    /// source | exact: without or with what the suspension adds to the body's velocity (vz, ωx, ωy); of plans, runs and proofs.
+    /// source | exact: without or with what the suspension adds to the body's velocity (vz, ωx, ωy); of plans, runs and
+    /// proofs.
     pub kinematics: Kinematics,
     /// Headings per waypoint in the `witness` roadmap.
     pub headings: u64,
@@ -94,7 +95,8 @@ pub enum ControlName {
     TurnDriveTurn,
     /// A polynomial of third order in arc length.
     Cubic,
-    /// A polynomial of fifth order in arc length; where none keeps the bounds, clothoids, in both gears if they are allowed.
+    /// A polynomial of fifth order in arc length; where none keeps the bounds, clothoids, in both gears if they are
+    /// allowed.
     #[default]
     Quintic,
     /// A polynomial of fifth order in time.
@@ -125,8 +127,8 @@ impl ControlName {
     }
 }
 
-/// `generate.speed`: how the commanded speed changes along the way. Without `constant`, drives begin and end at rest and stop where the
-/// gear changes and for turns in place.
+/// `generate.speed`: how the commanded speed changes along the way. Without `constant`, drives begin and end at rest
+/// and stop where the gear changes and for turns in place.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpeedSection {

@@ -40,7 +40,8 @@ macro_rules! drive_search {
 drive_search! {
     /// beam | exact | uniform | in-loop | adaptive.
     pub method: SearchMethod,
-    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; executed; learned:MODEL; or python:FILE.
+    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; executed; learned:MODEL; or
+    /// python:FILE.
     score,
     /// How scores of legs become the score of a trajectory.
     pub aggregate: Aggregate,
@@ -63,12 +64,13 @@ drive_search! {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds together.
+    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds
+    /// together.
     pub executions: u64,
     /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
-    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not given, one
-    /// for 45 executions, at least 4 where there are enough, at most 15.
+    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not
+    /// given, one for 45 executions, at least 4 where there are enough, at most 15.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rounds: Option<u64>,
     /// `adaptive`: share of every later round's executions that is drawn uniformly, whatever the model says.
@@ -78,7 +80,8 @@ drive_search! {
     pub time_s: Option<f64>,
     /// `in-loop`: whether waypoints are moved off their graph, as far as legs can be solved.
     pub move_waypoints: bool,
-    /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | clearance | tilt.
+    /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation |
+    /// max-acceleration | time | overshoot | saturation | clearance | tilt.
     pub stress: Stress,
 }
 

@@ -1,4 +1,10 @@
 //! `witness` for ground vehicles: a roadmap of headed waypoints, whose legs are solved boundary-value drives.
+//!
+//! Data flow: [`sample_ground`] places where a body can stand → headings and directions of each waypoint, by its number
+//! → a leg when a search first asks for it: Dubins' length refuses what must be a long way round, then the manoeuvres
+//! in turn (forward, reverse, turns in place), each solved on the map and looked along for limits, keep-outs and torque
+//! → kept with its score. What was refused is counted by its one reason ([`DriveTally`]), which is what an empty
+//! campaign tells.
 
 mod judge;
 mod looks;

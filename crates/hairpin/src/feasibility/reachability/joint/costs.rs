@@ -4,6 +4,9 @@ use super::motion::Motion;
 use crate::robot::arm::{AXES, Arm, Joints, Tool};
 
 /// What is counted of a move; costs are whole numbers in [`Cost::unit`].
+///
+/// Each is of the free move alone, from rest to rest: what blends or speeds of a program make of it is not a graph's
+/// business.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cost {
     /// Way of the tool's point, µm.
@@ -26,6 +29,8 @@ const SAMPLES: usize = 33;
 const PERIOD: f64 = 0.004;
 
 /// A trapezoid over s from rest to rest: speed v, acceleration a, time T.
+///
+/// In the move's parameter s in [0, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trapezoid {
     /// Largest ds/dt, 1/s.
@@ -110,12 +115,15 @@ impl Cost {
 
 /// Time law of a free move from rest to rest under the joints' speeds and accelerations.
 ///
-/// With q̇ = q′ ṡ and q̈ = q′ s̈ + q″ ṡ² the speed is the largest at which every joint keeps its speed and spends at most half of its
-/// acceleration on q″; the ramps get what then is left. Sampled at 33 places.
+/// With q̇ = q′ ṡ and q̈ = q′ s̈ + q″ ṡ² the speed is the largest at which every joint keeps its speed and spends at
+/// most half of its acceleration on q″; the ramps get what then is left. Sampled at 33 places.
 pub fn time_law(arm: &Arm, tool: &Tool, motion: &Motion, start: &Joints) -> Trapezoid {
     timing(arm, &sample(arm, tool, motion, start))
 }
 
+/// The trapezoid over s ∈ [0, 1] that keeps every joint's bounds at all samples: with q̇ = q′ṡ and q̈ = q″ṡ² + q′s̈,
+/// speed ṡ ≤ min(q̇_max/|q′|, √(q̈_max/2|q″|)), half of the acceleration being left to bends, and s̈ ≤ (q̈_max −
+/// |q″|ṡ²)/|q′|.
 fn timing(arm: &Arm, sampled: &Sampled) -> Trapezoid {
     let all = || {
         sampled
@@ -134,6 +142,8 @@ fn timing(arm: &Arm, sampled: &Sampled) -> Trapezoid {
     Trapezoid::new(speed, left.fold(1e12, f64::min))
 }
 
+/// [`SAMPLES`] equal steps in s, one branch throughout; q′ and q″ by central differences, those at the ends taken from
+/// the neighbours. Where the inverse has no answer the joints before are kept.
 fn sample(arm: &Arm, tool: &Tool, motion: &Motion, start: &Joints) -> Sampled {
     let (mut q, mut last) = (Vec::with_capacity(SAMPLES), *start);
     let branch = arm.branch(start);

@@ -1,4 +1,15 @@
-//! Joint mode: moves of the whole arm, every link and the tool, followed in one configuration and proven between samples.
+//! Joint mode: moves of the whole arm, every link and the tool, followed in one configuration and proven between
+//! samples.
+//!
+//! Around a sample q(s₀) of a move and half width h:
+//!
+//! ```text
+//! |q_k(s) − q_k(s₀)| ≤ rate_k h                          (robot::arm::Arm::bounds_around)
+//! limits: margin_k > rate_k h        links: distance > radius + clearance + Σ turns (Chain::displacement)
+//! ```
+//!
+//! hold on the whole piece or it is halved, down to 2⁻¹⁴ of the move. Distances are doubles with 1 nm of room: proven
+//! between samples, and up to rounding.
 
 mod arcs;
 mod bodies;

@@ -7,6 +7,8 @@ use crate::math::rotation::{from_rotation_vector, rotation_vector};
 use crate::robot::arm::{Joints, Sweep};
 
 /// A move of the tool over s in [0, 1], in the base.
+///
+/// R(s) = R₀ exp(s · turn); p(s) along a line or a circle; joint moves q₀ + s (q₁ − q₀).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
     /// The tool's point on a straight line, turning about one axis: MoveL.

@@ -110,7 +110,8 @@ fn attempt<T: Terrain>(
     ClearedOnGround { answer, method, intrusion }
 }
 
-/// Where the predicted motion of `segments` comes too near to `keep_outs`, at its worst; what cannot be predicted does not.
+/// Where the predicted motion of `segments` comes too near to `keep_outs`, at its worst; what cannot be predicted does
+/// not.
 pub fn motion<T: Terrain>(
     course: &Course<'_, T>,
     start: &Planar,

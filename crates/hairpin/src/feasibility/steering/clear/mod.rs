@@ -1,4 +1,11 @@
 //! Drives that stay clear of places to keep out of: the shortest of the ways around, and detours where none is clear.
+//!
+//! Clear means: the circle of [`footprint`] about the body's origin meets no place, at no point of the drive. Between
+//! looks that is proven by what a curve of a given length may leave its chord by; on the ground it is the predicted
+//! motion that is looked along.
+//!
+//! Order of attempts: the plain answer, every other known way around, detours over poses beside what is in the way.
+//! What comes least near is the answer where none is clear, with the depth and the place.
 
 mod detour;
 mod generate;

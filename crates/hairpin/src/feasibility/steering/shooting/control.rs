@@ -3,6 +3,9 @@
 use super::flat;
 
 /// A family of controls.
+///
+/// Parameters beyond the conditions ([`Control::parameters`] − [`Control::conditions`]) are free to keep bounds, lower
+/// a cost or go around places.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Control {
     /// Constant curvature: (κ, L). Heading and curvature at the end are as they come.
@@ -18,7 +21,8 @@ pub enum Control {
     TimePolynomial,
     /// The natural cubic spline κ(s) through eight even knots, and L.
     Knots,
-    /// v(t) of second order, given by the speed profile, and ω(t): six coefficients beyond the common zeros of both, and L.
+    /// v(t) of second order, given by the speed profile, and ω(t): six coefficients beyond the common zeros of both,
+    /// and L.
     VelocityPolynomial,
 }
 

@@ -1,7 +1,7 @@
 //! Boundary-value trajectories of ground vehicles: find controls whose motion ends where it was asked to.
 //!
-//! [`generate()`] is the one call: a [`families::Problem`] (query, speeds, direction of travel), a [`Control`], bounds and
-//! [`solve::Choices`]. On the ground, [`rough::solve()`] shapes with it and [`rough::predict()`] integrates.
+//! [`generate()`] is the one call: a [`families::Problem`] (query, speeds, direction of travel), a [`Control`], bounds
+//! and [`solve::Choices`]. On the ground, [`rough::solve()`] shapes with it and [`rough::predict()`] integrates.
 //!
 //! What T. Howard's user guide of the rover trajectory generator (2006) lets one set, and what became of it:
 //!
@@ -23,6 +23,24 @@
 //! | `setHeuristic` (15.7 MB table) | on | off: start values are Dubins' words, computed in a microsecond. [`flat::StartTable`] (180 kB) through [`flat::Settings::table`], `--start-table`; [`flat::StartTable::generate`] and `hairpin start-table` make it |
 //! | `displayDebug` | on | the observer of [`generate()`]; `RUST_LOG=debug` on the command line. The library prints nothing |
 //! | `DynamicsResponse`, `EvalSuspension` | identity | [`Response`](crate::robot::rover::Response), [`Suspension`](crate::robot::rover::Suspension) |
+//!
+//! ```text
+//! x′ = cos θ    y′ = sin θ    θ′ = κ(s; p)          |κ| ≤ κ_max, |κ′| ≤ κ′_max        s in [0, L]
+//! find (p, L) with (x, y, θ, κ)(L) = goal
+//! ```
+//!
+//! | room | what it finds | how |
+//! | --- | --- | --- |
+//! | [`flat`] | one arc of fifth order, or a chain of clothoids | a few Newton steps from Dubins' words |
+//! | [`cc`] | lines, arcs, clothoids, with cusps | in closed form, always |
+//! | [`families`] | splines, polynomials of time, (v, ω), turning directions | one shooting for all |
+//! | [`solve`](mod@solve) | the one answer among them | arcs unless they go a long way round |
+//! | [`rough`] | commands on real ground | the flat goal is moved until the prediction ends right |
+//! | [`nearest`] | the nearest goal that can be reached | bisection |
+//!
+//! Flat and rough solving take nothing from the heap and read no clock; work is bounded in counts
+//! (`tests/flight_software.rs`). After T. Howard and A. Kelly, IJRR 26(2), 2007, whose optimisation over control
+//! parameters this is, with the start value, the step control and the bounds done otherwise.
 
 pub mod cc;
 mod control;

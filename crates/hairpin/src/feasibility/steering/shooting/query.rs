@@ -16,6 +16,8 @@ pub struct Goal {
 }
 
 /// A boundary-value problem on flat ground: from the origin, heading along x, to a goal.
+///
+/// In the frame of the start: x forward, y left. What [`Query::new`] passed every solver here takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Query {
     /// κ at the start, 1/m.
@@ -25,6 +27,8 @@ pub struct Query {
 }
 
 /// What the path may bend: |κ| ≤ `most`, |κ′| ≤ `most_rate` along it.
+///
+/// The vehicle's, or tighter. most_rate/most² says how fast it steers in units of its tightest circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curvatures {
     /// Largest |κ|, 1/m.

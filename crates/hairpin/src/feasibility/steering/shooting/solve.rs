@@ -42,6 +42,8 @@ impl Default for Choices {
 }
 
 /// How an answer was found.
+///
+/// `Clothoids` is the closed form: there for every checked query, longer or sharper than need be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// Curvature polynomials in one gear, by iteration.
@@ -64,6 +66,8 @@ pub enum Outcome {
 }
 
 /// The answer to a query.
+///
+/// `segments` is a drive in every case; only `Solved` says that it ends at the goal within the bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solution {
     /// How it ended.
@@ -81,11 +85,29 @@ pub struct Solution {
 /// A smooth arc is worth this much more length than the shortest path that is known, or any that is thinkable.
 const PATIENCE: f64 = 1.25;
 
-/// Solves `query` within `bounds`: a single arc if it keeps them without a long way round; else, as allowed, turn, drive,
-/// turn, or the shortest path of continuous curvature.
+/// Solves `query` within `bounds`: a single arc if it keeps them without a long way round; else, as allowed, turn,
+/// drive, turn, or the shortest path of continuous curvature.
 ///
-/// A cost is lowered along the single arc that is chosen so; by how much it may grow for that, does not decide. `stop` is asked between the
-/// stages; stopped before the first, the answer is the single arc's start value.
+/// A cost is lowered along the single arc that is chosen so; by how much it may grow for that, does not decide. `stop`
+/// is asked between the stages; stopped before the first, the answer is the single arc's start value.
+///
+/// Accepted is what the numbers handed out integrate to, not what the iteration believed.
+///
+/// ```
+/// use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
+/// use hairpin::feasibility::steering::shooting::{Curvatures, Goal, Query};
+/// use hairpin::trajectory::drive::Segment;
+///
+/// // A car: |κ| ≤ 0.2 1/m, |κ′| ≤ 0.1 1/m². To a place 20 m ahead and 4 m to the left, heading as before.
+/// let bounds = Curvatures { most: 0.2, most_rate: 0.1 };
+/// let goal = Goal { x: 20.0, y: 4.0, yaw: 0.0, curvature: 0.0 };
+/// let query = Query::new(0.0, goal, &bounds)?;
+/// let answer = solve(&query, &bounds, &Choices::default(), || false);
+/// assert_eq!(answer.outcome, Outcome::Solved);
+/// let length: f64 = answer.segments.iter().map(Segment::length_m).sum();
+/// assert!(length > 20.0_f64.hypot(4.0) && length < 22.0);
+/// # Ok::<(), hairpin::feasibility::steering::shooting::Refusal>(())
+/// ```
 pub fn solve(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: impl FnMut() -> bool) -> Solution {
     let flat = flat::Settings { cost: flat::Cost::Any, ..choices.flat };
     let solution = plainly(query, bounds, &Choices { flat, ..*choices }, &mut stop);
@@ -100,6 +122,9 @@ pub fn solve(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: im
     Solution { segments: cheap.segments, iterations: cheap.iterations, arc: Some(cheap.status), ..solution }
 }
 
+/// The arc if it is solved and within [`PATIENCE`] of a lower bound on any answer's length, asked in the order of what
+/// the bounds cost; else turns and a line where turns in place are chosen; else the clothoid path, unless the arc is
+/// within [`PATIENCE`] of that. Stopped early it hands out the arc it has, or the start of one.
 fn plainly(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: impl FnMut() -> bool) -> Solution {
     let mut solution = Solution {
         outcome: Outcome::Stopped,
@@ -192,7 +217,8 @@ fn mirrored(query: &Query, gear: Gear) -> Query {
     }
 }
 
-/// Clothoid to zero curvature, turn, straight, turn, clothoid from zero curvature; what there is no need of is left out.
+/// Clothoid to zero curvature, turn, straight, turn, clothoid from zero curvature; what there is no need of is left
+/// out.
 pub(in crate::feasibility::steering) fn turn_drive_turn(query: &Query, bounds: &Curvatures, gear: Gear) -> SegmentList {
     let sign = gear.sign();
     let rate = bounds.most_rate * (1.0 - 1e-12);

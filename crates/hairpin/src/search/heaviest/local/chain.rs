@@ -1,4 +1,7 @@
 //! Chains of 2-opt moves, where costs are symmetric.
+//!
+//! Lin-Kernighan's idea with a depth of eight: each move may lose as long as the sum so far gains; what follows the
+//! best prefix is undone.
 
 use super::Local;
 

@@ -30,6 +30,9 @@ impl Local<'_> {
         false
     }
 
+    /// Takes `length` points out and puts them, either way round, between two neighbours elsewhere (Or-opt, Or 1976),
+    /// the first move of a gain. Only neighbours of one end's nearest candidates are looked at, and only where the arc
+    /// to it, less its potential, outweighs the arc given up there.
     fn move_short(&mut self, from: usize, length: usize, begins: bool) -> bool {
         let n = self.tour.len();
         let point = |place: usize| self.tour.order[if place >= n { place - n } else { place }];

@@ -210,15 +210,16 @@ fn numbers_out_of_bounds_are_refused() {
     let arm = arm();
     let start = stand(&arm, 0.3, 0.0, 0.25);
     let plan =
-        |order: Order| Plan::new(&arm, &start, &[order], &PlanSettings::default()).map(|_| ()).unwrap_err().field;
+        |order: Order| Plan::new(&arm, &start, &[order], &PlanSettings::default()).map(|_| ()).unwrap_err().field();
     assert_eq!(plan(line(0.3, 0.1, 0.25, 0.0, Zone::Fine)), "speed.tcp");
     assert_eq!(plan(line(0.3, 0.1, 0.25, 0.5, Zone::Radius(f64::NAN))), "zone");
     assert_eq!(plan(line(f64::NAN, 0.1, 0.25, 0.5, Zone::Fine)), "target");
     let orders = [line(0.3, 0.1, 0.25, 0.5, Zone::Fine)];
-    assert_eq!(Plan::new(&arm, &[4.0; 6], &orders, &PlanSettings::default()).unwrap_err().field, "start");
-    assert_eq!(Plan::new(&arm, &start, &[], &PlanSettings::default()).unwrap_err().field, "orders");
+    assert_eq!(Plan::new(&arm, &[4.0; 6], &orders, &PlanSettings::default()).unwrap_err().field(), "start");
+    assert_eq!(Plan::new(&arm, &start, &[], &PlanSettings::default()).unwrap_err().field(), "orders");
     let plan = Plan::new(&arm, &start, &orders, &PlanSettings::default()).unwrap();
-    let run = |settings: RunSettings, fault: Fault| plan.execute(&settings, &[fault], 1).map(|_| ()).unwrap_err().field;
+    let run =
+        |settings: RunSettings, fault: Fault| plan.execute(&settings, &[fault], 1).map(|_| ()).unwrap_err().field();
     let slow = |axis, share| Fault::SlowAxis { axis, share };
     assert_eq!(run(RunSettings::default(), slow(7, 0.5)), "fault.axis");
     assert_eq!(run(RunSettings::default(), slow(1, 0.0)), "fault.share");

@@ -54,7 +54,7 @@ fn what_an_arm_alone_cannot_execute_is_refused() {
     let field = |change: &dyn Fn(&mut Program)| {
         let mut changed = read.clone();
         change(&mut changed);
-        Order::all_of(&changed).unwrap_err().field
+        Order::all_of(&changed).unwrap_err().field()
     };
     assert_eq!(field(&|program| program.tools[0].held = false), "tool");
     assert_eq!(field(&|program| program.work_objects[0].moved_by = Some("STN1".into())), "work_object");

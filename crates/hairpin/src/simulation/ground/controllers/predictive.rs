@@ -1,18 +1,19 @@
-//! Predictive tracking: the boundary-value problem is solved again and again, from where the vehicle will be when the answer
-//! acts to the planned path ahead.
+//! Predictive tracking: the boundary-value problem is solved again and again, from where the vehicle will be when the
+//! answer acts to the planned path ahead.
 //!
-//! The commands under way say where the vehicle will be after the latency. How much more the ground gives way than was planned is
-//! learnt from the way behind, in proportion to its slopes, by least squares that forget; the slopes ahead are the plan's.
-//! The goal handed to the solver lies against the drift that they will cause, and the vehicle goes crabwise along the path.
-//! Source: predictive trajectory tracking as the rover trajectory generator's papers have it (Howard & Kelly 2007).
+//! The commands under way say where the vehicle will be after the latency. How much more the ground gives way than was
+//! planned is learnt from the way behind, in proportion to its slopes, by least squares that forget; the slopes ahead
+//! are the plan's. The goal handed to the solver lies against the drift that they will cause, and the vehicle goes
+//! crabwise along the path. Source: predictive trajectory tracking as the rover trajectory generator's papers have it
+//! (Howard & Kelly 2007).
 
 use std::collections::VecDeque;
 
-use super::Resolve;
+use super::kind::Resolve;
 use crate::robot::rover::{Rover, Settled, rates};
-use crate::simulation::ground::guide::{Along, Measured, wrap};
+use crate::simulation::ground::command::{DriveCommand, DriveState};
+use crate::simulation::ground::guide::{Along, wrap};
 use crate::simulation::ground::plan::{direction_at, heading, rises, station_at, turning};
-use crate::simulation::ground::plant::Command;
 use crate::simulation::ground::pursuit::PurePursuit;
 use crate::trajectory::Direction;
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
@@ -24,8 +25,8 @@ const TIME: f64 = 0.5;
 const CYCLE: f64 = 0.1;
 /// Way after which what was learnt is forgotten, in smallest turning radii.
 const MEMORY: f64 = 5.0;
-/// What is taken for granted before anything is learnt, that nothing more gives way: as firmly as after this way on a slope
-/// of 20°, m.
+/// What is taken for granted before anything is learnt, that nothing more gives way: as firmly as after this way on a
+/// slope of 20°, m.
 const PRIOR: f64 = 0.02;
 /// sin 20°, the slope to which slip is referred.
 const SIN_20: f64 = 0.342_020_143_325_668_7;
@@ -82,7 +83,7 @@ pub(in crate::simulation::ground) struct Predictive<'a> {
     solve: &'a Resolve<'a>,
     pursuit: PurePursuit,
     /// Commands that have not acted to their end, and when they were given, s.
-    under_way: VecDeque<(f64, Command)>,
+    under_way: VecDeque<(f64, DriveCommand)>,
     answer: Option<Answer>,
     /// Number of the section that the answer belongs to.
     section: Option<usize>,
@@ -90,7 +91,7 @@ pub(in crate::simulation::ground) struct Predictive<'a> {
     until_next: f64,
     /// What gives way more than planned, along the way and across it.
     slip: [Learnt; 2],
-    before: Option<Measured>,
+    before: Option<DriveState>,
     /// Way of the wheels, m.
     odometer: f64,
 }
@@ -113,7 +114,7 @@ impl<'a> Predictive<'a> {
     }
 
     /// Takes note of the command given at `measured.t`, and of how the vehicle drifts.
-    pub(super) fn note(&mut self, measured: &Measured, command: &Command) {
+    pub(super) fn note(&mut self, measured: &DriveState, command: &DriveCommand) {
         self.under_way.push_back((measured.t, *command));
         let oldest = measured.t - self.latency;
         while self.under_way.get(1).is_some_and(|(given, _)| *given <= oldest) {
@@ -126,7 +127,7 @@ impl<'a> Predictive<'a> {
     }
 
     /// What the way from `before` to `now` was beyond what the wheels and the planned slip explain.
-    fn learn(&mut self, before: &Measured, now: &Measured) {
+    fn learn(&mut self, before: &DriveState, now: &DriveState) {
         let way = before.speed * (now.t - before.t);
         if way == 0.0 || before.speed * now.speed <= 0.0 {
             return;
@@ -153,7 +154,7 @@ impl<'a> Predictive<'a> {
     }
 
     /// `from` after what the wheels have rolled, leaning as measured, with `drift` per metre.
-    fn rolled(&self, lean: &Measured, from: &Planar, rolls: &Rolls, drift: &[f64; 2]) -> Planar {
+    fn rolled(&self, lean: &DriveState, from: &Planar, rolls: &Rolls, drift: &[f64; 2]) -> Planar {
         let Rolls { way, curvature, direction } = *rolls;
         let direction = libm::sincos(direction);
         let pose = Settled { roll: lean.lean[0], pitch: lean.lean[1], ..Settled::default() };
@@ -173,7 +174,7 @@ impl<'a> Predictive<'a> {
     }
 
     /// Where the vehicle will be when what is commanded now acts, and how many metres it goes until then.
-    fn predicted(&self, measured: &Measured) -> (Planar, f64) {
+    fn predicted(&self, measured: &DriveState) -> (Planar, f64) {
         let response = &self.nominal.response;
         let (mut at, mut way, mut speed) = (measured.at, 0.0, measured.speed);
         let acts = |index: usize| self.under_way.get(index).map_or(measured.t, |(given, _)| *given) + self.latency;
@@ -207,7 +208,7 @@ impl<'a> Predictive<'a> {
     }
 
     /// The curvature to command for the next `dt` s.
-    pub(super) fn steer(&mut self, measured: &Measured, along: &Along, dt: f64) -> f64 {
+    pub(super) fn steer(&mut self, measured: &DriveState, along: &Along, dt: f64) -> f64 {
         if self.section.replace(along.section) != Some(along.section) {
             (self.answer, self.until_next) = (None, 0.0);
         }

@@ -1,13 +1,15 @@
 //! Stanley: the leading axle is steered along the path's tangent, and towards it the more the farther away it is.
 //!
-//! δ = (χ_path − χ) − atan(e / d), κ = tan(δ) / L − γ, with e the distance of the leading axle to the left of its path, χ the
-//! directions of travel, and d the way on which e is to decay; the path of the leading axle is that of the plan's own one,
-//! whose tangent is χ_plan + atan((κ_plan + γ) L), γ what the direction of travel turns by in the body per metre. In reverse the axle leads at the other end. Source: Thrun et al. 2006 (d = v / k).
+//! δ = (χ_path − χ) − atan(e / d), κ = tan(δ) / L − γ, with e the distance of the leading axle to the left of its path,
+//! χ the directions of travel, and d the way on which e is to decay; the path of the leading axle is that of the plan's
+//! own one, whose tangent is χ_plan + atan((κ_plan + γ) L), γ what the direction of travel turns by in the body per
+//! metre. In reverse the axle leads at the other end. Source: Thrun et al. 2006 (d = v / k).
 
 use std::f64::consts::FRAC_PI_2;
 
 use crate::robot::rover::Rover;
-use crate::simulation::ground::guide::{Along, Measured, wrap};
+use crate::simulation::ground::command::DriveState;
+use crate::simulation::ground::guide::{Along, wrap};
 use crate::simulation::ground::plan::{direction_at, heading, station_at, turning};
 use crate::trajectory::drive::Planar;
 
@@ -28,7 +30,7 @@ impl Stanley {
         Self { most: nominal.limits.curvature, axle: nominal.response.steered_axle }
     }
 
-    pub(super) fn steer(&self, measured: &Measured, along: &Along) -> f64 {
+    pub(super) fn steer(&self, measured: &DriveState, along: &Along) -> f64 {
         let plan = station_at(along.stations, along.s, along.sign);
         let direction = direction_at(along.stations, along.s);
         let turning = turning(along.stations, along.s, self.axle);

@@ -1,4 +1,7 @@
 //! A tree of boxes: which of many shapes is nearest, without asking all.
+//!
+//! Branch and bound over boxes: a box at distance d holds no shape nearer than d, and a box around the point none
+//! deeper than half of its shapes' shorter sides.
 
 /// Shapes of a leaf at most.
 const LEAF: usize = 4;
@@ -42,6 +45,8 @@ impl Index {
         index
     }
 
+    /// Splits at the median along the longer axis until [`LEAF`] members are left; nodes lie in preorder, `next` behind
+    /// the whole subtree, so that a walk needs no stack. O(n log² n).
     fn grow(&mut self, from: usize, to: usize) {
         let members = &mut self.members[from..to];
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -65,7 +70,8 @@ impl Index {
         self.nodes[node].next = self.nodes.len();
     }
 
-    /// The shape with the least `distance` from somewhere within `reach` of `at`, and that distance; the first of equals.
+    /// The shape with the least `distance` from somewhere within `reach` of `at`, and that distance; the first of
+    /// equals.
     pub(super) fn least(&self, at: [f64; 2], reach: f64, distance: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let mut best: Option<(usize, f64)> = None;
         // Equals are asked as well, for the first of them.

@@ -1,4 +1,7 @@
 //! Places on the ground that no vehicle may enter: circles and polygons seen from above, by signed distances.
+//!
+//! In plan: heights play no part, and a bridge cannot be passed under. Vehicles keep the circle around all wheels and
+//! the underside out of them (floor 5); here a vehicle is a point and a distance.
 
 mod index;
 mod shape;
@@ -18,6 +21,22 @@ pub struct KeepOut {
 }
 
 /// Places to keep out of, checked, with a tree of boxes over them, so that hundreds cost little more than one.
+///
+/// Found by descending the tree only into boxes that can hold something nearer: about log n shapes a query.
+///
+/// ```
+/// use hairpin::world::terrain::{KeepOut, KeepOutShape, KeepOuts};
+///
+/// let circle = |name: &str, x| KeepOut {
+///     name: name.into(),
+///     shape: KeepOutShape::Circle { center_m: [x, 0.0], radius_m: 1.0 },
+/// };
+/// let places = KeepOuts::new(vec![circle("west", -5.0), circle("east", 5.0)])?;
+/// let nearest = places.nearest(3.0, 0.0).expect("there are two");
+/// assert_eq!((nearest.keep_out.name.as_str(), nearest.distance), ("east", 1.0));
+/// assert_eq!(places.segment_distance([0.0, -2.0], [0.0, 2.0]), 4.0);
+/// # Ok::<(), hairpin::world::WorldError>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct KeepOuts {
     list: Vec<KeepOut>,
@@ -39,8 +58,8 @@ impl KeepOuts {
     /// Checks `list`.
     ///
     /// # Errors
-    /// `keep_out[i].circle.center_m`, `.circle.radius_m`, `.polygon.points_m`: not finite or beyond 10⁷ m, no radius, fewer than
-    /// three points, no area.
+    /// `keep_out[i].circle.center_m`, `.circle.radius_m`, `.polygon.points_m`: not finite or beyond 10⁷ m, no radius,
+    /// fewer than three points, no area.
     pub fn new(list: Vec<KeepOut>) -> Result<Self, WorldError> {
         for (index, keep_out) in list.iter().enumerate() {
             keep_out.shape.check().map_err(|error| error.within(&format!("keep_out[{index}]")))?;
@@ -65,12 +84,14 @@ impl KeepOuts {
     }
 
     /// The one nearest to (`x`, `y`), or the one it is deepest in.
+    ///
+    /// Inside overlapping ones the deepest, that is the least signed distance.
     pub fn nearest(&self, x: f64, y: f64) -> Option<Nearest<'_>> {
         self.least([x, y], 0.0, |shape| shape.distance(x, y))
     }
 
-    /// Smallest signed distance along the straight line from `from` to `to`, m; ≤ 0 if it meets one, +∞ without any. Where
-    /// a polygon is met the value is an upper bound (the deeper end's, or 0).
+    /// Smallest signed distance along the straight line from `from` to `to`, m; ≤ 0 if it meets one, +∞ without any.
+    /// Where a polygon is met the value is an upper bound (the deeper end's, or 0).
     pub fn segment_distance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         self.nearest_to_segment(from, to).map_or(f64::INFINITY, |nearest| nearest.distance)
     }

@@ -3,6 +3,9 @@
 use crate::world::WorldError;
 
 /// A place seen from above, world frame, m.
+///
+/// The border belongs to it. A polygon's inside is by the even-odd rule, so that the order of its corners does not
+/// matter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum KeepOutShape {
     /// All points within `radius_m` of `center_m`.
@@ -12,7 +15,8 @@ pub enum KeepOutShape {
         /// Radius, > 0.
         radius_m: f64,
     },
-    /// The inside of a closed polygon, either way round; where edges cross, what a ray leaves through an odd number of edges.
+    /// The inside of a closed polygon, either way round; where edges cross, what a ray leaves through an odd number of
+    /// edges.
     Polygon {
         /// Corners, at least three, the last joined to the first.
         points_m: Vec<[f64; 2]>,
@@ -24,6 +28,8 @@ const LARGEST: f64 = 1e7;
 
 impl KeepOutShape {
     /// Distance of (`x`, `y`) to the border, m; negative inside.
+    ///
+    /// Polygons: the nearest edge, and the number of edges that a ray to the east crosses. Linear in the corners.
     pub fn distance(&self, x: f64, y: f64) -> f64 {
         match self {
             Self::Circle { center_m, radius_m } => libm::hypot(x - center_m[0], y - center_m[1]) - radius_m,
@@ -42,7 +48,8 @@ impl KeepOutShape {
         }
     }
 
-    /// Smallest signed distance along a straight line, m; where a polygon is met, an upper bound: the deeper end's, or 0.
+    /// Smallest signed distance along a straight line, m; where a polygon is met, an upper bound: the deeper end's, or
+    /// 0.
     pub fn segment_distance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         match self {
             Self::Circle { center_m, radius_m } => square_to_line(*center_m, from, to).sqrt() - radius_m,

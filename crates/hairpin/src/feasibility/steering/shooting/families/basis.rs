@@ -15,8 +15,8 @@ pub(super) enum Basis {
     Polynomial(usize),
     /// Natural cubic splines that are 1 at one of [`MOST`] even knots and 0 at the others.
     Knots,
-    /// `P_i(2u − 1)` over the speed, up to this order: the angular velocity is a polynomial, and the speed is this one. Common zeros at
-    /// the ends are left out of both.
+    /// `P_i(2u − 1)` over the speed, up to this order: the angular velocity is a polynomial, and the speed is this one.
+    /// Common zeros at the ends are left out of both.
     Ratio(usize, [f64; 3]),
 }
 
@@ -89,6 +89,8 @@ fn legendre(order: usize, u: f64) -> (Row, Row) {
 /// Bᵢ'' of the splines at the knots: m of mᵢ₋₁ + 4mᵢ + mᵢ₊₁ = 6 (yᵢ₋₁ − 2yᵢ + yᵢ₊₁)/h², 0 at both ends.
 pub(super) const BENDS: [Row; MOST] = bends();
 
+/// Second derivatives at the knots of the natural cubic splines through unit values, one row a knot: M₀ = M_last = 0
+/// and M_{k−1} + 4 M_k + M_{k+1} = 6 n²(y_{k−1} − 2y_k + y_{k+1}), knots 1/n apart; Thomas' algorithm, at compile time.
 const fn bends() -> [Row; MOST] {
     let last = MOST - 1;
     let scale = 6.0 * (last * last) as f64;

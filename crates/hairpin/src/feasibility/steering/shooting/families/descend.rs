@@ -1,12 +1,14 @@
-//! The shooting: parameters and length for which the drive ends in its goal, least in what exceeds a bound and in how much it bends.
+//! The shooting: parameters and length for which the drive ends in its goal, least in what exceeds a bound and in how
+//! much it bends.
 //!
 //! With unknowns z = (p, L), constraints c(z) = 0 (end position, turn, curvatures) and costs h(z), each step solves
 //! ```text
 //! [B  Jᵀ] [Δz]     [∇h]
 //! [J  −μ] [ y] = − [ c ]        B ≈ ∇²h + λ D
 //! ```
-//! (Gauss-Newton for h, the exact J by variation of the path): Newton's method where there are as many unknowns as constraints,
-//! else the step of least cost. λ rises until the merit ρ‖c‖ + h falls (Nocedal & Wright, Numerical optimization, ch. 18).
+//! (Gauss-Newton for h, the exact J by variation of the path): Newton's method where there are as many unknowns as
+//! constraints, else the step of least cost. λ rises until the merit ρ‖c‖ + h falls (Nocedal & Wright, Numerical
+//! optimization, ch. 18).
 
 use super::basis::{MOST, Row};
 use super::grid::{Grid, Node};
@@ -71,7 +73,8 @@ impl Fit {
 const ROOM: f64 = 0.997;
 /// What of them is left is kept between nodes, too.
 const ENOUGH: f64 = 0.9985;
-/// Weights of what exceeds the bounds, of κ′², and of a length other than at the start. The first grows if it does not help.
+/// Weights of what exceeds the bounds, of κ′², and of a length other than at the start. The first grows if it does not
+/// help.
 const STRICT: f64 = 1.0;
 const SMOOTH: f64 = 1e-4;
 const NEAR: f64 = 1e-4;
@@ -114,6 +117,10 @@ fn dot(a: &Row, b: &Row) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// One pass over the grid: end position x = L Σ w cos θ, y = L Σ w sin θ with θ(u) = L p·I(u) (and the swing of the
+/// wheels' direction), turn L p·I(1), end curvatures p·B, and end slopes p·B′ = 0 where a clock rests. The Jacobian is
+/// exact: ∂x/∂pᵢ = −L² Σ w sin θ Iᵢ, ∂x/∂L = Σ w cos θ − Σ w L p·I sin θ. Excesses over bounds are looked at at the
+/// same nodes and the two ends.
 fn shoot(grid: &Grid, task: &Task, free: &Free, from: f64, strict: f64) -> Shot {
     let Free { parameters: p, length } = free;
     let (length, last) = (*length, UNKNOWNS - 1);
@@ -197,8 +204,8 @@ impl Squares {
 }
 
 impl Shot {
-    /// Adds half the cost f(L) ∫q² dσ: L for ∫κ² ds, 1/L for ∫κ′² ds; without one a little of both smoothness and the length at the
-    /// start. The last second derivative is as large as makes all of them a convex function's.
+    /// Adds half the cost f(L) ∫q² dσ: L for ∫κ² ds, 1/L for ∫κ′² ds; without one a little of both smoothness and the
+    /// length at the start. The last second derivative is as large as makes all of them a convex function's.
     fn charge(&mut self, task: &Task, squares: &Squares, length: f64, from: f64) {
         let last = UNKNOWNS - 1;
         let (factor, by_length, bent) = match task.cost {
@@ -285,7 +292,8 @@ pub(super) fn descend(
             iterations += 1;
             let mut moved = false;
             for attempt in 0..ATTEMPTS {
-                // A step along the goal's conditions that bends them more than it gains is tried again across them alone.
+                // A step along the goal's conditions that bends them more than it gains is tried again across them
+                // alone.
                 let aim = if attempt % 2 == 0 { Aim::Both } else { Aim::Goal };
                 let tried = step(grid, task, &shot, &free, damping, aim).and_then(|(step, multipliers)| {
                     let next = taken(grid, &free, &step, settings.step_scale)?;

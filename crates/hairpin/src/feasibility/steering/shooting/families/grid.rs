@@ -41,6 +41,8 @@ pub(super) struct Grid {
 }
 
 impl Grid {
+    /// Panels of Gauss-Legendre nodes between all places where family or clock have a kink, about [`EVEN`] panels over
+    /// the whole, so that every panel's integrand is smooth.
     pub(super) fn new(basis: &Basis, clock: &Clock) -> Self {
         let empty = Node { weight: 0.0, share: 0.0, value: [0.0; MOST], slope: [0.0; MOST], integral: [0.0; MOST] };
         let rests = clock.rests();
@@ -75,6 +77,9 @@ impl Grid {
         grid
     }
 
+    /// Nodes of one panel: weight of dσ = pace du, value B, slope dB/dσ = B_u / pace and the integral of B dσ from the
+    /// drive's start to the node, by the rule that integrates the panel's interpolating polynomial up to each node.
+    /// `integral` becomes that at the panel's end.
     fn add_panel(&mut self, basis: &Basis, clock: &Clock, from: f64, width: f64, integral: &mut Row) {
         if self.len + POINTS > self.nodes.len() {
             return;

@@ -1,6 +1,7 @@
 //! Small dense systems of equations.
 
-/// Solves `matrix` · x = `right` in place by elimination with partial pivoting; `false` where the matrix is singular to rounding.
+/// Solves `matrix` · x = `right` in place by elimination with partial pivoting; `false` where the matrix is singular to
+/// rounding.
 pub(super) fn solve<const N: usize>(matrix: &mut [[f64; N]; N], right: &mut [f64; N]) -> bool {
     let largest = matrix.iter().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
     for column in 0..N {

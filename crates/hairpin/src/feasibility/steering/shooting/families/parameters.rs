@@ -6,6 +6,9 @@ use super::pieces::{monomials, quintic, scaled};
 use crate::math::power::power;
 
 /// What was solved for, in the family's own terms; SI.
+///
+/// What other software integrates again: commands that are fitted to it differ by
+/// [`Answer::fit_error`](super::Answer::fit_error) at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Parameters {
     /// κ(s) = Σ aᵢ sⁱ over `length` metres.

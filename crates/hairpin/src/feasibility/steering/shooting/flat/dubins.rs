@@ -2,6 +2,9 @@
 //! and their turns say which ways around there are.
 //!
 //! L. E. Dubins, On curves of minimal length with a constraint on average curvature, Amer. J. Math. 79 (1957).
+//!
+//! LSL, RSR, LSR, RSL, LRL, RLR. A path with |κ| ≤ κ_max is never shorter than the shortest word of radius 1/κ_max, so
+//! that what a word's length refuses needs no solver.
 
 use std::f64::consts::{PI, TAU};
 
@@ -36,8 +39,8 @@ impl Word {
     }
 }
 
-/// The words that lead from the origin to (x, y, yaw), lengths in units of the radius, shortest first; those that do not are
-/// infinitely long.
+/// The words that lead from the origin to (x, y, yaw), lengths in units of the radius, shortest first; those that do
+/// not are infinitely long.
 pub(super) fn words(x: f64, y: f64, yaw: f64) -> [Word; 6] {
     // Centres of the circles to the left and right of the goal as seen from those of the start.
     let (sin, cos) = (libm::sin(yaw), libm::cos(yaw));

@@ -8,6 +8,8 @@ use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::world::terrain::Terrain;
 
 /// What to minimise along the motion on the ground, once it meets its goal within the bounds.
+///
+/// Costs are of the motion, not of the drive's wish: slip lengthens the way that the wheels go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum GroundCost {
     /// Nothing: the first drive that meets the goal.
@@ -96,6 +98,9 @@ impl Along {
         self.total += h * self.density(&driven.settled);
     }
 
+    /// The cost per metre driven at this rest: tilt² in rad², slip as a share of the way, or energy per mass,
+    /// max(0, ρ + rise)·g / (1 − slip lost), in J/(kg m). `rise` is the sine of the climb along the way of
+    /// driving, so that energy going down is not given back.
     fn density(&self, settled: &Settled) -> f64 {
         let ((sin_roll, cos_roll), (sin_pitch, cos_pitch)) = (libm::sincos(settled.roll), libm::sincos(settled.pitch));
         // How steeply the body's axes rise, and with them the way and what is left of it.

@@ -1,8 +1,16 @@
-//! The generator on real ground: motion predicted with suspension, slip and delay, and controls found whose motion ends at
-//! the goal.
+//! The generator on real ground: motion predicted with suspension, slip and delay, and controls found whose motion ends
+//! at the goal.
 //!
-//! The flat solver stays the one that shapes paths and keeps their bounds. What the ground changes is put into its goal:
-//! find the flat goal g so that the controls that reach g in the plane reach the true goal on the ground.
+//! The flat solver stays the one that shapes paths and keeps their bounds. What the ground changes is put into its
+//! goal: find the flat goal g so that the controls that reach g in the plane reach the true goal on the ground.
+//!
+//! ```text
+//! g ← g + B (goal − E(S(g)))       S the flat solver, E the predicted end, B ≈ (∂(E∘S)/∂g)⁻¹, first the identity
+//! ```
+//!
+//! Two or three predictions a drive on smooth ground. Where S jumps between ways around, the best commands are bent on
+//! by themselves, with derivatives along the predicted way; where a body falls from one rest to another, finer steps
+//! are believed. Only what a replay of its own confirms counts as solved (`verification`).
 
 mod answer;
 mod bend_on;

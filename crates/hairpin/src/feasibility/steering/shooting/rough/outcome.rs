@@ -14,8 +14,8 @@ pub struct Prediction {
     pub tilt: (f64, f64),
     /// Largest |rocker or bogie angle|, rad, and after how many metres.
     pub joint: (f64, f64),
-    /// Largest difference between roll or pitch as they were foreseen from the step before and as they were found, rad: small on
-    /// smooth ground, large where the body falls from one rest to another.
+    /// Largest difference between roll or pitch as they were foreseen from the step before and as they were found, rad:
+    /// small on smooth ground, large where the body falls from one rest to another.
     pub surprise: f64,
     /// Settled poses that were solved.
     pub steps: u32,
@@ -43,6 +43,8 @@ pub enum Cause {
 }
 
 /// One moment of a motion, as an observer gets it.
+///
+/// Enough for limits, keep-outs, costs and torque to be looked at without predicting again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Driven {
     /// Metres of commanded travel so far.

@@ -11,7 +11,8 @@ use crate::world::terrain::Terrain;
 pub enum Waiting {
     /// It is under way: it goes on forward as it was.
     GoesOn,
-    /// It stands before a drive that begins in reverse or with a turn in place, as it does at every change between them.
+    /// It stands before a drive that begins in reverse or with a turn in place, as it does at every change between
+    /// them.
     Stands,
 }
 

@@ -161,6 +161,8 @@ impl Ends {
 }
 
 kernel! {
+    /// ∫₀¹ cos θ, ∫₀¹ sin θ and each weighted with every function of the basis: end position over L and its derivatives
+    /// by the free factors, in one pass over the nodes.
     fn moments(factors: &[f64; BASIS], out: &mut Moments) {
         let mut plain = [[0.0; LANES]; 2];
         let mut weighted = [[[0.0; LANES]; BASIS]; 2];

@@ -6,8 +6,8 @@
 //! δ′ = (∂f/∂(x, y, ψ) + ∂f/∂φ ∇φ + ∂f/∂θ ∇θ) δ + ∂f/∂κ δκ
 //! ```
 //!
-//! integrated by the midpoint rule in the prediction's own steps. The rates are the source's, for exact kinematics as well: what those
-//! add to derivatives would be second derivatives of the pose.
+//! integrated by the midpoint rule in the prediction's own steps. The rates are the source's, for exact kinematics as
+//! well: what those add to derivatives would be second derivatives of the pose.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
@@ -39,6 +39,9 @@ impl<'a, 'c, T> Variation<'a, 'c, T> {
         Self { course, ends: ends_of(segments), behind, done: 0.0, moved: Moved::zeros() }
     }
 
+    /// One step of δ′ = A δ + b by the midpoint rule, δ ← δ + h(A(δ + ½h(Aδ + b)) + b), A and b at the step's middle. A
+    /// holds the slopes of the rates by roll and pitch times the pose's gradient, and by yaw the turn of the planar
+    /// velocity; b the effect of each knot's curvature, and in the last column that of length.
     pub(super) fn add(&mut self, driven: &Driven) {
         // Steps are seen at their middles.
         let h = 2.0 * (driven.s - self.done);

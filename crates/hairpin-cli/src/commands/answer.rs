@@ -1,0 +1,213 @@
+//! What a campaign says on stdout: for people a table of the worst cases and the verdict, for machines one object.
+
+use hairpin::campaign::report::{COLUMNS, cells, violation, worst_first};
+use hairpin::campaign::{Case, CaseResult, Status, Tally};
+use hairpin::judgement::Verdict;
+use hairpin::judgement::moves::{Metric, Outcome, Regression};
+use hairpin_formats::header::Header;
+use hairpin_jobs::judge::Judgement;
+use hairpin_jobs::saved::Replayed;
+use hairpin_jobs::work::Work;
+use serde_json::{Value, json};
+
+use crate::console;
+use crate::exit::NOTHING_FEASIBLE;
+
+/// Confidence of the shares of violations that come again.
+const CONFIDENCE: f64 = 0.95;
+/// Rows of the table.
+const WORST: usize = 5;
+
+/// A verdict and what it is about.
+pub(super) struct Answer<'a> {
+    pub(super) work: &'a Work,
+    pub(super) cases: &'a [Case],
+    pub(super) tally: &'a Tally,
+    pub(super) judgement: &'a Judgement,
+    /// The judgement's, with what saved cases came to.
+    pub(super) verdict: &'a Verdict,
+    /// Saved cases that were run first.
+    pub(super) replayed: &'a [Replayed],
+}
+
+impl Answer<'_> {
+    /// Says it, and gives the exit code.
+    pub(super) fn say(&self, json: bool) -> u8 {
+        if json {
+            console::say(&self.object().to_string());
+        } else {
+            if !self.judgement.results.is_empty() {
+                console::say(&self.table());
+                console::say("");
+            }
+            let header = self.header().lines();
+            let header: Vec<String> = header.iter().map(|[label, value]| format!("{label}: {value}")).collect();
+            console::say(&format!("{}\n", header.join("; ")));
+            for found in &self.judgement.influences {
+                console::say(&format!("{:+.2}  {}", found.rank_correlation, found.key));
+            }
+            if !self.judgement.influences.is_empty() {
+                console::say("rank correlation of what was varied with the largest deviation, over all runs\n");
+            }
+            console::say(&self.verdict.sentence);
+            point_to_explain(self.work, self.judgement.verdict.exit_code);
+            let report = self.work.folder.path().join("report.html");
+            if report.is_file() {
+                console::warn(&format!("report: {}", report.display()));
+            }
+        }
+        self.verdict.exit_code
+    }
+
+    fn header(&self) -> Header {
+        Header::of(&self.work.setup, &self.judgement.results)
+    }
+
+    fn claim(&self, result: &CaseResult) -> Option<String> {
+        self.cases.iter().find(|case| case.number == result.case).map(Case::claim)
+    }
+
+    /// By how much the clocks of arms' recordings differ from the plan's.
+    fn offsets(&self) -> Vec<Value> {
+        let cases = self.judgement.moves.cases.iter();
+        let runs = cases.flat_map(|case| case.runs.iter().map(move |run| (case, run)));
+        runs.map(|(case, run)| {
+            json!({
+                "case": format!("{:04}", case.case), "run": run.run, "offset_s": run.offset_s,
+                "spread_s": run.offset_spread_s, "removed": run.offset_removed,
+            })
+        })
+        .collect()
+    }
+
+    fn table(&self) -> String {
+        let header = COLUMNS.iter().chain(&["evidence"]).map(|name| (*name).to_owned()).collect();
+        let worst = worst_first(&self.judgement.results).into_iter().take(WORST);
+        let rows = worst.map(|result| cells(result).into_iter().chain(self.claim(result)).collect());
+        console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>())
+    }
+
+    fn count(&self, status: Status) -> usize {
+        self.judgement.results.iter().filter(|result| result.status == status).count()
+    }
+
+    fn object(&self) -> Value {
+        let file = |name: &str| {
+            let path = self.work.folder.path().join(name);
+            if path.exists() { json!(path) } else { Value::Null }
+        };
+        let mut paths = json!({
+            "folder": self.work.folder.path(),
+            "scenario": file("scenario.toml"),
+            "results": file("results.parquet"),
+            "junit": file("junit.xml"),
+            "report": file("report.html"),
+        });
+        // Only searches that execute have one.
+        if let curve @ Value::String(_) = file("best-so-far.tsv") {
+            paths["best_so_far"] = curve;
+        }
+        json!({
+            "verdict": self.verdict.sentence,
+            "exit_code": self.verdict.exit_code,
+            "counts": {
+                "asked": self.tally.asked(self.work.setup.scenario.search().cases),
+                "cases": self.cases.len(),
+                "pass": self.count(Status::Pass),
+                "fail": self.count(Status::Fail),
+                "executor_failed": self.count(Status::ExecutorFailed),
+                "inconclusive": self.count(Status::Inconclusive),
+                "attitude_unknown": self.judgement.attitude_unknown,
+            },
+            "frame": self.header(),
+            "worst": worst_first(&self.judgement.results).first().map(|result| {
+                let mut object = worst(result);
+                object["evidence"] = json!(self.claim(result));
+                object
+            }),
+            "replayed": self.replayed.iter().map(replayed_object).collect::<Vec<_>>(),
+            "influences": self.judgement.influences,
+            "offsets": self.offsets(),
+            "regression": self.judgement.regression.as_ref().map(regression),
+            "paths": paths,
+        })
+    }
+}
+
+/// A saved case and what it comes to now.
+pub(super) fn replayed_object(one: &Replayed) -> Value {
+    let result = &one.result;
+    json!({
+        "file": one.file,
+        "status": result.status.word(),
+        "max_deviation_m": result.measures.as_ref().map(|measures| measures.max_deviation),
+        "violations": result.violations.iter().map(violation).collect::<Vec<_>>(),
+    })
+}
+
+/// A comparison with a baseline: what is outside its band, and how moves went from release to release.
+fn regression(found: &Regression) -> Value {
+    let name = |metric: Metric| match metric {
+        Metric::Duration => "duration_s",
+        Metric::Deviation => "deviation_m",
+    };
+    let outside = |wanted: Outcome| -> Vec<Value> {
+        let programs = found.programs.iter();
+        let all = programs.flat_map(|one| one.comparison.compared.iter().map(move |compared| (one, compared)));
+        all.filter(|(_, compared)| compared.outcome == wanted)
+            .map(|(one, compared)| {
+                json!({
+                    "case": one.program, "move": compared.name, "index": compared.index, "what": name(compared.metric),
+                    "baseline": compared.baseline, "new": compared.new, "band": compared.band,
+                })
+            })
+            .collect()
+    };
+    let trends = found.programs.iter().flat_map(|one| one.trends.iter().map(move |trend| (one, trend)));
+    let trends = trends.map(|(one, trend)| {
+        json!({
+            "case": one.program, "move": trend.name, "index": trend.index, "what": name(trend.metric),
+            "means": trend.means, "slope": trend.slope, "rank_correlation": trend.correlation,
+        })
+    });
+    json!({
+        "releases": found.releases,
+        "moves": found.moves(),
+        "worse": outside(Outcome::Worse),
+        "better": outside(Outcome::Better),
+        "trends": trends.collect::<Vec<_>>(),
+    })
+}
+
+/// Says where to ask on, where nothing was feasible.
+pub(super) fn point_to_explain(work: &Work, exit_code: u8) {
+    if exit_code == NOTHING_FEASIBLE {
+        let scenario = work.folder.file("scenario.toml");
+        console::warn(&format!("why, and the smallest change that helps: hairpin explain {}", scenario.display()));
+    }
+}
+
+/// The worst run of a case.
+fn worst(result: &CaseResult) -> Value {
+    let measures = result.measures.as_ref();
+    json!({
+        "case": format!("{:04}", result.case),
+        "run": result.run,
+        "status": result.status.word(),
+        "max_deviation_m": measures.map(|m| m.max_deviation),
+        "t_worst_s": measures.map(|m| m.t_worst),
+        "leg_worst": measures.map(|m| m.leg_worst),
+        "saturation_share": measures.and_then(|m| m.saturation_share),
+        "joint_effort_rad2_s3": measures.and_then(|m| m.joint_effort),
+        "ended": result.ended,
+        "reruns": result.reruns.map(|reruns| {
+            let share = reruns.share(CONFIDENCE);
+            json!({
+                "violated": reruns.violated, "of": reruns.of,
+                "low": share.map(|share| share.low), "high": share.map(|share| share.high),
+            })
+        }),
+        "violations": result.violations.iter().map(violation).collect::<Vec<_>>(),
+        "message": result.message,
+    })
+}

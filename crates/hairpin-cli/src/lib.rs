@@ -1,0 +1,100 @@
+//! The command line of hairpin: what was typed becomes the settings of a job, and what came of it words and an exit
+//! code.
+
+mod args;
+mod commands;
+mod console;
+mod exit;
+mod interrupt;
+mod settings;
+mod terminal;
+
+use std::ffi::OsString;
+use std::panic::catch_unwind;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use exit::{DONE, OUR_MISTAKE, WRONG_INPUT};
+use hairpin_jobs::Problem;
+use terminal::Terminal;
+
+/// Runs the command in `arguments`, whose first is the program's name, and gives its exit code. Results go to stdout,
+/// everything else to stderr.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    apologise_when_panicking();
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let parsed = match Arguments::try_parse_from(&arguments) {
+        Ok(parsed) => parsed,
+        Err(usage) => return explain(&usage, arguments.iter().any(|argument| argument == "--json")),
+    };
+    let json = parsed.command.json();
+    // A panic has told its sentence already; it must not look like a verdict.
+    match catch_unwind(|| command(parsed)) {
+        Ok(Ok(code)) => code,
+        Ok(Err(problem)) => exit::tell(&problem, json),
+        Err(_) => OUR_MISTAKE,
+    }
+}
+
+/// Help and version on stdout with 0, wrong usage on stderr with 2, as clap has it; machines get the latter as an
+/// object.
+fn explain(usage: &clap::Error, json: bool) -> u8 {
+    // It fails only where nobody reads on.
+    let _ = usage.print();
+    if usage.exit_code() == 0 {
+        return DONE;
+    }
+    if json {
+        let text = usage.render().to_string();
+        let sentence = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        console::say(&exit::object(&Problem::input(sentence)).to_string());
+    }
+    WRONG_INPUT
+}
+
+fn command(arguments: Arguments) -> Result<u8, Problem> {
+    console::chatter(arguments.verbose);
+    interrupt::listen();
+    let watch = &Terminal::default();
+    match arguments.command {
+        Command::Demo(demo) => commands::demo::run(&demo, watch),
+        Command::New(new) => commands::new::run(&new),
+        Command::Stress(stress) => commands::stress::run(&stress, watch),
+        Command::Generate(generate) => commands::generate::run(&generate, watch),
+        Command::Execute(execute) => commands::execute::run(&execute, watch),
+        Command::Judge(judge) => commands::judge::run(&judge),
+        Command::Learn(learn) => commands::learn::run(&learn),
+        Command::Verify(verify) => commands::verify::run(&verify),
+        Command::Replay(replay) => commands::replay::run(&replay, watch),
+        Command::Compare(compare) => commands::compare::run(&compare),
+        Command::Explain(explain) => commands::explain::run(&explain, watch),
+        Command::Select(select) => commands::select::run(&select, watch),
+        Command::Shrink(shrink) => commands::shrink::run(&shrink, watch),
+        Command::Export(export) => commands::export::run(&export),
+        Command::Import(import) => commands::import::run(&import),
+        Command::Report(report) => commands::report::run(&report),
+        Command::Simulate(simulate) => commands::simulate::run(&simulate),
+        Command::Steer(steer) => commands::steer::run(&steer, watch),
+        Command::MaxLoad(asked) => commands::max_load::run(&asked, watch),
+        Command::StartTable(table) => commands::steer::make_table(&table),
+        Command::Bench(bench) => commands::bench::run(&bench, watch),
+        Command::Experiment(experiment) => commands::experiment::run(&experiment, watch),
+        Command::Requirements(requirements) => commands::requirements::run(&requirements),
+        Command::Show(show) => commands::show::run(&show),
+        Command::Schema(schema) => commands::schema::run(&schema),
+        Command::Completions(completions) => commands::completions::run(&completions),
+    }
+}
+
+fn apologise_when_panicking() {
+    std::panic::set_hook(Box::new(|panic| {
+        let place = panic.location().map_or(String::new(), |at| format!(" ({}:{})", at.file(), at.line()));
+        let payload = panic.payload();
+        let text = payload.downcast_ref::<String>().map(String::as_str);
+        let message = text.or_else(|| payload.downcast_ref().copied()).unwrap_or("no message");
+        console::warn(&format!(
+            "this is a mistake of hairpin's own, not yours: please report it with the command and its files: {message}{place}"
+        ));
+    }));
+}

@@ -1,0 +1,65 @@
+//! From what was typed to the settings of jobs.
+
+use hairpin::math::simd::Simd;
+use hairpin_jobs::Problem;
+use hairpin_jobs::sets::{self, Set};
+use hairpin_jobs::work::{CampaignSettings, IfThere};
+
+use crate::args::{Campaign, Kernels, Threads};
+
+/// Takes the threads that were asked for.
+pub(crate) fn take_threads(threads: &Threads) {
+    if let Some(count) = threads.threads {
+        // It fails only where the pool exists already: one command, one pool.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(count.into()).build_global();
+    }
+}
+
+/// The version of the kernels that was asked for.
+pub(crate) fn simd(kernels: &Kernels) -> Simd {
+    if kernels.portable { Simd::Portable } else { Simd::Widest }
+}
+
+/// What a campaign is begun with.
+pub(crate) fn campaign(campaign: &Campaign, executor: Option<&str>) -> Result<CampaignSettings, Problem> {
+    let mut all = split(&campaign.sets)?;
+    all.extend(campaign.seed.map(sets::seed));
+    all.extend(executor.map(sets::executor));
+    Ok(CampaignSettings {
+        scenario: campaign.scenario.clone(),
+        out: campaign.out.clone(),
+        sets: all,
+        if_there: if_there(campaign.resume, campaign.force),
+        time_limit_s: campaign.time_limit,
+        simd: simd(&campaign.kernels),
+    })
+}
+
+/// What happens to a campaign that is there already.
+pub(crate) fn if_there(resume: bool, force: bool) -> IfThere {
+    match (resume, force) {
+        (true, _) => IfThere::Resume,
+        (false, true) => IfThere::Replace,
+        (false, false) => IfThere::Refuse,
+    }
+}
+
+/// `key=value` as typed; the value may hold further signs of equality.
+pub(crate) fn split(sets: &[String]) -> Result<Vec<Set>, Problem> {
+    let one = |set: &String| match set.split_once('=') {
+        Some((key, value)) => Ok((key.trim().to_owned(), value.trim().to_owned())),
+        None => Err(Problem::input(format!("--set {set}: must be KEY=VALUE, such as --set execute.repeat=5"))),
+    };
+    sets.iter().map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_are_split_at_the_first_sign_of_equality() {
+        assert_eq!(split(&["a.b = c=d".into()]).unwrap(), [("a.b".to_owned(), "c=d".to_owned())]);
+        assert!(split(&["a.b".into()]).is_err());
+    }
+}

@@ -1,0 +1,234 @@
+//! `repro/CASE.json`: one violating run in one file that can be read, sent and flown again.
+
+use std::path::{Path, PathBuf};
+
+use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup, Witness, vary};
+use hairpin::trajectory::Drive;
+use hairpin::trajectory::{Profile, ProfileLeg};
+use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::atomic::{self, WriteError};
+use crate::rapid;
+
+/// As `task.length`.
+const MOST_WAYPOINTS: usize = 10_000;
+/// Farther than any world's obstacles may lie.
+const FARTHEST_M: f64 = 20_000.0;
+/// Ten times the longest leg that a scenario can ask for.
+const LONGEST_LEG_S: f64 = 600.0;
+/// Ten kilometres at the least speed that a scenario can ask for.
+const LONGEST_DRIVE_S: f64 = 1e7;
+
+/// A file that is no repro file.
+#[derive(Debug, Error)]
+#[error("{}: {what}", path.display())]
+pub struct BrokenRepro {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    pub what: String,
+}
+
+/// One run that violates the spec, and all that it takes to fly it again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Repro {
+    /// Version of the format: 1.
+    pub hairpin_repro: u32,
+    /// The case's name.
+    pub case: String,
+    /// The run that violated.
+    pub run: usize,
+    /// The case's seed.
+    pub seed: u64,
+    /// What was seen.
+    pub expected: Expected,
+    /// Both ends included.
+    pub waypoints_m: Vec<[f64; 3]>,
+    /// Planned duration of each leg.
+    pub leg_times_s: Vec<f64>,
+    /// Evidence word of the trajectory.
+    pub evidence: String,
+    /// The control witness, one per leg: `duration_s`, and per axis c0 … c7 in m/s^i.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Vec<Leg>>,
+    /// The control witness of a drive, SI.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drive: Option<Drive>,
+    /// What an arm runs, as RAPID.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub program: Option<String>,
+    /// What it was made of, where it is smaller than the case was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shrunk: Option<ShrunkFrom>,
+    /// The resolved scenario.
+    pub scenario: Scenario,
+}
+
+/// What a shrunk case was made of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShrunkFrom {
+    /// Waypoints of the case.
+    pub waypoints: usize,
+    /// Its violations, in words.
+    pub violations: Vec<String>,
+    /// What was left out of the scenario.
+    pub simplified: Vec<String>,
+    /// Whether nothing smaller was found; else the search was stopped.
+    pub finished: bool,
+    /// Executions that it took.
+    pub runs: u64,
+}
+
+/// What was seen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Expected {
+    /// All violated limits, in words.
+    pub violations: Vec<String>,
+    /// Largest deviation.
+    pub max_deviation_m: f64,
+    /// When.
+    pub t_worst_s: f64,
+    /// The leg.
+    pub leg_worst: usize,
+    /// Why the run ended.
+    pub ended: String,
+}
+
+/// One leg of the witness.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Leg {
+    duration_s: f64,
+    coefficients: [[f64; 8]; 3],
+}
+
+/// What a case was made by: what it has beside its waypoints is part of its world, and its plan is as it was drawn.
+fn scenario_of(setup: &Setup, case: &Case, result: &CaseResult) -> Scenario {
+    let around = setup.around(case).map_or_else(|_| setup.scenario.clone(), |setup| setup.scenario.clone());
+    vary::settle(&around, &result.drawn).unwrap_or(around)
+}
+
+impl Repro {
+    /// The worst run of `result`.
+    pub fn of(setup: &Setup, case: &Case, result: &CaseResult) -> Self {
+        let measures = result.measures.clone().unwrap_or_default();
+        let leg = |leg: &ProfileLeg| Leg { duration_s: leg.duration, coefficients: leg.coefficients };
+        Self {
+            hairpin_repro: 1,
+            case: case.id(),
+            run: result.run,
+            seed: case.seed,
+            expected: Expected {
+                violations: result.violations.iter().map(hairpin::campaign::report::violation).collect(),
+                max_deviation_m: measures.max_deviation,
+                t_worst_s: measures.t_worst,
+                leg_worst: measures.leg_worst,
+                ended: result.ended.clone(),
+            },
+            waypoints_m: case.waypoints.iter().map(|p| p.coords.into()).collect(),
+            leg_times_s: case.leg_times.clone(),
+            evidence: case.evidence.word().into(),
+            profile: case.profile().map(|profile| profile.legs.iter().map(leg).collect()),
+            drive: case.commands().cloned(),
+            program: case.program().and_then(|program| rapid::module(program, &[]).ok()),
+            shrunk: None,
+            scenario: scenario_of(setup, case, result),
+        }
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json(path, self)
+    }
+
+    /// Reads one.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is none.
+    pub fn read(path: &Path) -> Result<Self, BrokenRepro> {
+        let refuse = |what: String| BrokenRepro { path: path.into(), what };
+        let text = std::fs::read_to_string(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
+        let repro: Self = serde_json::from_str(&text).map_err(|error| refuse(format!("is no repro file: {error}")))?;
+        repro.check().map_err(refuse)?;
+        Ok(repro)
+    }
+
+    /// These files are there to be edited, so every number has a bound, and so have all that belong together.
+    fn check(&self) -> Result<(), String> {
+        if self.hairpin_repro != 1 {
+            return Err(format!("hairpin_repro = {}: this hairpin reads 1", self.hairpin_repro));
+        }
+        let waypoints = self.waypoints_m.len();
+        if !(2..=MOST_WAYPOINTS).contains(&waypoints) {
+            return Err(format!("waypoints_m has {waypoints} waypoints: must be 2 … {MOST_WAYPOINTS}"));
+        }
+        if let Some(i) = self.waypoints_m.iter().position(|p| !p.iter().all(|x| x.abs() <= FARTHEST_M)) {
+            return Err(format!("waypoints_m[{i}] = {:?}: must be m, {FARTHEST_M} at most", self.waypoints_m[i]));
+        }
+        let legs = waypoints - 1;
+        if ![0, legs].contains(&self.leg_times_s.len()) {
+            return Err(format!("leg_times_s has {} values: must be {legs}", self.leg_times_s.len()));
+        }
+        let longest = if self.drive.is_some() { LONGEST_DRIVE_S } else { LONGEST_LEG_S };
+        let is_time = |time: f64| time > 0.0 && time <= longest;
+        if let Some(i) = self.leg_times_s.iter().position(|time| !is_time(*time)) {
+            let time = self.leg_times_s[i];
+            return Err(format!("leg_times_s[{i}] = {time}: must be > 0 and ≤ {longest} s"));
+        }
+        if let Some(drive) = &self.drive {
+            if drive.legs.len() != legs {
+                return Err(format!("drive: must have {legs} legs"));
+            }
+            for (key, value) in [("speed", drive.speed), ("turn_rate", drive.turn_rate)] {
+                if !(value > 0.0 && value <= 100.0) {
+                    return Err(format!("drive.{key} = {value}: must be > 0 and ≤ 100"));
+                }
+            }
+        }
+        let Some(profile) = &self.profile else { return Ok(()) };
+        if profile.len() != legs {
+            return Err(format!("profile: must have {legs} legs"));
+        }
+        match profile.iter().position(|leg| !is_time(leg.duration_s)) {
+            Some(i) => {
+                let time = profile[i].duration_s;
+                Err(format!("profile[{i}].duration_s = {time}: must be > 0 and ≤ {LONGEST_LEG_S} s"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The case to fly.
+    ///
+    /// # Errors
+    /// What is wrong with its name, its evidence or its program.
+    pub fn case(&self) -> Result<Case, String> {
+        let number = self.case.parse().map_err(|_| format!("case = {:?}: must be a number", self.case))?;
+        let evidence = Evidence::from_word(&self.evidence).ok_or_else(|| {
+            format!("evidence = {:?}: must be one of {}", self.evidence, Evidence::ALL.map(Evidence::word).join(", "))
+        })?;
+        let leg = |leg: &Leg| ProfileLeg { duration: leg.duration_s, coefficients: leg.coefficients };
+        let program = self.program.as_ref().map(|text| {
+            let module = rapid::read(text.as_bytes(), &rapid::Options::default()).map_err(|error| error.to_string());
+            module.and_then(|module| module.program.checked().map_err(|error| error.to_string()))
+        });
+        let program = program.transpose().map_err(|error| format!("program: {error}"))?;
+        let profile = self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() });
+        let waypoints = self.waypoints_m.iter().map(|p| Point3::from(*p)).collect();
+        Ok(Case {
+            leg_times: self.leg_times_s.clone(),
+            evidence,
+            witness: profile
+                .map(Witness::from)
+                .or(self.drive.clone().map(Witness::from))
+                .or(program.map(Witness::from)),
+            ..Case::bare(number, self.seed, waypoints)
+        })
+    }
+}

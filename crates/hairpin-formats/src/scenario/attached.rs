@@ -1,0 +1,31 @@
+//! A file that a scenario names, as it was read, and what is wrong with one.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use hairpin::campaign::Attached;
+
+/// A mistake in a key that names a file.
+pub(super) struct Wrong {
+    pub(super) key: String,
+    pub(super) value: String,
+    /// What it must be, or why it cannot be read.
+    pub(super) bound: String,
+}
+
+impl Wrong {
+    pub(super) fn message(&self) -> String {
+        let Self { key, value, bound } = self;
+        format!("`{key}` = {value:?}: {bound}")
+    }
+}
+
+/// A file as it is kept.
+pub(super) fn attached<T: ?Sized>(read: Arc<T>, bytes: Vec<u8>, name: &str, given: &str) -> Attached<T> {
+    Attached { read, bytes: bytes.into(), name: name.to_owned(), given: given.to_owned() }
+}
+
+/// The ending of a file's name, in small letters.
+pub(super) fn ending(file: &str) -> String {
+    Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}

@@ -1,0 +1,130 @@
+//! Execution: the flights of a campaign whose trajectories are there, or of waypoint files made elsewhere.
+
+mod fly;
+mod recorded;
+
+use std::path::{Path, PathBuf};
+
+use hairpin::math::simd::Simd;
+use hairpin_formats::folder::CampaignFolder;
+use hairpin_formats::waypoints;
+
+use crate::missions::adopt;
+use crate::saved::{Replayed, replay_saved};
+use crate::sets::Set;
+use crate::work::{changed_by, keep_changes, open_to_change};
+use crate::{Problem, Watch};
+pub use fly::{Flown, fly_each};
+pub(crate) use fly::{attitude_unknown, fly_missing, fly_one};
+
+/// What is executed, and how.
+#[derive(Debug, Clone, Default)]
+pub struct ExecuteSettings {
+    /// Campaign folder.
+    pub folder: PathBuf,
+    /// Keys of `execute`, `vary` and `spec` with other values.
+    pub sets: Vec<Set>,
+    /// Folder of waypoint files, which take the place of the folder's cases.
+    pub missions: Option<PathBuf>,
+    /// Folder of repro files that are run first; those of the campaign folder if not given.
+    pub repro: Option<PathBuf>,
+    /// Whether the runs that are there stay.
+    pub resume: bool,
+    /// Version of the kernels.
+    pub simd: Simd,
+}
+
+/// An executed campaign.
+#[derive(Debug)]
+pub struct Executed {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// How many cases it has.
+    pub cases: usize,
+    /// Their runs.
+    pub flown: Flown,
+    /// Names of the missions that were made elsewhere.
+    pub missions: Vec<String>,
+    /// Saved cases that were run first.
+    pub replayed: Vec<Replayed>,
+}
+
+/// Executes a campaign; runs that fail are told in numbers.
+///
+/// # Errors
+/// Settings that do not fit the folder; missions, recordings or saved cases that cannot be used; a file that cannot be
+/// written; it was asked to stop.
+pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed, Problem> {
+    let ExecuteSettings { folder: path, sets, .. } = settings;
+    let missions = settings.missions.as_deref().map(waypoints::read_folder).transpose().map_err(Problem::input)?;
+    if settings.resume && !sets.is_empty() {
+        unchanged(path, sets)?;
+    }
+    let work = open_to_change(path, sets, &["execute", "vary", "spec"], Some(settings.simd))?;
+    if missions.is_none() && !work.folder.has_cases() {
+        let path = path.display();
+        return Err(Problem::input(format!("{path} has no cases yet: hairpin generate, or --missions DIR")));
+    }
+    // Whatever can be refused is refused before anything is lost.
+    let replayed = replay_saved(&work.setup, work.folder.path(), settings.repro.as_deref(), watch)?;
+    let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
+    recorded::check(&work, kept.as_deref().unwrap_or_default())?;
+    if !sets.is_empty() {
+        keep_changes(&work)?;
+    }
+    let cases = match (&missions, kept) {
+        (None, Some(cases)) => cases,
+        (missions, _) => {
+            adopt(&work, missions.as_deref().unwrap_or_default(), watch)?;
+            work.folder.read_cases()?
+        }
+    };
+    // What was judged was judged on other runs, or on fewer. Where this cannot be written, the runs stay with it.
+    work.folder.write_results(&cases, &[])?;
+    if !settings.resume {
+        work.folder.forget_runs()?;
+    }
+    let flown = fly_missing(&work, &cases, watch)?;
+    let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
+    Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, missions, replayed })
+}
+
+/// Who resumes goes on with the same settings, or runs of two kinds would stand side by side.
+fn unchanged(folder: &Path, sets: &[Set]) -> Result<(), Problem> {
+    let before = CampaignFolder::open(folder)?;
+    match changed_by(&before, sets)? {
+        None => Ok(()),
+        Some(key) => {
+            Err(Problem::input(format!("--resume: `{key}` is not what it was; without --resume all is flown anew")))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Unwatched;
+    use crate::testing::generated;
+
+    #[test]
+    fn runs_are_flown_once_and_resumed() {
+        let (_place, folder) = generated();
+        let settings = ExecuteSettings { folder, ..ExecuteSettings::default() };
+        let executed = execute(&settings, &Unwatched).map(|executed| (executed.cases, executed.flown)).unwrap();
+        assert_eq!(executed, (2, Flown { runs: 2, failed: 0, attitude_unknown: 0 }));
+        let other = ExecuteSettings { sets: vec![("execute.repeat".into(), "3".into())], resume: true, ..settings };
+        let refused = execute(&other, &Unwatched).map(|_| ()).unwrap_err().to_string();
+        assert!(refused.starts_with("--resume: `execute.repeat`"), "{refused}");
+    }
+
+    #[test]
+    fn missions_take_the_place_of_cases() {
+        let (place, folder) = generated();
+        let missions = place.path().join("missions");
+        std::fs::create_dir(&missions).unwrap();
+        std::fs::write(missions.join("there.csv"), "x_m,y_m,z_m\n1,1,1\n3,2,1\n").unwrap();
+        let settings = ExecuteSettings { folder, missions: Some(missions), ..ExecuteSettings::default() };
+        let executed = execute(&settings, &Unwatched).unwrap();
+        assert_eq!((executed.cases, executed.missions), (1, vec!["there".to_owned()]));
+    }
+}

@@ -1,0 +1,113 @@
+//! Programs of arms in the languages of their controllers.
+
+use std::path::PathBuf;
+
+use hairpin::campaign::arm::graph_of;
+use hairpin::campaign::scenario::ArmMode;
+use hairpin::campaign::{Case, Evidence};
+use hairpin::trajectory::program::{Program, Speed};
+use hairpin_formats::{atomic, joint_trajectory, krl, rapid, urscript};
+
+use super::{Language, Written};
+use crate::Problem;
+use crate::work::Work;
+
+/// Time between the points of joint trajectories, s.
+const SAMPLE: f64 = 0.01;
+
+/// Writes the program of every case; a case without one, or one that the language cannot hold, is told as missing.
+pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<Written, Problem> {
+    let mut written = Written::default();
+    for case in cases {
+        let mut case = case.clone();
+        work.folder.read_witness(&mut case)?;
+        let Some(program) = case.program() else {
+            written.missing.push(format!("case {} has no program: it is no arm's", case.id()));
+            continue;
+        };
+        match texts(work, &case, program, language) {
+            Ok(texts) => {
+                for (name, text) in texts {
+                    let path: PathBuf = work.folder.file(&name);
+                    atomic::write(&path, text.as_bytes())?;
+                    written.files.push(path);
+                }
+            }
+            Err(why) => written.missing.push(format!("case {}: {why}", case.id())),
+        }
+    }
+    match written.missing.first() {
+        Some(why) if written.files.is_empty() => Err(Problem::input(why)),
+        _ => Ok(written),
+    }
+}
+
+/// Writes `arc_clock.mod`, whose procedure clocks every move of the graph from standstill to standstill.
+pub(super) fn write_clock(work: &Work) -> Result<Written, Problem> {
+    let Some(arm) = work.setup.arm() else { return Err(Problem::input("--to arc-clock: the campaign is no arm's")) };
+    let refuse = |why: String| Problem::input(format!("--to arc-clock: {why}"));
+    let graph = graph_of(&arm).map_err(refuse)?;
+    let clock = arm.arc_clock(&graph).map_err(refuse)?;
+    let evidence = match arm.scenario.generate.mode {
+        ArmMode::Joint => Evidence::ClearAllLinks,
+        ArmMode::Cartesian => Evidence::ClearToolSphere,
+    };
+    let header = [format!("Evidence of every move: {}", evidence.word())];
+    let clocked = rapid::arc_clock(&rapid::Clocking {
+        name: "hairpin_clock",
+        tool: &clock.tool,
+        work_object: &clock.work_object,
+        points: &clock.points,
+        arcs: &clock.arcs,
+        home: &clock.home,
+        start: clock.start,
+        speed: &clock.speed,
+        header: &header,
+    });
+    let clocked = clocked.map_err(|error| refuse(error.to_string()))?;
+    let path = work.folder.file("arc_clock.mod");
+    atomic::write(&path, clocked.text.as_bytes())?;
+    let mut written = Written::all(vec![path]);
+    if !clocked.left_out.is_empty() {
+        let count = clocked.left_out.len();
+        written.missing.push(format!(
+            "{count} of {} moves are not clocked: no way along moves leads there and back",
+            clock.arcs.len()
+        ));
+    }
+    Ok(written)
+}
+
+/// Names and texts of a program's files.
+fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Result<Vec<(String, String)>, String> {
+    let id = case.id();
+    let header = [format!("Evidence: {}", case.claim())];
+    Ok(match language {
+        Language::Urscript => {
+            let text = urscript::text(program, &urscript::Settings::default(), &header);
+            vec![(format!("{id}.script"), text.map_err(|error| error.to_string())?)]
+        }
+        Language::JointTrajectory => {
+            let arm = work.setup.arm().ok_or("it is no arm's")?;
+            let (times, joints) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
+            let names = std::array::from_fn(|axis| format!("joint_{}", axis + 1));
+            let text =
+                joint_trajectory::text("base_link", &names, &times, &joints).map_err(|error| error.to_string())?;
+            vec![(format!("{id}.joint_trajectory.json"), text)]
+        }
+        Language::Krl => {
+            let files = krl::files(program, &krl::Settings::default(), &header).map_err(|error| error.to_string())?;
+            vec![(format!("{id}.src"), files.src), (format!("{id}.dat"), files.dat)]
+        }
+        Language::Rapid => {
+            let module = rapid::module(program, &header).map_err(|error| error.to_string())?;
+            let cap = Speed::predefined(rapid::FIRST_RUN).ok_or("no speed for the first run")?;
+            let slow = rapid::module(&rapid::slow(program, &cap), &header).map_err(|error| error.to_string())?;
+            vec![
+                (format!("{id}.mod"), module),
+                (format!("{id}_slow.mod"), slow),
+                (format!("{id}.pgf"), rapid::program_file(&format!("{id}.mod"))),
+            ]
+        }
+    })
+}

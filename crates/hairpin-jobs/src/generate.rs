@@ -1,0 +1,165 @@
+//! Generation: trajectories, their planned motion, and what the search did.
+
+use std::time::{Duration, Instant};
+
+use hairpin::campaign::arm::graph_of;
+use hairpin::campaign::generate::Known;
+use hairpin::campaign::{Case, Stop, Tally, learn, planned};
+use hairpin_formats::atomic;
+
+use crate::watch::not_waiting_for;
+use crate::work::{CampaignSettings, Work, plan};
+use crate::{Deadline, Problem, Watch, optimum};
+
+/// Between checkpoints: what a kill may cost.
+const CHECKPOINT: Duration = Duration::from_secs(30);
+/// What the watch is told of.
+const WHAT: &str = "generate";
+
+/// A campaign whose cases are there.
+pub struct Generated {
+    /// The campaign.
+    pub work: Work,
+    /// Its cases.
+    pub cases: Vec<Case>,
+    /// What the search did.
+    pub tally: Tally,
+}
+
+/// Begins a campaign, or goes on with it, and finds its cases.
+///
+/// # Errors
+/// As of [`plan`]; a file that cannot be written; it was asked to stop.
+pub fn generate(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Generated, Problem> {
+    let work = plan(settings, watch)?.begin()?;
+    let (cases, tally) = find_cases(&work, Deadline::after(settings.time_limit_s), watch)?;
+    Ok(Generated { work, cases, tally })
+}
+
+/// Finds the cases and writes them. An interrupted generation goes on where its last checkpoint was.
+pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> Result<(Vec<Case>, Tally), Problem> {
+    let known = known(work)?;
+    if known.tally.complete {
+        tracing::info!("generation is complete already");
+        return Ok((known.cases, known.tally));
+    }
+    let mut cases = known.cases.clone();
+    let (mut saved, mut at) = (cases.len(), Instant::now());
+    let mut trouble = None;
+    let begun = Instant::now();
+    let user_score = work.setup.user_score();
+    let score_trouble = || user_score.and_then(|user| user.trouble());
+    let stop = Stop {
+        cancelled: &|| watch.stopped() || deadline.passed() || score_trouble().is_some(),
+        progress: &|done, of| watch.progress(WHAT, done, of),
+        clock: &|| begun.elapsed().as_secs_f64(),
+    };
+    let tally = not_waiting_for(user_score, watch, deadline, || {
+        hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
+            cases.extend_from_slice(new);
+            if at.elapsed() > CHECKPOINT && trouble.is_none() {
+                trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
+                (saved, at) = (cases.len(), Instant::now());
+            }
+        })
+    });
+    watch.finished(WHAT);
+    if let Some(problem) = trouble {
+        return Err(problem);
+    }
+    if let Some(trouble) = score_trouble() {
+        return Err(Problem::input(format!("`{}` = {trouble}", work.setup.scenario.score_key())));
+    }
+    keep_cases(work, &cases, saved, &unfinished(&tally))?;
+    work.folder.write_curves(work.setup.scenario.search().stress, &tally.curves)?;
+    if let Some(model) = &tally.model {
+        atomic::write_json(&work.folder.file(learn::NAME), model)?;
+    }
+    if let Some(arm) = work.setup.arm()
+        && let Ok(graph) = graph_of(&arm)
+    {
+        work.folder.write_graph(&arm, &graph)?;
+        // What is claimed is proven, however late it is.
+        optimum::keep(work, &arm, &graph, &cases, &Stop { cancelled: &|| watch.stopped(), ..stop })?;
+        // What a controller reads is what is executed and judged: numbers as the module has them.
+        cases = work.folder.read_cases()?;
+    }
+    if watch.stopped() {
+        return Err(Problem::Interrupted(format!("stopped after {} cases; --resume goes on", cases.len())));
+    }
+    // The last of all files: with it there is nothing left to do.
+    work.folder.write_tally(&tally)?;
+    tracing::info!("{} cases from {} graphs", cases.len(), tally.graphs);
+    Ok((cases, tally))
+}
+
+/// The tally of a generation that goes on: cases may come, and what is made of all of them is not there.
+fn unfinished(tally: &Tally) -> Tally {
+    Tally { complete: false, stopped: true, ..tally.clone() }
+}
+
+/// What an interrupted generation left: the tally, which is written last, and the cases that it counts. Cases beyond it
+/// are of a checkpoint that a kill cut short; they are found again.
+fn known(work: &Work) -> Result<Known, Problem> {
+    let folder = &work.folder;
+    if !folder.has_cases() || !folder.has_tally() {
+        return Ok(Known::default());
+    }
+    let known = Known { cases: folder.read_cases()?, tally: folder.read_tally()? };
+    let begun = !known.cases.is_empty();
+    if !known.tally.missions.is_empty() {
+        return Err(Problem::input(format!(
+            "--resume: {} holds missions made elsewhere, not an interrupted generation; --force replaces them",
+            folder.path().display()
+        )));
+    }
+    let known = hairpin::campaign::generate::counted(&work.setup.scenario, known);
+    if begun && known.cases.is_empty() {
+        // Flights of what is generated anew would be taken for those of what is.
+        folder.forget_cases()?;
+    }
+    Ok(known)
+}
+
+/// Writes the cases from number `from` of the list on, the tables of all, and the tally that belongs to them. Each file
+/// says no more than those before it: a kill in between leaves cases too many, never too few.
+pub(crate) fn keep_cases(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {
+    for case in &cases[from..] {
+        let planned = planned(&work.setup, case);
+        let planned = planned.map_err(|error| Problem::input(format!("case {}: {error}", case.id())))?;
+        work.folder.write_planned(case.number, &planned)?;
+    }
+    work.folder.write_new_cases(cases, from)?;
+    Ok(work.folder.write_tally(tally)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::small;
+    use crate::{Problem, Unwatched};
+
+    #[test]
+    fn cases_are_found_once_and_known_from_then_on() {
+        let place = tempfile::tempdir().unwrap();
+        let found = generate(&small(&place), &Unwatched).unwrap();
+        assert_eq!((found.cases.len(), found.tally.complete), (2, true));
+        let again = find_cases(&found.work, Deadline::after(None), &Unwatched).unwrap();
+        assert_eq!(again, (found.cases, found.tally));
+    }
+
+    #[test]
+    fn who_stops_it_is_told_and_may_go_on() {
+        struct Stopped;
+        impl Watch for Stopped {
+            fn stopped(&self) -> bool {
+                true
+            }
+        }
+        let place = tempfile::tempdir().unwrap();
+        let stopped = generate(&small(&place), &Stopped).map(|found| found.cases.len());
+        assert!(matches!(stopped, Err(Problem::Interrupted(_))), "{stopped:?}");
+        let settings = CampaignSettings { if_there: crate::work::IfThere::Resume, ..small(&place) };
+        assert_eq!(generate(&settings, &Unwatched).unwrap().cases.len(), 2);
+    }
+}

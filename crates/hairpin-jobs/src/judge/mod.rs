@@ -1,0 +1,215 @@
+//! The verdict on the flights in a campaign folder.
+
+mod suite;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use hairpin::campaign::baseline::Moves;
+use hairpin::campaign::report::worst_first;
+use hairpin::campaign::{self, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Status, Tally, vary};
+use hairpin::judgement::Verdict;
+use hairpin::judgement::moves::Regression;
+use hairpin_formats::junit;
+use hairpin_formats::parquet::runs::RunFacts;
+use hairpin_formats::repro::Repro;
+use rayon::prelude::*;
+
+use crate::Problem;
+use crate::execute::attitude_unknown;
+use crate::saved::Replayed;
+use crate::sets::Set;
+use crate::work::{Work, keep_changes, open_to_change};
+use suite::suite;
+
+/// Violating cases that get a `repro/CASE.json`, the worst ones.
+const REPROS: usize = 20;
+
+/// What judging came to.
+#[derive(Debug)]
+pub struct Judgement {
+    /// The cases' results.
+    pub results: Vec<CaseResult>,
+    /// The campaign's own, without saved cases.
+    pub verdict: Verdict,
+    /// Which of what was varied did it, the strongest first.
+    pub influences: Vec<Influence>,
+    /// Cases of which a flight came without attitudes.
+    pub attitude_unknown: usize,
+    /// Of arms: what every run did on every move.
+    pub moves: Moves,
+    /// Of arms with a baseline.
+    pub regression: Option<Regression>,
+}
+
+/// A campaign that is judged.
+pub struct Judged {
+    /// The campaign.
+    pub work: Work,
+    /// Its cases.
+    pub cases: Vec<Case>,
+    /// What the search did.
+    pub tally: Tally,
+    /// What judging came to.
+    pub judgement: Judgement,
+}
+
+/// Judges the executed campaign in `folder`, with other values for the keys of `spec` in `sets`.
+///
+/// # Errors
+/// Keys of other tables; cases that were not executed; a file that cannot be read or written.
+pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
+    let work = open_to_change(folder, sets, &["spec"], None)?;
+    let cases = work.folder.read_cases()?;
+    let tally = work.folder.read_tally()?;
+    if !sets.is_empty() {
+        keep_changes(&work)?;
+    }
+    let judgement = judge_cases(&work, &cases, &tally, &[])?;
+    Ok(Judged { work, cases, tally, judgement })
+}
+
+/// A case that is judged.
+struct JudgedCase {
+    result: CaseResult,
+    /// The deviations of its runs.
+    deviations: Vec<RunDeviation>,
+    /// The cells of the grid of motion that they met.
+    met: BTreeSet<usize>,
+    /// Whether a flight came without attitudes.
+    lacks_attitude: bool,
+}
+
+/// Judges every case and writes results, JUnit (with what was `replayed` before), repro files, and which parameter did
+/// it.
+pub(crate) fn judge_cases(
+    work: &Work,
+    cases: &[Case],
+    tally: &Tally,
+    replayed: &[Replayed],
+) -> Result<Judgement, Problem> {
+    let table = work.folder.read_runs_table()?;
+    let grid = Grid::of(&work.setup);
+    let judged = cases.par_iter().map(|case| judge_case(work, case, tally, (&grid, &table)));
+    let judged = judged.collect::<Result<Vec<JudgedCase>, Problem>>()?;
+    let attitude_unknown = judged.iter().filter(|case| case.lacks_attitude).count();
+    let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
+    for case in judged {
+        results.push(case.result);
+        deviations.extend(case.deviations);
+        met.push(case.met);
+    }
+    let influences = campaign::influences(&work.setup.scenario, &deviations);
+    let moves = work.setup.arm().map(|arm| arm.moves(cases, &deviations)).unwrap_or_default();
+    let verdict = campaign::verdict(&work.setup, cases, &results, tally);
+    let (verdict, regression) = with_moves(work, &moves, verdict)?;
+    work.folder.write_results(cases, &results)?;
+    if work.setup.arm().is_some() {
+        work.folder.write_moves(&moves)?;
+    }
+    let suite = suite(work, tally, &verdict, &results, (regression.as_ref(), replayed));
+    junit::write(&work.folder.file("junit.xml"), &suite, &results)?;
+    write_repros(work, cases, &results)?;
+    work.folder.write_influences(&influences)?;
+    work.folder.write_coverage(&grid.coverage(&met))?;
+    Ok(Judgement { results, verdict, influences, attitude_unknown, moves, regression })
+}
+
+fn judge_case(
+    work: &Work,
+    case: &Case,
+    tally: &Tally,
+    (grid, table): (&Grid, &BTreeMap<(usize, usize), RunFacts>),
+) -> Result<JudgedCase, Problem> {
+    let runs = work.folder.read_runs(case.number, table)?;
+    if runs.is_empty() {
+        return Err(Problem::input(format!(
+            "case {} has not been executed: hairpin execute {}",
+            case.id(),
+            work.folder.path().display()
+        )));
+    }
+    let (mut result, mut deviations) = campaign::judge_runs(&work.setup, case, &runs)?;
+    // Missions that were made elsewhere were planned by other scenarios.
+    if tally.missions.is_empty() {
+        let of_plan = vary::draw_for_case(&work.setup.scenario, case.seed, case.number);
+        let all = deviations.iter_mut().map(|run| &mut run.drawn).chain([&mut result.drawn]);
+        all.for_each(|drawn| drawn.extend_from_slice(&of_plan));
+    }
+    if result.status == Status::Fail {
+        result.reruns = reruns(work, case)?;
+    }
+    let met = runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
+    Ok(JudgedCase { result, deviations, met, lacks_attitude: runs.iter().any(attitude_unknown) })
+}
+
+/// How often the violation of `case` came again; `None` where it was not run again.
+fn reruns(work: &Work, case: &Case) -> Result<Option<Reruns>, Problem> {
+    let mut counted = Reruns { violated: 0, of: 0 };
+    let again = work.folder.read_reruns(case.number)?;
+    for run in &again {
+        match campaign::judge(&work.setup, case, std::slice::from_ref(run))?.status {
+            Status::Fail => (counted.violated, counted.of) = (counted.violated + 1, counted.of + 1),
+            Status::Pass => counted.of += 1,
+            // What was not flown, or cannot be judged, is no answer.
+            Status::ExecutorFailed | Status::Inconclusive => {}
+        }
+    }
+    Ok((!again.is_empty()).then_some(counted))
+}
+
+/// The verdict by the limits, with what an arm's baseline and the recordings' clocks say. The new release is called
+/// after the campaign's folder.
+pub(crate) fn with_moves(
+    work: &Work,
+    moves: &Moves,
+    verdict: Verdict,
+) -> Result<(Verdict, Option<Regression>), Problem> {
+    let Some(arm) = work.setup.arm().filter(|_| !moves.cases.is_empty()) else { return Ok((verdict, None)) };
+    let path = std::fs::canonicalize(work.folder.path()).unwrap_or_else(|_| work.folder.path().to_owned());
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let regression = arm.regression(moves, &name);
+    let regression = regression.map_err(|error| Problem::input(format!("`spec.regression`: {error}")))?;
+    Ok((arm.verdict_with(verdict, moves, regression.as_ref()), regression))
+}
+
+fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(), Problem> {
+    let folder = work.folder.file("repro");
+    // Only what is judged anew goes: shrunk cases, those of a larger campaign before, and files of the users' own are
+    // there to be run again.
+    for old in cases.iter().map(|case| folder.join(format!("{}.json", case.id()))) {
+        match std::fs::remove_file(&old) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(Problem::input(format!("cannot remove {}: {error}", old.display())));
+            }
+            _ => {}
+        }
+    }
+    let violating = worst_first(results).into_iter().filter(|result| result.status == Status::Fail);
+    for result in violating.take(REPROS) {
+        if let Some(case) = cases.iter().find(|case| case.number == result.case) {
+            Repro::of(&work.setup, case, result).write(&folder.join(format!("{}.json", case.id())))?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::executed;
+
+    #[test]
+    fn a_spec_that_is_set_decides_and_is_kept() {
+        let (_place, folder) = executed();
+        let judged = |most: &str| {
+            let sets = vec![("spec.deviation.max_m".to_owned(), most.to_owned())];
+            judge(&folder, &sets).unwrap().judgement.verdict
+        };
+        let (strict, lax) = (judged("0.0001"), judged("50"));
+        assert_eq!((strict.exit_code, lax.exit_code), (1, 0), "{strict:?} {lax:?}");
+        let again = judge(&folder, &[]).unwrap();
+        assert_eq!(again.judgement.verdict, lax);
+        assert!(folder.join("junit.xml").is_file() && !folder.join("repro/0000.json").exists());
+    }
+}

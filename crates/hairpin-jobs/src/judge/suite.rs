@@ -1,0 +1,59 @@
+//! What JUnit gets of a judged campaign.
+
+use hairpin::campaign::{CaseResult, Status, Tally};
+use hairpin::judgement::Verdict;
+use hairpin::judgement::moves::{Outcome, Regression};
+use hairpin_formats::junit::Suite;
+
+use crate::saved::Replayed;
+use crate::work::Work;
+
+/// Confidence of the shares of violations that come again.
+const CONFIDENCE: f64 = 0.95;
+
+/// The suite of a judged campaign.
+pub(super) fn suite(
+    work: &Work,
+    tally: &Tally,
+    verdict: &Verdict,
+    results: &[CaseResult],
+    (regression, replayed): (Option<&Regression>, &[Replayed]),
+) -> Suite {
+    let programs = regression.iter().flat_map(|regression| &regression.programs).zip(results);
+    let worse = programs.map(|(one, result)| {
+        let against = &one.comparison.baseline;
+        let worse = one.comparison.compared.iter().filter(|one| one.outcome == Outcome::Worse);
+        let lost =
+            one.comparison.lost.iter().map(|index| format!("move {index} no longer completed, against {against}"));
+        (result.case, worse.map(|one| format!("{} against {against}", one.told())).chain(lost).collect())
+    });
+    let scenario = &work.setup.scenario;
+    let by_a_case = results.iter().any(|result| result.status == Status::Inconclusive);
+    let property = |name: &str, value: String| (name.to_owned(), value);
+    Suite {
+        name: work.setup.robot_name().to_owned(),
+        asked: tally.asked(scenario.search().cases),
+        missing: tally.nothing.clone().unwrap_or_else(|| "not found within the budget".into()),
+        inconclusive: (verdict.exit_code == 5 && !by_a_case).then(|| verdict.sentence.clone()),
+        properties: [
+            property("verdict", verdict.sentence.clone()),
+            property("seed", scenario.seed().to_string()),
+            property("version", env!("CARGO_PKG_VERSION").into()),
+        ]
+        .into_iter()
+        .chain(results.iter().filter_map(rerun_property))
+        .collect(),
+        regressions: worse.collect(),
+        saved: replayed.iter().map(Replayed::named).collect(),
+    }
+}
+
+/// `reruns 0117`: `3 of 10 violate, share 0.30 [0.07, 0.65]`. A test case of Jenkins' schema has no properties of its
+/// own.
+fn rerun_property(result: &CaseResult) -> Option<(String, String)> {
+    let reruns = result.reruns?;
+    let share = reruns.share(CONFIDENCE)?;
+    let (violated, of) = (reruns.violated, reruns.of);
+    let value = format!("{violated} of {of} violate, share {:.2} [{:.2}, {:.2}]", share.value, share.low, share.high);
+    Some((format!("reruns {:04}", result.case), value))
+}

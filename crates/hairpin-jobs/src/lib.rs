@@ -1,0 +1,37 @@
+//! The jobs of hairpin over folders: plain settings in, plain results out. Nothing here parses arguments, knows a
+//! terminal, ends the process or keeps a global of its own: what stops a job and who sees how far it is comes in as a
+//! [`Watch`].
+
+pub mod certificate;
+pub mod compare;
+pub mod differences;
+pub mod execute;
+pub mod explain;
+pub mod export;
+pub mod generate;
+pub mod import;
+pub mod judge;
+pub mod learn;
+pub mod max_load;
+mod missions;
+pub mod names;
+pub mod optimum;
+mod problem;
+pub mod replay;
+pub mod report;
+pub mod saved;
+pub mod select;
+pub mod sets;
+pub mod shrink;
+pub mod simulate;
+pub mod steer;
+pub mod stress;
+pub mod terrain;
+#[cfg(test)]
+mod testing;
+pub mod verify;
+mod watch;
+pub mod work;
+
+pub use problem::Problem;
+pub use watch::{Deadline, Unwatched, Watch};

@@ -1,0 +1,127 @@
+//! The heaviest programs of an arm through a cloud of points.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use hairpin::campaign::arm::{ArmGraph, graph_of};
+use hairpin::campaign::{Setup, Stop, Tally};
+use hairpin::search::heaviest::Heaviest;
+use hairpin_formats::scenario::arm_setup_for;
+
+use crate::generate::keep_cases;
+use crate::sets::Set;
+use crate::work::{IfThere, make};
+use crate::{Deadline, Problem, Watch, optimum};
+
+/// What is searched in a cloud.
+#[derive(Debug, Clone, Default)]
+pub struct CloudSettings {
+    /// Arm, or cell: a shipped arm's name, a robot file, or a scenario.
+    pub cell: String,
+    /// Points: x_mm,y_mm,z_mm, or a RAPID module's robtargets.
+    pub points: PathBuf,
+    /// Keys of the cell's scenario with other values.
+    pub sets: Vec<Set>,
+    /// Seconds after which the best so far is the answer.
+    pub time_limit_s: Option<f64>,
+}
+
+/// What was found in a cloud.
+pub struct CloudSearch {
+    /// The arm in its cell.
+    pub setup: Setup,
+    /// Its graph.
+    pub graph: ArmGraph,
+    /// The heaviest programs.
+    pub found: Heaviest,
+    /// What it took.
+    pub time: Duration,
+    deadline: Deadline,
+    begun: Instant,
+}
+
+/// What came of a cloud.
+pub enum CloudAnswer {
+    /// Its graph was searched.
+    Searched(Box<CloudSearch>),
+    /// No program, because no point or no move is possible.
+    Nothing {
+        /// Why.
+        reason: String,
+        /// What it took, s.
+        time: Duration,
+    },
+}
+
+/// Builds the graph of a cloud and searches its heaviest programs; stopped, it gives the best so far.
+///
+/// # Errors
+/// A cell or a cloud with mistakes; a cell that is no arm's.
+pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<CloudAnswer, Problem> {
+    let CloudSettings { cell, points, sets, time_limit_s } = settings;
+    let setup = arm_setup_for(cell, points, sets)?;
+    let Some(arm) = setup.arm() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
+    let (begun, deadline) = (Instant::now(), Deadline::after(*time_limit_s));
+    let searched = with_stop(watch, deadline, begun, |stop| {
+        let graph = graph_of(&arm)?;
+        let found = arm.heaviest(&graph, stop)?;
+        Ok((graph, found))
+    });
+    let time = begun.elapsed();
+    Ok(match searched {
+        Ok((graph, found)) => {
+            CloudAnswer::Searched(Box::new(CloudSearch { setup, graph, found, time, deadline, begun }))
+        }
+        Err(reason) => CloudAnswer::Nothing { reason, time },
+    })
+}
+
+impl CloudSearch {
+    /// Writes the programs that were found, as generation would, into the campaign folder `out`.
+    ///
+    /// # Errors
+    /// The folder holds something else; a file cannot be written.
+    pub fn keep(&self, out: &Path, if_there: IfThere, watch: &dyn Watch) -> Result<(), Problem> {
+        let Some(arm) = self.setup.arm() else { unreachable!("clouds are searched of arms alone") };
+        let work = make(out, self.setup.clone(), if_there)?;
+        let cases = arm.cases(&self.graph, &self.found);
+        work.folder.write_graph(&arm, &self.graph)?;
+        with_stop(watch, self.deadline, self.begun, |stop| optimum::keep(&work, &arm, &self.graph, &cases, stop))?;
+        let solved = u64::from(!cases.is_empty());
+        let tally = Tally { complete: true, graphs: 1, units: 1, solved, ..Tally::default() };
+        keep_cases(&work, &cases, 0, &tally)
+    }
+}
+
+/// Does `work`, which stops where `watch` says so or `deadline` is over.
+fn with_stop<T>(watch: &dyn Watch, deadline: Deadline, begun: Instant, work: impl FnOnce(&Stop) -> T) -> T {
+    work(&Stop {
+        cancelled: &|| watch.stopped() || deadline.passed(),
+        progress: &|_, _| {},
+        clock: &|| begun.elapsed().as_secs_f64(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Unwatched;
+    use crate::work::open_to_read;
+
+    #[test]
+    fn programs_of_a_cloud_become_a_campaign() {
+        let place = tempfile::tempdir().unwrap();
+        let (points, out) = (place.path().join("points.csv"), place.path().join("out"));
+        std::fs::write(&points, "x_mm,y_mm,z_mm\n300,0,300\n300,100,300\n350,0,350\n").unwrap();
+        let settings = CloudSettings { cell: "irb120".into(), points: points.clone(), ..CloudSettings::default() };
+        let CloudAnswer::Searched(searched) = search_cloud(&settings, &Unwatched).unwrap() else {
+            panic!("these points can be met")
+        };
+        assert!(searched.found.proven && searched.graph.points() == 3);
+        searched.keep(&out, IfThere::Refuse, &Unwatched).unwrap();
+        let cases = open_to_read(&out).unwrap().folder.read_cases().unwrap();
+        assert!(cases.len() == 1 && cases[0].program().is_some());
+        std::fs::write(&points, "x_mm,y_mm,z_mm\n9000,0,300\n9000,100,300\n").unwrap();
+        assert!(matches!(search_cloud(&settings, &Unwatched).unwrap(), CloudAnswer::Nothing { .. }));
+    }
+}

@@ -1,0 +1,52 @@
+//! Missions that were made elsewhere, in the place of generated cases.
+
+use std::path::Path;
+
+use hairpin::campaign::{Case, Kind, Tally};
+use hairpin::world::terrain::Terrain;
+use hairpin_formats::waypoints::{Mission, environment_path};
+
+use crate::generate::keep_cases;
+use crate::work::Work;
+use crate::{Problem, Watch};
+
+/// Puts waypoint lists that were made elsewhere in the place of the folder's cases, with the environments beside them.
+/// A list that equals a case of the folder keeps that case's plan and evidence, and its environment where it comes
+/// without one.
+pub(crate) fn adopt(work: &Work, missions: &[Mission], watch: &dyn Watch) -> Result<(), Problem> {
+    let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
+    let mut cases = Vec::with_capacity(missions.len());
+    let outside = |p: &nalgebra::Point3<f64>| match work.setup.kind() {
+        Kind::Flight(setup) => setup.world.wall_distance(p) < 0.0,
+        Kind::Drive(setup) => setup.map.patch(p.x, p.y).is_err(),
+        Kind::Arm(_) => false,
+    };
+    for (number, Mission { name, waypoints, environment }) in missions.iter().enumerate() {
+        if waypoints.len() < 2 {
+            return Err(Problem::input(format!(
+                "{name}.csv: a mission needs at least 2 waypoints, this has {}",
+                waypoints.len()
+            )));
+        }
+        if let Some(outside) = waypoints.iter().position(outside) {
+            watch.warn(&format!("Warning: {name}.csv: waypoint {outside} lies outside the world"));
+        }
+        let seed = hairpin::math::random::case_seed(work.setup.scenario.seed(), number as u64);
+        let same = known.iter().find(|case| case.waypoints == *waypoints);
+        let mut case = match same {
+            Some(case) => Case { number, seed, ..case.clone() },
+            None => Case::bare(number, seed, waypoints.clone()),
+        };
+        if let Some(environment) = environment {
+            let file = environment_path(Path::new(""), name);
+            let refuse = |mistake| Problem::input(format!("{}: {mistake}", file.display()));
+            work.setup.check_environment(environment).map_err(refuse)?;
+            case.environment = Some(environment.clone());
+        }
+        cases.push(case);
+    }
+    let names = missions.iter().map(|mission| mission.name.clone());
+    let tally = Tally { complete: true, missions: names.collect(), ..Tally::default() };
+    work.folder.forget_cases()?;
+    keep_cases(work, &cases, 0, &tally)
+}

@@ -1,0 +1,68 @@
+//! A recorded violation, flown again.
+
+use std::path::Path;
+
+use hairpin::campaign::{self, CaseResult, Setup, Status};
+use hairpin::math::simd::Simd;
+use hairpin_formats::repro::Repro;
+use hairpin_formats::scenario;
+
+use crate::execute::fly_one;
+use crate::{Problem, Watch};
+
+/// Our own simulator repeats a run to the bit, at any SIMD level; executors of the users' need not.
+const SAME_M: f64 = 1e-6;
+
+/// A saved violation beside what it comes to now.
+#[derive(Debug)]
+pub struct ReplayedRepro {
+    /// What was saved.
+    pub repro: Repro,
+    /// What it comes to.
+    pub result: CaseResult,
+    /// Whether it deviates as it did.
+    pub same: bool,
+}
+
+impl ReplayedRepro {
+    /// Whether it violates as it did.
+    pub fn reproduces(&self) -> bool {
+        self.same && self.result.status == Status::Fail
+    }
+}
+
+/// Flies the run of the repro file `file` again, by the kernels `simd`.
+///
+/// # Errors
+/// A file that is none; recordings, which cannot be made again; it was asked to stop.
+pub fn replay(file: &Path, simd: Simd, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
+    let repro = Repro::read(file).map_err(Problem::input)?;
+    let resolved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
+    let setup = Setup::new(resolved).map_err(|mistake| Problem::of_file(file, format!("scenario.{mistake}")))?;
+    let setup = setup.with_simd(simd);
+    let case = repro.case().map_err(|why| Problem::of_file(file, why))?;
+    let flown = fly_one(&setup, &case, repro.run, watch)?;
+    let result = campaign::judge(&setup, &case, std::slice::from_ref(&flown))?;
+    let deviation = result.measures.as_ref().map(|measures| measures.max_deviation);
+    let same = deviation.is_some_and(|deviation| (deviation - repro.expected.max_deviation_m).abs() <= SAME_M);
+    Ok(ReplayedRepro { repro, result, same })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Unwatched;
+    use crate::testing::violating;
+
+    #[test]
+    fn a_violation_comes_again() {
+        let (_place, folder) = violating();
+        let file = folder.join("repro/0000.json");
+        let again = replay(&file, Simd::Widest, &Unwatched).unwrap();
+        assert!(again.reproduces(), "{again:?}");
+        let other = std::fs::read_to_string(&file).unwrap().replacen("\"hairpin_repro\": 1", "\"hairpin_repro\": 2", 1);
+        std::fs::write(&file, other).unwrap();
+        let refused = replay(&file, Simd::Portable, &Unwatched).unwrap_err();
+        assert!(refused.to_string().contains("hairpin_repro = 2"), "{refused}");
+    }
+}

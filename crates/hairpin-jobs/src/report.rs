@@ -1,0 +1,85 @@
+//! One HTML file from a judged campaign.
+
+use std::path::{Path, PathBuf};
+
+use hairpin::campaign::baseline::Moves;
+use hairpin::campaign::coverage::Coverage;
+use hairpin::campaign::report::Shown;
+use hairpin::campaign::{self, Case, Tally};
+use hairpin::judgement::Verdict;
+use hairpin::judgement::moves::Regression;
+use hairpin_formats::executor::ATTITUDE_UNKNOWN;
+
+use crate::Problem;
+use crate::judge::with_moves;
+use crate::work::{Work, open_to_read};
+
+/// A report that was written.
+#[derive(Debug)]
+pub struct Reported {
+    /// The file.
+    pub path: PathBuf,
+    /// The verdict in it.
+    pub verdict: Verdict,
+    /// Which cells of the grid of motion were met.
+    pub coverage: Option<Coverage>,
+}
+
+/// Writes the `report.html` of the judged campaign in `folder`.
+///
+/// # Errors
+/// A campaign that is not judged; a file that cannot be read or written.
+pub fn report(folder: &Path) -> Result<Reported, Problem> {
+    let work = open_to_read(folder)?;
+    let cases = work.folder.read_cases()?;
+    let tally = work.folder.read_tally()?;
+    let results = work.folder.read_results()?;
+    if results.len() < cases.len() {
+        return Err(Problem::input(format!("not judged yet: hairpin judge {}", folder.display())));
+    }
+    let verdict = campaign::verdict(&work.setup, &cases, &results, &tally);
+    let moves = work.folder.read_moves()?;
+    let (verdict, regression) = with_moves(&work, &moves, verdict)?;
+    write_report(&work, &cases, &tally, &verdict, (&moves, regression.as_ref()))?;
+    Ok(Reported { path: work.folder.file("report.html"), verdict, coverage: work.folder.read_coverage()? })
+}
+
+/// Writes `report.html`.
+pub(crate) fn write_report(
+    work: &Work,
+    cases: &[Case],
+    tally: &Tally,
+    verdict: &Verdict,
+    (moves, regression): (&Moves, Option<&Regression>),
+) -> Result<(), Problem> {
+    let mut assumptions = campaign::assumptions(&work.setup, cases, tally);
+    if let Some(arm) = work.setup.arm() {
+        assumptions.extend(arm.said_of_moves(moves, regression));
+    }
+    let mut data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions)
+        .map_err(Problem::input)?;
+    data.regression = regression.cloned();
+    let level = |shown: &Shown| shown.flown.as_ref().is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some());
+    if data.shown.iter().any(level) {
+        data.assumptions.push("The executor sent no attitudes: they are unknown, and drawn level.".into());
+    }
+    Ok(hairpin_formats::report::write(&work.folder.file("report.html"), &data)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::judge;
+    use crate::testing::executed;
+
+    #[test]
+    fn what_is_not_judged_has_no_report() {
+        let (_place, folder) = executed();
+        let refused = report(&folder).unwrap_err().to_string();
+        assert!(refused.starts_with("not judged yet"), "{refused}");
+        let judged = judge(&folder, &[]).unwrap();
+        let reported = report(&folder).unwrap();
+        assert_eq!(reported.verdict, judged.judgement.verdict);
+        assert!(reported.path.is_file() && reported.coverage.is_some());
+    }
+}

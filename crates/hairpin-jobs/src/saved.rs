@@ -1,0 +1,178 @@
+//! Saved violations, run again before anything else: what failed once is what a change is most likely to have mended,
+//! or not.
+
+use std::path::{Path, PathBuf};
+
+use hairpin::campaign::{self, Case, CaseResult, Scenario, Setup, Status};
+use hairpin::judgement::Verdict;
+use hairpin_formats::repro::Repro;
+use hairpin_formats::scenario;
+use rayon::prelude::*;
+
+use crate::execute::fly_one;
+use crate::{Problem, Watch};
+
+/// One saved case and what it comes to now.
+#[derive(Debug, Clone)]
+pub struct Replayed {
+    /// Its repro file.
+    pub file: PathBuf,
+    /// Its result.
+    pub result: CaseResult,
+}
+
+/// Runs the repro files of `named`, or of the folder `campaign` where none is named, as robot, `execute` and `spec` of
+/// `setup` now are, in the conditions in which they were saved; and tells the watch of them. Nothing in `campaign`
+/// changes.
+///
+/// # Errors
+/// A folder that is named and has none; a file that is no repro file or, in a folder that is named, of another kind of
+/// robot; recordings, which cannot be made again.
+pub(crate) fn replay_saved(
+    setup: &Setup,
+    campaign: &Path,
+    named: Option<&Path>,
+    watch: &dyn Watch,
+) -> Result<Vec<Replayed>, Problem> {
+    let own = campaign.join("repro");
+    let files = files(named.unwrap_or(&own));
+    if let Some(folder) = named {
+        let refuse = |why: &str| Err(Problem::input(format!("--repro {}: {why}", folder.display())));
+        if files.is_empty() {
+            return refuse("there is no repro file (*.json) in it");
+        }
+        if setup.recordings().is_some() {
+            return refuse("this campaign's runs are recordings (execute.logs), and none can be made of saved cases");
+        }
+    } else if setup.recordings().is_some() {
+        return Ok(Vec::new());
+    }
+    let saved: Result<Vec<Saved>, Problem> = files.iter().map(|file| Saved::read(setup, file)).collect();
+    let (ours, others): (Vec<Saved>, Vec<Saved>) = saved?.into_iter().partition(|saved| saved.setup.is_some());
+    match (others.first(), named) {
+        (None, _) => {}
+        (Some(other), Some(_)) => {
+            return Err(Problem::of_file(&other.file, "is of another kind of robot than this campaign"));
+        }
+        (Some(other), None) => watch.warn(&format!(
+            "Warning: {} of {} saved cases are of another kind of robot and left out: {}",
+            others.len(),
+            files.len(),
+            other.file.display()
+        )),
+    }
+    let run = |saved: &Saved| if watch.stopped() { Ok(None) } else { saved.replay(watch) };
+    // One executor of the user's at a time, as each keeps its own.
+    let replayed: Result<Vec<Option<Replayed>>, Problem> = match setup.scenario.executor().command {
+        None => ours.par_iter().map(run).collect(),
+        Some(_) => ours.iter().map(run).collect(),
+    };
+    let replayed: Vec<Replayed> = replayed?.into_iter().flatten().collect();
+    if !replayed.is_empty() {
+        tell(&replayed, watch);
+    }
+    Ok(replayed)
+}
+
+/// `*.json` in `folder`, by name.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut files: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|ending| ending == "json")).collect();
+    files.sort();
+    files
+}
+
+/// A saved case, read and understood.
+struct Saved {
+    file: PathBuf,
+    repro: Repro,
+    case: Case,
+    /// What it is run with now; `None` where it is of another kind of robot.
+    setup: Option<Setup>,
+}
+
+impl Saved {
+    fn read(now: &Setup, file: &Path) -> Result<Self, Problem> {
+        let repro = Repro::read(file).map_err(Problem::input)?;
+        let refuse = |why: String| Problem::of_file(file, why);
+        let case = repro.case().map_err(refuse)?;
+        let mut saved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
+        let setup = if adopt(&mut saved.scenario, &now.scenario) {
+            saved.attachments.baseline = now.attachments.baseline.clone();
+            let setup = Setup::new(saved).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
+            Some(setup.with_simd(now.simd))
+        } else {
+            None
+        };
+        Ok(Self { file: file.into(), repro, case, setup })
+    }
+
+    fn replay(&self, watch: &dyn Watch) -> Result<Option<Replayed>, Problem> {
+        let Some(setup) = &self.setup else { return Ok(None) };
+        let flown = fly_one(setup, &self.case, self.repro.run, watch)?;
+        let result = campaign::judge(setup, &self.case, std::slice::from_ref(&flown))?;
+        Ok(Some(Replayed { file: self.file.clone(), result }))
+    }
+}
+
+/// Takes over who executes and what is within spec; noise and force, which no controller chooses, stay those of the
+/// saved run. Whether both are of one kind.
+fn adopt(saved: &mut Scenario, now: &Scenario) -> bool {
+    match (saved, now) {
+        (Scenario::Flight(saved), Scenario::Flight(now)) => {
+            let noise = saved.execute.noise;
+            (saved.robot, saved.execute, saved.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
+            saved.execute.noise = noise;
+        }
+        (Scenario::Drive(saved), Scenario::Drive(now)) => {
+            let (noise, force) = (saved.execute.noise, saved.execute.external_force_n);
+            (saved.robot, saved.execute, saved.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
+            (saved.execute.noise, saved.execute.external_force_n) = (noise, force);
+        }
+        (Scenario::Arm(saved), Scenario::Arm(now)) => {
+            (saved.robot, saved.execute, saved.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
+        }
+        _ => return false,
+    }
+    true
+}
+
+impl Replayed {
+    /// Its file's name without the ending, and what it came to.
+    pub(crate) fn named(&self) -> (String, CaseResult) {
+        (self.file.file_stem().unwrap_or_default().to_string_lossy().into_owned(), self.result.clone())
+    }
+}
+
+/// The verdict of a command that came to `verdict` and ran `replayed` before: a saved case that violates still is a
+/// violation.
+pub fn with_saved(verdict: &Verdict, replayed: &[Replayed]) -> Verdict {
+    let count = |status: Status| replayed.iter().filter(|one| one.result.status == status).count();
+    let (failed, unrun, of) = (count(Status::Fail), count(Status::ExecutorFailed), replayed.len());
+    let Verdict { sentence, exit_code } = verdict;
+    match exit_code {
+        0 | 3 | 5 if failed > 0 => {
+            Verdict { sentence: format!("FAIL {failed}/{of} saved cases violate; {sentence}"), exit_code: 1 }
+        }
+        // What the campaign's own cases came to stays the first that is read.
+        1 if failed > 0 => Verdict { sentence: format!("{sentence}; {failed}/{of} saved cases violate"), exit_code: 1 },
+        0 if unrun > 0 => {
+            Verdict { sentence: format!("EXECUTOR FAILED {unrun}/{of} saved cases; {sentence}"), exit_code: 4 }
+        }
+        _ => verdict.clone(),
+    }
+}
+
+fn tell(replayed: &[Replayed], watch: &dyn Watch) {
+    let violating = replayed.iter().filter(|one| one.result.status == Status::Fail).count();
+    watch.warn(&format!("saved cases first: {violating} of {} violate", replayed.len()));
+    for one in replayed {
+        let what = match one.result.status {
+            Status::Fail => one.result.violations.first().map(campaign::report::violation).unwrap_or_default(),
+            Status::Pass => continue,
+            _ => one.result.message.clone().unwrap_or_default(),
+        };
+        watch.warn(&format!("  {}: {what}", one.file.display()));
+    }
+}

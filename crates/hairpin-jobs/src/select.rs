@@ -1,0 +1,212 @@
+//! A few of many cases, in a campaign folder of their own.
+
+use std::collections::{BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
+
+use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
+use hairpin::campaign::{Case, CaseResult, Grid, Tally, vary};
+use rayon::prelude::*;
+
+use crate::judge::judge_cases;
+use crate::names::listed;
+use crate::report::write_report;
+use crate::work::{IfThere, Work, make, open_to_read};
+use crate::{Problem, Watch};
+
+/// What is chosen, and where it goes.
+#[derive(Debug, Clone)]
+pub struct SelectSettings {
+    /// Campaign folder.
+    pub folder: PathBuf,
+    /// How many cases.
+    pub cases: usize,
+    /// What for.
+    pub by: By,
+    /// The new campaign folder.
+    pub out: PathBuf,
+    /// What happens to a campaign that is in it already.
+    pub if_there: IfThere,
+}
+
+/// A choice that was made and written.
+#[derive(Debug)]
+pub struct Selected {
+    /// The new campaign folder.
+    pub folder: PathBuf,
+    /// Names of the chosen cases in the order of choice.
+    pub names: Vec<String>,
+    /// How many cases there were to choose from.
+    pub of: usize,
+    /// What the chosen cases come to.
+    pub selected: Measured,
+    /// What as many of the most stressful ones come to.
+    pub most_stressful: Measured,
+    /// What all come to.
+    pub all: Measured,
+    /// Cells of the grid of motion.
+    pub cells: usize,
+    /// How their stress is told.
+    pub stress: StressUnit,
+}
+
+/// How stress is told: deviations in m, those of arms in mm as everywhere; scores, of cases that were not executed,
+/// have no unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StressUnit {
+    /// By what numbers in SI are multiplied.
+    pub factor: f64,
+    /// The unit's sign.
+    pub unit: &'static str,
+}
+
+/// Chooses cases and writes them as a campaign of their own.
+///
+/// # Errors
+/// Too few cases, or none that were executed where that is asked for; a file that cannot be read or written.
+pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, Problem> {
+    let work = open_to_read(&settings.folder)?;
+    let by = settings.by;
+    if same_place(&settings.folder, &settings.out) {
+        return Err(Problem::input("--out: must be another folder than OUT"));
+    }
+    let all = work.folder.read_cases()?;
+    let results = work.folder.read_results()?;
+    let measured = measured(&results);
+    let (cases, unmeasured): (Vec<Case>, Vec<Case>) =
+        all.iter().cloned().partition(|case| measured.is_empty() || measured.contains_key(&case.number));
+    let count = settings.cases;
+    if count > cases.len() {
+        let whose = if unmeasured.is_empty() { "cases" } else { "cases that were executed and measured" };
+        return Err(Problem::input(format!(
+            "--cases {count}: {} has {} {whose}",
+            settings.folder.display(),
+            cases.len()
+        )));
+    }
+    if !unmeasured.is_empty() {
+        watch.warn(&format!(
+            "Warning: {} of {} cases were not executed, or not measured, and are left out: {}",
+            unmeasured.len(),
+            all.len(),
+            listed(&unmeasured.iter().map(Case::id).collect::<Vec<_>>())
+        ));
+    }
+    let candidates = candidates(&work, &cases, &measured)?;
+    if by == By::Coverage && candidates.iter().all(|candidate| candidate.cells.is_empty()) {
+        return Err(Problem::input(format!(
+            "--by coverage: what was exercised is known of executed cases: hairpin execute {}",
+            settings.folder.display()
+        )));
+    }
+    let choice = Choice::new(&candidates);
+    let places = choice.best(count, by);
+    let mut chosen: Vec<Case> = places.iter().map(|place| cases[*place].clone()).collect();
+    chosen.sort_by_key(|case| case.number);
+    let folder = write(&work, settings, (&all, &results), &chosen)?;
+    Ok(Selected {
+        folder,
+        names: places.iter().map(|place| cases[*place].id()).collect(),
+        of: cases.len(),
+        selected: choice.measure(&places),
+        most_stressful: choice.measure(&choice.best(count, By::Stress)),
+        all: choice.measure(&(0..candidates.len()).collect::<Vec<_>>()),
+        cells: Grid::of(&work.setup).cells(),
+        stress: StressUnit::of(&work, &candidates),
+    })
+}
+
+impl StressUnit {
+    fn of(work: &Work, candidates: &[Candidate]) -> Self {
+        let (factor, unit) = match (select::measured(candidates), work.setup.arm().is_some()) {
+            (false, _) => (1.0, ""),
+            (true, false) => (1.0, "m"),
+            (true, true) => (1e3, "mm"),
+        };
+        Self { factor, unit }
+    }
+}
+
+fn same_place(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+/// The results that have measures, by case.
+fn measured(results: &[CaseResult]) -> HashMap<usize, &CaseResult> {
+    results.iter().filter(|result| result.measures.is_some()).map(|result| (result.case, result)).collect()
+}
+
+/// Every case with its result and the cells that its runs met, where it has them.
+fn candidates(work: &Work, cases: &[Case], measured: &HashMap<usize, &CaseResult>) -> Result<Vec<Candidate>, Problem> {
+    let table = work.folder.read_runs_table()?;
+    let grid = Grid::of(&work.setup);
+    cases
+        .par_iter()
+        .map(|case| {
+            let runs = work.folder.read_runs(case.number, &table)?;
+            let met: BTreeSet<usize> =
+                runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
+            Ok(Candidate::new(case, measured.get(&case.number).copied(), met))
+        })
+        .collect()
+}
+
+/// The new folder: the chosen cases with their plans and runs, judged if the old one was.
+fn write(
+    work: &Work,
+    settings: &SelectSettings,
+    (all, results): (&[Case], &[CaseResult]),
+    chosen: &[Case],
+) -> Result<PathBuf, Problem> {
+    let key = if work.setup.arm().is_some() { "generate.search.programs" } else { "generate.search.cases" };
+    let varied = work.setup.scenario.vary().clone();
+    let mut changes = vec![(key.into(), chosen.len().into())];
+    if work.setup.attachments.baseline.is_some() {
+        // Some of the programs are no release that another one could be held against.
+        changes.push(("spec.regression".into(), serde_json::Value::Null));
+    }
+    let scenario = vary::apply(&work.setup.scenario, &changes)?;
+    let setup = work.setup.changed(scenario.with_vary(varied))?;
+    let new = make(&settings.out, setup, settings.if_there)?;
+    let (old, there) = (&work.folder, &new.folder);
+    let numbers: BTreeSet<usize> = chosen.iter().map(|case| case.number).collect();
+    old.copy_cases(&numbers.iter().copied().collect::<Vec<_>>(), there)?;
+    let table = old.read_runs_table()?;
+    there.write_new_cases(chosen, 0)?;
+    let old_tally = old.read_tally()?;
+    // Missions are those of the cases in their order: a choice keeps numbers, and may be chosen from again.
+    let missions = all.iter().zip(&old_tally.missions);
+    let names = missions.filter(|(case, _)| numbers.contains(&case.number)).map(|(_, name)| name.clone()).collect();
+    let tally = Tally { complete: true, missions: names, ..old_tally };
+    there.write_tally(&tally)?;
+    let facts: Vec<_> =
+        table.into_iter().filter(|((case, _), _)| numbers.contains(case)).map(|(_, facts)| facts).collect();
+    if !facts.is_empty() {
+        there.write_runs_table(&facts)?;
+    }
+    let judged = results.iter().filter(|result| numbers.contains(&result.case)).count() == chosen.len();
+    if judged && !facts.is_empty() {
+        let judgement = judge_cases(&new, chosen, &tally, &[])?;
+        write_report(&new, chosen, &tally, &judgement.verdict, (&judgement.moves, judgement.regression.as_ref()))?;
+    }
+    Ok(new.folder.path().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Unwatched;
+    use crate::testing::violating;
+
+    #[test]
+    fn chosen_cases_are_a_judged_campaign_of_their_own() {
+        let (place, folder) = violating();
+        let out = place.path().join("few");
+        let settings = SelectSettings { folder, cases: 1, by: By::Stress, out: out.clone(), if_there: IfThere::Refuse };
+        let selected = select(&settings, &Unwatched).unwrap();
+        assert_eq!((selected.names.len(), selected.of, selected.stress.unit), (1, 2, "m"));
+        assert_eq!(selected.selected, selected.most_stressful);
+        assert_eq!(open_to_read(&out).unwrap().folder.read_results().unwrap().len(), 1);
+        let refused = select(&SelectSettings { cases: 3, ..settings }, &Unwatched).unwrap_err().to_string();
+        assert!(refused.contains("has 2 cases"), "{refused}");
+    }
+}

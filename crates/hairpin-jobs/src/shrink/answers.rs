@@ -1,0 +1,194 @@
+//! What candidates came to: from the file that an earlier search left, or by execution.
+//!
+//! What is asked depends on the answers alone, so that a search that begins again with them comes to where it was.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use hairpin::campaign::{self, Case, CaseResult, Setup, Shrunk, Status};
+use hairpin::judgement::{Measures, Violation};
+use hairpin_formats::atomic;
+use hairpin_formats::checksum::sha256;
+use serde::{Deserialize, Serialize};
+
+use super::ShrinkSettings;
+use crate::execute::fly_one;
+use crate::work::Work;
+use crate::{Deadline, Problem, Watch};
+
+/// What the watch is told of.
+const WHAT: &str = "shrink";
+
+/// The file.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct State {
+    /// Fingerprint of the scenario, the case and its run: answers to another question are none.
+    question: String,
+    /// By the candidate's fingerprint.
+    answers: BTreeMap<String, Answer>,
+}
+
+/// What one execution came to.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Answer {
+    violations: Vec<Violated>,
+    max_deviation_m: f64,
+    t_worst_s: f64,
+    leg_worst: usize,
+    ended: String,
+}
+
+/// A [`Violation`].
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Violated {
+    what: String,
+    value: f64,
+    limit: f64,
+    unit: String,
+    at_s: f64,
+    leg: usize,
+}
+
+/// Answers candidates until the budget or the time is used up.
+pub(super) struct Answers<'a> {
+    run: usize,
+    path: PathBuf,
+    state: State,
+    budget: u64,
+    deadline: Deadline,
+    fresh: u64,
+    watch: &'a dyn Watch,
+}
+
+impl<'a> Answers<'a> {
+    /// Those of the folder's file, if it is about the same question.
+    pub(super) fn take_up(
+        work: &Work,
+        case: &Case,
+        result: &CaseResult,
+        settings: &ShrinkSettings,
+        watch: &'a dyn Watch,
+    ) -> Self {
+        let path = work.folder.file(&format!("repro/{}-shrink.state", case.id()));
+        let question = fingerprint(&work.setup, case, result.run);
+        let kept = std::fs::read_to_string(&path).ok().and_then(|text| serde_json::from_str::<State>(&text).ok());
+        let state = kept.filter(|state| state.question == question);
+        Self {
+            run: result.run,
+            path,
+            state: state.unwrap_or(State { question, answers: BTreeMap::new() }),
+            budget: settings.budget,
+            deadline: Deadline::after(settings.time_limit_s),
+            fresh: 0,
+            watch,
+        }
+    }
+
+    /// Shrinks `case` with these answers and as many new ones as there may be.
+    pub(super) fn search(&mut self, setup: &Setup, case: &Case, result: &CaseResult) -> Result<Shrunk, Problem> {
+        let mut trouble = None;
+        let mut run = |setup: &Setup, candidate: &Case| {
+            self.answer(setup, candidate).unwrap_or_else(|problem| {
+                trouble = Some(problem);
+                None
+            })
+        };
+        let shrunk = campaign::shrink(setup, case, result, &mut run);
+        self.watch.finished(WHAT);
+        match trouble {
+            Some(problem) => Err(problem),
+            None => shrunk.map_err(Problem::input),
+        }
+    }
+
+    /// Executions in all.
+    pub(super) fn runs(&self) -> u64 {
+        self.state.answers.len() as u64
+    }
+
+    /// Executions of this command.
+    pub(super) fn fresh(&self) -> u64 {
+        self.fresh
+    }
+
+    /// What `candidate` comes to under `setup`; `None` where it is not known and may not be found out.
+    fn answer(&mut self, setup: &Setup, candidate: &Case) -> Result<Option<CaseResult>, Problem> {
+        let key = fingerprint(setup, candidate, self.run);
+        if let Some(answer) = self.state.answers.get(&key) {
+            return Ok(Some(answer.result(candidate.number, self.run)));
+        }
+        if self.fresh >= self.budget || self.deadline.passed() || self.watch.stopped() {
+            return Ok(None);
+        }
+        let flown = fly_one(setup, candidate, self.run, self.watch)?;
+        if let Err(message) = &flown.outcome {
+            return Err(Problem::input(format!("case {}: the executor failed: {message}", candidate.id())));
+        }
+        let result = campaign::judge(setup, candidate, std::slice::from_ref(&flown))?;
+        self.fresh += 1;
+        self.watch.progress(WHAT, self.fresh as usize, self.budget as usize);
+        self.state.answers.insert(key, Answer::of(&result));
+        atomic::write_json(&self.path, &self.state)?;
+        Ok(Some(result))
+    }
+}
+
+impl Answer {
+    fn of(result: &CaseResult) -> Self {
+        let measures = result.measures.clone().unwrap_or_default();
+        let violated = |v: &Violation| Violated {
+            what: v.what.clone(),
+            value: v.value,
+            limit: v.limit,
+            unit: v.unit.clone(),
+            at_s: v.at,
+            leg: v.leg,
+        };
+        Self {
+            violations: result.violations.iter().map(violated).collect(),
+            max_deviation_m: measures.max_deviation,
+            t_worst_s: measures.t_worst,
+            leg_worst: measures.leg_worst,
+            ended: result.ended.clone(),
+        }
+    }
+
+    /// As much of the result as shrinking and repro files ask for.
+    fn result(&self, case: usize, run: usize) -> CaseResult {
+        let violation = |v: &Violated| Violation {
+            what: v.what.clone(),
+            value: v.value,
+            limit: v.limit,
+            unit: v.unit.clone(),
+            at: v.at_s,
+            leg: v.leg,
+        };
+        CaseResult {
+            case,
+            status: if self.violations.is_empty() { Status::Pass } else { Status::Fail },
+            run,
+            measures: Some(Measures {
+                max_deviation: self.max_deviation_m,
+                t_worst: self.t_worst_s,
+                leg_worst: self.leg_worst,
+                ..Measures::default()
+            }),
+            ended: self.ended.clone(),
+            left_world: None,
+            violations: self.violations.iter().map(violation).collect(),
+            drawn: Vec::new(),
+            message: None,
+            reruns: None,
+        }
+    }
+}
+
+/// What an execution depends on.
+fn fingerprint(setup: &Setup, case: &Case, run: usize) -> String {
+    let points: Vec<[f64; 3]> = case.waypoints.iter().map(|p| p.coords.into()).collect();
+    let all = serde_json::json!([setup.scenario, case.seed, run, points, case.leg_times, case.commands()]);
+    sha256(all.to_string())
+}

@@ -1,0 +1,156 @@
+//! A violating case reduced to the shortest feasible one that still violates.
+
+mod answers;
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use hairpin::campaign::report::violation;
+use hairpin::campaign::{Case, CaseResult, Shrunk};
+use hairpin::math::simd::Simd;
+use hairpin_formats::repro::{Repro, ShrunkFrom};
+
+use crate::work::{Work, open_to_change};
+use crate::{Problem, Watch};
+use answers::Answers;
+
+/// Names that a sentence has room for.
+const LISTED: usize = 12;
+
+/// What is shrunk, and how long.
+#[derive(Debug, Clone)]
+pub struct ShrinkSettings {
+    /// Judged campaign folder.
+    pub folder: PathBuf,
+    /// Number of the violating case.
+    pub case: usize,
+    /// Executions at most.
+    pub budget: u64,
+    /// Seconds after which it stops with the smallest so far.
+    pub time_limit_s: Option<f64>,
+    /// File to write; repro/CASE-shrunk.json in the folder if not given.
+    pub out: Option<PathBuf>,
+    /// Version of the kernels.
+    pub simd: Simd,
+}
+
+impl Default for ShrinkSettings {
+    fn default() -> Self {
+        let (folder, case, time_limit_s, out, simd) = Default::default();
+        Self { folder, case, budget: 200, time_limit_s, out, simd }
+    }
+}
+
+/// A violating case that is to be shrunk.
+pub struct Shrinking {
+    work: Work,
+    settings: ShrinkSettings,
+    began: Instant,
+    /// The case.
+    pub case: Case,
+    /// Its result.
+    pub result: CaseResult,
+}
+
+/// The smaller case, written as a repro file.
+#[derive(Debug)]
+pub struct ShrunkCase {
+    /// The case and how it was found.
+    pub shrunk: Shrunk,
+    /// Its repro file.
+    pub target: PathBuf,
+    /// Executions in all, those of earlier searches included.
+    pub runs: u64,
+    /// Executions of this one.
+    pub fresh: u64,
+    /// What it took.
+    pub time: Duration,
+}
+
+impl Shrinking {
+    /// The case that is asked for.
+    ///
+    /// # Errors
+    /// No such case, or one that does not violate or is not judged; a folder that is no campaign's.
+    pub fn open(settings: ShrinkSettings) -> Result<Self, Problem> {
+        let work = open_to_change(&settings.folder, &[], &[], Some(settings.simd))?;
+        let (case, result) = violating(&work, &settings)?;
+        Ok(Self { work, settings, began: Instant::now(), case, result })
+    }
+
+    /// Shrinks it as far as budget, time and watch allow; the same again goes on where it stopped.
+    ///
+    /// # Errors
+    /// The executor failed; a file cannot be written; nothing of the case can be planned anew.
+    pub fn search(&self, watch: &dyn Watch) -> Result<ShrunkCase, Problem> {
+        let Self { work, settings, began, case, result } = self;
+        let of_folder = || work.folder.file(&format!("repro/{}-shrunk.json", case.id()));
+        let target = settings.out.clone().unwrap_or_else(of_folder);
+        let mut answers = Answers::take_up(work, case, result, settings, watch);
+        let shrunk = answers.search(&work.setup, case, result)?;
+        self.repro(&shrunk, answers.runs())?.write(&target)?;
+        Ok(ShrunkCase { shrunk, target, runs: answers.runs(), fresh: answers.fresh(), time: began.elapsed() })
+    }
+
+    fn repro(&self, shrunk: &Shrunk, runs: u64) -> Result<Repro, Problem> {
+        let setup = self.work.setup.changed(shrunk.scenario.clone())?;
+        Ok(Repro {
+            shrunk: Some(ShrunkFrom {
+                waypoints: self.case.waypoints.len(),
+                violations: self.result.violations.iter().map(violation).collect(),
+                simplified: shrunk.simplified.clone(),
+                finished: shrunk.finished,
+                runs,
+            }),
+            ..Repro::of(&setup, &shrunk.case, &shrunk.result)
+        })
+    }
+}
+
+/// The case that was asked for, with its witness, and its result.
+fn violating(work: &Work, settings: &ShrinkSettings) -> Result<(Case, CaseResult), Problem> {
+    let folder = settings.folder.display();
+    let cases = work.folder.read_cases()?;
+    let there = all_named(&cases);
+    let case = cases.into_iter().find(|case| case.number == settings.case);
+    let case = case.ok_or_else(|| Problem::input(format!("--case {}: {folder} has {there}", settings.case)))?;
+    let result = work.folder.read_results()?.into_iter().find(|result| result.case == case.number);
+    let result = result.ok_or_else(|| Problem::input(format!("not judged yet: hairpin judge {folder}")))?;
+    if result.violations.is_empty() {
+        return Err(Problem::input(format!("case {} does not violate: there is nothing to shrink", case.id())));
+    }
+    Ok((case, result))
+}
+
+/// `the cases 0001, 0003, 0004`; of many the first ones and the last.
+fn all_named(cases: &[Case]) -> String {
+    let names: Vec<String> = cases.iter().map(Case::id).collect();
+    match names.as_slice() {
+        [] => "no cases".into(),
+        [one] => format!("the case {one} alone"),
+        [some @ .., last] if names.len() > LISTED => format!("the cases {}, … {last}", some[..LISTED - 1].join(", ")),
+        all => format!("the cases {}", all.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Unwatched;
+    use crate::testing::violating;
+
+    #[test]
+    fn a_violating_case_gets_smaller_and_its_answers_stay_known() {
+        let (_place, folder) = violating();
+        let settings = ShrinkSettings { folder, budget: 5, ..ShrinkSettings::default() };
+        let shrinking = Shrinking::open(settings.clone()).unwrap();
+        let before = shrinking.case.waypoints.len();
+        let found = shrinking.search(&Unwatched).unwrap();
+        assert!(found.shrunk.case.waypoints.len() < before && found.fresh <= 5 && found.target.is_file());
+        let again = shrinking.search(&Unwatched).unwrap();
+        assert!(again.runs >= found.runs && again.runs == found.runs + again.fresh);
+        drop(shrinking);
+        let refused = Shrinking::open(ShrinkSettings { case: 7, ..settings }).map(|_| ()).unwrap_err().to_string();
+        assert!(refused.ends_with("has the cases 0000, 0001"), "{refused}");
+    }
+}

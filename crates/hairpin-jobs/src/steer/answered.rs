@@ -1,0 +1,148 @@
+//! An answer, and what its replay holds it to.
+
+use std::time::Duration;
+
+use hairpin::campaign::drive::drive_piece;
+use hairpin::feasibility::steering::clear::Intrusion;
+use hairpin::feasibility::steering::shooting::Control;
+use hairpin::feasibility::steering::shooting::families::{Parameters, Problem};
+use hairpin::feasibility::steering::shooting::flat::Limit;
+use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision};
+use hairpin::feasibility::steering::shooting::solve::Solution;
+use hairpin::trajectory::SpeedProfile;
+use hairpin::trajectory::drive::Segment;
+use hairpin::verification::{DriveClaim, DrivePiece, DriveReplay};
+use hairpin::world::terrain::KeepOuts;
+use hairpin_formats::steering::{Asked, Status};
+
+use super::pace::direction;
+
+/// An answer before it is put into a file or into words.
+pub struct Answered {
+    /// Whether there is one.
+    pub status: Status,
+    /// Without one where the question has no answer.
+    pub drive: Option<(Solution, DriveReplay)>,
+    /// What solving took.
+    pub solving: Duration,
+    /// What stands in the way; its excess in its unit.
+    pub limit: Option<(&'static str, Option<f64>)>,
+    /// Which place to keep out of that is.
+    pub near: Option<Near>,
+    /// The drive that the ground lets go no further, and after how many metres.
+    pub stopped: Option<(Solution, f64)>,
+    /// The bounds that were in force.
+    pub bounds: Curvatures,
+    /// Curvatures that would be feasible, where those asked for are not.
+    pub nearest: Option<[f64; 2]>,
+    /// Its speeds; without them where they make no profile.
+    pub profile: Option<SpeedProfile>,
+    /// The controls' own parameters, and by how much the segments differ from them in curvature, 1/m.
+    pub parameters: Option<(Parameters, f64)>,
+    /// What the drive costs by the measure that was asked for.
+    pub cost: Option<f64>,
+}
+
+impl Answered {
+    /// Without a drive.
+    pub(super) fn new(
+        status: Status,
+        limit: Option<(&'static str, Option<f64>)>,
+        bounds: Curvatures,
+        solving: Duration,
+    ) -> Self {
+        let (drive, near, stopped, nearest, profile) = (None, None, None, None, None);
+        let (parameters, cost) = (None, None);
+        Self { status, drive, solving, limit, near, stopped, bounds, nearest, profile, parameters, cost }
+    }
+}
+
+impl Answered {
+    /// By how much the replay misses the goal's place, m.
+    pub fn missed_m(&self) -> Option<f64> {
+        let (_, DriveReplay { error: [x, y, _], .. }) = self.drive.as_ref()?;
+        Some(libm::hypot(*x, *y))
+    }
+}
+
+/// A place to keep out of that a drive comes too near to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Near {
+    /// Its name.
+    pub place: String,
+    /// What is missing to stay clear, m.
+    pub depth: f64,
+    /// Metres driven before.
+    pub after_m: f64,
+    /// Parameters that the family has to spare for going around it; `None` for the default, which has chains of
+    /// clothoids.
+    pub spare: Option<u32>,
+}
+
+impl Near {
+    pub(super) fn new(intrusion: &Intrusion, keep_outs: &KeepOuts, control: Control, problem: &Problem) -> Self {
+        let place = keep_outs.list().get(intrusion.place).map_or_else(String::new, |place| place.name.clone());
+        let default = control == Control::Quintic && problem.swing == 0.0;
+        let spare = (!default).then(|| problem.spare(control));
+        Self { place, depth: intrusion.depth, after_m: intrusion.after_m, spare }
+    }
+
+    /// As a limit, with what it is exceeded by.
+    pub(super) fn limit(&self) -> (&'static str, Option<f64>) {
+        ("keep_out", Some(self.depth))
+    }
+}
+
+/// Share by which rounding may exceed a limit.
+const ROUNDING: f64 = 1e-9;
+/// Jump of curvature that is one, 1/m.
+const JUMP: f64 = 1e-6;
+
+/// What the replay holds a drive to; with `free_end` its last curvature is as it comes.
+pub(super) fn claim(asked: &Asked, segments: &[Segment], free_end: bool) -> DriveClaim {
+    let length: f64 = segments.iter().map(Segment::length_m).sum();
+    let direction = direction(asked);
+    let last = segments.last().map_or(asked.k0, |last| last.curvature_at(last.length_m()));
+    DriveClaim {
+        start_curvature: asked.k0,
+        crab: direction.start,
+        crab_rate: direction.rate(length),
+        end: asked.goal,
+        end_curvature: if free_end { last } else { asked.kf },
+    }
+}
+
+/// What a family of controls exceeds, by its name in answers.
+pub fn limit_name(limit: Limit) -> &'static str {
+    match limit {
+        Limit::Curvature => "curvature_1_m",
+        Limit::CurvatureRate => "curvature_rate_1_m2",
+        Limit::Yaw => "yaw_rad",
+        Limit::EndCurvature => "end_curvature_1_m",
+    }
+}
+
+/// A drive as plain numbers.
+pub(super) fn pieces(solution: &Solution) -> Vec<DrivePiece> {
+    solution.segments.iter().map(drive_piece).collect()
+}
+
+/// The first limit that a replayed drive breaks, and by how much.
+pub(super) fn broken(
+    replay: &DriveReplay,
+    bounds: &Curvatures,
+    precision: &Precision,
+) -> Option<(&'static str, Option<f64>)> {
+    let [x, y, yaw] = replay.error;
+    let found = [
+        ("curvature_1_m", replay.max_curvature, bounds.most * (1.0 + ROUNDING)),
+        ("curvature_rate_1_m2", replay.max_curvature_rate, bounds.most_rate * (1.0 + ROUNDING)),
+        ("position_m", libm::hypot(x, y), precision.position),
+        ("yaw_rad", yaw.abs(), precision.yaw),
+        ("end_curvature_1_m", replay.error_curvature.abs(), precision.curvature),
+        ("start_curvature_1_m", replay.start_error_curvature.abs(), JUMP),
+        ("curvature_jump_1_m", replay.max_jump, JUMP),
+    ];
+    let over = found.into_iter().find(|(_, value, bound)| value.is_nan() || value > bound);
+    over.map(|(name, value, bound)| (name, Some(value - bound)))
+}

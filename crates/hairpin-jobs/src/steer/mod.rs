@@ -1,0 +1,29 @@
+//! Boundary-value drives of ground vehicles: one question, or many from a file. Every answer is replayed by an
+//! integration of its own.
+
+mod answered;
+mod batch;
+mod ground;
+mod pace;
+mod plane;
+mod question;
+mod remedy;
+mod settings;
+mod solver;
+mod start_table;
+mod states;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod trace;
+mod vehicle;
+
+pub use answered::{Answered, Near, limit_name};
+pub use batch::Batch;
+pub use pace::{Pace, Rows};
+pub use question::{Question, goal_in_the_map, in_frame, pieces, seen_from, stretches};
+pub use remedy::Remedies;
+pub use settings::{Effort, SteerSettings};
+pub use start_table::{MadeTable, make_start_table};
+pub use summary::{Body, ControlParameters, CostOf, Directions, Forces, Moment, Speeds, Summary, Wheels};
+pub use vehicle::Vehicle;

@@ -1,0 +1,187 @@
+//! What drives: limits and choices, and how a question becomes an answer that its replay holds to.
+
+use std::time::Duration;
+
+use hairpin::campaign::states::States;
+use hairpin::feasibility::steering::shooting::Control;
+use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
+use hairpin::feasibility::steering::shooting::flat;
+use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query, Refusal};
+use hairpin::robot::rover::{Rover, Twist};
+use hairpin::trajectory::SpeedProfile;
+use hairpin::world::terrain::{ElevationMap, KeepOuts};
+use hairpin_formats::scenario::rover_for;
+use hairpin_formats::steering::{Asked, Status};
+
+use super::answered::Answered;
+use super::pace::{Pace, Rows, direction, start, wheels_broken};
+use super::plane::Task;
+use super::solver::{Solver, places};
+use super::{SteerSettings, ground, plane};
+use crate::{Problem, Watch};
+
+/// A vehicle that is asked for drives, where it drives, and how they are looked for.
+pub struct Vehicle {
+    /// What drives.
+    pub rover: Rover,
+    /// What it drives on; the plane without one.
+    pub(super) map: Option<ElevationMap>,
+    /// What it keeps out of.
+    pub(super) keep_outs: KeepOuts,
+    pub(super) solver: Solver,
+    /// How fast, and by which controls.
+    pub pace: Pace,
+}
+
+impl Vehicle {
+    /// The vehicle of `settings`; what is worth knowing of its map is told to `watch`.
+    ///
+    /// # Errors
+    /// What cannot be read, does not fit the vehicle, or asks for what nothing can be done with.
+    pub fn new(settings: &SteerSettings, watch: &dyn Watch) -> Result<Self, Problem> {
+        let mut rover = rover_for(&settings.rover)?;
+        rover.kinematics = settings.kinematics;
+        if settings.turns && !rover.limits.turns_in_place {
+            return Err(Problem::input(format!(
+                "--turns: `{}` cannot turn in place (limits.turns_in_place)",
+                rover.name
+            )));
+        }
+        let solver = Solver::new(settings, &rover)?;
+        let keep_outs = places(settings)?;
+        let map = settings.terrain.as_ref().map(|(path, georeference)| ground::map(path, georeference, &rover, watch));
+        Ok(Self { map: map.transpose()?, rover, keep_outs, solver, pace: settings.pace })
+    }
+
+    /// `rover` on `map`, forward arcs, with `time_limit` for each question: what requirements are checked with.
+    pub fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
+        let (keep_outs, solver) = (KeepOuts::default(), Solver::plain(time_limit));
+        Self { rover, map, keep_outs, solver, pace: Pace::default() }
+    }
+
+    /// Answers a question: solved under the clock, then replayed without it.
+    pub fn answer(&self, asked: &Asked) -> Answered {
+        self.answer_by(asked, &self.solver)
+    }
+
+    /// The bounds of a question.
+    pub(super) fn bounds(&self, asked: &Asked) -> Curvatures {
+        let limits = &self.rover.limits;
+        let most = asked.max_curvature.map_or(limits.curvature, |most| most.min(limits.curvature));
+        Curvatures { most, most_rate: limits.curvature_rate }
+    }
+
+    /// Answers a question by other solver.
+    pub(super) fn answer_by(&self, asked: &Asked, solver: &Solver) -> Answered {
+        let (limits, bounds) = (&self.rover.limits, self.bounds(asked));
+        let most = bounds.most;
+        let refused = |status, limit, excess| {
+            let nearest =
+                (limit == "curvature_1_m").then(|| [asked.k0.clamp(-most, most), asked.kf.clamp(-most, most)]);
+            Answered { nearest, ..Answered::new(status, Some((limit, excess)), bounds, Duration::ZERO) }
+        };
+        let profile = match self.pace.profile(asked, &self.rover) {
+            Ok(profile) => profile,
+            Err(wrong) => return refused(Status::Invalid, wrong.field, None),
+        };
+        if profile.top() > limits.speed {
+            return refused(Status::Infeasible, "speed_m_s", Some(profile.top() - limits.speed));
+        }
+        let sharpest = asked.k0.abs().max(asked.kf.abs());
+        if sharpest > most {
+            return refused(Status::Infeasible, "curvature_1_m", Some(sharpest - most));
+        }
+        let query = match query(asked, &bounds) {
+            Ok(query) => query,
+            Err(refusal) => return refused(Status::Invalid, refusal.field, None),
+        };
+        let swing = direction(asked).swing();
+        if self.pace.control == Control::TurnDriveTurn
+            && let Some(excess) = self.cannot_turn()
+        {
+            return refused(Status::Infeasible, "steer_angle", excess);
+        }
+        let free_end = asked.free_end && self.pace.control == Control::VelocityPolynomial;
+        let boundary = Boundary { query, speed: profile, swing, free_end };
+        let shaping = self.pace.tightened(&bounds, &self.rover, &profile);
+        let task = Task {
+            rover: &self.rover,
+            keep_outs: &self.keep_outs,
+            solver,
+            control: self.pace.control,
+            boundary: &boundary,
+            bounds,
+            shaping,
+            precision: solver.precision(asked),
+        };
+        let mut answered = self.found(asked, &task, &shaping);
+        if answered.status == Status::NotConverged && shaping != bounds && shaping.most >= sharpest {
+            // What steering can follow at every curvature is more than enough: without it the limits themselves decide.
+            answered = self.found(asked, &task, &bounds);
+        }
+        self.hold_to_pace(asked, answered, &profile)
+    }
+
+    /// Solves and replays, on the map or in the plane.
+    fn found(&self, asked: &Asked, task: &Task<'_>, shaping: &Curvatures) -> Answered {
+        let most = shaping.most.max(task.boundary.query.start_curvature.abs());
+        let task = Task { shaping: Curvatures { most, ..*shaping }, ..*task };
+        match &self.map {
+            Some(map) => ground::answer(&task, map, asked),
+            None => plane::answer(&task, asked),
+        }
+    }
+
+    /// By how much the joints stand in the way of a turn in place, rad; `None` where it can be turned, and no number
+    /// where the vehicle just does not.
+    fn cannot_turn(&self) -> Option<Option<f64>> {
+        let (motions, count) = self.rover.wheel_motions(&Twist::IN_PLACE, &[0.0; 3], None);
+        let most = motions[..count].iter().map(|motion| motion.steer.abs()).fold(0.0, f64::max);
+        let excess = (most > self.rover.wheels.steer).then_some(most - self.rover.wheels.steer);
+        (excess.is_some() || !self.rover.limits.turns_in_place).then_some(excess)
+    }
+
+    /// Holds a good answer to what its speeds ask of the vehicle and its wheels.
+    fn hold_to_pace(&self, asked: &Asked, mut answered: Answered, profile: &SpeedProfile) -> Answered {
+        answered.profile = Some(*profile);
+        if answered.status != Status::Ok {
+            return answered;
+        }
+        let Some((solution, _)) = &answered.drive else { return answered };
+        let segments = &solution.segments;
+        let pace = &self.pace;
+        let mut limit = pace.broken(&self.rover, profile, segments);
+        if limit.is_none() && self.map.is_none() {
+            // On the ground the steering follows its command as fast as it can, and the replay knows.
+            limit = pace.steering_excess(&self.rover, profile, segments).map(|excess| ("steering_rate", Some(excess)));
+        }
+        if limit.is_none() && self.rover.wheels.bounded() {
+            let states = self.follow(asked, &answered, Rows::Few);
+            limit = states.and_then(|states| wheels_broken(&self.rover, &states));
+        }
+        if limit.is_some() {
+            answered.status = Status::Infeasible;
+            answered.limit = limit;
+        }
+        answered
+    }
+
+    /// The states of an answer's drive, on the ground or in the plane; `None` without a drive, and where the ground
+    /// ends.
+    pub fn follow(&self, asked: &Asked, answered: &Answered, rows: Rows) -> Option<States> {
+        let (solution, _) = answered.drive.as_ref()?;
+        let (profile, start) = (answered.profile?, start(asked));
+        let followed = self.pace.followed(&self.rover, profile, direction(asked), &solution.segments, rows);
+        match &self.map {
+            Some(map) => followed.on(map, &start, &solution.segments).ok(),
+            None => followed.in_the_plane(&start, &solution.segments).ok(),
+        }
+    }
+}
+
+/// The question in the frame of travel: with a crab direction the path is that of a vehicle which looks along it.
+pub(super) fn query(asked: &Asked, bounds: &Curvatures) -> Result<Query, Refusal> {
+    let [x, y, yaw] = asked.goal;
+    let query = Query::new(asked.k0, Goal { x, y, yaw, curvature: asked.kf }, bounds)?;
+    Ok(flat::crab(&query, asked.direction))
+}

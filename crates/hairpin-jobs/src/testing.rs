@@ -1,0 +1,46 @@
+//! Small campaigns for the tests of jobs.
+
+use std::path::PathBuf;
+
+use tempfile::TempDir;
+
+use crate::Unwatched;
+use crate::execute::{ExecuteSettings, execute};
+use crate::generate::generate;
+use crate::judge::judge;
+use crate::sets::Set;
+use crate::work::CampaignSettings;
+
+/// Two cases of the demo, each flown once, in `place`/out.
+pub(crate) fn small(place: &TempDir) -> CampaignSettings {
+    let set = |key: &str, value: &str| -> Set { (key.to_owned(), value.to_owned()) };
+    CampaignSettings {
+        scenario: "demo-quadrotor".into(),
+        out: Some(place.path().join("out")),
+        sets: vec![set("generate.search.cases", "2"), set("execute.repeat", "1")],
+        ..CampaignSettings::default()
+    }
+}
+
+/// They are found.
+pub(crate) fn generated() -> (TempDir, PathBuf) {
+    let place = tempfile::tempdir().unwrap();
+    let found = generate(&small(&place), &Unwatched).unwrap();
+    let folder = found.work.folder.path().to_owned();
+    (place, folder)
+}
+
+/// They are flown.
+pub(crate) fn executed() -> (TempDir, PathBuf) {
+    let (place, folder) = generated();
+    execute(&ExecuteSettings { folder: folder.clone(), ..ExecuteSettings::default() }, &Unwatched).unwrap();
+    (place, folder)
+}
+
+/// They are judged by a limit that all violate.
+pub(crate) fn violating() -> (TempDir, PathBuf) {
+    let (place, folder) = executed();
+    let sets = vec![("spec.deviation.max_m".to_owned(), "0.0001".to_owned())];
+    judge(&folder, &sets).unwrap();
+    (place, folder)
+}

@@ -1,0 +1,290 @@
+//! From settings to a scenario and the campaign folder it belongs in: begun, gone on with, or looked at.
+
+use std::path::{Component, Path, PathBuf};
+
+use hairpin::campaign::{Scenario, Setup, vary};
+use hairpin::math::simd::Simd;
+use hairpin_formats::folder::{CampaignFolder, Existing};
+use hairpin_formats::recordings;
+use hairpin_formats::scenario::{read_setup, setup_for};
+
+use crate::differences::differences;
+use crate::sets::Set;
+use crate::watch::not_waiting_for;
+use crate::{Deadline, Problem, Watch};
+
+/// A campaign being worked on.
+pub struct Work {
+    /// Its folder.
+    pub folder: CampaignFolder,
+    /// Its scenario, resolved and ready to run.
+    pub setup: Setup,
+}
+
+/// What a campaign is begun with.
+#[derive(Debug, Clone, Default)]
+pub struct CampaignSettings {
+    /// Scenario file, or the name of a shipped scenario or robot.
+    pub scenario: String,
+    /// Campaign folder; out/NAME of the scenario if not given.
+    pub out: Option<PathBuf>,
+    /// Keys of the scenario with other values.
+    pub sets: Vec<Set>,
+    /// What happens to a campaign that is in the folder already.
+    pub if_there: IfThere,
+    /// Seconds after which generation stops and keeps what exists.
+    pub time_limit_s: Option<f64>,
+    /// Version of the kernels.
+    pub simd: Simd,
+}
+
+/// What beginning a campaign does about one that is in its folder already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum IfThere {
+    /// Refuses.
+    #[default]
+    Refuse,
+    /// Goes on with it, if it was begun with the same settings.
+    Resume,
+    /// Replaces it.
+    Replace,
+}
+
+/// A campaign that may begin: nothing is written yet.
+pub struct Planned {
+    /// The folder that it will be in.
+    pub path: PathBuf,
+    /// Its scenario, resolved and ready to run.
+    pub setup: Setup,
+    if_there: IfThere,
+}
+
+/// Resolves the scenario, and whether its folder may be made or taken up.
+///
+/// # Errors
+/// A scenario with mistakes; a folder that holds something else; a score of the user's that does not load.
+pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, Problem> {
+    let path = settings.out.clone().unwrap_or_else(|| default_folder(&settings.scenario));
+    let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
+    let setup = with_logs_from(setup, &path, Path::new(&settings.scenario))?;
+    setup.scenario.check_search()?;
+    check_command(&setup.scenario)?;
+    may_make(&path, &setup, settings.if_there)?;
+    if let Some(user) = setup.user_score() {
+        let deadline = Deadline::after(settings.time_limit_s);
+        let tried = not_waiting_for(Some(user), watch, deadline, || user.try_out());
+        tried.map_err(|why| match watch.stopped() {
+            true => Problem::Interrupted("stopped before the score was loaded".into()),
+            false => Problem::input(format!("`{}` = {why}", setup.scenario.score_key())),
+        })?;
+    }
+    Ok(Planned { path, setup, if_there: settings.if_there })
+}
+
+impl Planned {
+    /// Makes or takes up its folder.
+    ///
+    /// # Errors
+    /// The folder cannot be made or written to.
+    pub fn begin(self) -> Result<Work, Problem> {
+        let work = Work { folder: create(&self.path, &self.setup, self.if_there)?, setup: self.setup };
+        tracing::info!("campaign folder {}", work.folder.path().display());
+        Ok(work)
+    }
+}
+
+/// Logs are named relative to the scenario file: the campaign's own lies in `folder`.
+fn with_logs_from(setup: Setup, folder: &Path, file: &Path) -> Result<Setup, Problem> {
+    let Some(logs) = setup.recordings() else { return Ok(setup) };
+    let base = if file.is_file() { file.parent().unwrap_or(Path::new("")) } else { Path::new("") };
+    let logs = recordings::relative_to(folder, base, logs);
+    // Where runs are recorded nothing varies, so that nothing is lost of `[vary]`.
+    let scenario = vary::apply(&setup.scenario, &[("execute.logs".into(), logs.into())])?;
+    Ok(setup.changed(scenario)?)
+}
+
+/// Makes `path` the folder of the campaign of `setup`.
+///
+/// # Errors
+/// As of [`plan`] and [`Planned::begin`].
+pub fn make(path: &Path, setup: Setup, if_there: IfThere) -> Result<Work, Problem> {
+    may_make(path, &setup, if_there)?;
+    Ok(Work { folder: create(path, &setup, if_there)?, setup })
+}
+
+/// Whether `path` can become the folder of a campaign, or be taken up again.
+fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<(), Problem> {
+    // `new/../old` is no place before `new` is made, and `old` once it is.
+    let mut begun = PathBuf::new();
+    for part in path.components() {
+        if part == Component::ParentDir && !begun.as_os_str().is_empty() && !begun.exists() {
+            return Err(Problem::input(format!("--out {}: there is no folder {}", path.display(), begun.display())));
+        }
+        begun.push(part);
+    }
+    let Ok(old) = CampaignFolder::open(path) else { return Ok(()) };
+    match if_there {
+        IfThere::Refuse => Err(Problem::input(format!(
+            "{} holds a campaign already: --resume goes on with it, --force replaces it, --out DIR keeps both",
+            path.display()
+        ))),
+        IfThere::Resume => may_resume(&old, setup),
+        IfThere::Replace => Ok(()),
+    }
+}
+
+/// Whether the campaign in `old` was begun as `setup` would begin it.
+fn may_resume(old: &CampaignFolder, setup: &Setup) -> Result<(), Problem> {
+    let before = resolve(old, &[])?;
+    let files = || before.attachments.files().into_iter().zip(setup.attachments.files());
+    let file = || files().find(|(before, now)| before != now).map(|((name, _), _)| name.to_owned());
+    if let Some(key) = differences(&before.scenario, &setup.scenario).into_iter().next().or_else(file) {
+        return Err(Problem::input(format!(
+            "--resume: `{key}` is not what it was when {} was begun: give the same arguments, or another --out",
+            old.path().display()
+        )));
+    }
+    same_level(old, setup.simd)
+}
+
+fn create(path: &Path, setup: &Setup, if_there: IfThere) -> Result<CampaignFolder, Problem> {
+    let existing = if if_there == IfThere::Resume { Existing::Resume } else { Existing::Replace };
+    let folder = CampaignFolder::create(path, existing)?;
+    folder.keep_scenario(setup, setup.simd.level())?;
+    Ok(folder)
+}
+
+/// Opens a campaign folder for the next part, its scenario changed by `sets` in the tables `allowed`; [`keep_changes`]
+/// writes it. Its SIMD level stays: a part that runs kernels goes on at it, those of the version `flown`, or not at
+/// all.
+pub(crate) fn open_to_change(
+    path: &Path,
+    sets: &[Set],
+    allowed: &[&str],
+    flown: Option<Simd>,
+) -> Result<Work, Problem> {
+    for (key, _) in sets {
+        let table = key.split(['.', '[']).next().unwrap_or_default().trim();
+        if !allowed.contains(&table) {
+            return Err(Problem::input(format!(
+                "--set {key}: the folder's trajectories were made with its value; here only {} can be set",
+                allowed.join(", ")
+            )));
+        }
+    }
+    let folder = CampaignFolder::open_to_write(path)?;
+    let level = folder.simd_level()?;
+    let setup = resolve(&folder, sets)?.with_simd(simd_of(level.as_deref()));
+    check_command(&setup.scenario)?;
+    let plans = |scenario: &Scenario| {
+        let of_plans = scenario.vary().iter().filter(|(key, _)| vary::shapes_the_plan(key));
+        of_plans.map(|(key, drawn)| (key.clone(), drawn.clone())).collect::<Vec<_>>()
+    };
+    if !sets.is_empty() && plans(&setup.scenario) != plans(&resolve(&folder, &[])?.scenario) {
+        return Err(Problem::input(
+            "--set vary: the folder's trajectories were drawn by its keys under `task` and `generate`; these must stay",
+        ));
+    }
+    // The users' own programs run none of our kernels.
+    match (flown, setup.scenario.executor().command) {
+        (Some(Simd::Portable), _) => same_level(&folder, Simd::Portable)?,
+        (Some(Simd::Widest), None) => same_level(&folder, setup.simd)?,
+        (Some(Simd::Widest), Some(_)) | (None, _) => {}
+    }
+    Ok(Work { folder, setup })
+}
+
+/// Writes the scenario of `work` as [`open_to_change`] changed it.
+pub(crate) fn keep_changes(work: &Work) -> Result<(), Problem> {
+    let level = work.folder.simd_level()?;
+    let level = level.as_deref().unwrap_or(work.setup.simd.level());
+    Ok(work.folder.keep_scenario(&work.setup, level)?)
+}
+
+/// The first key of the folder's scenario that `sets` change.
+pub(crate) fn changed_by(folder: &CampaignFolder, sets: &[Set]) -> Result<Option<String>, Problem> {
+    Ok(differences(&resolve(folder, &[])?.scenario, &resolve(folder, sets)?.scenario).into_iter().next())
+}
+
+/// Opens a campaign folder to read it.
+///
+/// # Errors
+/// There is no campaign in it, or its scenario is broken.
+pub fn open_to_read(path: &Path) -> Result<Work, Problem> {
+    let folder = CampaignFolder::open(path)?;
+    let setup = resolve(&folder, &[])?.with_simd(simd_of(folder.simd_level()?.as_deref()));
+    Ok(Work { folder, setup })
+}
+
+fn resolve(folder: &CampaignFolder, sets: &[Set]) -> Result<Setup, Problem> {
+    let name = folder.file("scenario.toml");
+    Ok(read_setup(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
+}
+
+/// The version of the kernels that goes on with a campaign of `level`.
+fn simd_of(level: Option<&str>) -> Simd {
+    if level == Some(Simd::Portable.level()) { Simd::Portable } else { Simd::Widest }
+}
+
+/// Refuses to go on in `folder` at another SIMD level: the bits would be the same, but what is written of their origin
+/// would not be true.
+fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
+    let (now, path) = (simd.level(), folder.path().display());
+    match folder.simd_level()? {
+        Some(before) if before != now => Err(Problem::input(if before == Simd::Portable.level() {
+            format!("{path} was begun with --portable: go on with it, or take another --out")
+        } else {
+            format!(
+                "{path} was begun at the SIMD level {before}, and this is {now}: go on at {before}, or begin another \
+                 with --portable, which goes on anywhere"
+            )
+        })),
+        _ => Ok(()),
+    }
+}
+
+fn check_command(scenario: &Scenario) -> Result<(), Problem> {
+    let Some(command) = scenario.executor().command else { return Ok(()) };
+    let parsed = command.parse::<hairpin_formats::executor::Command>();
+    parsed.map(drop).map_err(|error| Problem::input(format!("`execute.command` = {command:?} {error}")))
+}
+
+/// `out/NAME`, NAME being the scenario's or robot's without folder and ending.
+fn default_folder(scenario: &str) -> PathBuf {
+    let name = Path::new(scenario).file_stem().unwrap_or_else(|| "campaign".as_ref());
+    Path::new("out").join(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Unwatched;
+
+    #[test]
+    fn folders_are_named_after_scenarios() {
+        assert_eq!(default_folder("quadrotor.toml"), Path::new("out/quadrotor"));
+        assert_eq!(default_folder("/a/b/my.drone.toml"), Path::new("out/my.drone"));
+        assert_eq!(default_folder("anafi"), Path::new("out/anafi"));
+    }
+
+    #[test]
+    fn a_campaign_is_begun_once_and_resumed_as_it_was() {
+        let place = tempfile::tempdir().unwrap();
+        let settings = CampaignSettings {
+            scenario: "demo-quadrotor".into(),
+            out: Some(place.path().join("out")),
+            ..CampaignSettings::default()
+        };
+        drop(plan(&settings, &Unwatched).unwrap().begin().unwrap());
+        let again = |if_there, sets: Vec<Set>| {
+            plan(&CampaignSettings { if_there, sets, ..settings.clone() }, &Unwatched).map(drop)
+        };
+        let refused = again(IfThere::Refuse, Vec::new()).unwrap_err().to_string();
+        assert!(refused.contains("holds a campaign already"), "{refused}");
+        again(IfThere::Resume, Vec::new()).unwrap();
+        let refused = again(IfThere::Resume, vec![crate::sets::seed(99)]).unwrap_err().to_string();
+        assert!(refused.contains("`seed` is not what it was"), "{refused}");
+        again(IfThere::Replace, vec![crate::sets::seed(99)]).unwrap();
+        assert!(open_to_read(&place.path().join("out")).is_ok());
+    }
+}

@@ -1,0 +1,79 @@
+//! Time that this thread was on a processor: what others do on the machine does not count.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+/// What is told, for the table.
+pub(crate) const NAME: &str = if cfg!(target_os = "linux") { "processor time" } else { "wall-clock time" };
+
+/// Seconds on a processor since the thread began; where the system does not tell, since `origin`.
+fn now(origin: Instant) -> f64 {
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<u64>().ok());
+    nanoseconds.map_or_else(|| origin.elapsed().as_secs_f64(), |ns| ns as f64 * 1e-9)
+}
+
+/// The system tells this clock in ticks of some milliseconds: a run shorter than this many seconds is repeated.
+const SHORTEST_RUN: f64 = 0.1;
+
+/// Median over `times` runs of `work` of its time, s.
+pub(crate) fn median_time<T>(times: usize, mut work: impl FnMut() -> T) -> f64 {
+    1.0 / median_rate(times, || {
+        black_box(work());
+        1
+    })
+}
+
+/// Median over `times` runs of `work`, which returns how many items it made, of items per second.
+pub(crate) fn median_rate(times: usize, mut work: impl FnMut() -> u64) -> f64 {
+    let origin = Instant::now();
+    median((0..times).map(|_| {
+        let (begun, mut items) = (now(origin), 0);
+        loop {
+            items += black_box(work());
+            let spent = now(origin) - begun;
+            if spent > SHORTEST_RUN {
+                return items as f64 / spent;
+            }
+        }
+    }))
+}
+
+/// Time on a processor since it was made.
+pub(crate) struct Stopwatch {
+    origin: Instant,
+    begun: f64,
+}
+
+impl Stopwatch {
+    pub(crate) fn start() -> Self {
+        let origin = Instant::now();
+        Self { origin, begun: now(origin) }
+    }
+
+    /// Seconds that are spent.
+    pub(crate) fn spent(&self) -> f64 {
+        now(self.origin) - self.begun
+    }
+
+    /// Whether more than `limit` seconds are spent. Asking often is cheap until so much has passed on the wall.
+    pub(crate) fn passed(&self, limit: f64) -> bool {
+        self.origin.elapsed().as_secs_f64() > limit && now(self.origin) - self.begun > limit
+    }
+}
+
+/// Runs on this thread alone, so that its clock sees all of it.
+pub(crate) fn alone<T: Send>(run: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build() {
+        Ok(pool) => pool.install(run),
+        // The thread is in a pool already, that of an earlier bench.
+        Err(_) => run(),
+    }
+}
+
+/// The middle value, the upper one of two.
+pub(crate) fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}

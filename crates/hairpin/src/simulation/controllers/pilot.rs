@@ -1,0 +1,91 @@
+//! The controller of a run, if it is one of ours: no allocation, and it can be copied in mid-flight.
+
+use super::anafi::Anafi;
+use super::cascade::Cascade;
+use super::fixed_velocity::FixedVelocity;
+use super::geometric::Geometric;
+use super::kind::{ControllerKind, ControllerSettings};
+use super::minimum_snap::MinimumSnap;
+use super::{stable_waypoint, unstable_waypoint};
+use crate::robot::quadrotor::Quadrotor;
+use crate::simulation::SimulationError;
+use crate::simulation::command::{FlightCommand, FlightState};
+use crate::simulation::controller::{Controller, Fault, Reference, Schedule};
+
+/// See the file's first line.
+#[derive(Debug, Clone)]
+pub(crate) enum Pilot {
+    /// Either of the two waypoint cascades.
+    Waypoint(Cascade),
+    /// See [`ControllerKind::FixedVelocity`].
+    FixedVelocity(FixedVelocity),
+    /// See [`ControllerKind::MinimumSnap`].
+    MinimumSnap(MinimumSnap),
+    /// See [`ControllerKind::Geometric`].
+    Geometric(Geometric),
+    /// See [`ControllerKind::Anafi`].
+    Anafi(Anafi),
+}
+
+impl Pilot {
+    /// Builds the controller for a robot.
+    ///
+    /// # Errors
+    /// A fixed velocity that is not positive.
+    pub(crate) fn new(settings: &ControllerSettings, robot: &Quadrotor) -> Result<Self, SimulationError> {
+        Ok(match settings.kind {
+            ControllerKind::UnstableWaypoint => Pilot::Waypoint(unstable_waypoint::cascade(robot)),
+            ControllerKind::StableWaypoint => Pilot::Waypoint(stable_waypoint::cascade(robot)),
+            ControllerKind::FixedVelocity => {
+                let speed = settings.fixed_velocity;
+                if !(speed.is_finite() && speed > 0.0) {
+                    return Err(SimulationError::new("fixed_velocity", speed.to_string(), "finite and > 0 m/s"));
+                }
+                Pilot::FixedVelocity(FixedVelocity::new(robot, speed))
+            }
+            ControllerKind::MinimumSnap => Pilot::MinimumSnap(MinimumSnap::new(robot, settings.segment_times)),
+            ControllerKind::Geometric => Pilot::Geometric(Geometric::new(robot, settings.segment_times)),
+            ControllerKind::Anafi => Pilot::Anafi(Anafi::new(robot)),
+        })
+    }
+
+    fn controller(&self) -> &dyn Controller<Quadrotor> {
+        match self {
+            Pilot::Waypoint(controller) => controller,
+            Pilot::FixedVelocity(controller) => controller,
+            Pilot::MinimumSnap(controller) => controller,
+            Pilot::Geometric(controller) => controller,
+            Pilot::Anafi(controller) => controller,
+        }
+    }
+}
+
+impl Controller<Quadrotor> for Pilot {
+    fn period(&self) -> Option<f64> {
+        self.controller().period()
+    }
+
+    fn reset(&mut self, reference: &Reference<Quadrotor>) -> Result<(), Fault> {
+        match self {
+            Pilot::Waypoint(controller) => controller.reset(reference),
+            Pilot::FixedVelocity(controller) => controller.reset(reference),
+            Pilot::MinimumSnap(controller) => controller.reset(reference),
+            Pilot::Geometric(controller) => controller.reset(reference),
+            Pilot::Anafi(controller) => controller.reset(reference),
+        }
+    }
+
+    fn control(&mut self, dt: f64, now: &FlightState, to: &Reference<Quadrotor>) -> Result<FlightCommand, Fault> {
+        match self {
+            Pilot::Waypoint(controller) => controller.control(dt, now, to),
+            Pilot::FixedVelocity(controller) => controller.control(dt, now, to),
+            Pilot::MinimumSnap(controller) => controller.control(dt, now, to),
+            Pilot::Geometric(controller) => controller.control(dt, now, to),
+            Pilot::Anafi(controller) => controller.control(dt, now, to),
+        }
+    }
+
+    fn schedule(&self) -> Option<Schedule> {
+        self.controller().schedule()
+    }
+}

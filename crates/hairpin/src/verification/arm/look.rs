@@ -1,0 +1,71 @@
+//! What is wrong with a posture: axes beyond their bounds, links and tool too near to the cell.
+
+use nalgebra::{Point3, Vector3};
+
+use super::claim::{ArmBodyClaim, ArmSolidClaim, ArmSolidForm};
+use super::solids::{distance, holds_around};
+use super::{ALONG, Arm, ROUNDING};
+
+/// What is asked of a posture.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked<'a> {
+    /// Whether links and tool are looked at, and what they keep from the cell, m.
+    pub(super) clearance: Option<f64>,
+    /// Directions around the tool's line in which words are asked as well.
+    pub(super) around: &'a [Vector3<f64>],
+    /// Least margin from singularities, a pure number.
+    pub(super) singularity: f64,
+}
+
+impl Arm<'_> {
+    /// What is wrong with a posture.
+    pub(super) fn wrong_at(&self, asked: &Asked, q: &[f64; 6]) -> Option<String> {
+        for (k, joint) in self.claim.joints.iter().enumerate() {
+            // No number is within no bounds.
+            let within = q[k] >= joint.bounds[0] - ROUNDING && q[k] <= joint.bounds[1] + ROUNDING;
+            if !within {
+                return Some(format!("axis {} is at {:.3}°, beyond its bound", k + 1, q[k].to_degrees()));
+            }
+        }
+        if asked.singularity > 0.0 {
+            let (name, margin) = self.margin(q);
+            if margin.is_nan() || margin < asked.singularity {
+                return Some(format!("{name} singularity, margin {margin:.4}"));
+            }
+        }
+        let clearance = asked.clearance?;
+        let carried = self.screws.carried(q);
+        self.claim.bodies.iter().find_map(|body| {
+            let link = carried.link(&self.screws, body.link);
+            let [a, b] = body.axis.map(|end| link * end);
+            let count = ((b - a).norm() / ALONG).ceil().max(1.0);
+            let points: Vec<Point3<f64>> = (0..=count as usize).map(|i| a + (b - a) * (i as f64 / count)).collect();
+            let solids = self.claim.solids.iter().zip(&self.boxes);
+            let mut solids = solids.filter(|(solid, _)| body.tool || !solid.tool_only);
+            solids.find_map(|(solid, hull)| met(body, &points, (solid, hull.as_ref()), clearance, asked.around))
+        })
+    }
+}
+
+/// Whether `body`, its axis seen at `points`, is nearer to a solid than it may be.
+fn met(
+    body: &ArmBodyClaim,
+    points: &[Point3<f64>],
+    (solid, hull): (&ArmSolidClaim, Option<&ArmSolidForm>),
+    clearance: f64,
+    around: &[Vector3<f64>],
+) -> Option<String> {
+    let room = body.radius + clearance;
+    // Triangles are many: where their box is far, they are.
+    if hull.is_some_and(|hull| points.iter().all(|p| distance(hull, p) > room)) {
+        return None;
+    }
+    let least = points.iter().map(|p| distance(&solid.form, p)).fold(f64::INFINITY, f64::min);
+    if points.iter().any(|p| holds_around(&solid.form, p, room - ROUNDING, around)) {
+        return Some(format!("{} comes within {:.2} mm of {}", body.name, 1e3 * room, solid.name));
+    }
+    (least < room - ROUNDING).then(|| {
+        let (left, asked) = (1e3 * (least - body.radius), 1e3 * clearance);
+        format!("{} keeps {left:.2} mm from {}, not {asked:.2} mm", body.name, solid.name)
+    })
+}
