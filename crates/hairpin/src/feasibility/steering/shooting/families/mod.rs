@@ -18,7 +18,6 @@ mod descend;
 mod found;
 mod grid;
 mod landing;
-mod linear;
 mod parameters;
 mod pieces;
 mod problem;

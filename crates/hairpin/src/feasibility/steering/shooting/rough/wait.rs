@@ -50,10 +50,10 @@ impl Waiting {
     }
 
     /// What of `segments` acts before their time is over.
-    pub fn acting<T>(self, course: &Course<'_, T>, segments: &[Segment]) -> SegmentList {
+    pub fn acting<T>(self, course: &Course<'_, T>, segments: &[Segment]) -> Vec<Segment> {
         let total: f64 = segments.iter().map(Segment::length_m).sum();
         let mut left = total - self.metres(course, course.speed.end());
-        let mut acting = SegmentList::EMPTY;
+        let mut acting = Vec::with_capacity(segments.len());
         for segment in segments {
             let mut segment = *segment;
             if let Motion::Arc { length_m, .. } = &mut segment.motion {
@@ -63,7 +63,7 @@ impl Waiting {
                 *length_m = length_m.min(left);
                 left -= *length_m;
             }
-            acting.extend([segment]);
+            acting.push(segment);
         }
         acting
     }
