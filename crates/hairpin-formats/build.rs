@@ -1,4 +1,5 @@
-//! Embeds every shipped file: `data/{robots,worlds,scenarios}/**/NAME.toml` and `experiments/NAME.toml` are found at run time by NAME.
+//! Embeds every shipped file: `data/{robots,worlds,scenarios}/**/NAME.toml` and `experiments/NAME.toml` are found at
+//! run time by NAME.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

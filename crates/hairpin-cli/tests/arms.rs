@@ -285,7 +285,8 @@ fn an_arm_may_come_as_urdf() {
     assert_eq!(code(&refused), 2, "{}", String::from_utf8_lossy(&refused.stdout));
 }
 
-/// Arcs are moves of the graph like others: searched with it, proven heaviest with it, in the program, and held to all that by those who follow them again.
+/// Arcs are moves of the graph like others: searched with it, proven heaviest with it, in the program, and held to all
+/// that by those who follow them again.
 #[test]
 fn arcs_are_searched_with_straight_moves_and_load_the_arm_more() {
     let place = TempDir::new().unwrap();

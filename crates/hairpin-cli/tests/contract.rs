@@ -1,5 +1,5 @@
-//! What other programs count on: where files are written, one JSON document on stdout and nothing else, and that what is
-//! not known is said to be unknown.
+//! What other programs count on: where files are written, one JSON document on stdout and nothing else, and that what
+//! is not known is said to be unknown.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Places that take no files: wrong input with the path and the system's reason, and what stood there before still stands.
+//! Places that take no files: wrong input with the path and the system's reason, and what stood there before still
+//! stands.
 #![cfg(unix)]
 
 mod commands;

@@ -1,4 +1,5 @@
-//! Wind, gusts, forces and obstacles searched beside the waypoints: what was found is part of the case, wherever the case goes.
+//! Wind, gusts, forces and obstacles searched beside the waypoints: what was found is part of the case, wherever the
+//! case goes.
 
 mod commands;
 
@@ -149,7 +150,8 @@ fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
     let (code, out, _) = run(here, &["verify", "balls"]);
     assert!(code == 1 && out.contains("case 0000: environment.obstacles[0].clearance"), "{out}");
 
-    // Neither a box a little higher than was asked for, nor one of no size, nor a gust beside the wind is one of those that were.
+    // Neither a box a little higher than was asked for, nor one of no size, nor a gust beside the wind is one of those
+    // that were.
     let gust = DiscreteGustSection { velocity_m_s: [1.0, 0.0, 0.0], start_s: -1.0, duration_s: 2.0 };
     type Change<'a> = &'a dyn Fn(&mut Environment);
     let changes: [(&str, Change); 4] = [

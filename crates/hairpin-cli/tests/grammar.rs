@@ -1,4 +1,5 @@
-//! What can be typed: help of every command, wrong input with exit code 2 and clear words, nothing but results on stdout.
+//! What can be typed: help of every command, wrong input with exit code 2 and clear words, nothing but results on
+//! stdout.
 
 use std::fs;
 

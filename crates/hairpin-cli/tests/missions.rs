@@ -1,5 +1,5 @@
-//! Waypoint files made elsewhere: what is wrong with one is told with line, column and value, and costs nothing; what other
-//! programs do to a good one is forgiven.
+//! Waypoint files made elsewhere: what is wrong with one is told with line, column and value, and costs nothing; what
+//! other programs do to a good one is forgiven.
 
 mod commands;
 

@@ -1,4 +1,5 @@
-//! `hairpin steer`: every status and column of the batch contract, and answers that hold by equations of the test's own.
+//! `hairpin steer`: every status and column of the batch contract, and answers that hold by equations of the test's
+//! own.
 
 use std::collections::BTreeMap;
 use std::fs;

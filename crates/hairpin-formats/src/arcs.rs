@@ -1,4 +1,5 @@
-//! Arcs of a cloud as CSV, `from,via,to,cost,reason`: rows of the cloud from 0, the cost of a possible arc in the graph's unit, and why another is refused.
+//! Arcs of a cloud as CSV, `from,via,to,cost,reason`: rows of the cloud from 0, the cost of a possible arc in the
+//! graph's unit, and why another is refused.
 
 use std::path::{Path, PathBuf};
 
@@ -35,7 +36,8 @@ pub enum ArcsError {
     },
 }
 
-/// The table of `arcs` in their order: \[from, via, to\] with the cost, a whole number of 10^−`decimals` of the unit, or the reason.
+/// The table of `arcs` in their order: \[from, via, to\] with the cost, a whole number of 10^−`decimals` of the unit,
+/// or the reason.
 pub fn text<'a>(arcs: impl IntoIterator<Item = ([usize; 3], Result<i64, &'a str>)>, decimals: usize) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     // Writing into memory does not fail, and what was written is UTF-8 as its parts are.

@@ -1,5 +1,5 @@
-//! Every file we write appears whole or not at all: a temporary name in the same folder, then a rename. What is no file (a
-//! pipe, a device) is written to where it stands.
+//! Every file we write appears whole or not at all: a temporary name in the same folder, then a rename. What is no file
+//! (a pipe, a device) is written to where it stands.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -48,8 +48,8 @@ pub fn json_text(what: &impl Serialize) -> Result<String, serde_json::Error> {
 
 /// Hands `fill` a temporary file beside `path` and renames it to `path` once its bytes are on disk. A process killed at
 /// any moment leaves the old file or the new one, and at worst a temporary that [`remove_leftovers`] takes away. A link
-/// stays a link to the file that is written. A pipe or a device gets the bytes themselves: a rename would put a file in its
-/// place.
+/// stays a link to the file that is written. A pipe or a device gets the bytes themselves: a rename would put a file in
+/// its place.
 ///
 /// # Errors
 /// As [`write()`], and whatever `fill` returns.

@@ -1,4 +1,5 @@
-//! What stands at the head of programs that robots execute: evidence in the caller's words, and what no program goes without.
+//! What stands at the head of programs that robots execute: evidence in the caller's words, and what no program goes
+//! without.
 
 /// What is told in every program once.
 pub const NOTICE: &str = "This is a test program: it is stressful by design, and no safety certificate.";

@@ -130,8 +130,8 @@ const SMALLEST_MM: f64 = 5.0;
 const LARGEST_MM: f64 = 50_000.0;
 const COLUMNS: [&str; 11] = ["x_mm", "y_mm", "z_mm", "q1", "q2", "q3", "q4", "cf1", "cf4", "cf6", "cfx"];
 
-/// The points of a CSV. Columns may stand in any order and others beside them; blank lines count and are skipped; a row without
-/// any of q1 … q4, or of cf1 … cfx, says nothing about them.
+/// The points of a CSV. Columns may stand in any order and others beside them; blank lines count and are skipped; a row
+/// without any of q1 … q4, or of cf1 … cfx, says nothing about them.
 ///
 /// # Errors
 /// The first thing wrong, with its line. Sizes are asked about by [`check_extent`].
@@ -186,8 +186,8 @@ pub fn from_targets<'a>(
     points.done()
 }
 
-/// Asks about clouds that are smaller than 5 mm or larger than 50 m: they are in another unit more often than not. One point
-/// alone has no size.
+/// Asks about clouds that are smaller than 5 mm or larger than 50 m: they are in another unit more often than not. One
+/// point alone has no size.
 ///
 /// # Errors
 /// [`CloudError::Extent`].

@@ -135,7 +135,8 @@ pub fn read(path: &Path) -> Result<Costs, CostsError> {
     read_in(path, 0)
 }
 
-/// Reads a file whose whole numbers are to stand for `least` digits behind the point at least, whether or not its costs need them.
+/// Reads a file whose whole numbers are to stand for `least` digits behind the point at least, whether or not its costs
+/// need them.
 ///
 /// # Errors
 /// As [`read`].

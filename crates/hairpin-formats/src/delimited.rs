@@ -1,7 +1,7 @@
 //! Delimited text as rows of cells: what all readers of such tables have in common.
 //!
-//! Rows know their lines, whatever blank lines and comments stand between them; a byte order mark, any line ends, quoted cells and blanks around
-//! cells are understood. How many cells a row must have is for who reads it.
+//! Rows know their lines, whatever blank lines and comments stand between them; a byte order mark, any line ends,
+//! quoted cells and blanks around cells are understood. How many cells a row must have is for who reads it.
 
 use csv::{Position, ReaderBuilder, StringRecord, StringRecordsIntoIter};
 
@@ -67,7 +67,8 @@ impl<'t> Rows<'t> {
     }
 }
 
-/// The line, from 1, in which a record begins that the reader began to look for at `from`: blank lines and comments before it are not told there.
+/// The line, from 1, in which a record begins that the reader began to look for at `from`: blank lines and comments
+/// before it are not told there.
 pub(crate) fn line_of(bytes: &[u8], comment: Option<u8>, from: &Position) -> usize {
     let (mut at, mut line) = (from.byte() as usize, from.line() as usize);
     loop {

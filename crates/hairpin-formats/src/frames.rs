@@ -7,8 +7,8 @@
 //! | NED | north, east, down; at the same point | forward, right, down | from north, clockwise |
 //! | geodetic | WGS 84 latitude and longitude, altitude | | |
 //!
-//! Each pose has its own type, so that a conversion can neither be forgotten nor be done twice. Altitudes above mean sea
-//! level stand in for ellipsoidal heights: no geoid is modelled, so differences of altitude are exact, and 100 m of
+//! Each pose has its own type, so that a conversion can neither be forgotten nor be done twice. Altitudes above mean
+//! sea level stand in for ellipsoidal heights: no geoid is modelled, so differences of altitude are exact, and 100 m of
 //! geoid move a point 100 m away by 1.6 mm sideways.
 
 use std::f64::consts::FRAC_PI_2;

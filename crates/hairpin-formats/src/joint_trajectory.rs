@@ -39,8 +39,8 @@ pub enum JointTrajectoryError {
 /// Longest time that fits the message's seconds.
 const LONGEST: f64 = 2_147_483_647.0;
 
-/// The message as JSON: `joint_names`, and points with `positions` (rad) and `time_from_start`. `times` in s; `samples` holds as
-/// many rows of as many angles as there are names; `frame` is the base's `frame_id`.
+/// The message as JSON: `joint_names`, and points with `positions` (rad) and `time_from_start`. `times` in s; `samples`
+/// holds as many rows of as many angles as there are names; `frame` is the base's `frame_id`.
 ///
 /// # Errors
 /// [`JointTrajectoryError`].

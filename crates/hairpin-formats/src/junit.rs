@@ -1,5 +1,6 @@
 //! `junit.xml` for build servers, in the subset that Jenkins' xUnit schema takes: it drops the whole file for one
-//! attribute too many. A `testcase` has a name, a classname and a time, and nothing else; properties stand on the suite.
+//! attribute too many. A `testcase` has a name, a classname and a time, and nothing else; properties stand on the
+//! suite.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

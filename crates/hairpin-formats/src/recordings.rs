@@ -106,9 +106,9 @@ fn plain(path: &Path) -> Vec<std::ffi::OsString> {
     parts
 }
 
-/// The log of every run of `cases`. In the name of a file that matches `pattern` (relative to `folder`) the `*` stands for `CASE-RUN`, or for
-/// `CASE` alone where a case has one run: `0003-1`, `0003`. Runs may be numbered from anywhere; they become run 0, 1, … in the order of
-/// their numbers.
+/// The log of every run of `cases`. In the name of a file that matches `pattern` (relative to `folder`) the `*` stands
+/// for `CASE-RUN`, or for `CASE` alone where a case has one run: `0003-1`, `0003`. Runs may be numbered from anywhere;
+/// they become run 0, 1, … in the order of their numbers.
 ///
 /// # Errors
 /// Every file whose name is no run's, cases with another number of logs than `repeat`.

@@ -1,4 +1,5 @@
-//! URDF in: the six turning joints from the root link to the flange, with their limits, masses and, as capsules, their shapes.
+//! URDF in: the six turning joints from the root link to the flange, with their limits, masses and, as capsules, their
+//! shapes.
 
 use std::collections::BTreeMap;
 
@@ -43,11 +44,12 @@ struct Joint<'t> {
 
 /// Reads the longest chain of joints from the root link; fixed joints are merged into the links that they join.
 ///
-/// Collision shapes become capsules: cylinders and spheres as they are, boxes as the capsule around them; meshes are left out.
-/// Joint accelerations are not part of URDF.
+/// Collision shapes become capsules: cylinders and spheres as they are, boxes as the capsule around them; meshes are
+/// left out. Joint accelerations are not part of URDF.
 ///
 /// # Errors
-/// [`UrdfError`]: no XML; no turning joints, or another number than six; a sliding joint; limits or numbers missing or wrong.
+/// [`UrdfError`]: no XML; no turning joints, or another number than six; a sliding joint; limits or numbers missing or
+/// wrong.
 pub fn read_urdf(text: &str) -> Result<ArmDescription, UrdfError> {
     let document = Document::parse(text).map_err(|error| UrdfError::Xml(error.to_string()))?;
     let robot = document.root_element();
@@ -143,7 +145,8 @@ impl Built {
         Ok(())
     }
 
-    /// Joins the mass with what the link already has: centre of both, moments by Steiner's theorem; products of inertia are left out.
+    /// Joins the mass with what the link already has: centre of both, moments by Steiner's theorem; products of inertia
+    /// are left out.
     fn mass(&mut self, link: usize, inertial: &Node) -> Result<(), UrdfError> {
         let mass = child(inertial, "mass").map_or(Ok(0.0), |node| number(&node, "value"))?;
         let centre = (self.here() * origin(inertial)? * Point3::origin()).coords * 1e3;

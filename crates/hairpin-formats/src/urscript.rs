@@ -60,8 +60,8 @@ const KEYWORDS: [&str; 22] = [
     "not", "or", "return", "sec", "thread", "True", "while", "xor",
 ];
 
-/// The program as a function and its call. Corners are cut to half of the shorter neighbouring segment, and to none where a
-/// segment's length takes the arm's kinematics: blends that overlap stop the robot.
+/// The program as a function and its call. Corners are cut to half of the shorter neighbouring segment, and to none
+/// where a segment's length takes the arm's kinematics: blends that overlap stop the robot.
 ///
 /// # Errors
 /// [`UrscriptError`].

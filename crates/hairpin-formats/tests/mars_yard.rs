@@ -24,7 +24,8 @@ fn yard() -> Option<ElevationMap> {
     Some(read_terrain(&bytes, "marsyard.tif", &Georeference::default()).expect("a map"))
 }
 
-/// The map with rocks on it as they lie where the first Viking landed (k = 0.07), from two cells upwards, and their number.
+/// The map with rocks on it as they lie where the first Viking landed (k = 0.07), from two cells upwards, and their
+/// number.
 fn rocky_yard() -> Option<(ElevationMap, usize)> {
     let yard = yard()?;
     let (low, high) = yard.extent();
@@ -103,7 +104,8 @@ fn late_and_slipping() -> Rover {
     }
 }
 
-/// What 100 drives cost before and after, in the median of the ratios; begun from closed forms or from the arcs that drives begin with.
+/// What 100 drives cost before and after, in the median of the ratios; begun from closed forms or from the arcs that
+/// drives begin with.
 fn lowered(site: &Site<'_>, cost: GroundCost, arcs: bool) -> Vec<[f64; 2]> {
     let bounds = site.bounds();
     let precision = Precision { position: 1e-5, yaw: 1e-5, curvature: 1e-5 };

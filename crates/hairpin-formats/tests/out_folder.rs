@@ -86,7 +86,8 @@ fn a_run_is_valid_only_if_it_is_whole_and_the_one_named() {
     ));
 }
 
-/// Whoever reads cases walks legs by number: a file that has too few, or times for too many, would be walked beyond its end.
+/// Whoever reads cases walks legs by number: a file that has too few, or times for too many, would be walked beyond its
+/// end.
 #[test]
 fn legs_are_as_many_as_there_are_between_waypoints() {
     let place = tempfile::tempdir().unwrap();

@@ -1,9 +1,9 @@
 //! The proof that an arm's first program is the heaviest: kept beside the graph, and checked against it by independent
 //! code.
 //!
-//! `optimum.json` is a certificate as of `max-load --certificate`, of the graph in `graph.csv`, of its arcs in `arcs.csv` where it has any, and, where home
-//! can be left for or reached from some points only, two points more: `from_home` and `to_home` say which. `decimals`
-//! are those of the graph's unit that its whole numbers stand for.
+//! `optimum.json` is a certificate as of `max-load --certificate`, of the graph in `graph.csv`, of its arcs in
+//! `arcs.csv` where it has any, and, where home can be left for or reached from some points only, two points more:
+//! `from_home` and `to_home` say which. `decimals` are those of the graph's unit that its whole numbers stand for.
 
 use std::fs;
 

@@ -1,5 +1,6 @@
-//! The kernels of the searches, for profiling, on the graphs of `hairpin bench`, which measures the promised figures through
-//! the whole pipeline: `hull` of FlightGoggles, 250 waypoints, start (10, 10, 10), end (20, 20, 20), no speed cap.
+//! The kernels of the searches, for profiling, on the graphs of `hairpin bench`, which measures the promised figures
+//! through the whole pipeline: `hull` of FlightGoggles, 250 waypoints, start (10, 10, 10), end (20, 20, 20), no speed
+//! cap.
 
 use std::cell::Cell;
 

@@ -101,8 +101,9 @@ fn proven(bencher: divan::Bencher) {
         .bench_local(|| legs.iter().map(|leg| judge.prove(leg)).filter(Result::<(), Infeasible>::is_ok).count());
 }
 
-/// One graph of the shipped scenario: 250 waypoints of 8 velocities each, beam of width 5, length 10, from its roadmap to
-/// its first trajectory. The roadmap's own necessary test is exact one step from the end, so the beam needs no lookahead.
+/// One graph of the shipped scenario: 250 waypoints of 8 velocities each, beam of width 5, length 10, from its roadmap
+/// to its first trajectory. The roadmap's own necessary test is exact one step from the end, so the beam needs no
+/// lookahead.
 #[divan::bench(sample_count = 20)]
 fn beam_graph(bencher: divan::Bencher) {
     let (judge, world) = (judge(), cage());

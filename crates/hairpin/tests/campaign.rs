@@ -68,7 +68,8 @@ fn every_reach_set_by_every_search_gives_what_it_claims() {
     }
 }
 
-/// Every second difference lies in the hull of simulated ends; the robot has no linear drag, so velocity is carried whole.
+/// Every second difference lies in the hull of simulated ends; the robot has no linear drag, so velocity is carried
+/// whole.
 fn check_hull(robot: &Quadrotor, case: &Case, what: &str) {
     assert_eq!(robot.drag_linear, 0.0);
     let speeds = sampling::constant_speeds(robot, 3);
@@ -151,7 +152,8 @@ fn a_graph_whose_executions_were_cut_off_is_searched_again() {
     let looks = AtomicUsize::new(0);
     let looking = || looks.fetch_add(1, Ordering::Relaxed) == usize::MAX;
     generate(&setup, &Known::default(), &Stop { cancelled: &looking, ..ENDLESS }, &mut |_, _| {});
-    // Asked for the n-th time, the caller wants to stop: before, within and behind graphs, and before the last one that is needed.
+    // Asked for the n-th time, the caller wants to stop: before, within and behind graphs, and before the last one that
+    // is needed.
     for share in [0, 1, 2, 3, 4, 5, 6] {
         let patience = looks.load(Ordering::Relaxed) * share / 10;
         let looks = AtomicUsize::new(0);

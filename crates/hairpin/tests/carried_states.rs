@@ -1,5 +1,5 @@
-//! Campaigns by `published` and by `hull` with other states at the waypoints (`estimate`), leg by leg against ends that are
-//! integrated here.
+//! Campaigns by `published` and by `hull` with other states at the waypoints (`estimate`), leg by leg against ends that
+//! are integrated here.
 
 mod campaigns;
 
@@ -58,8 +58,8 @@ fn fly(setup: &Setup, (pull, turn): (f64, Vector3<f64>), start: &End) -> End {
     end
 }
 
-/// One Euler step of 1 s of the Euler angles from level rest, each quantity from those already stepped: no angle but those
-/// that one second of the rates makes.
+/// One Euler step of 1 s of the Euler angles from level rest, each quantity from those already stepped: no angle but
+/// those that one second of the rates makes.
 fn leap(setup: &Setup, (pull, turn): (f64, Vector3<f64>)) -> Vector3<f64> {
     let [roll, pitch, yaw] = [turn.x, turn.y, turn.z];
     let up = UnitQuaternion::from_euler_angles(roll, pitch, yaw) * Vector3::z();

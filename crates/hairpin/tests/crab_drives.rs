@@ -1,4 +1,5 @@
-//! Drives whose direction of travel turns in the body: found over craters, replayed by other code, followed by every controller.
+//! Drives whose direction of travel turns in the body: found over craters, replayed by other code, followed by every
+//! controller.
 
 use hairpin::campaign::drive::Site;
 use hairpin::feasibility::reach::drive::{
@@ -189,7 +190,8 @@ impl Run {
     }
 }
 
-/// Nearly as closely as straight ahead (`ground_drives/main.rs`), on rolling ground; and where it gives way and commands act late, in the same order.
+/// Nearly as closely as straight ahead (`ground_drives/main.rs`), on rolling ground; and where it gives way and
+/// commands act late, in the same order.
 #[test]
 fn each_controller_follows_a_direction_that_turns() {
     let (map, rover, free) = (yard(0.3, f64::INFINITY), rocky8(), KeepOuts::default());

@@ -105,7 +105,8 @@ fn what_is_planned_is_clear_of_what_was_placed_and_what_is_driven_comes_nearer()
     }
 }
 
-/// What controllers see does not hold what they are to be kept from: up to where a drive meets it, it is the drive without.
+/// What controllers see does not hold what they are to be kept from: up to where a drive meets it, it is the drive
+/// without.
 #[test]
 fn a_drive_is_the_same_with_and_without_keep_outs_until_it_meets_one() {
     for controller in ["pure-pursuit", "stanley", "predictive"] {

@@ -1,5 +1,5 @@
-//! Fit for flight: once the vehicle and its map are there, solving takes nothing from the heap, asks no clock, starts no thread, and
-//! holds no call that is made to panic.
+//! Fit for flight: once the vehicle and its map are there, solving takes nothing from the heap, asks no clock, starts
+//! no thread, and holds no call that is made to panic.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -165,7 +165,8 @@ const NOT_ON_BOARD: &[&str] = &[
     "todo!(",
     "unimplemented!(",
 ];
-/// Made once, before: the map's table and its errors in words, the vehicle's name; whole missions, which no solver makes.
+/// Made once, before: the map's table and its errors in words, the vehicle's name; whole missions, which no solver
+/// makes.
 const MADE_BEFORE: &[(&str, &[&str])] = &[
     ("world/terrain/map.rs", &["Vec<", "Vec::", "vec![", "String", ".to_string()", ".collect"]),
     ("shooting/flat/start_table.rs", &["Vec<"]),

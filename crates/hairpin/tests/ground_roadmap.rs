@@ -1,4 +1,5 @@
-//! Feasible drives over waypoints: every leg that a search returns meets its waypoint by another integrator, and keeps its limits.
+//! Feasible drives over waypoints: every leg that a search returns meets its waypoint by another integrator, and keeps
+//! its limits.
 
 use std::time::Instant;
 

@@ -129,7 +129,8 @@ fn with_sixteen_points_both_ways_give_the_heaviest_path_and_a_claim_that_holds()
     assert!((1..40).contains(&by_branching), "{by_branching} of 40 by branching: one way is not tried");
 }
 
-/// Points in narrow clusters, where a single tree says little: with subgradients alone thousands of splits left the first two open.
+/// Points in narrow clusters, where a single tree says little: with subgradients alone thousands of splits left the
+/// first two open.
 #[test]
 fn clusters_are_proven_with_few_splits_and_the_proof_holds() {
     for index in [1, 8, 5] {

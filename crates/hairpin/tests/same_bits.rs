@@ -1,4 +1,5 @@
-//! The bits that one machine gave, which every other must give: hulls, witness legs, flights and the functions below them.
+//! The bits that one machine gave, which every other must give: hulls, witness legs, flights and the functions below
+//! them.
 //!
 //! A change of the numerics moves them, and then puts the new ones here; a change of the machine must not.
 

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 /// Pairs have the same case number, seed and waypoints. Exit code 1 where a case fails in B that passes in A; with
-/// `--fail-on regression` also where a metric got worse: Wilcoxon's signed-rank test, corrected for the number of metrics
-/// (Holm), below 0.05. Exit code 5 where pairs there are and none could be compared: executors failed, or data are
-/// inconclusive.
+/// `--fail-on regression` also where a metric got worse: Wilcoxon's signed-rank test, corrected for the number of
+/// metrics (Holm), below 0.05. Exit code 5 where pairs there are and none could be compared: executors failed, or data
+/// are inconclusive.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// Judged campaign folder: before

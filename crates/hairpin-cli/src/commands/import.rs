@@ -1,4 +1,5 @@
-//! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking module.
+//! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking
+//! module.
 
 use hairpin_jobs::Problem;
 use hairpin_jobs::import::{Follow, Follower, ImportSettings, Imported, Read, import};

@@ -1,4 +1,5 @@
-//! `hairpin simulate`: a rotor-speed profile through the plant, open loop, so that other programs can check our physics.
+//! `hairpin simulate`: a rotor-speed profile through the plant, open loop, so that other programs can check our
+//! physics.
 
 use hairpin_formats::csv;
 use hairpin_jobs::Problem;

@@ -140,8 +140,9 @@ const RADIANS: &[(&str, f64)] = &[("_rad", 1.0), ("_deg", std::f64::consts::PI /
 /// | joints | `q1_rad` … `q6_rad`, or `j`, `joint`, `joint_`, `axis` for `q`, or `_deg` |
 /// | move | `move`, from 0 |
 ///
-/// Cells are separated by commas, tabs, or semicolons, and with the latter two a decimal comma is understood. Without positions the
-/// joints go through `arm`: base_from_tcp = base_from_flange(q) · flange_from_tcp. Stamps are taken as they are, however far apart.
+/// Cells are separated by commas, tabs, or semicolons, and with the latter two a decimal comma is understood. Without
+/// positions the joints go through `arm`: base_from_tcp = base_from_flange(q) · flange_from_tcp. Stamps are taken as
+/// they are, however far apart.
 ///
 /// # Errors
 /// The first thing wrong, with line, column and value; stamps that do not rise; fewer than two samples.

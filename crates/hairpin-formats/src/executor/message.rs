@@ -67,8 +67,8 @@ pub struct TimedMessage {
     pub v_m_s: [f64; 3],
 }
 
-/// What a mission looks like to an executor. A robot that flies has all its numbers, derived ones too; one that drives has its
-/// file's, and its map is the campaign folder's.
+/// What a mission looks like to an executor. A robot that flies has all its numbers, derived ones too; one that drives
+/// has its file's, and its map is the campaign folder's.
 pub fn mission_message(mission: &Mission) -> ToExecutor {
     let timed = mission.timed.iter().map(|sample| TimedMessage {
         t_s: sample.t,

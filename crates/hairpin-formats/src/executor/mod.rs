@@ -12,9 +12,9 @@
 //! > {"type":"bye"}
 //! ```
 //!
-//! `leg`, `v_m_s` and `q_wxyz` may be left out: legs are then assigned along the path, velocities differentiated, and the
-//! attitude counts as unknown (channel [`ATTITUDE_UNKNOWN`]). The first pose may lie anywhere, and `done` may be claimed
-//! anywhere: the judge sees what was flown, and a `done` without the last waypoint is an unfinished mission.
+//! `leg`, `v_m_s` and `q_wxyz` may be left out: legs are then assigned along the path, velocities differentiated, and
+//! the attitude counts as unknown (channel [`ATTITUDE_UNKNOWN`]). The first pose may lie anywhere, and `done` may be
+//! claimed anywhere: the judge sees what was flown, and a `done` without the last waypoint is an unfinished mission.
 //!
 //! Missions of drives under a steady force say it in `external_force_n` (east, north, up, N).
 //!

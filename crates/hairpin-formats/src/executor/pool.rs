@@ -12,8 +12,9 @@ use super::worker::{Command, Limits, Worker};
 /// A program that failed this often in a row to say `ready` is not started again.
 const HOPELESS: usize = 3;
 
-/// Flies missions `0..count` by `workers` processes of `command`; `mission(i)` makes the i-th (or says why it cannot be flown), `landed(i, …)` takes its
-/// flight, both from any thread and in any order. What was being flown when `cancelled` became true is not reported.
+/// Flies missions `0..count` by `workers` processes of `command`; `mission(i)` makes the i-th (or says why it cannot be
+/// flown), `landed(i, …)` takes its flight, both from any thread and in any order. What was being flown when
+/// `cancelled` became true is not reported.
 ///
 /// A program that cannot even be started fails every mission with the same sentence.
 pub fn fly_all(

@@ -11,8 +11,8 @@ const LOOK: Duration = Duration::from_millis(5);
 /// Numbers of the children that were started and not yet reaped: so long they cannot belong to anybody else.
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 
-/// Starts `command` in a process group of its own: Ctrl-C on the terminal is for hairpin, which ends its executors in order,
-/// and a shell's or launcher's children can be ended with it.
+/// Starts `command` in a process group of its own: Ctrl-C on the terminal is for hairpin, which ends its executors in
+/// order, and a shell's or launcher's children can be ended with it.
 pub(crate) fn start(command: &mut std::process::Command) -> io::Result<Child> {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);

@@ -7,7 +7,8 @@ use super::{Figure, Marks, Point, Scale, Series, Spread};
 
 /// Pixels, without the legend.
 const SIZE: (u32, u32) = (820, 500);
-/// Height of a row of the legend, which stands below, where it hides nothing, and the room that a letter and a key take.
+/// Height of a row of the legend, which stands below, where it hides nothing, and the room that a letter and a key
+/// take.
 const ROW: u32 = 20;
 const LETTER: f64 = 7.0;
 const KEY: i32 = 16;

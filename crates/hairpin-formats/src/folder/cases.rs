@@ -99,7 +99,8 @@ impl CampaignFolder {
         }
     }
 
-    /// Reads the control witness of `case`, of a flight or of a drive, into it; leaves it without one where there is none.
+    /// Reads the control witness of `case`, of a flight or of a drive, into it; leaves it without one where there is
+    /// none.
     ///
     /// # Errors
     /// The file is broken.

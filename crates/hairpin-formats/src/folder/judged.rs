@@ -36,8 +36,8 @@ impl CampaignFolder {
         Ok(self.read_rows()?.into_iter().filter_map(|row| row.result).collect())
     }
 
-    /// Writes which cells of the grid of motion were met: `coverage.json`, and as a table `coverage.tsv`, a row per cell: with tabs, for every CSV of a
-    /// campaign is a motion in time.
+    /// Writes which cells of the grid of motion were met: `coverage.json`, and as a table `coverage.tsv`, a row per
+    /// cell: with tabs, for every CSV of a campaign is a motion in time.
     ///
     /// # Errors
     /// A file cannot be written.
@@ -111,7 +111,8 @@ impl CampaignFolder {
     }
 }
 
-/// The columns of an axis in `coverage.tsv`: `speed_from_m_s` and `speed_to_m_s`, or its name where its cells have words.
+/// The columns of an axis in `coverage.tsv`: `speed_from_m_s` and `speed_to_m_s`, or its name where its cells have
+/// words.
 fn columns(axis: &Axis) -> Vec<String> {
     let snake = |text: &str| text.replace('°', "deg").replace('%', "percent").replace(['/', ' '], "_");
     let unit = if axis.unit.is_empty() { String::new() } else { format!("_{}", snake(&axis.unit)) };

@@ -23,8 +23,8 @@
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
 //! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
 //!
-//! Files are written one by one and each at once, in an order in which each says no more than those before it: the cases'
-//! own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
+//! Files are written one by one and each at once, in an order in which each says no more than those before it: the
+//! cases' own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
 
 mod cases;
 mod copy;
@@ -172,7 +172,8 @@ impl CampaignFolder {
         self.read_json(GENERATION)
     }
 
-    /// Writes where the largest stress executed in a graph rose, a row each, and where it stood at the end; nothing to say leaves no file.
+    /// Writes where the largest stress executed in a graph rose, a row each, and where it stood at the end; nothing to
+    /// say leaves no file.
     ///
     /// # Errors
     /// The file cannot be written.

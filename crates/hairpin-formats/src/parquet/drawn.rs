@@ -12,7 +12,8 @@ pub(super) type Drawn = Vec<(String, Value)>;
 
 const PREFIX: &str = "vary:";
 
-/// The columns' names and values for `drawn`: scalars as they are, arrays of scalars elementwise, all else as JSON text.
+/// The columns' names and values for `drawn`: scalars as they are, arrays of scalars elementwise, all else as JSON
+/// text.
 pub fn flatten(drawn: &[(String, Value)]) -> Vec<(String, Value)> {
     let mut flat = Vec::new();
     for (key, value) in drawn {

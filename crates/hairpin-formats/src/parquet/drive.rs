@@ -1,9 +1,10 @@
 //! `profiles/CASE.parquet` of a drive: its commands, one row per segment:
 //! `leg,segment,kind,direction,length_m,turn_rad,a0…a5,from_x_m,from_y_m,from_yaw_rad,from_curvature_1_m,to_x_m,…`.
 //!
-//! The leg's ends stand in each of its rows, and its speeds: `profile` (constant, ramp, trapezoid) with `start_speed_m_s`,
-//! `cruise_speed_m_s`, `end_speed_m_s`, `acceleration_m_s2`, NaN where a profile has none; and the direction of travel in the body there,
-//! `travel_direction_rad` and `travel_direction_end_rad`. The highest speed and the turn rate stand in every row.
+//! The leg's ends stand in each of its rows, and its speeds: `profile` (constant, ramp, trapezoid) with
+//! `start_speed_m_s`, `cruise_speed_m_s`, `end_speed_m_s`, `acceleration_m_s2`, NaN where a profile has none; and the
+//! direction of travel in the body there, `travel_direction_rad` and `travel_direction_end_rad`. The highest speed and
+//! the turn rate stand in every row.
 
 use std::path::Path;
 use std::sync::Arc;

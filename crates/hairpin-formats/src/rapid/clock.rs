@@ -52,8 +52,9 @@ pub struct Clocked {
     pub left_out: Vec<(usize, usize)>,
 }
 
-/// The module: from home to the start, along every arc that can be reached at least once, back to the start and home. Every arc
-/// ends in a stop, is clocked from standstill to standstill, and logged as `from;to;ms` into `HOME:/arc_ms.log`.
+/// The module: from home to the start, along every arc that can be reached at least once, back to the start and home.
+/// Every arc ends in a stop, is clocked from standstill to standstill, and logged as `from;to;ms` into
+/// `HOME:/arc_ms.log`.
 ///
 /// # Errors
 /// An arc or the start beyond the points; names and numbers as in [`super::module`].
@@ -109,8 +110,8 @@ pub fn arc_clock(clocking: &Clocking<'_>) -> Result<Clocked, RapidError> {
     Ok(Clocked { text, walk, left_out })
 }
 
-/// A walk from `start` and back along all arcs from which `start` can be reached again; always the lowest arc that is left,
-/// else the way of fewest arcs to one.
+/// A walk from `start` and back along all arcs from which `start` can be reached again; always the lowest arc that is
+/// left, else the way of fewest arcs to one.
 fn walk(count: usize, arcs: &[(usize, usize)], start: usize) -> (Vec<usize>, Vec<(usize, usize)>) {
     let mut next = vec![Vec::new(); count];
     let mut previous = vec![Vec::new(); count];
@@ -217,7 +218,8 @@ pub struct ArcTimes {
 }
 
 impl ArcTimes {
-    /// The table of costs: one line a point to come from, one cell a point to go to, ms; empty where nothing was clocked.
+    /// The table of costs: one line a point to come from, one cell a point to go to, ms; empty where nothing was
+    /// clocked.
     pub fn csv(&self) -> String {
         let cell = |a, b| self.arcs.get(&(a, b)).map_or(String::new(), |(ms, _)| decimal(*ms, 3));
         let row = |a| (0..self.points).map(|b| cell(a, b)).collect::<Vec<_>>().join(",");

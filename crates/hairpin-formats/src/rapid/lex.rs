@@ -187,8 +187,8 @@ impl<'a> Reader<'a> {
         from + self.rest[from..].bytes().take_while(u8::is_ascii_digit).count()
     }
 
-    /// A string; `""` and `\\` stand for one of them, `\` and two hexadecimal digits for a byte. It ends with its line at the
-    /// latest, so that a missing quote spoils one line only.
+    /// A string; `""` and `\\` stand for one of them, `\` and two hexadecimal digits for a byte. It ends with its line
+    /// at the latest, so that a missing quote spoils one line only.
     fn text(&mut self) -> Word {
         self.take(1);
         let mut text = String::new();

@@ -1,6 +1,7 @@
 //! ABB's RAPID, out and in: programs as modules that controllers load, and modules from cells as programs.
 //!
-//! The subset is in `docs/rapid.md`. What is written reads back to the same program, and that is written as the same bytes.
+//! The subset is in `docs/rapid.md`. What is written reads back to the same program, and that is written as the same
+//! bytes.
 
 mod builtin;
 mod clock;

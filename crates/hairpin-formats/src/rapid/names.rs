@@ -121,8 +121,8 @@ pub fn check_name(name: &str) -> Result<(), NameError> {
     if taken { Err(NameError::Reserved { name: name.into() }) } else { Ok(()) }
 }
 
-/// The name nearest to `wanted` that passes [`check_name`]: other characters become `_`, `p` goes before what begins with
-/// none of the letters or is reserved, and what is too long is cut.
+/// The name nearest to `wanted` that passes [`check_name`]: other characters become `_`, `p` goes before what begins
+/// with none of the letters or is reserved, and what is too long is cut.
 pub fn as_name(wanted: &str) -> String {
     let mut name: String = wanted.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {

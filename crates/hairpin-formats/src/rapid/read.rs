@@ -107,8 +107,8 @@ impl Module {
 /// What is nested is read and executed by recursion, as deep as the limits allow; the caller's stack may be small.
 const STACK: usize = 64 << 20;
 
-/// Reads a file. Nothing in it is refused but a file without a module: what is not understood is told, and the moves up to
-/// there are certain.
+/// Reads a file. Nothing in it is refused but a file without a module: what is not understood is told, and the moves up
+/// to there are certain.
 ///
 /// # Errors
 /// [`NoModule`].

@@ -18,8 +18,8 @@ enum Kept {
     Runs(Moves),
 }
 
-/// Reads the baseline at `path`: a judged campaign folder, on top of the baseline that it has itself; its `moves.json`; or a `baseline.json`.
-/// Gives it, and the text that another campaign keeps of it.
+/// Reads the baseline at `path`: a judged campaign folder, on top of the baseline that it has itself; its `moves.json`;
+/// or a `baseline.json`. Gives it, and the text that another campaign keeps of it.
 ///
 /// # Errors
 /// Nothing there, a folder that was not judged, another JSON, fewer than two runs of a program: in a sentence's part.

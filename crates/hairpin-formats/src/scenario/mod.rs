@@ -83,7 +83,8 @@ pub fn scenario_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Sce
     read_scenario(around.text, around.path, Path::new(""), &sets)
 }
 
-/// The scenario of an arm for the points of a file: that of a shipped name or a file, or a bare cell around a robot's name or file.
+/// The scenario of an arm for the points of a file: that of a shipped name or a file, or a bare cell around a robot's
+/// name or file.
 ///
 /// # Errors
 /// As [`read_scenario`]; nothing of that name.
@@ -116,7 +117,8 @@ pub fn arm_scenario_for(cell: &str, points: &Path, sets: &[(String, String)]) ->
     read_scenario(&bare, cell, Path::new(""), &sets)
 }
 
-/// Reads what a resolved scenario names in `folder`, as beside a repro file, or in the folder above: its map, its cloud.
+/// Reads what a resolved scenario names in `folder`, as beside a repro file, or in the folder above: its map, its
+/// cloud.
 ///
 /// # Errors
 /// A file cannot be read, or is another one.

@@ -1,7 +1,8 @@
 //! Scores of the user's own: the Python file that `score = "python:FILE"` names.
 //!
-//! The file defines `score(leg)` and, if legs leave something to the next, `left(leg)`; `leg` is a dictionary. Both must be functions of
-//! the leg alone. Python runs beside hairpin, one process for each thread that asks; nothing of the file runs but where legs are to be scored.
+//! The file defines `score(leg)` and, if legs leave something to the next, `left(leg)`; `leg` is a dictionary. Both
+//! must be functions of the leg alone. Python runs beside hairpin, one process for each thread that asks; nothing of
+//! the file runs but where legs are to be scored.
 
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader, Write};

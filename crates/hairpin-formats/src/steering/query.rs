@@ -1,5 +1,5 @@
-//! Queries as CSV: `id,x,y,yaw,k0,kf`, with or without `sx,sy,syaw`, and optional columns. A row that is wrong is told as
-//! such and its neighbours stand; a file that is no table of queries is refused as a whole.
+//! Queries as CSV: `id,x,y,yaw,k0,kf`, with or without `sx,sy,syaw`, and optional columns. A row that is wrong is told
+//! as such and its neighbours stand; a file that is no table of queries is refused as a whole.
 
 use std::fs;
 use std::io;

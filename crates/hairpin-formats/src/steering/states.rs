@@ -35,8 +35,8 @@ fn pose(state: &VehicleState, frame: Frame) -> [f64; 3] {
     }
 }
 
-/// The path of states; without wheels there is no underside and nothing that tips, and their columns are empty. Joints and forces have
-/// columns where the vehicle has them.
+/// The path of states; without wheels there is no underside and nothing that tips, and their columns are empty. Joints
+/// and forces have columns where the vehicle has them.
 ///
 /// # Errors
 /// Memory that cannot be had.

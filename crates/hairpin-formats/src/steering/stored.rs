@@ -1,4 +1,5 @@
-//! Solved drives as they are kept for comparison: CSV, one problem with its drive a row, below comments that say how it was made.
+//! Solved drives as they are kept for comparison: CSV, one problem with its drive a row, below comments that say how it
+//! was made.
 
 use std::fmt::Write as _;
 

@@ -154,7 +154,8 @@ fn write_csv(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     Ok(written)
 }
 
-/// `CASE.ref.tum` and `CASE.exec.tum`: the planned motion and the worst run of every judged case (run 0 before judging).
+/// `CASE.ref.tum` and `CASE.exec.tum`: the planned motion and the worst run of every judged case (run 0 before
+/// judging).
 fn write_tum(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     let folder = &work.folder;
     let table = folder.read_runs_table()?;

@@ -48,7 +48,8 @@ pub(super) fn suite(
     }
 }
 
-/// `reruns 0117`: `3 of 10 violate, share 0.30 [0.07, 0.65]`. A test case of Jenkins' schema has no properties of its own.
+/// `reruns 0117`: `3 of 10 violate, share 0.30 [0.07, 0.65]`. A test case of Jenkins' schema has no properties of its
+/// own.
 fn rerun_property(result: &CaseResult) -> Option<(String, String)> {
     let reruns = result.reruns?;
     let share = reruns.share(CONFIDENCE)?;

@@ -112,9 +112,9 @@ impl Comparison {
     }
 }
 
-/// Compares judged cases of two campaigns. Pairs have the same number, the same seed, the same waypoints to the bit and the same environment. Two
-/// runs that both pass or both fail are told apart by whether they crashed, then by their largest deviation, of which
-/// `tolerance` (m) is no difference.
+/// Compares judged cases of two campaigns. Pairs have the same number, the same seed, the same waypoints to the bit and
+/// the same environment. Two runs that both pass or both fail are told apart by whether they crashed, then by their
+/// largest deviation, of which `tolerance` (m) is no difference.
 pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f64) -> Comparison {
     let by_number = |side: &[(Case, CaseResult)]| -> BTreeMap<usize, usize> {
         side.iter().enumerate().map(|(index, (case, _))| (case.number, index)).collect()

@@ -1,7 +1,7 @@
 //! What a test set exercised: cells of a grid over how the robot moved, and which of them were met.
 //!
-//! Flights: speed × turn × climb of every leg flown. Drives: slope × curvature × slip of every sample. Arms: joint × place in its
-//! range × speed × direction of every sample, reversals with the speed that they came from.
+//! Flights: speed × turn × climb of every leg flown. Drives: slope × curvature × slip of every sample. Arms: joint ×
+//! place in its range × speed × direction of every sample, reversals with the speed that they came from.
 
 use std::collections::{BTreeMap, BTreeSet};
 

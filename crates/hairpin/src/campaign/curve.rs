@@ -14,8 +14,8 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The curve of graph number `graph`, whose largest stress after execution number i + 1 was `best_so_far[i]`; −∞ where none had
-    /// succeeded yet.
+    /// The curve of graph number `graph`, whose largest stress after execution number i + 1 was `best_so_far[i]`; −∞
+    /// where none had succeeded yet.
     pub fn of(graph: u64, best_so_far: &[f64]) -> Self {
         let mut curve = Self { graph, ..Self::default() };
         for &stress in best_so_far {

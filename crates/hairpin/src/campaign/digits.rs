@@ -1,7 +1,7 @@
 //! Numbers as people read them: the one place that rounds, so that table, report, JUnit and verdict agree.
 
-/// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing. Nothing is never less than
-/// nothing: what these digits do not show has no sign.
+/// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing. Nothing is
+/// never less than nothing: what these digits do not show has no sign.
 pub fn number(value: Option<f64>) -> String {
     match value {
         None => "–".into(),

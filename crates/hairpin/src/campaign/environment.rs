@@ -1,4 +1,5 @@
-//! What a case met beside its waypoints, where that was searched for: wind, a gust, a steady force, obstacles. It is part of the case.
+//! What a case met beside its waypoints, where that was searched for: wind, a gust, a steady force, obstacles. It is
+//! part of the case.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +7,8 @@ use super::Scenario;
 use super::digits::number;
 use super::scenario::{DiscreteGustSection, KeepOutSection, Mistake, ObstacleSection};
 
-/// Found with the waypoints of a flight or drive; keys and units are those of `[world]`, those of the force of `[execute]`.
+/// Found with the waypoints of a flight or drive; keys and units are those of `[world]`, those of the force of
+/// `[execute]`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Environment {

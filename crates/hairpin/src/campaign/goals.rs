@@ -28,14 +28,15 @@ pub const FLAT_LENGTHS: Range<f64> = 1.0..12.0;
 /// How far from the start goals are that lie anywhere, in units of the least radius.
 pub const ANYWHERE: f64 = 6.0;
 
-/// On the ground: lengths (m), the tilt from which a drive is not asked for (rad), the distance kept from the map's edge (m).
+/// On the ground: lengths (m), the tilt from which a drive is not asked for (rad), the distance kept from the map's
+/// edge (m).
 pub const GROUND_LENGTHS: Range<f64> = 1.0..6.0;
 const STEEP: f64 = PI / 6.0;
 const MARGIN: f64 = 2.0;
 /// Steps of the drives whose ends are goals on the ground.
 const FINE: Steps = Steps { length: 0.005, angle: 0.005, least: 100 };
-/// Steps in which those are driven again where the body's roll or pitch differs by more than this (rad) from what was foreseen: of
-/// 10 000 drives on a Mars yard 23 do, and one of them leads nowhere.
+/// Steps in which those are driven again where the body's roll or pitch differs by more than this (rad) from what was
+/// foreseen: of 10 000 drives on a Mars yard 23 do, and one of them leads nowhere.
 const FINEST: Steps = Steps { length: 0.001, angle: 0.001, least: 500 };
 const FALL: f64 = 0.05;
 /// Drives that are tried for a goal on the ground, at most: maps may be too steep or too small.
@@ -100,8 +101,8 @@ pub fn flat_goal(random: &mut Stream, bounds: &Curvatures) -> Query {
     end_of(&smooth_arc(random, bounds, &lengths, 6))
 }
 
-/// A flat query for any place within ± [`ANYWHERE`], any heading, curvatures within ± `bend` of the bound at both ends: few are
-/// met by a forward arc, all with reversals.
+/// A flat query for any place within ± [`ANYWHERE`], any heading, curvatures within ± `bend` of the bound at both ends:
+/// few are met by a forward arc, all with reversals.
 pub fn anywhere(random: &mut Stream, bounds: &Curvatures, bend: f64) -> Query {
     let mut within = |most: f64| most * (2.0 * unit(random) - 1.0);
     let reach = ANYWHERE / bounds.most;
@@ -109,8 +110,8 @@ pub fn anywhere(random: &mut Stream, bounds: &Curvatures, bend: f64) -> Query {
     Query { start_curvature: within(bend * bounds.most), goal }
 }
 
-/// Up to `count` pairs of a start and a goal on the ground of `site` that a cubic arc within the vehicle's bounds joins,
-/// [`GROUND_LENGTHS`] long, away from the map's edge and from slopes that tilt the body by 30° and more.
+/// Up to `count` pairs of a start and a goal on the ground of `site` that a cubic arc within the vehicle's bounds
+/// joins, [`GROUND_LENGTHS`] long, away from the map's edge and from slopes that tilt the body by 30° and more.
 ///
 /// Fewer where the map has no room for them.
 pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(Planar, Planar)> {

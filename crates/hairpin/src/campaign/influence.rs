@@ -34,9 +34,9 @@ pub struct Influence {
     pub runs: usize,
 }
 
-/// Of every number under the scenario's `[vary]`, the largest |ρ| first. What was not drawn (for run 0, for the plan of case 0) counts with its
-/// nominal value where the scenario has one. Keys that choose between words, or that did not vary, have no rank; nor
-/// have those of `spec`, which judge a flight and do not move it.
+/// Of every number under the scenario's `[vary]`, the largest |ρ| first. What was not drawn (for run 0, for the plan of
+/// case 0) counts with its nominal value where the scenario has one. Keys that choose between words, or that did not
+/// vary, have no rank; nor have those of `spec`, which judge a flight and do not move it.
 pub fn influences(scenario: &Scenario, runs: &[RunDeviation]) -> Vec<Influence> {
     let nominal = vary::as_value(scenario);
     let mut found = Vec::new();

@@ -198,7 +198,8 @@ fn judge_run(
     }))
 }
 
-/// How far the robot, a ball or a disc about its origin, is from what it must not meet, m; `None` where there is nothing.
+/// How far the robot, a ball or a disc about its origin, is from what it must not meet, m; `None` where there is
+/// nothing.
 fn clearance_of(setup: &Setup) -> Option<Box<Clearance<'_>>> {
     match setup.kind() {
         Kind::Flight(setup) => {

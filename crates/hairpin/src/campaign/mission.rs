@@ -38,8 +38,8 @@ pub struct Mission {
     pub timed: Vec<Timed>,
 }
 
-/// Run number `run` of `case` once more, for the time number `again`, with other noise: what was drawn for `[vary]` stays, the noise of the
-/// robot's own densities is on whether or not it is in the scenario, and its seed is another.
+/// Run number `run` of `case` once more, for the time number `again`, with other noise: what was drawn for `[vary]`
+/// stays, the noise of the robot's own densities is on whether or not it is in the scenario, and its seed is another.
 ///
 /// # Errors
 /// As [`mission`].

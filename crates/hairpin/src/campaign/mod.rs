@@ -1,4 +1,5 @@
-//! Floor 7: the pipeline. A scenario in; cases generated, executed and judged; one file per job. No files, no arguments.
+//! Floor 7: the pipeline. A scenario in; cases generated, executed and judged; one file per job. No files, no
+//! arguments.
 
 pub mod arm;
 pub mod assumptions;

@@ -53,8 +53,8 @@ pub(super) struct Placed {
 }
 
 impl Placing<'_> {
-    /// Up to `count` solids in the way of `track`, whose samples are at `places`; those first that it gets into the deepest. `None` where
-    /// there is no room for any.
+    /// Up to `count` solids in the way of `track`, whose samples are at `places`; those first that it gets into the
+    /// deepest. `None` where there is no room for any.
     pub(super) fn in_the_way_of(&self, track: &Track, places: &[Point3<f64>]) -> Option<Placed> {
         let stride = places.len().div_ceil(SAMPLES).max(1);
         let mut samples: Vec<(f64, Point3<f64>, Point3<f64>)> = places
@@ -107,8 +107,8 @@ impl Placing<'_> {
         points.min_by(|a, b| (p - a).norm_squared().total_cmp(&(p - b).norm_squared())).unwrap_or(*p)
     }
 
-    /// The solid nearest to `p`, in the direction `away`, that is `apart` from all of the way: moved from what it is too near to until it
-    /// is not.
+    /// The solid nearest to `p`, in the direction `away`, that is `apart` from all of the way: moved from what it is
+    /// too near to until it is not.
     fn beside(&self, p: &Point3<f64>, away: &Unit<Vector3<f64>>, apart: f64) -> Option<(Point3<f64>, Shape)> {
         let mut center = p + away.as_ref() * LEAST;
         for _ in 0..STEPS {

@@ -21,8 +21,8 @@ pub enum PlanError {
     Drive(#[from] SimulationError),
 }
 
-/// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`: of flights at 100 Hz, of drives step by step
-/// of its prediction on the ground.
+/// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`: of flights at 100 Hz, of drives step by
+/// step of its prediction on the ground.
 ///
 /// # Errors
 /// A case whose numbers are no track, as a folder that was edited may hold.

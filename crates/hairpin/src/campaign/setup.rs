@@ -62,14 +62,15 @@ impl Setup {
         Self { simd, ..self }
     }
 
-    /// The same executed by a controller of the caller's own, wherever the scenario's would execute: runs, searches that execute,
-    /// re-runs, candidates of a shrinking. What is told of the campaign names it.
+    /// The same executed by a controller of the caller's own, wherever the scenario's would execute: runs, searches
+    /// that execute, re-runs, candidates of a shrinking. What is told of the campaign names it.
     ///
     /// The scenario's own keys stay as they are. A folder keeps a scenario and no code, so one that is written of this
     /// names the controller in its report and verdict only, and is resumed and replayed by those who have the code.
     ///
     /// # Errors
-    /// A controller of another kind of robot, or without a name; a scenario that has a command executed, or varies what only ours have.
+    /// A controller of another kind of robot, or without a name; a scenario that has a command executed, or varies what
+    /// only ours have.
     pub fn with_controller(self, controller: impl Into<AnyController>) -> Result<Self, Mistake> {
         let controller = controller.into();
         match controller.mistake(&self.scenario) {
@@ -83,7 +84,8 @@ impl Setup {
         self.own_controller.as_ref()
     }
 
-    /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; kernels and controller stay these.
+    /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; kernels and controller stay
+    /// these.
     pub(super) fn of_draw(&self, scenario: Scenario) -> Result<Self, Mistake> {
         Ok(Self { own_controller: self.own_controller.clone(), ..Self::build(scenario, self.simd)? })
     }

@@ -21,8 +21,8 @@ struct Executed {
     measures: Measures,
 }
 
-/// Executes `plan` of graph number `graph`; `None` where the simulator or the judge refuses. What comes to the stress `least` is executed
-/// `confirm` times more, under noise, and its stress is the mean; NaN where one of those fails.
+/// Executes `plan` of graph number `graph`; `None` where the simulator or the judge refuses. What comes to the stress
+/// `least` is executed `confirm` times more, under noise, and its stress is the mean; NaN where one of those fails.
 pub(super) fn execute(setup: &Setup, graph: u64, plan: &Plan, least: f64) -> Option<Trial> {
     let executed = executed(setup, graph, plan)?;
     let first = stressed(setup, &executed)?;
@@ -41,7 +41,8 @@ pub(super) fn execute(setup: &Setup, graph: u64, plan: &Plan, least: f64) -> Opt
     Some(Trial { stress, executions: 1 + confirm, ..first })
 }
 
-/// The stress of an execution. Where obstacles are to be placed, it is how deep the robot gets into those that could stand in its way.
+/// The stress of an execution. Where obstacles are to be placed, it is how deep the robot gets into those that could
+/// stand in its way.
 fn stressed(setup: &Setup, executed: &Executed) -> Option<Trial> {
     let own = trial(setup, &executed.measures);
     let Some(Placement { clearance, leg, .. }) = placement(setup, executed) else { return own };
@@ -63,13 +64,15 @@ pub(super) fn execute_and_learn(
     Some((trial(setup, &measures)?, samples))
 }
 
-/// Whether a part of a trajectory can be executed from where its beginning has led: where controllers know of one waypoint at a time.
+/// Whether a part of a trajectory can be executed from where its beginning has led: where controllers know of one
+/// waypoint at a time.
 pub(super) fn resumes(setup: &Setup) -> bool {
     setup.flight().is_some_and(|setup| flight::goes_on(&setup))
 }
 
-/// Executes `plan`, the first waypoints of a trajectory of graph number `graph`, or all where it is `whole`: on from `before` or from the
-/// start; the same as [`execute`] once it is whole. Where executions do not [resume](resumes), `plan` is carried out as if it were all.
+/// Executes `plan`, the first waypoints of a trajectory of graph number `graph`, or all where it is `whole`: on from
+/// `before` or from the start; the same as [`execute`] once it is whole. Where executions do not [resume](resumes),
+/// `plan` is carried out as if it were all.
 ///
 /// # Errors
 /// Legs that were executed for nothing.
@@ -117,7 +120,8 @@ pub(super) fn duration(setup: &Setup, graph: u64, plan: &Plan) -> Option<f64> {
     executed(setup, graph, plan).map(|executed| executed.measures.total_time)
 }
 
-/// `plan` with the obstacles that are asked for, and its execution among them; as it is where none are. `None` where there is no room for any.
+/// `plan` with the obstacles that are asked for, and its execution among them; as it is where none are. `None` where
+/// there is no room for any.
 pub(super) fn furnish(setup: &Setup, graph: u64, plan: &Plan) -> Option<(Plan, Trial)> {
     let Placement { among, .. } = placement(setup, &executed(setup, graph, plan)?)?;
     let plan = Plan { environment: Some(among), ..plan.clone() };

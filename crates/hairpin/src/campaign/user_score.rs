@@ -67,8 +67,8 @@ impl LegFacts {
 
 /// Scores legs. The same leg must get the same numbers whenever, and in whatever company, it is asked for.
 pub trait LegScorer: Send + Sync {
-    /// Of every leg what it scores whatever was flown before it, and what it adds to the score of the leg after it; NaN where
-    /// there is [trouble](Self::trouble).
+    /// Of every leg what it scores whatever was flown before it, and what it adds to the score of the leg after it; NaN
+    /// where there is [trouble](Self::trouble).
     fn parts(&self, legs: &[LegFacts]) -> Vec<[f64; 2]>;
 
     /// Why legs have no score, if that has happened.

@@ -71,7 +71,8 @@ pub fn apply(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario,
     Ok(drawn)
 }
 
-/// The scenario of a case's plan: with the values that were drawn for it in place of the nominal ones, and only runs left to vary.
+/// The scenario of a case's plan: with the values that were drawn for it in place of the nominal ones, and only runs
+/// left to vary.
 ///
 /// # Errors
 /// As [`apply`].

@@ -15,7 +15,8 @@ pub struct Verified {
     pub with_lag: Option<EndError>,
 }
 
-/// Integrates the witness of `case` by independent code, to the default tolerances of flights and the scenario's of drives.
+/// Integrates the witness of `case` by independent code, to the default tolerances of flights and the scenario's of
+/// drives.
 pub fn verify(setup: &Setup, case: &Case) -> Verified {
     let (mut proof, with_lag) = match setup.kind() {
         Kind::Flight(setup) => {
@@ -25,7 +26,8 @@ pub fn verify(setup: &Setup, case: &Case) -> Verified {
         Kind::Arm(setup) => (arm::verify(&setup, case), None),
     };
     if case.environment.is_some() {
-        // Bounds that vary are those that the case was searched with; draws that do not fit, as another scenario's, bound nothing.
+        // Bounds that vary are those that the case was searched with; draws that do not fit, as another scenario's,
+        // bound nothing.
         let drawn = vary::draw_for_case(&setup.scenario, case.seed, case.number);
         let drawn = vary::apply(&setup.scenario, &drawn).unwrap_or_else(|_| setup.scenario.clone());
         let findings = match (setup.kind(), &drawn) {

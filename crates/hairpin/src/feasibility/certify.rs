@@ -60,12 +60,12 @@ pub enum Impossible {
     },
 }
 
-/// Searches a witness for `waypoints` (m) flown in order, from rest to rest, in `longest_flight` (s; infinite: no limit)
-/// at most.
+/// Searches a witness for `waypoints` (m) flown in order, from rest to rest, in `longest_flight` (s; infinite: no
+/// limit) at most.
 ///
-/// Waypoint velocities are those of the minimum-snap curve for the current leg times (in [`LegTiming`]'s range). A leg that
-/// is refused gets more time, and when it has all it may get, less velocity at its ends; the whole is then tried again,
-/// so that leg times and velocities settle together. A witness that takes too long as a whole is none.
+/// Waypoint velocities are those of the minimum-snap curve for the current leg times (in [`LegTiming`]'s range). A leg
+/// that is refused gets more time, and when it has all it may get, less velocity at its ends; the whole is then tried
+/// again, so that leg times and velocities settle together. A witness that takes too long as a whole is none.
 ///
 /// At most a hundred rounds, each judging legs until one fails; deterministic.
 pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming, longest_flight: f64) -> Certificate {
@@ -122,8 +122,8 @@ fn slow_down(leg: usize, times: &mut [f64], share: &mut [f64], longest: f64) -> 
     moved
 }
 
-/// The level states at the waypoints, with minimum-snap velocities times `share`; at rest where the curve cannot be solved
-/// for.
+/// The level states at the waypoints, with minimum-snap velocities times `share`; at rest where the curve cannot be
+/// solved for.
 fn ends(judge: &LegJudge, waypoints: &[Point3<f64>], times: &[f64], share: &[f64]) -> Vec<LegEnd> {
     let curve = minimum_snap(waypoints, times).unwrap_or_default();
     let velocity = |k: usize| {
@@ -164,8 +164,8 @@ fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64, longest
     outside.or_else(too_far).or_else(too_long)
 }
 
-/// The least time, s, in which a path of `length` (m) is flown from rest where the speed grows by `acceleration` (m/s²) at
-/// most, up to `max_speed` (m/s): √(2L/a) below that speed, L/v + v/2a beyond.
+/// The least time, s, in which a path of `length` (m) is flown from rest where the speed grows by `acceleration` (m/s²)
+/// at most, up to `max_speed` (m/s): √(2L/a) below that speed, L/v + v/2a beyond.
 fn least_time(length: f64, acceleration: f64, max_speed: f64) -> f64 {
     if 2.0 * length * acceleration <= max_speed * max_speed {
         (2.0 * length / acceleration).sqrt()

@@ -101,8 +101,8 @@ impl FreeSpace {
 
     /// Proves that the whole leg lies in the free space.
     ///
-    /// A path lies in the hull of its Bernstein control points, and no farther from its chord than they do; pieces that this
-    /// does not decide are halved. A wall may be touched (to 1e-9 m).
+    /// A path lies in the hull of its Bernstein control points, and no farther from its chord than they do; pieces that
+    /// this does not decide are halved. A wall may be touched (to 1e-9 m).
     ///
     /// # Errors
     /// The wall or obstacle that is violated, or that is nearer than 1/4096 of the leg can resolve.

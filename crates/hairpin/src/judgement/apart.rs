@@ -2,7 +2,8 @@
 //!
 //! A verdict never says "0.50 m > 0.50 m".
 
-/// Two numbers with as many decimals as it takes to see that they differ, and how far a value below zero is below it: at least `least`.
+/// Two numbers with as many decimals as it takes to see that they differ, and how far a value below zero is below it:
+/// at least `least`.
 pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {
     // Of −0 too: what is nothing has no sign.
     let value = if value.abs() < 1e-12 { 0.0 } else { value };

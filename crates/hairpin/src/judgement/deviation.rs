@@ -75,8 +75,8 @@ fn path_places(positions: &[Point3<f64>], weights: &[f64], path: &Track) -> Resu
     if path.len() < 2 {
         return Err(JudgementError::Path { found: path.len() });
     }
-    // Long paths are assigned by chords over several segments; the place is then the nearest on the segments of the chord and its
-    // neighbours.
+    // Long paths are assigned by chords over several segments; the place is then the nearest on the segments of the
+    // chord and its neighbours.
     let segments = path.len() - 1;
     let stride = segments.div_ceil(PATH_PIECES);
     let pieces: Vec<Piece> = (0..segments)

@@ -17,16 +17,18 @@ use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 ///   h_i = (t_i+1 − t_i−1)/2, over the samples that count (see [`Settings::corner`]);
 /// - overshoot at waypoint k = max over samples of (p_i − q_i)·u_k−1, at least 0, with q_i = w_k while leg k−1 is
 ///   flown, and q_i = the point of leg k's segment nearest to p_i while leg k is flown; against a path
-///   ([`super::Reference::Path`]) q_i = its place for p_i in both cases: how far the robot is carried on in the direction in
+///   ([`super::Reference::Path`]) q_i = its place for p_i in both cases: how far the robot is carried on in the
+///   direction in
 ///   which it came, beyond where it should be. Going straight on is no overshoot;
 /// - acceleration ‖v_i+1 − v_i−1‖/(t_i+1 − t_i−1) with the channels `vx_m_s`, `vy_m_s`, `vz_m_s` (one-sided at the
 ///   ends), or the second divided difference of positions where they are missing; speed rate: |‖v_i+1‖ − ‖v_i−1‖| over
 ///   the same time;
 /// - tip-over margin: least value of the channel `tip_over_margin_deg`;
-/// - tilt: 2 asin √(q_x² + q_y²), the angle between the body's upward axis and the world's; not of tracks with joints, whose pose is a tool's;
+/// - tilt: 2 asin √(q_x² + q_y²), the angle between the body's upward axis and the world's; not of tracks with joints,
+///   whose pose is a tool's;
 /// - saturation: mean over time of the channel `saturated`;
-/// - joint effort: Σ_i h_i Σ_k q̈_k², q̈ the second divided difference of the channels `q1_rad`, `q2_rad` …: with a recording's noise of σ it
-///   has about 6σ²/Δ⁴ a second and joint too much.
+/// - joint effort: Σ_i h_i Σ_k q̈_k², q̈ the second divided difference of the channels `q1_rad`, `q2_rad` …: with a
+///   recording's noise of σ it has about 6σ²/Δ⁴ a second and joint too much.
 ///
 /// The leg comes from the channel `leg`; the number of waypoints less one, "all reached", counts as the last leg.
 /// Without the channel samples are assigned to legs monotonically along the path, and the result says so. Maxima are

@@ -40,9 +40,11 @@ pub struct LegMeasures {
     pub overshoot: f64,
     /// Smallest distance to an obstacle, m; `None` without obstacles.
     pub min_clearance: Option<f64>,
-    /// Smallest angle by which the body would have had to lean further to tip over, degrees; `None` where it was not told.
+    /// Smallest angle by which the body would have had to lean further to tip over, degrees; `None` where it was not
+    /// told.
     pub min_tip_over_margin: Option<f64>,
-    /// Largest angle of the body's upward axis from the world's, degrees; `None` of arms and where no attitude was told.
+    /// Largest angle of the body's upward axis from the world's, degrees; `None` of arms and where no attitude was
+    /// told.
     pub max_tilt: Option<f64>,
     /// Share of rotor-time at a rotor limit, 0 … 1; `None` where the executor did not tell.
     pub saturation_share: Option<f64>,
@@ -90,11 +92,13 @@ pub struct Measures {
     pub min_clearance: Option<f64>,
     /// When it was reached, s.
     pub t_clearance: f64,
-    /// Smallest angle by which the body would have had to lean further to tip over, degrees; `None` where it was not told.
+    /// Smallest angle by which the body would have had to lean further to tip over, degrees; `None` where it was not
+    /// told.
     pub min_tip_over_margin: Option<f64>,
     /// When it was reached, s.
     pub t_tip_over_margin: f64,
-    /// Largest angle of the body's upward axis from the world's, degrees; `None` of arms and where no attitude was told.
+    /// Largest angle of the body's upward axis from the world's, degrees; `None` of arms and where no attitude was
+    /// told.
     pub max_tilt: Option<f64>,
     /// When it was reached, s.
     pub t_tilt: f64,

@@ -1,4 +1,5 @@
-//! Floor 5, the verdict: metrics on tracks, specs, statistics. It knows poses in time and nothing of robots or planners.
+//! Floor 5, the verdict: metrics on tracks, specs, statistics. It knows poses in time and nothing of robots or
+//! planners.
 //!
 //! Data flow, the same for a simulation, an executor of the user's and a real log:
 //!

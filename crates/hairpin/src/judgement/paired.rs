@@ -29,10 +29,10 @@ pub struct SignedRank {
 
 /// Tests `differences`; ranks are of their sizes, ties sharing the mean of theirs. `None` where one is not finite.
 ///
-/// Up to 50 ranked differences every one of the 2^n assignments of signs to the ranks is counted, so that ties change nothing
-/// of its exactness. Above, W⁺ is taken as normal with mean n(n+1)/4 and variance n(n+1)(2n+1)/24 − Σ(t³ − t)/48 over
-/// groups of t ties, with a continuity correction of ½. Wilcoxon: Individual comparisons by ranking methods, 1945;
-/// Kerby: The simple difference formula, 2014.
+/// Up to 50 ranked differences every one of the 2^n assignments of signs to the ranks is counted, so that ties change
+/// nothing of its exactness. Above, W⁺ is taken as normal with mean n(n+1)/4 and variance n(n+1)(2n+1)/24 − Σ(t³ −
+/// t)/48 over groups of t ties, with a continuity correction of ½. Wilcoxon: Individual comparisons by ranking methods,
+/// 1945; Kerby: The simple difference formula, 2014.
 ///
 /// Counting takes n · W steps for a rank sum W ≤ n(n + 1): at most a hundred thousand.
 ///
@@ -103,9 +103,9 @@ pub struct Median {
     pub interval: Option<[f64; 2]>,
 }
 
-/// The median of `values` with the interval of order statistics that covers it with at least `confidence` (0 < c < 1): from
-/// the k-th smallest to the k-th largest value, k the largest with 2 P(B(n, ½) < k) ≤ 1 − c. `None` without values, or
-/// with one that is not finite. Thompson: On confidence ranges for the median, 1936.
+/// The median of `values` with the interval of order statistics that covers it with at least `confidence` (0 < c < 1):
+/// from the k-th smallest to the k-th largest value, k the largest with 2 P(B(n, ½) < k) ≤ 1 − c. `None` without
+/// values, or with one that is not finite. Thompson: On confidence ranges for the median, 1936.
 pub fn median(values: &[f64], confidence: f64) -> Option<Median> {
     if values.is_empty() || !values.iter().all(|value| value.is_finite()) {
         return None;
@@ -125,9 +125,9 @@ pub fn median(values: &[f64], confidence: f64) -> Option<Median> {
     Some(Median { value, interval })
 }
 
-/// `p` made larger for as many tests as there are, so that none of them is called significant by their number alone: the
-/// k-th smallest times what is left of them, never smaller than the one before. Holm: A simple sequentially rejective
-/// multiple test procedure, 1979.
+/// `p` made larger for as many tests as there are, so that none of them is called significant by their number alone:
+/// the k-th smallest times what is left of them, never smaller than the one before. Holm: A simple sequentially
+/// rejective multiple test procedure, 1979.
 ///
 /// The chance of any false finding among all tests stays below the level that one is held to, whatever their
 /// dependence.
@@ -182,7 +182,8 @@ mod tests {
 
     #[test]
     fn published_example() {
-        // Darwin's maize (Fisher: The Design of Experiments, 1935): 15 pairs; R's wilcox.test gives V = 96, p = 0.04126.
+        // Darwin's maize (Fisher: The Design of Experiments, 1935): 15 pairs; R's wilcox.test gives V = 96, p =
+        // 0.04126.
         let eighths = [49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48].map(f64::from);
         let found = signed_rank(&eighths).unwrap();
         assert_eq!((found.plus, found.minus, found.ranked), (96.0, 24.0, 15));

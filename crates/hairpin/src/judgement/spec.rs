@@ -51,13 +51,15 @@ impl Default for Limits {
 /// `what`, `unit` and the numbers are what JSON, JUnit and the sentence are made of: one form for all.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
-    /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`, `late`; or an
-    /// event: `crash`, of a ground vehicle `tip-over`, `belly-contact`, `stuck` or `off-map`, of an arm `halted`, `left-world`, `unfinished`.
+    /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`,
+    /// `late`; or an event: `crash`, of a ground vehicle `tip-over`, `belly-contact`, `stuck` or `off-map`, of an arm
+    /// `halted`, `left-world`, `unfinished`.
     pub what: String,
     /// The measured value in `unit`; of a crash of any kind and of leaving the world the time, s; of an unfinished run
     /// the number of waypoints reached.
     pub value: f64,
-    /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished run the number of waypoints.
+    /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished run the number of
+    /// waypoints.
     pub limit: f64,
     /// Unit, as printed: `m`, `m/s²`, `s`, `°`, empty.
     pub unit: String,

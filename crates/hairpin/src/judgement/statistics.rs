@@ -152,8 +152,9 @@ pub fn rule_of_three(n: usize) -> f64 {
     if n == 0 { 1.0 } else { (3.0 / n as f64).min(1.0) }
 }
 
-/// The t beyond which Student's distribution with `freedom` ≥ 1 degrees lies, on both sides together, as often as a normal one
-/// lies beyond `sigma` standard deviations: P(|T| > t) = erfc(σ/√2), and P(|T| > t) = I_x(ν/2, ½) with x = ν/(ν + t²).
+/// The t beyond which Student's distribution with `freedom` ≥ 1 degrees lies, on both sides together, as often as a
+/// normal one lies beyond `sigma` standard deviations: P(|T| > t) = erfc(σ/√2), and P(|T| > t) = I_x(ν/2, ½) with x =
+/// ν/(ν + t²).
 ///
 /// With 4 degrees of freedom 3 σ is t = 6.6: few runs know their own spread badly. Infinite where the tail is below
 /// what doubles hold.

@@ -27,8 +27,8 @@ pub enum Stress {
     Saturation,
     /// Least distance from obstacles, with its sign turned, m.
     Clearance,
-    /// Of what stands on the ground the least angle by which it would have had to lean further to tip over, with its sign turned; of what
-    /// flies the largest angle of its upward axis from the world's; degrees.
+    /// Of what stands on the ground the least angle by which it would have had to lean further to tip over, with its
+    /// sign turned; of what flies the largest angle of its upward axis from the world's; degrees.
     Tilt,
     /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³.
     JointEffort,

@@ -115,7 +115,8 @@ fn a_programmed_path_is_followed_in_order() {
     assert!(along < 1e-3 && straight > 1.0, "{along} {straight}");
 }
 
-/// A drive that crosses itself, reverses out of a cusp along nearly the same ground, and turns in place, as poses 2 cm apart.
+/// A drive that crosses itself, reverses out of a cusp along nearly the same ground, and turns in place, as poses 2 cm
+/// apart.
 fn drive_path() -> Vec<[f64; 3]> {
     let mut places = vec![];
     let mut at = [0.0, 0.0, 0.0_f64];

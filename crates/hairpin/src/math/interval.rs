@@ -31,8 +31,9 @@ pub trait Smooth:
     ///
     /// Of an enclosure: 1/(x₀ + δ) = 1/x₀ − δ/x₀² + δ²/(x₀²(x₀ + δ)), the last term bounded from below at x₀ + δ.
     fn recip(self) -> Self;
-    /// `self / norm`, one component of the unit vector along a vector of length `norm`. Where the vector vanishes it has no
-    /// direction: a point gives 0, the mean of all directions; an enclosure gives [−1, 1], which holds every one.
+    /// `self / norm`, one component of the unit vector along a vector of length `norm`. Where the vector vanishes it
+    /// has no direction: a point gives 0, the mean of all directions; an enclosure gives [−1, 1], which holds every
+    /// one.
     fn direction(self, norm: Self) -> Self;
 }
 

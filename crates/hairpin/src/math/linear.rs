@@ -1,10 +1,11 @@
 //! Small dense systems of equations on the stack: Gauss's elimination with partial pivoting.
 //!
-//! One choice of pivots, two ends. [`reduce`] clears the rows above as well (Gauss-Jordan): many right-hand sides of three or four unknowns, for every
-//! look of every step of every drive. [`solve`] clears below and substitutes back, a third fewer operations for one right-hand side of many unknowns.
+//! One choice of pivots, two ends. [`reduce`] clears the rows above as well (Gauss-Jordan): many right-hand sides of
+//! three or four unknowns, for every look of every step of every drive. [`solve`] clears below and substitutes back, a
+//! third fewer operations for one right-hand side of many unknowns.
 
-/// Solves A X = B in place for the augmented rows [A | B], `N` rows of `W` = N + number of right-hand sides; X is in the last columns afterwards.
-/// False if A is singular: a pivot of 1e-12 at most.
+/// Solves A X = B in place for the augmented rows [A | B], `N` rows of `W` = N + number of right-hand sides; X is in
+/// the last columns afterwards. False if A is singular: a pivot of 1e-12 at most.
 pub fn reduce<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> bool {
     for pivot in 0..N {
         let lead = *choose(rows, pivot);
@@ -25,8 +26,8 @@ pub fn reduce<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> bool 
     true
 }
 
-/// The solution of A x = b of the augmented rows [A | b], `N` rows of `W` = N + 1; `None` where A is singular to rounding, a pivot being 1e-18 of its
-/// largest component at most, or the solution is not finite.
+/// The solution of A x = b of the augmented rows [A | b], `N` rows of `W` = N + 1; `None` where A is singular to
+/// rounding, a pivot being 1e-18 of its largest component at most, or the solution is not finite.
 pub fn solve<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> Option<[f64; N]> {
     const { assert!(W == N + 1, "one right-hand side") };
     let largest = rows.iter().flat_map(|row| &row[..N]).fold(0.0, |most: f64, value| most.max(value.abs()));

@@ -58,7 +58,8 @@ pub enum MinimumSnapError {
 /// The piecewise 7th-order polynomial from rest to rest through `points` (m) that minimises ∫‖p⁗‖² dt, for segment
 /// times `times` (s); three derivatives are zero at both ends, and six are continuous in between.
 ///
-/// The velocity at point k is `c[axis][1]` of the segment that starts there. Block-tridiagonal elimination: linear time.
+/// The velocity at point k is `c[axis][1]` of the segment that starts there. Block-tridiagonal elimination: linear
+/// time.
 ///
 /// Elimination without pivoting between blocks: they are principal blocks of a positive definite matrix. Scaling by the
 /// mean segment time keeps them comparable; what ratios of times beyond that do to the digits is seen at the end, as

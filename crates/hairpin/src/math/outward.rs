@@ -1,7 +1,8 @@
 //! Intervals with outward rounding, and centred forms over one parameter: what turns a computation into a proof.
 //!
-//! IEEE 754 rounds + − · ÷ √ to nearest, so that the true result lies within the neighbouring numbers of the computed one: every
-//! operation widens its bounds to them. (Moore, Kearfott, Cloud, "Introduction to Interval Analysis", 2009, ch. 2, 3 and 6.)
+//! IEEE 754 rounds + − · ÷ √ to nearest, so that the true result lies within the neighbouring numbers of the computed
+//! one: every operation widens its bounds to them. (Moore, Kearfott, Cloud, "Introduction to Interval Analysis", 2009,
+//! ch. 2, 3 and 6.)
 //!
 //! ```text
 //! f(T) ⊆ F(T)                                the natural extension: every operation replaced by its interval form
@@ -223,10 +224,12 @@ impl Real for Interval {
     }
 }
 
-/// A function of one parameter t on an interval T: its range, its value at the middle m of T, and the range of its slope.
+/// A function of one parameter t on an interval T: its range, its value at the middle m of T, and the range of its
+/// slope.
 ///
-/// f(T) ⊆ range ∩ (f(m) + f′(T)(T − m)): bounds converge with the square of T's width, so that bisecting decides also where a
-/// segment passes closely by. Where a formula has a kink the slope's range holds those of both sides (Lipschitz slopes).
+/// f(T) ⊆ range ∩ (f(m) + f′(T)(T − m)): bounds converge with the square of T's width, so that bisecting decides also
+/// where a segment passes closely by. Where a formula has a kink the slope's range holds those of both sides (Lipschitz
+/// slopes).
 ///
 /// The mean value form of Moore, Kearfott, Cloud (2009); slopes over kinks as generalised gradients (Clarke,
 /// "Optimization and Nonsmooth Analysis", 1983). Parameters of two operands must be the same T: constants have none and

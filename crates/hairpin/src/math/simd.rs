@@ -6,8 +6,8 @@
 
 /// The version of the kernels to run.
 ///
-/// All versions give the same bits: no product is fused with a sum, lanes have the same number everywhere, and sums keep
-/// their order. Tests hold every kernel to it.
+/// All versions give the same bits: no product is fused with a sum, lanes have the same number everywhere, and sums
+/// keep their order. Tests hold every kernel to it.
 ///
 /// `Portable` rests on the compiler's baseline alone and not on that promise: with it a result can be held against
 /// another machine's level by level.

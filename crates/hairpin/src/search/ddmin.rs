@@ -1,12 +1,14 @@
 //! Delta debugging: from a list that fails to a short part of it that still does.
 //!
-//! Zeller, Hildebrandt: Simplifying and isolating failure-inducing input, IEEE Transactions on Software Engineering 28, 2002.
+//! Zeller, Hildebrandt: Simplifying and isolating failure-inducing input, IEEE Transactions on Software Engineering 28,
+//! 2002.
 
-/// A part of `items`, in their order, that `fails` and from which no single item can be taken any more; `items` themselves are
-/// known to fail and are not asked about. `fails` gives `None` to stop early: the shortest part so far is the answer.
+/// A part of `items`, in their order, that `fails` and from which no single item can be taken any more; `items`
+/// themselves are known to fail and are not asked about. `fails` gives `None` to stop early: the shortest part so far
+/// is the answer.
 ///
-/// In rounds of finer and finer pieces: each piece alone, then all but one piece; whatever fails goes on in the place of the
-/// whole. Asks about n² + 3n parts at most, and about few where failing is local.
+/// In rounds of finer and finer pieces: each piece alone, then all but one piece; whatever fails goes on in the place
+/// of the whole. Asks about n² + 3n parts at most, and about few where failing is local.
 ///
 /// 1-minimal, not minimal: a smaller part elsewhere in the list may fail too.
 ///

@@ -16,8 +16,8 @@ pub struct Parent<'a, M> {
     pub length: usize,
 }
 
-/// What scores partial trajectories over nodes `N`. An [`Objective`] does it leg by leg ([`ByLegs`]); what knows a score only of the
-/// whole, as executions do, or cannot score all, implements this.
+/// What scores partial trajectories over nodes `N`. An [`Objective`] does it leg by leg ([`ByLegs`]); what knows a
+/// score only of the whole, as executions do, or cannot score all, implements this.
 ///
 /// Order is fixed: [`Growth::meet`] with all legs of a parent, then [`Growth::extend`] for each in the same order; a
 /// growth may thereby deal a budget out over them.
@@ -25,7 +25,8 @@ pub trait Growth<N> {
     /// What is carried along a partial trajectory.
     type Memory: Clone;
 
-    /// Whether a trajectory is complete as soon as it has its length, or once it is the best of the frontier, as in the paper.
+    /// Whether a trajectory is complete as soon as it has its length, or once it is the best of the frontier, as in the
+    /// paper.
     const AT_ONCE: bool = false;
 
     /// Score and memory of the trajectory that only stands at its start.
@@ -36,7 +37,8 @@ pub trait Growth<N> {
         let _ = (parent, legs);
     }
 
-    /// Score and memory of `parent` extended by `leg` to the node `to`; larger is more stressful, NaN does not occur. `None`: not to be kept.
+    /// Score and memory of `parent` extended by `leg` to the node `to`; larger is more stressful, NaN does not occur.
+    /// `None`: not to be kept.
     fn extend(&mut self, parent: &Parent<Self::Memory>, leg: &LegView<'_>, to: &N) -> Option<(f64, Self::Memory)>;
 
     /// Whether a graph is searched on, of which `found` trajectories are complete and `wanted` were asked for.

@@ -1,8 +1,9 @@
 //! Floor 6: scores and the searches over them. Points, a reach set and a score come in; nothing else is known.
 //!
 //! [`beam()`] is algorithms 1 and 2 of the paper on one graph; [`exact()`] is dynamic programming over the legs of a
-//! [`graph`]: best, k best, counts, the proof that none exists; [`uniform()`] draws evenly from all that is feasible. [`heaviest`] is the
-//! path of maximal cost through a graph of arcs that visits no point twice. [`ddmin()`] finds the part of a list that it takes to fail.
+//! [`graph`]: best, k best, counts, the proof that none exists; [`uniform()`] draws evenly from all that is feasible.
+//! [`heaviest`] is the path of maximal cost through a graph of arcs that visits no point twice. [`ddmin()`] finds the
+//! part of a list that it takes to fail.
 //!
 //! | asked | room | answer |
 //! | --- | --- | --- |

@@ -1,7 +1,8 @@
 //! Tasks without an end: any waypoint may be the last one.
 //!
-//! The searches look for trajectories to one end. Here that end is a sink: one more candidate behind the graph's own, to which
-//! every node has a leg without duration and without stress. A trajectory of L waypoints with a free end is one of L + 1 to the sink.
+//! The searches look for trajectories to one end. Here that end is a sink: one more candidate behind the graph's own,
+//! to which every node has a leg without duration and without stress. A trajectory of L waypoints with a free end is
+//! one of L + 1 to the sink.
 
 use nalgebra::Point3;
 
@@ -16,7 +17,8 @@ use crate::feasibility::reach::{Leg, LegFeatures, Reach};
 pub enum OpenNode<N> {
     /// The reach set's own.
     At(N),
-    /// The sink, entered from this node: trajectories that end in different nodes are not compared as if they had the same future.
+    /// The sink, entered from this node: trajectories that end in different nodes are not compared as if they had the
+    /// same future.
     Over(N),
 }
 

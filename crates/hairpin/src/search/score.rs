@@ -38,32 +38,36 @@ pub enum Score {
         /// Whether the two parts are multiplied.
         product: bool,
     },
-    /// v_in/v_max · v_out/v_max · (1 − |α − 90°|/90°): a right angle that is entered and left fast, so that the robot is carried out of it.
+    /// v_in/v_max · v_out/v_max · (1 − |α − 90°|/90°): a right angle that is entered and left fast, so that the robot
+    /// is carried out of it.
     FastCorner {
         /// Speed that scores 1, m/s.
         v_max: f64,
     },
-    /// v_out / (v_in + v_max/20) · (1 − |α − 90°|/90°): a short leg, and a long one across it. A robot that passes waypoints at a distance goes on from
-    /// beside the short leg; v_max/20 keeps legs that are all but nothing from outdoing those that lead somewhere.
+    /// v_out / (v_in + v_max/20) · (1 − |α − 90°|/90°): a short leg, and a long one across it. A robot that passes
+    /// waypoints at a distance goes on from beside the short leg; v_max/20 keeps legs that are all but nothing from
+    /// outdoing those that lead somewhere.
     ShortLeg {
         /// Speed that scores 1, m/s.
         v_max: f64,
     },
-    /// (v_out/v_max)² + 1 − |α − 90°|/90°: a few legs as long as they can be, for what many long ones would add, and right angles all along.
+    /// (v_out/v_max)² + 1 − |α − 90°|/90°: a few legs as long as they can be, for what many long ones would add, and
+    /// right angles all along.
     HighEnergyTurn {
         /// Speed that scores 1, m/s.
         v_max: f64,
     },
-    /// (n(v_out)² · min(v_in/(0.3 v_max), 1) · (1 − |α − 180°|/180°))⁴ + (1.4 n(v_in)² · v_out/v_max · |sin ε_out| · (1 − |α − 90°|/90°))⁴,
-    /// n(u) = min(u/v, v/u), v = v_max/16: fast into a leg back that is so short that the acceptance radius lets both its ends pass at once, and
-    /// from there a long climb or dive across it. Two legs make one such place, so it is for sums; of fourth powers, since one place with both
-    /// legs right strays farther than several with both half right.
+    /// (n(v_out)² · min(v_in/(0.3 v_max), 1) · (1 − |α − 180°|/180°))⁴ + (1.4 n(v_in)² · v_out/v_max · |sin ε_out| · (1
+    /// − |α − 90°|/90°))⁴, n(u) = min(u/v, v/u), v = v_max/16: fast into a leg back that is so short that the
+    /// acceptance radius lets both its ends pass at once, and from there a long climb or dive across it. Two legs make
+    /// one such place, so it is for sums; of fourth powers, since one place with both legs right strays farther than
+    /// several with both half right.
     CutCorner {
         /// Speed that scores 1, m/s.
         v_max: f64,
     },
-    /// v_out/v_max · cos ε_out · |sin ε_out − sin ε_in| · (1 − |α − 180°|/180°), ε the elevation of a leg: back, and over from a climb to a
-    /// descent or the other way, with a long way across.
+    /// v_out/v_max · cos ε_out · |sin ε_out − sin ε_in| · (1 − |α − 180°|/180°), ε the elevation of a leg: back, and
+    /// over from a climb to a descent or the other way, with a long way across.
     Crest {
         /// Speed that scores 1, m/s.
         v_max: f64,
@@ -74,11 +78,13 @@ pub enum Score {
 
 /// Entry speed of `short-leg` that halves it, over the top speed.
 const SHORT: f64 = 0.05;
-/// Speed of the short leg that `cut-corner` looks for, over the top speed: 1.75 m in a step of 1 s at 28 m/s, beside an acceptance radius of 1 m.
+/// Speed of the short leg that `cut-corner` looks for, over the top speed: 1.75 m in a step of 1 s at 28 m/s, beside an
+/// acceptance radius of 1 m.
 const CUT: f64 = 1.0 / 16.0;
 /// Speed over the top speed from which a way into the short leg is fast enough.
 const FAST: f64 = 0.3;
-/// Makes the way out of the short leg count about as much as the way in: a climb or dive of 45° at the top speed scores 1.
+/// Makes the way out of the short leg count about as much as the way in: a climb or dive of 45° at the top speed scores
+/// 1.
 const OUT: f64 = 1.4;
 
 /// Why there is no such score.
@@ -249,7 +255,8 @@ mod tests {
         let expected = 0.5 * 0.75f64.sqrt() * 2.0 / 3.0;
         assert!((score("crest", over) - expected).abs() < 1e-12, "{}", score("crest", over));
         assert_eq!(score("crest", LegFeatures { climb: 10.0, ..over }), 0.0, "nothing across");
-        // 1.25 m/s is what it looks for, and 6 m/s are fast: into the short leg by a half turn, out of one of twice that speed by a climb of 30°.
+        // 1.25 m/s is what it looks for, and 6 m/s are fast: into the short leg by a half turn, out of one of twice
+        // that speed by a climb of 30°.
         let short = LegFeatures { v_out: 1.25, length: 1.25, ..leg(1.25, 180.0) };
         let expected = (5.0f64 / 6.0).powi(4);
         assert!((score("cut-corner", short) - expected).abs() < 1e-12, "{}", score("cut-corner", short));

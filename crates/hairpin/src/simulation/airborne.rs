@@ -18,8 +18,9 @@ use crate::world::World;
 /// at_start(sortie) · fly_to(w₁) · … · fly_to(wₙ) · finish()   =   fly(sortie through w₀ … wₙ), to the bit
 /// ```
 ///
-/// It halts at the moment a waypoint is reached, before anything is decided that depends on the next one. That takes a controller
-/// which knows of one waypoint at a time ([`super::ControllerKind::plans_ahead`]). Copies share the log of what they have flown together.
+/// It halts at the moment a waypoint is reached, before anything is decided that depends on the next one. That takes a
+/// controller which knows of one waypoint at a time ([`super::ControllerKind::plans_ahead`]). Copies share the log of
+/// what they have flown together.
 ///
 /// `Clone` copies plant, loops, streams and progress: what a beam carries along with a partial trajectory.
 #[derive(Debug, Clone)]

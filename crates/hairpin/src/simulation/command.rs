@@ -23,8 +23,8 @@ pub struct FlightState {
 
 /// What a controller asks of the inner loops until its next turn, as far as the rotors allow.
 ///
-/// Every form ends in the rate loop, which has no bound of its own: what the rotors cannot do is given up by the mixer, yaw first.
-/// The least thrust is 0.05 g in all of them, for without any there is no moment either.
+/// Every form ends in the rate loop, which has no bound of its own: what the rotors cannot do is given up by the mixer,
+/// yaw first. The least thrust is 0.05 g in all of them, for without any there is no moment either.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FlightCommand {
     /// Velocity, m/s, world frame, yaw 0, through the velocity loop of `stable-waypoint` and its tilt limit of 0.5 rad.

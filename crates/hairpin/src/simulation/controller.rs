@@ -1,4 +1,5 @@
-//! The seam for what steers a robot: a controller is told what was measured and where to go, and answers with a command.
+//! The seam for what steers a robot: a controller is told what was measured and where to go, and answers with a
+//! command.
 //!
 //! One trait for all kinds of robots; [`Controlled`] says of a kind what is measured and what can be asked for. Ours
 //! implement it as what a stranger brings does, and runs know no other way.
@@ -63,10 +64,11 @@ pub trait Controller<R: Controlled> {
     /// Why there is none.
     fn control(&mut self, dt: f64, state: &R::State, reference: &Reference<R>) -> Result<R::Command, Fault>;
 
-    /// Where it stands in a motion that it follows by the clock or along a path; `None`: it goes from waypoint to waypoint.
+    /// Where it stands in a motion that it follows by the clock or along a path; `None`: it goes from waypoint to
+    /// waypoint.
     ///
-    /// A run is judged leg by leg. Of a controller without a schedule the next waypoint is reached inside the acceptance
-    /// radius, and then the leg after it begins; with one the leg is the schedule's.
+    /// A run is judged leg by leg. Of a controller without a schedule the next waypoint is reached inside the
+    /// acceptance radius, and then the leg after it begins; with one the leg is the schedule's.
     fn schedule(&self) -> Option<Schedule> {
         None
     }
@@ -77,7 +79,8 @@ pub type Fault = Box<dyn std::error::Error + Send + Sync>;
 
 /// Where a run is to go.
 pub struct Reference<'a, R: Controlled> {
-    /// In order, m, world frame, the start included. Runs that a search flies leg by leg know them as far as they have come.
+    /// In order, m, world frame, the start included. Runs that a search flies leg by leg know them as far as they have
+    /// come.
     pub waypoints: &'a [Point3<f64>],
     /// Index of the next one; their number once all were reached.
     pub next: usize,

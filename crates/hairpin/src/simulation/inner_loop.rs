@@ -1,5 +1,5 @@
-//! The loops that every controller flies on: velocity to thrust, attitude to body rates, body rates to moments, moments to rotor
-//! speeds. A command enters at its own.
+//! The loops that every controller flies on: velocity to thrust, attitude to body rates, body rates to moments, moments
+//! to rotor speeds. A command enters at its own.
 
 use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use wide::f64x4;
@@ -11,8 +11,9 @@ use super::mixer::{Mixed, Mixer};
 use super::step::Motion;
 use crate::robot::quadrotor::Quadrotor;
 
-/// Bandwidth of the closed rate loop, rad/s. FlightGoggles' own rate loop, 9 e + 3 ∫e − 0.3 ω̇, closes at 7 rad/s, which
-/// leaves the position loop three loops above it too slow to settle a 10 m step within 6 s: this is three times as fast.
+/// Bandwidth of the closed rate loop, rad/s. FlightGoggles' own rate loop, 9 e + 3 ∫e − 0.3 ω̇, closes at 7 rad/s,
+/// which leaves the position loop three loops above it too slow to settle a 10 m step within 6 s: this is three times
+/// as fast.
 const RATE_BANDWIDTH: f64 = 21.0;
 /// Integral over proportional gain, 1/s: as in FlightGoggles.
 const INTEGRAL_RATIO: f64 = 1.0 / 3.0;
@@ -56,8 +57,8 @@ pub(crate) struct InnerLoop {
     followed: Followed,
     /// The command's angular acceleration as the damping lets it through.
     fed_forward: f64x4,
-    /// What the rate loop follows: body rates, rad/s; thrust per mass, m/s², in the last lane, alone; and ticks until the
-    /// attitude loop's next turn.
+    /// What the rate loop follows: body rates, rad/s; thrust per mass, m/s², in the last lane, alone; and ticks until
+    /// the attitude loop's next turn.
     wanted: f64x4,
     thrust: f64x4,
     to_attitude: u32,

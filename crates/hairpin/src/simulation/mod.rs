@@ -1,8 +1,8 @@
 //! Floor 5, the act: plants with what the claim leaves out, controllers, and the loop closed over them.
 //!
-//! One verb a kind of robot: [`fly`] flies a robot along a course (or [`Airborne`], leg by leg), [`ground::drive`] drives a
-//! vehicle along its plan, and each says what happened; [`fly_with`] and [`ground::drive_with`] do so by a [`Controller`] of the
-//! caller's own. The act shares the robot's numbers with the claim and nothing else.
+//! One verb a kind of robot: [`fly`] flies a robot along a course (or [`Airborne`], leg by leg), [`ground::drive`]
+//! drives a vehicle along its plan, and each says what happened; [`fly_with`] and [`ground::drive_with`] do so by a
+//! [`Controller`] of the caller's own. The act shares the robot's numbers with the claim and nothing else.
 
 mod airborne;
 pub mod arm;

@@ -31,9 +31,8 @@ pub(super) const ROTORS: usize = 13;
 /// rotors' limits are the controller's to avoid; [`Stepper`](super::Stepper) takes them as they are.
 ///
 /// ```
-/// use hairpin::math::integrate::rk4_step;
 /// use hairpin::robot::quadrotor::QuadrotorDescription;
-/// use hairpin::simulation::Plant;
+/// use hairpin::simulation::{Motion, Plant, Stepper};
 /// use nalgebra::{Vector3, Vector4};
 ///
 /// let file = serde_json::json!({
@@ -46,7 +45,9 @@ pub(super) const ROTORS: usize = 13;
 /// // Rotors at rest, hover asked for: after one time constant they turn at 1 − 1/e of it, and the robot has dropped.
 /// let hover = Vector4::repeat(robot.hover_speed());
 /// let start = Plant::at_rest(&Vector3::new(0.0, 0.0, 5.0), &Vector4::zeros());
-/// let end = (0..50).fold(start, |x, _| rk4_step(|x| plant.derivative(x, &hover), &x, 0.001));
+/// let (stepper, mut motion) = (Stepper::new(&plant, 0.001), Motion::new(&plant, &start));
+/// (0..50).for_each(|_| stepper.advance(&plant, &mut motion, &hover));
+/// let end = motion.state();
 /// assert!((end[13] / hover[0] - (1.0 - (-1f64).exp())).abs() < 1e-6 && end[2] < 5.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

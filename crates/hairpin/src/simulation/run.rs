@@ -64,7 +64,8 @@ pub(super) struct Run {
     hazards: Hazards,
     pub(super) recorder: Recorder,
     settings: FlySettings,
-    /// Ticks between two looks at the course, two samples of the log, two turns of the outer loop; and those to the next.
+    /// Ticks between two looks at the course, two samples of the log, two turns of the outer loop; and those to the
+    /// next.
     every: Due,
     to: Due,
     tick: u64,

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// δ of vehicles with all wheels steered, rad, left positive: δ(s) = start + (end − start) s/L over the L metres of a drive.
+/// δ of vehicles with all wheels steered, rad, left positive: δ(s) = start + (end − start) s/L over the L metres of a
+/// drive.
 ///
 /// Crabbing moves the body without turning it: ψ̇ is κ v alone, and the path's tangent is ψ + δ. κ is the body's turn
 /// per metre, not the path's bend where δ changes.

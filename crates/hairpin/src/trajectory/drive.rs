@@ -1,4 +1,5 @@
-//! The path of a ground vehicle as it is commanded: arcs whose curvature is a polynomial of arc length, and turns in place.
+//! The path of a ground vehicle as it is commanded: arcs whose curvature is a polynomial of arc length, and turns in
+//! place.
 //!
 //! ```text
 //! ψ̇ = ± v κ(s)     κ(s) = a₀ + a₁ s + … + a₅ s⁵     ẋ = ± v cos(ψ + δ)     ẏ = ± v sin(ψ + δ)

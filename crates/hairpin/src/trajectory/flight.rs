@@ -38,7 +38,8 @@ pub enum Ended {
 }
 
 impl Ended {
-    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `tip-over`, `belly-contact`, `stuck`, `halted`, `off-map`, `crash`.
+    /// The word in files: `done`, `time`, `ground`, `obstacle`, `wall`, `tumble`, `tip-over`, `belly-contact`, `stuck`,
+    /// `halted`, `off-map`, `crash`.
     pub fn word(self) -> &'static str {
         match self {
             Ended::Done => "done",

@@ -54,7 +54,8 @@ impl DriveLeg {
         Timing::new(&self.speed, &self.segments)
     }
 
-    /// Whether the vehicle stands at the leg's beginning and at its end, as far as the leg knows: before and after turns in place.
+    /// Whether the vehicle stands at the leg's beginning and at its end, as far as the leg knows: before and after
+    /// turns in place.
     pub fn turns_at_ends(&self) -> [bool; 2] {
         let turns = |segment: Option<&Segment>| segment.is_some_and(|s| matches!(s.motion, Motion::Turn { .. }));
         [turns(self.segments.first()), turns(self.segments.last())]
@@ -67,7 +68,8 @@ impl DriveLeg {
 /// |angle|/turn_rate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drive {
-    /// The legs in the order they are driven; each begins where the one before ends, as fast, and in its direction of travel.
+    /// The legs in the order they are driven; each begins where the one before ends, as fast, and in its direction of
+    /// travel.
     pub legs: Vec<DriveLeg>,
     /// The highest speed along the path, m/s, > 0.
     pub speed: f64,

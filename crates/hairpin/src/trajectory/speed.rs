@@ -12,8 +12,8 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// How speed depends on time, m/s. Where a drive stops on the way (to change gear or to turn in place) ramps and trapezoids
-/// stop there too; a constant speed knows no stops.
+/// How speed depends on time, m/s. Where a drive stops on the way (to change gear or to turn in place) ramps and
+/// trapezoids stop there too; a constant speed knows no stops.
 ///
 /// The velocity constraint of a boundary-value drive (v at both ends): the path does not depend on it unless the
 /// steering lags, which is why speed is laid over a solved path.
@@ -32,7 +32,8 @@ pub enum SpeedProfile {
         /// v_f ≥ 0; one of both is more than 0.
         end: f64,
     },
-    /// From v₀ to the cruising speed, on with it, and from there to v_f; where there is no room for it, with a lower top.
+    /// From v₀ to the cruising speed, on with it, and from there to v_f; where there is no room for it, with a lower
+    /// top.
     Trapezoid {
         /// v₀, from 0 to `cruise`.
         start: f64,
@@ -120,7 +121,8 @@ impl SpeedProfile {
         }
     }
 
-    /// The speeds of a stretch of `length` metres, ≥ 0, that is driven from `start` to `end`, which are the profile's own or 0.
+    /// The speeds of a stretch of `length` metres, ≥ 0, that is driven from `start` to `end`, which are the profile's
+    /// own or 0.
     pub(super) fn between(&self, start: f64, end: f64, length: f64) -> Speeds {
         let (cruise, acceleration) = match *self {
             Self::Constant { speed } => {

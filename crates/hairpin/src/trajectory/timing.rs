@@ -24,7 +24,8 @@ impl Timing {
     /// The timing of `segments` under `profile`.
     ///
     /// # Panics
-    /// If there are more stretches than a list of segments, and one that is held before it, can have: a mistake of the caller's.
+    /// If there are more stretches than a list of segments, and one that is held before it, can have: a mistake of the
+    /// caller's.
     pub fn new(profile: &SpeedProfile, segments: &[Segment]) -> Self {
         let rest = SpeedProfile::from(1.0).over(0.0);
         let length = segments.iter().map(Segment::length_m).sum();

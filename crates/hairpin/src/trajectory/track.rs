@@ -128,8 +128,8 @@ impl Track {
         Point3::from(self.poses[index].translation.vector)
     }
 
-    /// The same track with the channels `vx_m_s`, `vy_m_s`, `vz_m_s`: the way from the stamp before to the stamp after by the time between
-    /// them, at both ends to the only neighbour; 0 of a single stamp.
+    /// The same track with the channels `vx_m_s`, `vy_m_s`, `vz_m_s`: the way from the stamp before to the stamp after
+    /// by the time between them, at both ends to the only neighbour; 0 of a single stamp.
     ///
     /// v_i = (p_{i+1} − p_{i−1})/(t_{i+1} − t_{i−1}): of second order on even stamps, and what a log has that tells no
     /// velocities.

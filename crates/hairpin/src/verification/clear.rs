@@ -1,9 +1,10 @@
 //! Whether a planned path keeps its distance from solids, between samples too.
 //!
-//! A solid S is convex. From its point nearest to a place p, outside it by the distance d, the unit vector n points to p, and S lies behind the
-//! plane there: every place q is outside S by n·(q − p) + d at least. Of a piece of a leg about its middle p(m), h being half its duration, that
-//! leaves d − Σ_k |n·p⁽ᵏ⁾(m)|/k! hᵏ: the Taylor sum of a polynomial is exact. Where that does not decide, the piece is halved. Inside S, where there
-//! is no such plane, a place is deeper than another by no more than the way between them.
+//! A solid S is convex. From its point nearest to a place p, outside it by the distance d, the unit vector n points to
+//! p, and S lies behind the plane there: every place q is outside S by n·(q − p) + d at least. Of a piece of a leg
+//! about its middle p(m), h being half its duration, that leaves d − Σ_k |n·p⁽ᵏ⁾(m)|/k! hᵏ: the Taylor sum of a
+//! polynomial is exact. Where that does not decide, the piece is halved. Inside S, where there is no such plane, a
+//! place is deeper than another by no more than the way between them.
 
 use super::claim::Leg;
 use super::finding::{Collector, Finding};
@@ -83,8 +84,8 @@ struct Near {
     at: f64,
 }
 
-/// Puts the nearest place of a piece into `nearest` where it is nearer than `least`, or not shown not to be, and nearer than what is there.
-/// `here`: the leg, and when it begins.
+/// Puts the nearest place of a piece into `nearest` where it is nearer than `least`, or not shown not to be, and nearer
+/// than what is there. `here`: the leg, and when it begins.
 fn approach(
     leg: &Leg,
     solid: &ClearSolid,
@@ -125,7 +126,8 @@ fn taylor(leg: &Leg, tau: f64) -> [[f64; 8]; 3] {
     })
 }
 
-/// By how much a solid that lies in the direction −`away` is nearer within `h` s, at most; `None`: one in any direction.
+/// By how much a solid that lies in the direction −`away` is nearer within `h` s, at most; `None`: one in any
+/// direction.
 fn approaches(around: &[[f64; 8]; 3], away: Option<[f64; 3]>, h: f64) -> f64 {
     let sum = |c: &dyn Fn(usize) -> f64| (1..8).rev().fold(0.0, |sum, k| (sum + c(k).abs()) * h);
     match away {

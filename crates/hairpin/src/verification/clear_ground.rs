@@ -1,4 +1,5 @@
-//! Whether a planned drive keeps its distance from discs on the ground, between the steps of its replay too, and whether these lie on the map.
+//! Whether a planned drive keeps its distance from discs on the ground, between the steps of its replay too, and
+//! whether these lie on the map.
 
 use super::drives::DriveLegClaim;
 use super::finding::{Collector, Finding};
@@ -41,10 +42,12 @@ pub struct ClearGroundClaim<'a> {
 /// What rounding may take, m.
 const ROUNDING: f64 = 1e-9;
 
-/// All discs that are none, that are not all on the map, or that a leg comes too near to, with the leg that comes nearest.
+/// All discs that are none, that are not all on the map, or that a leg comes too near to, with the leg that comes
+/// nearest.
 ///
-/// A step of the replay that turns the body by Δψ, and its direction of travel by Δδ, leaves its chord c by no more than c (|Δψ| + |Δδ|)/4,
-/// as a curve does whose direction changes by so much. A leg that cannot be replayed is as near as can be.
+/// A step of the replay that turns the body by Δψ, and its direction of travel by Δδ, leaves its chord c by no more
+/// than c (|Δψ| + |Δδ|)/4, as a curve does whose direction changes by so much. A leg that cannot be replayed is as near
+/// as can be.
 pub fn verify_clear_ground<T: Terrain>(vehicle: &GroundVehicle, terrain: &T, claim: &ClearGroundClaim) -> Vec<Finding> {
     let mut findings = Vec::new();
     let legs = claim.drive.legs(vehicle, terrain);

@@ -70,9 +70,9 @@ const TRACED: usize = 60;
 /// Steps of one piece at most: a piece that would need more turns by more than a thousand circles.
 const MOST_STEPS: f64 = 1e6;
 
-/// Integrates x' = direction·cos(ψ + δ), y' = direction·sin(ψ + δ), ψ' = direction·κ(s), δ = crab + crab_rate · metres, over
-/// every piece by the classical Runge-Kutta method, [`LEAST_STEPS`] steps or more in all, and looks for the largest curvature on the same grid, bisected
-/// where it is largest. Numbers that are none give errors that are none.
+/// Integrates x' = direction·cos(ψ + δ), y' = direction·sin(ψ + δ), ψ' = direction·κ(s), δ = crab + crab_rate · metres,
+/// over every piece by the classical Runge-Kutta method, [`LEAST_STEPS`] steps or more in all, and looks for the
+/// largest curvature on the same grid, bisected where it is largest. Numbers that are none give errors that are none.
 ///
 /// ```
 /// use hairpin::verification::{DriveClaim, DrivePiece, LEAST_STEPS, replay_drive};
@@ -99,7 +99,8 @@ pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
         reversals: 0,
         steps: 0,
     };
-    // Curvature and direction at the end of the piece before; a turn in place leaves the wheels straight and no direction.
+    // Curvature and direction at the end of the piece before; a turn in place leaves the wheels straight and no
+    // direction.
     let mut before: (f64, Option<f64>) = (claim.start_curvature, None);
     let mut last_direction = None;
     let mut driven = 0.0;
@@ -135,8 +136,8 @@ pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
     replay
 }
 
-/// Poses along a drive, x, y (m), yaw (rad) in the start's frame, for drawing: for each piece that moves its direction and
-/// its poses, both ends included.
+/// Poses along a drive, x, y (m), yaw (rad) in the start's frame, for drawing: for each piece that moves its direction
+/// and its poses, both ends included.
 pub fn trace_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> Vec<(f64, Vec<[f64; 3]>)> {
     let mut state = [0.0; 3];
     let mut traced = Vec::new();

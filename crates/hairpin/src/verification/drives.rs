@@ -17,7 +17,8 @@ pub struct DriveLegClaim {
     pub to: [f64; 4],
     /// The commands.
     pub pieces: Vec<DrivePiece>,
-    /// Metres of the leg, rising from 0, with the commanded speed there, m/s; v² is linear between, and as at the ends beyond.
+    /// Metres of the leg, rising from 0, with the commanded speed there, m/s; v² is linear between, and as at the ends
+    /// beyond.
     pub speed: Vec<[f64; 2]>,
     /// Planned duration, s.
     pub duration: f64,
@@ -89,8 +90,8 @@ const SAME: f64 = 1e-9;
 /// Bounds are kept up to this share of them: what a replay on a grid may see of rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Integrates the written commands of every leg on the ground: each must end in the next waypoint's pose, keep its bounds,
-/// and begin where the one before ends. Whatever is wrong is a finding; nothing panics on what a file may hold.
+/// Integrates the written commands of every leg on the ground: each must end in the next waypoint's pose, keep its
+/// bounds, and begin where the one before ends. Whatever is wrong is a finding; nothing panics on what a file may hold.
 ///
 /// Fields of findings: `legs[k].end…`, `legs[k].start…`, bounds and speeds by their names. One replay a leg, 2000 steps
 /// or more each.
@@ -190,7 +191,8 @@ mod tests {
         most_acceleration: f64::INFINITY,
     };
 
-    /// A quarter of a circle of radius 2 with clothoids of no length, then straight on: curvature jumps at the joint only.
+    /// A quarter of a circle of radius 2 with clothoids of no length, then straight on: curvature jumps at the joint
+    /// only.
     fn legs() -> Vec<DriveLegClaim> {
         let quarter = std::f64::consts::FRAC_PI_2;
         let arc = |curvature: f64, length_m: f64| DrivePiece::Arc {

@@ -74,7 +74,8 @@ pub struct GroundClaim {
     pub crab: f64,
     /// Its change along the drive, rad/m.
     pub crab_rate: f64,
-    /// Metres of the drive, rising from 0, with the commanded speed there, m/s; v² is linear between, and as at the ends beyond.
+    /// Metres of the drive, rising from 0, with the commanded speed there, m/s; v² is linear between, and as at the
+    /// ends beyond.
     pub speed: Vec<[f64; 2]>,
     /// x, y (m), ψ (rad) to end in.
     pub end: [f64; 3],
@@ -111,9 +112,10 @@ const SIN_20: f64 = 0.342_020_143_325_668_7;
 /// Longest step of a turn in place, rad.
 const TURN_STEP: f64 = 0.005;
 
-/// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on its
-/// wheels at each; an exact vehicle is carried from rest to rest by the twist between them. With latency τ the vehicle first goes on for τ as it was, and the last τ of the commands never act; before a
-/// drive that begins in reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a
+/// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on
+/// its wheels at each; an exact vehicle is carried from rest to rest by the twist between them. With latency τ the
+/// vehicle first goes on for τ as it was, and the last τ of the commands never act; before a drive that begins in
+/// reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a
 /// turn in place, the wheels swing to what comes.
 ///
 /// ẋ, ẏ, ψ̇ are Howard and Kelly's (IJRR 26(2), 2007) of the commanded twist after slip; with `exact` they are not
@@ -331,8 +333,8 @@ impl GroundVehicle {
         self.steering_time_constant_s > 0.0 || self.steering_rate_rad_s.is_finite()
     }
 
-    /// Parts of a step that takes `time` seconds: near rest steps are long, and the lag of each must stay small. Of n equal lengths
-    /// from rest the first takes the share 1/√n.
+    /// Parts of a step that takes `time` seconds: near rest steps are long, and the lag of each must stay small. Of n
+    /// equal lengths from rest the first takes the share 1/√n.
     fn parts(&self, time: f64) -> usize {
         if self.steering_time_constant_s <= 0.0 {
             return 1;
@@ -341,8 +343,9 @@ impl GroundVehicle {
         (ratio * ratio).ceil().clamp(1.0, 400.0) as usize
     }
 
-    /// The steering angle after a step from `s` of steering without a time constant: the command's, as far as the rate allows. Such
-    /// steering is no differential equation that small steps would solve: it would swing about its command.
+    /// The steering angle after a step from `s` of steering without a time constant: the command's, as far as the rate
+    /// allows. Such steering is no differential equation that small steps would solve: it would swing about its
+    /// command.
     fn steered(&self, way: &Way<'_>, angle: f64, s: f64, h: f64) -> Option<f64> {
         let DrivePiece::Arc { curvature, .. } = way.piece else { return None };
         if self.steering_time_constant_s > 0.0 || self.steering_rate_rad_s.is_infinite() {
@@ -387,13 +390,15 @@ impl GroundVehicle {
         rate.clamp(-self.steering_rate_rad_s, self.steering_rate_rad_s) * way.pace
     }
 
-    /// The steering angle after a step from `s` on, which does not depend on where the vehicle is: by the midpoint rule.
+    /// The steering angle after a step from `s` on, which does not depend on where the vehicle is: by the midpoint
+    /// rule.
     fn angle_after(&self, way: &Way<'_>, angle: f64, s: f64, h: f64) -> f64 {
         let half = angle + 0.5 * h * self.turned(way, angle, s);
         angle + h * self.turned(way, half, s + 0.5 * h)
     }
 
-    /// vx, vy (per metre commanded) and ωz (1/m) in the body, or 0, 0, 1 of a turn in place; `bend` is what lagging wheels steer.
+    /// vx, vy (per metre commanded) and ωz (1/m) in the body, or 0, 0, 1 of a turn in place; `bend` is what lagging
+    /// wheels steer.
     fn body_rates(&self, way: &Way<'_>, place: &Place, s: f64, bend: f64) -> [f64; 3] {
         let DrivePiece::Arc { curvature, direction, .. } = way.piece else { return [0.0, 0.0, 1.0] };
         let commanded: f64 = curvature.iter().rev().fold(0.0, |sum, a| sum * s + a);

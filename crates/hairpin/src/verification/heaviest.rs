@@ -2,8 +2,8 @@
 //! found it.
 //!
 //! Shares nothing with the search: trees by Prim's algorithm on the whole table, arborescences by contraction of one
-//! circle at a time, sums in 128 bits; what follows from choices is found by going over all rules again and again. Where
-//! there is no tree of steps, the heaviest path is searched again, backwards over subsets.
+//! circle at a time, sums in 128 bits; what follows from choices is found by going over all rules again and again.
+//! Where there is no tree of steps, the heaviest path is searched again, backwards over subsets.
 
 use super::heaviest_choices::{Chosen, IN, Layout, OPEN, OUT};
 

@@ -1,7 +1,9 @@
-//! The proof that no path is heavier where moves may pass a point: searched again, forwards over the points that were met.
+//! The proof that no path is heavier where moves may pass a point: searched again, forwards over the points that were
+//! met.
 //!
-//! Shares nothing with the search, which goes backwards, ranks whole orders of points and cuts them afterwards: here a state is what was met and where the
-//! last move ended, and every move, straight or through a point, is handed on from there.
+//! Shares nothing with the search, which goes backwards, ranks whole orders of points and cuts them afterwards: here a
+//! state is what was met and where the last move ended, and every move, straight or through a point, is handed on from
+//! there.
 
 use super::heaviest::loop_free;
 

@@ -5,8 +5,9 @@
 //! from truncated Taylor series of the thrust vector (`demand`), the rigid body with a rotation matrix
 //! (`body`), implicit Gauss collocation of order 12 (`gauss`). Nothing is shared with feasibility, search,
 //! simulation, the robot's own equations or the integrators of `math`. Drives of ground vehicles have replays of their
-//! own, in the plane (`drive`) and on the ground (`ground`); programs and graphs of arms are followed by equations of their own (`arm`). That no path
-//! through a graph is heavier is checked bound by bound ([`verify_heaviest`]; [`verify_walk`] where points may come several times, [`verify_triples`] where moves may pass points).
+//! own, in the plane (`drive`) and on the ground (`ground`); programs and graphs of arms are followed by equations of
+//! their own (`arm`). That no path through a graph is heavier is checked bound by bound ([`verify_heaviest`];
+//! [`verify_walk`] where points may come several times, [`verify_triples`] where moves may pass points).
 
 mod arm;
 mod body;

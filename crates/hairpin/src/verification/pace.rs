@@ -31,8 +31,8 @@ const ROUNDING: f64 = 1e-6;
 /// Speeds below this are none, m/s: √(2 a · rounding of metres).
 const STILL: f64 = 1e-4;
 
-/// Puts into `found` every speed that is none, too high, or does not join, stops that are none, accelerations beyond the bound, and a
-/// duration that the speeds do not give.
+/// Puts into `found` every speed that is none, too high, or does not join, stops that are none, accelerations beyond
+/// the bound, and a duration that the speeds do not give.
 pub(super) fn check_speeds(claim: &PaceClaim, found: &mut Collector) {
     let knots = claim.knots;
     let sound = |[s, v]: &[f64; 2]| s.is_finite() && (0.0..=claim.speed * (1.0 + ROUNDING)).contains(v);

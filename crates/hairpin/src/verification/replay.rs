@@ -148,8 +148,8 @@ impl Flyer<'_> {
     }
 }
 
-/// Where `leg` stands still between its ends: a leg along a line that sets out backwards does. Drag turns round there at once, and with it, by a
-/// jump, the torque that the demand asks for, which no step may straddle.
+/// Where `leg` stands still between its ends: a leg along a line that sets out backwards does. Drag turns round there
+/// at once, and with it, by a jump, the torque that the demand asks for, which no step may straddle.
 fn standstills(leg: &Leg) -> Vec<f64> {
     let part = |tau: f64| {
         let taylor = leg.taylor(tau);

@@ -1,7 +1,8 @@
-//! How a vehicle stands on the ground, for the proof: a chain of rotations, contacts, and Newton's method with differences.
+//! How a vehicle stands on the ground, for the proof: a chain of rotations, contacts, and Newton's method with
+//! differences.
 //!
-//! Nothing is shared with the robot's own suspension: wheels are placed by matrices, derivatives are differences, the linear
-//! systems are solved by a general decomposition.
+//! Nothing is shared with the robot's own suspension: wheels are placed by matrices, derivatives are differences, the
+//! linear systems are solved by a general decomposition.
 //!
 //! F(q) = 0 by Newton with central differences of width 1e-6 to 1e-2, an inverse Jacobian borrowed from the
 //! neighbouring rest as long as it helps, halved steps, and the same order of falls as the claim's own, typed again.
@@ -67,7 +68,8 @@ const GUESSES: [(f64, f64); 14] = [
     (0.25, 0.1),
     (0.75, 0.1),
 ];
-/// Joints, and the angles by which they are folded before the rest of a body that falls is looked for from where it stood, in turn.
+/// Joints, and the angles by which they are folded before the rest of a body that falls is looked for from where it
+/// stood, in turn.
 const FALLS: [(usize, f64); 12] = [
     (3, 0.6),
     (3, -0.6),
@@ -139,7 +141,8 @@ impl Rest {
         Err(refused)
     }
 
-    /// Brings the body to rest at `place`, near the rest it had before; where it falls over an edge, wherever it comes to rest.
+    /// Brings the body to rest at `place`, near the rest it had before; where it falls over an edge, wherever it comes
+    /// to rest.
     pub(super) fn carry_on<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
         let before = self.unknowns;
         if self.follow(stand, terrain, place).is_ok() {

@@ -102,7 +102,8 @@ fn prove(body: &Body, (waypoints, legs): &Flown) -> Proof {
     verify(body, &Claim { waypoints, legs }, &Tolerances::default())
 }
 
-/// Drag turns round at once where a leg along a line, set out on backwards, stands still; no step of the integration may straddle that.
+/// Drag turns round at once where a leg along a line, set out on backwards, stands still; no step of the integration
+/// may straddle that.
 #[test]
 fn legs_that_turn_back_along_their_line_are_proven() {
     for body in [flightgoggles(), plus()] {

@@ -1,8 +1,8 @@
 //! A rigid body carried from one rest on the ground to the next by what is commanded of its twist.
 //!
-//! Commanded are vx, vy and ωz in the body; vz, ωx and ωy are whatever keeps the wheels on the ground. So the next rest is the one that
-//! a motion with these three leads to: it is looked for, and the twist is measured between the two poses as a screw. No rates of
-//! angles, no gradient of the suspension.
+//! Commanded are vx, vy and ωz in the body; vz, ωx and ωy are whatever keeps the wheels on the ground. So the next rest
+//! is the one that a motion with these three leads to: it is looked for, and the twist is measured between the two
+//! poses as a screw. No rates of angles, no gradient of the suspension.
 //!
 //! log of the relative pose: rotation R₀ᵀR₁ as axis times angle, translation by the screw's mean frame. Three numbers
 //! of it are commanded, three are the ground's.
@@ -20,12 +20,13 @@ pub(super) struct Place {
 
 /// Tries of a rest.
 const TRIES: usize = 60;
-/// Differences of vx, vy, ωz over a step that rests themselves are not known to, and from which a body counts as carried, m and rad.
+/// Differences of vx, vy, ωz over a step that rests themselves are not known to, and from which a body counts as
+/// carried, m and rad.
 const CLOSED: f64 = 3e-9;
 const ENOUGH: f64 = 1e-6;
 
-/// The place (x, y, ψ) after a step of `h` from `from`, where the body has come to `rest`, at the rates that `body` gives for how it
-/// leans halfway; `rest` is then the one there.
+/// The place (x, y, ψ) after a step of `h` from `from`, where the body has come to `rest`, at the rates that `body`
+/// gives for how it leans halfway; `rest` is then the one there.
 pub(super) fn carry<T: Terrain>(
     stand: &Stand,
     terrain: &T,

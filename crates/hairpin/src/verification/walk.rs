@@ -1,10 +1,12 @@
-//! The proof that no path is heavier that comes back to points: every bound of a branching tree recomputed, and that its branches leave nothing out.
+//! The proof that no path is heavier that comes back to points: every bound of a branching tree recomputed, and that
+//! its branches leave nothing out.
 //!
-//! Shares nothing with the search. Point n is a dummy before the first point and after the last. A path uses each arc at most once, enters and
-//! leaves each point equally often and at most `visits` times, the dummy once. So for any prices a_i of leaving and b_j of entering, with
-//! s_i = visits (1 of the dummy), its cost is at most
+//! Shares nothing with the search. Point n is a dummy before the first point and after the last. A path uses each arc
+//! at most once, enters and leaves each point equally often and at most `visits` times, the dummy once. So for any
+//! prices a_i of leaving and b_j of entering, with s_i = visits (1 of the dummy), its cost is at most
 //!
-//!   Σ s_i (a_i + b_i) + Σ_free max(0, c_ij − a_i − b_j) + Σ_used (c_ij − a_i − b_j) + Σ_points visits · max(0, −a_i − b_i):
+//!   Σ s_i (a_i + b_i) + Σ_free max(0, c_ij − a_i − b_j) + Σ_used (c_ij − a_i − b_j) + Σ_points visits · max(0, −a_i −
+//!   b_i):
 //!
 //! a point that is visited less often has so many times neither its a nor its b spent.
 
@@ -47,7 +49,8 @@ pub struct SplitClaim {
     pub points: Vec<usize>,
     /// The step without them; `None` where one of them must be met, because an arc there is used.
     pub without: Option<usize>,
-    /// From, to (the number of points for the dummy), and the step in which this arc is used and those before it are not.
+    /// From, to (the number of points for the dummy), and the step in which this arc is used and those before it are
+    /// not.
     pub ways: Vec<(usize, usize, usize)>,
 }
 
@@ -140,7 +143,8 @@ fn check_tree(claim: &WalkClaim) -> Result<(), String> {
             }
             let index = from * nodes + to;
             let mut used = states_of_ways.clone();
-            // An arc that is gone cannot be used: nothing is left there, and what its step says of it holds all the same.
+            // An arc that is gone cannot be used: nothing is left there, and what its step says of it holds all the
+            // same.
             used[index] = if used[index] == GONE { GONE } else { USED };
             children.push((*child, used));
             states_of_ways[index] = GONE;
@@ -173,8 +177,8 @@ fn cost(claim: &WalkClaim, index: usize) -> Option<i64> {
     }
 }
 
-/// What is left where no path meets the points: every arc that touches one of them is gone. Where one of those must be used there is no such
-/// path, and letting it go only asks for more.
+/// What is left where no path meets the points: every arc that touches one of them is gone. Where one of those must be
+/// used there is no such path, and letting it go only asks for more.
 fn without(states: &[u8], touches: impl Fn(usize) -> bool) -> Vec<u8> {
     let left = |(index, state): (usize, &u8)| if touches(index) { GONE } else { *state };
     states.iter().enumerate().map(left).collect()

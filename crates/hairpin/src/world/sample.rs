@@ -23,8 +23,9 @@ pub enum Sampling {
     /// Independent and uniform.
     #[default]
     Uniform,
-    /// Every other one uniform, the others about one of those before: in any direction, at a distance that is even in its logarithm from a
-    /// tenth of the mean spacing, (free room ÷ points)^(1/dimensions), to all of it. Short legs, which uniform points hardly have.
+    /// Every other one uniform, the others about one of those before: in any direction, at a distance that is even in
+    /// its logarithm from a tenth of the mean spacing, (free room ÷ points)^(1/dimensions), to all of it. Short legs,
+    /// which uniform points hardly have.
     Clustered,
     /// An Owen-scrambled Sobol sequence (Burley 2020), at most 65 536 draws long.
     Sobol,
@@ -139,8 +140,8 @@ pub(crate) fn short_way<const D: usize>(spacing: f64, random: &mut Stream) -> [f
     way.map(|part| part * (distance / norm))
 }
 
-/// The first `count` free points among the first `draws`, or how many there were and their share. A draw is told its number and the points
-/// found before it.
+/// The first `count` free points among the first `draws`, or how many there were and their share. A draw is told its
+/// number and the points found before it.
 fn reject(
     world: &World,
     count: usize,

@@ -280,7 +280,8 @@ fn clusters_have_short_legs_that_uniform_points_hardly_have() {
         };
         (0..points.len()).filter(|at| nearest(*at) < 0.4 * spacing).count()
     };
-    // Uniform: 1 − exp(−4π/3 · 0.4³) = 24 %. Clusters: of the half that lies about others ln(4)/ln(10) = 60 %, and those that they lie about.
+    // Uniform: 1 − exp(−4π/3 · 0.4³) = 24 %. Clusters: of the half that lies about others ln(4)/ln(10) = 60 %, and
+    // those that they lie about.
     let (uniform, clustered) = (close(Sampling::Uniform), close(Sampling::Clustered));
     assert!((40..=80).contains(&uniform) && (120..=190).contains(&clustered), "{uniform} and {clustered} of 250");
 }

@@ -1,5 +1,5 @@
-//! Every family of controls, every kind of speed and direction: goals that are feasible by construction are all met, by the
-//! replay's own equations, within 1 cm, 0.01 rad, 0.01 1/m and the bounds.
+//! Every family of controls, every kind of speed and direction: goals that are feasible by construction are all met, by
+//! the replay's own equations, within 1 cm, 0.01 rad, 0.01 1/m and the bounds.
 
 mod made;
 
@@ -59,7 +59,8 @@ fn held(problem: &Problem, answer: &Answer, told: &str) -> Option<f64> {
     Some(found.length)
 }
 
-/// Makes and solves `count` problems; panics unless all are met, and most not much longer than the curve they were made from.
+/// Makes and solves `count` problems; panics unless all are met, and most not much longer than the curve they were made
+/// from.
 fn all_met(name: &str, count: u64, control: Control, make: impl Fn(&mut Stream) -> (Made, SpeedProfile, f64)) {
     let begun = std::time::Instant::now();
     let mut ratios = Vec::new();
@@ -369,7 +370,8 @@ fn rocky8(lags: bool) -> Rover {
     Rover { slip: Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 }, response, ..rover }
 }
 
-/// On cratered ground: goals that were driven under the same speeds and directions are met again, slip, latency and lag included.
+/// On cratered ground: goals that were driven under the same speeds and directions are met again, slip, latency and lag
+/// included.
 #[test]
 fn speeds_and_directions_are_met_on_the_ground() {
     let recipe =
@@ -441,7 +443,8 @@ fn costs(segments: &[Segment], cost: Cost) -> f64 {
 #[test]
 fn families_with_parameters_to_spare_lower_costs_and_keep_their_goals() {
     let ramp = SpeedProfile::Ramp { start: 0.5, end: 1.5 };
-    // Of four parameters to spare more comes than of two; without a cost a drive is the smoothest near its start value already.
+    // Of four parameters to spare more comes than of two; without a cost a drive is the smoothest near its start value
+    // already.
     for (control, speed, cost, most) in [
         (Control::Knots, 1.0.into(), Cost::Curvature, 0.99),
         (Control::Knots, 1.0.into(), Cost::Rate, 1.0001),

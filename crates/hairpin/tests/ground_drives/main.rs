@@ -1,4 +1,5 @@
-//! Closed-loop drives on the ground: controllers follow plans they can follow, and the plant slips as the closed form says.
+//! Closed-loop drives on the ground: controllers follow plans they can follow, and the plant slips as the closed form
+//! says.
 
 mod site;
 
@@ -87,8 +88,9 @@ fn shunting() -> Drive {
     )
 }
 
-/// Plans that come to rest at cusps are followed no worse than those that do not, by every controller, and come as near to the cusps;
-/// where commands act late, and the controller does not look past a cusp, they are followed more than twice as closely.
+/// Plans that come to rest at cusps are followed no worse than those that do not, by every controller, and come as near
+/// to the cusps; where commands act late, and the controller does not look past a cusp, they are followed more than
+/// twice as closely.
 #[test]
 fn plans_that_stop_at_cusps_are_followed_more_closely() {
     let mut site =
@@ -164,7 +166,8 @@ fn an_underside_that_sets_down_ends_the_run() {
     }
 }
 
-/// How fast a vehicle 1 m to the left of a line comes to it: overshoot, m, and the way after which it stays within 5 cm, m.
+/// How fast a vehicle 1 m to the left of a line comes to it: overshoot, m, and the way after which it stays within 5
+/// cm, m.
 fn lateral_step(site: &Site, controller: &GroundController, speed: f64) -> (f64, f64) {
     let line = plan(&[vec![Segment::straight(12.0, Gear::Forward)]], speed);
     let (flight, _) = site.run(&line, controller, 1);

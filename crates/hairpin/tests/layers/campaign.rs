@@ -21,6 +21,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     // The kinds.
     &["flight", "drive", "arm"],
     // A scenario becomes a setup: the one `match`.
+    &["own_controller"],
     &["setup"],
     &["planned", "coverage", "goals", "states"],
     // The jobs.

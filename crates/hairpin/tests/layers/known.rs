@@ -4,17 +4,17 @@
 /// Paths that the floors of rooms and crates forbid.
 pub(crate) const AGAINST_THE_FLOORS: usize = 17;
 /// Exports of what another room or crate defines.
-pub(crate) const EXPORTED_FROM_ELSEWHERE: usize = 19;
+pub(crate) const EXPORTED_FROM_ELSEWHERE: usize = 17;
 /// Imports, by file, that the floors of `campaign` forbid.
-pub(crate) const AGAINST_CAMPAIGN: usize = 28;
+pub(crate) const AGAINST_CAMPAIGN: usize = 29;
 /// Places outside the kinds' own rooms where it is asked what a robot is.
-pub(crate) const TELLING_KINDS_APART: usize = 127;
+pub(crate) const TELLING_KINDS_APART: usize = 131;
 /// Lines with a comment beyond column 120.
-pub(crate) const LONG_COMMENTS: usize = 901;
+pub(crate) const LONG_COMMENTS: usize = 16;
 
 /// Files in circles, by crate.
 const IN_CIRCLES: &[(&str, usize)] =
-    &[("hairpin", 72), ("hairpin_formats", 20), ("hairpin_jobs", 4), ("hairpin_lab", 2), ("hairpin_cli", 10)];
+    &[("hairpin", 64), ("hairpin_formats", 20), ("hairpin_jobs", 4), ("hairpin_lab", 2), ("hairpin_cli", 10)];
 
 pub(crate) fn in_circles(member: &str) -> usize {
     IN_CIRCLES.iter().find(|(name, _)| *name == member).map_or(0, |(_, known)| *known)

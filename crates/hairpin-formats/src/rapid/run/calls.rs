@@ -15,7 +15,8 @@ struct Bound<'a> {
 }
 
 impl<'a> Machine<'a> {
-    /// Calls the routine of that name (lower case, one of the file's): whether execution goes on behind it, and its value.
+    /// Calls the routine of that name (lower case, one of the file's): whether execution goes on behind it, and its
+    /// value.
     pub(super) fn call(&mut self, name: &str, arguments: &[Argument], at: At) -> (bool, Option<Value>) {
         let Some(routine) = self.routines.get(name).copied() else { return (true, None) };
         if self.depth >= DEEPEST {

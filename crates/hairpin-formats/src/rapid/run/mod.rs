@@ -1,4 +1,5 @@
-//! Executes a module without its cell: what depends on the cell is unknown, and where it would change motion, that is told.
+//! Executes a module without its cell: what depends on the cell is unknown, and where it would change motion, that is
+//! told.
 
 mod calls;
 mod effects;

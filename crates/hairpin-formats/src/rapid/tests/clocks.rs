@@ -26,8 +26,8 @@ fn clock(count: usize, arcs: &[(usize, usize)], start: usize) -> Result<super::s
     })
 }
 
-/// Every arc in turn, on graphs with dead ends and parts of their own: only arcs are driven, all that can be are, and the walk
-/// comes back.
+/// Every arc in turn, on graphs with dead ends and parts of their own: only arcs are driven, all that can be are, and
+/// the walk comes back.
 #[test]
 fn every_arc_is_driven_and_only_arcs_are() {
     let complete: Vec<_> = (0..6).flat_map(|a| (0..6).map(move |b| (a, b))).filter(|(a, b)| a != b).collect();

@@ -6,8 +6,8 @@ use serde_json::Value;
 use super::{Kind, Node, Shape, most_alike, type_of};
 use crate::scenario::report::Report;
 
-/// What the key that `[vary]` draws under `mistaken`, such as `vary."robot.mass_kg"`, must be, where `schema` has no such key in what `root`
-/// is; `None` where it has, or where `mistaken` is another key.
+/// What the key that `[vary]` draws under `mistaken`, such as `vary."robot.mass_kg"`, must be, where `schema` has no
+/// such key in what `root` is; `None` where it has, or where `mistaken` is another key.
 pub(in crate::scenario) fn unknown_in_vary(schema: &Value, root: &Node, mistaken: &str) -> Option<String> {
     let path = KeyPath::parse(mistaken)?;
     let [table, key] = path.segments() else { return None };
@@ -17,7 +17,8 @@ pub(in crate::scenario) fn unknown_in_vary(schema: &Value, root: &Node, mistaken
 }
 
 impl<'s> Shape<'s> {
-    /// Follows `segments` down from `schema`, the shape of the value at `path`, and from `node`, which is there if it was given.
+    /// Follows `segments` down from `schema`, the shape of the value at `path`, and from `node`, which is there if it
+    /// was given.
     fn unknown(&self, schema: &'s Value, node: Option<&Node>, segments: &[String], path: &str) -> Option<String> {
         let (first, rest) = segments.split_first()?;
         let alternatives = self.alternatives(schema);

@@ -34,10 +34,12 @@ pub struct GraphAgain {
 }
 
 impl ArmSetup<'_> {
-    /// Follows `program`, which must be one that a controller executes, by code of its own: frames, postures, bounds, targets, corners that are cut,
-    /// and, where all links are claimed to be clear, the distance that links and tool keep from the cell.
+    /// Follows `program`, which must be one that a controller executes, by code of its own: frames, postures, bounds,
+    /// targets, corners that are cut, and, where all links are claimed to be clear, the distance that links and tool
+    /// keep from the cell.
     pub(super) fn followed_again(&self, case: &Case, program: &Program) -> ArmProgramReplay {
-        // The angles at the end of a move in joints are claimed of arms alone of which a configuration does not tell them.
+        // The angles at the end of a move in joints are claimed of arms alone of which a configuration does not tell
+        // them.
         let told = |pose: &Isometry3<f64>, wanted: &Configuration| match self.station.arm.kinematics {
             Kinematics::Opw(_) => None,
             Kinematics::Chain => self.posture(pose, wanted),
@@ -53,8 +55,8 @@ impl ArmSetup<'_> {
         self.claimed(|arm| verify_arm_program(arm, &claim))
     }
 
-    /// Follows every move that `graph` has, between points, from home and back, by code of its own; what does not hold, in words. In Cartesian mode, which
-    /// knows no joints, there is nothing to follow.
+    /// Follows every move that `graph` has, between points, from home and back, by code of its own; what does not hold,
+    /// in words. In Cartesian mode, which knows no joints, there is nothing to follow.
     pub fn graph_again(&self, graph: &ArmGraph) -> GraphAgain {
         let Some(postures) = &graph.postures else { return GraphAgain::default() };
         let (n, home) = (graph.points(), self.station.home);

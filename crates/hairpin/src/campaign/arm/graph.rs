@@ -1,4 +1,5 @@
-//! The reachability graph of a scenario: which moves are possible, in which posture each point is met, and what moves cost.
+//! The reachability graph of a scenario: which moves are possible, in which posture each point is met, and what moves
+//! cost.
 
 use nalgebra::{Isometry3, Point3};
 
@@ -40,7 +41,8 @@ impl ArmGraph {
         self.reachability.points()
     }
 
-    /// In which configuration a point is met: the proven one; in Cartesian mode the cloud's, or one in which the arm can stand there.
+    /// In which configuration a point is met: the proven one; in Cartesian mode the cloud's, or one in which the arm
+    /// can stand there.
     pub(super) fn configuration(&self, setup: &ArmSetup, row: usize) -> Option<Configuration> {
         let station = setup.station;
         match &self.postures {
@@ -54,8 +56,9 @@ impl ArmGraph {
         }
     }
 
-    /// Whether the corner at the `k`-th of `rows` may be cut by a zone of `zone` m: the triangle that a blend stays in is proven clear of the
-    /// cell, grown by the tool and by what the spec allows. Joint moves stop everywhere: their blends lie in no such triangle.
+    /// Whether the corner at the `k`-th of `rows` may be cut by a zone of `zone` m: the triangle that a blend stays in
+    /// is proven clear of the cell, grown by the tool and by what the spec allows. Joint moves stop everywhere: their
+    /// blends lie in no such triangle.
     pub(super) fn blends(&self, setup: &ArmSetup, rows: &[usize], k: usize, zone: f64) -> bool {
         let (station, scenario) = (setup.station, setup.scenario);
         if scenario.generate.moves.kind == MoveName::Joint {

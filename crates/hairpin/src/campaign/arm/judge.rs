@@ -23,7 +23,8 @@ impl ArmSetup<'_> {
     }
 }
 
-/// What `recording` did on each move of the programmed path; `None` where it is too short. Distances of samples are left out.
+/// What `recording` did on each move of the programmed path; `None` where it is too short. Distances of samples are
+/// left out.
 pub(in crate::campaign) fn measured(setup: &ArmSetup, programmed: &PlannedPath, recording: &Track) -> Option<Measured> {
     let turn_weight =
         if recording.channel(ATTITUDE_UNKNOWN).is_some() { 0.0 } else { MeasureSettings::default().turn_weight };

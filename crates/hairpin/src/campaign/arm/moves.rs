@@ -1,4 +1,5 @@
-//! What runs did on the moves of their programs, as plain numbers: `moves.json`, and of earlier releases `baseline.json`.
+//! What runs did on the moves of their programs, as plain numbers: `moves.json`, and of earlier releases
+//! `baseline.json`.
 
 use nalgebra::Isometry3;
 use serde::{Deserialize, Serialize};
@@ -102,8 +103,8 @@ impl Baseline {
     /// The baseline, if it is one.
     ///
     /// # Errors
-    /// No release; a case without moves, or fewer than two runs of one in the last release; lists of other lengths; numbers that are
-    /// no times and distances.
+    /// No release; a case without moves, or fewer than two runs of one in the last release; lists of other lengths;
+    /// numbers that are no times and distances.
     pub fn checked(self) -> Result<Self, BaselineError> {
         let refuse = |release: &str, case, what| Err(BaselineError { release: release.into(), case, what });
         let Some(last) = self.releases.last() else { return refuse("", 0, "there is no release".into()) };
@@ -202,8 +203,8 @@ impl RunMoves {
     }
 }
 
-/// What the controller is told, in a few letters: targets to a micrometre and a millionth of a degree or a quaternion's part, speeds, zones,
-/// tools and work objects; no names, and nothing of how the program was found.
+/// What the controller is told, in a few letters: targets to a micrometre and a millionth of a degree or a quaternion's
+/// part, speeds, zones, tools and work objects; no names, and nothing of how the program was found.
 fn digest(program: &Program) -> String {
     let mut told: Vec<f64> = Vec::new();
     program.tools.iter().for_each(|tool| tell_pose(&mut told, &tool.tcp));

@@ -32,7 +32,8 @@ impl ArmSetup<'_> {
         }
     }
 
-    /// Times (s) and joint angles (rad) of the planned motion of the program of `case`, every `sample` s: no lag, no noise.
+    /// Times (s) and joint angles (rad) of the planned motion of the program of `case`, every `sample` s: no lag, no
+    /// noise.
     ///
     /// # Errors
     /// A program that cannot be planned, or that the arm cannot follow to its end.

@@ -21,8 +21,8 @@ pub struct CellPoint {
 /// Draws per point that is asked for: in a cell where fewer than one in so many fits, the cell is at fault.
 pub(super) const DRAWS: usize = 20_000;
 
-/// The points of a resolved scenario. `fits` says whether the arm can stand at a drawn pose, and `reach` is the ball (centre and
-/// radius, m, base frame) that it can stand in.
+/// The points of a resolved scenario. `fits` says whether the arm can stand at a drawn pose, and `reach` is the ball
+/// (centre and radius, m, base frame) that it can stand in.
 ///
 /// # Errors
 /// The key of a point that is no point, or places for some of the drawn ones only.

@@ -1,4 +1,5 @@
-//! From a path through the cloud to the program that an arm runs, and from a program to what the virtual controller is told.
+//! From a path through the cloud to the program that an arm runs, and from a program to what the virtual controller is
+//! told.
 
 use nalgebra::Isometry3;
 
@@ -77,8 +78,9 @@ impl ArmSetup<'_> {
         }
     }
 
-    /// The program along `way`: home, joints to the first point, on through the others, home. Speeds and zones are drawn from the scenario's
-    /// lists; `blends(k)` says whether the corner at the way's k-th point may be cut by a zone (m).
+    /// The program along `way`: home, joints to the first point, on through the others, home. Speeds and zones are
+    /// drawn from the scenario's lists; `blends(k)` says whether the corner at the way's k-th point may be cut by a
+    /// zone (m).
     pub(super) fn program(&self, way: &Way, number: usize, blends: impl Fn(usize, f64) -> bool) -> Program {
         let (tool, object) = self.frames();
         let object_from_base = object.base_from_object().inverse();
@@ -114,7 +116,8 @@ impl ArmSetup<'_> {
         program
     }
 
-    /// What the virtual controller is told of `program`: its moves after the first, which starts at home, in base coordinates.
+    /// What the virtual controller is told of `program`: its moves after the first, which starts at home, in base
+    /// coordinates.
     ///
     /// # Errors
     /// As [`Order::all_of`].

@@ -21,13 +21,15 @@ pub struct Shorter {
 }
 
 impl ArmSetup<'_> {
-    /// `recording` (`base_from_tcp`, its channel `move` if it has one counted from 0 after home) as a run of the program of `case`, on its own stamps.
+    /// `recording` (`base_from_tcp`, its channel `move` if it has one counted from 0 after home) as a run of the
+    /// program of `case`, on its own stamps.
     ///
-    /// It is shorter than the program if it does not arrive at the last target but one, or ends nearer to that than to the last: where the last
-    /// target is only missed, by whatever distance, that is for the judge.
+    /// It is shorter than the program if it does not arrive at the last target but one, or ends nearer to that than to
+    /// the last: where the last target is only missed, by whatever distance, that is for the judge.
     ///
     /// # Errors
-    /// A case whose program cannot be planned; a recording that the oracle cannot align, moves that the program has not.
+    /// A case whose program cannot be planned; a recording that the oracle cannot align, moves that the program has
+    /// not.
     pub fn recorded(
         &self,
         case: &Case,

@@ -77,7 +77,8 @@ impl ArmSetup<'_> {
         Ok(Some(Regression { releases: names.chain([name.to_owned()]).collect(), programs }))
     }
 
-    /// The verdict by the limits, with what is known beside them: the baseline, and how the recordings' clocks differ from the plan's.
+    /// The verdict by the limits, with what is known beside them: the baseline, and how the recordings' clocks differ
+    /// from the plan's.
     pub fn verdict_with(&self, verdict: Verdict, moves: &Moves, regression: Option<&Regression>) -> Verdict {
         let spec = &self.scenario.spec;
         let limited = spec.path.is_some() || spec.arrival.is_some();

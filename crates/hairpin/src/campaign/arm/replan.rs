@@ -30,8 +30,8 @@ impl Replanner {
         Ok(Self { graph, case: case.clone(), program, rows })
     }
 
-    /// The case over the waypoints at `indices`, home at both ends included, if all moves between them are possible. Every move keeps its
-    /// speed, and its zone where the corner may still be cut.
+    /// The case over the waypoints at `indices`, home at both ends included, if all moves between them are possible.
+    /// Every move keeps its speed, and its zone where the corner may still be cut.
     pub(in crate::campaign) fn plan(&self, setup: &ArmSetup, indices: &[usize]) -> Option<Case> {
         let between = indices.get(1..indices.len().checked_sub(1)?)?;
         let rows: Vec<usize> = between.iter().map(|index| self.rows[index - 1]).collect();

@@ -11,7 +11,8 @@ use crate::simulation::arm::{Order, Target};
 use crate::trajectory::program::Speed;
 
 impl ArmSetup<'_> {
-    /// The features of each move of the program of `case`; `None` of those from and to home, on arcs, and between points of unknown posture.
+    /// The features of each move of the program of `case`; `None` of those from and to home, on arcs, and between
+    /// points of unknown posture.
     pub(in crate::campaign) fn moves_seen(&self, case: &Case) -> Vec<Option<MoveFeatures>> {
         let orders = program_of(case).and_then(|program| self.orders(program)).unwrap_or_default();
         let one = |(index, order): (usize, &Order)| {
@@ -44,8 +45,9 @@ impl ArmSetup<'_> {
         turned.into_iter().find(|q| station.arm.configuration(q) == *wanted)
     }
 
-    /// What `model` expects of the move from row to row with these angles at both ends, in millionths of its unit: the mean over the scenario's
-    /// speeds, of which one is drawn later; at least 0. Not what it expects at their mean, a speed that nothing was executed at.
+    /// What `model` expects of the move from row to row with these angles at both ends, in millionths of its unit: the
+    /// mean over the scenario's speeds, of which one is drawn later; at least 0. Not what it expects at their mean, a
+    /// speed that nothing was executed at.
     pub(super) fn expected(&self, model: &ScoreModel, [from, to]: [usize; 2], angles: [&Joints; 2]) -> i64 {
         let place = |row: usize| &self.station.points[row].pose;
         let speeds = &self.scenario.generate.moves.speeds;

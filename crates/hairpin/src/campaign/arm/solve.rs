@@ -67,8 +67,8 @@ impl ArmSetup<'_> {
         plans.map(|(number, plan)| plan.case(self.scenario.seed, 0, number)).collect()
     }
 
-    /// What is searched: the graph's costs, and where not every point can be a first and a last one, home as two points more: one with free
-    /// arcs to where programs may begin, one with free arcs from where they may end.
+    /// What is searched: the graph's costs, and where not every point can be a first and a last one, home as two points
+    /// more: one with free arcs to where programs may begin, one with free arcs from where they may end.
     fn question(&self, graph: &ArmGraph) -> Question {
         let search = &self.scenario.generate.search;
         let n = graph.points();

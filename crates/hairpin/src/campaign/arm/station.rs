@@ -94,8 +94,8 @@ impl Station {
         cell
     }
 
-    /// A ball (centre and radius, m) that holds every place the tool's point can be at: around the second joint at rest, as far as all
-    /// lengths after it add up to, and what the first joint carries it around.
+    /// A ball (centre and radius, m) that holds every place the tool's point can be at: around the second joint at
+    /// rest, as far as all lengths after it add up to, and what the first joint carries it around.
     fn reach(&self) -> (Vector3<f64>, f64) {
         let chain = &self.arm.chain;
         let shoulder = (chain.joints[0].origin * chain.joints[1].origin).translation.vector;

@@ -8,9 +8,10 @@ use crate::verification::{ArmMoveFinding, Collector, Proof, Worst};
 /// Distance within which a waypoint counts as met, m: a module's numbers have a millionth of a millimetre.
 const MET: f64 = 1e-6;
 
-/// Follows the program of `case` by equations of its own: every move must lead to its waypoint, every joint stay within its bounds, and, where all
-/// links are claimed to be clear, none come nearer to a part of the cell than was claimed, nor touch it where a zone cuts a corner. Sampled: what the
-/// graph proves between samples is not proven again. `None` for a case that has no program.
+/// Follows the program of `case` by equations of its own: every move must lead to its waypoint, every joint stay within
+/// its bounds, and, where all links are claimed to be clear, none come nearer to a part of the cell than was claimed,
+/// nor touch it where a zone cuts a corner. Sampled: what the graph proves between samples is not proven again. `None`
+/// for a case that has no program.
 pub(in crate::campaign) fn verify(setup: &ArmSetup, case: &Case) -> Option<Proof> {
     let program = case.program()?;
     let mut proof = Proof::default();

@@ -26,8 +26,8 @@ pub(super) fn build_of(arm: &Arm) -> ArmBuild {
     }
 }
 
-/// The moves of a program whose tools and work objects are all there. `told` says what is claimed of the joint angles with the tool at a pose in a
-/// configuration, if anything is.
+/// The moves of a program whose tools and work objects are all there. `told` says what is claimed of the joint angles
+/// with the tool at a pose in a configuration, if anything is.
 pub(super) fn moves_of(
     program: &Program,
     told: impl Fn(&Isometry3<f64>, &Configuration) -> Option<Joints>,

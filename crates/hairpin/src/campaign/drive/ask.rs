@@ -35,8 +35,9 @@ pub(super) struct Asked<'a, N, R, O> {
     pub(super) lookahead: usize,
 }
 
-/// Searches from the start to the task's end, or to wherever the last waypoint lies. `may_arrive(node, steps)` is necessary for the end
-/// to be reached from `node` in `steps` legs; `plan` gives `None` for what no drive can be made of.
+/// Searches from the start to the task's end, or to wherever the last waypoint lies. `may_arrive(node, steps)` is
+/// necessary for the end to be reached from `node` in `steps` legs; `plan` gives `None` for what no drive can be made
+/// of.
 pub(super) fn ask<N, R, O>(
     asked: Asked<'_, N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
@@ -87,7 +88,8 @@ where
     Outcome::of(graph, search(&question, OpenEnd::<&R>::may_arrive))
 }
 
-/// What was learned of legs, by rounds before this one or by the scenario's model, or what the user's own program says of them.
+/// What was learned of legs, by rounds before this one or by the scenario's model, or what the user's own program says
+/// of them.
 pub(super) fn learned<'a>(scenario: &'a DriveScenario, looped: &Looped<'a>) -> Option<AnyScore<'a>> {
     let search = &scenario.generate.search;
     let kept = search.model.as_ref().map(|kept| &*kept.model);

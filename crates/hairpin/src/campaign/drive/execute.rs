@@ -63,8 +63,8 @@ pub(in crate::campaign) fn drive(
     ground::drive(&sortie, &controller, &conditions, &settings, order.seed)
 }
 
-/// Commands in one gear from `from` to `to` on the ground, travelling in `direction`, as far as the nominal vehicle goes; `None` where
-/// there are none.
+/// Commands in one gear from `from` to `to` on the ground, travelling in `direction`, as far as the nominal vehicle
+/// goes; `None` where there are none.
 fn solve(setup: &DriveSetup, from: &Planar, to: &Planar, gear: Gear, direction: Direction) -> Option<SegmentList> {
     let bounds = setup.bounds();
     let within = |at: &Planar| Planar { curvature: at.curvature.clamp(-bounds.most, bounds.most), ..*at };

@@ -11,7 +11,8 @@ use crate::feasibility::reach::drive::{DriveRoadmap, LegRefusal};
 /// Nodes of a roadmap whose legs are solved.
 const NODES: usize = 16;
 
-/// Counts the legs of the first nodes of `roadmap`, of trajectories of `length` waypoints that end at the last one where `ends`.
+/// Counts the legs of the first nodes of `roadmap`, of trajectories of `length` waypoints that end at the last one
+/// where `ends`.
 pub(super) fn count(roadmap: &DriveRoadmap, points: &[Point3<f64>], length: usize, ends: bool, counter: &mut Counter) {
     let mut open = VecDeque::from([(roadmap.start(), 1)]);
     let mut seen = HashSet::from([roadmap.start()]);

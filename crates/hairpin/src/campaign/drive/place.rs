@@ -1,4 +1,5 @@
-//! Round keep-outs placed where a drive leaves its plan: clear of all of the planned drive, and in the executed one's way.
+//! Round keep-outs placed where a drive leaves its plan: clear of all of the planned drive, and in the executed one's
+//! way.
 
 use nalgebra::{Point3, Unit, Vector3};
 
@@ -14,8 +15,8 @@ use crate::world::terrain::{KeepOut, KeepOutShape, KeepOuts};
 
 /// Chords of the planned way, at most.
 const CHORDS: usize = 600;
-/// What keep-outs keep from the plan beyond the vehicle's radius and what its looks need, m: a little at first, more where chords hide what
-/// is nearer.
+/// What keep-outs keep from the plan beyond the vehicle's radius and what its looks need, m: a little at first, more
+/// where chords hide what is nearer.
 const GAPS: [f64; 2] = [0.002, 0.05];
 
 /// What keep-outs have to be clear of.
@@ -26,7 +27,8 @@ enum Claimed<'a> {
     Straight(&'a [Point3<f64>]),
 }
 
-/// Up to `asked.count` discs in the way of `track`, the drive of `case` without them. `None` where there is no room for any.
+/// Up to `asked.count` discs in the way of `track`, the drive of `case` without them. `None` where there is no room for
+/// any.
 pub(in crate::campaign) fn place(
     setup: &DriveSetup,
     case: &Case,

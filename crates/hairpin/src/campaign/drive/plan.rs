@@ -8,8 +8,8 @@ use crate::simulation::ground::planned_track;
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment};
 use crate::trajectory::{Drive, DriveLeg, Track};
 
-/// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. A case without a drive is drawn along its straight
-/// legs, turning in place at each waypoint.
+/// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. A case without a drive is drawn along its
+/// straight legs, turning in place at each waypoint.
 ///
 /// # Errors
 /// A drive that the ground does not carry, as a folder that was edited may hold.

@@ -9,9 +9,10 @@ use crate::campaign::Case;
 use crate::trajectory::Passing;
 use crate::world::terrain::Terrain;
 
-/// `case` over `points` (m; heights are the ground's), of which the k-th was its waypoint number `indices[k]` and is passed as that was, if
-/// that is feasible as the case is: each leg solved again within the limits where it has drives, by the same reach set, from the task's
-/// start, where that was all. Of waypoints made elsewhere nothing was claimed but that they lie on the map. `None`: it is not.
+/// `case` over `points` (m; heights are the ground's), of which the k-th was its waypoint number `indices[k]` and is
+/// passed as that was, if that is feasible as the case is: each leg solved again within the limits where it has drives,
+/// by the same reach set, from the task's start, where that was all. Of waypoints made elsewhere nothing was claimed
+/// but that they lie on the map. `None`: it is not.
 pub(in crate::campaign) fn replan(
     setup: &DriveSetup,
     case: &Case,

@@ -70,7 +70,8 @@ impl Site<'_> {
         rough::solve(&self.course(Steps::default().for_rate(bounds.most_rate)), start, goal, bounds, settings, steer)
     }
 
-    /// What of `segments` the speeds are meant for: all but the stretch that is held while the last commands come to act.
+    /// What of `segments` the speeds are meant for: all but the stretch that is held while the last commands come to
+    /// act.
     fn driven(&self, segments: &[Segment]) -> Vec<Segment> {
         let held = match rough::Waiting::before(segments) {
             rough::Waiting::GoesOn => self.rover.response.latency * self.speed.end(),
@@ -100,8 +101,8 @@ impl Site<'_> {
         )
     }
 
-    /// The places, with the metres driven to them, that `segments` lead to from `start` for as long as the body finds rest, looked at in
-    /// `steps`: the middles of those.
+    /// The places, with the metres driven to them, that `segments` lead to from `start` for as long as the body finds
+    /// rest, looked at in `steps`: the middles of those.
     pub fn way(&self, start: &Planar, segments: &[Segment], steps: Steps) -> Vec<(f64, Planar)> {
         let mut way = Vec::new();
         let commands = self.after_waiting(start, &self.driven(segments));
@@ -110,7 +111,8 @@ impl Site<'_> {
         way
     }
 
-    /// `acting` with what is driven before: commands act late, and until then a vehicle under way goes on as it was at `start`.
+    /// `acting` with what is driven before: commands act late, and until then a vehicle under way goes on as it was at
+    /// `start`.
     pub(in crate::campaign) fn after_waiting(&self, start: &Planar, acting: &[Segment]) -> Vec<Segment> {
         let wait_m = self.rover.response.latency * self.speed.start();
         let goes_on = wait_m > 0.0 && rough::Waiting::before(acting) == rough::Waiting::GoesOn;
@@ -241,7 +243,8 @@ pub fn flat_claim(query: &Query, direction: f64) -> DriveClaim {
     }
 }
 
-/// `segments` as they would be written, replayed against a flat `query` of a vehicle that travels at `direction` to its body.
+/// `segments` as they would be written, replayed against a flat `query` of a vehicle that travels at `direction` to its
+/// body.
 pub fn replay_flat(query: &Query, direction: f64, segments: &[Segment]) -> DriveReplay {
     let pieces: Vec<DrivePiece> = segments.iter().map(drive_piece).collect();
     replay_drive(&pieces, &flat_claim(query, direction))

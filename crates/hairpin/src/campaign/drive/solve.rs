@@ -25,7 +25,8 @@ use crate::trajectory::drive::Planar;
 use crate::trajectory::{Drive, Passing};
 use crate::world::terrain::Terrain;
 
-/// Waypoints at a leg's distance that each waypoint has, about: the disc that waypoints are spread over follows from it.
+/// Waypoints at a leg's distance that each waypoint has, about: the disc that waypoints are spread over follows from
+/// it.
 const NEIGHBOURS: f64 = 12.0;
 /// The ground's part in what learned scores see.
 const LEARNED_FROM: &str = "slope+slip";
@@ -77,7 +78,8 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// `plan` over `points`, as many as its own, by the same reach set; heights are the ground's. `None` where they are not feasible.
+    /// `plan` over `points`, as many as its own, by the same reach set; heights are the ground's. `None` where they are
+    /// not feasible.
     fn moved(&self, graph: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let on_ground = |p: &Point3<f64>| Some(Point3::new(p.x, p.y, self.setup.map.patch(p.x, p.y).ok()?.height));
         let waypoints: Vec<Point3<f64>> = points.iter().map(on_ground).collect::<Option<_>>()?;

@@ -1,5 +1,5 @@
-//! Reach sets of ground vehicles with one fixed step per leg: `none`, `sphere`, `hull`. They are for comparison: what they find
-//! has no commands, and their scores see straight legs between turns in place.
+//! Reach sets of ground vehicles with one fixed step per leg: `none`, `sphere`, `hull`. They are for comparison: what
+//! they find has no commands, and their scores see straight legs between turns in place.
 
 use nalgebra::Point3;
 
@@ -60,7 +60,8 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// The legs from each of `points` to the one after it, the first from the task's start; `None` where one is not feasible.
+    /// The legs from each of `points` to the one after it, the first from the task's start; `None` where one is not
+    /// feasible.
     pub(super) fn follows(&self, points: &[Point3<f64>]) -> Option<Vec<SeenLeg>> {
         let settings = self.settings();
         let start = StepNode { previous: 0, current: 0 };

@@ -12,8 +12,8 @@ use crate::verification::{
     verify_clear_ground, verify_drives,
 };
 
-/// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that claims no
-/// witness.
+/// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that
+/// claims no witness.
 pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
     let drive = case.commands()?;
     let legs = leg_claims(case, drive);
@@ -37,9 +37,10 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
     Some(verify_drives(&ground_vehicle(setup.planner), setup.map.as_ref(), &claim, &tolerances))
 }
 
-/// What does not hold of the environment of `case`: its keep-outs are discs on the map that the plan keeps the vehicle's radius from,
-/// everywhere, no more and no larger ones than were `asked` for; the force is horizontal and no larger than was asked for; and there is nothing
-/// else. Where nothing was asked for, as with missions from elsewhere, any force and disc is as good as another. Nothing for a case without one.
+/// What does not hold of the environment of `case`: its keep-outs are discs on the map that the plan keeps the
+/// vehicle's radius from, everywhere, no more and no larger ones than were `asked` for; the force is horizontal and no
+/// larger than was asked for; and there is nothing else. Where nothing was asked for, as with missions from elsewhere,
+/// any force and disc is as good as another. Nothing for a case without one.
 pub(in crate::campaign) fn verify_environment(
     setup: &DriveSetup,
     asked: Option<DriveEnvironmentSection>,

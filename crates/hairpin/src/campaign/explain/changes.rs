@@ -1,4 +1,5 @@
-//! The smallest single change with which something is feasible: for every key the way to a value that helps, then back by bisection.
+//! The smallest single change with which something is feasible: for every key the way to a value that helps, then back
+//! by bisection.
 
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -88,7 +89,8 @@ impl Trial<'_> {
         within
     }
 
-    /// The value nearest to `now` that helps: steps that double on the way to `loosest`, then bisection of the last one.
+    /// The value nearest to `now` that helps: steps that double on the way to `loosest`, then bisection of the last
+    /// one.
     fn number(&self, now: f64, loosest: f64) -> Option<f64> {
         let whole_way = self.bounded(now, loosest) - now;
         if whole_way == 0.0 {
@@ -173,7 +175,8 @@ fn rounded(from: f64, value: f64) -> f64 {
     if digits >= 0 { scaled / unit } else { scaled * unit }
 }
 
-/// `max_speed` of `generate.limits.max_speed_m_s`: the last part of a key without its unit, and what a range's end or a bound is called.
+/// `max_speed` of `generate.limits.max_speed_m_s`: the last part of a key without its unit, and what a range's end or a
+/// bound is called.
 fn name(key: &str) -> String {
     let (key, end) = match key.split_once('[') {
         Some((key, "0]")) => (key, "least "),

@@ -27,7 +27,8 @@ pub(super) enum Turn {
     Switch { value: Value, words: String },
 }
 
-/// Farthest that a number is turned, in multiples of its value, where nothing else bounds it: who mistakes a unit is off by as much.
+/// Farthest that a number is turned, in multiples of its value, where nothing else bounds it: who mistakes a unit is
+/// off by as much.
 const FARTHEST: f64 = 1000.0;
 
 /// The keys of a scenario, those first that are thought of first.

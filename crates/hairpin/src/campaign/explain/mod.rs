@@ -31,10 +31,11 @@ pub struct Explanation {
     tally: Tally,
 }
 
-/// Samples and searches `graphs` graphs of `setup`; where none has a trajectory, every relevant key is changed until one has.
+/// Samples and searches `graphs` graphs of `setup`; where none has a trajectory, every relevant key is changed until
+/// one has.
 ///
-/// The same graphs (of the same seeds) are asked with every change. `enough` ends the search for changes with those that were found, `stop`
-/// that of the scenario's own graphs as well.
+/// The same graphs (of the same seeds) are asked with every change. `enough` ends the search for changes with those
+/// that were found, `stop` that of the scenario's own graphs as well.
 ///
 /// # Errors
 /// A scenario that no search can be begun with.
@@ -59,8 +60,8 @@ pub fn explain(
 }
 
 impl Explanation {
-    /// `NOTHING FEASIBLE (proof, hull): no chain of 10 waypoints from start to end; smallest change: length 12, or max_speed 8.0 →
-    /// 9.3 m/s`, exit code 3; or that there is something, 0.
+    /// `NOTHING FEASIBLE (proof, hull): no chain of 10 waypoints from start to end; smallest change: length 12, or
+    /// max_speed 8.0 → 9.3 m/s`, exit code 3; or that there is something, 0.
     pub fn verdict(&self, setup: &Setup) -> Verdict {
         if self.solved > 0 {
             let reach = setup.scenario.reach();

@@ -20,8 +20,8 @@ fn step(setup: &FlightSetup) -> f64 {
 }
 
 impl FlightSetup<'_> {
-    /// Whether there is a witness of `waypoints` whose legs all take the step, as step-wise sets have it; a certificate may take other
-    /// times.
+    /// Whether there is a witness of `waypoints` whose legs all take the step, as step-wise sets have it; a certificate
+    /// may take other times.
     ///
     /// # Errors
     /// A rotor layout without a flatness map, in a sentence's part.

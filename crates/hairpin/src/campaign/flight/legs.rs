@@ -35,7 +35,8 @@ pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64, loo
     }
 }
 
-/// The scores beside it: a round's other models, the others whose optima are wanted, or those by hand that a search in the loop starts from.
+/// The scores beside it: a round's other models, the others whose optima are wanted, or those by hand that a search in
+/// the loop starts from.
 pub(super) fn beside<'a>(
     setup: &FlightSetup<'a>,
     graph: u64,

@@ -12,11 +12,12 @@ use crate::world::{Obstacle, Shape, World};
 
 /// Chords of a planned leg that is not straight.
 const CHORDS: usize = 12;
-/// What obstacles keep from the plan beyond the robot's radius, m: a little at first, more where chords hide what is nearer.
+/// What obstacles keep from the plan beyond the robot's radius, m: a little at first, more where chords hide what is
+/// nearer.
 const GAPS: [f64; 2] = [0.001, 0.05];
 
-/// Up to `asked.count` obstacles of the shape asked for in the way of `track`, the flight of `case` without them. `None` where there is no
-/// room for any.
+/// Up to `asked.count` obstacles of the shape asked for in the way of `track`, the flight of `case` without them.
+/// `None` where there is no room for any.
 pub(in crate::campaign) fn place(
     setup: &FlightSetup,
     case: &Case,
@@ -39,7 +40,8 @@ pub(in crate::campaign) fn place(
     Some(Placement { among, clearance, leg })
 }
 
-/// Whether every planned leg of `case` keeps the robot's radius from `shape`: its witness everywhere on it, else its straight legs.
+/// Whether every planned leg of `case` keeps the robot's radius from `shape`: its witness everywhere on it, else its
+/// straight legs.
 fn leaves_clear(setup: &FlightSetup, case: &Case, shape: &Shape) -> bool {
     let radius = setup.robot.clearance_radius;
     let Some(profile) = case.profile() else {

@@ -10,9 +10,9 @@ use crate::campaign::scenario::ReachName;
 use crate::campaign::{Case, Evidence};
 use crate::feasibility::certify::Certificate;
 
-/// `case` with `points` in the place of its waypoints, if they are feasible as its own were: witnessed where it was, by the same
-/// reach set where that was all. Of waypoints made elsewhere nothing was claimed but what every waypoint is held to, that it is in the
-/// world and clear of obstacles, if they were. `None`: they are not, or nothing shows it.
+/// `case` with `points` in the place of its waypoints, if they are feasible as its own were: witnessed where it was, by
+/// the same reach set where that was all. Of waypoints made elsewhere nothing was claimed but what every waypoint is
+/// held to, that it is in the world and clear of obstacles, if they were. `None`: they are not, or nothing shows it.
 pub(in crate::campaign) fn replan(setup: &FlightSetup, case: &Case, points: &[Point3<f64>]) -> Option<Case> {
     let generate = &setup.scenario.generate;
     let made_elsewhere = case.leg_times.is_empty();

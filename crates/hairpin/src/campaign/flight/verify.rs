@@ -10,8 +10,8 @@ use crate::verification::{
 
 use super::FlightSetup;
 
-/// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances: the proof,
-/// and the end error of the whole flight with rotor lag. `None` for a case that claims no witness.
+/// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances: the
+/// proof, and the end error of the whole flight with rotor lag. `None` for a case that claims no witness.
 pub(in crate::campaign) fn verify(robot: &Quadrotor, case: &Case) -> Option<(Proof, Option<EndError>)> {
     let profile = case.profile()?;
     let body = body_of(robot);
@@ -39,9 +39,9 @@ fn body_of(robot: &Quadrotor) -> Body {
     }
 }
 
-/// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere, they are in the world,
-/// no more and no larger than was `asked` for, and wind and gust are no faster. Where nothing was asked for, as with missions from elsewhere,
-/// any is as good as another. Nothing for a case without one.
+/// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere,
+/// they are in the world, no more and no larger than was `asked` for, and wind and gust are no faster. Where nothing
+/// was asked for, as with missions from elsewhere, any is as good as another. Nothing for a case without one.
 pub(in crate::campaign) fn verify_environment(
     setup: &FlightSetup,
     asked: Option<EnvironmentSection>,
@@ -66,7 +66,8 @@ pub(in crate::campaign) fn verify_environment(
         };
         found.unless(least > 0.0, format_args!("obstacles[{number}].{key}"), least, 0.0, "m");
     }
-    // Shapes that are none of these, and what is for drives, are found by no search: that they are clear, or act, is not known.
+    // Shapes that are none of these, and what is for drives, are found by no search: that they are clear, or act, is
+    // not known.
     let others = environment.obstacles.len() - solids.len() + environment.keep_out.len();
     found.above("obstacles", others as f64, 0.0, "");
     let force = environment.external_force_n.map_or(0.0, |force| force.iter().map(|part| part.abs()).sum());

@@ -1,9 +1,10 @@
 //! Rounds: execute, learn which legs are stressful, search for trajectories of such legs, execute those.
 //!
-//! The first round draws uniformly. Each later one fits the stress of all legs executed so far, takes every graph's best under the
-//! model, and under models of resampled trajectories, which differ where little is known (bootstrapped Thompson sampling); a share of its
-//! executions no model chooses: every second of them is an optimum of a score by hand, the others stay uniform, so that no model sees
-//! stressful legs alone. Whatever runs on several threads is taken over in order.
+//! The first round draws uniformly. Each later one fits the stress of all legs executed so far, takes every graph's
+//! best under the model, and under models of resampled trajectories, which differ where little is known (bootstrapped
+//! Thompson sampling); a share of its executions no model chooses: every second of them is an optimum of a score by
+//! hand, the others stay uniform, so that no model sees stressful legs alone. Whatever runs on several threads is taken
+//! over in order.
 
 use std::collections::HashSet;
 
@@ -23,7 +24,8 @@ const MODELS: usize = 8;
 
 /// Share of the first round's time in which graphs are found.
 const FINDING: f64 = 0.5;
-/// Executions in each graph that are asked for at a time where time is limited: finding more than can be executed would use it up.
+/// Executions in each graph that are asked for at a time where time is limited: finding more than can be executed would
+/// use it up.
 const AT_A_TIME: u64 = 8;
 
 /// One graph that trajectories are executed in.
@@ -64,8 +66,8 @@ struct Campaign<'a> {
     tally: Tally,
 }
 
-/// Executes `generate.search.executions` trajectories in rounds and gives the most stressful ones to `sink`, at the end. Of `known` all
-/// rounds or none are.
+/// Executes `generate.search.executions` trajectories in rounds and gives the most stressful ones to `sink`, at the
+/// end. Of `known` all rounds or none are.
 pub(super) fn generate(
     setup: &Setup,
     solver: &Solver<'_>,
@@ -168,8 +170,9 @@ impl Campaign<'_> {
         }
     }
 
-    /// Whether executions of part `part` of round `number` may begin. Those of the first may wherever the round began in time: learning and
-    /// searching take what they take, and a round that executed nothing would have been for nothing.
+    /// Whether executions of part `part` of round `number` may begin. Those of the first may wherever the round began
+    /// in time: learning and searching take what they take, and a round that executed nothing would have been for
+    /// nothing.
     fn begins(&self, number: u64, part: u64) -> bool {
         if part == 0 { !(self.stop.cancelled)() } else { self.goes_on(number) }
     }
@@ -275,7 +278,8 @@ impl Campaign<'_> {
         libm::round(self.search.explore * share as f64) as u64
     }
 
-    /// The models that round `number` chooses its `share` of executions by, the first of all trajectories; none where they teach nothing.
+    /// The models that round `number` chooses its `share` of executions by, the first of all trajectories; none where
+    /// they teach nothing.
     fn models(&self, number: u64, share: u64, told: &mut RoundTally) -> Vec<ScoreModel> {
         let chosen = share.saturating_sub(self.unchosen(share));
         if chosen == 0 || self.graphs.is_empty() {

@@ -1,8 +1,8 @@
 //! Algorithm 1: sample a graph, search it, repeat until enough cases are found or the budget ends.
 //!
-//! One graph is one unit of work with random streams of its own. Units run on any thread but are taken over in the order
-//! of their numbers, so that what is found depends on the seed alone. Where `[vary]` shapes the plan (keys under `task`
-//! and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
+//! One graph is one unit of work with random streams of its own. Units run on any thread but are taken over in the
+//! order of their numbers, so that what is found depends on the seed alone. Where `[vary]` shapes the plan (keys under
+//! `task` and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
 
 mod adaptive;
 mod optima;
@@ -37,7 +37,8 @@ pub struct Known {
 /// `known` without the cases that its tally does not count, as a kill between the writing of both may leave them.
 pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
     if scenario.search().method == SearchMethod::Adaptive || matches!(scenario, Scenario::Arm(_)) {
-        // What a round chooses depends on all before it, and an arm's graph is one search: there is no place to go on from.
+        // What a round chooses depends on all before it, and an arm's graph is one search: there is no place to go on
+        // from.
         let done = !known.tally.stopped && known.tally.units > 0;
         return if done { known } else { Known::default() };
     }
@@ -91,7 +92,8 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
                 let outcome = begins.then(|| {
                     if varied { drawn_case(setup, unit, stop) } else { solver.solve(setup, unit, Wanted::Cases, stop) }
                 });
-                // Where executions or the user's scores were denied, a graph was searched in part, and is searched again by whoever goes on.
+                // Where executions or the user's scores were denied, a graph was searched in part, and is searched
+                // again by whoever goes on.
                 outcome.filter(|_| !(cut_short && (stop.cancelled)()))
             })
             .collect();
@@ -158,7 +160,8 @@ impl<'a> Solver<'a> {
         })
     }
 
-    /// Searches graph number `graph` of `setup`, which this was made for, for what is `wanted`; `stop` ends what has no bound in counts.
+    /// Searches graph number `graph` of `setup`, which this was made for, for what is `wanted`; `stop` ends what has no
+    /// bound in counts.
     fn solve(&self, setup: &Setup, graph: u64, wanted: Wanted, stop: &Stop) -> Outcome {
         let goes_on = || (!(stop.cancelled)()).then_some(());
         let execute = |plan: &Plan, least| goes_on().and_then(|()| trial::execute(setup, graph, plan, least));

@@ -19,8 +19,9 @@ pub struct Optimum {
     pub cases: Vec<Case>,
 }
 
-/// The optima of the flights' scores called `names`, or of the scenario's own score if there are none, in as many graphs as it asks for cases.
-/// A graph that lacks one is left out for all. Fewer where graphs are used up or `stop` says so.
+/// The optima of the flights' scores called `names`, or of the scenario's own score if there are none, in as many
+/// graphs as it asks for cases. A graph that lacks one is left out for all. Fewer where graphs are used up or `stop`
+/// says so.
 ///
 /// # Errors
 /// Why there is nothing to search, in a sentence's part.

@@ -13,7 +13,8 @@ pub(in crate::campaign) struct Executions<'a> {
     pub(in crate::campaign) execute: &'a dyn Fn(&Plan, f64) -> Option<Trial>,
     /// How long a plan's takes, s.
     pub(in crate::campaign) duration: &'a dyn Fn(&Plan) -> Option<f64>,
-    /// A plan with the obstacles that are asked for, executed twice: without them, to see where they belong, and among them.
+    /// A plan with the obstacles that are asked for, executed twice: without them, to see where they belong, and among
+    /// them.
     pub(in crate::campaign) furnish: &'a dyn Fn(&Plan) -> Option<(Plan, Trial)>,
     /// Of parts of trajectories, where these are to be scored by them.
     pub(in crate::campaign) partial: Option<Partials<'a>>,
@@ -25,7 +26,8 @@ type Part<'a> = &'a dyn Fn(&Plan, Option<&Airborne>, bool) -> Result<Ran<Airborn
 /// Executions of parts of trajectories.
 #[derive(Clone, Copy)]
 pub(in crate::campaign) struct Partials<'a> {
-    /// Executes a plan's waypoints as the first of a trajectory, from its start or from what was flown before; whether they are all.
+    /// Executes a plan's waypoints as the first of a trajectory, from its start or from what was flown before; whether
+    /// they are all.
     pub(in crate::campaign) execute: Part<'a>,
     /// Whether it can go on from what was flown before.
     pub(in crate::campaign) resumes: bool,

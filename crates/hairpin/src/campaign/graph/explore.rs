@@ -30,8 +30,9 @@ pub(in crate::campaign) struct Explored<'a, N, R> {
 }
 
 impl<N: Copy + Eq + Hash, R: Reach<N>> Explored<'_, N, R> {
-    /// Counts the candidates of the first nodes. `before` and `after` give the limit that refuses a leg between two waypoints whatever the
-    /// reach set says, and though it has the leg; `may_arrive` is necessary for the end to be reached in so many legs.
+    /// Counts the candidates of the first nodes. `before` and `after` give the limit that refuses a leg between two
+    /// waypoints whatever the reach set says, and though it has the leg; `may_arrive` is necessary for the end to be
+    /// reached in so many legs.
     pub(in crate::campaign) fn count(
         &self,
         place: impl Fn(&N) -> u32,

@@ -1,5 +1,5 @@
-//! Simulation in the loop over one graph: the scores' optima and a few uniform draws are executed, evolved within the graph's
-//! legs and, where waypoints may be moved, shifted.
+//! Simulation in the loop over one graph: the scores' optima and a few uniform draws are executed, evolved within the
+//! graph's legs and, where waypoints may be moved, shifted.
 
 use std::hash::Hash;
 
@@ -17,12 +17,14 @@ use crate::search::{Additive, Aggregate, Found, LegGraph, UniformSettings, unifo
 
 /// One in so many executions is of a uniform draw.
 const DRAWN: u64 = 10;
-/// Share of the executions that go to disturbances (wind, gusts, a force) where they are searched, and trajectories that are disturbed.
+/// Share of the executions that go to disturbances (wind, gusts, a force) where they are searched, and trajectories
+/// that are disturbed.
 const DISTURBED: f64 = 0.4;
 const MOST_DISTURBED: usize = 3;
 /// Share of the others that evolution gets where waypoints may be moved.
 const EVOLVED: f64 = 0.2;
-/// Trajectories whose waypoints are moved, and the share of the executions left that they get together: many are tried, the best go on.
+/// Trajectories whose waypoints are moved, and the share of the executions left that they get together: many are tried,
+/// the best go on.
 const STAGES: [(usize, f64); 3] = [(6, 0.4), (2, 0.4), (1, 1.0)];
 /// First and largest step of a moved waypoint, as shares of the mean leg.
 const STEP: f64 = 0.15;

@@ -26,7 +26,8 @@ pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     scores.flat_map(move |score| search.best(score, AGGREGATES))
 }
 
-/// The plans of [`optima`] in their order; none at all where one is missing, so that no score has graphs that another has not.
+/// The plans of [`optima`] in their order; none at all where one is missing, so that no score has graphs that another
+/// has not.
 pub(super) fn by_optima<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
     let graph = question.leg_graph();
     let mut all = Answer::default();

@@ -32,7 +32,8 @@ pub(in crate::campaign) struct Question<'a, N, R, O> {
     pub(in crate::campaign) plan: &'a dyn Fn(Found<N>) -> Option<Plan>,
     /// Whether the last leg is one to the sink of a task without an end.
     pub(in crate::campaign) free_end: bool,
-    /// Scores beside this one whose optima a search in the loop starts from, or a round of an adaptive campaign is to have.
+    /// Scores beside this one whose optima a search in the loop starts from, or a round of an adaptive campaign is to
+    /// have.
     pub(in crate::campaign) also: Vec<O>,
     pub(in crate::campaign) looped: Looped<'a>,
 }
@@ -55,7 +56,8 @@ pub(in crate::campaign) enum Wanted<'a> {
     Cases,
     /// What the round of an adaptive campaign is to execute.
     Round(&'a Round<'a>),
-    /// The optimum of each score with one of these names, or of the scenario's own if there are none, under both aggregates.
+    /// The optimum of each score with one of these names, or of the scenario's own if there are none, under both
+    /// aggregates.
     Optima(&'a [&'a str]),
 }
 
@@ -155,7 +157,8 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> Question<'_, N, R, O> 
         }
     }
 
-    /// All legs of the graph that are on some way of the right length; without revisits, if there are to be none, those that no such way has.
+    /// All legs of the graph that are on some way of the right length; without revisits, if there are to be none, those
+    /// that no such way has.
     pub(super) fn leg_graph(&self) -> LegGraph<'_, N> {
         let graph = LegGraph::explore(self.start, self.points, self.reach, self.length);
         if self.search.revisits { graph } else { graph.into_without_returns(self.length) }

@@ -1,4 +1,5 @@
-//! What a round of an adaptive campaign has executed in one graph: the best under models, optima of scores by hand, and uniform draws.
+//! What a round of an adaptive campaign has executed in one graph: the best under models, optima of scores by hand, and
+//! uniform draws.
 
 use std::cell::LazyCell;
 use std::collections::HashSet;
@@ -16,12 +17,14 @@ use crate::search::{Additive, Aggregate, ExactSearch, ExactSettings, Found, LegG
 const MORE: usize = 4;
 /// … as long as all are known, up to so many.
 const MOST_BEST: usize = 256;
-/// From one round to the next a graph passes over so many scores by hand, or the same of them would meet the same graphs.
+/// From one round to the next a graph passes over so many scores by hand, or the same of them would meet the same
+/// graphs.
 const NEXT_BY_HAND: u64 = 7;
 /// Uniform draws are repeated with twice as many as long as too few are new, so often.
 const REDRAWS: u32 = 6;
 
-/// Trajectories that were not executed yet. What models cannot give is drawn, so that a round is as large as it was asked for.
+/// Trajectories that were not executed yet. What models cannot give is drawn, so that a round is as large as it was
+/// asked for.
 pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     round: &Round,

@@ -10,15 +10,15 @@ use crate::math::ridge::{NoFit, Rows};
 
 /// Every so many trajectories one is held out.
 const HELD_OUT: usize = 5;
-/// Trajectories that a model needs at least: as many as leave one for every fold when some are held out, which of these are the fifth and
-/// the tenth.
+/// Trajectories that a model needs at least: as many as leave one for every fold when some are held out, which of these
+/// are the fifth and the tenth.
 const LEAST_TRAJECTORIES: usize = 12;
 
 impl ScoreModel {
     /// Learns the stress of legs.
     ///
-    /// Degree (1 to 4) and penalty have the least error in 10-fold cross-validation over trajectories. The same choice made on four
-    /// fifths of the trajectories is tested on the last fifth.
+    /// Degree (1 to 4) and penalty have the least error in 10-fold cross-validation over trajectories. The same choice
+    /// made on four fifths of the trajectories is tested on the last fifth.
     ///
     /// # Errors
     /// [`NoFit`]: fewer than 12 trajectories, numbers that are none, legs that are all the same.

@@ -22,7 +22,8 @@ pub struct KeptModel {
     pub model: Arc<ScoreModel>,
     /// The file's contents.
     pub bytes: Arc<[u8]>,
-    /// The score as the scenario named it, which mistakes are told with; the scenario itself then names the copy in its folder.
+    /// The score as the scenario named it, which mistakes are told with; the scenario itself then names the copy in its
+    /// folder.
     pub given: String,
 }
 

@@ -7,8 +7,9 @@ use crate::feasibility::reach::LegFeatures;
 /// Number of features of a leg.
 const FEATURES: usize = 8;
 
-/// Names and units, in the order of [`inputs`]: logarithms of the speeds at both ends, turn from the leg before, length, sines of elevation of the leg and of the one
-/// before, planned duration, and what the reach set knows of the ground.
+/// Names and units, in the order of [`inputs`]: logarithms of the speeds at both ends, turn from the leg before,
+/// length, sines of elevation of the leg and of the one before, planned duration, and what the reach set knows of the
+/// ground.
 pub(super) fn named() -> Vec<Feature> {
     let named: [(&str, &str); FEATURES] = [
         ("ln(1 + v_in)", "v in m/s"),

@@ -1,7 +1,7 @@
 //! The stress of a leg as a part that is its own and a part that the leg before it leaves to it.
 //!
-//! A robot that cuts a corner strays from the leg after it: what a leg comes to is decided on the one before. As the parts are added, an exact search
-//! still proves its optimum ([`crate::search::Additive`]).
+//! A robot that cuts a corner strays from the leg after it: what a leg comes to is decided on the one before. As the
+//! parts are added, an exact search still proves its optimum ([`crate::search::Additive`]).
 
 use rayon::prelude::*;
 
@@ -32,9 +32,10 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// Fits both parts in turn (backfitting: Friedman and Stuetzle, Journal of the American Statistical Association 76, 1981): the own part, the
-    /// part before to what that leaves unexplained, and the own part again. Each has the degree (1 to 4) and the penalty of the least error in
-    /// cross-validation; the part before is kept where it lessens the error of both together.
+    /// Fits both parts in turn (backfitting: Friedman and Stuetzle, Journal of the American Statistical Association 76,
+    /// 1981): the own part, the part before to what that leaves unexplained, and the own part again. Each has the
+    /// degree (1 to 4) and the penalty of the least error in cross-validation; the part before is kept where it lessens
+    /// the error of both together.
     ///
     /// # Errors
     /// [`NoFit`].

@@ -1,4 +1,5 @@
-//! The same kind of model from other trajectories: how far a prediction may be trusted shows in how much such models differ.
+//! The same kind of model from other trajectories: how far a prediction may be trusted shows in how much such models
+//! differ.
 
 use std::collections::BTreeMap;
 
@@ -13,8 +14,8 @@ use crate::math::ridge::NoFit;
 impl ScoreModel {
     /// The model of `samples` resampled: as many trajectories drawn with replacement, degree and penalty as they are.
     ///
-    /// The optimum under a model drawn so is one that may be the true one, as far as the data say: bootstrapped Thompson
-    /// sampling. Sources: Efron 1979; Osband and Van Roy 2015.
+    /// The optimum under a model drawn so is one that may be the true one, as far as the data say: bootstrapped
+    /// Thompson sampling. Sources: Efron 1979; Osband and Van Roy 2015.
     ///
     /// # Errors
     /// [`NoFit`]: no trajectory, or all that were drawn are the same.

@@ -6,8 +6,8 @@ use crate::campaign::{Case, Run, Setup};
 use crate::judgement::{LegMeasures, Measures, Stress};
 use crate::math::ridge::NoFit;
 
-/// The legs of `case` with the stress that each of `runs` put on them. Legs that a run did not come to, and cases whose legs no search
-/// saw (missions made elsewhere), give none.
+/// The legs of `case` with the stress that each of `runs` put on them. Legs that a run did not come to, and cases whose
+/// legs no search saw (missions made elsewhere), give none.
 pub fn leg_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> Vec<LegSample> {
     let mut samples = Vec::new();
     for run in runs {
@@ -36,8 +36,9 @@ pub fn learn(setup: &Setup, stress: Stress, samples: &[LegSample]) -> Result<Sco
     ScoreModel::learn(stress, executed(setup), samples)
 }
 
-/// The moves of `case` between points of the cloud with the stress that each of `runs` put on them, and what the graph knew of them; of moves whose
-/// angles are not known (Cartesian mode), on arcs, and of those that a run did not come to there are none.
+/// The moves of `case` between points of the cloud with the stress that each of `runs` put on them, and what the graph
+/// knew of them; of moves whose angles are not known (Cartesian mode), on arcs, and of those that a run did not come to
+/// there are none.
 pub fn move_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> Vec<MoveSample> {
     let Some(features) = setup.arm().map(|arm| arm.moves_seen(case)) else { return Vec::new() };
     let measured = runs.iter().filter_map(|run| measures_of(setup, case, run));

@@ -170,7 +170,8 @@ pub fn shown(
 ) -> Result<Shown, JudgementError> {
     let flown = run.and_then(|run| run.outcome.as_ref().ok()).map(|flight| flight.track.clone());
     let flown = flown.filter(|track| !track.is_empty());
-    // What was judged was judged by the run's own limits. Keys of an edited folder that fit nowhere are the judge's to tell.
+    // What was judged was judged by the run's own limits. Keys of an edited folder that fit nowhere are the judge's to
+    // tell.
     let drawn = vary::apply(&setup.scenario, &result.drawn);
     let Terms { from, corner, .. } = Terms::of(drawn.as_ref().unwrap_or(&setup.scenario));
     let reference = match from {

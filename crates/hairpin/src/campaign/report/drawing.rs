@@ -83,7 +83,8 @@ fn cage(setup: &FlightSetup) -> Drawing {
     }
 }
 
-/// The cell around what is drawn: half-spaces, keep-outs in words and what has no surface of its own are left to the words.
+/// The cell around what is drawn: half-spaces, keep-outs in words and what has no surface of its own are left to the
+/// words.
 fn cell(setup: &ArmSetup, places: impl Iterator<Item = Point3<f64>>) -> Drawing {
     let (mut low, mut high) = (Point3::origin(), Point3::origin());
     for place in places {

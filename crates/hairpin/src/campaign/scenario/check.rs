@@ -15,8 +15,8 @@ impl Scenario {
         }
     }
 
-    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours. Trajectories that are there already are
-    /// anybody's to execute.
+    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours. Trajectories that
+    /// are there already are anybody's to execute.
     ///
     /// # Errors
     /// The method of search, or the score.
@@ -64,7 +64,8 @@ impl Scenario {
         }
     }
 
-    /// The scenario with its generated ground made, which draws of `[vary]` then share; as it is where there is none to make.
+    /// The scenario with its generated ground made, which draws of `[vary]` then share; as it is where there is none to
+    /// make.
     pub(in crate::campaign) fn with_ground(mut self) -> Self {
         if let Self::Drive(scenario) = &mut self {
             scenario.make_ground();

@@ -89,7 +89,8 @@ impl Findings {
         self.require(some, key, "{}", &format!("given {keys}"));
     }
 
-    /// Whether `count` obstacles of an environment are for the stress that is searched; `execution`: a flight or a drive.
+    /// Whether `count` obstacles of an environment are for the stress that is searched; `execution`: a flight or a
+    /// drive.
     pub(super) fn placed(&mut self, search: &SearchSection, count: u64, execution: &str) {
         let key = "generate.environment.obstacles";
         let bound = format!(

@@ -62,8 +62,8 @@ impl Scenario {
         }
     }
 
-    /// Names and contents of the files that a resolved scenario keeps in its campaign's folder: its map, its cloud, its costs, its baseline,
-    /// its model.
+    /// Names and contents of the files that a resolved scenario keeps in its campaign's folder: its map, its cloud, its
+    /// costs, its baseline, its model.
     pub fn files(&self) -> Vec<(&str, &[u8])> {
         let kept = match self {
             Self::Flight(scenario) => scenario.files(),

@@ -1,8 +1,8 @@
 //! The scenario: every key of a scenario file, with its default. These types are the contract: the parser,
 //! the JSON Schema and the commented files of `hairpin new` all come from them. Units are in the names.
 //!
-//! What the robot is decides which keys there are: [`FlightScenario`] for what flies, [`DriveScenario`] for what drives,
-//! [`ArmScenario`] for arms.
+//! What the robot is decides which keys there are: [`FlightScenario`] for what flies, [`DriveScenario`] for what
+//! drives, [`ArmScenario`] for arms.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

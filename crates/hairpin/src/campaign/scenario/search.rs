@@ -39,22 +39,25 @@ pub struct SearchSection {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds together.
+    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds
+    /// together.
     pub executions: u64,
     /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
-    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not given, one
-    /// for 45 executions, at least 4 where there are enough, at most 15.
+    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not
+    /// given, one for 45 executions, at least 4 where there are enough, at most 15.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rounds: Option<u64>,
-    /// `adaptive`: share of every later round's executions that no model chooses: half of them drawn uniformly, half optima of scores by hand.
+    /// `adaptive`: share of every later round's executions that no model chooses: half of them drawn uniformly, half
+    /// optima of scores by hand.
     pub explore: f64,
     /// `adaptive`: time for executing and learning beside `executions`; what is found then depends on the clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
     /// `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them.
     pub move_waypoints: bool,
-    /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | clearance | tilt.
+    /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation |
+    /// max-acceleration | time | overshoot | saturation | clearance | tilt.
     pub stress: Stress,
 }
 
@@ -110,10 +113,11 @@ impl SearchMethod {
 const MOST_ROUNDS: u64 = 1_000;
 /// Every round of an adaptive campaign keeps its legs: at ten legs a trajectory, a million rows to fit.
 const MOST_LEARNED: u64 = 100_000;
-/// Executions that a round needs at least to learn from: one more than a model does, so that one that fails does not cost the round.
+/// Executions that a round needs at least to learn from: one more than a model does, so that one that fails does not
+/// cost the round.
 const LEAST_PER_ROUND: u64 = 13;
-/// Executions of a round where the scenario does not say how many there are: what a round taught decides what the next one executes, so that
-/// many small ones get farther than few large ones, as long as each has something to teach.
+/// Executions of a round where the scenario does not say how many there are: what a round taught decides what the next
+/// one executes, so that many small ones get farther than few large ones, as long as each has something to teach.
 const PER_ROUND: u64 = 45;
 /// Rounds then, where there are enough executions for them.
 const ROUNDS: [u64; 2] = [4, 15];

@@ -10,9 +10,10 @@ pub(super) fn heaviest(weights: &[f64], count: usize) -> Vec<usize> {
     order
 }
 
-/// `count` items for Σ weight · (count − 1)/2 + Σ distance over pairs, so that both sums have as many terms: each time the item that adds
-/// most to half of the weights and the whole of the distances, which is at least half of the best for distances that are a
-/// metric (Borodin, Lee, Ye: Max-sum diversification, monotone submodular functions and dynamic updates, 2012).
+/// `count` items for Σ weight · (count − 1)/2 + Σ distance over pairs, so that both sums have as many terms: each time
+/// the item that adds most to half of the weights and the whole of the distances, which is at least half of the best
+/// for distances that are a metric (Borodin, Lee, Ye: Max-sum diversification, monotone submodular functions and
+/// dynamic updates, 2012).
 pub(super) fn dispersed(weights: &[f64], distance: impl Fn(usize, usize) -> f64, count: usize) -> Vec<usize> {
     // One item has no pairs: its weight alone decides.
     let per_weight = 0.5 * (count.saturating_sub(1)).max(1) as f64;
@@ -30,9 +31,9 @@ pub(super) fn dispersed(weights: &[f64], distance: impl Fn(usize, usize) -> f64,
     chosen
 }
 
-/// `count` sets that cover most: each time the one that covers most that is new, of equals the heaviest; at least 1 − 1/e of what
-/// the best choice covers (Nemhauser, Wolsey, Fisher: An analysis of approximations for maximizing submodular set
-/// functions, 1978).
+/// `count` sets that cover most: each time the one that covers most that is new, of equals the heaviest; at least 1 −
+/// 1/e of what the best choice covers (Nemhauser, Wolsey, Fisher: An analysis of approximations for maximizing
+/// submodular set functions, 1978).
 pub(super) fn covering(sets: &[&BTreeSet<usize>], weights: &[f64], count: usize) -> Vec<usize> {
     let mut covered = BTreeSet::new();
     let mut left: BTreeSet<usize> = (0..sets.len()).collect();

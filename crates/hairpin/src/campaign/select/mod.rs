@@ -1,7 +1,7 @@
 //! A few of many cases: the most stressful, the most different ones, or those that exercise most.
 //!
-//! The most stressful trajectory and 99 near copies of it are one test. How far two cases are apart is the mean of how far
-//! their ways are apart and how far what came of them is, each 0 … 1 over the campaign.
+//! The most stressful trajectory and 99 near copies of it are one test. How far two cases are apart is the mean of how
+//! far their ways are apart and how far what came of them is, each 0 … 1 over the campaign.
 
 mod greedy;
 
@@ -110,8 +110,8 @@ fn evenly(waypoints: &[Point3<f64>]) -> Vec<Point3<f64>> {
         .collect()
 }
 
-/// How stressful cases are and how far apart, each 0 … 1 over all of them. Distances are computed where they are asked for: those of all pairs
-/// of ten thousand cases would take a gigabyte.
+/// How stressful cases are and how far apart, each 0 … 1 over all of them. Distances are computed where they are asked
+/// for: those of all pairs of ten thousand cases would take a gigabyte.
 #[derive(Debug, Clone)]
 pub struct Choice<'a> {
     candidates: &'a [Candidate],

@@ -1,5 +1,5 @@
-//! What the run met beside its waypoints: drawn values, wind, gusts, forces, noise, obstacles, keep-outs, each left out where it violates
-//! without.
+//! What the run met beside its waypoints: drawn values, wind, gusts, forces, noise, obstacles, keep-outs, each left out
+//! where it violates without.
 
 use super::Job;
 use crate::campaign::Scenario;

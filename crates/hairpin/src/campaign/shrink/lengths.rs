@@ -11,8 +11,8 @@ const SHORTEST: f64 = 0.25;
 const ROUNDED: [f64; 3] = [1.0, 0.1, 0.01];
 
 impl Job<'_> {
-    /// Makes every leg as short as bisection finds it to violate still, the last one first; what follows it moves along. Then rounds
-    /// the coordinates as far as that goes.
+    /// Makes every leg as short as bisection finds it to violate still, the last one first; what follows it moves
+    /// along. Then rounds the coordinates as far as that goes.
     pub(super) fn shorten(&mut self) {
         if !self.route.moves() {
             return;

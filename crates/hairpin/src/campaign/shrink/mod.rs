@@ -1,8 +1,8 @@
 //! Shrinking: a violating case reduced to the shortest feasible one that still violates in the same way.
 //!
-//! Waypoints first (delta debugging), then what the run met beside them (drawn values, wind, gusts, forces, noise, obstacles), then
-//! the lengths of legs. Every candidate is planned anew and must be feasible by the same claim as the case's own evidence
-//! before it is run; it is judged by the same spec.
+//! Waypoints first (delta debugging), then what the run met beside them (drawn values, wind, gusts, forces, noise,
+//! obstacles), then the lengths of legs. Every candidate is planned anew and must be feasible by the same claim as the
+//! case's own evidence before it is run; it is judged by the same spec.
 
 mod conditions;
 mod lengths;
@@ -58,8 +58,8 @@ pub enum ShrinkError {
     Plan(String),
 }
 
-/// Shrinks `case`, whose worst run came to `result`. `run(setup, case)` executes the candidate `case` as run `result.run` under
-/// `setup` and judges it; it gives `None` to stop with the smallest so far.
+/// Shrinks `case`, whose worst run came to `result`. `run(setup, case)` executes the candidate `case` as run
+/// `result.run` under `setup` and judges it; it gives `None` to stop with the smallest so far.
 ///
 /// What is asked of `run` depends on its answers alone.
 ///
@@ -99,8 +99,8 @@ pub fn shrink(
     Ok(job.best)
 }
 
-/// The scenario of the run that violated: what was drawn for the plan in place, what was drawn for the run as the only choice, so
-/// that the same run number draws it again and the plan stays the nominal robot's.
+/// The scenario of the run that violated: what was drawn for the plan in place, what was drawn for the run as the only
+/// choice, so that the same run number draws it again and the plan stays the nominal robot's.
 fn pinned(scenario: &Scenario, case: &Case, result: &CaseResult) -> Result<Scenario, Mistake> {
     let mut pinned = vary::apply(scenario, &vary::draw_for_case(scenario, case.seed, case.number))?;
     for (key, value) in result.drawn.iter().filter(|(key, _)| !vary::shapes_the_plan(key)) {
@@ -130,7 +130,8 @@ impl Job<'_> {
         result.violations.iter().any(|violation| violation.what == self.what)
     }
 
-    /// Whether the way along `route` under `setup` is feasible and violates; then it is the smallest so far. `None`: stopped.
+    /// Whether the way along `route` under `setup` is feasible and violates; then it is the smallest so far. `None`:
+    /// stopped.
     fn holds(&mut self, setup: Option<&Setup>, route: &Route) -> Option<bool> {
         let own = setup.unwrap_or(&self.setup);
         let Some(case) = self.replanner.plan(own, &self.best.case, route) else { return Some(false) };

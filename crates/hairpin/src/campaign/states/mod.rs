@@ -1,4 +1,5 @@
-//! The path of states of a drive, with what its wheels do: sampled in time, and held to the bounds of speeds and joints.
+//! The path of states of a drive, with what its wheels do: sampled in time, and held to the bounds of speeds and
+//! joints.
 
 mod peaks;
 mod vehicle_state;
@@ -57,8 +58,8 @@ impl Followed<'_> {
         Followed { rover: &rover, ..*self }.on(&Flat, start, segments)
     }
 
-    /// The states of `segments` from `start` on `terrain`: with latency τ the vehicle first goes on for τ as it was, and the last τ of
-    /// the commands never act.
+    /// The states of `segments` from `start` on `terrain`: with latency τ the vehicle first goes on for τ as it was,
+    /// and the last τ of the commands never act.
     ///
     /// # Errors
     /// Where the ground ends or the body finds no rest.

@@ -1,4 +1,5 @@
-//! Whether an arm can execute a program: every move followed in joints, proven between samples, with the number that refuses it.
+//! Whether an arm can execute a program: every move followed in joints, proven between samples, with the number that
+//! refuses it.
 //!
 //! A program is data of somebody else's: moves may begin where nothing is known of the arm, targets may demand
 //! configurations that cannot be met, and what is refused is told with the number and, where one exists, a

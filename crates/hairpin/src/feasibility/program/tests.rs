@@ -1,5 +1,5 @@
-//! A shipped arm against postures whose poses its forward kinematics gives: what is within reach passes, and each fault is found
-//! where it was put.
+//! A shipped arm against postures whose poses its forward kinematics gives: what is within reach passes, and each fault
+//! is found where it was put.
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 

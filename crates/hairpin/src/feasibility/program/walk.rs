@@ -35,11 +35,11 @@ pub struct Surroundings<'a> {
 /// Findings for which another configuration is looked for; beyond, a program has other worries.
 const MOST_REMEDIES: usize = 50;
 
-/// Follows the first `count` moves of a program whose tools and work objects are all there, from wherever its first posture or
-/// configuration puts the arm.
+/// Follows the first `count` moves of a program whose tools and work objects are all there, from wherever its first
+/// posture or configuration puts the arm.
 ///
-/// Straight and circular moves keep one branch of the inverse kinematics; limits, singularities and what links and tool meet are proven
-/// between samples ([`follow`]). After a move that is refused the arm is taken to stand at its target.
+/// Straight and circular moves keep one branch of the inverse kinematics; limits, singularities and what links and tool
+/// meet are proven between samples ([`follow`]). After a move that is refused the arm is taken to stand at its target.
 ///
 /// After a refused move the walk goes on from its target, so that one mistake is one finding.
 pub fn check(

@@ -1,9 +1,9 @@
 //! `hull` for vehicles in the plane: convex hulls of the end points of constant-input runs, in the frame of the body.
 //!
-//! A vehicle that drives carries its heading, speed and steering over a waypoint. Where it ends after one step of constant input, seen
-//! from its body, depends on speed and steering alone, so each bin of these has one hull, turned by the heading at
-//! hand. Heading, speed and steering at the next waypoint are those of the run that ended nearest to it.
-//! Neither sound nor complete, as every hull of end points; headings and states are rounded to their bins.
+//! A vehicle that drives carries its heading, speed and steering over a waypoint. Where it ends after one step of
+//! constant input, seen from its body, depends on speed and steering alone, so each bin of these has one hull, turned
+//! by the heading at hand. Heading, speed and steering at the next waypoint are those of the run that ended nearest to
+//! it. Neither sound nor complete, as every hull of end points; headings and states are rounded to their bins.
 
 use std::f64::consts::TAU;
 
@@ -103,9 +103,9 @@ pub struct BodyHull {
 const ON_EDGE: f64 = 1e-9;
 
 impl BodyHull {
-    /// Samples every bin: `run(state, shares)` drives for one step from the origin, heading along x with (speed, steering)
-    /// = `state`, under the constant inputs at `shares` (0 … 1) between their limits, and tells (x, y, ψ) and (speed, steering)
-    /// at the end.
+    /// Samples every bin: `run(state, shares)` drives for one step from the origin, heading along x with (speed,
+    /// steering) = `state`, under the constant inputs at `shares` (0 … 1) between their limits, and tells (x, y, ψ) and
+    /// (speed, steering) at the end.
     ///
     /// # Errors
     /// [`NoBodyHull`].

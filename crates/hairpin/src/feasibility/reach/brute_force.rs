@@ -1,8 +1,8 @@
 //! Reach by simulating every sampled run from the node's own state: the oracle of `hull`, and what is used where the
 //! identity behind `hull` breaks: quadratic drag, or an attitude or rates that are carried over a waypoint.
 //!
-//! What is carried is put into cells, and a run starts from its cell's middle: a cell's hull depends on nothing else, so
-//! it may be simulated once and remembered, or forgotten and simulated again, with the same result.
+//! What is carried is put into cells, and a run starts from its cell's middle: a cell's hull depends on nothing else,
+//! so it may be simulated once and remembered, or forgotten and simulated again, with the same result.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard};

@@ -52,7 +52,8 @@ fn attempt(
     let mut hull = Growing::new(points, simplex, tolerance)?;
     hull.grow(&Cloud::new(simd, points, extremes.to_vec()))?;
     hull.sweep();
-    // Ten tolerances inside of a hull of some, a point has a ball around it inside: no plane beyond all others meets it.
+    // Ten tolerances inside of a hull of some, a point has a ball around it inside: no plane beyond all others meets
+    // it.
     let shell = Cloud::new(simd, points, cloud.outside(&hull.planes(), -10.0 * tolerance));
     hull.grow(&shell)?;
     hull.sweep();

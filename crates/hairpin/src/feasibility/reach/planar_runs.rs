@@ -59,7 +59,8 @@ impl PlanarVehicle {
         BodyHull::sampled(&grid, |state, shares| self.run(step, state, shares))
     }
 
-    /// (x, y, ψ) and (v, κ) after `step` s from the origin with (v, κ) = `state`; `shares` (0 … 1) of the inputs between their bounds.
+    /// (x, y, ψ) and (v, κ) after `step` s from the origin with (v, κ) = `state`; `shares` (0 … 1) of the inputs
+    /// between their bounds.
     ///
     /// By the midpoint rule in 64 steps.
     pub fn run(&self, step: f64, state: [f64; 2], shares: [f64; 2]) -> ([f64; 3], [f64; 2]) {

@@ -137,7 +137,8 @@ impl Polytope {
     }
 }
 
-/// A loop and not [`Iterator::all`], which the kernels' vector instructions are not handed down to where it is not inlined.
+/// A loop and not [`Iterator::all`], which the kernels' vector instructions are not handed down to where it is not
+/// inlined.
 #[inline(always)]
 fn holds(groups: &[Group], x: &Vector3<f64>) -> bool {
     for [nx, ny, nz, b] in groups {

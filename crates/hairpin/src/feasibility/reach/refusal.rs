@@ -12,8 +12,8 @@ const WORD: usize = 64;
 /// Points in words, one row per coordinate.
 type Probes = [[[f64; WORD]; 3]; WORDS];
 
-/// Numbers of `planes` such that each cuts off most of what those before it left of the box from `min` to `max`, counted
-/// on evenly spread points; those that cut off nothing more keep their order.
+/// Numbers of `planes` such that each cuts off most of what those before it left of the box from `min` to `max`,
+/// counted on evenly spread points; those that cut off nothing more keep their order.
 pub(super) fn refusal_order(simd: Simd, planes: &[Plane], min: &Vector3<f64>, max: &Vector3<f64>) -> Vec<u32> {
     let mut cuts = vec![[0; WORDS]; planes.len()];
     let mut order = Vec::with_capacity(planes.len());

@@ -1,4 +1,5 @@
-//! Every kernel of the reach sets at the widest level of this machine, against the version that all machines have: to the bit.
+//! Every kernel of the reach sets at the widest level of this machine, against the version that all machines have: to
+//! the bit.
 
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;

@@ -100,7 +100,8 @@ pub struct Roadmap<'a> {
 }
 
 impl<'a> Roadmap<'a> {
-    /// The roadmap over `points`: index 0 the start, the last the end, both at rest; every other waypoint gets M velocities.
+    /// The roadmap over `points`: index 0 the start, the last the end, both at rest; every other waypoint gets M
+    /// velocities.
     ///
     /// Velocity k of a waypoint has a speed drawn from the k-th of M equal parts of [0, top speed] and points towards a
     /// waypoint drawn from those that a leg at that speed can reach (the nearest one if there is none).
@@ -177,9 +178,9 @@ impl<'a> Roadmap<'a> {
 
     /// A necessary test for searches: false only if no `steps` legs lead from `node` to the end.
     ///
-    /// One step is judged exactly, so a search needs no lookahead of its own, which would judge the legs of every state near
-    /// the end; more steps must bring the robot, at no more than the speed limit and the longest leg
-    /// time each, to a waypoint from which the end is one leg away.
+    /// One step is judged exactly, so a search needs no lookahead of its own, which would judge the legs of every state
+    /// near the end; more steps must bring the robot, at no more than the speed limit and the longest leg time each, to
+    /// a waypoint from which the end is one leg away.
     pub fn may_arrive(&self, node: &WitnessNode, steps: usize) -> bool {
         match steps {
             0 => node.waypoint as usize + 1 == self.points.len(),
@@ -192,8 +193,8 @@ impl<'a> Roadmap<'a> {
         }
     }
 
-    /// What every candidate for a leg from `from` is, a state of another waypoint each: its node, or why it is none; `None` where the
-    /// straight line alone takes longer at the speed limit than the longest leg may.
+    /// What every candidate for a leg from `from` is, a state of another waypoint each: its node, or why it is none;
+    /// `None` where the straight line alone takes longer at the speed limit than the longest leg may.
     ///
     /// The evidence is that of the leg time nearest to what the line takes at the mean of the speeds at both ends.
     pub fn candidates(&self, from: &WitnessNode) -> Vec<Result<WitnessNode, Option<Infeasible>>> {
@@ -246,8 +247,8 @@ impl<'a> Roadmap<'a> {
         (waypoint as u32, state - self.first[waypoint])
     }
 
-    /// The shortest feasible rung between two states. The times in which even the straight line is too long at the speed
-    /// limit are skipped.
+    /// The shortest feasible rung between two states. The times in which even the straight line is too long at the
+    /// speed limit are skipped.
     fn shortest(&self, from: usize, to: usize, fastest: f64) -> Option<u32> {
         let begin = self.rungs.partition_point(|rung| *rung < fastest);
         (begin..self.rungs.len())

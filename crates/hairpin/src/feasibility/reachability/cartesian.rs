@@ -1,4 +1,5 @@
-//! The graph of the tool's sphere alone: every pair of points against every part of the cell, proven or in plain floating point.
+//! The graph of the tool's sphere alone: every pair of points against every part of the cell, proven or in plain
+//! floating point.
 
 use nalgebra::Point3;
 
@@ -33,8 +34,8 @@ pub struct CartesianSettings {
     pub simd: Simd,
 }
 
-/// For every pair of `points` (base frame, m), whether the straight move between them is free of every part of the cell. Both
-/// directions are alike. Costs are distances in whole micrometres.
+/// For every pair of `points` (base frame, m), whether the straight move between them is free of every part of the
+/// cell. Both directions are alike. Costs are distances in whole micrometres.
 ///
 /// A pair's refusal names the first part that it meets, in the cell's order.
 ///

@@ -1,9 +1,10 @@
-//! A float filter with derived error bounds: of one point against all others, which segments are proven clear of a region, and which
-//! are proven to meet it. What it leaves open is left to interval arithmetic.
+//! A float filter with derived error bounds: of one point against all others, which segments are proven clear of a
+//! region, and which are proven to meet it. What it leaves open is left to interval arithmetic.
 //!
-//! Coordinates are taken relative to the region's centre, so that they are known up to η; M bounds them and the region's sizes. With
-//! unit round-off u = 2⁻⁵³ every polynomial below has an error bound c·u·Mᵏ whose constant is derived in docs/arms.md and
-//! rounded up to a power of two. A comparison that holds with that bound holds in the real numbers.
+//! Coordinates are taken relative to the region's centre, so that they are known up to η; M bounds them and the
+//! region's sizes. With unit round-off u = 2⁻⁵³ every polynomial below has an error bound c·u·Mᵏ whose constant is
+//! derived in docs/arms.md and rounded up to a power of two. A comparison that holds with that bound holds in the real
+//! numbers.
 
 // NaN of 0/0 must become a bound here, not stay NaN.
 #![allow(clippy::manual_clamp)]
@@ -149,7 +150,8 @@ fn upright(axis: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()])
 }
 
-/// Error bounds of squares of lengths (degree 2) and of the determinant (degree 4); with coordinates known up to η, η ≥ 4u M.
+/// Error bounds of squares of lengths (degree 2) and of the determinant (degree 4); with coordinates known up to η, η ≥
+/// 4u M.
 impl Scale {
     /// Of a sum of three products of coordinates or differences: 36 M η + 64 u M² ≤ 64 M η.
     fn square(self) -> f64 {

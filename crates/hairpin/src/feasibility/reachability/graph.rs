@@ -1,4 +1,5 @@
-//! The reachability graph: which moves between the points of a cloud are possible, at what cost, and why the others are not.
+//! The reachability graph: which moves between the points of a cloud are possible, at what cost, and why the others are
+//! not.
 
 use super::refusal::Refusal;
 

@@ -78,7 +78,8 @@ pub enum Refusal {
     },
     /// Start, point on the way and end give no arc.
     NoArc(CircleError),
-    /// The points of an arc have different orientations: what a controller does with that of the point on the way is its own affair.
+    /// The points of an arc have different orientations: what a controller does with that of the point on the way is
+    /// its own affair.
     Turned {
         /// The larger angle between the start's orientation and another's, rad.
         turn: f64,

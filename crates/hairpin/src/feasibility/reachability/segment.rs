@@ -36,8 +36,8 @@ impl Obstacle {
 
     /// Whether the segment a–b grown by `radius` (m, ≥ 0) meets the region: proofs, or undecided.
     ///
-    /// The region counts with its border. Intervals are computed with outward rounding on the numbers given, so that only what is
-    /// true of the real numbers is said.
+    /// The region counts with its border. Intervals are computed with outward rounding on the numbers given, so that
+    /// only what is true of the real numbers is said.
     ///
     /// Cost: a nearest point and one inequality mostly; else at most 4000 intervals.
     pub fn certify(&self, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Verdict {
@@ -59,8 +59,9 @@ impl Obstacle {
     }
 }
 
-/// Where the segment is nearest to a convex region, found in floating point, most is decided: the point there is proven within the
-/// radius, or the direction to it is proven to separate: n·p > h(n) + r|n| at both ends, with the region's support function h.
+/// Where the segment is nearest to a convex region, found in floating point, most is decided: the point there is proven
+/// within the radius, or the direction to it is proven to separate: n·p > h(n) + r|n| at both ends, with the region's
+/// support function h.
 fn at_nearest(region: &Region, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Option<Verdict> {
     let (t, n) = region.nearest(a, b)?;
     let i = Interval::point;
@@ -82,8 +83,8 @@ enum Piece {
     Unknown,
 }
 
-/// Halves [0, 1] until every piece is clear, one is hit, or one is as narrow as `least` and neither. `None` from `look` ends as
-/// undecided.
+/// Halves [0, 1] until every piece is clear, one is hit, or one is as narrow as `least` and neither. `None` from `look`
+/// ends as undecided.
 fn halve(least: f64, mut look: impl FnMut(Interval) -> Option<Piece>) -> Verdict {
     let mut open = vec![Interval { low: 0.0, high: 1.0 }];
     let mut undecided: Option<Verdict> = None;
@@ -107,7 +108,8 @@ fn halve(least: f64, mut look: impl FnMut(Interval) -> Option<Piece>) -> Verdict
     undecided.unwrap_or(Verdict::Clear)
 }
 
-/// Words grown by the cube around a ball: what is clear is so for the ball; what only the cube's corners meet stays undecided.
+/// Words grown by the cube around a ball: what is clear is so for the ball; what only the cube's corners meet stays
+/// undecided.
 fn of_words(words: &Words, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Verdict {
     let ball = Interval { low: -radius, high: radius };
     // Pieces much shorter than the ball say nothing new.

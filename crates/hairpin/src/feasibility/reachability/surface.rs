@@ -1,9 +1,11 @@
-//! Segments against closed surfaces, proven: a separating direction for every triangle, then on which side of the surface.
+//! Segments against closed surfaces, proven: a separating direction for every triangle, then on which side of the
+//! surface.
 //!
-//! A segment is farther than r from a triangle if for some direction n every end p and every corner v have n·(p − v) > r|n|: any n
-//! will do, so it is found in floating point and only the inequality is proven. A segment that is clear of all triangles lies
-//! wholly inside or wholly outside; the winding number of one of its points, Σ 2 atan2(…)/4π over the triangles' solid angles
-//! (van Oosterom, Strackee 1983), is an integer that floating point cannot miss away from the surface.
+//! A segment is farther than r from a triangle if for some direction n every end p and every corner v have n·(p − v) >
+//! r|n|: any n will do, so it is found in floating point and only the inequality is proven. A segment that is clear of
+//! all triangles lies wholly inside or wholly outside; the winding number of one of its points, Σ 2 atan2(…)/4π over
+//! the triangles' solid angles (van Oosterom, Strackee 1983), is an integer that floating point cannot miss away from
+//! the surface.
 
 use nalgebra::{Point3, Vector3};
 
@@ -100,8 +102,8 @@ fn touched(a: &Point3<f64>, b: &Point3<f64>, corners: &[Point3<f64>; 3], radius:
     edges.or_else(|| [(a, 0.0), (b, 1.0)].into_iter().find_map(|(p, t)| over_face(p, corners, radius).then_some(t)))
 }
 
-/// Whether a point is proven to be within `radius` of the triangle's inside: v₀ + s e₁ + t e₂ with s, t ≥ 0, s + t ≤ 1 is a point of
-/// it, whatever s and t are.
+/// Whether a point is proven to be within `radius` of the triangle's inside: v₀ + s e₁ + t e₂ with s, t ≥ 0, s + t ≤ 1
+/// is a point of it, whatever s and t are.
 fn over_face(p: &Point3<f64>, corners: &[Point3<f64>; 3], radius: f64) -> bool {
     let (e1, e2, w) = (corners[1] - corners[0], corners[2] - corners[0], p - corners[0]);
     let (aa, ab, bb) = (e1.norm_squared(), e1.dot(&e2), e2.norm_squared());
@@ -119,7 +121,8 @@ fn over_face(p: &Point3<f64>, corners: &[Point3<f64>; 3], radius: f64) -> bool {
     square.high <= Interval::point(radius).square().low
 }
 
-/// Whether the segment is proven to pass through the triangle: its ends on both sides, and the line on one side of all three edges.
+/// Whether the segment is proven to pass through the triangle: its ends on both sides, and the line on one side of all
+/// three edges.
 fn crossed(a: &Point3<f64>, b: &Point3<f64>, corners: &[Point3<f64>; 3]) -> bool {
     let volume = |p: &Point3<f64>, q: &Point3<f64>, r: &Point3<f64>, s: &Point3<f64>| {
         let minus = |x: &Point3<f64>| -> [Interval; 3] {

@@ -140,9 +140,10 @@ impl Flatness {
 
     /// Drag and its first and second time derivative, N, N/s, N/s², given the speed.
     ///
-    /// With n = v/|v|: |v|˙ = n·a, and (|v|˙˙) v = (a·a − (n·a)² + v·j) n, which stays bounded as v → 0 though n does not
-    /// settle: |v|v is once differentiable at v = 0 and the second derivative jumps there. An enclosure takes n in
-    /// [−1, 1]³ then, which holds both sides of the jump; a point takes the mean, which at a rest end (a = j = 0) is exact.
+    /// With n = v/|v|: |v|˙ = n·a, and (|v|˙˙) v = (a·a − (n·a)² + v·j) n, which stays bounded as v → 0 though n does
+    /// not settle: |v|v is once differentiable at v = 0 and the second derivative jumps there. An enclosure takes n in
+    /// [−1, 1]³ then, which holds both sides of the jump; a point takes the mean, which at a rest end (a = j = 0) is
+    /// exact.
     #[inline(always)]
     fn drag<N: Smooth>(&self, v: &[N; 3], a: &[N; 3], j: &[N; 3], speed: N) -> [[N; 3]; 3] {
         let linear = self.drag_linear;
@@ -211,8 +212,8 @@ impl Flatness {
     /// Everything that a flat state demands.
     ///
     /// With yaw 0, R = Ry(θ) Rx(φ) and body z along F: tan θ = Fx/Fz, sin φ = −Fy/|F|; rates (φ̇, θ̇ cos φ, −θ̇ sin φ);
-    /// moments I ω̇ + ω × I ω + c_ω|ω|ω; rotor speeds by the inverse of the mixing matrix. All derivatives are analytic.
-    /// Meaningless unless Fz > 0, which the caller checks.
+    /// moments I ω̇ + ω × I ω + c_ω|ω|ω; rotor speeds by the inverse of the mixing matrix. All derivatives are
+    /// analytic. Meaningless unless Fz > 0, which the caller checks.
     ///
     /// No branch on N, so that lanes never part. Rates in rad/s and moments in N·m in the body frame.
     #[inline(always)]

@@ -46,7 +46,8 @@ pub struct LegJudge {
 }
 
 impl LegJudge {
-    /// The judge for `robot` in `world`. The robot's clearance radius is kept to obstacles, the world's keep-in margin to walls.
+    /// The judge for `robot` in `world`. The robot's clearance radius is kept to obstacles, the world's keep-in margin
+    /// to walls.
     ///
     /// # Errors
     /// [`DependentRotors`].
@@ -110,8 +111,8 @@ impl LegJudge {
 
     /// The leg from `from` to `to` in `duration`, if every limit holds at every instant of it.
     ///
-    /// Necessary tests come first: mean speed; rotor speeds at both ends, in closed form from the end snap; speed, thrust,
-    /// tilt and walls at four instants. What passes is proven by [`Self::prove`].
+    /// Necessary tests come first: mean speed; rotor speeds at both ends, in closed form from the end snap; speed,
+    /// thrust, tilt and walls at four instants. What passes is proven by [`Self::prove`].
     ///
     /// # Errors
     /// The limit that fails, where, and by how much.

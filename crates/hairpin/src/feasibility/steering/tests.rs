@@ -238,7 +238,8 @@ fn a_violation_of_one_millisecond_between_samples_is_refused() {
         if wide.prove(&leg).is_err() {
             continue;
         }
-        // Which rotor speed is exceeded for just 1 ms? Take the peak, and lower the limit to what holds 0.5 ms beside it.
+        // Which rotor speed is exceeded for just 1 ms? Take the peak, and lower the limit to what holds 0.5 ms beside
+        // it.
         let square = |t: f64| wide.flatness().demand(&flat_state(&leg, t)).rotors.into_iter().fold(0.0, f64::max);
         let samples = 20_000;
         let times = (1..samples).map(|k| leg.duration * k as f64 / samples as f64);

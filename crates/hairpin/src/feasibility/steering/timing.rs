@@ -7,8 +7,8 @@
 pub enum LegTiming {
     /// Every leg takes this long.
     Step(f64),
-    /// A geometric ladder from `shortest` to `longest`, both included, neighbours no more than `ratio` apart. Feasibility is
-    /// not monotone in the time where ends have velocities, so every rung is tried, shortest first.
+    /// A geometric ladder from `shortest` to `longest`, both included, neighbours no more than `ratio` apart.
+    /// Feasibility is not monotone in the time where ends have velocities, so every rung is tried, shortest first.
     Ladder {
         /// First rung.
         shortest: f64,
@@ -20,8 +20,8 @@ pub enum LegTiming {
 }
 
 impl LegTiming {
-    /// Neighbouring rungs at most a fifth apart: a leg is no more than that slower than it has to be, and 0.8 … 4 s takes
-    /// 10 rungs.
+    /// Neighbouring rungs at most a fifth apart: a leg is no more than that slower than it has to be, and 0.8 … 4 s
+    /// takes 10 rungs.
     pub const RATIO: f64 = 1.2;
 
     /// The ladder from `shortest` to `longest` (s) with the ratio [`Self::RATIO`].

@@ -26,7 +26,8 @@ pub(super) struct Way {
     weight: f64,
 }
 
-/// Cells of the alignment at most; above it only every few samples are aligned over the whole path, the others between them.
+/// Cells of the alignment at most; above it only every few samples are aligned over the whole path, the others between
+/// them.
 const MOST_CELLS: usize = 1 << 20;
 
 impl Way {
@@ -61,8 +62,8 @@ impl Way {
     }
 
     /// The nearest pose of the path to each sample, in order: the rising sequence j(0) ≤ j(1) ≤ … that minimises
-    /// Σ d(sample_i, pose_j(i))², among equals the one that stays behind longest. Poses may be skipped. Where the recording tells its
-    /// move, poses of that one and its neighbours alone are looked at.
+    /// Σ d(sample_i, pose_j(i))², among equals the one that stays behind longest. Poses may be skipped. Where the
+    /// recording tells its move, poses of that one and its neighbours alone are looked at.
     fn nearest(&self, recording: &Track) -> Vec<usize> {
         let samples = recording.len();
         let windows = self.windows(recording);

@@ -131,8 +131,8 @@ impl Comparison {
 /// Compares the moves of `new` with those of `baseline`.
 ///
 /// With k and m runs, means b and n and pooled variance s² of the two, a move is worse where n − b > h,
-/// h = max(t·s·√(1/k + 1/m), floor): t is Student's quantile of as rare an excess as `sigma` standard deviations, with k + m − 2 degrees
-/// of freedom, for few runs know their spread badly.
+/// h = max(t·s·√(1/k + 1/m), floor): t is Student's quantile of as rare an excess as `sigma` standard deviations, with
+/// k + m − 2 degrees of freedom, for few runs know their spread badly.
 ///
 /// # Errors
 /// Fewer than two runs of the baseline, no new run, runs of different programs, settings out of bounds.

@@ -21,8 +21,8 @@ pub enum Clock {
 /// `arrival` is applied to the plan as to the recording, so that the servo's lag at a stop does not count as lateness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasureSettings {
-    /// A target counts as arrived at when this much of the way to it (m) is left, in the plan and in the recording alike: the last of
-    /// an approach takes a servo for ever.
+    /// A target counts as arrived at when this much of the way to it (m) is left, in the plan and in the recording
+    /// alike: the last of an approach takes a servo for ever.
     pub arrival: f64,
     /// For alignment alone 1 rad counts as this many metres; 0 where the recording has no orientation.
     pub turn_weight: f64,
@@ -52,7 +52,8 @@ pub struct MoveMeasures {
     pub arrived: Option<f64>,
     /// When it was to arrive, s.
     pub planned: f64,
-    /// Since the arrival before, s; of the first move since the start of the clock, or since it set out where the offset is removed.
+    /// Since the arrival before, s; of the first move since the start of the clock, or since it set out where the
+    /// offset is removed.
     pub duration: Option<f64>,
     /// The same as planned, s.
     pub planned_duration: f64,
@@ -93,8 +94,8 @@ pub struct Measured {
 
 /// Measures `recording` against the planned path, move by move.
 ///
-/// Samples are aligned with the path monotonely; arrival is when progress along it first comes within `arrival` of a target's, between
-/// samples by linear interpolation.
+/// Samples are aligned with the path monotonely; arrival is when progress along it first comes within `arrival` of a
+/// target's, between samples by linear interpolation.
 ///
 /// Deviation is the distance of positions from the polyline of planned poses, of the segments beside the aligned one.
 /// Samples · poses, in the whole at most a million.

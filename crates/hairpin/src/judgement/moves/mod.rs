@@ -1,5 +1,5 @@
-//! The oracle of programs: recordings of an arm against its planned path, move by move, against a spec and against what an earlier
-//! release did. It knows poses in time and nothing of arms.
+//! The oracle of programs: recordings of an arm against its planned path, move by move, against a spec and against what
+//! an earlier release did. It knows poses in time and nothing of arms.
 //!
 //! | step | file |
 //! | --- | --- |

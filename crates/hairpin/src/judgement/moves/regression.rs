@@ -38,14 +38,15 @@ impl Regression {
         self.programs.iter().map(|one| one.comparison.moves).sum()
     }
 
-    /// Comparisons that chance alone puts outside their bands at this many standard deviations, were all releases equal: both sides, every
-    /// metric of every move. Floors of the bands make it fewer.
+    /// Comparisons that chance alone puts outside their bands at this many standard deviations, were all releases
+    /// equal: both sides, every metric of every move. Floors of the bands make it fewer.
     pub fn expected_by_chance(&self, sigma: f64) -> f64 {
         let compared: usize = self.programs.iter().map(|one| one.comparison.compared.len()).sum();
         compared as f64 * libm::erfc(sigma / std::f64::consts::SQRT_2)
     }
 
-    /// `3/48 moves outside the baseline's band, worst p17→p09 +41 ms (band ±6 ms)`; of several programs with the worst one's name.
+    /// `3/48 moves outside the baseline's band, worst p17→p09 +41 ms (band ±6 ms)`; of several programs with the worst
+    /// one's name.
     pub fn outside(&self) -> String {
         let count = format!("{}/{} moves outside the baseline's band", self.count(Outcome::Worse), self.moves());
         let of = |one: &ProgramComparison| match self.programs.len() {
@@ -70,8 +71,8 @@ impl Regression {
         format!("REGRESSION {} against {} ({now} + {before} runs)", first.new, first.baseline)
     }
 
-    /// `verdict`, which was given by the limits alone (`limited`: there are some), with what the baseline says: a violation stays one, else a
-    /// move that is worse makes a regression (1), and moves that are better are told.
+    /// `verdict`, which was given by the limits alone (`limited`: there are some), with what the baseline says: a
+    /// violation stays one, else a move that is worse makes a regression (1), and moves that are better are told.
     pub fn join(&self, verdict: Verdict, limited: bool) -> Verdict {
         let (worse, better) = (self.count(Outcome::Worse), self.count(Outcome::Better));
         let baseline = &self.programs[0].comparison.baseline;

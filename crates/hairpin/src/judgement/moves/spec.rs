@@ -16,8 +16,8 @@ pub struct MoveLimits {
 
 const MILLI: f64 = 1e3;
 
-/// The violations of a recording in the order of its moves: `unreached`, `deviation` in mm, `arrival` in ms, the move in `leg`. After
-/// the first target that is not reached the later ones are not told.
+/// The violations of a recording in the order of its moves: `unreached`, `deviation` in mm, `arrival` in ms, the move
+/// in `leg`. After the first target that is not reached the later ones are not told.
 pub fn move_violations(measured: &Measured, limits: &MoveLimits) -> Vec<Violation> {
     let mut found = Vec::new();
     let violation = |what: &str, value: f64, limit: f64, unit: &str, at: f64, leg: usize| Violation {
@@ -49,7 +49,8 @@ pub fn move_violations(measured: &Measured, limits: &MoveLimits) -> Vec<Violatio
     found
 }
 
-/// Of several runs the gravest violation, or the value that comes nearest to its limit: run, what, where, and its limit.
+/// Of several runs the gravest violation, or the value that comes nearest to its limit: run, what, where, and its
+/// limit.
 ///
 /// By value over limit: the move that used up the largest share of what it may.
 pub fn worst_of(runs: &[Measured], limits: &MoveLimits) -> Option<(usize, Violation)> {

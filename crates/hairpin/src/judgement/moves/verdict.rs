@@ -21,7 +21,8 @@ pub struct JudgedMoves<'a> {
     pub evidence: &'a [&'a str],
 }
 
-/// `FAIL k/n moves …` (1), `REGRESSION new against old …` (1), `PASS n/n moves …` (0) or `INCONCLUSIVE …` (5) where nothing is limited.
+/// `FAIL k/n moves …` (1), `REGRESSION new against old …` (1), `PASS n/n moves …` (0) or `INCONCLUSIVE …` (5) where
+/// nothing is limited.
 ///
 /// Exit codes as of all verdicts: 0 within spec, 1 a violation or a regression, 5 nothing to judge by.
 pub fn moves_verdict(judged: &JudgedMoves) -> Verdict {
@@ -73,8 +74,8 @@ fn worst_and_where(judged: &JudgedMoves, run: usize, violation: &Violation) -> S
     format!("worst {value}{late} {relation} {limit}, {name}, t = {:.2} s{of_run}", violation.at)
 }
 
-/// The largest of runs' offsets, each with the time between samples (s): one that was taken off, or one that every arrival of its run shares
-/// and that is told because it was not.
+/// The largest of runs' offsets, each with the time between samples (s): one that was taken off, or one that every
+/// arrival of its run shares and that is told because it was not.
 pub fn offset_told(offsets: impl Iterator<Item = (Offset, f64)>) -> Option<String> {
     let (offset, sample) = offsets.max_by(|a, b| a.0.seconds.abs().total_cmp(&b.0.seconds.abs()))?;
     let milliseconds = 1e3 * offset.seconds;

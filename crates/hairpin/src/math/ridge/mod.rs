@@ -1,14 +1,15 @@
-//! Polynomial ridge regression: how a number depends on a few others, with degree and penalty chosen by cross-validation.
+//! Polynomial ridge regression: how a number depends on a few others, with degree and penalty chosen by
+//! cross-validation.
 //!
-//! With standardised, clamped inputs z = clamp((x − c)/s, z_min, z_max), monomials m_j(z) of total degree ≤ p, standardised
-//! too, and penalty λ > 0:
+//! With standardised, clamped inputs z = clamp((x − c)/s, z_min, z_max), monomials m_j(z) of total degree ≤ p,
+//! standardised too, and penalty λ > 0:
 //!
 //! ```text
 //! y ≈ b + Σ w_j m_j(z),     w = argmin ‖y − b − M w‖²/n + λ ‖w‖²,     (MᵀM/n + λ I) w = Mᵀ(y − b)/n
 //! ```
 //!
-//! Inputs beyond those that were fitted count as at the edge: a search for the largest value would otherwise be led to where
-//! a polynomial knows nothing. Source: Hoerl and Kennard, Technometrics 12(1), 1970.
+//! Inputs beyond those that were fitted count as at the edge: a search for the largest value would otherwise be led to
+//! where a polynomial knows nothing. Source: Hoerl and Kennard, Technometrics 12(1), 1970.
 //!
 //! Data flow: [`Rows`] → standardised inputs → monomials, run by run → sums MᵀM, Mᵀy of each fold → one Cholesky
 //! factorisation for each fold, degree and penalty → [`PolynomialRidge`]. A fold's training sums are all sums less its
@@ -122,7 +123,8 @@ pub struct PolynomialRidge {
     pub penalty: f64,
     /// Inputs c that stand for 0, one per input.
     pub centre: Vec<f64>,
-    /// Standard deviations s, one per input; 0 for one that never differed or is a multiple of an earlier one: it is left out.
+    /// Standard deviations s, one per input; 0 for one that never differed or is a multiple of an earlier one: it is
+    /// left out.
     pub scale: Vec<f64>,
     /// Least and greatest z that were fitted, one pair per input.
     pub range: Vec<[f64; 2]>,
@@ -159,8 +161,8 @@ impl Validation {
 }
 
 impl PolynomialRidge {
-    /// Fits `rows` with the degree (1 to `most_degree`) and the penalty whose mean squared error over `folds` folds is the
-    /// least; the first of equals. Groups are dealt to folds in the order in which they appear.
+    /// Fits `rows` with the degree (1 to `most_degree`) and the penalty whose mean squared error over `folds` folds is
+    /// the least; the first of equals. Groups are dealt to folds in the order in which they appear.
     ///
     /// Degrees end early where their monomials exceed 500. Penalties 1e-7 … 1, a decade apart, relative to monomials of
     /// variance 1.

@@ -11,7 +11,8 @@ pub(super) fn standardised(x: f64, centre: f64, scale: f64, [least, greatest]: [
     if scale > 0.0 { ((x - centre) / scale).clamp(least, greatest) } else { 0.0 }
 }
 
-/// Puts the inputs of rows that are looked at together into `z`, standardised, those without a scale left out; how many there are.
+/// Puts the inputs of rows that are looked at together into `z`, standardised, those without a scale left out; how many
+/// there are.
 pub(super) fn standardise<const L: usize>(
     inputs: [&[f64]; L],
     centre: &[f64],
@@ -27,9 +28,9 @@ pub(super) fn standardise<const L: usize>(
     count
 }
 
-/// All monomials of total degree 1 to `degree` in the first `count` numbers of `out`, which are the standardised inputs, in the order of
-/// [`monomials_of`]; how many. Those of one degree are, input after input, the input times those of the degree before that have no earlier
-/// input: a run at the end of their block.
+/// All monomials of total degree 1 to `degree` in the first `count` numbers of `out`, which are the standardised
+/// inputs, in the order of [`monomials_of`]; how many. Those of one degree are, input after input, the input times
+/// those of the degree before that have no earlier input: a run at the end of their block.
 #[inline(always)]
 pub(super) fn monomials<const L: usize>(count: usize, degree: u32, out: &mut [[f64; L]]) -> usize {
     let mut starts: [usize; MOST_INPUTS] = std::array::from_fn(|i| i);
@@ -109,8 +110,8 @@ kernel! {
     }
 }
 
-/// Powers of all monomials of total degree 1 to `degree` in the inputs that differ (`scale` above 0), lower degrees first and the first
-/// input's higher powers first; `None` of more than 500.
+/// Powers of all monomials of total degree 1 to `degree` in the inputs that differ (`scale` above 0), lower degrees
+/// first and the first input's higher powers first; `None` of more than 500.
 pub fn monomials_of(scale: &[f64], degree: u32) -> Option<Vec<Vec<u32>>> {
     let mut all = Vec::new();
     for total in 1..=degree {

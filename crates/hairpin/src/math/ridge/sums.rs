@@ -97,7 +97,8 @@ impl Sums {
         }
     }
 
-    /// Weights of plain monomials, and the intercept. Monomials are standardised on the way, so that one penalty fits all.
+    /// Weights of plain monomials, and the intercept. Monomials are standardised on the way, so that one penalty fits
+    /// all.
     pub(super) fn solve(&self, penalty: f64) -> (Vec<f64>, f64) {
         let n = self.count;
         let mean = &self.monomials / n;

@@ -41,8 +41,8 @@ pub struct Link {
     pub mass: Option<Mass>,
 }
 
-/// Radii of stand-in capsules as shares of upper arm + forearm: base, shoulder, upper arm, elbow, forearm, wrist, flange. Measured off
-/// the outlines of small arms; a file's own capsules replace them.
+/// Radii of stand-in capsules as shares of upper arm + forearm: base, shoulder, upper arm, elbow, forearm, wrist,
+/// flange. Measured off the outlines of small arms; a file's own capsules replace them.
 const SHARES: [f64; AXES + 1] = [0.15, 0.14, 0.11, 0.10, 0.08, 0.07, 0.055];
 
 /// Stand-in capsules along the dimensions of an arm.
@@ -76,9 +76,10 @@ pub(super) fn of_chain(chain: &Chain) -> [Vec<Capsule>; AXES + 1] {
 }
 
 impl Chain {
-    /// Upper bounds of how far a point of link `link` moves when every joint k turns by at most `turns[k]` (rad) from where
-    /// `axes` were taken: joints are turned from the tip inwards; each moves the point by at most its angle times the distance
-    /// from its axis, and that distance has grown by no more than what the joints beyond have moved the point.
+    /// Upper bounds of how far a point of link `link` moves when every joint k turns by at most `turns[k]` (rad) from
+    /// where `axes` were taken: joints are turned from the tip inwards; each moves the point by at most its angle times
+    /// the distance from its axis, and that distance has grown by no more than what the joints beyond have moved the
+    /// point.
     ///
     /// Σ over k, from the tip: `turns[k]` · (distance from axis k + what the joints beyond have added), since an arc is
     /// no longer than angle times radius. `points` are those of the link whose hull it is: a capsule's two ends bound

@@ -19,8 +19,8 @@ pub struct Joint {
 
 /// Six joints one after the other, and the flange on the last link.
 ///
-/// base_from_link_k = Π_{j ≤ k} origin_j · Rot(axis_j, q_j); base_from_flange = base_from_link_6 · flange. Lengths in m, angles in
-/// rad. Any arm's forward kinematics are computed here, whatever its inverse.
+/// base_from_link_k = Π_{j ≤ k} origin_j · Rot(axis_j, q_j); base_from_flange = base_from_link_6 · flange. Lengths in
+/// m, angles in rad. Any arm's forward kinematics are computed here, whatever its inverse.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
     /// The joints, from the base on.
@@ -97,8 +97,9 @@ impl Chain {
     /// Joint angles near `seed` whose flange is at `target`, by damped Newton steps
     /// Δq = Jᵀ(J Jᵀ + λ²I)⁻¹ e on the twist e from the flange to the target, λ² falling with |e|.
     ///
-    /// `None` if 30 steps do not meet the target within 1e-11 m and rad. (Nakamura, Hanafusa, "Inverse kinematic solutions with
-    /// singularity robustness for robot manipulator control", 1986; damping by the error: Sugihara, 2011.)
+    /// `None` if 30 steps do not meet the target within 1e-11 m and rad. (Nakamura, Hanafusa, "Inverse kinematic
+    /// solutions with singularity robustness for robot manipulator control", 1986; damping by the error: Sugihara,
+    /// 2011.)
     ///
     /// The error is of the pose: shift in m and rotation vector in rad, weighed alike. Steps are cut to 0.3 rad a
     /// joint. Quadratic near the solution; deterministic.

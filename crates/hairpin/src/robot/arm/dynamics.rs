@@ -19,8 +19,8 @@ impl Arm {
     /// Torques (N m) that the motion q, q̇, q̈ takes with `tool` on the flange, gravity along −z of the base:
     /// τ = M(q) q̈ + C(q, q̇) q̇ + g(q), without friction and motors' inertia. `None` without masses.
     ///
-    /// Outwards velocities and accelerations of the links, inwards forces and moments; O(n). (Luh, Walker, Paul, "On-line computational
-    /// scheme for mechanical manipulators", 1980.)
+    /// Outwards velocities and accelerations of the links, inwards forces and moments; O(n). (Luh, Walker, Paul,
+    /// "On-line computational scheme for mechanical manipulators", 1980.)
     ///
     /// q in rad, q̇ in rad/s, q̈ in rad/s². The tool is a point mass at its centre of mass; links have principal axes
     /// along their frames.

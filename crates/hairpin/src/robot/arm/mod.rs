@@ -134,8 +134,9 @@ impl Arm {
         self.chain.forward(q)
     }
 
-    /// Joint angles whose flange is at `flange`, with every angle on the turn nearest to `near`: of arms with a closed form all
-    /// solutions in the order of cfx, of others the one that Newton finds from `near`. Limits are not looked at.
+    /// Joint angles whose flange is at `flange`, with every angle on the turn nearest to `near`: of arms with a closed
+    /// form all solutions in the order of cfx, of others the one that Newton finds from `near`. Limits are not looked
+    /// at.
     ///
     /// `flange` is `base_from_flange`. Eight solutions at most with a closed form, none where the wrist centre is out
     /// of reach, one or none by Newton; a target may have more on other turns ([`Arm::turns_of`]).
@@ -146,7 +147,8 @@ impl Arm {
         }
     }
 
-    /// The solution of `branch` on the turns nearest to `near`; without a closed form the one that Newton finds from `near`.
+    /// The solution of `branch` on the turns nearest to `near`; without a closed form the one that Newton finds from
+    /// `near`.
     ///
     /// Following a move means asking for one branch all along it: `near` chooses the turns, and axis 4 where the wrist
     /// is stretched.

@@ -1,4 +1,5 @@
-//! Six-axis arms with an ortho-parallel basis and a spherical wrist: the closed inverse kinematics, all eight solutions.
+//! Six-axis arms with an ortho-parallel basis and a spherical wrist: the closed inverse kinematics, all eight
+//! solutions.
 //!
 //! c = p − c4 R e_z; f = ±√(c_x² + c_y² − b²); θ1 = atan2(c_y, c_x) − atan2(b, f); two links c2 and k = √(a2² + c3²) in
 //! the arm's plane; the wrist from W = R₀₃ᵀR = Rz(θ4) Ry(θ5) Rz(θ6). Three signs, eight solutions, no iteration.
@@ -14,10 +15,11 @@ use crate::math::rotation::from_rotation_vector;
 
 /// Dimensions (m) of an ortho-parallel basis with a spherical wrist, and how its axes count.
 ///
-/// In the angles θ_k = sign_k·q_k − offset_k the arm points straight up at θ = 0; axes 1, 4, 6 turn about z, axes 2, 3, 5
-/// about y. The shoulder lies at (a1, b, c1), the elbow c2 above it, the wrist centre at (a2, c3) from the elbow, the flange
-/// c4 beyond. (Brandstötter, Angerer, Hofbaur, "An analytical solution of the inverse kinematics problem of industrial serial
-/// manipulators with an ortho-parallel basis and a spherical wrist", Austrian Robotics Workshop 2014.)
+/// In the angles θ_k = sign_k·q_k − offset_k the arm points straight up at θ = 0; axes 1, 4, 6 turn about z, axes 2, 3,
+/// 5 about y. The shoulder lies at (a1, b, c1), the elbow c2 above it, the wrist centre at (a2, c3) from the elbow, the
+/// flange c4 beyond. (Brandstötter, Angerer, Hofbaur, "An analytical solution of the inverse kinematics problem of
+/// industrial serial manipulators with an ortho-parallel basis and a spherical wrist", Austrian Robotics Workshop
+/// 2014.)
 ///
 /// Offsets in rad, signs ±1, both by axis; `a2` is negative where the forearm lies above the elbow, as on many arms.
 #[derive(Debug, Clone, Copy, PartialEq)]

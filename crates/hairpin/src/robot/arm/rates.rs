@@ -1,8 +1,9 @@
-//! Proven bounds of joint angles along a straight tool move, between samples: what makes collision and limit checks sound.
+//! Proven bounds of joint angles along a straight tool move, between samples: what makes collision and limit checks
+//! sound.
 //!
-//! From a sample the pose moves on for `half` in the move's parameter either way. The wrist centre then stays within V·half of
-//! where it was, so the margins of all three singularities have lower bounds, and with them the rates of all joints have upper
-//! ones. The derivation is in docs/arms.md.
+//! From a sample the pose moves on for `half` in the move's parameter either way. The wrist centre then stays within
+//! V·half of where it was, so the margins of all three singularities have lower bounds, and with them the rates of all
+//! joints have upper ones. The derivation is in docs/arms.md.
 
 use nalgebra::{Isometry3, Matrix6};
 
@@ -11,7 +12,8 @@ use super::singularity::{Margin, Singularity};
 use super::{AXES, Arm, Joints, Kinematics};
 use crate::math::power::square;
 
-/// How fast the tool's point moves (m) and turns (rad) per unit of the move's parameter, at most, and where it sits on the flange.
+/// How fast the tool's point moves (m) and turns (rad) per unit of the move's parameter, at most, and where it sits on
+/// the flange.
 ///
 /// In m and rad per unit of the parameter s in [0, 1]: of a straight move its length and its turn.
 #[derive(Debug, Clone, Copy)]
@@ -37,8 +39,8 @@ pub struct PieceBounds {
 }
 
 impl Arm {
-    /// Bounds that hold within `half` (in the move's parameter) of a sample with joint angles `q`; `None` where a singularity
-    /// cannot be excluded: halve the piece.
+    /// Bounds that hold within `half` (in the move's parameter) of a sample with joint angles `q`; `None` where a
+    /// singularity cannot be excluded: halve the piece.
     ///
     /// O(1), one sample; sound up to rounding, since it bounds the exact inverse's derivative and not a sampled one.
     /// Narrower pieces get tighter bounds, so that halving ends.

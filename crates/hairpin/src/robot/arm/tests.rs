@@ -116,7 +116,8 @@ fn every_axis_turns_the_right_way() {
     }
 }
 
-/// 100 000 seeded poses an arm: every solution reaches the pose, the right one is among them, and each is of its own cfx.
+/// 100 000 seeded poses an arm: every solution reaches the pose, the right one is among them, and each is of its own
+/// cfx.
 #[test]
 fn inverse_and_forward_are_one_anothers() {
     for (number, arm) in arms().iter().enumerate() {

@@ -1,4 +1,5 @@
-//! A car as the kinematic bicycle: ẋ = v cosψ, ẏ = v sinψ, ψ̇ = v tan(δ)/L at the middle of the rear axle; the front one is steered.
+//! A car as the kinematic bicycle: ẋ = v cosψ, ẏ = v sinψ, ψ̇ = v tan(δ)/L at the middle of the rear axle; the front
+//! one is steered.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,5 @@
-//! A differential drive: two wheels on one axle, each with a speed of its own. ẋ = v cosψ, ẏ = v sinψ, ψ̇ = ω at the axle's middle.
+//! A differential drive: two wheels on one axle, each with a speed of its own. ẋ = v cosψ, ẏ = v sinψ, ψ̇ = ω at the
+//! axle's middle.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,7 +32,8 @@ pub struct DifferentialDriveDescription {
     pub caveat: String,
     /// Distance of the wheels.
     pub track_m: f64,
-    /// Radius of the circle about the axle's middle that holds the robot; 0.8 times the distance of the wheels if not given.
+    /// Radius of the circle about the axle's middle that holds the robot; 0.8 times the distance of the wheels if not
+    /// given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
     /// Speed where none is given; half of the wheels' largest if not given, which leaves the other half to turning.

@@ -1,5 +1,5 @@
-//! Cars and differential drives on flat ground: their files, and the vehicle that the generator of drives and the plant take
-//! them for.
+//! Cars and differential drives on flat ground: their files, and the vehicle that the generator of drives and the plant
+//! take them for.
 
 mod car;
 mod differential_drive;

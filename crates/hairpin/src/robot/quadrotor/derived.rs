@@ -37,8 +37,8 @@ pub(super) fn arm(rotors: &[Rotor; 4]) -> f64 {
 }
 
 /// Principal moments of inertia, kg·m²: four motors of a tenth of the mass each as points at the rotors, the rest a
-/// uniform solid ball of half the arm's radius. Within a third of the figures that the shipped FlightGoggles and Crazyflie
-/// have from their sources.
+/// uniform solid ball of half the arm's radius. Within a third of the figures that the shipped FlightGoggles and
+/// Crazyflie have from their sources.
 pub(super) fn inertia(mass: f64, rotors: &[Rotor; 4]) -> Vector3<f64> {
     let motor = MOTOR_SHARE * mass;
     let ball = 0.4 * (mass - 4.0 * motor) * square(0.5 * arm(rotors));
@@ -46,8 +46,8 @@ pub(super) fn inertia(mass: f64, rotors: &[Rotor; 4]) -> Vector3<f64> {
     Vector3::new(sum(|r| r.y * r.y), sum(|r| r.x * r.x), sum(|r| r.x * r.x + r.y * r.y))
 }
 
-/// km = kf · 0.1 · rotor diameter, N·m/(rad/s)²: torque over thrust taken as a tenth of the diameter. A low guess: with it
-/// yaw is weak; the shipped FlightGoggles and Crazyflie have 9 and 6 times as much from their sources.
+/// km = kf · 0.1 · rotor diameter, N·m/(rad/s)²: torque over thrust taken as a tenth of the diameter. A low guess: with
+/// it yaw is weak; the shipped FlightGoggles and Crazyflie have 9 and 6 times as much from their sources.
 pub(super) fn moment_coefficient(thrust_coefficient: f64, rotors: &[Rotor; 4]) -> f64 {
     thrust_coefficient * 0.2 * rotor_radius(rotors)
 }

@@ -10,7 +10,7 @@ use crate::math::rotation;
 
 /// x, y, z, qw, qx, qy, qz (`world_from_body`), vx, vy, vz (world), p, q, r (body), SI units.
 ///
-/// m, m/s, rad/s; |(qw, qx, qy, qz)| = 1 after [`Dynamics::normalize`].
+/// m, m/s, rad/s; |(qw, qx, qy, qz)| = 1 after each step.
 pub type QuadrotorState = SVector<f64, 13>;
 
 /// The interface form x, y, z, φ, θ, ψ, vx, vy, vz, p, q, r. Singular at θ = ±90°: there roll is given as 0.
@@ -128,7 +128,8 @@ impl Quadrotor {
     }
 
     /// x' = f(x, u) of the rigid body with drag in still air; u are the rotor speeds, rad/s. Integrated by
-    /// `rk4_step(|x| robot.derivative(x, &u), &x, h)` of [`crate::math::integrate`], with [`Self::normalize`] after each step.
+    /// `rk4_step(|x| robot.derivative(x, &u), &x, h)` of [`crate::math::integrate`], with [`Self::normalize`] after
+    /// each step.
     pub fn derivative(&self, state: &QuadrotorState, speeds: &Vector4<f64>) -> QuadrotorState {
         let u = self.wrench(speeds);
         let drag = self.drag_force(&Vector3::new(state[7], state[8], state[9]));

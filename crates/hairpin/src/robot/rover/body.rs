@@ -51,8 +51,8 @@ pub struct BellyDescription {
 }
 
 impl Body {
-    /// Checked numbers, or estimates: the centre of mass over the middle of the wheels, the underside between the outermost
-    /// wheels, both at the height of the body's origin, or of the wheels' centres if that is higher.
+    /// Checked numbers, or estimates: the centre of mass over the middle of the wheels, the underside between the
+    /// outermost wheels, both at the height of the body's origin, or of the wheels' centres if that is higher.
     pub(super) fn build(
         suspension: &Suspension,
         centre_of_mass: Option<&[f64; 3]>,

@@ -51,7 +51,8 @@ pub struct Effort {
 const GRAVITY: f64 = 9.806_65;
 
 impl Weight {
-    /// Checked numbers; `None` where neither `forces` nor a bound of the `torque` asks for them. `mass` is without the `load`, kg.
+    /// Checked numbers; `None` where neither `forces` nor a bound of the `torque` asks for them. `mass` is without the
+    /// `load`, kg.
     pub(super) fn build(
         forces: Option<&ForcesDescription>,
         torque: Option<f64>,
@@ -81,16 +82,16 @@ impl Weight {
 }
 
 impl Rover {
-    /// What the wheels do for a body that stands as `pose`, travels with `sign` (±1) along the direction δ (`direction`: sine and cosine)
-    /// of it, gains `acceleration` (m/s²) along its way, and is pulled by `pull` (body axes, as a share of its weight); `None` without a
-    /// weight.
+    /// What the wheels do for a body that stands as `pose`, travels with `sign` (±1) along the direction δ
+    /// (`direction`: sine and cosine) of it, gains `acceleration` (m/s²) along its way, and is pulled by `pull` (body
+    /// axes, as a share of its weight); `None` without a weight.
     ///
     /// ```text
     /// F = m g (sin(climb) − pull · way) + c N + m a     N = m g max(0, cosφ cosθ − pull · z)     τ = F r / n
     /// ```
     ///
-    /// with n wheels, all driven, of radius r, that share F evenly: no other shares of F do with less than the largest of these. What
-    /// turning wheels on the spot and scrubbing take is left out.
+    /// with n wheels, all driven, of radius r, that share F evenly: no other shares of F do with less than the largest
+    /// of these. What turning wheels on the spot and scrubbing take is left out.
     pub fn effort(
         &self,
         pose: &Settled,
@@ -134,8 +135,8 @@ mod tests {
 
     const MARS: &str = "mass_kg = 50\nload_kg = 10\nforces = { gravity_m_s2 = 3.71, rolling_resistance = 0.05 }";
 
-    /// On a plane of slope α the force up it is m g (sin α + c cos α) + m a, along the contour line c m g cos α, whichever way the body
-    /// looks.
+    /// On a plane of slope α the force up it is m g (sin α + c cos α) + m a, along the contour line c m g cos α,
+    /// whichever way the body looks.
     #[test]
     fn traction_on_planes_is_the_closed_form() {
         let rover = described(MARS, "").expect("its numbers");
@@ -146,7 +147,8 @@ mod tests {
                 Function(move |x: f64, _: f64| Patch { height: slope * x, slope: [slope, 0.0], bend: [0.0; 3] });
             for yaw in [0.0, 0.7, 2.0, -1.5] {
                 let pose = rover.suspension.settle_cold(&plane, [1.0, 2.0, yaw]).expect("rest").0;
-                // Towards x whatever the heading: over the plane the way to the slope's foot is not −yaw but as its vectors are.
+                // Towards x whatever the heading: over the plane the way to the slope's foot is not −yaw but as its
+                // vectors are.
                 let body = nalgebra::Rotation3::from_euler_angles(pose.roll, pose.pitch, yaw);
                 let towards = |way: nalgebra::Vector3<f64>| {
                     let way = body.inverse() * way;

@@ -24,8 +24,8 @@ pub struct FourWheel {
 
 /// Gauss-Newton steps; a warm start takes three.
 const MOST_STEPS: usize = 50;
-/// Steps after which each is half as long as the one before: where the rest lies on a kink of the map, steps lead to it from both of its sides
-/// and grow no shorter by themselves.
+/// Steps after which each is half as long as the one before: where the rest lies on a kink of the map, steps lead to it
+/// from both of its sides and grow no shorter by themselves.
 const SWINGING: usize = 20;
 /// Least squares converges linearly where gaps remain: steps of this share of a coarse gap end the iteration.
 const SHORT: f64 = 0.01;

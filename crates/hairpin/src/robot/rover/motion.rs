@@ -26,7 +26,8 @@ pub struct Slip {
     pub side_at_20_deg: f64,
 }
 
-/// Which rates a commanded twist gives the planar pose. On planes, for bodies that stand level on level ground, they are the same.
+/// Which rates a commanded twist gives the planar pose. On planes, for bodies that stand level on level ground, they
+/// are the same.
 ///
 /// How far the two part is measured: 0.01 to 0.8 m after 2 to 7 m on cratered ground (docs/rover-generator.md).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -51,8 +52,8 @@ impl Kinematics {
 
 /// sin 20°.
 const SIN_20: f64 = 0.342_020_143_325_668_7;
-/// The least determinant of the exact rates: as it nears 0 the ground turns the body by as much as it is driven, and less is the
-/// foot of a wall.
+/// The least determinant of the exact rates: as it nears 0 the ground turns the body by as much as it is driven, and
+/// less is the foot of a wall.
 const LEAST: f64 = 0.05;
 
 /// Rates of the planar pose per metre of commanded travel, or per radian of a turn in place, in the heading's frame:
@@ -98,9 +99,9 @@ impl Lean {
         Self { sf, cf, st, ct }
     }
 
-    /// With slip: v (1 − s₂₀ sin(climb)/sin 20°), drift −s′₂₀ sin(side)/sin 20°; the wheels keep the path's curvature, so slip
-    /// shortens the turn as well. A force that pulls by the share `pull` of the weight along the body's x and y axes is a slope by as much
-    /// less.
+    /// With slip: v (1 − s₂₀ sin(climb)/sin 20°), drift −s′₂₀ sin(side)/sin 20°; the wheels keep the path's curvature,
+    /// so slip shortens the turn as well. A force that pulls by the share `pull` of the weight along the body's x and y
+    /// axes is a slope by as much less.
     fn commanded(&self, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip, pull: [f64; 2]) -> Commanded {
         // Rise per metre along the body's x and y axes.
         let (rise_x, rise_y) = (-self.st - pull[0], self.ct * self.sf - pull[1]);
@@ -128,7 +129,8 @@ impl Lean {
     /// θ̇ = θ_a a + θ_l l + θ_ψ ψ̇ + θ̇₀     l = cosφ vy − sinφ vz
     /// ```
     ///
-    /// with the suspension's gradient along the heading (a), across it (l) and by ψ, and `beyond` = (ż₀, θ̇₀) what it leaves out.
+    /// with the suspension's gradient along the heading (a), across it (l) and by ψ, and `beyond` = (ż₀, θ̇₀) what it
+    /// leaves out.
     fn exact(&self, gradient: &Gradient, yaw: f64, commanded: Commanded, beyond: [f64; 2]) -> Rates {
         let Self { sf, cf, st, ct } = self;
         let Commanded([vx, vy, turn]) = commanded;
@@ -164,9 +166,9 @@ pub fn rates(pose: &Settled, direction: (f64, f64), sign: f64, curvature: f64, s
     lean.source(lean.commanded(direction, sign, curvature, slip, [0.0; 2]))
 }
 
-/// Share of the commanded way that slip takes along it, s₂₀ sin(climb)/sin 20°, of a body that stands as `pose`, drives with `sign` (±1)
-/// along `direction` (sine and cosine) of itself, and is pulled by `pull` (x and y of the body, as a share of its weight); negative where
-/// it gains.
+/// Share of the commanded way that slip takes along it, s₂₀ sin(climb)/sin 20°, of a body that stands as `pose`, drives
+/// with `sign` (±1) along `direction` (sine and cosine) of itself, and is pulled by `pull` (x and y of the body, as a
+/// share of its weight); negative where it gains.
 pub fn slip_share(pose: &Settled, direction: (f64, f64), sign: f64, slip: &Slip, pull: [f64; 2]) -> f64 {
     let Commanded([vx, vy, _]) = Lean::of(pose).commanded(direction, sign, 0.0, slip, pull);
     1.0 - sign * (vx * direction.1 + vy * direction.0)
@@ -205,8 +207,8 @@ pub fn rate_slopes(pose: &Settled, direction: (f64, f64), sign: f64, curvature: 
 }
 
 impl Rover {
-    /// Rates of the vehicle by its own kinematics and slip, where it stands as `pose`, whose gradient `gradient` is, heading for
-    /// `yaw`; for the rest see [`rates`].
+    /// Rates of the vehicle by its own kinematics and slip, where it stands as `pose`, whose gradient `gradient` is,
+    /// heading for `yaw`; for the rest see [`rates`].
     #[inline]
     pub fn rates(
         &self,
@@ -219,8 +221,8 @@ impl Rover {
         self.rates_under((pose, gradient), yaw, direction, (sign, curvature), [0.0; 2])
     }
 
-    /// [`Self::rates`] while a force pulls along the body's x and y axes by `pull`, as a share of the weight: `way` is the sign and the
-    /// curvature. The ground gives way to it as to a slope.
+    /// [`Self::rates`] while a force pulls along the body's x and y axes by `pull`, as a share of the weight: `way` is
+    /// the sign and the curvature. The ground gives way to it as to a slope.
     #[inline]
     pub fn rates_under(
         &self,
@@ -248,8 +250,8 @@ impl Rover {
         }
     }
 
-    /// How the pose moves where the body rises by `beyond[0]` (m) and pitches by `beyond[1]` (rad) over what gradients foresaw, as it
-    /// does at their kinks; `None` where the kinematics do not ask.
+    /// How the pose moves where the body rises by `beyond[0]` (m) and pitches by `beyond[1]` (rad) over what gradients
+    /// foresaw, as it does at their kinks; `None` where the kinematics do not ask.
     pub fn moved_beyond(&self, (pose, gradient): (&Settled, &Gradient), yaw: f64, beyond: [f64; 2]) -> Option<Rates> {
         let exact = self.kinematics == Kinematics::Exact;
         exact.then(|| Lean::of(pose).exact(gradient, yaw, Commanded([0.0; 3]), beyond))

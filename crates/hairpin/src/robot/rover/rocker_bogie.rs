@@ -2,9 +2,9 @@
 //!
 //! Equations (q = (z, φ, θ, β, ρ_l, ρ_r), side s = +1 left, −1 right):
 //! rocker: Ry(sβ) about the differential's pivot D_s; bogie: Ry(ρ_s) more about its joint;
-//! F_i(q) = p_z − c(p_x, p_y) = 0 for each wheel's centre p. Newton with the exact Jacobian; each bogie angle meets only its own two
-//! wheels and is eliminated by hand, which leaves four equations.
-//! Geometry: Balaram, Ohm & Ivlev 1996; Tarokh & McDermott 2005.
+//! F_i(q) = p_z − c(p_x, p_y) = 0 for each wheel's centre p. Newton with the exact Jacobian; each bogie angle meets
+//! only its own two wheels and is eliminated by hand, which leaves four equations. Geometry: Balaram, Ohm & Ivlev 1996;
+//! Tarokh & McDermott 2005.
 
 use nalgebra::Vector3;
 

@@ -16,14 +16,14 @@ const MOST_PLACES: usize = 24;
 const ON_FACE: f64 = 1e-9;
 
 impl Rover {
-    /// Smallest angle by which the body must lean further until gravity through the centre of mass leaves the outline of
-    /// the wheels' contacts, rad; negative once it has.
+    /// Smallest angle by which the body must lean further until gravity through the centre of mass leaves the outline
+    /// of the wheels' contacts, rad; negative once it has.
     ///
     /// The contacts cᵢ seen from the centre of mass span a cone; with n the inward normal of the face over the edge
-    /// (cᵢ, cⱼ) and g the direction of gravity the margin is min asin(n · g). Over a level edge this is the force-angle of
-    /// Papadopoulos & Rey; over a tilted one, where they turn the body about the edge itself, it is the shorter turn about
-    /// any axis, and it does not jump when a middle wheel comes into the outline. A vehicle of track w whose centre of mass
-    /// is h over the ground has atan(w / 2h) − φ on a side slope φ. Quasi-static: no inertial forces.
+    /// (cᵢ, cⱼ) and g the direction of gravity the margin is min asin(n · g). Over a level edge this is the force-angle
+    /// of Papadopoulos & Rey; over a tilted one, where they turn the body about the edge itself, it is the shorter turn
+    /// about any axis, and it does not jump when a middle wheel comes into the outline. A vehicle of track w whose
+    /// centre of mass is h over the ground has atan(w / 2h) − φ on a side slope φ. Quasi-static: no inertial forces.
     /// Without wheels nothing tips: π/2.
     ///
     /// O(n³) in the n ≤ 6 contacts: every pair that all others lie on one side of is an edge of the cone.
@@ -34,8 +34,8 @@ impl Rover {
         self.tip_over_margin_under(terrain, at, pose, &Vector3::zeros())
     }
 
-    /// [`Self::tip_over_margin`] while a force pulls at the centre of mass by `pull` (world axes, as a share of the weight): gravity and it
-    /// together must stay within the outline.
+    /// [`Self::tip_over_margin`] while a force pulls at the centre of mass by `pull` (world axes, as a share of the
+    /// weight): gravity and it together must stay within the outline.
     ///
     /// # Errors
     /// [`NoGround`] below a wheel.

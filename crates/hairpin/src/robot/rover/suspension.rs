@@ -49,7 +49,8 @@ const EXACT: f64 = 1e-6;
 impl Suspension {
     /// The pose in which the wheels touch the ground at (x, y, ψ) = `at`, from `guess`, and its gradient.
     ///
-    /// Newton's last step is taken from gaps of at most `coarse` (m): what it leaves is of the order of their square, by 1/m.
+    /// Newton's last step is taken from gaps of at most `coarse` (m): what it leaves is of the order of their square,
+    /// by 1/m.
     ///
     /// `at` = [x, y, ψ] in m, m, rad in the world. Quadratic convergence: `coarse` of 1 mm leaves about a micrometre on
     /// ground with bends of 1/m, for one look less.
@@ -116,8 +117,8 @@ impl Suspension {
         found
     }
 
-    /// The pose at a place near the last one, from `guess`, that one carried on: where the body falls over an edge, a rest that it comes
-    /// to. `coarse` as for [`Self::settle`].
+    /// The pose at a place near the last one, from `guess`, that one carried on: where the body falls over an edge, a
+    /// rest that it comes to. `coarse` as for [`Self::settle`].
     ///
     /// After the guess and a cold start, one joint folded by ±0.6 and ±0.3 rad, bogies first: the links' own ways of
     /// falling (docs/rover-generator.md, "Where a body falls").
@@ -156,7 +157,8 @@ impl Suspension {
         }
     }
 
-    /// Radius of the circle about the body's origin that passes through the outermost wheel's centre, m; 0 without wheels.
+    /// Radius of the circle about the body's origin that passes through the outermost wheel's centre, m; 0 without
+    /// wheels.
     pub fn outer_radius(&self) -> f64 {
         let (wheels, count, _) = self.wheels(&[0.0; 3]);
         wheels[..count].iter().map(|wheel| libm::hypot(wheel.x, wheel.y)).fold(0.0, f64::max)

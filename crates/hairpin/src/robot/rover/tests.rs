@@ -270,7 +270,8 @@ fn slip_grows_with_the_load() {
     }
 }
 
-/// On rough ground four wheels rest where slopes jump as well: from cold everywhere, and carried on in a plant's small steps.
+/// On rough ground four wheels rest where slopes jump as well: from cold everywhere, and carried on in a plant's small
+/// steps.
 #[test]
 fn four_wheels_find_rest_on_the_kinks_of_a_map() {
     let body = shipped("four-wheel").suspension;

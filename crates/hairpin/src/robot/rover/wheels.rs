@@ -160,10 +160,11 @@ const AXLE: f64 = 1e-3;
 impl Rover {
     /// What each wheel does when the body moves by `twist` with its joints at `joints`, and how many wheels there are.
     ///
-    /// v_w = (ahead − turn · y_w, left + turn · x_w), r_w = (x_w, y_w) from the commanded point of the body; the articulation's own
-    /// rates are left out. A wheel that steers points along v_w, forwards or backwards: whichever is nearer to its angle `before`, as
-    /// far as its joint goes, or to straight ahead. One that does not steer rolls by the part of v_w ahead and scrubs by the rest. With
-    /// [`Steering::Skid`] |y_w| is half of the effective track. (Howard & Kelly 2007, eq. 7)
+    /// v_w = (ahead − turn · y_w, left + turn · x_w), r_w = (x_w, y_w) from the commanded point of the body; the
+    /// articulation's own rates are left out. A wheel that steers points along v_w, forwards or backwards: whichever is
+    /// nearer to its angle `before`, as far as its joint goes, or to straight ahead. One that does not steer rolls by
+    /// the part of v_w ahead and scrubs by the rest. With [`Steering::Skid`] |y_w| is half of the effective track.
+    /// (Howard & Kelly 2007, eq. 7)
     ///
     /// Left turn centre at 1/κ: a wheel at (x, y) stands at δ = atan2(κ x, 1 − κ y) and rolls √((1 − κ y)² + κ² x²)
     /// metres a metre, for travel straight ahead.
@@ -268,7 +269,8 @@ impl Rover {
         }
     }
 
-    /// The largest |κ| straight ahead, 1/m, that the steer joints can reach: infinite without a limit below a right angle.
+    /// The largest |κ| straight ahead, 1/m, that the steer joints can reach: infinite without a limit below a right
+    /// angle.
     ///
     /// A wheel at (x, y) stands at atan(κx/(1 − κy)); the inner one of those farthest off goes farthest.
     ///
@@ -333,7 +335,8 @@ mod tests {
             assert!((motion.steer - (x / radius).atan()).abs() < 1e-12, "{motion:?}");
             assert!((motion.rolls - kappa * radius.hypot(x)).abs() < 1e-12 && motion.scrubs == 0.0);
         }
-        // Front: the turning centre lies on the rear axle, 1/κ beside its middle; cot δ_outer − cot δ_inner = track / wheelbase.
+        // Front: the turning centre lies on the rear axle, 1/κ beside its middle; cot δ_outer − cot δ_inner = track /
+        // wheelbase.
         let front = motions(&rover("front", ""), Twist::along(0.0, kappa, 1.0));
         let cot = |wheel: &WheelMotion| 1.0 / wheel.steer.tan();
         assert!((cot(&front[1]) - cot(&front[0]) - 0.6 / 0.8).abs() < 1e-12);

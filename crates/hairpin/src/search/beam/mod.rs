@@ -1,8 +1,8 @@
 //! Algorithms 1 and 2 of the paper on one graph: a frontier of scored partial trajectories, widened from its best.
 //!
-//! Per iteration the best `width` partial trajectories leave the frontier; those of full length are complete, the others
-//! are expanded by every waypoint in reach, scored and put back. What was not selected stays. The first iteration
-//! after which `per_graph` distinct trajectories are complete ends the graph.
+//! Per iteration the best `width` partial trajectories leave the frontier; those of full length are complete, the
+//! others are expanded by every waypoint in reach, scored and put back. What was not selected stays. The first
+//! iteration after which `per_graph` distinct trajectories are complete ends the graph.
 //!
 //! Source: Hildebrandt et al., *Feasible and stressful trajectory generation for mobile robots*, ISSTA 2020.
 
@@ -41,11 +41,12 @@ pub struct BeamSettings {
     /// Of partial trajectories with equal length and node only the best so many are kept (*commutativity reduction*);
     /// `None` keeps all. Their futures are the same with revisits, if the objective has no memory, and then nothing
     /// is lost as long as this is at least `per_graph`. Without revisits futures differ by what was visited, and the
-    /// reduction is a heuristic that may lose trajectories: it then withholds the proof that there is none. The default,
-    /// 3, solved the same 200 graphs of 250 waypoints as `None` at lengths 8, 10 and 50, and makes hard graphs end.
+    /// reduction is a heuristic that may lose trajectories: it then withholds the proof that there is none. The
+    /// default, 3, solved the same 200 graphs of 250 waypoints as `None` at lengths 8, 10 and 50, and makes hard graphs
+    /// end.
     pub keep: Option<usize>,
-    /// Steps from the end within which it is known exactly whether the end can be reached (lazily computed backward pass
-    /// over walks), at most 64; further away only `may_arrive` is asked.
+    /// Steps from the end within which it is known exactly whether the end can be reached (lazily computed backward
+    /// pass over walks), at most 64; further away only `may_arrive` is asked.
     pub lookahead: usize,
 }
 
@@ -107,8 +108,8 @@ pub struct BeamOutcome<N> {
     pub duplicates: u64,
 }
 
-/// Searches one graph. `may_arrive(node, steps)` is a necessary test: false only if no `steps` legs lead from `node` to the
-/// end.
+/// Searches one graph. `may_arrive(node, steps)` is a necessary test: false only if no `steps` legs lead from `node` to
+/// the end.
 ///
 /// No bound on how far from the best an answer is: [`super::exact()`] has one.
 pub fn beam<N, R, O>(

@@ -27,8 +27,8 @@ struct Label {
     set: u64,
 }
 
-/// Best first, distinct; and the labels expanded. Of two labels at one node with the same waypoints visited the one of the lower bound is
-/// left out: whatever completes it completes the other one as well.
+/// Best first, distinct; and the labels expanded. Of two labels at one node with the same waypoints visited the one of
+/// the lower bound is left out: whatever completes it completes the other one as well.
 pub(super) fn descent<N: Copy>(
     graph: &LegGraph<'_, N>,
     scores: &LegScores,

@@ -2,7 +2,8 @@
 //!
 //! With revisits the bound is the truth: the k best trajectories come off the queue first. Without, the bound is that
 //! of walks which may come back, and the first trajectories without revisits that come off the queue are the
-//! best; where the queue would grow beyond its budget, a beam in the order of the bound finds a good one and its gap is told.
+//! best; where the queue would grow beyond its budget, a beam in the order of the bound finds a good one and its gap is
+//! told.
 //!
 //! ```text
 //! V_s(v)  best of the walks of s legs from v to the end             (graph::value, backwards)

@@ -183,7 +183,8 @@ fn worthless_legs_make_trajectories_too() {
 
 #[test]
 fn a_narrow_beginning_is_no_different() {
-    // From the start to 1, between 1 and 2 as often as one likes, then through a thicket to the end: forwards, by another program.
+    // From the start to 1, between 1 and 2 as often as one likes, then through a thicket to the end: forwards, by
+    // another program.
     const END: u32 = 23;
     let points: Vec<Point3<f64>> = (0..=END).map(|i| Point3::new(f64::from(i), 0.0, 0.0)).collect();
     let thicket = 3..=END;

@@ -88,7 +88,8 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
 
 impl<N: Copy> LegGraph<'_, N> {
     /// Without the legs that no trajectory without revisits has: into the start, from the end on, and back to the only
-    /// waypoint that their first node can be entered from. What is left are still walks, but far fewer. Itself where that was done before.
+    /// waypoint that their first node can be entered from. What is left are still walks, but far fewer. Itself where
+    /// that was done before.
     ///
     /// Trajectories without revisits are all still there; walks that fly straight back are not, which tightens every
     /// bound taken over walks.
@@ -100,7 +101,8 @@ impl<N: Copy> LegGraph<'_, N> {
         }
     }
 
-    /// [`Self::without_returns`] of a graph that nobody needs as it was: dense graphs take hundreds of megabytes, which are cheaper kept than copied.
+    /// [`Self::without_returns`] of a graph that nobody needs as it was: dense graphs take hundreds of megabytes, which
+    /// are cheaper kept than copied.
     pub fn into_without_returns(self, length: usize) -> Self {
         if self.without_returns == Some(length) {
             return self;
@@ -131,7 +133,8 @@ impl<N: Copy> LegGraph<'_, N> {
         self.retain(|_, from, to| after[from as usize].saturating_add(1).saturating_add(before[to as usize]) <= most)
     }
 
-    /// The legs for which `keep(waypoints of the nodes, from, to)` holds, and the nodes that they lead to or start from; in place.
+    /// The legs for which `keep(waypoints of the nodes, from, to)` holds, and the nodes that they lead to or start
+    /// from; in place.
     fn retain(mut self, keep: impl Fn(&[u32], u32, u32) -> bool) -> Self {
         const GONE: u32 = u32::MAX;
         let mut number = vec![GONE; self.nodes()];
@@ -185,8 +188,8 @@ impl<N: Copy> LegGraph<'_, N> {
         distance
     }
 
-    /// Fewest legs to the end; `u32::MAX` where there is no way. In rounds over the nodes whose distance is not known: a list of the
-    /// legs backwards would take longer, for few rounds are needed.
+    /// Fewest legs to the end; `u32::MAX` where there is no way. In rounds over the nodes whose distance is not known:
+    /// a list of the legs backwards would take longer, for few rounds are needed.
     fn distances_to_end(&self) -> Vec<u32> {
         let nodes = 0..self.nodes() as u32;
         let mut distance: Vec<u32> = nodes.clone().map(|node| if self.at_end(node) { 0 } else { u32::MAX }).collect();

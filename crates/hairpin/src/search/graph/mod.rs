@@ -1,5 +1,6 @@
-//! The legs of one graph as a graph of their own: nodes are a reach set's nodes, and a trajectory of L waypoints is a walk of
-//! L − 1 legs from the start's node to a node at the end. What is exact about a graph is counted and optimised on it.
+//! The legs of one graph as a graph of their own: nodes are a reach set's nodes, and a trajectory of L waypoints is a
+//! walk of L − 1 legs from the start's node to a node at the end. What is exact about a graph is counted and optimised
+//! on it.
 //!
 //! Step-wise sets make a node of (previous, current), so that legs are feasible triples of waypoints: 252² nodes and
 //! about 80 000 legs of 250 waypoints with a quadrotor's hull. A trajectory's score and feasibility are then sums and

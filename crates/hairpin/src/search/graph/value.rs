@@ -41,12 +41,13 @@ impl LegScores {
     }
 }
 
-/// Best aggregated score of the walks of exactly s legs from a node to the end, for every s and every node that a walk of the whole length
-/// meets with s legs to go.
+/// Best aggregated score of the walks of exactly s legs from a node to the end, for every s and every node that a walk
+/// of the whole length meets with s legs to go.
 #[derive(Debug, Clone)]
 pub(in crate::search) struct Values {
     aggregate: Aggregate,
-    /// Of all legs, the first of which is left nothing; under [`Aggregate::Max`] where legs leave something: of all legs but the first.
+    /// Of all legs, the first of which is left nothing; under [`Aggregate::Max`] where legs leave something: of all
+    /// legs but the first.
     rest: Vec<Vec<f64>>,
     /// Under [`Aggregate::Max`] where legs leave something: of the first leg, left nothing; that of no legs is empty.
     first: Option<Vec<Vec<f64>>>,
@@ -60,8 +61,8 @@ const LANES: usize = 4;
 const FEW: usize = 16;
 
 impl Values {
-    /// The best that a partial trajectory becomes that scored `score` so far, stands at `node`, and whose last leg left `left` to the first of the
-    /// `legs` that it still needs; `None` if there is no such walk.
+    /// The best that a partial trajectory becomes that scored `score` so far, stands at `node`, and whose last leg left
+    /// `left` to the first of the `legs` that it still needs; `None` if there is no such walk.
     pub(in crate::search) fn best(&self, (score, left): (f64, f64), node: u32, legs: usize) -> Option<f64> {
         let rest = self.rest[legs][node as usize];
         if rest.is_nan() {
@@ -77,7 +78,8 @@ impl Values {
 }
 
 impl<N: Copy> LegGraph<'_, N> {
-    /// The nodes that walks of 0, 1, 2 … legs from the start lead to, as long as these are few and the walks have no more than `length` waypoints.
+    /// The nodes that walks of 0, 1, 2 … legs from the start lead to, as long as these are few and the walks have no
+    /// more than `length` waypoints.
     pub(in crate::search) fn near_start(&self, length: usize) -> Vec<Vec<u32>> {
         let mut layers = vec![vec![0]];
         let legs = |nodes: &[u32]| nodes.iter().map(|&node| self.legs_from(node).len()).sum::<usize>();
@@ -143,7 +145,8 @@ impl<N: Copy> LegGraph<'_, N> {
         Values { aggregate, rest, first }
     }
 
-    /// The layer of walks of `legs` legs, before that of one leg less, of the `nodes` given or of all; `add` is compiled into the loop.
+    /// The layer of walks of `legs` legs, before that of one leg less, of the `nodes` given or of all; `add` is
+    /// compiled into the loop.
     fn layer_of_values(
         &self,
         legs: usize,

@@ -1,9 +1,10 @@
 //! The bound of directed problems: a maximal arborescence from the dummy, on which points that are left out hang.
 //!
-//! L(μ) = Σᵢ μᵢ + μ_s + max over arborescences A of Σ_A w + max over allowed ends t of −μ_t, with w(i→j) = c(i, j) − μᵢ,
-//! w(start i) = −μ_s, w(loop i) = −μᵢ. Any path with loops for what it leaves out is such an arborescence with an end, and
-//! leaves each point and the start once; so it costs no more than L(μ), whatever the signs of μ. Edmonds 1967, by rounds
-//! of contracting all circles at once; the weights that are left are reduced costs: forcing an arc costs at least its own.
+//! L(μ) = Σᵢ μᵢ + μ_s + max over arborescences A of Σ_A w + max over allowed ends t of −μ_t, with w(i→j) = c(i, j) −
+//! μᵢ, w(start i) = −μ_s, w(loop i) = −μᵢ. Any path with loops for what it leaves out is such an arborescence with an
+//! end, and leaves each point and the start once; so it costs no more than L(μ), whatever the signs of μ. Edmonds 1967,
+//! by rounds of contracting all circles at once; the weights that are left are reduced costs: forcing an arc costs at
+//! least its own.
 //!
 //! All circles of best arcs are contracted at once, O(m) a round.
 

@@ -1,6 +1,7 @@
 //! Multipliers by subgradients: small bounds soon.
 //!
-//! λ ← λ + t·(d + momentum), d = arcs too many; t = α (L − target) / |d|² (Polyak 1969), α halved where nothing improves.
+//! λ ← λ + t·(d + momentum), d = arcs too many; t = α (L − target) / |d|² (Polyak 1969), α halved where nothing
+//! improves.
 //!
 //! L(λ) is convex and piecewise linear; d is a subgradient. The target is the best known cost, or a little less while
 //! branching. Multipliers are clipped so that sums stay in 64 bits.
@@ -117,7 +118,8 @@ impl Ascent {
         self.step.fill(0.0);
     }
 
-    /// The bound where the multipliers are, with what is in its solution counted and its excess; `None` if nothing keeps the choices.
+    /// The bound where the multipliers are, with what is in its solution counted and its excess; `None` if nothing
+    /// keeps the choices.
     pub(super) fn look<R: Relaxation>(
         &mut self,
         relaxation: &mut R,

@@ -251,8 +251,8 @@ impl<'a, R: Relaxation> Branching<'a, R> {
         }
     }
 
-    /// The open choice that is in about half of the relaxed solutions: whether a point is met at all rather than arcs, which mean little
-    /// while that is open, and arcs rather than ends.
+    /// The open choice that is in about half of the relaxed solutions: whether a point is met at all rather than arcs,
+    /// which mean little while that is open, and arcs rather than ends.
     fn contested(&self, made: &Made) -> Option<usize> {
         let score = |id: &usize| {
             let off = (self.ascent.share(*id) - 0.5).abs();

@@ -29,8 +29,8 @@ pub(super) struct Choices {
     pub(super) points: usize,
     pub(super) directed: bool,
     pub(super) arcs: Vec<Arc>,
-    /// Choices of each rule, rules one after another: of each point (its arcs out, where directed, then its arcs in), then
-    /// of starts and ends.
+    /// Choices of each rule, rules one after another: of each point (its arcs out, where directed, then its arcs in),
+    /// then of starts and ends.
     members: Vec<u32>,
     first: Vec<u32>,
     /// The rule of starts; that of ends follows.
@@ -81,8 +81,8 @@ impl Choices {
         Self::new(n, directed, list)
     }
 
-    /// The same with only the arcs that are among the `most` best of either of their points, by what multipliers leave of
-    /// their costs.
+    /// The same with only the arcs that are among the `most` best of either of their points, by what multipliers leave
+    /// of their costs.
     pub(super) fn near(&self, multipliers: &[i64], most: usize) -> Self {
         let mut of_point = vec![Vec::new(); self.points];
         for (id, arc) in self.arcs.iter().enumerate() {

@@ -1,13 +1,13 @@
 //! The heaviest circulation: the relaxation of paths that may come back to points, solved exactly.
 //!
-//! Point n is a dummy that closes a path. Choose arcs x_ij ∈ {0, 1} with as many into each point as out of it, at most `visits`, and one out
-//! of the dummy and one into it; whether all hang together is left out. With loops x_ii ∈ {0 … visits} of no cost for what a point is not
-//! visited this is a transport problem,
+//! Point n is a dummy that closes a path. Choose arcs x_ij ∈ {0, 1} with as many into each point as out of it, at most
+//! `visits`, and one out of the dummy and one into it; whether all hang together is left out. With loops x_ii ∈ {0 …
+//! visits} of no cost for what a point is not visited this is a transport problem,
 //!
 //!   max Σ c_ij x_ij,   Σ_j x_ij = s_i,   Σ_i x_ij = s_j,   s = visits (1 of the dummy),
 //!
-//! whose optimum is whole: successive shortest paths (Ford & Fulkerson; Edmonds & Karp 1972), one a unit. Its prices prove it: for any whole
-//! numbers a_i (rows) and b_j (columns) no circulation is heavier than
+//! whose optimum is whole: successive shortest paths (Ford & Fulkerson; Edmonds & Karp 1972), one a unit. Its prices
+//! prove it: for any whole numbers a_i (rows) and b_j (columns) no circulation is heavier than
 //!
 //!   Σ s_i a_i + Σ s_j b_j + Σ_open (c_ij − a_i − b_j)⁺ + Σ_in (c_ij − a_i − b_j) + Σ_loops visits · (−a_i − b_i)⁺.
 //!
@@ -115,7 +115,8 @@ impl Net {
     }
 }
 
-/// Residual capacities; reduced costs c_ij − a_i − b_j are at most 0 where more could be sent, at least 0 where something is.
+/// Residual capacities; reduced costs c_ij − a_i − b_j are at most 0 where more could be sent, at least 0 where
+/// something is.
 struct Transport<'a> {
     net: &'a Net,
     sent: Vec<i64>,
@@ -249,14 +250,15 @@ impl<'a> Transport<'a> {
         }
     }
 
-    /// More arcs are in at a row or a column than it may have: prices that prove it, for the bound falls as that one's rises.
+    /// More arcs are in at a row or a column than it may have: prices that prove it, for the bound falls as that one's
+    /// rises.
     fn overfull(mut self, index: usize) -> Circulation {
         self.prices[index] += self.far();
         Circulation { arcs: None, prices: self.prices }
     }
 
-    /// No way is left from a row with supply: prices that prove it, for all that leads out of what was reached is full. Its rows' prices fall,
-    /// its columns' rise, and the bound falls with them.
+    /// No way is left from a row with supply: prices that prove it, for all that leads out of what was reached is full.
+    /// Its rows' prices fall, its columns' rise, and the bound falls with them.
     fn cut_off(mut self) -> Circulation {
         let (n, far) = (self.net.nodes, self.far());
         for (index, price) in self.prices.iter_mut().enumerate().filter(|(index, _)| self.distance[*index] < FAR) {

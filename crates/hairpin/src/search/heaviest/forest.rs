@@ -1,9 +1,9 @@
 //! The bound of symmetric problems: a maximal spanning tree in which points that are left out hang on the dummy.
 //!
 //! L(λ) = Σᵢ 2λᵢ + λ_s + max over spanning trees T of Σ_T w + max over allowed ends t of −λ_t, with
-//! w(i, j) = c(i, j) − λᵢ − λⱼ, w(start i) = −λᵢ − λ_s, w(loop i) = −2λᵢ. Starts and loops join a point to the dummy. Any
-//! path with loops for what it leaves out is such a tree with an end, has two arcs at each point and one start, and so
-//! costs no more than L(λ), whatever the signs of λ. Held & Karp 1970; Kruskal 1956.
+//! w(i, j) = c(i, j) − λᵢ − λⱼ, w(start i) = −λᵢ − λ_s, w(loop i) = −2λᵢ. Starts and loops join a point to the dummy.
+//! Any path with loops for what it leaves out is such a tree with an end, has two arcs at each point and one start, and
+//! so costs no more than L(λ), whatever the signs of λ. Held & Karp 1970; Kruskal 1956.
 //!
 //! Replacing the tree's edge e by another one f changes L by w(f) − w(e). So a choice outside the tree is decided by
 //! the smallest weight on the tree's way between its points, one inside by the largest that could stand for it; both

@@ -1,8 +1,8 @@
 //! The path of maximal total cost through a graph in which no point comes twice; points may be left out, ends be fixed.
 //!
 //! [`heaviest`] proves it: by dynamic programming over subsets of few points, else by branch and bound on Lagrangian
-//! bounds that hold where points may be left out, under a path from local search. [`heaviest_walk`] lets points come several times. `docs/heaviest-paths.md` has the
-//! equations.
+//! bounds that hold where points may be left out, under a path from local search. [`heaviest_walk`] lets points come
+//! several times. `docs/heaviest-paths.md` has the equations.
 //!
 //! ```text
 //! max Σ c(i, j) over paths          each point at most once (or at most K times; or passed by a move on its way)

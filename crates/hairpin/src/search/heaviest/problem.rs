@@ -201,8 +201,8 @@ impl Ends {
         self.end.is_none_or(|end| end == point)
     }
 
-    /// A path that meets the ends, as a beginning: the heaviest arc that may be a path, or the fewest arcs by breadth-first
-    /// search if both ends are fixed; `None` if there is none.
+    /// A path that meets the ends, as a beginning: the heaviest arc that may be a path, or the fewest arcs by
+    /// breadth-first search if both ends are fixed; `None` if there is none.
     pub(super) fn first_path(self, arcs: &Arcs) -> Option<Vec<usize>> {
         let n = arcs.points();
         let (Some(start), Some(end)) = (self.start, self.end) else {

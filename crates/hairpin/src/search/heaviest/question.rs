@@ -53,7 +53,8 @@ pub struct HeaviestSettings {
     pub seed: u64,
     /// Kicks of the local search in each round; as many as points if not given.
     pub kicks: Option<u64>,
-    /// Problems that each part of branch and bound looks at, at most: a limit that gives the same answer on any machine.
+    /// Problems that each part of branch and bound looks at, at most: a limit that gives the same answer on any
+    /// machine.
     pub most_nodes: Option<u64>,
     /// Bytes that the table of subsets may take.
     pub most_bytes: u64,

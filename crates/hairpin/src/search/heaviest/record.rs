@@ -36,8 +36,8 @@ pub enum Next {
 
 /// A proof that no path is heavier than the best: steps from number 0.
 ///
-/// Choices have numbers: the arc i→j is i·n + j (of an undirected arc, i < j), then follow n starts, n loops (a point is
-/// left out), and n ends.
+/// Choices have numbers: the arc i→j is i·n + j (of an undirected arc, i < j), then follow n starts, n loops (a point
+/// is left out), and n ends.
 ///
 /// A tree in the order of search. A leaf is closed by a bound below what is wanted, one more than the best path's cost,
 /// or by choices that contradict each other: so no path is heavier.

@@ -11,8 +11,8 @@ pub(super) trait Relaxation: Send {
     /// For problems of this shape.
     fn new(choices: &Choices) -> Self;
 
-    /// The bound with `multipliers` (one a point, and one for starts), and [`Relaxation::used`]; `None` if nothing keeps the
-    /// choices made. `renew` says that choices or arcs are others than last time.
+    /// The bound with `multipliers` (one a point, and one for starts), and [`Relaxation::used`]; `None` if nothing
+    /// keeps the choices made. `renew` says that choices or arcs are others than last time.
     fn solve(&mut self, choices: &Choices, made: &Made, multipliers: &[i64], renew: bool) -> Option<i64>;
 
     /// Choices in the relaxed solution.
@@ -21,8 +21,8 @@ pub(super) trait Relaxation: Send {
     /// How far the relaxed solution is from each rule: arcs too many at each point, starts too many.
     fn excess(&self, choices: &Choices, excess: &mut [i32]);
 
-    /// After [`Relaxation::solve`] with value `bound`: every open choice whose opposite has a bound below `threshold`, with
-    /// the state that it must have.
+    /// After [`Relaxation::solve`] with value `bound`: every open choice whose opposite has a bound below `threshold`,
+    /// with the state that it must have.
     fn decided(
         &mut self,
         choices: &Choices,

@@ -55,7 +55,8 @@ struct Root<'a, R> {
     stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// Proves the heaviest path, or comes as far as it may; `path` meets the ends. The second value is the upper bound, scaled.
+/// Proves the heaviest path, or comes as far as it may; `path` meets the ends. The second value is the upper bound,
+/// scaled.
 ///
 /// Root, then branching; begun again from the root whenever the first splits find a heavier path, which decides more
 /// before any split. `nodes` counts all of it.

@@ -1,8 +1,10 @@
-//! The K heaviest paths, pairwise different, by partition of what is left: every problem of it is a heaviest path again.
+//! The K heaviest paths, pairwise different, by partition of what is left: every problem of it is a heaviest path
+//! again.
 //!
-//! After E. L. Lawler, A procedure for computing the K best solutions to discrete optimization problems and its application to the
-//! shortest path problem, Management Science 18 (1972): of the paths that begin with v₀ … v_k, the best one P = v₀ … v_m is taken out by
-//! parting the others by how long they go with it: with v₀ … v_j, but not on to v_{j+1}, for j = k … m.
+//! After E. L. Lawler, A procedure for computing the K best solutions to discrete optimization problems and its
+//! application to the shortest path problem, Management Science 18 (1972): of the paths that begin with v₀ … v_k, the
+//! best one P = v₀ … v_m is taken out by parting the others by how long they go with it: with v₀ … v_j, but not on to
+//! v_{j+1}, for j = k … m.
 //!
 //! Each of K paths splits into at most as many parts as it has points, each a smaller question of the same kind; the
 //! heaviest part is split next.

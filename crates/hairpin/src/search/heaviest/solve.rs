@@ -7,8 +7,8 @@ use super::several::several;
 
 /// The path of maximal total cost in which no point comes twice; points may be left out.
 ///
-/// `stop` is asked often and from any thread; then the best so far is the answer. The same seed gives the same answer on
-/// any number of threads unless `stop` ends it.
+/// `stop` is asked often and from any thread; then the best so far is the answer. The same seed gives the same answer
+/// on any number of threads unless `stop` ends it.
 ///
 /// Equations and sources: docs/heaviest-paths.md. Measured on instances of the published kind: `hairpin bench
 /// max-load`.

@@ -12,7 +12,8 @@ use crate::math::simd::{Simd, kernel};
 /// More points than any memory has room for.
 pub const MOST_SUBSET_POINTS: usize = 28;
 
-/// Bytes that dynamic programming over subsets takes: 2^n rows of one number a point, rounded up to what fills a vector.
+/// Bytes that dynamic programming over subsets takes: 2^n rows of one number a point, rounded up to what fills a
+/// vector.
 ///
 /// 4-byte cells where the largest cost times the points is below 2²⁹, else 8.
 pub fn subset_bytes(arcs: &Arcs) -> u128 {

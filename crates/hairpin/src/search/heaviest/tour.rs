@@ -35,8 +35,8 @@ impl Table {
                 costs[n * (n + 1) + i] = 0;
             }
         }
-        // Backwards is as good if the table is symmetric and the ends are alike; a path is then turned in the end. Where one
-        // end is fixed, its arc with the dummy is worth having.
+        // Backwards is as good if the table is symmetric and the ends are alike; a path is then turned in the end.
+        // Where one end is fixed, its arc with the dummy is worth having.
         let symmetric = arcs.symmetric();
         if symmetric {
             for i in 0..n {
@@ -121,8 +121,8 @@ impl Tour {
         self.order.iter().zip(after).map(|(a, b)| table.cost(*a, *b)).sum()
     }
 
-    /// Turns the stretch from `first` to `last` (going forward). If `mirror` allows it and the rest is shorter, turns the
-    /// rest, which gives the same tour seen from the other side; returns whether it did.
+    /// Turns the stretch from `first` to `last` (going forward). If `mirror` allows it and the rest is shorter, turns
+    /// the rest, which gives the same tour seen from the other side; returns whether it did.
     pub(super) fn reverse(&mut self, first: u32, last: u32, mirror: bool) -> bool {
         let n = self.order.len();
         let (mut i, mut j) = (self.at(first), self.at(last));

@@ -1,7 +1,9 @@
-//! Multipliers along means of relaxed solutions, where single ones are of no help: many points of one price, as in clusters.
+//! Multipliers along means of relaxed solutions, where single ones are of no help: many points of one price, as in
+//! clusters.
 //!
-//! A single tree hangs a whole cluster on one point, so its excess says little of where the bound falls. The excess of a mean of trees,
-//! v̄ ← α d + (1 − α) v̄ with the α that makes |v̄| least, does; steps go from the best multipliers (volume algorithm; Barahona & Anbil 2000).
+//! A single tree hangs a whole cluster on one point, so its excess says little of where the bound falls. The excess of
+//! a mean of trees, v̄ ← α d + (1 − α) v̄ with the α that makes |v̄| least, does; steps go from the best multipliers
+//! (volume algorithm; Barahona & Anbil 2000).
 
 use super::ascent::{Ascent, Ended};
 use super::choices::{Choices, Made};
@@ -12,7 +14,8 @@ const SHARE: f64 = 0.2;
 /// Steps after which the gap must be smaller by [`SHRINKING`], else the share is halved.
 const PERIOD: usize = 50;
 const SHRINKING: f64 = 0.98;
-/// First factor of Polyak's step; it grows while the bound falls along the mean, and shrinks after [`PATIENCE`] steps in vain.
+/// First factor of Polyak's step; it grows while the bound falls along the mean, and shrinks after [`PATIENCE`] steps
+/// in vain.
 const FACTOR: f64 = 0.2;
 const PATIENCE: usize = 10;
 

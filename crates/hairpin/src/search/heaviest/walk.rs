@@ -1,8 +1,9 @@
 //! The heaviest path in which points may come several times and no arc twice: branch and bound on circulations.
 //!
-//! A path is a circulation through the dummy that hangs together. Where the heaviest circulation does not, let C be the points of a part
-//! without the dummy: every path either leaves C out altogether, or uses an arc that leads out of C. So C is taken out in one branch, and in one
-//! branch each the first, second, … of those arcs is in, with those before it out. That ends, for every branch decides one arc more.
+//! A path is a circulation through the dummy that hangs together. Where the heaviest circulation does not, let C be the
+//! points of a part without the dummy: every path either leaves C out altogether, or uses an arc that leads out of C.
+//! So C is taken out in one branch, and in one branch each the first, second, … of those arcs is in, with those before
+//! it out. That ends, for every branch decides one arc more.
 
 use std::collections::BinaryHeap;
 
@@ -30,7 +31,8 @@ pub struct Split {
     pub points: Vec<usize>,
     /// The step without them; `None` where an arc at one of them is in.
     pub without: Option<usize>,
-    /// Arcs that lead out of them, to the dummy (number n) where the path may end: each with the step in which it is in and those before it are out.
+    /// Arcs that lead out of them, to the dummy (number n) where the path may end: each with the step in which it is in
+    /// and those before it are out.
     pub ways: Vec<(usize, usize, usize)>,
 }
 
@@ -236,8 +238,8 @@ fn apart(net: &Net, used: &[Arrow]) -> Option<Vec<usize>> {
     others.into_iter().map(of).min_by_key(|points| (points.len(), points[0]))
 }
 
-/// A path from a circulation: parts are joined to the dummy's where that costs least, and left out where nothing joins them. `None` where
-/// what must be used would be left out.
+/// A path from a circulation: parts are joined to the dummy's where that costs least, and left out where nothing joins
+/// them. `None` where what must be used would be left out.
 ///
 /// One exchange after another, the one of greatest gain first: an arc of each part crosswise, or an arc for a way by a
 /// point with visits left.

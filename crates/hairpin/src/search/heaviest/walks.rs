@@ -42,9 +42,9 @@ pub enum WalkMistake {
     },
 }
 
-/// The path of maximal total cost in which no point comes more than `visits` times and no arc is used twice, i→j and j→i being two; points may
-/// be left out. Exact: branch and bound on circulations; stopped before its end it gives the best so far under a bound. The same answer on
-/// any machine unless `stop` ends it.
+/// The path of maximal total cost in which no point comes more than `visits` times and no arc is used twice, i→j and
+/// j→i being two; points may be left out. Exact: branch and bound on circulations; stopped before its end it gives the
+/// best so far under a bound. The same answer on any machine unless `stop` ends it.
 ///
 /// Exponential in the worst case; on instances of the published kind one look is mostly enough up to 50 points
 /// (docs/heaviest-paths.md).
@@ -106,7 +106,8 @@ struct Part {
     proven: bool,
 }
 
-/// The parts of `part` that lack an arc of its best path each, the dummy's two among them (Lawler 1972); whether every part without a path has none.
+/// The parts of `part` that lack an arc of its best path each, the dummy's two among them (Lawler 1972); whether every
+/// part without a path has none.
 fn split(search: &Search<'_>, part: Part, open: &mut Vec<Part>, nodes: &mut u64) -> bool {
     let dummy = search.arcs.points();
     let path = &part.best.1;

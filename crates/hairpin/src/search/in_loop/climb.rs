@@ -1,7 +1,7 @@
 //! A few numbers searched for stress: what surrounds a trajectory that stays as it is.
 //!
-//! Places are drawn uniformly at first; the best one is then improved by a (1+1) evolution strategy whose step follows success (Rechenberg's
-//! one in five).
+//! Places are drawn uniformly at first; the best one is then improved by a (1+1) evolution strategy whose step follows
+//! success (Rechenberg's one in five).
 
 use rand::RngExt;
 
@@ -25,9 +25,9 @@ pub struct Climbed {
     pub best_so_far: Vec<f64>,
 }
 
-/// Searches places with coordinates between −1 and 1 from `start`, whose execution came to `trial`. `bound` puts a place that is not
-/// allowed to the nearest that is; `execute` gives `None` where an execution failed; it is told the stress of the best so
-/// far. `executions` is how many there are at most, `per_trial` how many one trial takes at most.
+/// Searches places with coordinates between −1 and 1 from `start`, whose execution came to `trial`. `bound` puts a
+/// place that is not allowed to the nearest that is; `execute` gives `None` where an execution failed; it is told the
+/// stress of the best so far. `executions` is how many there are at most, `per_trial` how many one trial takes at most.
 ///
 /// x′ = bound(x + σ n), n standard normal; accepted where the stress is no less. Places are scaled by the caller so
 /// that ±1 are its bounds.

@@ -1,8 +1,9 @@
 //! Evolution of waypoint sequences within the legs of a graph.
 //!
-//! A pool holds the most stressful trajectories executed so far. A child takes its parent's beginning, a stretch of legs grown
-//! anew, and the rest from the same parent or another one of the pool; or it puts one of its parent's waypoints to a place nearby. Most changes
-//! lie around the leg that the parent owes its stress to. Each child is feasible, for every leg is one of the graph, and is executed once.
+//! A pool holds the most stressful trajectories executed so far. A child takes its parent's beginning, a stretch of
+//! legs grown anew, and the rest from the same parent or another one of the pool; or it puts one of its parent's
+//! waypoints to a place nearby. Most changes lie around the leg that the parent owes its stress to. Each child is
+//! feasible, for every leg is one of the graph, and is executed once.
 
 use std::collections::HashSet;
 
@@ -80,8 +81,8 @@ struct Evolution<'g, 'a, N, F> {
     best_so_far: Vec<f64>,
 }
 
-/// Evolves trajectories of `graph` from `first` (repetitions are executed once). `execute` gives `None` where an execution failed, which
-/// counts against the budget; it is told the stress that the pool's last has.
+/// Evolves trajectories of `graph` from `first` (repetitions are executed once). `execute` gives `None` where an
+/// execution failed, which counts against the budget; it is told the stress that the pool's last has.
 ///
 /// `first` is executed in its order; of the budget what is left goes to children. `best_so_far` never falls and has one
 /// entry for each execution.
@@ -163,7 +164,8 @@ impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F>
             return self.nearby(parent);
         }
         let donor = if unit(&mut self.rng) < CROSSED { self.parent() } else { parent };
-        // One leg cannot be grown anew between fixed nodes, and two can only where nodes do not remember the waypoint before.
+        // One leg cannot be grown anew between fixed nodes, and two can only where nodes do not remember the waypoint
+        // before.
         let steps = self.rng.random_range(2.min(count)..=count.min(5));
         let begin = if unit(&mut self.rng) < AROUND_WORST {
             let worst = self.pool[parent].trial.worst_leg.min(count - 1);

@@ -1,8 +1,9 @@
 //! Simulation in the loop: trajectories are scored by executing them, under a budget of executions.
 //!
-//! [`evolve`] changes waypoint sequences within the legs of a graph, from the best that scores know of; [`shift`] then moves the
-//! waypoints themselves, as far as the reach set lets them; [`climb`] searches a few numbers beside them. They know executions only as a closure, which is told the
-//! stress from which on a trial is of use. [`Executed`] scores the partial trajectories of a beam by executing them leg by leg.
+//! [`evolve`] changes waypoint sequences within the legs of a graph, from the best that scores know of; [`shift`] then
+//! moves the waypoints themselves, as far as the reach set lets them; [`climb`] searches a few numbers beside them.
+//! They know executions only as a closure, which is told the stress from which on a trial is of use. [`Executed`]
+//! scores the partial trajectories of a beam by executing them leg by leg.
 //!
 //! Data flow: optima under scores and uniform draws → executed → [`evolve`] over sequences → [`shift`] of waypoints →
 //! [`climb`] over wind, gust or force, each given its share of one budget of executions. All randomness is seeded, each

@@ -1,5 +1,5 @@
-//! One waypoint of a trajectory put to a place near it: stress hardly jumps from place to place, so what is next to a stressful trajectory is
-//! often more so.
+//! One waypoint of a trajectory put to a place near it: stress hardly jumps from place to place, so what is next to a
+//! stressful trajectory is often more so.
 //!
 //! The sixteen nearest waypoints that the trajectory does not use; both legs at the moved waypoint must be legs of the
 //! graph.
@@ -12,8 +12,8 @@ use crate::search::graph::LegGraph;
 /// How many places count as near.
 const NEAR: usize = 16;
 
-/// The trajectory along `legs` with its waypoint number `moved` + 1 put to one of those near it that it does not use, drawn uniformly, and all others
-/// left; `None` where `graph` has no such legs.
+/// The trajectory along `legs` with its waypoint number `moved` + 1 put to one of those near it that it does not use,
+/// drawn uniformly, and all others left; `None` where `graph` has no such legs.
 pub(super) fn nearby<N: Copy>(
     graph: &LegGraph<'_, N>,
     legs: &[u32],

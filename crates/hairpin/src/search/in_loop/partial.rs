@@ -1,8 +1,9 @@
 //! Partial trajectories scored by executing them, as a beam grows them, under a budget.
 //!
-//! The score is the stress so far. The budget counts legs; what is left of it is dealt to the expansions that a way to the end still
-//! takes, so that a trajectory is complete before it is spent, and a part is kept back for executing what is complete. A partial
-//! trajectory that the budget does not reach is taken to be as stressful as what it extends, behind all that was executed to that.
+//! The score is the stress so far. The budget counts legs; what is left of it is dealt to the expansions that a way to
+//! the end still takes, so that a trajectory is complete before it is spent, and a part is kept back for executing what
+//! is complete. A partial trajectory that the budget does not reach is taken to be as stressful as what it extends,
+//! behind all that was executed to that.
 
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -21,7 +22,8 @@ pub struct PartialSettings {
     pub length: usize,
     /// Whether its last leg only leads to the sink of a task without an end, and is not executed.
     pub free_end: bool,
-    /// The budget: executions of a whole trajectory. One of n legs counts n, and a partial one the legs that are executed for it.
+    /// The budget: executions of a whole trajectory. One of n legs counts n, and a partial one the legs that are
+    /// executed for it.
     pub executions: u64,
     /// Trajectories that executions are kept back for.
     pub wanted: usize,
@@ -84,7 +86,8 @@ pub trait Execute<N> {
     /// A robot and its controller where a partial trajectory has led them.
     type State;
 
-    /// Executes `partial`, from its start or from a state and the number of legs that led to it; `whole`: it will not be extended.
+    /// Executes `partial`, from its start or from a state and the number of legs that led to it; `whole`: it will not
+    /// be extended.
     ///
     /// # Errors
     /// The number of legs that were executed in vain.
@@ -109,7 +112,8 @@ pub struct Executed<'o, O, E> {
     left: u64,
     executed: u64,
     complete: usize,
-    /// Whether the budget refused anything when nothing was kept back any more, and whether it refused a whole trajectory.
+    /// Whether the budget refused anything when nothing was kept back any more, and whether it refused a whole
+    /// trajectory.
     spent: bool,
     stuck: bool,
     /// Which of the legs that were met are to be executed, and the next of them.
@@ -163,8 +167,8 @@ impl<'o, O: Additive, E> Executed<'o, O, E> {
         self.legs().saturating_mul(self.settings.wanted.saturating_sub(self.complete) as u64)
     }
 
-    /// Legs from a partial trajectory of `done` legs that one expansion executes: with `width` expansions for each leg up to the end the
-    /// budget lasts until then.
+    /// Legs from a partial trajectory of `done` legs that one expansion executes: with `width` expansions for each leg
+    /// up to the end the budget lasts until then.
     fn share(&self, done: u64) -> usize {
         let cost = |legs: u64| if self.settings.resumes { 1 } else { legs };
         let way: u64 = (done + 1..=self.legs()).map(cost).sum();

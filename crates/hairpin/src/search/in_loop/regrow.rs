@@ -10,8 +10,8 @@ use crate::search::graph::LegGraph;
 
 /// Legs that are looked at before a stretch is given up.
 const BUDGET: u32 = 3_000;
-/// Share of legs that are sought among the shortest: a waypoint just passed by, and the way back, are a stress that blind draws among all
-/// legs hardly ever meet.
+/// Share of legs that are sought among the shortest: a waypoint just passed by, and the way back, are a stress that
+/// blind draws among all legs hardly ever meet.
 const SHORT: f64 = 0.25;
 /// How many count as the shortest.
 const SHORTEST: usize = 8;
@@ -78,7 +78,8 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
         false
     }
 
-    /// The legs of `row` in the order in which they are tried: from a random one on, or one of the shortest and on to the longest.
+    /// The legs of `row` in the order in which they are tried: from a random one on, or one of the shortest and on to
+    /// the longest.
     fn order(&mut self, node: u32, row: std::ops::Range<usize>) -> Vec<usize> {
         let mut legs: Vec<usize> = row.collect();
         if unit(self.rng) < SHORT {

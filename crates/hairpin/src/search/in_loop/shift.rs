@@ -1,11 +1,12 @@
 //! Waypoints moved freely, as far as trajectories stay feasible: what a graph of sampled points cannot find.
 //!
-//! A (1+1) evolution strategy: a few neighbouring waypoints are moved by a normal step, what is not feasible costs nothing and is drawn
-//! again, what is executed and no less stressful is kept. The step grows by half on success and shrinks so that one success in
-//! five keeps it. Source: Rechenberg, Evolutionsstrategie, 1973.
+//! A (1+1) evolution strategy: a few neighbouring waypoints are moved by a normal step, what is not feasible costs
+//! nothing and is drawn again, what is executed and no less stressful is kept. The step grows by half on success and
+//! shrinks so that one success in five keeps it. Source: Rechenberg, Evolutionsstrategie, 1973.
 //!
-//! Steps alone end at the peak that is next. So most changes put one waypoint anew about a neighbour instead, in any direction, or draw a few
-//! towards one, at distances that are even in their logarithm: legs of every length, turns of every angle and waypoints that crowd are tried.
+//! Steps alone end at the peak that is next. So most changes put one waypoint anew about a neighbour instead, in any
+//! direction, or draw a few towards one, at distances that are even in their logarithm: legs of every length, turns of
+//! every angle and waypoints that crowd are tried.
 
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
@@ -21,7 +22,8 @@ const SMALLEST: f64 = 1e-3;
 /// Share of changes that put a waypoint somewhere else about a neighbour, and of those that draw a few towards one.
 const PLACED: f64 = 0.5;
 const DRAWN_TOGETHER: f64 = 0.2;
-/// Smallest factor of a distance: of the longest leg where a waypoint is put anew, of the present one where waypoints are drawn towards another.
+/// Smallest factor of a distance: of the longest leg where a waypoint is put anew, of the present one where waypoints
+/// are drawn towards another.
 const LEAST_FACTOR: f64 = 0.05;
 /// Share of changes around the worst leg.
 const AROUND_WORST: f64 = 0.7;
@@ -56,8 +58,8 @@ pub struct Shifted<P> {
     pub best_so_far: Vec<f64>,
 }
 
-/// Moves `points`, whose execution came to `trial`. `feasible` plans through given waypoints; `execute` carries a plan out,
-/// and is told the stress of the best so far.
+/// Moves `points`, whose execution came to `trial`. `feasible` plans through given waypoints; `execute` carries a plan
+/// out, and is told the stress of the best so far.
 ///
 /// Only feasible plans are executed; drawing them is free. Accepted where the stress is no less, so that plateaus are
 /// walked.

@@ -1,4 +1,5 @@
-//! The step of a (1+1) evolution strategy: it grows by half on success and shrinks so that one success in five keeps it.
+//! The step of a (1+1) evolution strategy: it grows by half on success and shrinks so that one success in five keeps
+//! it.
 //!
 //! Source: Rechenberg, Evolutionsstrategie, 1973.
 

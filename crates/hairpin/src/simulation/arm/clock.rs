@@ -1,4 +1,5 @@
-//! Progress along a section over time: constant acceleration between knots, averaged over a moving window for an S-curve.
+//! Progress along a section over time: constant acceleration between knots, averaged over a moving window for an
+//! S-curve.
 //!
 //! A window T averages progress, never position: the path stays the path. Where the averaged law asks too much of a
 //! joint, caps are lowered there and the passes repeated, at most eight times; then all of it is slowed down.
@@ -32,12 +33,13 @@ pub(super) struct Progress {
     pub(super) acceleration: f64,
 }
 
-/// Share of the joints' accelerations that a law uses without a window: between nodes curvatures differ a little from those at nodes.
+/// Share of the joints' accelerations that a law uses without a window: between nodes curvatures differ a little from
+/// those at nodes.
 const USED: f64 = 0.985;
 /// Share that an S-curve may use: between two looks there can be a little more.
 const USED_AVERAGED: f64 = 0.97;
-/// Share that the law below an S-curve uses. Its average asks no more of a joint that is only pushed; of one whose way is bent too it
-/// can, and there it is lowered.
+/// Share that the law below an S-curve uses. Its average asks no more of a joint that is only pushed; of one whose way
+/// is bent too it can, and there it is lowered.
 const USED_BELOW: f64 = 0.965;
 /// How often an S-curve's caps are lowered where it exceeds a joint's limits, before all of it is slowed down.
 const ROUNDS: usize = 8;
@@ -185,8 +187,8 @@ impl Law {
         0.5 * (low + high)
     }
 
-    /// The largest excess of a joint's speed (squared) or acceleration over its limit, as a ratio; `slower` is multiplied where
-    /// there is one.
+    /// The largest excess of a joint's speed (squared) or acceleration over its limit, as a ratio; `slower` is
+    /// multiplied where there is one.
     fn lower(&self, section: &Section, asked: &Asked, slower: &mut [f64]) -> f64 {
         let step = self.window / LOOKS;
         let (mut worst, mut span, mut head, mut tail) = (0.0f64, 0, 0, 0);

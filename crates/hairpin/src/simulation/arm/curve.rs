@@ -8,8 +8,8 @@ use crate::math::rotation::{from_rotation_vector, rotation_vector};
 use crate::robot::arm::Joints;
 use crate::trajectory::program::Arc;
 
-/// A turn of 1 rad counts as much as this many metres, where a zone is cut and along which the path's parameter runs: the ratio of
-/// a zone's radius to its turn in common controllers, 10 mm to 1.5°.
+/// A turn of 1 rad counts as much as this many metres, where a zone is cut and along which the path's parameter runs:
+/// the ratio of a zone's radius to its turn in common controllers, 10 mm to 1.5°.
 pub(super) const METRES_PER_RADIAN: f64 = 0.01 / (1.5 * PI / 180.0);
 
 /// One move over its share u, 0 … 1.

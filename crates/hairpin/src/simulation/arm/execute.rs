@@ -29,8 +29,8 @@ pub enum Status {
 /// After the last set point samples go on for eight time constants of the slowest servo.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// `base_from_tcp` over time, with `speed_m_s` (of the tool's point since the last sample), `q1_rad` … `q6_rad`, `move` (from 0) and
-    /// `status` ([`Status`]).
+    /// `base_from_tcp` over time, with `speed_m_s` (of the tool's point since the last sample), `q1_rad` … `q6_rad`,
+    /// `move` (from 0) and `status` ([`Status`]).
     pub recording: Track,
     /// Where the program ended before its end, and why.
     pub stop: Option<Stop>,

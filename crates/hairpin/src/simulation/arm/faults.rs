@@ -27,7 +27,8 @@ pub enum Fault {
     },
     /// The tool's point is elsewhere than the program says: `tcp_from_true_tcp`.
     ToolOffset(Isometry3<f64>),
-    /// The arm waits before it sets out for the first time at or after a move (from 0); what is blended into cannot wait.
+    /// The arm waits before it sets out for the first time at or after a move (from 0); what is blended into cannot
+    /// wait.
     DelayedStart {
         /// The move, from 0.
         order: usize,

@@ -75,7 +75,8 @@ pub(super) struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    /// Joint angles for the flange in `branch`, on the turns nearest to `near`, within limits and away from singularities.
+    /// Joint angles for the flange in `branch`, on the turns nearest to `near`, within limits and away from
+    /// singularities.
     pub(super) fn solve(&mut self, flange: &Isometry3<f64>, branch: Branch, near: &Joints) -> Result<Joints, Reason> {
         let found = self.arm.inverse_in(flange, branch, near).ok_or(Reason::OutOfReach)?;
         self.iterations += u64::from(found.iterations);

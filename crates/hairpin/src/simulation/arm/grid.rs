@@ -74,7 +74,8 @@ impl Section {
         }
     }
 
-    /// Slopes at the nodes by differences of third and fourth order within each piece, the mean of both sides where pieces join.
+    /// Slopes at the nodes by differences of third and fourth order within each piece, the mean of both sides where
+    /// pieces join.
     pub(super) fn shape(&mut self) {
         let mut slopes = vec![[0.0; AXES]; self.s.len()];
         let pieces = self.joins.len() - 1;

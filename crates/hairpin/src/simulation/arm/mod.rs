@@ -1,6 +1,7 @@
 //! The virtual controller of arms: a program's moves in, poses every 10 ms out, and what was planned for the judge.
 //!
-//! [`Plan::new`] lays the path and its time law; [`Plan::execute`] lets servos follow it. Equations: docs/virtual-controller.md.
+//! [`Plan::new`] lays the path and its time law; [`Plan::execute`] lets servos follow it. Equations:
+//! docs/virtual-controller.md.
 //!
 //! | step | file |
 //! | --- | --- |

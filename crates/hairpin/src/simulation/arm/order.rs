@@ -32,7 +32,8 @@ pub struct Speed {
 pub enum Zone {
     /// The arm stops there.
     Fine,
-    /// The path leaves the move this far (m) before its end, and joins the next as far behind its start; cut to half of each.
+    /// The path leaves the move this far (m) before its end, and joins the next as far behind its start; cut to half of
+    /// each.
     Radius(f64),
 }
 

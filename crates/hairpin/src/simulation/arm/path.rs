@@ -31,7 +31,8 @@ struct Leg<'a> {
     order: usize,
     given: &'a Order,
     curve: Curve,
-    /// What its whole share adds to s: the longest of the tool's way, its turn and (of joint moves) the largest joint turn.
+    /// What its whole share adds to s: the longest of the tool's way, its turn and (of joint moves) the largest joint
+    /// turn.
     length: f64,
     /// Metres of the tool's way and radians of its turn per unit of s.
     rates: [f64; 2],
@@ -278,7 +279,8 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// From `leg` to `next` about their corner: the end of one and the beginning of the other, added, as s grows by 2·`radius`.
+    /// From `leg` to `next` about their corner: the end of one and the beginning of the other, added, as s grows by
+    /// 2·`radius`.
     fn blend(&mut self, leg: &Leg, next: &Leg, radius: f64, corner: &Joints) -> Result<(), Stop> {
         let (f, g) = (radius / leg.length, radius / next.length);
         let rates = [leg.rates[0].max(next.rates[0]), leg.rates[1].max(next.rates[1])];
@@ -317,7 +319,8 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// A smooth piece of `way` in s from the last node on, in at least `spans` equal steps. `at` gives what is at the share w.
+    /// A smooth piece of `way` in s from the last node on, in at least `spans` equal steps. `at` gives what is at the
+    /// share w.
     fn piece(
         &mut self,
         way: f64,

@@ -55,7 +55,8 @@ pub struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// The plan of `orders` for an arm that stands at `start`, rad. Where it cannot be followed it ends at [`Plan::stop`].
+    /// The plan of `orders` for an arm that stands at `start`, rad. Where it cannot be followed it ends at
+    /// [`Plan::stop`].
     ///
     /// # Errors
     /// Settings or orders out of their bounds; no order; a start outside the joints' bounds.

@@ -16,8 +16,8 @@ struct Bound {
 /// Limits of an interval: every joint's acceleration at both ends, and the tool's along the path.
 const BOUNDS: usize = 2 * AXES + 1;
 
-/// Where x = ṡ² is computed: the nodes of a section, and finer ones where it sets out and stops, as slow moves reach their speed within
-/// a part of a span.
+/// Where x = ṡ² is computed: the nodes of a section, and finer ones where it sets out and stops, as slow moves reach
+/// their speed within a part of a span.
 pub(super) struct Knots {
     /// Parameter of each.
     pub(super) s: Vec<f64>,
@@ -107,11 +107,11 @@ impl Limits {
 
     /// x = ṡ² at every knot, m²/s², its caps multiplied by `slower`.
     ///
-    /// Between knots x is linear in s, so s̈ = (x₁ − x₀)/2h is constant and q̈ = q″x + q′s̈. At each end of an interval this is linear
-    /// in x₀ and x₁. First every x is capped by the speeds and by |q″|x ≤ q̈_max, so that going on at the same rate is always
-    /// allowed; then one pass backward from rest and one forward take the largest values that their neighbours allow
-    /// (as Pham, Pham: "A new approach to time-optimal path parameterization based on reachability analysis", 2018, with the
-    /// cap in place of its linear programs).
+    /// Between knots x is linear in s, so s̈ = (x₁ − x₀)/2h is constant and q̈ = q″x + q′s̈. At each end of an interval
+    /// this is linear in x₀ and x₁. First every x is capped by the speeds and by |q″|x ≤ q̈_max, so that going on at
+    /// the same rate is always allowed; then one pass backward from rest and one forward take the largest values that
+    /// their neighbours allow (as Pham, Pham: "A new approach to time-optimal path parameterization based on
+    /// reachability analysis", 2018, with the cap in place of its linear programs).
     pub(super) fn squared_rates(&self, slower: &[f64]) -> Vec<f64> {
         let mut x: Vec<f64> = self.caps.iter().zip(slower).map(|(cap, slower)| cap * slower).collect();
         let spans = self.bounds.len();

@@ -6,11 +6,13 @@ use crate::simulation::SimulationError;
 use crate::trajectory::program::{Motion, Move, PoseTarget, Program};
 
 impl Order {
-    /// The moves of `program`, one order each. A move is called after its targets, `p17→p09`; a target without a name after its number.
+    /// The moves of `program`, one order each. A move is called after its targets, `p17→p09`; a target without a name
+    /// after its number.
     ///
     /// # Errors
-    /// `program` for what [`Program::problems`] finds; `tool` or `work_object` where an arm alone cannot execute it: a tool that stands
-    /// in the cell, a work object that the arm holds or that is moved; `configuration` where its cfx is none of 0 … 7.
+    /// `program` for what [`Program::problems`] finds; `tool` or `work_object` where an arm alone cannot execute it: a
+    /// tool that stands in the cell, a work object that the arm holds or that is moved; `configuration` where its cfx
+    /// is none of 0 … 7.
     pub fn all_of(program: &Program) -> Result<Vec<Self>, SimulationError> {
         if let Some(problem) = program.problems().into_iter().next() {
             return Err(SimulationError::new("program", problem.to_string(), "one that a controller executes"));

@@ -21,8 +21,9 @@ impl Servo {
         Self { lag, decay, step, speed, angle }
     }
 
-    /// One step, as the set point goes from `from` to `to` at a constant rate ρ. The error e = r − q obeys ė = ρ − e/τ, so
-    /// e(h) = ρτ + (e(0) − ρτ) exp(−h/τ), exactly. A joint that would have to turn faster than it may turns as fast as it may.
+    /// One step, as the set point goes from `from` to `to` at a constant rate ρ. The error e = r − q obeys ė = ρ − e/τ,
+    /// so e(h) = ρτ + (e(0) − ρτ) exp(−h/τ), exactly. A joint that would have to turn faster than it may turns as fast
+    /// as it may.
     pub(super) fn follow(&mut self, from: f64, to: f64) -> f64 {
         let steady = (to - from) / self.step * self.lag;
         let error = steady + (from - self.angle - steady) * self.decay;

@@ -9,7 +9,8 @@ use crate::simulation::SimulationError;
 pub enum Shape {
     /// At constant acceleration where the limits do not change.
     Trapezoid,
-    /// The trapezoid's progress averaged over this time, s: jerk is bounded, the path stays the path, every stop comes that much later.
+    /// The trapezoid's progress averaged over this time, s: jerk is bounded, the path stays the path, every stop comes
+    /// that much later.
     SCurve(f64),
 }
 

@@ -103,8 +103,8 @@ impl Pace {
         Self { acceleration, max_speed: robot.max_speed, rule }
     }
 
-    /// T = √(7.51 L/a), the time in which the rest-to-rest polynomial of length L peaks at the acceleration a; longer where
-    /// its peak speed 2.19 L/T would pass the robot's top speed. By length: the same total, shared out by L.
+    /// T = √(7.51 L/a), the time in which the rest-to-rest polynomial of length L peaks at the acceleration a; longer
+    /// where its peak speed 2.19 L/T would pass the robot's top speed. By length: the same total, shared out by L.
     fn leg_times(&self, waypoints: &[Point3<f64>]) -> Vec<f64> {
         let lengths: Vec<f64> = waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
         let time = |l: &f64| (7.513 * l / self.acceleration).sqrt().max(2.1875 * l / self.max_speed);

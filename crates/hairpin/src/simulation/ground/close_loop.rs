@@ -34,21 +34,21 @@ const MOST_FORCE: f64 = 1e6;
 
 /// Drives one run by one of our controllers: the same bytes for the same arguments.
 ///
-/// The run ends `linger` seconds after the plan is over (`done`, or `time` if a waypoint was missed), at the time limit, or
-/// where the vehicle tips over (its margin falls below 0), sets its underside on the ground (`belly-contact`), has no ground below
-/// it (`off-map`), finds no rest or gets nowhere
-/// (`stuck`), or comes within the clearance radius of a place to keep out of (`obstacle`). A waypoint, the end of a leg, is
-/// reached if the vehicle comes within `accept` of it while one of its two legs is driven.
+/// The run ends `linger` seconds after the plan is over (`done`, or `time` if a waypoint was missed), at the time
+/// limit, or where the vehicle tips over (its margin falls below 0), sets its underside on the ground
+/// (`belly-contact`), has no ground below it (`off-map`), finds no rest or gets nowhere (`stuck`), or comes within the
+/// clearance radius of a place to keep out of (`obstacle`). A waypoint, the end of a leg, is reached if the vehicle
+/// comes within `accept` of it while one of its two legs is driven.
 ///
 /// The log has the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`, `speed_m_s` (of the wheels, negative in reverse),
-/// `curvature_1_m` (of the wheels), `commanded_curvature_1_m`, `slip` (share of the wheels' way that is lost), with wheels
-/// `tip_over_margin_deg` and `belly_clearance_m` (the least since the sample before), with a rocker-bogie `joint_rocker_rad`,
-/// `joint_left_bogie_rad`, `joint_right_bogie_rad`, with a weight `wheel_torque_n_m` (of each wheel), and `travel_direction_rad` where the
-/// plan goes in another direction than straight ahead; about 3000 samples.
+/// `curvature_1_m` (of the wheels), `commanded_curvature_1_m`, `slip` (share of the wheels' way that is lost), with
+/// wheels `tip_over_margin_deg` and `belly_clearance_m` (the least since the sample before), with a rocker-bogie
+/// `joint_rocker_rad`, `joint_left_bogie_rad`, `joint_right_bogie_rad`, with a weight `wheel_torque_n_m` (of each
+/// wheel), and `travel_direction_rad` where the plan goes in another direction than straight ahead; about 3000 samples.
 ///
 /// # Errors
-/// Settings, latency or a drive out of bounds; a plan along which the nominal vehicle cannot stand; a start where the true
-/// one cannot.
+/// Settings, latency or a drive out of bounds; a plan along which the nominal vehicle cannot stand; a start where the
+/// true one cannot.
 pub fn drive(
     sortie: &GroundSortie,
     controller: &GroundController,
@@ -68,8 +68,8 @@ pub fn drive(
 
 /// [`drive`] by a controller of the caller's own, made afresh for the run; as reproducible as that is.
 ///
-/// Without a schedule it goes from waypoint to waypoint, the ends of the plan's legs, and the run ends `linger` seconds after
-/// it has reached the last; with one, once that is over and the vehicle stands.
+/// Without a schedule it goes from waypoint to waypoint, the ends of the plan's legs, and the run ends `linger` seconds
+/// after it has reached the last; with one, once that is over and the vehicle stands.
 ///
 /// # Errors
 /// As [`drive`]; a period out of bounds; [`SimulationError::Controller`].

@@ -5,8 +5,8 @@ use crate::simulation::controller::Controlled;
 use crate::trajectory::Track;
 use crate::trajectory::drive::Planar;
 
-/// What is measured of a drive: the plant's own state, with noise on x, y and ψ where the run asks for it. World frame: x
-/// east, y north, z up.
+/// What is measured of a drive: the plant's own state, with noise on x, y and ψ where the run asks for it. World frame:
+/// x east, y north, z up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveState {
     /// When, s.
@@ -25,7 +25,8 @@ pub struct DriveState {
     pub direction: f64,
 }
 
-/// What a controller asks of motors and steering until its next turn; it acts after the latency, within the vehicle's limits and lags.
+/// What a controller asks of motors and steering until its next turn; it acts after the latency, within the vehicle's
+/// limits and lags.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriveCommand {
     /// Along the direction of travel, m/s, negative in reverse.

@@ -75,7 +75,8 @@ pub(super) struct Guide<'a> {
 }
 
 impl<'a> Guide<'a> {
-    /// At the beginning of `plan`, driven at up to `speed` (m/s) and `turn_rate` (rad/s) by commands that act `latency` s late.
+    /// At the beginning of `plan`, driven at up to `speed` (m/s) and `turn_rate` (rad/s) by commands that act `latency`
+    /// s late.
     pub(super) fn new(plan: &'a Plan, nominal: &Rover, latency: f64, [speed, turn_rate]: [f64; 2]) -> Self {
         let response = &nominal.response;
         let swing = 2.0 * libm::atan(nominal.limits.curvature * response.steered_axle) / response.steering_rate;
@@ -131,10 +132,12 @@ impl<'a> Guide<'a> {
         self.under_way.iter().enumerate().map(|(index, (_, speed))| speed * time(index)).sum()
     }
 
-    /// The speed to command `s` metres along `stations`: what is planned where the vehicle will be when the command has acted.
+    /// The speed to command `s` metres along `stations`: what is planned where the vehicle will be when the command has
+    /// acted.
     ///
-    /// With the acceleration a the way until then is v·dt + ½ a dt² behind the commands under way. Near the end half of what is left, so that
-    /// it is reached. Wheels that take any speed at once go by the plan's own v and a, which lead it out of rest.
+    /// With the acceleration a the way until then is v·dt + ½ a dt² behind the commands under way. Near the end half of
+    /// what is left, so that it is reached. Wheels that take any speed at once go by the plan's own v and a, which lead
+    /// it out of rest.
     fn pace(&self, stations: &[Station], measured: &DriveState, s: f64, dt: f64) -> f64 {
         let end = stations[stations.len() - 1].s;
         let left = (end - s - self.coming(measured.t)).max(0.0);
@@ -202,8 +205,8 @@ impl<'a> Guide<'a> {
         }
     }
 
-    /// The metres to the place on the section that is nearest to the vehicle, never behind the last station found and never
-    /// far ahead of it: a section may cross itself.
+    /// The metres to the place on the section that is nearest to the vehicle, never behind the last station found and
+    /// never far ahead of it: a section may cross itself.
     fn progress(&mut self, stations: &[Station], at: &Planar, sign: f64) -> f64 {
         let distance = |i: usize| square(stations[i].at.x - at.x) + square(stations[i].at.y - at.y);
         let from = self.nearest;

@@ -1,6 +1,7 @@
 //! Ground vehicles as they drive: the plant that a planner does not know, controllers, and the loop closed over them.
 //!
-//! [`drive`] is the one verb, [`drive_with`] the same by a controller of the caller's own. The true vehicle may slip, lag and delay otherwise than the one that was planned with.
+//! [`drive`] is the one verb, [`drive_with`] the same by a controller of the caller's own. The true vehicle may slip,
+//! lag and delay otherwise than the one that was planned with.
 
 mod close_loop;
 mod command;

@@ -83,8 +83,8 @@ struct Draft {
     legs: Vec<f64>,
 }
 
-/// Where the commands of `drive` lead the vehicle `nominal`, leg after leg from each leg's own start: poses over time with the
-/// channel `leg`. It is the path that a run is to be compared with ([`crate::trajectory::Track`] of
+/// Where the commands of `drive` lead the vehicle `nominal`, leg after leg from each leg's own start: poses over time
+/// with the channel `leg`. It is the path that a run is to be compared with ([`crate::trajectory::Track`] of
 /// `judgement::Reference::Path`), at the speeds that were planned. Latency is left out.
 ///
 /// # Errors
@@ -280,8 +280,8 @@ impl Section {
     }
 }
 
-/// Rise per metre along the way, and to the left of it, of a body that leans by `lean` (φ, θ) and travels along `direction`
-/// (rad) of itself with `sign`.
+/// Rise per metre along the way, and to the left of it, of a body that leans by `lean` (φ, θ) and travels along
+/// `direction` (rad) of itself with `sign`.
 pub(super) fn rises([roll, pitch]: [f64; 2], direction: f64, sign: f64) -> [f64; 2] {
     let (sin, cos) = libm::sincos(direction);
     let (ahead, left) = (-libm::sin(pitch), libm::cos(pitch) * libm::sin(roll));
@@ -310,7 +310,8 @@ pub(super) fn heading(direction: f64, sign: f64) -> f64 {
     direction + if sign < 0.0 { std::f64::consts::PI } else { 0.0 }
 }
 
-/// The planned direction of travel `s` commanded metres along `stations`, rad: between two linear, beyond the ends as there.
+/// The planned direction of travel `s` commanded metres along `stations`, rad: between two linear, beyond the ends as
+/// there.
 pub(super) fn direction_at(stations: &[Station], s: f64) -> f64 {
     let next = stations.partition_point(|station| station.s < s);
     let (Some(b), Some(a)) = (stations.get(next), stations.get(next.wrapping_sub(1))) else {
@@ -324,8 +325,8 @@ pub(super) fn turning(stations: &[Station], s: f64, ahead: f64) -> f64 {
     (direction_at(stations, s + ahead) - direction_at(stations, s)) / ahead
 }
 
-/// The place `s` commanded metres along `stations`, which are driven with `sign`: between two by linear interpolation, beyond the last
-/// straight on.
+/// The place `s` commanded metres along `stations`, which are driven with `sign`: between two by linear interpolation,
+/// beyond the last straight on.
 pub(super) fn station_at(stations: &[Station], s: f64, sign: f64) -> Planar {
     let next = stations.partition_point(|station| station.s < s);
     if next == 0 {

@@ -1,4 +1,5 @@
-//! The vehicle as it drives: a body that settles on its wheels at every step, slips, and steers and speeds up with lags.
+//! The vehicle as it drives: a body that settles on its wheels at every step, slips, and steers and speeds up with
+//! lags.
 //!
 //! The body is settled on its wheels at every step (4 mm, 0.02 rad at most), by the robot's own suspension: what
 //! differs from the claim is what the vehicle does, not what the ground is.
@@ -45,9 +46,10 @@ const STILL: f64 = 1e-9;
 
 /// State of a driving vehicle:
 /// ẋ, ẏ, ψ̇ by [`Rover::rates`] of the wheels' speed v and κ = tan(δ)/L;
-/// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; the direction of travel is what is commanded, as in plans; v and the rate ω of turns in place follow their commands with the
-/// bounded acceleration, and v with no more than the wheels' torque leaves of it; z, φ, θ and the joints by the suspension on the ground.
-/// A steady force at the centre of mass is a tilt of gravity to slip, torque and tip-over margin.
+/// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; the direction of travel is what is commanded, as in plans; v and
+/// the rate ω of turns in place follow their commands with the bounded acceleration, and v with no more than the
+/// wheels' torque leaves of it; z, φ, θ and the joints by the suspension on the ground. A steady force at the centre of
+/// mass is a tilt of gravity to slip, torque and tip-over margin.
 #[derive(Debug, Clone)]
 pub(super) struct Plant<'a> {
     pub(super) vehicle: &'a Rover,
@@ -78,8 +80,8 @@ pub(super) struct Plant<'a> {
 }
 
 impl<'a> Plant<'a> {
-    /// At rest on the ground at `start`, its wheels steered for the curvature there, travelling along `direction` (rad) of
-    /// its body.
+    /// At rest on the ground at `start`, its wheels steered for the curvature there, travelling along `direction` (rad)
+    /// of its body.
     pub(super) fn new(
         vehicle: &'a Rover,
         terrain: &'a ElevationMap,
@@ -146,8 +148,8 @@ impl<'a> Plant<'a> {
         command.speed.clamp(-self.vehicle.limits.speed, self.vehicle.limits.speed)
     }
 
-    /// One step by the midpoint rule; the pose at its middle is extrapolated by the suspension's gradient, the one at its
-    /// end settled.
+    /// One step by the midpoint rule; the pose at its middle is extrapolated by the suspension's gradient, the one at
+    /// its end settled.
     fn step(&mut self, command: &DriveCommand, h: f64) -> Result<(), Lost> {
         let bend_before = self.curvature();
         self.steer(command.curvature, h);
@@ -172,7 +174,8 @@ impl<'a> Plant<'a> {
         Ok(())
     }
 
-    /// Change of (x, y, ψ) on `way` m (signed) and `turn` rad in place, standing as `pose` and its gradient say with `yaw`.
+    /// Change of (x, y, ψ) on `way` m (signed) and `turn` rad in place, standing as `pose` and its gradient say with
+    /// `yaw`.
     fn motion(&self, stands: (&Settled, &Gradient), yaw: f64, way: f64, bend: f64, turn: f64) -> [f64; 3] {
         let (sin, cos) = libm::sincos(yaw);
         let sign = if way < 0.0 { -1.0 } else { 1.0 };
@@ -218,8 +221,8 @@ impl<'a> Plant<'a> {
         }
     }
 
-    /// The speed that the wheels' torque leaves after a step of `h` s from `before`: what they have over what climbing and rolling take
-    /// speeds up, what they lack slows down. Those that cannot go on stand; their gears hold.
+    /// The speed that the wheels' torque leaves after a step of `h` s from `before`: what they have over what climbing
+    /// and rolling take speeds up, what they lack slows down. Those that cannot go on stand; their gears hold.
     fn hold_to_torque(&mut self, before: f64, h: f64) {
         let most = self.vehicle.most_traction();
         if most.is_infinite() || self.speed == 0.0 {
@@ -234,7 +237,8 @@ impl<'a> Plant<'a> {
         self.speed = sign * (sign * self.speed).min(begun + spare * h).max(0.0);
     }
 
-    /// What the wheels do while they drive with `sign` and gain `acceleration` (m/s²) along their way; `None` without a weight.
+    /// What the wheels do while they drive with `sign` and gain `acceleration` (m/s²) along their way; `None` without a
+    /// weight.
     fn effort(&self, sign: f64, acceleration: f64) -> Option<Effort> {
         self.vehicle.effort(&self.pose, self.travels, sign, acceleration, &self.pulled(&self.pose, self.yaw))
     }
@@ -286,7 +290,8 @@ impl<'a> Plant<'a> {
         Isometry3::from_parts(Translation3::new(self.x, self.y, z), attitude)
     }
 
-    /// How safely it stands; see [`Rover::tip_over_margin`] and [`Rover::belly_clearance`]. A point without wheels stands freely.
+    /// How safely it stands; see [`Rover::tip_over_margin`] and [`Rover::belly_clearance`]. A point without wheels
+    /// stands freely.
     pub(super) fn stands(&self) -> Result<Stands, Lost> {
         if self.vehicle.suspension == Suspension::Level {
             return Ok(Stands::FREE);

@@ -1,8 +1,8 @@
-//! Pure pursuit: the circle through the vehicle, along its way, that meets the path a lookahead further on. A controller of its
-//! own, and what others fall back on.
+//! Pure pursuit: the circle through the vehicle, along its way, that meets the path a lookahead further on. A
+//! controller of its own, and what others fall back on.
 //!
-//! κ + δ′ = 2 y / D², with y the distance of the point to the left of the way and D its distance; δ′ is what a direction of travel that
-//! turns in the body bends the way by. Source: Coulter 1992.
+//! κ + δ′ = 2 y / D², with y the distance of the point to the left of the way and D its distance; δ′ is what a
+//! direction of travel that turns in the body bends the way by. Source: Coulter 1992.
 
 use super::command::DriveState;
 use super::guide::Along;

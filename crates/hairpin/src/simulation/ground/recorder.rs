@@ -24,8 +24,8 @@ const STANDING: [&str; 2] = ["tip_over_margin_deg", "belly_clearance_m"];
 const JOINTS: [&str; 3] = ["joint_rocker_rad", "joint_left_bogie_rad", "joint_right_bogie_rad"];
 
 impl Recorder {
-    /// With the channels that `vehicle` has: what a point without wheels cannot tell is left out, the direction of travel where nothing
-    /// `crabs`, and torques where nothing weighs.
+    /// With the channels that `vehicle` has: what a point without wheels cannot tell is left out, the direction of
+    /// travel where nothing `crabs`, and torques where nothing weighs.
     pub(super) fn new(vehicle: &Rover, crabs: bool) -> Self {
         let standing: &[&str] = if vehicle.suspension == Suspension::Level { &[] } else { &STANDING };
         let joints: &[&str] = if matches!(vehicle.suspension, Suspension::RockerBogie(_)) { &JOINTS } else { &[] };

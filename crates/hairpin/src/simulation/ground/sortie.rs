@@ -44,8 +44,8 @@ pub struct DriveSettings {
     pub time_limit: Option<f64>,
     /// Time after the end of the plan that belongs to the run, s.
     pub linger: f64,
-    /// A run whose plan is not over ends `stuck` if the body moves less than 1 cm and 1° in this time, s, or in twice the longest that the plan
-    /// takes for that, where it is longer.
+    /// A run whose plan is not over ends `stuck` if the body moves less than 1 cm and 1° in this time, s, or in twice
+    /// the longest that the plan takes for that, where it is longer.
     pub patience: f64,
 }
 

@@ -138,8 +138,8 @@ const UNIT: &str = "of square 1 within 0.00001";
 impl Program {
     /// Everything that keeps the program from being executed, in its order: indices, numbers, quaternions, arcs.
     ///
-    /// An arc that begins where a posture ended or where another tool was in use is not looked at: its start is known only
-    /// to who knows the arm.
+    /// An arc that begins where a posture ended or where another tool was in use is not looked at: its start is known
+    /// only to who knows the arm.
     ///
     /// Linear in the moves. An empty list says that the program loads, not that it is safe to run.
     pub fn problems(&self) -> Vec<ProgramError> {

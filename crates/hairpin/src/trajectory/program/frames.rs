@@ -81,7 +81,8 @@ impl WorkObject {
 
 /// How far |q|² may be from 1 for controllers to take q. (ABB, Technical reference manual, RAPID, `NOrient`.)
 const NORMALISED: f64 = 1e-5;
-/// Below it, in |q|² − 1, the components are kept as they are: they were rounded to nine decimals, and would not read back.
+/// Below it, in |q|² − 1, the components are kept as they are: they were rounded to nine decimals, and would not read
+/// back.
 const AS_WRITTEN: f64 = 1e-8;
 
 /// `(w, x, y, z)` as a rotation; what is slightly off is scaled.

@@ -1,7 +1,7 @@
 //! A robot's program as data: what RAPID, KRL and URScript all say, unrolled to one move after the other, in SI.
 //!
-//! Languages are read into a [`Program`] and written from one; nothing here knows any of them. Names of targets, speeds and
-//! zones are kept so that what is written can be recognised by who wrote it.
+//! Languages are read into a [`Program`] and written from one; nothing here knows any of them. Names of targets, speeds
+//! and zones are kept so that what is written can be recognised by who wrote it.
 //!
 //! Data flow: a language's file → [`Program`] → [`Program::checked`] → planned, executed and judged, or written in
 //! another language. Poses are in their work object, as they were written: nothing is resolved to the base before an

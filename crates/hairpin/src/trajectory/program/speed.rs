@@ -24,8 +24,8 @@ const PREDEFINED: [u32; 25] = [
 ];
 
 impl Speed {
-    /// The speed that controllers predefine under `name` (`v5` to `v7000`, `vmax`), whatever its case: 500 °/s, 5000 mm/s
-    /// and 1000 °/s beside the number in mm/s.
+    /// The speed that controllers predefine under `name` (`v5` to `v7000`, `vmax`), whatever its case: 500 °/s, 5000
+    /// mm/s and 1000 °/s beside the number in mm/s.
     pub fn predefined(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         let tcp = match name.strip_prefix('v')? {

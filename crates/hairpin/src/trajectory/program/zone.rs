@@ -1,4 +1,5 @@
-//! How near a move has to come to its target before the next one begins, with the zones that ABB's controllers predefine.
+//! How near a move has to come to its target before the next one begins, with the zones that ABB's controllers
+//! predefine.
 //!
 //! Inside a zone the controller leaves the programmed path for a corner to the next one: a point that must be met is
 //! `fine`.

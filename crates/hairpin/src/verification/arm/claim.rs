@@ -59,7 +59,8 @@ pub enum ArmSolidForm<'a> {
 /// How an arm is built, where that tells which of several postures a program means.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ArmBuild {
-    /// Axis 1 upright, 2 and 3 across it, 4, 5 and 6 through one point, 4 and 6 square to 5; ±1 of each axis: whether it turns as its angle counts.
+    /// Axis 1 upright, 2 and 3 across it, 4, 5 and 6 through one point, 4 and 6 square to 5; ±1 of each axis: whether
+    /// it turns as its angle counts.
     SphericalWrist([f64; 6]),
     /// Any other.
     Chain,

@@ -47,7 +47,8 @@ impl Arm<'_> {
         }
     }
 
-    /// 4 for the wrist behind axis 1, 2 for it behind the upper arm, 1 for a negative axis 5; of other builds only that last.
+    /// 4 for the wrist behind axis 1, 2 for it behind the upper arm, 1 for a negative axis 5; of other builds only that
+    /// last.
     pub(super) fn cfx(&self, q: &[f64; 6]) -> i32 {
         let bits = |behind: bool, below: bool, negative: bool| {
             4 * i32::from(behind) + 2 * i32::from(below) + i32::from(negative)
@@ -74,8 +75,8 @@ impl Arm<'_> {
         })
     }
 
-    /// The nearest singularity and how far it is: |sin| of axis 5 and of the elbow, distance of the wrist before axis 1 over the arm's length; of
-    /// other builds 1/‖J⁻¹‖ of the flange, lengths over the reach.
+    /// The nearest singularity and how far it is: |sin| of axis 5 and of the elbow, distance of the wrist before axis 1
+    /// over the arm's length; of other builds 1/‖J⁻¹‖ of the flange, lengths over the reach.
     pub(super) fn margin(&self, q: &[f64; 6]) -> (&'static str, f64) {
         if let (Some(wrist), ArmBuild::SphericalWrist(signs)) = (&self.wrist, self.claim.build) {
             let Seen { before, elbow, bend, length } = self.seen(wrist, &signs, q);

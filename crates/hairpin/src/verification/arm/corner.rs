@@ -5,7 +5,8 @@ use nalgebra::Point3;
 use super::solids::distance;
 use super::{ALONG, ArmClaim, ROUNDING};
 
-/// What the tool's point would meet in the triangle that a blend of `zone` m at the middle of `way` stays in, a half of either leg at most.
+/// What the tool's point would meet in the triangle that a blend of `zone` m at the middle of `way` stays in, a half of
+/// either leg at most.
 pub(super) fn corner(claim: &ArmClaim, way: &[Point3<f64>; 3], zone: f64) -> Option<String> {
     let tool = claim.bodies.iter().find(|body| body.tool)?;
     let [before, at, after] = way;

@@ -1,4 +1,5 @@
-//! Where a move leads by itself: joints in step, or the tool's point on a line or circle while its orientation runs along a great arc of quaternions.
+//! Where a move leads by itself: joints in step, or the tool's point on a line or circle while its orientation runs
+//! along a great arc of quaternions.
 
 use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion, Vector3};
 
@@ -54,8 +55,8 @@ pub(super) fn apart(a: &Isometry3<f64>, b: &Isometry3<f64>) -> (f64, f64) {
     ((a.translation.vector - b.translation.vector).norm(), angle)
 }
 
-/// (sin((1 − s)Ω) a + sin(sΩ) b) / sin Ω with Ω between the quaternions, of which the nearer one of ±b is taken. (Shoemake, "Animating rotation
-/// with quaternion curves", 1985.)
+/// (sin((1 − s)Ω) a + sin(sΩ) b) / sin Ω with Ω between the quaternions, of which the nearer one of ±b is taken.
+/// (Shoemake, "Animating rotation with quaternion curves", 1985.)
 fn great_arc(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>, share: f64) -> UnitQuaternion<f64> {
     /// Nearer quaternions are joined by a line.
     const NEAR: f64 = 1e-9;
@@ -79,8 +80,8 @@ struct Round {
 }
 
 impl Round {
-    /// The arc from `a` over `via` to `b`; `None` where they lie on a line. With u and w from a to the others and n = u × w the centre is
-    /// a + (|w|² n × u + |u|² w × n) / 2|n|²; seen against n, b comes after via.
+    /// The arc from `a` over `via` to `b`; `None` where they lie on a line. With u and w from a to the others and n = u
+    /// × w the centre is a + (|w|² n × u + |u|² w × n) / 2|n|²; seen against n, b comes after via.
     fn through(a: &Point3<f64>, via: &Point3<f64>, b: &Point3<f64>) -> Option<Self> {
         let (u, w) = (via - a, b - a);
         let n = u.cross(&w);

@@ -32,8 +32,8 @@ pub enum ArmWay {
     Through(usize),
 }
 
-/// The first thing that does not hold on each move of a graph, numbered as in `moves`: posture `postures[k]` (rad) must have the tool at
-/// `poses[k]`, and every move must lead from one posture to the other.
+/// The first thing that does not hold on each move of a graph, numbered as in `moves`: posture `postures[k]` (rad) must
+/// have the tool at `poses[k]`, and every move must lead from one posture to the other.
 pub fn verify_arm_graph(
     claim: &ArmClaim,
     postures: &[[f64; 6]],

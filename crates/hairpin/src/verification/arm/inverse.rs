@@ -1,6 +1,8 @@
-//! All postures that put the last link somewhere, of arms with a spherical wrist: canonical subproblems on the lines of their joints.
+//! All postures that put the last link somewhere, of arms with a spherical wrist: canonical subproblems on the lines of
+//! their joints.
 //!
-//! (Paden, "Kinematics and control of robot manipulators", 1986; Murray, Li, Sastry, "A mathematical introduction to robotic manipulation", 1994, 3.3.)
+//! (Paden, "Kinematics and control of robot manipulators", 1986; Murray, Li, Sastry, "A mathematical introduction to
+//! robotic manipulation", 1994, 3.3.)
 
 use std::f64::consts::TAU;
 
@@ -24,7 +26,8 @@ pub(super) struct Wrist {
 }
 
 impl Wrist {
-    /// Of an arm whose axes lie as subproblems ask: 2 and 3 side by side and square to 1, 4 and 6 square to 5, all three through one point.
+    /// Of an arm whose axes lie as subproblems ask: 2 and 3 side by side and square to 1, 4 and 6 square to 5, all
+    /// three through one point.
     pub(super) fn of(screws: &Screws) -> Option<Self> {
         let direction = |k: usize| screws.lines[k].1;
         let square = |a: usize, b: usize| direction(a).dot(&direction(b)).abs() < SAME;
@@ -39,8 +42,8 @@ impl Wrist {
 }
 
 impl Arm<'_> {
-    /// The angles that a move in joints from `near` to `target` ends at, its last link being at `link`: those claimed of it, those of its
-    /// configuration, or those whose largest turn is least.
+    /// The angles that a move in joints from `near` to `target` ends at, its last link being at `link`: those claimed
+    /// of it, those of its configuration, or those whose largest turn is least.
     ///
     /// # Errors
     /// Why there are none, in words.
@@ -79,7 +82,8 @@ impl Arm<'_> {
         Some(all)
     }
 
-    /// Every posture, its turns aside, with the last link at `link`; where axes 4 and 6 are in line axis 4 is at `fourth`, rad.
+    /// Every posture, its turns aside, with the last link at `link`; where axes 4 and 6 are in line axis 4 is at
+    /// `fourth`, rad.
     fn postures(&self, wrist: &Wrist, link: &Isometry3<f64>, fourth: f64) -> Vec<[f64; 6]> {
         let screws = &self.screws;
         // From where a point of the last link is at rest to where it is to be.
@@ -98,8 +102,8 @@ impl Arm<'_> {
         all
     }
 
-    /// Angles of axis 1 that put the wrist's centre as far along axis 2 as it is at rest, for the axes behind it do not move it that way:
-    /// n·Rot(−θ)u = c.
+    /// Angles of axis 1 that put the wrist's centre as far along axis 2 as it is at rest, for the axes behind it do not
+    /// move it that way: n·Rot(−θ)u = c.
     fn sideways(&self, wrist: &Wrist, goal: &Point3<f64>) -> Vec<f64> {
         let ((base, up), (_, across)) = (self.screws.lines[0], self.screws.lines[1]);
         let u = goal - base;
@@ -108,8 +112,8 @@ impl Arm<'_> {
         solutions(across.dot(&flat), -across.dot(&up.cross(&u)), asked - across.dot(&(u - flat)))
     }
 
-    /// Angles of axes 2 and 3 that put the wrist's centre at `goal`: |a + Rot(θ₃)c| is the distance of the goal from axis 2, then θ₂ turns the
-    /// one onto the other.
+    /// Angles of axes 2 and 3 that put the wrist's centre at `goal`: |a + Rot(θ₃)c| is the distance of the goal from
+    /// axis 2, then θ₂ turns the one onto the other.
     fn two_links(&self, wrist: &Wrist, goal: &Point3<f64>) -> Vec<[f64; 2]> {
         let ((shoulder, across), (elbow, third)) = (self.screws.lines[1], self.screws.lines[2]);
         let flat = |way: Vector3<f64>| way - across * across.dot(&way);

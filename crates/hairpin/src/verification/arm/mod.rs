@@ -1,11 +1,13 @@
-//! An arm's moves followed by equations of their own: those of a program as it was written, and those of a whole graph, sampled densely, against the
-//! arm's bounds and the cell.
+//! An arm's moves followed by equations of their own: those of a program as it was written, and those of a whole graph,
+//! sampled densely, against the arm's bounds and the cell.
 //!
-//! Shares nothing with what proved or executes them: links by products of exponentials (`screws`), all postures of a pose by canonical subproblems
-//! (`inverse`), configurations and singularities by where axes lie (`configuration`), straight moves and arcs by Newton's steps on the geometric
-//! Jacobian from sample to sample (`reach`, `follow`), orientations along great arcs of quaternions (`course`), corners that zones cut both as the path
-//! about them (`path`) and by points of their triangles (`corner`), distances of points from solids by formulas of their own (`solids`). What is proven
-//! to keep a distance everywhere keeps it at every sample, so that no true claim is refused; a false one is found where samples see it.
+//! Shares nothing with what proved or executes them: links by products of exponentials (`screws`), all postures of a
+//! pose by canonical subproblems (`inverse`), configurations and singularities by where axes lie (`configuration`),
+//! straight moves and arcs by Newton's steps on the geometric Jacobian from sample to sample (`reach`, `follow`),
+//! orientations along great arcs of quaternions (`course`), corners that zones cut both as the path about them (`path`)
+//! and by points of their triangles (`corner`), distances of points from solids by formulas of their own (`solids`).
+//! What is proven to keep a distance everywhere keeps it at every sample, so that no true claim is refused; a false one
+//! is found where samples see it.
 
 mod claim;
 mod configuration;

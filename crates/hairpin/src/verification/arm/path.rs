@@ -1,8 +1,9 @@
 //! The path of a program: its moves with sharp corners, and the corners that zones cut.
 //!
-//! About a corner C a zone of radius r, cut to half of either move beside it, adds the end of one move and the beginning of the next, as w runs from
-//! 0 to 1: u = 1 − (r/ℓ₁)(1 − w)², v = (r/ℓ₂)w², p = p₁(u) + p₂(v) − C, R = R₁(u) R_C⁻¹ R₂(v); joints in the same way where one of both is a move of
-//! joints, or the tool is another one (docs/virtual-controller.md).
+//! About a corner C a zone of radius r, cut to half of either move beside it, adds the end of one move and the
+//! beginning of the next, as w runs from 0 to 1: u = 1 − (r/ℓ₁)(1 − w)², v = (r/ℓ₂)w², p = p₁(u) + p₂(v) − C, R = R₁(u)
+//! R_C⁻¹ R₂(v); joints in the same way where one of both is a move of joints, or the tool is another one
+//! (docs/virtual-controller.md).
 
 use nalgebra::Isometry3;
 

@@ -1,4 +1,5 @@
-//! A program as it was written: its frames multiplied out, its postures chosen, every move and every corner that is cut looked at.
+//! A program as it was written: its frames multiplied out, its postures chosen, every move and every corner that is cut
+//! looked at.
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
@@ -20,7 +21,8 @@ const LEAST_SAMPLES: f64 = 16.0;
 pub struct ArmProgramReplay {
     /// Of each move that was followed how far (m) from its waypoint what the flange carries ends.
     pub misses: Vec<f64>,
-    /// The first thing on each move, and on the corner at its end, that does not hold. Moves after one that cannot be followed are not looked at.
+    /// The first thing on each move, and on the corner at its end, that does not hold. Moves after one that cannot be
+    /// followed are not looked at.
     pub findings: Vec<ArmMoveFinding>,
 }
 
@@ -45,7 +47,8 @@ pub fn verify_arm_program(claim: &ArmClaim, program: &ArmProgramClaim) -> ArmPro
     ArmProgramReplay { misses, findings }
 }
 
-/// What does not hold where corners are cut; `ends` is where the tool's point is at the end of each move that was followed.
+/// What does not hold where corners are cut; `ends` is where the tool's point is at the end of each move that was
+/// followed.
 fn wrong_corners(path: &ArmPath, program: &ArmProgramClaim, ends: &[Point3<f64>]) -> Vec<ArmMoveFinding> {
     let mut findings = Vec::new();
     let mut add = |index: usize, what: String| findings.push(ArmMoveFinding { index, at: 1.0, what });
@@ -80,7 +83,8 @@ fn straight(program: &ArmProgramClaim, index: usize) -> bool {
     program.moves.get(index).is_some_and(|one| matches!(one.motion, ArmMotion::Straight(_)))
 }
 
-/// The first thing that does not hold on the way about a corner: links may come as near to the cell as they can without touching it.
+/// The first thing that does not hold on the way about a corner: links may come as near to the cell as they can without
+/// touching it.
 fn wrong_corner(path: &ArmPath, program: &ArmProgramClaim, index: usize, around: &[Vector3<f64>]) -> Option<String> {
     let singularity = if path.leads(index) { program.singularity } else { 0.0 };
     let asked = Asked { clearance: program.clear.then_some(0.0), around, singularity };
@@ -119,7 +123,8 @@ impl Arm<'_> {
         (legs, findings)
     }
 
-    /// Joint angles and pose that a move with `tool` (`link6_from_tcp`) begins at: the point that the one before was told, where it was told one.
+    /// Joint angles and pose that a move with `tool` (`link6_from_tcp`) begins at: the point that the one before was
+    /// told, where it was told one.
     fn begun(&self, before: Option<&Leg>, start: &[f64; 6], tool: &Isometry3<f64>) -> ([f64; 6], Isometry3<f64>) {
         let joints = before.map_or(start, Leg::end);
         let told = before.filter(|leg| leg.tool() == tool).and_then(|leg| leg.pose(1.0));
@@ -142,7 +147,8 @@ impl Arm<'_> {
         self.follow(course, tool, begun)
     }
 
-    /// Joint angles at the end of a move in joints. Where neither the program nor the claim tells them, those that the way straight there leads to.
+    /// Joint angles at the end of a move in joints. Where neither the program nor the claim tells them, those that the
+    /// way straight there leads to.
     fn arrival(
         &self,
         target: &ArmTarget,

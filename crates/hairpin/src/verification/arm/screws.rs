@@ -1,4 +1,5 @@
-//! Where a chain's links are, by products of exponentials: every joint turns about a line that is known where all angles are 0.
+//! Where a chain's links are, by products of exponentials: every joint turns about a line that is known where all
+//! angles are 0.
 
 use nalgebra::{Isometry3, Matrix6, Point3, Quaternion, UnitQuaternion, Vector3};
 

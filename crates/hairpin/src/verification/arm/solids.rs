@@ -82,7 +82,8 @@ fn solid_angle(triangle: &[Point3<f64>; 3], p: &Point3<f64>) -> f64 {
     2.0 * libm::atan2(a.dot(&b.cross(&c)), below)
 }
 
-/// Whether words hold at a distance of `room` (m) from a point, in one of the directions `around`; of other forms the distance tells.
+/// Whether words hold at a distance of `room` (m) from a point, in one of the directions `around`; of other forms the
+/// distance tells.
 pub(super) fn holds_around(form: &ArmSolidForm, p: &Point3<f64>, room: f64, around: &[Vector3<f64>]) -> bool {
     let ArmSolidForm::Where(holds) = form else { return false };
     around.iter().any(|direction| holds(&(p + direction * room)))

@@ -165,7 +165,8 @@ fn corners_that_are_cut_keep_their_triangle_clear() {
     };
     let moves = [straight(shifted(0.2, 0.0)), straight(shifted(0.2, -0.2))];
     let cut = |zone: f64, moves: &[ArmMotion]| {
-        // Beside both legs by 0.05 m, beyond the 0.03 m of the tool and its clearance, and in the middle of the corner's inside.
+        // Beside both legs by 0.05 m, beyond the 0.03 m of the tool and its clearance, and in the middle of the
+        // corner's inside.
         let ball = ArmSolidForm::Ball(Point3::from(from.translation.vector) + Vector3::new(0.15, 0.15, -0.05), 0.0);
         let inside = ArmSolidForm::Ball(Point3::from(from.translation.vector) + Vector3::new(0.0, 0.15, -0.05), 0.005);
         let solids = [("far", ball), ("peg", inside)].map(|(name, form)| ArmSolidClaim { name, tool_only: true, form });
@@ -209,7 +210,8 @@ fn moves_of_a_graph_lead_from_posture_to_posture() {
             check(&turned, &poses, ArmWay::Straight),
         )
     };
-    // All hold; a point that is elsewhere (2 finds: its own place and the arrival at it) and a posture of another pose do not.
+    // All hold; a point that is elsewhere (2 finds: its own place and the arrival at it) and a posture of another pose
+    // do not.
     assert_eq!(claim(NOWHERE), ([0, 0, 0], 2, 0, 2));
     let block = |k: usize| ArmSolidForm::Ball(poses[k].translation.vector.into(), 0.02);
     assert_eq!(claim(block(1)).0, [2, 2, 2]);

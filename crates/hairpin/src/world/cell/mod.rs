@@ -1,4 +1,5 @@
-//! What stands around an arm: named regions to keep out of, a reach sphere to stay in, and inequations in the user's own words.
+//! What stands around an arm: named regions to keep out of, a reach sphere to stay in, and inequations in the user's
+//! own words.
 //!
 //! A region is asked three things: how near a segment comes ([`Region::segment_distance`], floating point), whether a
 //! formula over intervals decides ([`Region::formula`], for proofs), and what plane separates it ([`Region::nearest`],

@@ -32,8 +32,8 @@ impl Region {
         })
     }
 
-    /// Whether every point within `room` (m, ≥ 0) of the segment a–b is outside the region. Words are asked for whole boxes, so that
-    /// `true` is certain and `false` may be cautious.
+    /// Whether every point within `room` (m, ≥ 0) of the segment a–b is outside the region. Words are asked for whole
+    /// boxes, so that `true` is certain and `false` may be cautious.
     ///
     /// Grown by `room`: of words the cube around the ball, halved along the segment at most ten times.
     pub fn is_clear(&self, a: &Point3<f64>, b: &Point3<f64>, room: f64) -> bool {
@@ -43,7 +43,8 @@ impl Region {
         }
     }
 
-    /// Whether a point within `radius` (m, ≥ 0) of the segment a–b is in the region; of words, whether one of those looked at is.
+    /// Whether a point within `radius` (m, ≥ 0) of the segment a–b is in the region; of words, whether one of those
+    /// looked at is.
     ///
     /// Of words 33 points of the segment times the 27 of [`directions`]: what is found is in the region, what is not
     /// may be.
@@ -93,8 +94,8 @@ fn room_around(words: &Words, a: &Point3<f64>, b: &Point3<f64>, room: f64, depth
 }
 
 impl Region {
-    /// From the nearest point of the region's core to `p`, m: zero inside. The core of a ball is its centre, of a capsule its axis; of
-    /// boxes and cylinders they themselves. `None` for everything else.
+    /// From the nearest point of the region's core to `p`, m: zero inside. The core of a ball is its centre, of a
+    /// capsule its axis; of boxes and cylinders they themselves. `None` for everything else.
     fn excess(&self, p: &Point3<f64>) -> Option<Vector3<f64>> {
         Some(match self {
             Self::Shape(Shape::Sphere { center, .. }) => p - center,
@@ -115,8 +116,9 @@ impl Region {
         })
     }
 
-    /// Where the segment a–b is nearest to the region's core, as its parameter, and the way there from the core, m; `None` as of
-    /// regions without a core. The distance is convex along the segment, so that its derivative's sign leads to the minimum.
+    /// Where the segment a–b is nearest to the region's core, as its parameter, and the way there from the core, m;
+    /// `None` as of regions without a core. The distance is convex along the segment, so that its derivative's sign
+    /// leads to the minimum.
     ///
     /// Secant steps with a bisection at every third: at most 52 evaluations of π_K, usually four or five. The vector is
     /// 0 where the segment enters the core.
@@ -134,7 +136,8 @@ impl Region {
         }
         let (mut best, mut turns) = ((0.0, first), 0);
         while turns < HALVINGS && high.0 - low.0 > 1e-12 {
-            // The secant of a convex function's derivative, and now and then the middle, so that the interval does shrink.
+            // The secant of a convex function's derivative, and now and then the middle, so that the interval does
+            // shrink.
             let secant = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
             let t = if turns % 3 == 2 { 0.5 * (low.0 + high.0) } else { secant.clamp(low.0, high.0) };
             let excess = at(t)?;

@@ -113,7 +113,8 @@ impl Region {
         Ok(Self::Beyond { center: center_m.into(), radius: positive("reach.radius_m", radius_m)? })
     }
 
-    /// A function of a point that is ≤ 0 exactly where the region, grown by `radius` (≥ 0), is; `None` for hulls, meshes and words.
+    /// A function of a point that is ≤ 0 exactly where the region, grown by `radius` (≥ 0), is; `None` for hulls,
+    /// meshes and words.
     ///
     /// `p` in m in the region's frame. With [`crate::math::outward::Interval`]s a value whose upper bound is < 0 proves
     /// that every point enclosed is inside, one whose lower bound is > 0 that none is; with
@@ -165,8 +166,8 @@ impl Region {
         })
     }
 
-    /// The support function of the region's core, max n·q over its points q, and the radius of the ball that grows it to the region:
-    /// bounds of both. `None` for regions without a core (see [`Region::nearest`]).
+    /// The support function of the region's core, max n·q over its points q, and the radius of the ball that grows it
+    /// to the region: bounds of both. `None` for regions without a core (see [`Region::nearest`]).
     ///
     /// n·x(t) > h(n) + (R + r)‖n‖ at both ends of a segment proves it farther than r from the region, whatever `n` is
     /// and however it was found: the separating plane theorem needs no other premise.

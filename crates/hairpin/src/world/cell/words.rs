@@ -95,7 +95,8 @@ impl Words {
         }) == Some(true)
     }
 
-    /// Whether the words are true at every point (`Some(true)`) or at none (`Some(false)`) of the enclosed ones, m; proofs both.
+    /// Whether the words are true at every point (`Some(true)`) or at none (`Some(false)`) of the enclosed ones, m;
+    /// proofs both.
     ///
     /// Kleene's three-valued logic over the bounds of each difference left − right: `None` is "not decided on this
     /// enclosure", and smaller ones may be. √ of what is below 0 counts as √0, as everywhere in

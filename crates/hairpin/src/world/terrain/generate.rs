@@ -1,8 +1,8 @@
 //! Terrain from a seed: fractal ground, craters, rocks.
 //!
 //! Fractal: octaves of gradient noise whose amplitude falls with the wavelength as λ^H (Turcotte 1987; Mars' H is about
-//! 0.7 at rover scale). Craters: cumulative number per area ∝ D⁻² of fresh bowls 0.2 D deep with a rim 0.04 D high (Pike 1977). Rocks:
-//! see [`super::rocks`].
+//! 0.7 at rover scale). Craters: cumulative number per area ∝ D⁻² of fresh bowls 0.2 D deep with a rim 0.04 D high
+//! (Pike 1977). Rocks: see [`super::rocks`].
 //!
 //! Order matters and is fixed: fractal ground, then craters, then rocks, each from its own stream, so that one recipe
 //! with other rocks keeps its craters. Turcotte, "A fractal interpretation of topography and geoid spectra on the
@@ -131,7 +131,8 @@ impl Ground {
     /// together their standard deviation is the relief asked for, as far as that of gradient noise is ¼.
     fn fractal(&mut self, recipe: &Recipe) {
         let mut wave = LONGEST_WAVE.min(recipe.size_m);
-        // Gradient noise has a standard deviation of about a quarter; octaves of variance λ^(2H) add up to the relief's.
+        // Gradient noise has a standard deviation of about a quarter; octaves of variance λ^(2H) add up to the
+        // relief's.
         let share = 1.0 - libm::pow(0.25, recipe.hurst.max(0.05));
         let mut amplitude = 4.0 * recipe.relief_m * share.sqrt();
         for octave in 0.. {

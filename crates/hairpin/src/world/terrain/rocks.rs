@@ -1,8 +1,9 @@
 //! Rocks on the ground by their size-frequency distribution, as bumps of a map and as places to keep out of.
 //!
-//! The share of the area covered by rocks larger than D is F(D) = k e^(−q D), q = 1.79 + 0.152/k: M. Golombek and D. Rapp,
-//! Size-frequency distributions of rocks on Mars and Earth analog sites, J. Geophys. Res. 102 (1997), fitted to the sites of
-//! the Viking landers; k is 0.03 on smooth ground, 0.07 and 0.18 there. Half of each rock is above the ground.
+//! The share of the area covered by rocks larger than D is F(D) = k e^(−q D), q = 1.79 + 0.152/k: M. Golombek and D.
+//! Rapp, Size-frequency distributions of rocks on Mars and Earth analog sites, J. Geophys. Res. 102 (1997), fitted to
+//! the sites of the Viking landers; k is 0.03 on smooth ground, 0.07 and 0.18 there. Half of each rock is above the
+//! ground.
 //!
 //! Drawn by number: the density of diameters is −F′(D)/(πD²/4) ∝ e^(−qD)/D², by rejection from the exponential of F;
 //! rocks are added until their areas sum to F(D_least) of the ground, so that cover, not count, is what a scenario
@@ -40,7 +41,8 @@ pub struct Rocks {
 }
 
 impl Rocks {
-    /// The rocks on the rectangle from `low` to `high` (x, y in m), their middles evenly spread; the same ones from the same seed.
+    /// The rocks on the rectangle from `low` to `high` (x, y in m), their middles evenly spread; the same ones from the
+    /// same seed.
     ///
     /// # Errors
     /// Numbers out of bounds, by name.

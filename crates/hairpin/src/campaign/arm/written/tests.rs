@@ -1,4 +1,5 @@
-//! Programs followed twice, by the virtual controller and by the proof, which share no equation: both must come to the same places.
+//! Programs followed twice, by the virtual controller and by the proof, which share no equation: both must come to the
+//! same places.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -70,8 +71,9 @@ fn any(random: &mut Stream, most: f64) -> Isometry3<f64> {
     Isometry3::from_parts(vector(0.1).into(), UnitQuaternion::from_scaled_axis(vector(most)))
 }
 
-/// A program of every kind of move from where its first posture puts the arm, through so many tools and two work objects, with stops and zones.
-/// Configurations are demanded where `configured`; chains, of which none tells the posture, go to poses on lines and arcs alone.
+/// A program of every kind of move from where its first posture puts the arm, through so many tools and two work
+/// objects, with stops and zones. Configurations are demanded where `configured`; chains, of which none tells the
+/// posture, go to poses on lines and arcs alone.
 fn random_program(arm: &Arm, random: &mut Stream, tools: usize, configured: bool) -> Program {
     let chain = matches!(arm.kinematics, Kinematics::Chain);
     let all = [Tool { tcp: any(random, 0.3), ..Tool::flange() }, Tool::flange()];
@@ -166,8 +168,8 @@ fn distance(path: &ArmPath, pieces: &[ArmPiece], pose: &Isometry3<f64>) -> f64 {
     at(piece, low)
 }
 
-/// Holds every fifth pose of the plan against the proof's path: how many were exact, and how many were looked at. What lies between the plan's nodes
-/// is a cubic through joint angles.
+/// Holds every fifth pose of the plan against the proof's path: how many were exact, and how many were looked at. What
+/// lies between the plan's nodes is a cubic through joint angles.
 fn compared(plan: &Plan, path: &ArmPath, case: &str) -> [usize; 2] {
     let (planned, pieces) = (plan.path(), path.pieces());
     let (mut exact, mut seen, mut begin) = (0, 0, 0);

@@ -12,8 +12,8 @@ pub struct ArmExecute {
     /// virtual.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<ArmControllerKind>,
-    /// CSV logs of a real controller, relative to the scenario file; `*` stands for CASE-RUN or, where there is one run, CASE:
-    /// `nightly/*.csv`.
+    /// CSV logs of a real controller, relative to the scenario file; `*` stands for CASE-RUN or, where there is one
+    /// run, CASE: `nightly/*.csv`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub logs: Option<String>,
     /// as-recorded | offset-removed: whether logs' clocks and the program's are one, or differ by what is estimated.

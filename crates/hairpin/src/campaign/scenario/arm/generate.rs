@@ -14,7 +14,8 @@ use crate::campaign::scenario::{SearchMethod, SearchSection};
 pub struct ArmGenerate {
     /// joint: every link checked; cartesian: the tool's sphere only.
     pub mode: ArmMode,
-    /// distance | time | controller-load | joint-effort | learned:MODEL | { table = "arc_ms.csv" } | { distance = 1.0, time = 2.0, … }.
+    /// distance | time | controller-load | joint-effort | learned:MODEL | { table = "arc_ms.csv" } | { distance = 1.0,
+    /// time = 2.0, … }.
     pub cost: CostSection,
     /// What moves are made of.
     pub moves: MovesSection,
@@ -178,7 +179,8 @@ pub struct CostWeights {
 pub struct MovesSection {
     /// linear: MoveL; joint: MoveJ.
     pub kind: MoveName,
-    /// Whether an arc (MoveC) through a point may stand for the two straight moves to it and from it, where it costs more.
+    /// Whether an arc (MoveC) through a point may stand for the two straight moves to it and from it, where it costs
+    /// more.
     pub arcs: bool,
     /// Names of speeds; where there are several, moves take them in turn by draws.
     pub speeds: Vec<String>,

@@ -62,8 +62,8 @@ pub struct ArrivalLimit {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegressionLimit {
-    /// The folder of an earlier release's campaign, which was judged, or its `moves.json` or `baseline.json`; relative to the scenario file. The
-    /// folder's name is the release's.
+    /// The folder of an earlier release's campaign, which was judged, or its `moves.json` or `baseline.json`; relative
+    /// to the scenario file. The folder's name is the release's.
     pub baseline: String,
     /// Half the width of the band, in the baseline's own standard deviations.
     #[serde(default = "three")]

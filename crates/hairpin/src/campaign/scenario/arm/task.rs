@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ArmTask {
-    /// A CSV file (x_mm, y_mm, z_mm, and if wanted q1 … q4 and cf1, cf4, cf6, cfx), a RAPID module whose robtargets are the points, a
-    /// list of x, y, z in mm, or `{ count = N }`: drawn within the arm's reach.
+    /// A CSV file (x_mm, y_mm, z_mm, and if wanted q1 … q4 and cf1, cf4, cf6, cfx), a RAPID module whose robtargets are
+    /// the points, a list of x, y, z in mm, or `{ count = N }`: drawn within the arm's reach.
     pub points: PointsSource,
     /// Frame of the points, and the orientation of those that have none.
     #[serde(default)]

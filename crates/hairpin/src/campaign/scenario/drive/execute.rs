@@ -28,7 +28,8 @@ pub struct DriveExecute {
     /// A command acts this much later; the robot's own latency if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub latency_s: Option<f64>,
-    /// Steady force at the vehicle's centre of mass, east, north, up, that the plan does not know: a tether, a tow, wind. None if not given.
+    /// Steady force at the vehicle's centre of mass, east, north, up, that the plan does not know: a tether, a tow,
+    /// wind. None if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub external_force_n: Option<[f64; 3]>,
     /// Whether controllers see a noisy pose: 1 cm along each axis and 0.3° of yaw.

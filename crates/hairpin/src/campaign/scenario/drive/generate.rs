@@ -25,10 +25,11 @@ pub struct DriveGenerate {
     pub manoeuvres: Vec<Manoeuvre>,
     /// How speed changes along the way.
     pub speed: SpeedSection,
-    /// Direction of travel in the body, left positive: for vehicles that steer all wheels. `[least, greatest]`: each waypoint has one of
-    /// its own, drawn evenly, and along a leg it turns evenly from one to the other.
+    /// Direction of travel in the body, left positive: for vehicles that steer all wheels. `[least, greatest]`: each
+    /// waypoint has one of its own, drawn evenly, and along a leg it turns evenly from one to the other.
     pub direction_deg: DirectionDeg,
-    /// source | exact: without or with what the suspension adds to the body's velocity (vz, ωx, ωy); of plans, runs and proofs.
+    /// source | exact: without or with what the suspension adds to the body's velocity (vz, ωx, ωy); of plans, runs and
+    /// proofs.
     pub kinematics: Kinematics,
     /// Headings per waypoint in the `witness` roadmap.
     pub headings: u64,
@@ -98,7 +99,8 @@ pub enum ControlName {
     TurnDriveTurn,
     /// A polynomial of third order in arc length.
     Cubic,
-    /// A polynomial of fifth order in arc length; where none keeps the bounds, clothoids, in both gears if they are allowed.
+    /// A polynomial of fifth order in arc length; where none keeps the bounds, clothoids, in both gears if they are
+    /// allowed.
     #[default]
     Quintic,
     /// A polynomial of fifth order in time.
@@ -129,8 +131,8 @@ impl ControlName {
     }
 }
 
-/// `generate.speed`: how the commanded speed changes along the way. Without `constant`, drives begin and end at rest and stop where the
-/// gear changes and for turns in place.
+/// `generate.speed`: how the commanded speed changes along the way. Without `constant`, drives begin and end at rest
+/// and stop where the gear changes and for turns in place.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpeedSection {
@@ -218,7 +220,8 @@ impl Default for SolverSection {
 pub struct DriveSearch {
     /// beam | exact | uniform | in-loop | adaptive.
     pub method: SearchMethod,
-    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; executed; learned:MODEL; or python:FILE.
+    /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; executed; learned:MODEL; or
+    /// python:FILE.
     pub score: String,
     /// How scores of legs become the score of a trajectory.
     pub aggregate: Aggregate,
@@ -241,12 +244,13 @@ pub struct DriveSearch {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds together.
+    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds
+    /// together.
     pub executions: u64,
     /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
-    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not given, one
-    /// for 45 executions, at least 4 where there are enough, at most 15.
+    /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not
+    /// given, one for 45 executions, at least 4 where there are enough, at most 15.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rounds: Option<u64>,
     /// `adaptive`: share of every later round's executions that is drawn uniformly, whatever the model says.
@@ -256,7 +260,8 @@ pub struct DriveSearch {
     pub time_s: Option<f64>,
     /// `in-loop`: whether waypoints are moved off their graph, as far as legs can be solved.
     pub move_waypoints: bool,
-    /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot | saturation | clearance | tilt.
+    /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation |
+    /// max-acceleration | time | overshoot | saturation | clearance | tilt.
     pub stress: Stress,
     /// The model of a learned score.
     #[serde(skip)]

@@ -1,5 +1,5 @@
-//! Places to keep out of as files have them: `keep_out = [{ name = "lander", circle = { center_m = [21.0, 18.5], radius_m = 0.6 } }]`, or
-//! `polygon = { points_m = [[x, y], …] }`.
+//! Places to keep out of as files have them: `keep_out = [{ name = "lander", circle = { center_m = [21.0, 18.5],
+//! radius_m = 0.6 } }]`, or `polygon = { points_m = [[x, y], …] }`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

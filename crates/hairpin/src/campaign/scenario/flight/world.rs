@@ -57,7 +57,8 @@ pub struct Gusts {
     pub correlation_s: f64,
 }
 
-/// `discrete_gust = { velocity_m_s, start_s, duration_s }`: the air changes by velocity · (1 − cos 2π(t − start)/duration)/2.
+/// `discrete_gust = { velocity_m_s, start_s, duration_s }`: the air changes by velocity · (1 − cos 2π(t −
+/// start)/duration)/2.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DiscreteGustSection {

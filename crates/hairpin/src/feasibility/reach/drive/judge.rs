@@ -59,8 +59,8 @@ pub(super) fn judge(
     Err(farthest)
 }
 
-/// Necessary for a drive in one gear to be no longer than the longest detour: Dubins' path is not. A direction that turns by Δδ bends the
-/// way by Δδ/L more, L no less than the distance.
+/// Necessary for a drive in one gear to be no longer than the longest detour: Dubins' path is not. A direction that
+/// turns by Δδ bends the way by Δδ/L more, L no less than the distance.
 fn may_be_short(settings: &DriveSettings, ends: &Ends, way: Way) -> bool {
     let Some(gear) = way.gear() else { return true };
     let (from, to) = (ends.from, ends.to);
@@ -108,8 +108,8 @@ fn driven(site: &DriveSite, settings: &DriveSettings, ends: &Ends, way: Way) -> 
     Ok(Solved { segments: segments.as_ref().into(), way, duration, stress })
 }
 
-/// Commands that come to the same end the same `way` at the speeds of `profile`; `None`: `segments` do so already, as they do
-/// wherever a lag of the steering makes no difference.
+/// Commands that come to the same end the same `way` at the speeds of `profile`; `None`: `segments` do so already, as
+/// they do wherever a lag of the steering makes no difference.
 pub(super) fn refitted(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -156,8 +156,8 @@ fn solved(
     }
 }
 
-/// What the vehicle does under `segments`: it goes on as it was until the first one acts, and the last stretch, which only
-/// waits for the commands before it, is not driven.
+/// What the vehicle does under `segments`: it goes on as it was until the first one acts, and the last stretch, which
+/// only waits for the commands before it, is not driven.
 fn as_moved(site: &DriveSite, settings: &DriveSettings, from: &Planar, segments: &SegmentList) -> Vec<Segment> {
     let wait = site.rover.response.latency * settings.speed;
     let mut motion = segments.to_vec();

@@ -1,4 +1,5 @@
-//! A whole drive held clear of places to keep out of that were not known when its legs were solved: at the closest of the same looks, taken once.
+//! A whole drive held clear of places to keep out of that were not known when its legs were solved: at the closest of
+//! the same looks, taken once.
 
 use super::settings::{DriveSettings, DriveSite};
 use super::watch::{CLOSER, keeps_out};
@@ -15,7 +16,8 @@ pub struct DriveLooks {
 
 impl DriveLooks {
     /// Looks along `drive`, planned without latency, leg after leg from each leg's own start, as closely as legs that
-    /// come near to something are looked at when they are solved with `settings`. `None` where the ground does not carry it.
+    /// come near to something are looked at when they are solved with `settings`. `None` where the ground does not
+    /// carry it.
     pub fn along(site: &DriveSite, settings: &DriveSettings, drive: &Drive) -> Option<Self> {
         let mut looks = Vec::new();
         for leg in &drive.legs {
@@ -42,7 +44,8 @@ impl DriveLooks {
         self.looks.iter().map(|(at, _)| *at)
     }
 
-    /// The longest step between two of them, m: what is kept from keep-outs beyond the radius where they show that it is.
+    /// The longest step between two of them, m: what is kept from keep-outs beyond the radius where they show that it
+    /// is.
     pub fn longest_step(&self) -> f64 {
         self.looks.iter().map(|(_, metres)| *metres).fold(0.0, f64::max)
     }

@@ -1,4 +1,5 @@
-//! How fast legs are driven: alone, and one after the other, with stops where the vehicle must stand and no harder than it may.
+//! How fast legs are driven: alone, and one after the other, with stops where the vehicle must stand and no harder than
+//! it may.
 
 use crate::math::power::square;
 use crate::math::random::hashed_unit;
@@ -53,11 +54,12 @@ impl Pace {
         }
     }
 
-    /// The speeds of `legs`, driven one after the other at `speed` (m/s) at most, which wish for `wishes` (m/s) at their ends: one more
-    /// than there are legs.
+    /// The speeds of `legs`, driven one after the other at `speed` (m/s) at most, which wish for `wishes` (m/s) at
+    /// their ends: one more than there are legs.
     ///
-    /// A wish gives way to stops before and after turns in place and where the gear changes, to the steering's rate within both
-    /// legs, and to what the acceleration makes of their metres: v² ≤ w² + 2 a L, w the speed at the other end.
+    /// A wish gives way to stops before and after turns in place and where the gear changes, to the steering's rate
+    /// within both legs, and to what the acceleration makes of their metres: v² ≤ w² + 2 a L, w the speed at the other
+    /// end.
     pub fn over(&self, speed: f64, wishes: &[f64], legs: &[&[Segment]], response: &Response) -> Vec<SpeedProfile> {
         let (slopes, even) = match self {
             Self::Constant => return vec![speed.into(); legs.len()],
@@ -140,7 +142,8 @@ impl Shape {
     }
 }
 
-/// The speed at which the steering's rate is just enough all along `segment`, m/s: δ = atan(κL), dδ/ds = κ′L/(1 + κ²L²).
+/// The speed at which the steering's rate is just enough all along `segment`, m/s: δ = atan(κL), dδ/ds = κ′L/(1 +
+/// κ²L²).
 fn fastest(segment: &Segment, response: &Response) -> f64 {
     let Motion::Arc { length_m, curvature } = segment.motion else { return f64::INFINITY };
     if !response.steering_rate.is_finite() {

@@ -81,9 +81,9 @@ const ANYWHERE: usize = 4;
 impl<'a> DriveRoadmap<'a> {
     /// The roadmap over `points`, index 0 the start: there the pose and curvature are those of `start`.
     ///
-    /// Every other waypoint gets M headings in which the body stands within its limits, fewer where it does not: towards a
-    /// waypoint drawn from those at a leg's distance, every fourth anywhere. With `end` the last waypoint has that
-    /// pose alone.
+    /// Every other waypoint gets M headings in which the body stands within its limits, fewer where it does not:
+    /// towards a waypoint drawn from those at a leg's distance, every fourth anywhere. With `end` the last waypoint has
+    /// that pose alone.
     pub fn new(
         site: DriveSite<'a>,
         points: &[Point3<f64>],
@@ -141,8 +141,8 @@ impl<'a> DriveRoadmap<'a> {
         self.tally.get()
     }
 
-    /// A necessary test for searches that end at the last waypoint: false only if no `steps` legs lead from `node` to it.
-    /// One leg is no longer than the longest, as the crow flies.
+    /// A necessary test for searches that end at the last waypoint: false only if no `steps` legs lead from `node` to
+    /// it. One leg is no longer than the longest, as the crow flies.
     pub fn may_arrive(&self, node: &DriveNode, steps: usize) -> bool {
         let end = self.points.len() - 1;
         if steps == 0 {
@@ -152,8 +152,8 @@ impl<'a> DriveRoadmap<'a> {
         self.distance(node.waypoint as usize, end) <= steps as f64 * self.settings.leg_m[1] * (1.0 + 1e-9)
     }
 
-    /// The drive over `nodes`, with its speeds; `None` where two successive ones are no leg, and where a leg that was solved for the
-    /// commanded speed has no commands for those that it really has, which lags of the steering can do.
+    /// The drive over `nodes`, with its speeds; `None` where two successive ones are no leg, and where a leg that was
+    /// solved for the commanded speed has no commands for those that it really has, which lags of the steering can do.
     pub fn drive(&self, nodes: &[DriveNode]) -> Option<Drive> {
         let states: Vec<usize> = nodes.iter().map(|node| self.state(node)).collect();
         // Nothing leaves the last: its legs need not be solved.
@@ -167,8 +167,8 @@ impl<'a> DriveRoadmap<'a> {
         self.joined(legs)
     }
 
-    /// The drive over waypoints that are passed as `passings` say, in order, each leg solved as those of a roadmap are; `None` where one
-    /// of them is no leg, or as [`Self::drive`].
+    /// The drive over waypoints that are passed as `passings` say, in order, each leg solved as those of a roadmap are;
+    /// `None` where one of them is no leg, or as [`Self::drive`].
     pub fn through(site: DriveSite<'a>, passings: &[Passing], settings: &DriveSettings) -> Option<Drive> {
         let points = passings.iter().map(|passing| Point3::new(passing.at.x, passing.at.y, 0.0)).collect();
         let (first, kept) = ((0..=passings.len() as u32).collect(), RefCell::default());
@@ -205,8 +205,8 @@ impl<'a> DriveRoadmap<'a> {
         Some(Drive { legs: legs.into_iter().zip(profiles).map(leg).collect(), speed, turn_rate })
     }
 
-    /// The speeds of `legs`, whose commands are fitted to them where the steering lags: other commands stop elsewhere, and so it goes
-    /// on until nothing changes. `None` if that does not come to an end.
+    /// The speeds of `legs`, whose commands are fitted to them where the steering lags: other commands stop elsewhere,
+    /// and so it goes on until nothing changes. `None` if that does not come to an end.
     fn settled(&self, legs: &mut [(Ends, Way, Box<[Segment]>)]) -> Option<Vec<SpeedProfile>> {
         for _ in 0..ROUNDS {
             let profiles = self.profiles(legs);

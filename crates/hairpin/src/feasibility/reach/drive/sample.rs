@@ -20,8 +20,8 @@ pub struct GroundSampling {
     pub count: usize,
     /// Least distance from the map's edge, m.
     pub margin: f64,
-    /// Centre (x, y) and radius, m, of the disc they are spread over; `None`: the whole map. Waypoints that lie many legs
-    /// apart have few legs between them.
+    /// Centre (x, y) and radius, m, of the disc they are spread over; `None`: the whole map. Waypoints that lie many
+    /// legs apart have few legs between them.
     pub around: Option<([f64; 2], f64)>,
     /// Independent, in clusters, or a Sobol sequence.
     pub sampling: Sampling,
@@ -55,8 +55,8 @@ const SOBOL_LENGTH: usize = 1 << 16;
 /// Headings in which a place is tried.
 const HEADINGS: u32 = 8;
 
-/// `asked.count` places of the map with their heights: away from its edge, outside keep-outs, and such that the body stands
-/// within the limits of `settings` in some heading. A pure function of its arguments.
+/// `asked.count` places of the map with their heights: away from its edge, outside keep-outs, and such that the body
+/// stands within the limits of `settings` in some heading. A pure function of its arguments.
 ///
 /// By rejection from at most 1 000 draws a place + 10 000.
 ///

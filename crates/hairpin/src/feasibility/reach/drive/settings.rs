@@ -73,8 +73,8 @@ pub struct DriveSettings {
     pub speed: f64,
     /// Commanded rate of turns in place, rad/s, > 0.
     pub turn_rate: f64,
-    /// Least and greatest direction of travel in the body, rad: 0 along x, left positive. Each waypoint has one of its own, drawn
-    /// evenly, and along a leg it turns evenly from one to the other.
+    /// Least and greatest direction of travel in the body, rad: 0 along x, left positive. Each waypoint has one of its
+    /// own, drawn evenly, and along a leg it turns evenly from one to the other.
     pub directions: [f64; 2],
     /// Which ways of driving there are.
     pub manoeuvres: Manoeuvres,
@@ -104,7 +104,8 @@ const DIRECTIONS: u64 = u64::MAX - 1;
 const FLAT: f64 = 1e-5;
 
 impl DriveSettings {
-    /// Those of `rover`: its speed, its bounds and limits, forward drives between 2 m and 6 m, scored by slope and slip.
+    /// Those of `rover`: its speed, its bounds and limits, forward drives between 2 m and 6 m, scored by slope and
+    /// slip.
     pub fn of(rover: &Rover) -> Self {
         let limits = &rover.limits;
         let mut flat = flat::Settings::default();

@@ -14,8 +14,9 @@ use crate::trajectory::{SpeedProfile, Timing};
 
 /// Scores of straight legs of one graph, each followed on the ground when it is first asked for.
 ///
-/// Slope, roll and slip are met along the line; the speed is that of a turn in place and a line from rest to rest; curvature does not
-/// change, and no gear. A line that the body cannot follow is as steep as its ends are apart in height.
+/// Slope, roll and slip are met along the line; the speed is that of a turn in place and a line from rest to rest;
+/// curvature does not change, and no gear. A line that the body cannot follow is as steep as its ends are apart in
+/// height.
 pub struct StraightLegs<'a> {
     site: DriveSite<'a>,
     settings: DriveSettings,

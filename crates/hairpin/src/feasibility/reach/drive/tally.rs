@@ -80,7 +80,8 @@ pub struct DriveTally {
 }
 
 impl DriveTally {
-    /// Legs refused for `reason`. Each refused leg has one reason: of the ways of driving it, the one that came farthest.
+    /// Legs refused for `reason`. Each refused leg has one reason: of the ways of driving it, the one that came
+    /// farthest.
     pub fn refused(&self, reason: LegRefusal) -> u64 {
         self.refused[reason as usize]
     }

@@ -10,8 +10,9 @@ use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::trajectory::{Direction, SpeedProfile};
 use crate::world::terrain::{ElevationMap, KeepOuts, NoGround, Terrain};
 
-/// Limits are asked for at least this often, and the second time on drives that came within [`NEAR`] (rad) of one of tilt or joints, for on
-/// rough ground the body leans by up to a degree more between two of the first looks, or within a step of a keep-out.
+/// Limits are asked for at least this often, and the second time on drives that came within [`NEAR`] (rad) of one of
+/// tilt or joints, for on rough ground the body leans by up to a degree more between two of the first looks, or within
+/// a step of a keep-out.
 const STEPS: Steps = Steps { length: 0.03, angle: 0.03, least: 8 };
 pub(super) const CLOSER: Steps = Steps { length: 0.003, angle: 0.003, least: 8 };
 const NEAR: f64 = 0.05;
@@ -37,7 +38,8 @@ pub(super) struct Met {
     pub(super) slip: f64,
 }
 
-/// Follows `motion` from `start` at `speed`, travelling in `direction` of the body, and looks at every limit on the way.
+/// Follows `motion` from `start` at `speed`, travelling in `direction` of the body, and looks at every limit on the
+/// way.
 pub(super) fn watch(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -91,8 +93,8 @@ pub(super) fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) ->
     clear(site, settings, at, &settled)
 }
 
-/// Whether a look at (x, y) shows that `radius` is kept from `keep_outs`: on the way to the next look, `metres` farther, the vehicle comes no
-/// nearer than by those.
+/// Whether a look at (x, y) shows that `radius` is kept from `keep_outs`: on the way to the next look, `metres`
+/// farther, the vehicle comes no nearer than by those.
 pub(super) fn keeps_out(keep_outs: &KeepOuts, radius: f64, [x, y]: [f64; 2], metres: f64) -> bool {
     keep_outs.distance(x, y) >= radius + metres
 }

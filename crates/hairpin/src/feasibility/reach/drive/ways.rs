@@ -1,4 +1,5 @@
-//! The ways of driving a leg, and the flat drives of each: what the controls are, which gears there are, what turns in place do.
+//! The ways of driving a leg, and the flat drives of each: what the controls are, which gears there are, what turns in
+//! place do.
 
 use std::f64::consts::TAU;
 
@@ -27,8 +28,8 @@ impl Way {
         if let Self::Along(gear) = self { Some(gear) } else { None }
     }
 
-    /// The flat drive of `query`, whose direction of travel turns by `swing` (rad): where the controls do not know of that, as one that
-    /// looks along the mean direction.
+    /// The flat drive of `query`, whose direction of travel turns by `swing` (rad): where the controls do not know of
+    /// that, as one that looks along the mean direction.
     pub(super) fn steer(self, settings: &DriveSettings, query: &Query, swing: f64) -> Option<SegmentList> {
         let bounds = &settings.bounds;
         let query = Query::new(query.start_curvature, query.goal, bounds).ok()?;
@@ -71,8 +72,8 @@ pub(super) fn ways(settings: &DriveSettings) -> impl Iterator<Item = Way> {
 
 /// Turns by α and follows the circle through start and goal that arrives in the goal's heading ψ.
 ///
-/// With β the bearing of the goal and d its distance: η = ψ − β, α = β − η, κ = 2 sin η/d, L = d η/sin η. The circle's curvature
-/// ends with the turn of no angle behind it, where the wheels swing back.
+/// With β the bearing of the goal and d its distance: η = ψ − β, α = β − η, κ = 2 sin η/d, L = d η/sin η. The circle's
+/// curvature ends with the turn of no angle behind it, where the wheels swing back.
 fn turn_arc(query: &Query, bounds: &Curvatures, gear: Gear) -> Option<SegmentList> {
     // In reverse, the mirror image about the y axis.
     let sign = gear.sign();

@@ -1,4 +1,5 @@
-//! Arcs through points of the cloud: which ordered triples of points the arm can go through in one circular move, and what that costs.
+//! Arcs through points of the cloud: which ordered triples of points the arm can go through in one circular move, and
+//! what that costs.
 
 use rayon::prelude::*;
 
@@ -24,8 +25,9 @@ pub struct ArcGraph {
 /// Points of an arc have one orientation, within this, rad.
 const SAME_TURN: f64 = 1e-9;
 
-/// Every arc from a station through another to a third: followed like any move, every link clear of the cell between samples, from the angles `joints` of
-/// its start to those of its end. The tool keeps its orientation, so that all three points must have the same.
+/// Every arc from a station through another to a third: followed like any move, every link clear of the cell between
+/// samples, from the angles `joints` of its start to those of its end. The tool keeps its orientation, so that all
+/// three points must have the same.
 pub fn arcs(
     arm: &Arm,
     tool: &Tool,

@@ -59,7 +59,8 @@ impl<'a> Bodies<'a> {
         Self { arm, cell, capsules, bounds, pairs, clearance }
     }
 
-    /// What can be said of all configurations within `turns` (rad a joint) of `q`, `at` the share of the move. Counts questions.
+    /// What can be said of all configurations within `turns` (rad a joint) of `q`, `at` the share of the move. Counts
+    /// questions.
     pub(super) fn look(&self, q: &Joints, turns: &Joints, at: f64, queries: &mut u64) -> Look {
         let frames = self.arm.chain.frames(q);
         let axes = self.arm.chain.axes(&frames);
@@ -118,8 +119,9 @@ impl<'a> Bodies<'a> {
         }
     }
 
-    /// Whether the triangle between three points of the tool's way is free of the cell, grown by the tool's own radius, the clearance and
-    /// `deviation` (m): what the tool's point may pass through where a corner is rounded. The part that is not, otherwise.
+    /// Whether the triangle between three points of the tool's way is free of the cell, grown by the tool's own radius,
+    /// the clearance and `deviation` (m): what the tool's point may pass through where a corner is rounded. The part
+    /// that is not, otherwise.
     pub fn corner(&self, corners: &[Vector3<f64>; 3], tool_radius: f64, deviation: f64) -> Option<usize> {
         let room = tool_radius + self.clearance + deviation;
         self.cell.parts.iter().position(|part| !triangle_clear(&part.region, corners, room, 0))

@@ -115,8 +115,8 @@ impl Cost {
 
 /// Time law of a free move from rest to rest under the joints' speeds and accelerations.
 ///
-/// With q̇ = q′ ṡ and q̈ = q′ s̈ + q″ ṡ² the speed is the largest at which every joint keeps its speed and spends at most half of its
-/// acceleration on q″; the ramps get what then is left. Sampled at 33 places.
+/// With q̇ = q′ ṡ and q̈ = q′ s̈ + q″ ṡ² the speed is the largest at which every joint keeps its speed and spends at
+/// most half of its acceleration on q″; the ramps get what then is left. Sampled at 33 places.
 pub fn time_law(arm: &Arm, tool: &Tool, motion: &Motion, start: &Joints) -> Trapezoid {
     timing(arm, &sample(arm, tool, motion, start))
 }

@@ -1,4 +1,5 @@
-//! A move followed from its start in one configuration: limits, singularities and collisions on every piece, proven or halved.
+//! A move followed from its start in one configuration: limits, singularities and collisions on every piece, proven or
+//! halved.
 
 use super::bodies::{Bodies, Look};
 use super::motion::Motion;
@@ -35,8 +36,8 @@ pub struct Followed {
     pub limit_margin: f64,
 }
 
-/// A joint may turn by this much on half a piece, rad: neighbouring samples then differ by less than a third of a turn, and whole
-/// turns cannot be confused.
+/// A joint may turn by this much on half a piece, rad: neighbouring samples then differ by less than a third of a turn,
+/// and whole turns cannot be confused.
 const MOST_TURN: f64 = 0.5;
 /// How near (as a share of the move) the first place where it fails is looked for.
 const LOCATED: f64 = 1.0 / 1024.0;
@@ -45,9 +46,10 @@ const FIRST_PIECE: [f64; 2] = [0.08, 0.3];
 
 /// Follows `motion` from the joint angles `start`, counting the questions to obstacles.
 ///
-/// On a piece of half width h around a sample, no joint is farther from the sample's angle than rate·h (`Arm::bounds_around`); limits
-/// hold on all of it if they hold with that room, and no link meets anything if its distance exceeds what these turns can move
-/// it (`Chain::displacement`). Otherwise the piece is halved. So what is found free is free between samples as well.
+/// On a piece of half width h around a sample, no joint is farther from the sample's angle than rate·h
+/// (`Arm::bounds_around`); limits hold on all of it if they hold with that room, and no link meets anything if its
+/// distance exceeds what these turns can move it (`Chain::displacement`). Otherwise the piece is halved. So what is
+/// found free is free between samples as well.
 ///
 /// No branch can change unseen: a joint turns at most 0.5 rad on half a piece, and margins keep singularities away.
 ///

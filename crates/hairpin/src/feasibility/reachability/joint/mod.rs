@@ -1,4 +1,5 @@
-//! Joint mode: moves of the whole arm, every link and the tool, followed in one configuration and proven between samples.
+//! Joint mode: moves of the whole arm, every link and the tool, followed in one configuration and proven between
+//! samples.
 //!
 //! Around a sample q(s₀) of a move and half width h:
 //!

@@ -78,8 +78,8 @@ pub struct Alternative {
     pub margin: f64,
 }
 
-/// Every ordered pair of `stations`: whether `arm` with `tool` can move from one to the other in `cell`, by what reason not, and what
-/// it costs. Both moves in joints between home and every point are checked as well.
+/// Every ordered pair of `stations`: whether `arm` with `tool` can move from one to the other in `cell`, by what reason
+/// not, and what it costs. Both moves in joints between home and every point are checked as well.
 ///
 /// n² moves followed, each from its start's posture; 2n more from home and back.
 pub fn joint(
@@ -159,8 +159,8 @@ fn arrives(end: &Joints, wanted: &Joints) -> Result<(), Refusal> {
     }
 }
 
-/// One set of joint angles a point: where its configuration is given, in that; else all in the branch in which most points can be
-/// met (of equals home's, then the least), on the turns nearest to home.
+/// One set of joint angles a point: where its configuration is given, in that; else all in the branch in which most
+/// points can be met (of equals home's, then the least), on the turns nearest to home.
 fn configurations(
     arm: &Arm,
     tool: &Tool,
@@ -241,8 +241,8 @@ impl Alternative {
 }
 
 impl JointGraph {
-    /// Among all configurations of the first point, the one in which the straight move `from` → `to` stays farthest inside the joints'
-    /// bounds, obstacles included; `None` if there is none.
+    /// Among all configurations of the first point, the one in which the straight move `from` → `to` stays farthest
+    /// inside the joints' bounds, obstacles included; `None` if there is none.
     pub fn alternative(
         arm: &Arm,
         tool: &Tool,

@@ -77,7 +77,8 @@ fn boxes() -> Cell {
     ])
 }
 
-/// Free moves are free at 2000 samples as well, with no joint beyond its bounds; of the refused ones, most have their reason there.
+/// Free moves are free at 2000 samples as well, with no joint beyond its bounds; of the refused ones, most have their
+/// reason there.
 #[test]
 fn free_moves_are_free_wherever_they_are_looked_at() {
     let (arm, tool) = (irb120(), grip());

@@ -1,4 +1,5 @@
-//! An oracle of its own: whether a segment between integer points meets a ball, box or half-space, in integers that cannot overflow.
+//! An oracle of its own: whether a segment between integer points meets a ball, box or half-space, in integers that
+//! cannot overflow.
 
 /// a·b as (high, low), for comparing products of 128-bit numbers.
 fn wide(a: u128, b: u128) -> (u128, u128) {
@@ -37,7 +38,8 @@ pub(super) fn meets_ball(a: &Place, b: &Place, centre: &Place, radius: i128) -> 
     along < 0 && dot(&v, &d) > 0 && at_most(dot(&u, &u) - rr, square, along, along)
 }
 
-/// Whether the segment meets the closed box between two corners: the fractions of t that every slab leaves, compared crosswise.
+/// Whether the segment meets the closed box between two corners: the fractions of t that every slab leaves, compared
+/// crosswise.
 pub(super) fn meets_box(a: &Place, b: &Place, low: &Place, high: &Place) -> bool {
     let (mut from, mut to) = ((0, 1), (1, 1));
     for k in 0..3 {

@@ -29,8 +29,8 @@ fn filtered(region: &Region, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> (
     (graph.is_free(0, 1), undecided)
 }
 
-/// A segment that passes a ball of integer radius closely, or exactly touches it: its ends lie on a line at the ball's own distance
-/// from the centre, plus a little.
+/// A segment that passes a ball of integer radius closely, or exactly touches it: its ends lie on a line at the ball's
+/// own distance from the centre, plus a little.
 fn near_tangent(random: &mut Stream, centre: &Place, radius: i128, most: i128) -> (Place, Place) {
     let axis = random.random_range(0..3);
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -43,7 +43,8 @@ fn near_tangent(random: &mut Stream, centre: &Place, radius: i128, most: i128) -
     (a, b)
 }
 
-/// A million segments, random and nearly touching: what is proven is never otherwise in exact arithmetic, and nearly all is proven.
+/// A million segments, random and nearly touching: what is proven is never otherwise in exact arithmetic, and nearly
+/// all is proven.
 #[test]
 fn proofs_never_contradict_exact_arithmetic() {
     let mut random = stream(named_seed(7, "segments", 0));

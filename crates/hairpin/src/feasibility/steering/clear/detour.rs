@@ -13,7 +13,8 @@ const LEGS: u32 = 1500;
 const PLACES: usize = 24;
 /// Poses around a circle, each in both directions.
 const AROUND: u32 = 8;
-/// How far from what must be kept the poses are: as little as is sure, and enough to bend in; m, and shares of the tightest radius.
+/// How far from what must be kept the poses are: as little as is sure, and enough to bend in; m, and shares of the
+/// tightest radius.
 const RINGS: [(f64, f64); 2] = [(0.02, 0.0), (0.02, 0.6)];
 
 /// A state under way, and the drive to it.
@@ -33,8 +34,8 @@ struct Beside {
     poses: Vec<[f64; 3]>,
 }
 
-/// A clear drive over poses beside what is in the way, `first` of all, and the legs that were looked for: best first by what is
-/// driven and the straight rest.
+/// A clear drive over poses beside what is in the way, `first` of all, and the legs that were looked for: best first by
+/// what is driven and the straight rest.
 pub(super) fn detour(
     query: &Query,
     bounds: &Curvatures,

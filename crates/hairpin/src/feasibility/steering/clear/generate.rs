@@ -13,9 +13,9 @@ const ASIDE: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
 
 /// [`shoot`](crate::feasibility::steering::shooting::generate) and where its drive comes too near to one of `hazards`.
 ///
-/// The default control with a constant direction of travel goes around them, as [`solve`] does. Other families that have parameters to
-/// spare ([`Problem::spare`]) are bent along the ways that it finds, kept at several distances, and along the words of Dubins, until one
-/// stays clear. Those without any answer with their one drive, which is checked.
+/// The default control with a constant direction of travel goes around them, as [`solve`] does. Other families that
+/// have parameters to spare ([`Problem::spare`]) are bent along the ways that it finds, kept at several distances, and
+/// along the words of Dubins, until one stays clear. Those without any answer with their one drive, which is checked.
 pub fn generate(
     problem: &Problem,
     control: Control,
@@ -91,7 +91,8 @@ fn guides(
     guides
 }
 
-/// The path that a body on `segments` takes whose direction of travel turns by `swing` along them: it bends as much more.
+/// The path that a body on `segments` takes whose direction of travel turns by `swing` along them: it bends as much
+/// more.
 fn travelled(segments: &SegmentList, swing: f64) -> SegmentList {
     let length: f64 = segments.iter().map(Segment::length_m).sum();
     let mut path = *segments;

@@ -31,14 +31,15 @@ pub struct Intrusion {
     pub after_m: f64,
 }
 
-/// Looks in a row are this far apart where something is near, m: an arc of 1 1/m leaves its chord by less than 0.1 mm there.
+/// Looks in a row are this far apart where something is near, m: an arc of 1 1/m leaves its chord by less than 0.1 mm
+/// there.
 const NEAR: f64 = 0.02;
 /// Longest step of the integration, m, and largest turn in one, rad.
 const STEP: f64 = 0.25;
 const TURN: f64 = 0.5;
 
-/// Radius of the circle about the body's origin that all wheels and the underside stay within, whichever way it turns, m; 0 for a
-/// vehicle that is a point.
+/// Radius of the circle about the body's origin that all wheels and the underside stay within, whichever way it turns,
+/// m; 0 for a vehicle that is a point.
 ///
 /// max of ‖(|x| + r, y)‖ over wheels of radius r and of the underside's farthest corner.
 pub fn footprint(rover: &Rover) -> f64 {
@@ -50,7 +51,8 @@ pub fn footprint(rover: &Rover) -> f64 {
 }
 
 impl Hazards<'_> {
-    /// How far a place given in the frame of the flat solver (x along the direction of travel at the start) is from being too near, m.
+    /// How far a place given in the frame of the flat solver (x along the direction of travel at the start) is from
+    /// being too near, m.
     pub fn room(&self, x: f64, y: f64) -> f64 {
         let [x, y] = self.in_map(x, y);
         self.keep_outs.distance(x, y) - self.radius
@@ -58,8 +60,8 @@ impl Hazards<'_> {
 
     /// Where `segments`, driven in the plane, come too near, at their worst; `None` if they stay clear.
     ///
-    /// A look that finds room d vouches for the next d metres; where d is small, chords do, widened by ½√(ℓ² − c²): no curve of
-    /// length ℓ leaves its chord of length c by more.
+    /// A look that finds room d vouches for the next d metres; where d is small, chords do, widened by ½√(ℓ² − c²): no
+    /// curve of length ℓ leaves its chord of length c by more.
     pub fn intrusion(&self, segments: &[Segment]) -> Option<Intrusion> {
         self.worst(segments, f64::INFINITY)
     }

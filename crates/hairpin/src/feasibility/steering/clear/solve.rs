@@ -17,8 +17,9 @@ pub struct Cleared {
 
 /// Solves `query` within `bounds` by a drive that stays clear of `hazards`.
 ///
-/// Tried in turn: what [`solve::solve`] answers; every single arc, turn–drive–turn and word of clothoids that `choices` allow, with
-/// circles of three sizes, shortest first; detours over poses beside what is in the way. `stop` is asked between them.
+/// Tried in turn: what [`solve::solve`] answers; every single arc, turn–drive–turn and word of clothoids that `choices`
+/// allow, with circles of three sizes, shortest first; detours over poses beside what is in the way. `stop` is asked
+/// between them.
 ///
 /// Complete in nothing: `intrusion` of the best is the evidence.
 pub fn solve(

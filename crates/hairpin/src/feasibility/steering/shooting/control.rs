@@ -21,7 +21,8 @@ pub enum Control {
     TimePolynomial,
     /// The natural cubic spline κ(s) through eight even knots, and L.
     Knots,
-    /// v(t) of second order, given by the speed profile, and ω(t): six coefficients beyond the common zeros of both, and L.
+    /// v(t) of second order, given by the speed profile, and ω(t): six coefficients beyond the common zeros of both,
+    /// and L.
     VelocityPolynomial,
 }
 

@@ -20,9 +20,10 @@ pub struct Generated {
 
 /// Solves `problem` within `bounds` by the controls of `control`.
 ///
-/// The default, the quintic with a constant direction of travel, is [`solve`] itself. Other controls answer in their own family or
-/// not at all: then the outcome is `NotConverged` and [`Solution::arc`] says what the family lacks. With `choices.reversals`
-/// they try both gears; they do not change gear on the way. `stop` is asked between descents, `observe` sees their steps.
+/// The default, the quintic with a constant direction of travel, is [`solve`] itself. Other controls answer in their
+/// own family or not at all: then the outcome is `NotConverged` and [`Solution::arc`] says what the family lacks. With
+/// `choices.reversals` they try both gears; they do not change gear on the way. `stop` is asked between descents,
+/// `observe` sees their steps.
 pub fn generate(
     problem: &Problem,
     control: Control,
@@ -70,7 +71,8 @@ pub fn generate(
     best.unwrap_or_else(|| plain(solve(&problem.query, bounds, choices, || true)))
 }
 
-/// [`generate`] in the gear of `choices` and in a family of its own, among what is in the way of its path; its guides are driven forward.
+/// [`generate`] in the gear of `choices` and in a family of its own, among what is in the way of its path; its guides
+/// are driven forward.
 pub fn generate_among(
     problem: &Problem,
     control: Control,

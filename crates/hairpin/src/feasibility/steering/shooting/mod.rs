@@ -1,7 +1,7 @@
 //! Boundary-value trajectories of ground vehicles: find controls whose motion ends where it was asked to.
 //!
-//! [`generate()`] is the one call: a [`families::Problem`] (query, speeds, direction of travel), a [`Control`], bounds and
-//! [`solve::Choices`]. On the ground, [`rough::solve()`] shapes with it and [`rough::predict()`] integrates.
+//! [`generate()`] is the one call: a [`families::Problem`] (query, speeds, direction of travel), a [`Control`], bounds
+//! and [`solve::Choices`]. On the ground, [`rough::solve()`] shapes with it and [`rough::predict()`] integrates.
 //!
 //! What T. Howard's user guide of the rover trajectory generator (2006) lets one set, and what became of it:
 //!

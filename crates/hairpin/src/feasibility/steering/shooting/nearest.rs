@@ -36,8 +36,9 @@ pub fn direct_arc(query: &Query, bounds: &Curvatures, choices: &Choices) -> Opti
     solved.then_some(answer.segments)
 }
 
-/// Moves the goal of `query`, which is not `reachable`, as little as it finds need to until it is: along sixteen directions by
-/// bisection, then around the best of them in ever smaller steps. `None` if nothing near is; a local search, not a proof.
+/// Moves the goal of `query`, which is not `reachable`, as little as it finds need to until it is: along sixteen
+/// directions by bisection, then around the best of them in ever smaller steps. `None` if nothing near is; a local
+/// search, not a proof.
 pub fn nearest(
     query: &Query,
     bounds: &Curvatures,

@@ -85,11 +85,11 @@ pub struct Solution {
 /// A smooth arc is worth this much more length than the shortest path that is known, or any that is thinkable.
 const PATIENCE: f64 = 1.25;
 
-/// Solves `query` within `bounds`: a single arc if it keeps them without a long way round; else, as allowed, turn, drive,
-/// turn, or the shortest path of continuous curvature.
+/// Solves `query` within `bounds`: a single arc if it keeps them without a long way round; else, as allowed, turn,
+/// drive, turn, or the shortest path of continuous curvature.
 ///
-/// A cost is lowered along the single arc that is chosen so; by how much it may grow for that, does not decide. `stop` is asked between the
-/// stages; stopped before the first, the answer is the single arc's start value.
+/// A cost is lowered along the single arc that is chosen so; by how much it may grow for that, does not decide. `stop`
+/// is asked between the stages; stopped before the first, the answer is the single arc's start value.
 ///
 /// Accepted is what the numbers handed out integrate to, not what the iteration believed.
 ///
@@ -217,7 +217,8 @@ fn mirrored(query: &Query, gear: Gear) -> Query {
     }
 }
 
-/// Clothoid to zero curvature, turn, straight, turn, clothoid from zero curvature; what there is no need of is left out.
+/// Clothoid to zero curvature, turn, straight, turn, clothoid from zero curvature; what there is no need of is left
+/// out.
 pub(in crate::feasibility::steering) fn turn_drive_turn(query: &Query, bounds: &Curvatures, gear: Gear) -> SegmentList {
     let sign = gear.sign();
     let rate = bounds.most_rate * (1.0 - 1e-12);

@@ -1,7 +1,7 @@
 //! Iterated local search: good paths soon, without proof.
 //!
-//! Chains of 2-opt moves (Lin & Kernighan 1973) where costs are symmetric, moves of short stretches (Or 1976) and of any
-//! stretch without turning it (Or-3opt) everywhere; points are put in, taken out and exchanged; kicks swap two
+//! Chains of 2-opt moves (Lin & Kernighan 1973) where costs are symmetric, moves of short stretches (Or 1976) and of
+//! any stretch without turning it (Or-3opt) everywhere; points are put in, taken out and exchanged; kicks swap two
 //! neighbouring stretches. Every move looks only at each point's candidates.
 //!
 //! Only points whose surroundings changed are looked at again. Missing arcs cost a penalty, so that a tour may pass
@@ -74,8 +74,9 @@ impl<'a> Local<'a> {
         local
     }
 
-    /// Ranks the candidates by c(i, j) − p(i) − p(j) with these potentials of the points and the dummy. Potentials move no
-    /// tour's rank where all points are in it, but close to the multipliers of the bound they show which arcs are out of place.
+    /// Ranks the candidates by c(i, j) − p(i) − p(j) with these potentials of the points and the dummy. Potentials move
+    /// no tour's rank where all points are in it, but close to the multipliers of the bound they show which arcs are
+    /// out of place.
     pub(super) fn rank(&mut self, potentials: &[i64]) {
         self.potentials.clear();
         self.potentials.extend_from_slice(potentials);

@@ -1,4 +1,5 @@
-//! Good paths of many points by simulated annealing over orders: what is turned, moved, exchanged, put in and left out is drawn.
+//! Good paths of many points by simulated annealing over orders: what is turned, moved, exchanged, put in and left out
+//! is drawn.
 //!
 //! S. Kirkpatrick, C. D. Gelatt, M. P. Vecchi, *Optimization by simulated annealing*, Science 220 (1983).
 //!
@@ -13,8 +14,8 @@ use rayon::prelude::*;
 use super::problem::Question;
 use crate::math::random::{Stream, named_seed, stream, unit};
 
-/// Chains that are annealed beside each other, by the temperatures that they begin at, as shares of the largest cost: the hot ones forget where they began, the
-/// others mend it.
+/// Chains that are annealed beside each other, by the temperatures that they begin at, as shares of the largest cost:
+/// the hot ones forget where they began, the others mend it.
 const CHAINS: [f64; 4] = [0.3, 0.1, 0.05, 0.05];
 /// The temperature at the end.
 const COLD: f64 = 2e-3;
@@ -22,8 +23,8 @@ const COLD: f64 = 2e-3;
 const STEPS: f64 = 20_000.0;
 /// Steps between two looks at the clock.
 const STEPS_A_LOOK: u64 = 256;
-/// The heaviest orders that are met when chains are annealed from `first`, the heaviest first, at most `count`: `first` is among them or worse than they
-/// are. `share` of the full number of steps is taken; `seed` is the round's own.
+/// The heaviest orders that are met when chains are annealed from `first`, the heaviest first, at most `count`: `first`
+/// is among them or worse than they are. `share` of the full number of steps is taken; `seed` is the round's own.
 pub(super) fn annealed(
     question: &Question,
     first: &[usize],

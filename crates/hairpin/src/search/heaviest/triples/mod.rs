@@ -1,7 +1,8 @@
 //! Moves that pass a point on their way: the heaviest path where a triple may stand for two arcs.
 //!
-//! A path p₁ … p_m is cut into arcs (p_k, p_{k+1}) and triples (p_k, p_{k+1}, p_{k+2}), each point on the way being one of the path's; no point comes twice.
-//! Of few points it is exact, by dynamic programming over subsets; of more it is annealed under a bound from walks with prices.
+//! A path p₁ … p_m is cut into arcs (p_k, p_{k+1}) and triples (p_k, p_{k+1}, p_{k+2}), each point on the way being one
+//! of the path's; no point comes twice. Of few points it is exact, by dynamic programming over subsets; of more it is
+//! annealed under a bound from walks with prices.
 //!
 //! For programs with arcs (MoveC): a triple passes its middle point, which then counts as met. Bounds for paths of
 //! pairs do not carry over, since a triple may cost more than its two arcs.

@@ -123,7 +123,8 @@ impl Triples {
         known.then(|| self.raw(from, via, to)).filter(|cost| *cost >= 0)
     }
 
-    /// The most that the points cost in this order, and the places in it of the points that are passed on the way; `None` where there is no way.
+    /// The most that the points cost in this order, and the places in it of the points that are passed on the way;
+    /// `None` where there is no way.
     ///
     /// best_k = max(best_{k−1} + c(p_{k−1}, p_k), best_{k−2} + t(p_{k−2}, p_{k−1}, p_k)); of equals the arc.
     ///
@@ -155,7 +156,8 @@ impl Triples {
         Some((cost, passed))
     }
 
-    /// What [`Self::best_on`] costs, where every arc that is missing costs −`fine` and makes the order one without a way.
+    /// What [`Self::best_on`] costs, where every arc that is missing costs −`fine` and makes the order one without a
+    /// way.
     pub(super) fn worth(&self, arcs: &Arcs, order: &[usize], fine: i64) -> Worth {
         let (mut before, mut last) = (Worth { value: IMPOSSIBLE, way: false }, Worth { value: 0, way: true });
         for k in 1..order.len() {

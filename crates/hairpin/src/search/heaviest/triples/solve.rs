@@ -12,16 +12,19 @@ use crate::search::heaviest::{Arcs, Heaviest, HeaviestMistake, HeaviestSettings,
 
 /// Up to so many points the heaviest path is searched exactly, if memory allows.
 pub const MOST_EXACT_POINTS: usize = 20;
-/// Annealing and prices take turns, each round twice as long as the one before: who stops them early has a path that was cooled down, and a bound.
+/// Annealing and prices take turns, each round twice as long as the one before: who stops them early has a path that
+/// was cooled down, and a bound.
 const ROUNDS: u32 = 5;
 /// Kicks of the local search that finds the path without triples from which annealing starts.
 const FIRST_KICKS: u64 = 200;
 
-/// The path of maximal total cost in which no point comes twice and triples may stand for two arcs each; points may be left out.
+/// The path of maximal total cost in which no point comes twice and triples may stand for two arcs each; points may be
+/// left out.
 ///
-/// Costs of the answer's paths are with the triples that add most ([`Triples::best_on`] says which), its paths pairwise different orders of points. Up to
-/// [`MOST_EXACT_POINTS`] points it is proven; of more, paths are the best that were met, and the bound holds for the heaviest. Of `settings` count
-/// ends, the least cost, how many paths, the seed, and the bytes a table may take.
+/// Costs of the answer's paths are with the triples that add most ([`Triples::best_on`] says which), its paths pairwise
+/// different orders of points. Up to [`MOST_EXACT_POINTS`] points it is proven; of more, paths are the best that were
+/// met, and the bound holds for the heaviest. Of `settings` count ends, the least cost, how many paths, the seed, and
+/// the bytes a table may take.
 ///
 /// # Errors
 /// Ends that are no points.
@@ -101,8 +104,8 @@ fn first_order(
     Ok(straight.or_else(|| few_moves(arcs, triples, settings)))
 }
 
-/// A path of few moves between the ends, by breadth-first search over arcs and triples; points keep the first way that came to them, so that there may be
-/// paths where it finds none.
+/// A path of few moves between the ends, by breadth-first search over arcs and triples; points keep the first way that
+/// came to them, so that there may be paths where it finds none.
 fn few_moves(arcs: &Arcs, triples: &Triples, settings: &HeaviestSettings) -> Option<Vec<usize>> {
     let (n, ends) = (arcs.points(), settings.ends);
     let mut ways: Vec<Option<Vec<usize>>> = vec![None; n];

@@ -59,8 +59,8 @@ impl<'a> Subsets<'a> {
         self.best[set * self.points + last]
     }
 
-    /// The heaviest `count` orders of points with what they cost, pairwise different, backwards being the same order where nothing tells directions apart;
-    /// and whether `stop` did not end it.
+    /// The heaviest `count` orders of points with what they cost, pairwise different, backwards being the same order
+    /// where nothing tells directions apart; and whether `stop` did not end it.
     ///
     /// Beginnings are looked at in the order of what they can come to, which the table knows exactly.
     pub(super) fn heaviest(&self, count: usize, stop: &(dyn Fn() -> bool + Sync)) -> (Vec<(i64, Vec<usize>)>, bool) {

@@ -10,7 +10,8 @@ fn below(bound: u64, random: &mut Stream) -> u64 {
     random.next_u64() % bound
 }
 
-/// A random question of up to `most` points: sparse to dense arcs and triples, directed or not, fixed ends or free ones.
+/// A random question of up to `most` points: sparse to dense arcs and triples, directed or not, fixed ends or free
+/// ones.
 fn question(seed: u64, most: u64) -> (Arcs, Triples, Ends) {
     let mut random = stream(seed);
     let n = 1 + below(most, &mut random) as usize;

@@ -1,8 +1,9 @@
 //! A bound for any number of points: walks that may come back, at a price for every point.
 //!
-//! With prices λ ≥ 0 every path costs at most Σλ plus the heaviest walk of at most n points, where each visit of a point i costs λ_i; a walk may come to a
-//! point several times, so that f(m, j) = max(max_i f(m−1, i) + c(i, j), max_{i, k} f(m−2, i) + t(i, k, j) − λ_k) − λ_j finds it. Prices go along the
-//! subgradient 1 − visits. After N. Christofides, A. Mingozzi, P. Toth, *State-space relaxation procedures for the computation of bounds to routing
+//! With prices λ ≥ 0 every path costs at most Σλ plus the heaviest walk of at most n points, where each visit of a
+//! point i costs λ_i; a walk may come to a point several times, so that f(m, j) = max(max_i f(m−1, i) + c(i, j),
+//! max_{i, k} f(m−2, i) + t(i, k, j) − λ_k) − λ_j finds it. Prices go along the subgradient 1 − visits. After N.
+//! Christofides, A. Mingozzi, P. Toth, *State-space relaxation procedures for the computation of bounds to routing
 //! problems*, Networks 11 (1981).
 //!
 //! One step costs n · (arcs + triples) additions; the number of steps is what [`WORK`] of them allow.

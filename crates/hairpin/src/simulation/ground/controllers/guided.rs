@@ -1,4 +1,5 @@
-//! The guide says where along the plan the vehicle is and how fast to go, and each controller of ours turns that into a curvature.
+//! The guide says where along the plan the vehicle is and how fast to go, and each controller of ours turns that into a
+//! curvature.
 
 use super::kind::GroundController;
 use super::predictive::Predictive;
@@ -41,8 +42,8 @@ pub(in crate::simulation::ground) enum Driver<'a> {
 }
 
 impl<'a> Driver<'a> {
-    /// For the vehicle as it was planned with; `latency` (s), which time stamps tell, is used where commands under way are
-    /// looked at.
+    /// For the vehicle as it was planned with; `latency` (s), which time stamps tell, is used where commands under way
+    /// are looked at.
     pub(in crate::simulation::ground) fn new(controller: &GroundController<'a>, nominal: &Rover, latency: f64) -> Self {
         match controller {
             GroundController::PurePursuit => Driver::PurePursuit(PurePursuit::new(nominal)),

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::trajectory::Direction;
 use crate::trajectory::drive::{Gear, Planar, SegmentList};
 
-/// Solves for the commands of one gear that lead the nominal vehicle, lags included but without latency, from a pose and
-/// curvature to another, both in the world, while its direction of travel turns evenly; `None`: no answer.
+/// Solves for the commands of one gear that lead the nominal vehicle, lags included but without latency, from a pose
+/// and curvature to another, both in the world, while its direction of travel turns evenly; `None`: no answer.
 pub type Resolve<'a> = dyn Fn(&Planar, &Planar, Gear, Direction) -> Option<SegmentList> + Sync + 'a;
 
 /// The controllers of ground vehicles.

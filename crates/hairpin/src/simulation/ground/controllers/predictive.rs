@@ -1,10 +1,11 @@
-//! Predictive tracking: the boundary-value problem is solved again and again, from where the vehicle will be when the answer
-//! acts to the planned path ahead.
+//! Predictive tracking: the boundary-value problem is solved again and again, from where the vehicle will be when the
+//! answer acts to the planned path ahead.
 //!
-//! The commands under way say where the vehicle will be after the latency. How much more the ground gives way than was planned is
-//! learnt from the way behind, in proportion to its slopes, by least squares that forget; the slopes ahead are the plan's.
-//! The goal handed to the solver lies against the drift that they will cause, and the vehicle goes crabwise along the path.
-//! Source: predictive trajectory tracking as the rover trajectory generator's papers have it (Howard & Kelly 2007).
+//! The commands under way say where the vehicle will be after the latency. How much more the ground gives way than was
+//! planned is learnt from the way behind, in proportion to its slopes, by least squares that forget; the slopes ahead
+//! are the plan's. The goal handed to the solver lies against the drift that they will cause, and the vehicle goes
+//! crabwise along the path. Source: predictive trajectory tracking as the rover trajectory generator's papers have it
+//! (Howard & Kelly 2007).
 
 use std::collections::VecDeque;
 
@@ -24,8 +25,8 @@ const TIME: f64 = 0.5;
 const CYCLE: f64 = 0.1;
 /// Way after which what was learnt is forgotten, in smallest turning radii.
 const MEMORY: f64 = 5.0;
-/// What is taken for granted before anything is learnt, that nothing more gives way: as firmly as after this way on a slope
-/// of 20°, m.
+/// What is taken for granted before anything is learnt, that nothing more gives way: as firmly as after this way on a
+/// slope of 20°, m.
 const PRIOR: f64 = 0.02;
 /// sin 20°, the slope to which slip is referred.
 const SIN_20: f64 = 0.342_020_143_325_668_7;

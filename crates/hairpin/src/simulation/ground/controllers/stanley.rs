@@ -1,8 +1,9 @@
 //! Stanley: the leading axle is steered along the path's tangent, and towards it the more the farther away it is.
 //!
-//! δ = (χ_path − χ) − atan(e / d), κ = tan(δ) / L − γ, with e the distance of the leading axle to the left of its path, χ the
-//! directions of travel, and d the way on which e is to decay; the path of the leading axle is that of the plan's own one,
-//! whose tangent is χ_plan + atan((κ_plan + γ) L), γ what the direction of travel turns by in the body per metre. In reverse the axle leads at the other end. Source: Thrun et al. 2006 (d = v / k).
+//! δ = (χ_path − χ) − atan(e / d), κ = tan(δ) / L − γ, with e the distance of the leading axle to the left of its path,
+//! χ the directions of travel, and d the way on which e is to decay; the path of the leading axle is that of the plan's
+//! own one, whose tangent is χ_plan + atan((κ_plan + γ) L), γ what the direction of travel turns by in the body per
+//! metre. In reverse the axle leads at the other end. Source: Thrun et al. 2006 (d = v / k).
 
 use std::f64::consts::FRAC_PI_2;
 

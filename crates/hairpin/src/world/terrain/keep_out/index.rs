@@ -70,7 +70,8 @@ impl Index {
         self.nodes[node].next = self.nodes.len();
     }
 
-    /// The shape with the least `distance` from somewhere within `reach` of `at`, and that distance; the first of equals.
+    /// The shape with the least `distance` from somewhere within `reach` of `at`, and that distance; the first of
+    /// equals.
     pub(super) fn least(&self, at: [f64; 2], reach: f64, distance: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let mut best: Option<(usize, f64)> = None;
         // Equals are asked as well, for the first of them.

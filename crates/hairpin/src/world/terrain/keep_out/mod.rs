@@ -58,8 +58,8 @@ impl KeepOuts {
     /// Checks `list`.
     ///
     /// # Errors
-    /// `keep_out[i].circle.center_m`, `.circle.radius_m`, `.polygon.points_m`: not finite or beyond 10⁷ m, no radius, fewer than
-    /// three points, no area.
+    /// `keep_out[i].circle.center_m`, `.circle.radius_m`, `.polygon.points_m`: not finite or beyond 10⁷ m, no radius,
+    /// fewer than three points, no area.
     pub fn new(list: Vec<KeepOut>) -> Result<Self, WorldError> {
         for (index, keep_out) in list.iter().enumerate() {
             keep_out.shape.check().map_err(|error| error.within(&format!("keep_out[{index}]")))?;
@@ -90,8 +90,8 @@ impl KeepOuts {
         self.least([x, y], 0.0, |shape| shape.distance(x, y))
     }
 
-    /// Smallest signed distance along the straight line from `from` to `to`, m; ≤ 0 if it meets one, +∞ without any. Where
-    /// a polygon is met the value is an upper bound (the deeper end's, or 0).
+    /// Smallest signed distance along the straight line from `from` to `to`, m; ≤ 0 if it meets one, +∞ without any.
+    /// Where a polygon is met the value is an upper bound (the deeper end's, or 0).
     pub fn segment_distance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         self.nearest_to_segment(from, to).map_or(f64::INFINITY, |nearest| nearest.distance)
     }

@@ -15,7 +15,8 @@ pub enum KeepOutShape {
         /// Radius, > 0.
         radius_m: f64,
     },
-    /// The inside of a closed polygon, either way round; where edges cross, what a ray leaves through an odd number of edges.
+    /// The inside of a closed polygon, either way round; where edges cross, what a ray leaves through an odd number of
+    /// edges.
     Polygon {
         /// Corners, at least three, the last joined to the first.
         points_m: Vec<[f64; 2]>,
@@ -47,7 +48,8 @@ impl KeepOutShape {
         }
     }
 
-    /// Smallest signed distance along a straight line, m; where a polygon is met, an upper bound: the deeper end's, or 0.
+    /// Smallest signed distance along a straight line, m; where a polygon is met, an upper bound: the deeper end's, or
+    /// 0.
     pub fn segment_distance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         match self {
             Self::Circle { center_m, radius_m } => square_to_line(*center_m, from, to).sqrt() - radius_m,

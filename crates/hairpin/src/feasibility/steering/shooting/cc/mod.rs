@@ -1,4 +1,5 @@
-//! Continuous-curvature steering on flat ground, in closed form: the reference for lengths, and an answer to every query.
+//! Continuous-curvature steering on flat ground, in closed form: the reference for lengths, and an answer to every
+//! query.
 //!
 //! Every query has an answer here, however long; the shortest of its words, not of all paths. What the iterative
 //! solvers find is held against it: 1.04 times its length in the median over far goals (docs/rover-generator.md).

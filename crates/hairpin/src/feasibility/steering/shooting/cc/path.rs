@@ -17,7 +17,8 @@ pub enum Gears {
     Both,
 }
 
-/// A path of continuous curvature: straights, arcs and clothoids. Curvature may jump at cusps, where the vehicle stands.
+/// A path of continuous curvature: straights, arcs and clothoids. Curvature may jump at cusps, where the vehicle
+/// stands.
 ///
 /// Cusps cost no length here and time elsewhere: the vehicle stands there.
 #[derive(Debug, Clone, Copy)]
@@ -137,8 +138,8 @@ fn straight_ahead(family: Family, from: &Anchor, to: &Anchor) -> Option<Plan> {
     Some(Plan { length: straight.length, turns: [None; 4], straight: Some(straight) })
 }
 
-/// The states that stand for a start (`along` = 1) or an end (`along` = −1): itself, where the circle can be reached from
-/// it, and those at zero curvature that a clothoid joins to it.
+/// The states that stand for a start (`along` = 1) or an end (`along` = −1): itself, where the circle can be reached
+/// from it, and those at zero curvature that a clothoid joins to it.
 fn anchors(pose: Pose, curvature: f64, circle: &Circle, family: Family, along: f64) -> [Option<Anchor>; 3] {
     if curvature == 0.0 {
         return [Some(Anchor { pose, curvature, lead: None }), None, None];

@@ -160,7 +160,8 @@ impl Circle {
         if entry.curvature == 0.0 && exit.curvature == 0.0 { 2.0 * self.least } else { entry.length + exit.length }
     }
 
-    /// Length (m) below which no turn between these ends changes the heading by `angle` (rad, modulo 2π): exact for arcs.
+    /// Length (m) below which no turn between these ends changes the heading by `angle` (rad, modulo 2π): exact for
+    /// arcs.
     pub(super) fn at_least(&self, way: Way, entry: &Lead, exit: &Lead, angle: f64) -> f64 {
         let towards = way.sense * way.gear;
         if entry.curvature == 0.0 && exit.curvature == 0.0 {
@@ -192,8 +193,8 @@ impl Circle {
         (Turn { way, entry, exit, body: Body::Arc(arc) }, length)
     }
 
-    /// Sharpness and half length of the elementary path of this deflection whose ends lie where this circle's turn of the
-    /// same deflection has them: chord 2 R sin(δ/2 + μ) = 2 √(π/q) (cos(δ/2) C(√(δ/π)) + sin(δ/2) S(√(δ/π))).
+    /// Sharpness and half length of the elementary path of this deflection whose ends lie where this circle's turn of
+    /// the same deflection has them: chord 2 R sin(δ/2 + μ) = 2 √(π/q) (cos(δ/2) C(√(δ/π)) + sin(δ/2) S(√(δ/π))).
     fn elementary(&self, deflection: f64) -> Option<(f64, f64)> {
         let (sin, cos) = libm::sincos(0.5 * deflection);
         let half_chord = self.aside * sin + self.ahead * cos;

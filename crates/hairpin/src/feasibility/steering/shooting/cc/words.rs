@@ -1,9 +1,9 @@
 //! The words of Reeds and Shepp, spelt with turns of continuous curvature.
 //!
 //! A turn ends where its circle's centre stands at a fixed place in the vehicle's frame (`Lead::center`), so two turns
-//! that meet at a heading θ have centres Rot(θ)·D apart, with D known, and a straight of length L adds (±L, 0) to it. Each
-//! word is then a triangle, or less, between the first and the last centre. At a cusp the vehicle stands: it may come
-//! there at zero curvature, or at full curvature and swing its wheels over.
+//! that meet at a heading θ have centres Rot(θ)·D apart, with D known, and a straight of length L adds (±L, 0) to it.
+//! Each word is then a triangle, or less, between the first and the last centre. At a cusp the vehicle stands: it may
+//! come there at zero curvature, or at full curvature and swing its wheels over.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -212,7 +212,8 @@ impl<'c> Finder<'c> {
         }
     }
 
-    /// C | C½π S C, C S C½π | C and C | C½π S C½π | C: after a quarter turn the step over the cusp lies along the straight.
+    /// C | C½π S C, C S C½π | C and C | C½π S C½π | C: after a quarter turn the step over the cusp lies along the
+    /// straight.
     fn quarter_turns(&mut self, between: Span, first: Way, last: Way, swing: bool) {
         if first.gear == last.gear {
             let second = Way { sense: -first.sense, gear: -first.gear };
@@ -247,8 +248,8 @@ impl<'c> Finder<'c> {
         }
     }
 
-    /// Ways with their leads; `swings[i]`: full curvature between the turns i and i + 1. `None` if the leads alone are too
-    /// long, before any triangle is solved.
+    /// Ways with their leads; `swings[i]`: full curvature between the turns i and i + 1. `None` if the leads alone are
+    /// too long, before any triangle is solved.
     fn word(&self, ways: &[Way], swings: &[bool]) -> Option<Word<'c>> {
         let last = ways.len() - 1;
         let (first_way, last_way) = (ways[0], ways[last]);

@@ -15,8 +15,8 @@ pub(super) enum Basis {
     Polynomial(usize),
     /// Natural cubic splines that are 1 at one of [`MOST`] even knots and 0 at the others.
     Knots,
-    /// `P_i(2u − 1)` over the speed, up to this order: the angular velocity is a polynomial, and the speed is this one. Common zeros at
-    /// the ends are left out of both.
+    /// `P_i(2u − 1)` over the speed, up to this order: the angular velocity is a polynomial, and the speed is this one.
+    /// Common zeros at the ends are left out of both.
     Ratio(usize, [f64; 3]),
 }
 

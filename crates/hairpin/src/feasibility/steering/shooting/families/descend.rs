@@ -1,12 +1,14 @@
-//! The shooting: parameters and length for which the drive ends in its goal, least in what exceeds a bound and in how much it bends.
+//! The shooting: parameters and length for which the drive ends in its goal, least in what exceeds a bound and in how
+//! much it bends.
 //!
 //! With unknowns z = (p, L), constraints c(z) = 0 (end position, turn, curvatures) and costs h(z), each step solves
 //! ```text
 //! [B  Jᵀ] [Δz]     [∇h]
 //! [J  −μ] [ y] = − [ c ]        B ≈ ∇²h + λ D
 //! ```
-//! (Gauss-Newton for h, the exact J by variation of the path): Newton's method where there are as many unknowns as constraints,
-//! else the step of least cost. λ rises until the merit ρ‖c‖ + h falls (Nocedal & Wright, Numerical optimization, ch. 18).
+//! (Gauss-Newton for h, the exact J by variation of the path): Newton's method where there are as many unknowns as
+//! constraints, else the step of least cost. λ rises until the merit ρ‖c‖ + h falls (Nocedal & Wright, Numerical
+//! optimization, ch. 18).
 
 use super::basis::{MOST, Row};
 use super::grid::{Grid, Node};
@@ -71,7 +73,8 @@ impl Fit {
 const ROOM: f64 = 0.997;
 /// What of them is left is kept between nodes, too.
 const ENOUGH: f64 = 0.9985;
-/// Weights of what exceeds the bounds, of κ′², and of a length other than at the start. The first grows if it does not help.
+/// Weights of what exceeds the bounds, of κ′², and of a length other than at the start. The first grows if it does not
+/// help.
 const STRICT: f64 = 1.0;
 const SMOOTH: f64 = 1e-4;
 const NEAR: f64 = 1e-4;
@@ -201,8 +204,8 @@ impl Squares {
 }
 
 impl Shot {
-    /// Adds half the cost f(L) ∫q² dσ: L for ∫κ² ds, 1/L for ∫κ′² ds; without one a little of both smoothness and the length at the
-    /// start. The last second derivative is as large as makes all of them a convex function's.
+    /// Adds half the cost f(L) ∫q² dσ: L for ∫κ² ds, 1/L for ∫κ′² ds; without one a little of both smoothness and the
+    /// length at the start. The last second derivative is as large as makes all of them a convex function's.
     fn charge(&mut self, task: &Task, squares: &Squares, length: f64, from: f64) {
         let last = UNKNOWNS - 1;
         let (factor, by_length, bent) = match task.cost {
@@ -289,7 +292,8 @@ pub(super) fn descend(
             iterations += 1;
             let mut moved = false;
             for attempt in 0..ATTEMPTS {
-                // A step along the goal's conditions that bends them more than it gains is tried again across them alone.
+                // A step along the goal's conditions that bends them more than it gains is tried again across them
+                // alone.
                 let aim = if attempt % 2 == 0 { Aim::Both } else { Aim::Goal };
                 let tried = step(grid, task, &shot, &free, damping, aim).and_then(|(step, multipliers)| {
                     let next = taken(grid, &free, &step, settings.step_scale)?;

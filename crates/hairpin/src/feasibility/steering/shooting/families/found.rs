@@ -30,8 +30,8 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// Whether it is worth more: good before not, then what stays clearer, then the cheaper or shorter; or what is nearer to goal and
-    /// bounds.
+    /// Whether it is worth more: good before not, then what stays clearer, then the cheaper or shorter; or what is
+    /// nearer to goal and bounds.
     pub(super) fn better(&self, other: &Self, lowering: Cost) -> bool {
         match (self.status == Status::Ok, other.status == Status::Ok) {
             (true, true) if self.depth != other.depth => self.depth < other.depth,

@@ -8,7 +8,8 @@ const POINTS: usize = 8;
 const PANEL: f64 = 1.0;
 const MOST_PANELS: f64 = 1024.0;
 
-/// x, y and change of heading of a forward drive that begins at the origin along x, its direction of travel turning evenly by `swing`.
+/// x, y and change of heading of a forward drive that begins at the origin along x, its direction of travel turning
+/// evenly by `swing`.
 pub(super) fn landing(segments: &[Segment], swing: f64) -> [f64; 3] {
     let total: f64 = segments.iter().map(Segment::length_m).sum();
     let rate = if total > 0.0 { swing / total } else { 0.0 };

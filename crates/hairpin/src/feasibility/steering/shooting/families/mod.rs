@@ -1,9 +1,11 @@
-//! Families of controls beside the flat solver's own: curvature by spline knots, as a polynomial of time, or as the ratio of two
-//! velocities that are polynomials of time; and each with a direction of travel that turns along the drive.
+//! Families of controls beside the flat solver's own: curvature by spline knots, as a polynomial of time, or as the
+//! ratio of two velocities that are polynomials of time; and each with a direction of travel that turns along the
+//! drive.
 //!
 //! All are linear in their parameters, κ(u) = Σ pᵢ Bᵢ(u), and differ in the functions Bᵢ and in what u measures; so one
-//! shooting solves them all (`descend`), from the flat solver's answer and from Dubins' words, whose turns say which ways around there
-//! are. What is answered are polynomials of arc length: exact where the family is of that kind, otherwise fitted.
+//! shooting solves them all (`descend`), from the flat solver's answer and from Dubins' words, whose turns say which
+//! ways around there are. What is answered are polynomials of arc length: exact where the family is of that kind,
+//! otherwise fitted.
 //!
 //! | family | u | Bᵢ(u) |
 //! | --- | --- | --- |

@@ -1,4 +1,5 @@
-//! Curvature as the commands have it: polynomials of arc length, exact where the family is of that kind, otherwise a chain of them.
+//! Curvature as the commands have it: polynomials of arc length, exact where the family is of that kind, otherwise a
+//! chain of them.
 
 use super::basis::{BENDS, Basis, MOST, Row};
 use super::clock::Clock;
@@ -13,7 +14,8 @@ const MOST_PIECES: usize = 28;
 const THROUGH: [f64; 6] =
     [0.0, 0.095_491_502_812_526_27, 0.345_491_502_812_526_3, 0.654_508_497_187_473_7, 0.904_508_497_187_473_7, 1.0];
 
-/// The drive of `parameters` (1/m) over `length` metres, driven forward, and the largest difference of its curvature, 1/m.
+/// The drive of `parameters` (1/m) over `length` metres, driven forward, and the largest difference of its curvature,
+/// 1/m.
 pub(super) fn segments(basis: &Basis, clock: &Clock, parameters: &Row, length: f64) -> (SegmentList, f64) {
     let mut list = SegmentList::EMPTY;
     match (basis, clock) {

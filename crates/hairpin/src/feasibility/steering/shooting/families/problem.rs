@@ -7,7 +7,8 @@ use crate::feasibility::steering::shooting::{Curvatures, Goal, Query};
 use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::SegmentList;
 
-/// A boundary-value problem with speed and direction of travel: a query in the frame that looks along the first direction of travel.
+/// A boundary-value problem with speed and direction of travel: a query in the frame that looks along the first
+/// direction of travel.
 ///
 /// The frame looks along the first direction of travel; a body that crabs stands turned in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,8 +24,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Parameters, the length among them, that a family has beyond the conditions of the problem: to go around places with, or to lower a
-    /// cost by.
+    /// Parameters, the length among them, that a family has beyond the conditions of the problem: to go around places
+    /// with, or to lower a cost by.
     pub fn spare(&self, control: Control) -> u32 {
         let ends = [self.speed.start(), self.speed.end()];
         let conditions = match control {
@@ -36,7 +37,8 @@ impl Problem {
         control.parameters().saturating_sub(conditions) as u32
     }
 
-    /// The path of travel's own question: it turns by the direction, too, and begins and ends with its share of the bend.
+    /// The path of travel's own question: it turns by the direction, too, and begins and ends with its share of the
+    /// bend.
     pub fn path(&self, bounds: &Curvatures) -> Query {
         let (Query { goal, start_curvature }, most) = (self.query, bounds.most);
         let bend = self.swing / libm::hypot(goal.x, goal.y).max(0.5 / most);
@@ -64,7 +66,8 @@ pub struct Answer {
     pub segments: SegmentList,
     /// The family's own parameters.
     pub parameters: Parameters,
-    /// Largest difference between the family's curvature and that of the commands, 1/m; 0 where they are the same function.
+    /// Largest difference between the family's curvature and that of the commands, 1/m; 0 where they are the same
+    /// function.
     pub fit_error: f64,
     /// Steps over all descents.
     pub iterations: u32,

@@ -31,13 +31,15 @@ const LONGEST: f64 = 1.5;
 /// Factors on the radius of Dubins' words as start values.
 const RADII: [f64; 4] = [1.0, 1.5, 2.5, 0.8];
 
-/// Drives forward from the origin to the goal of `problem` within `bounds`, the curvature being of the family `control`.
+/// Drives forward from the origin to the goal of `problem` within `bounds`, the curvature being of the family
+/// `control`.
 ///
 /// ```text
 /// x′ = cos(ψ + δ)   y′ = sin(ψ + δ)   ψ′ = κ   δ = swing · s/L   κ = Σ pᵢ Bᵢ   |κ| ≤ most   |κ′| ≤ most_rate
 /// ```
-/// Metres and radians. Mirrored problems have mirrored answers, to the bit. `stop` is asked before each descent; `observe` sees
-/// every step. The single arc and turns in place are not of these families: they are answered as the quintic.
+/// Metres and radians. Mirrored problems have mirrored answers, to the bit. `stop` is asked before each descent;
+/// `observe` sees every step. The single arc and turns in place are not of these families: they are answered as the
+/// quintic.
 pub fn solve(
     problem: &Problem,
     control: Control,
@@ -56,8 +58,8 @@ pub fn solve(
     search(problem, control, bounds, settings, &open, stop, observe)
 }
 
-/// The same among what is in the way: of the drives that meet goal and bounds the one that comes least deep into it, begun with the
-/// guides, too.
+/// The same among what is in the way: of the drives that meet goal and bounds the one that comes least deep into it,
+/// begun with the guides, too.
 pub fn solve_among(
     problem: &Problem,
     control: Control,
@@ -319,8 +321,8 @@ fn in_time(curvature: &[f64; 6], speed: f64) -> Row {
     std::array::from_fn(|k| curvature.get(k).map_or(0.0, |a| a * power(speed, k)))
 }
 
-/// The quadratic speed, m/s over the share of the time, that a profile stands for: with its ends, and of a trapezoid as much
-/// of its top as it comes to in the middle of its time.
+/// The quadratic speed, m/s over the share of the time, that a profile stands for: with its ends, and of a trapezoid as
+/// much of its top as it comes to in the middle of its time.
 fn speed_polynomial(speed: &SpeedProfile, length: f64) -> [f64; 3] {
     let (start, end) = (speed.start(), speed.end());
     let middle = match speed {

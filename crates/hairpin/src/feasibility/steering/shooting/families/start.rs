@@ -4,7 +4,8 @@ use super::basis::{MOST, Row};
 use super::grid::Grid;
 use crate::math::linear::solve;
 
-/// The parameters whose curvature is nearest to that of the curve: min ∫(Σ pᵢBᵢ − κ)² dσ, κ at the ends counting twice as much.
+/// The parameters whose curvature is nearest to that of the curve: min ∫(Σ pᵢBᵢ − κ)² dσ, κ at the ends counting twice
+/// as much.
 pub(super) fn nearest(grid: &Grid, curvature: &dyn Fn(f64) -> f64, ends: [Option<f64>; 2]) -> Row {
     // The equations, their right-hand sides in the last column.
     let mut rows = [[0.0; MOST + 1]; MOST];

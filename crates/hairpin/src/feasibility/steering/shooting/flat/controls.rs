@@ -54,7 +54,8 @@ pub fn turn_drive_turn(goal: &Goal) -> SegmentList {
     segments
 }
 
-/// The query of a vehicle that travels at `direction` (rad, left positive) to its body: the path to be driven along that direction.
+/// The query of a vehicle that travels at `direction` (rad, left positive) to its body: the path to be driven along
+/// that direction.
 ///
 /// The path's heading is the body's plus the direction all along, so only the goal's position turns, by −direction.
 pub fn crab(query: &Query, direction: f64) -> Query {

@@ -39,8 +39,8 @@ impl Word {
     }
 }
 
-/// The words that lead from the origin to (x, y, yaw), lengths in units of the radius, shortest first; those that do not are
-/// infinitely long.
+/// The words that lead from the origin to (x, y, yaw), lengths in units of the radius, shortest first; those that do
+/// not are infinitely long.
 pub(super) fn words(x: f64, y: f64, yaw: f64) -> [Word; 6] {
     // Centres of the circles to the left and right of the goal as seen from those of the start.
     let (sin, cos) = (libm::sin(yaw), libm::cos(yaw));

@@ -29,15 +29,15 @@ pub use start_table::StartTable;
 use super::query::{Curvatures, Goal, Query};
 use crate::trajectory::drive::SegmentList;
 
-/// Length of the shortest forward path to the goal of `query` whose curvature stays within ± `bounds.most` but may jump, m: no
-/// forward drive is shorter (Dubins 1957).
+/// Length of the shortest forward path to the goal of `query` whose curvature stays within ± `bounds.most` but may
+/// jump, m: no forward drive is shorter (Dubins 1957).
 pub fn least_length(query: &Query, bounds: &Curvatures) -> f64 {
     let Goal { x, y, yaw, .. } = query.goal;
     dubins::words(x * bounds.most, y * bounds.most, yaw)[0].length() / bounds.most
 }
 
-/// The shortest ways around, by Dubins: signs of the curvature ± `bounds.most` on three pieces, and their metres; those that do not
-/// exist are infinitely long.
+/// The shortest ways around, by Dubins: signs of the curvature ± `bounds.most` on three pieces, and their metres; those
+/// that do not exist are infinitely long.
 pub(super) fn ways(query: &Query, bounds: &Curvatures) -> [([f64; 3], [f64; 3]); 6] {
     let Goal { x, y, yaw, .. } = query.goal;
     dubins::words(x * bounds.most, y * bounds.most, yaw)
@@ -50,8 +50,8 @@ pub(super) fn ways(query: &Query, bounds: &Curvatures) -> [([f64; 3], [f64; 3]);
 /// x′ = cos θ   y′ = sin θ   θ′ = κ(s)   |κ| ≤ most   |κ′| ≤ most_rate
 /// ```
 /// from (0, 0, 0, κ₀) to (x, y, ψ modulo 2π, κ_f). Metres and radians. The answer holds one arc or the pieces of a
-/// chain, with continuous curvature; mirrored queries have mirrored answers, to the bit. It is `Ok` only if its own numbers meet
-/// the goal and keep both bounds (up to 10⁻⁹ of them).
+/// chain, with continuous curvature; mirrored queries have mirrored answers, to the bit. It is `Ok` only if its own
+/// numbers meet the goal and keep both bounds (up to 10⁻⁹ of them).
 pub fn forward(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {
     if mirror::leans_right(query) {
         return mirror::answer(solve(&mirror::query(query), bounds, settings));

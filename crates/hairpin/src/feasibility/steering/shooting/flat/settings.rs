@@ -45,7 +45,8 @@ impl Default for Settings {
 /// How curvature may depend on arc length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Control {
-    /// Constant. It reaches positions; heading and curvature are as they come, and a goal that asks for others is infeasible.
+    /// Constant. It reaches positions; heading and curvature are as they come, and a goal that asks for others is
+    /// infeasible.
     Arc,
     /// A polynomial of third order.
     Cubic,
@@ -54,7 +55,8 @@ pub enum Control {
     Quintic,
 }
 
-/// What a single arc minimises along itself, with its ends kept exactly. Chains of clothoids are as the descent leaves them.
+/// What a single arc minimises along itself, with its ends kept exactly. Chains of clothoids are as the descent leaves
+/// them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Cost {
     /// Nothing: a short curve that keeps the bounds.
@@ -71,7 +73,8 @@ pub enum Cost {
 pub struct Answer {
     /// Whether it does what was asked, and what it lacks otherwise.
     pub status: Status,
-    /// The controls: if `Ok`, the answer; if `Infeasible`, a drive to the goal that exceeds the limit least; otherwise what came nearest.
+    /// The controls: if `Ok`, the answer; if `Infeasible`, a drive to the goal that exceeds the limit least; otherwise
+    /// what came nearest.
     pub segments: SegmentList,
     /// Steps over all descents.
     pub iterations: u32,

@@ -1,8 +1,10 @@
-//! Start values by table: arcs to goals on a grid, computed once for a vehicle, as the rover generators of 2006 looked theirs up.
+//! Start values by table: arcs to goals on a grid, computed once for a vehicle, as the rover generators of 2006 looked
+//! theirs up.
 //!
-//! Lengths are in units of the tightest circle, so that one table serves all vehicles with the same most_rate/most²: what steering takes
-//! of that circle. Goals to the right are the mirror images of those to the left, so that half of the plane is enough. The ends' curvatures
-//! are zero in the table; of others the mean heading is taken care of. Where no arc keeps the bounds the entry says so.
+//! Lengths are in units of the tightest circle, so that one table serves all vehicles with the same most_rate/most²:
+//! what steering takes of that circle. Goals to the right are the mirror images of those to the left, so that half of
+//! the plane is enough. The ends' curvatures are zero in the table; of others the mean heading is taken care of. Where
+//! no arc keeps the bounds the entry says so.
 
 use thiserror::Error;
 
@@ -119,8 +121,8 @@ impl StartTable {
         &self.entries
     }
 
-    /// The start value for `query`, which leans to the left: between the eight arcs around its goal where they are of one kind, else the
-    /// nearest; `None` beyond the grid and where there is no arc.
+    /// The start value for `query`, which leans to the left: between the eight arcs around its goal where they are of
+    /// one kind, else the nearest; `None` beyond the grid and where there is no arc.
     pub(super) fn start(&self, query: &Query, bounds: &Curvatures) -> Option<(Ends, Free)> {
         let Goal { x, y, yaw, .. } = query.goal;
         let place = [(x * bounds.most + BEHIND) / APART, y * bounds.most / APART];

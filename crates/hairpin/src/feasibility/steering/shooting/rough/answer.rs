@@ -12,7 +12,8 @@ pub(super) const ENOUGH: f64 = 0.8;
 /// How long and how exactly to look.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Predictions for flat goals, at most; commands that are bent on from there take more, up to 16 for each of five starts.
+    /// Predictions for flat goals, at most; commands that are bent on from there take more, up to 16 for each of five
+    /// starts.
     pub iterations: u32,
     /// When a goal counts as met; the search aims at a fifth of it, so that a finer integration agrees.
     pub precision: Precision,

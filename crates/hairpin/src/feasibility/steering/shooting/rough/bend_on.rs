@@ -7,15 +7,15 @@ use crate::feasibility::steering::shooting::Query;
 use crate::trajectory::drive::{Motion, Planar, SegmentList};
 use crate::world::terrain::Terrain;
 
-/// Factors by which flat drives are made to bend less than the bounds allow before they are refined, in turn. The first bends
-/// more: it goes straight to goals for which the bounds leave but a loop, and is bent back into them.
+/// Factors by which flat drives are made to bend less than the bounds allow before they are refined, in turn. The first
+/// bends more: it goes straight to goals for which the bounds leave but a loop, and is bent back into them.
 const GENTLER: [f64; 6] = [0.85, 1.04, 1.12, 1.25, 1.5, 2.0];
-/// How far to the left the middles of drives are moved before they are refined where nothing else helped, in turn, m: around
-/// what the body finds no rest on.
+/// How far to the left the middles of drives are moved before they are refined where nothing else helped, in turn, m:
+/// around what the body finds no rest on.
 const ASIDE: [f64; 6] = [0.12, -0.12, 0.25, -0.25, 0.45, -0.45];
 
-/// Refines the best commands so far, then gentler ones, which leave room within the bounds, then some that pass to the side, until
-/// one meets the goal.
+/// Refines the best commands so far, then gentler ones, which leave room within the bounds, then some that pass to the
+/// side, until one meets the goal.
 pub(super) fn bend_commands<T: Terrain>(
     task: &Task<'_, '_, T>,
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
@@ -48,8 +48,8 @@ pub(super) fn bend_commands<T: Terrain>(
     ASIDE.into_iter().any(|aside| (task.over)() || attempt(plain, aside));
 }
 
-/// Flat controls for the true goal that bend less than the bounds allow by `factor`: those of a world smaller by as much,
-/// enlarged.
+/// Flat controls for the true goal that bend less than the bounds allow by `factor`: those of a world smaller by as
+/// much, enlarged.
 fn gentle<T>(
     task: &Task<'_, '_, T>,
     factor: f64,

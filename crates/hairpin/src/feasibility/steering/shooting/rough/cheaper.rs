@@ -1,16 +1,18 @@
-//! Makes commands that meet their goal cheaper along the motion they lead to, without letting go of the goal or the bounds.
+//! Makes commands that meet their goal cheaper along the motion they lead to, without letting go of the goal or the
+//! bounds.
 //!
-//! The drive is divided into pieces as for refinement: what is added to the curvature where they meet, and the stretch, are
-//! seventeen unknowns for four end conditions. Costs that the ground decides have a gradient g by one-sided differences of predictions;
-//! with T the end's derivatives a step goes along
+//! The drive is divided into pieces as for refinement: what is added to the curvature where they meet, and the stretch,
+//! are seventeen unknowns for four end conditions. Costs that the ground decides have a gradient g by one-sided
+//! differences of predictions; with T the end's derivatives a step goes along
 //!
 //! ```text
 //! d = −(M − MTᵀ(TMTᵀ)⁻¹TM) g     M⁻¹ = I + c DᵀD
 //! ```
-//! the steepest way down that leaves the end, to first order (the multipliers of Lagrange eliminated), in a metric that counts the
-//! differences D of neighbouring bends as well, so that steps are smooth and leave κ′ its room. ∫κ² and ∫κ′² are known exactly to second
-//! order (`model`): there a step minimises the quadratic along the bounds that it meets, as steepest descent would only creep. Refinement
-//! then brings the end back exactly, within the bounds. Only steps that lower the cost are kept.
+//! the steepest way down that leaves the end, to first order (the multipliers of Lagrange eliminated), in a metric that
+//! counts the differences D of neighbouring bends as well, so that steps are smooth and leave κ′ its room. ∫κ² and ∫κ′²
+//! are known exactly to second order (`model`): there a step minimises the quadratic along the bounds that it meets, as
+//! steepest descent would only creep. Refinement then brings the end back exactly, within the bounds. Only steps that
+//! lower the cost are kept.
 
 use nalgebra::SMatrix;
 
@@ -50,8 +52,8 @@ pub(super) struct Cheaper {
     pub(super) prediction: Prediction,
 }
 
-/// The cheapest commands found from `segments`, which must meet the goal; `None` if none are cheaper or they cannot be bent. Also the
-/// predictions made.
+/// The cheapest commands found from `segments`, which must meet the goal; `None` if none are cheaper or they cannot be
+/// bent. Also the predictions made.
 pub(super) fn cheaper<T: Terrain>(
     task: &Task<'_, '_, T>,
     segments: &SegmentList,

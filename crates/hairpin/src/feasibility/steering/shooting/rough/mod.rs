@@ -1,8 +1,8 @@
-//! The generator on real ground: motion predicted with suspension, slip and delay, and controls found whose motion ends at
-//! the goal.
+//! The generator on real ground: motion predicted with suspension, slip and delay, and controls found whose motion ends
+//! at the goal.
 //!
-//! The flat solver stays the one that shapes paths and keeps their bounds. What the ground changes is put into its goal:
-//! find the flat goal g so that the controls that reach g in the plane reach the true goal on the ground.
+//! The flat solver stays the one that shapes paths and keeps their bounds. What the ground changes is put into its
+//! goal: find the flat goal g so that the controls that reach g in the plane reach the true goal on the ground.
 //!
 //! ```text
 //! g ← g + B (goal − E(S(g)))       S the flat solver, E the predicted end, B ≈ (∂(E∘S)/∂g)⁻¹, first the identity

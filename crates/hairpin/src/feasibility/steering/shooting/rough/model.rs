@@ -59,8 +59,8 @@ impl Model {
         model
     }
 
-    /// Matrix and right side of the least squares for a step d that lowers the cost's share and leaves the end, `tangent` d = 0, with
-    /// `damping` of every unknown in its own units.
+    /// Matrix and right side of the least squares for a step d that lowers the cost's share and leaves the end,
+    /// `tangent` d = 0, with `damping` of every unknown in its own units.
     pub(super) fn damped(
         &self,
         damping: f64,

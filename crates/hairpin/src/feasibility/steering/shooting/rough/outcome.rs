@@ -14,8 +14,8 @@ pub struct Prediction {
     pub tilt: (f64, f64),
     /// Largest |rocker or bogie angle|, rad, and after how many metres.
     pub joint: (f64, f64),
-    /// Largest difference between roll or pitch as they were foreseen from the step before and as they were found, rad: small on
-    /// smooth ground, large where the body falls from one rest to another.
+    /// Largest difference between roll or pitch as they were foreseen from the step before and as they were found, rad:
+    /// small on smooth ground, large where the body falls from one rest to another.
     pub surprise: f64,
     /// Settled poses that were solved.
     pub steps: u32,

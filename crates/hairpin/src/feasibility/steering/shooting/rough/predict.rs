@@ -1,8 +1,9 @@
 //! Motion prediction: where commands take a rover on the ground.
 //!
-//! dx/ds = f(x, y, ψ; κ(s)) with roll and pitch from the suspension at (x, y, ψ). One settled pose a step: the rates are taken
-//! at the step's middle, whose pose is extrapolated from the step before; second order, as the midpoint rule. Exact kinematics need the
-//! gradient of the pose as well, which jumps at the borders of the map's cells: what it foresaw wrongly is made good at the next look.
+//! dx/ds = f(x, y, ψ; κ(s)) with roll and pitch from the suspension at (x, y, ψ). One settled pose a step: the rates
+//! are taken at the step's middle, whose pose is extrapolated from the step before; second order, as the midpoint rule.
+//! Exact kinematics need the gradient of the pose as well, which jumps at the borders of the map's cells: what it
+//! foresaw wrongly is made good at the next look.
 
 use super::course::Course;
 use super::outcome::{Blocked, Cause, Driven, Prediction};
@@ -15,15 +16,17 @@ use crate::world::terrain::Terrain;
 /// Pitch from which yaw rates lose their meaning, rad.
 const ON_END: f64 = 1.396;
 
-/// Difference of roll or pitch from what was foreseen from which the body falls, rad, and parts in which such a step is looked along.
+/// Difference of roll or pitch from what was foreseen from which the body falls, rad, and parts in which such a step is
+/// looked along.
 const FALL: f64 = 0.2;
 const PARTS: u32 = 30;
 
 /// Gaps from which Newton's last step is taken, m: what it leaves moves no end point by a tenth of a millimetre.
 const COARSE: f64 = 2e-3;
 
-/// Follows `segments` from `start`; `observe` sees every step's middle. Where the speeds come to rest, to change gear or to turn in
-/// place, the wheels swing to what comes before the vehicle goes on; at a constant speed they follow with their lag.
+/// Follows `segments` from `start`; `observe` sees every step's middle. Where the speeds come to rest, to change gear
+/// or to turn in place, the wheels swing to what comes before the vehicle goes on; at a constant speed they follow with
+/// their lag.
 ///
 /// Steps of 6 cm agree with steps of 2 mm within a millimetre (test). One settled pose a step, on the stack.
 ///
@@ -64,7 +67,8 @@ pub fn predict<T: Terrain>(
     predict_while(course, start, segments, all).map(|(prediction, _)| prediction)
 }
 
-/// [`predict`] for as long as `go_on` says, and whether that was to the end: what it did not see is not in the prediction.
+/// [`predict`] for as long as `go_on` says, and whether that was to the end: what it did not see is not in the
+/// prediction.
 ///
 /// # Errors
 /// As [`predict`].
@@ -214,8 +218,8 @@ impl Walk {
         Ok(true)
     }
 
-    /// Drives a step of `h` at the rates of its middle, the last look. What the body rose and pitched beyond what gradients foresaw since
-    /// the step before is made good with exact kinematics.
+    /// Drives a step of `h` at the rates of its middle, the last look. What the body rose and pitched beyond what
+    /// gradients foresaw since the step before is made good with exact kinematics.
     fn advance(&mut self, rover: &Rover, rates: &Rates, h: f64, yaw: f64) {
         let next = moved(&self.at, rates, h, self.at.yaw + 0.5 * h * rates.yaw);
         let over = self.gradient.over([next.x - self.at.x, next.y - self.at.y, next.yaw - self.at.yaw]);
@@ -226,7 +230,8 @@ impl Walk {
         self.at = made_good.map_or(next, |moves| moved(&next, &moves, 1.0, yaw));
     }
 
-    /// The steering's curvature after the `h` metres of `segment` from its `s` on, `begun` metres after the drive's beginning.
+    /// The steering's curvature after the `h` metres of `segment` from its `s` on, `begun` metres after the drive's
+    /// beginning.
     fn steered(&mut self, segment: &Segment, s: f64, begun: f64, h: f64) -> f64 {
         let time = self.timing.time_over(begun, h);
         // From rest a step takes long; at one speed all take the same.
@@ -280,7 +285,8 @@ impl Walk {
 }
 
 impl Walk {
-    /// The rest at `there`, come to in small parts of the way from the last look: a step may lead over a gap in which there is none.
+    /// The rest at `there`, come to in small parts of the way from the last look: a step may lead over a gap in which
+    /// there is none.
     fn fall<T: Terrain>(&self, course: &Course<'_, T>, there: &Planar) -> Result<(Settled, Gradient), Unsettled> {
         let from = &self.looked_at;
         let part = [there.x - from.x, there.y - from.y, there.yaw - from.yaw].map(|way| way / f64::from(PARTS));

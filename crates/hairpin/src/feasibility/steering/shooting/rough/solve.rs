@@ -1,12 +1,13 @@
 //! Finds the commands whose motion on the ground ends at the goal.
 //!
-//! Let S(g) be the flat solver's controls for the goal g and E(c) the predicted end of controls c. Sought is g with E(S(g)) = goal: four
-//! equations in (x, y, ψ, κ). On level ground g is the goal; slopes, slip and lag move the end by a fraction of the way, so the
-//! Jacobian starts as the identity and learns by Broyden's update (Broyden 1965), one prediction an iteration and none for
-//! derivatives. Bounds, reversals and turns in place are kept by the flat solver at every iteration.
+//! Let S(g) be the flat solver's controls for the goal g and E(c) the predicted end of controls c. Sought is g with
+//! E(S(g)) = goal: four equations in (x, y, ψ, κ). On level ground g is the goal; slopes, slip and lag move the end by
+//! a fraction of the way, so the Jacobian starts as the identity and learns by Broyden's update (Broyden 1965), one
+//! prediction an iteration and none for derivatives. Bounds, reversals and turns in place are kept by the flat solver
+//! at every iteration.
 //!
-//! S jumps: from an arc to a chain of clothoids, from a drive to one with a loop. A goal at a jump is met by no g; there the
-//! best commands so far are bent on by themselves, with the bounds.
+//! S jumps: from an arc to a chain of clothoids, from a drive to one with a loop. A goal at a jump is met by no g;
+//! there the best commands so far are bent on by themselves, with the bounds.
 
 use super::answer::{Answer, ENOUGH, Settings, Status};
 use super::bend_on::bend_commands;
@@ -27,8 +28,8 @@ use crate::world::terrain::Terrain;
 const AIM: f64 = 0.2;
 /// Steps in which commands are looked along again, as shares of the first ones', in turn.
 const FINER: [f64; 2] = [0.3, 0.1];
-/// What a prediction may be surprised by, rad, without being looked along again: a fifth of that is common on ground that is
-/// rough but not broken.
+/// What a prediction may be surprised by, rad, without being looked along again: a fifth of that is common on ground
+/// that is rough but not broken.
 const SMOOTH: f64 = 0.03;
 
 /// Commands from `start` whose motion on the ground ends at `goal`, shaped by `steer`, the flat solver.
@@ -89,8 +90,9 @@ pub fn solve_until<T: Terrain>(
     best.map_or(Answer::NONE, |best| Answer { iterations: predictions, ..best })
 }
 
-/// Finds commands, and where the body's way was not as smooth as foreseen looks along them again in finer steps: where a body falls
-/// from one rest to another, coarse ones may find another rest than the vehicle. Then the finer ones are believed.
+/// Finds commands, and where the body's way was not as smooth as foreseen looks along them again in finer steps: where
+/// a body falls from one rest to another, coarse ones may find another rest than the vehicle. Then the finer ones are
+/// believed.
 fn search<T: Terrain>(
     task: &Task<'_, '_, T>,
     settings: &Settings,

@@ -11,7 +11,8 @@ use crate::world::terrain::Terrain;
 pub enum Waiting {
     /// It is under way: it goes on forward as it was.
     GoesOn,
-    /// It stands before a drive that begins in reverse or with a turn in place, as it does at every change between them.
+    /// It stands before a drive that begins in reverse or with a turn in place, as it does at every change between
+    /// them.
     Stands,
 }
 
@@ -49,12 +50,12 @@ impl Waiting {
         }
     }
 
-    /// What of `segments` acts before their time is over.
-    pub fn acting<T>(self, course: &Course<'_, T>, segments: &[Segment]) -> Vec<Segment> {
+    /// What of `segments`, a solver's own, acts before their time is over.
+    pub fn acting<T>(self, course: &Course<'_, T>, segments: &SegmentList) -> SegmentList {
         let total: f64 = segments.iter().map(Segment::length_m).sum();
         let mut left = total - self.metres(course, course.speed.end());
-        let mut acting = Vec::with_capacity(segments.len());
-        for segment in segments {
+        let mut acting = SegmentList::EMPTY;
+        for segment in segments.iter() {
             let mut segment = *segment;
             if let Motion::Arc { length_m, .. } = &mut segment.motion {
                 if left <= 0.0 {
@@ -63,7 +64,7 @@ impl Waiting {
                 *length_m = length_m.min(left);
                 left -= *length_m;
             }
-            acting.push(segment);
+            acting.add(segment);
         }
         acting
     }

@@ -219,7 +219,8 @@ fn lengths_fall_with_the_rate_towards_those_of_dubins() {
 #[test]
 fn reeds_and_shepp_appear_where_clothoids_vanish() {
     let bounds = Curvatures { most: 1.0, most_rate: 1e8 };
-    // On the spot by 180° and 90° in three arcs: as many radians of arc. A U-turn within one radius: a half turn in all.
+    // On the spot by 180° and 90° in three arcs: as many radians of arc. A U-turn within one radius: a half turn in
+    // all.
     for (x, y, yaw, shortest) in
         [(0.0, 0.0, PI, PI), (0.0, 0.0, FRAC_PI_2, FRAC_PI_2), (-4.0, 0.0, 0.0, 4.0), (0.0, 2.0, PI, PI)]
     {

@@ -1,6 +1,8 @@
-//! Plain Reeds and Shepp curves by their 48 words, as an oracle: curvature may jump, so that none of continuous curvature is shorter.
+//! Plain Reeds and Shepp curves by their 48 words, as an oracle: curvature may jump, so that none of continuous
+//! curvature is shorter.
 //!
-//! J. A. Reeds and L. A. Shepp, Optimal paths for a car that goes both forwards and backwards, Pacific J. Math. 145 (1990).
+//! J. A. Reeds and L. A. Shepp, Optimal paths for a car that goes both forwards and backwards, Pacific J. Math. 145
+//! (1990).
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -48,8 +48,8 @@ const RETURNS: u32 = 4;
 /// ∫κ² alone would have curves grow without end: lengths stay below this multiple of the first.
 const LONGEST: f64 = 1.5;
 
-/// The cheapest arc found from `start`, which must meet its end within the tolerance and keep the bounds, as the answer does.
-/// Also the steps taken, `iterations` at most.
+/// The cheapest arc found from `start`, which must meet its end within the tolerance and keep the bounds, as the answer
+/// does. Also the steps taken, `iterations` at most.
 pub(in super::super) fn refine(task: &Task, ends: &Ends, start: Free, cost: Cost, iterations: u32) -> (Free, u32) {
     let Task { bounds, freedoms, simd, .. } = *task;
     let narrow = Curvatures { most: bounds.most * (1.0 - MARGIN), most_rate: bounds.most_rate * (1.0 - MARGIN) };

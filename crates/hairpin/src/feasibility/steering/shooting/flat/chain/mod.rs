@@ -83,7 +83,8 @@ impl Chain {
     }
 }
 
-/// Equal pieces, but on long paths no longer than it takes to resolve a full circle at either end, with the rest between.
+/// Equal pieces, but on long paths no longer than it takes to resolve a full circle at either end, with the rest
+/// between.
 fn shares(length: f64, radius: f64, ramp: f64) -> [f64; PIECES] {
     let fine = (std::f64::consts::TAU * radius + ramp) / (PIECES / 2 - 1) as f64;
     let even = 1.0 / PIECES as f64;

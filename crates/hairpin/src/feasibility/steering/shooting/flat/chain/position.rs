@@ -16,7 +16,8 @@ pub(super) struct End {
     pub(super) gradients: [[f64; 3]; PIECES],
 }
 
-/// θ within piece i at share τ: θᵢ + hᵢ (κᵢ τ + (κᵢ₊₁ − κᵢ) τ²/2); positions by Gauss–Legendre quadrature, one lane a piece.
+/// θ within piece i at share τ: θᵢ + hᵢ (κᵢ τ + (κᵢ₊₁ − κᵢ) τ²/2); positions by Gauss–Legendre quadrature, one lane a
+/// piece.
 pub(super) fn end(simd: Simd, chain: &Chain) -> End {
     let mut out = End { values: [0.0; 3], gradients: [[0.0; 3]; PIECES] };
     integrate(simd, chain, &mut out);
@@ -65,7 +66,8 @@ kernel! {
         }
         let (x, y) = (total(&cos[0]), total(&sin[0]));
         let mut gradients = [[0.0; 3]; PIECES];
-        // dθ/dκ_m: hτ²/2 in the piece before the knot, then its ½h + h(τ − τ²/2) in the one after, then ½ of both lengths.
+        // dθ/dκ_m: hτ²/2 in the piece before the knot, then its ½h + h(τ − τ²/2) in the one after, then ½ of both
+        // lengths.
         let (mut later_cos, mut later_sin) = (0.0, 0.0);
         for m in (1..PIECES).rev() {
             let (before, after) = (length[m - 1], length[m]);

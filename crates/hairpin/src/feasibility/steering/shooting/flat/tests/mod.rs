@@ -19,7 +19,8 @@ pub(super) fn draw(seed: u64, name: u64, from: f64, to: f64) -> f64 {
     from + (to - from) * hashed_unit(seed, &[name])
 }
 
-/// x, y, heading at the end of a curve of `length` with curvature κ(s), driven at `direction` to the heading: Simpson's rule.
+/// x, y, heading at the end of a curve of `length` with curvature κ(s), driven at `direction` to the heading: Simpson's
+/// rule.
 pub(super) fn integrate(length: f64, direction: f64, curvature: impl Fn(f64) -> f64) -> [f64; 3] {
     let steps = 4000;
     let h = length / f64::from(steps);

@@ -1,16 +1,16 @@
 //! Bends given commands until their motion on the ground ends at the goal.
 //!
-//! The flat solver's answers jump from one way around to another; this continues a single one. The drive is divided into
-//! pieces; unknown are what is added to the curvature where they meet and at the end, linear between (nothing at the
-//! start), and ε, by which all is stretched. That is more than four equations need; the rest keeps the bounds. The equations'
-//! derivatives are those of the plane along the way just predicted,
+//! The flat solver's answers jump from one way around to another; this continues a single one. The drive is divided
+//! into pieces; unknown are what is added to the curvature where they meet and at the end, linear between (nothing at
+//! the start), and ε, by which all is stretched. That is more than four equations need; the rest keeps the bounds. The
+//! equations' derivatives are those of the plane along the way just predicted,
 //!
 //! ```text
 //! δψ = ∫δκ ds   δ(x, y) = ∫ (y(s) − y_end, x_end − x(s)) δκ ds
 //! ```
 //!
-//! so an iteration costs one prediction. What slopes, slip and lag make of it is learned by Broyden's update (Broyden 1965)
-//! of a matrix in front of them.
+//! so an iteration costs one prediction. What slopes, slip and lag make of it is learned by Broyden's update (Broyden
+//! 1965) of a matrix in front of them.
 
 mod pieces;
 mod sweep;
@@ -70,8 +70,8 @@ pub(super) struct Refined {
     pub(super) residual: f64,
 }
 
-/// Commands near `segments` that keep the bounds and end nearer to the goal, and the predictions made; begun with their middle
-/// moved by about `aside` m to the left.
+/// Commands near `segments` that keep the bounds and end nearer to the goal, and the predictions made; begun with their
+/// middle moved by about `aside` m to the left.
 ///
 /// `None` where none was found that keep the bounds, and for drives with reversals, turns in place or too many pieces.
 pub(super) fn refine<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList, aside: f64) -> (Option<Refined>, u32) {
@@ -119,14 +119,16 @@ pub(super) fn refine<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList,
     (found, predictions)
 }
 
-/// How the end of the motion of `segments` moves with a change of them, suspension and slip included; `None` where they do not pass.
+/// How the end of the motion of `segments` moves with a change of them, suspension and slip included; `None` where they
+/// do not pass.
 pub(super) fn tangent<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList) -> Option<Tangent> {
     let mut variation = Variation::new(task.course, segments);
     predict(task.course, task.from, segments, |driven| variation.add(driven)).ok()?;
     Some(variation.tangent())
 }
 
-/// A change that moves the middle of a drive by about `aside` m: y = aside (1 − cos 2πs/L)/2 has y″ = ½ aside (2π/L)² cos 2πs/L.
+/// A change that moves the middle of a drive by about `aside` m: y = aside (1 − cos 2πs/L)/2 has y″ = ½ aside (2π/L)²
+/// cos 2πs/L.
 fn swing(segments: &SegmentList, aside: f64) -> Change {
     let length: f64 = segments.iter().map(Segment::length_m).sum();
     let turns = TAU / length.max(f64::MIN_POSITIVE);

@@ -6,8 +6,8 @@
 //! δ′ = (∂f/∂(x, y, ψ) + ∂f/∂φ ∇φ + ∂f/∂θ ∇θ) δ + ∂f/∂κ δκ
 //! ```
 //!
-//! integrated by the midpoint rule in the prediction's own steps. The rates are the source's, for exact kinematics as well: what those
-//! add to derivatives would be second derivatives of the pose.
+//! integrated by the midpoint rule in the prediction's own steps. The rates are the source's, for exact kinematics as
+//! well: what those add to derivatives would be second derivatives of the pose.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
