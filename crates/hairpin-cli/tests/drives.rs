@@ -54,6 +54,12 @@ fn a_rovers_campaign_is_driven_judged_proven_and_driven_again() {
     assert_eq!(strict["exit_code"], 1, "{strict}");
     let again = json(at, &["replay", "a/repro/0000.json"]);
     assert_eq!((&again["exit_code"], &again["reproduces"]), (&Value::from(1), &Value::from(true)), "{again}");
+    // More segments than a leg of ours can have, as an edited file may: refused, with the place and the bound.
+    let mut long: Value = serde_json::from_slice(&fs::read(at.join("a/repro/0000.json")).unwrap()).unwrap();
+    let segments = long["drive"]["legs"][1]["segments"].as_array_mut().unwrap();
+    segments.resize(41, segments[0].clone());
+    fs::write(at.join("long.json"), long.to_string()).unwrap();
+    refused(at, &["replay", "long.json"], &["long.json", "drive.legs[1] has 41 segments", "40 at most"]);
     let (code, out, _) = run(at, &["export", "a", "--to", "waypoints,csv,tum"]);
     assert_eq!(code, 0, "{out}");
     assert_eq!(fs::read_to_string(at.join("a/missions/0000.csv")).unwrap().lines().count(), 5);

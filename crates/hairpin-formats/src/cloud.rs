@@ -7,6 +7,8 @@ use hairpin::trajectory::program::{NO_EXTERNAL, PoseTarget};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
 
+use crate::delimited::{Cut, Row, Table};
+
 /// A point of a cloud.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CloudPoint {
@@ -134,10 +136,8 @@ const COLUMNS: [&str; 11] = ["x_mm", "y_mm", "z_mm", "q1", "q2", "q3", "q4", "cf
 /// # Errors
 /// The first thing wrong, with its line. Sizes are asked about by [`check_extent`].
 pub fn parse(text: &str) -> Result<Vec<CloudPoint>, CloudError> {
-    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate();
-    let header = lines.next().map_or("", |(_, line)| line);
-    let names = cells(header);
-    let place = |column: &str| names.iter().position(|name| *name == column);
+    let Table { header, names, rows } = Table::of(text, Cut::COMMAS);
+    let place = |column: &str| names.place(column);
     let refuse = |column| CloudError::Header { column, header: header.into() };
     let mut places = [None; COLUMNS.len()];
     for (index, column) in COLUMNS.into_iter().enumerate() {
@@ -156,13 +156,11 @@ pub fn parse(text: &str) -> Result<Vec<CloudPoint>, CloudError> {
         }
     }
     let mut points = Points::default();
-    for (index, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
-        let (line, row) = (index + 1, cells(line));
+    for row in rows {
         if row.len() != names.len() {
-            return Err(CloudError::Width { line, found: row.len(), expected: names.len() });
+            return Err(CloudError::Width { line: row.line, found: row.len(), expected: names.len() });
         }
-        let row = Row { line, cells: row, places: &places };
-        points.push(row.point()?)?;
+        points.push(PointRow { line: row.line, row, places: &places }.point()?)?;
     }
     points.done()
 }
@@ -222,10 +220,6 @@ impl CloudPoint {
     }
 }
 
-fn cells(line: &str) -> Vec<&str> {
-    line.split(',').map(|cell| cell.trim().trim_matches('"')).collect()
-}
-
 /// Points so far, each pose once.
 #[derive(Default)]
 struct Points {
@@ -253,13 +247,13 @@ impl Points {
     }
 }
 
-struct Row<'a> {
+struct PointRow<'a> {
     line: usize,
-    cells: Vec<&'a str>,
+    row: Row,
     places: &'a [Option<usize>; COLUMNS.len()],
 }
 
-impl Row<'_> {
+impl PointRow<'_> {
     fn point(&self) -> Result<CloudPoint, CloudError> {
         let mut position = Point3::origin();
         for axis in 0..3 {
@@ -306,7 +300,7 @@ impl Row<'_> {
     }
 
     fn text(&self, column: usize) -> &str {
-        self.places[column].map_or("", |place| self.cells[place])
+        self.places[column].map_or("", |place| self.row.cell(place))
     }
 
     fn says_nothing(&self, columns: std::ops::Range<usize>) -> bool {

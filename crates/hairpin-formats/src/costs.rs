@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::delimited::{Cut, Row, Rows};
+
 /// More digits behind the point leave no room in front of it.
 const MOST_DECIMALS: usize = 18;
 
@@ -195,10 +197,15 @@ impl<'t> Decimal<'t> {
 }
 
 fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
-    let lines: Vec<&str> = text.trim_start_matches('\u{feff}').trim_end().lines().collect();
-    let points = lines.len();
+    let rows: Vec<Row> = Rows::of(text, Cut::COMMAS).collect();
+    // Blank lines count but at the end.
+    let points = rows.last().map_or(0, |last| last.line);
     if points == 0 {
         return Err(CostsError::Empty { path: path.into() });
+    }
+    let width = |line: usize, found: usize| CostsError::Width { path: path.into(), line, found, expected: points };
+    if let Some(line) = (1..).zip(&rows).find_map(|(line, row)| (row.line != line).then_some(line)) {
+        return Err(width(line, 1));
     }
     let wrong = |row: usize, column: usize, value: &str| CostsError::Value {
         path: path.into(),
@@ -207,13 +214,11 @@ fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
         value: value.into(),
     };
     let mut numbers = Vec::new();
-    for (row, line) in lines.iter().enumerate() {
-        let cells: Vec<&str> = line.split(',').map(|cell| cell.trim().trim_matches('"').trim()).collect();
+    for (row, cells) in rows.iter().enumerate() {
         if cells.len() != points {
-            let found = cells.len();
-            return Err(CostsError::Width { path: path.into(), line: row + 1, found, expected: points });
+            return Err(width(row + 1, cells.len()));
         }
-        for (column, cell) in cells.into_iter().enumerate() {
+        for (column, cell) in cells.cells().enumerate() {
             if !cell.is_empty() {
                 let number = Decimal::parse(cell).ok_or_else(|| wrong(row, column, cell))?;
                 if row != column {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup, Witness, vary};
 use hairpin::trajectory::Drive;
+use hairpin::trajectory::drive::MOST_SEGMENTS;
 use hairpin::trajectory::{Profile, ProfileLeg};
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
@@ -184,6 +185,10 @@ impl Repro {
         if let Some(drive) = &self.drive {
             if drive.legs.len() != legs {
                 return Err(format!("drive: must have {legs} legs"));
+            }
+            if let Some(leg) = drive.legs.iter().position(|leg| leg.segments.len() > MOST_SEGMENTS) {
+                let segments = drive.legs[leg].segments.len();
+                return Err(format!("drive.legs[{leg}] has {segments} segments: must be {MOST_SEGMENTS} at most"));
             }
             for (key, value) in [("speed", drive.speed), ("turn_rate", drive.turn_rate)] {
                 if !(value > 0.0 && value <= 100.0) {

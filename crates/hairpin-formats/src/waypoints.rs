@@ -9,6 +9,7 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
+use crate::delimited::{Cut, Table};
 use crate::geodetic;
 
 const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
@@ -174,23 +175,21 @@ pub fn read(path: &Path) -> Result<Vec<Point3<f64>>, WaypointsError> {
 }
 
 fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
-    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate();
-    let header = lines.next().map_or("", |(_, line)| line);
-    let names: Vec<&str> = cells(header);
+    let Table { header, names, rows } = Table::of(text, Cut::COMMAS);
     let mut places = [0; 3];
     for (place, column) in places.iter_mut().zip(COLUMNS) {
-        let found = names.iter().position(|name| *name == column);
+        let found = names.place(column);
         *place = found.ok_or_else(|| WaypointsError::Header { path: path.into(), column, header: header.into() })?;
     }
     let mut waypoints: Vec<Point3<f64>> = Vec::new();
-    for (index, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
-        let (line, row) = (index + 1, cells(line));
+    for row in rows {
+        let line = row.line;
         if row.len() != names.len() {
             return Err(WaypointsError::Width { path: path.into(), line, found: row.len(), expected: names.len() });
         }
         let mut point = Point3::origin();
         for (axis, place) in places.into_iter().enumerate() {
-            let value = row[place];
+            let value = row.cell(place);
             let number = value.parse::<f64>().ok().filter(|number| number.abs() <= FARTHEST_M);
             point[axis] = number.ok_or_else(|| WaypointsError::Value {
                 path: path.into(),
@@ -211,8 +210,4 @@ fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
         return Err(WaypointsError::TooFew { path: path.into(), found: waypoints.len() });
     }
     Ok(waypoints)
-}
-
-fn cells(line: &str) -> Vec<&str> {
-    line.split(',').map(|cell| cell.trim().trim_matches('"')).collect()
 }

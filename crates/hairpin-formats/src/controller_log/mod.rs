@@ -10,6 +10,8 @@ use hairpin::trajectory::{Channel, Track, TrackError};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use thiserror::Error;
 
+use crate::delimited::{Cut, Row as Cells, Table};
+
 /// Farther from the base no arm's tool is, m.
 const FARTHEST_M: f64 = 100.0;
 /// More than a hundred turns is another unit, rad.
@@ -120,7 +122,8 @@ struct Layout {
     joints: Option<[Column; AXES]>,
     order: Option<Column>,
     width: usize,
-    separator: char,
+    /// Whether a comma is a decimal point.
+    comma: bool,
 }
 
 const SECONDS: &[(&str, f64)] = &[("_s", 1.0), ("_ms", 1e-3), ("_us", 1e-6), ("_ns", 1e-9)];
@@ -150,9 +153,11 @@ pub fn read(path: &Path, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<Control
 }
 
 fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<ControllerLog, ControllerLogError> {
-    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate();
-    let header = lines.next().map_or("", |(_, line)| line);
-    let layout = Layout::of(header, arm.is_some()).map_err(|what| ControllerLogError::Header {
+    // Where cells are separated by semicolons or tabs a comma is a decimal point.
+    let first = text.lines().next().unwrap_or_default();
+    let delimiter = [b';', b'\t'].into_iter().find(|separator| first.as_bytes().contains(separator)).unwrap_or(b',');
+    let Table { header, names, rows: lines } = Table::of(text, Cut { delimiter, ..Cut::COMMAS });
+    let layout = Layout::of(&names, delimiter != b',', arm.is_some()).map_err(|what| ControllerLogError::Header {
         path: path.into(),
         what,
         header: header.into(),
@@ -160,9 +165,9 @@ fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Resul
     let mut rows =
         Rows { path, layout: &layout, times: Vec::new(), poses: Vec::new(), joints: Vec::new(), moves: Vec::new() };
     let mut last_line = 1;
-    for (index, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
-        last_line = index + 1;
-        rows.push(last_line, line, arm)?;
+    for cells in lines {
+        last_line = cells.line;
+        rows.push(&cells, arm)?;
     }
     let Rows { times, poses, joints, moves, .. } = rows;
     if times.len() < 2 {
@@ -186,10 +191,8 @@ fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Resul
 }
 
 impl Layout {
-    fn of(header: &str, arm: bool) -> Result<Self, String> {
-        let separator = [';', '\t'].into_iter().find(|separator| header.contains(*separator)).unwrap_or(',');
-        let names: Vec<String> =
-            header.split(separator).map(|name| name.trim().trim_matches('"').to_ascii_lowercase()).collect();
+    fn of(names: &Cells, comma: bool, arm: bool) -> Result<Self, String> {
+        let names: Vec<String> = names.cells().map(str::to_ascii_lowercase).collect();
         for (index, name) in names.iter().enumerate() {
             if !name.is_empty() && names[..index].contains(name) {
                 return Err(format!("column `{name}` twice"));
@@ -237,7 +240,7 @@ impl Layout {
             (None, Some(_)) => return Err("joints without positions need an arm".into()),
             (None, None) => return Err("no `x_m`, `y_m`, `z_m` (or `_mm`), and no six joints such as `q1_deg`".into()),
         }
-        Ok(Self { time, position, turn, joints, order: exactly("move", 1.0), width: names.len(), separator })
+        Ok(Self { time, position, turn, joints, order: exactly("move", 1.0), width: names.len(), comma })
     }
 }
 
@@ -263,23 +266,17 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn push(
-        &mut self,
-        line: usize,
-        text: &str,
-        arm: Option<(&Arm, &Isometry3<f64>)>,
-    ) -> Result<(), ControllerLogError> {
+    fn push(&mut self, cells: &Cells, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<(), ControllerLogError> {
         let layout = self.layout;
-        let cells: Vec<&str> = text.split(layout.separator).map(|cell| cell.trim().trim_matches('"')).collect();
         if cells.len() != layout.width {
             return Err(ControllerLogError::Width {
                 path: self.path.into(),
-                line,
+                line: cells.line,
                 found: cells.len(),
                 expected: layout.width,
             });
         }
-        let row = Row { path: self.path, line, cells: &cells, comma: layout.separator != ',' };
+        let row = Row { path: self.path, cells, comma: layout.comma };
         let time = row.number(&layout.time, f64::INFINITY, "finite")?;
         if let Some(before) = self.times.last()
             && time <= *before
@@ -314,8 +311,7 @@ impl Rows<'_> {
 
 struct Row<'a> {
     path: &'a Path,
-    line: usize,
-    cells: &'a [&'a str],
+    cells: &'a Cells,
     /// Whether a comma is a decimal point.
     comma: bool,
 }
@@ -324,15 +320,15 @@ impl Row<'_> {
     fn error(&self, column: &Column, bound: String) -> ControllerLogError {
         ControllerLogError::Value {
             path: self.path.into(),
-            line: self.line,
+            line: self.cells.line,
             column: column.name.clone(),
-            value: self.cells[column.index].into(),
+            value: self.cells.cell(column.index).into(),
             bound,
         }
     }
 
     fn number(&self, column: &Column, most: f64, bound: &str) -> Result<f64, ControllerLogError> {
-        let cell = self.cells[column.index];
+        let cell = self.cells.cell(column.index);
         let parsed = if self.comma && !cell.contains('.') { cell.replacen(',', ".", 1).parse() } else { cell.parse() };
         let number = parsed.ok().map(|number: f64| number * column.scale);
         let number = number.filter(|number| number.is_finite() && number.abs() <= most);

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow::array::{Float64Array, Int64Array, StringArray};
-use hairpin::trajectory::drive::{Gear, Motion, Planar, Segment};
+use hairpin::trajectory::drive::{Gear, MOST_SEGMENTS, Motion, Planar, Segment};
 use hairpin::trajectory::{Direction, Drive, DriveLeg, SpeedProfile};
 
 use super::table::{Columns, Table, TableError};
@@ -183,6 +183,9 @@ pub fn read(path: &Path) -> Result<Drive, TableError> {
             TURN => Motion::Turn { angle_rad: turns[row] },
             other => return Err(table.refuse("kind", row, format!("`{other}`"), "arc or turn")),
         };
+        if leg.segments.len() == MOST_SEGMENTS {
+            return Err(table.refuse("segment", row, segments[row], format!("less than {MOST_SEGMENTS}")));
+        }
         leg.segments.push(Segment { motion, gear });
     }
     Ok(drive)
@@ -229,6 +232,14 @@ mod tests {
         let broken = Drive { speed: 0.0, ..drive.clone() };
         write(&path, &broken).unwrap();
         assert!(read(&path).unwrap_err().to_string().contains("speed_m_s"));
+        let mut long = drive.clone();
+        long.legs[1].segments = vec![segments[0]; MOST_SEGMENTS];
+        write(&path, &long).unwrap();
+        assert_eq!(read(&path).unwrap(), long);
+        long.legs[1].segments.push(segments[0]);
+        write(&path, &long).unwrap();
+        let told = read(&path).unwrap_err().to_string();
+        assert!(told.contains("segment") && told.contains("40") && told.contains("less than 40"), "{told}");
         let mut broken = drive;
         broken.legs[0].speed = SpeedProfile::Ramp { start: 0.0, end: 0.0 };
         write(&path, &broken).unwrap();

@@ -9,6 +9,7 @@ use thiserror::Error;
 
 use super::write::{RapidError, Writer};
 use crate::decimal::decimal;
+use crate::delimited::{Cut, Table};
 
 /// The file that the module writes on the controller, in HOME.
 const LOG_FILE: &str = "arc_ms.log";
@@ -237,16 +238,15 @@ pub fn is_log(bytes: &[u8]) -> bool {
 /// [`LogError`].
 pub fn read_log(bytes: &[u8]) -> Result<ArcTimes, LogError> {
     let text = super::lex::decode(bytes);
-    let mut lines = text.lines().enumerate();
-    let head = lines.next().map_or("", |(_, line)| line.trim());
-    let points =
-        head.strip_prefix(LOG_MARK).and_then(|rest| rest.strip_prefix(';')).and_then(|n| n.trim().parse().ok());
+    let Table { header, names, rows } = Table::of(&text, Cut { delimiter: b';', comment: None });
+    let head = header.trim();
+    let points = (names.len() == 2 && names.cell(0) == LOG_MARK).then(|| names.cell(1).parse().ok()).flatten();
     let points = points.filter(|n| (1..=MOST_POINTS).contains(n));
     let points: usize = points.ok_or_else(|| LogError::Head { found: head.into() })?;
     let mut arcs: BTreeMap<(usize, usize), (f64, usize)> = BTreeMap::new();
-    for (index, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
-        let refuse = || LogError::Line { line: index + 1, found: line.trim().into(), last: points - 1 };
-        let cells: Vec<&str> = line.split(';').map(str::trim).collect();
+    for row in rows {
+        let cells: Vec<&str> = row.cells().collect();
+        let refuse = || LogError::Line { line: row.line, found: cells.join(";"), last: points - 1 };
         let [a, b, ms] = cells[..] else { return Err(refuse()) };
         let point = |cell: &str| cell.parse::<usize>().ok().filter(|point| *point < points);
         let ms = ms.parse::<f64>().ok().filter(|ms| ms.is_finite() && *ms > 0.0);

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::delimited::line_of;
 use crate::frames;
 
 /// One query in ENU and a body of forward, left, up; whatever frame it was asked in.
@@ -147,7 +148,7 @@ pub fn parse(bytes: &[u8]) -> Result<Queries, BrokenFile> {
     let mut rows = Vec::new();
     for record in reader.byte_records() {
         let record = record?;
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = record.position().map_or(0, |from| line_of(bytes, None, from)) as u64;
         let cells: Vec<String> = record.iter().map(text).collect();
         let id = columns.cell(&cells, "id").unwrap_or_default().to_owned();
         let asked = if cells.len() == names.len() {
@@ -269,6 +270,7 @@ mod tests {
         assert_eq!((asked.goal, asked.k0, asked.kf, asked.start), ([1.0, 2.0, 0.5], -0.1, 0.2, None));
         assert_eq!(parse(b"id,x,y,yaw,k0,kf,colour\n").unwrap().ignored, ["colour"]);
         assert!(rows("id,x,y,yaw,k0,kf\n").is_empty());
+        assert_eq!(rows("id,x,y,yaw,k0,kf\r\n\r\n\na,1,2,0.5,-0.1,0.2\n")[0].line, 4);
     }
 
     #[test]

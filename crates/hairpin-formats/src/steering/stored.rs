@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use thiserror::Error;
 
 use super::Piece;
+use crate::delimited::{Cut, Row, Rows};
 
 /// A boundary-value problem with the drive that solved it; poses in the map, left positive.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,27 +82,30 @@ fn segment_text(piece: &Piece) -> String {
 /// # Errors
 /// [`Implausible`]: the first row that is none, with what of it.
 pub fn parse_stored(text: &str) -> Result<Vec<Stored>, Implausible> {
-    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.starts_with('#') && !line.trim().is_empty());
-    let wrong =
-        |line: usize, field, value: &str, bound| Implausible { line: line + 1, field, value: value.into(), bound };
-    match lines.next() {
-        Some((_, COLUMNS)) => {}
-        Some((line, other)) => return Err(wrong(line, "columns", other, COLUMNS)),
-        None => return Err(wrong(0, "columns", "", COLUMNS)),
+    let mut rows = Rows::of(text, Cut { comment: Some(b'#'), ..Cut::COMMAS });
+    let columns = rows.next();
+    let (line, found) = columns.map_or((1, String::new()), |row| (row.line, joined(&row)));
+    if found != COLUMNS {
+        return Err(Implausible { line, field: "columns", value: found, bound: COLUMNS });
     }
-    lines.map(|(line, row)| parse_row(row).map_err(|(field, value, bound)| wrong(line, field, &value, bound))).collect()
+    let wrong = |line: usize| move |(field, value, bound): Wrong| Implausible { line, field, value, bound };
+    rows.map(|row| parse_row(&row).map_err(wrong(row.line))).collect()
 }
 
 /// What is wrong with a row: field, value, bound.
 type Wrong = (&'static str, String, &'static str);
 
-fn parse_row(row: &str) -> Result<Stored, Wrong> {
-    let cells: Vec<&str> = row.split(',').collect();
+fn joined(row: &Row) -> String {
+    row.cells().collect::<Vec<_>>().join(",")
+}
+
+fn parse_row(row: &Row) -> Result<Stored, Wrong> {
+    let cells: Vec<&str> = row.cells().collect();
     let [numbers @ .., reversals, _, drive] = &cells[..] else {
-        return Err(("row", row.into(), "eleven cells"));
+        return Err(("row", joined(row), "eleven cells"));
     };
     if numbers.len() != NAMES.len() {
-        return Err(("row", row.into(), "eleven cells"));
+        return Err(("row", joined(row), "eleven cells"));
     }
     let mut ends = [0.0; 8];
     for ((end, cell), name) in ends.iter_mut().zip(numbers).zip(NAMES) {

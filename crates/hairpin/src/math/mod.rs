@@ -10,6 +10,7 @@
 //! | [`fresnel`] | ∫ exp(iπt²/2) dt, and where a clothoid ends | closed-form drives |
 //! | [`polynomial`] | degree 7 from both ends; Bernstein bounds | legs of a flight |
 //! | [`minimum_snap`](mod@minimum_snap) | min ∫‖p⁗‖² dt through given points | references, start values |
+//! | [`linear`] | A x = b on the stack, Gauss's elimination | rests on the ground, solvers' steps |
 //! | [`interval`] | degree-1 Taylor models in four lanes | limits between samples |
 //! | [`outward`] | intervals with directed rounding, centred forms | proofs of clearance |
 //! | [`segment`] | nearest points of segments | solids, deviation |
@@ -27,6 +28,7 @@ pub mod circular;
 pub mod fresnel;
 pub mod integrate;
 pub mod interval;
+pub mod linear;
 pub mod minimum_snap;
 pub mod outward;
 pub mod polynomial;

@@ -10,6 +10,7 @@
 //! so that one form holds all that solvers find.
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// What one [`Segment`] of a drive does.
 ///
@@ -130,26 +131,31 @@ pub struct Planar {
 }
 
 /// `segments` without their last `metres`; turns in place stay.
-pub fn shortened(segments: &[Segment], mut metres: f64) -> SegmentList {
-    let mut list = SegmentList::EMPTY;
-    list.extend(segments.iter().copied());
-    for segment in list.iter_mut().rev() {
+pub fn shortened(segments: &[Segment], mut metres: f64) -> Vec<Segment> {
+    let mut all = segments.to_vec();
+    for segment in all.iter_mut().rev() {
         if let Motion::Arc { length_m, .. } = &mut segment.motion {
             let cut = metres.min(*length_m);
             *length_m -= cut;
             metres -= cut;
         }
     }
-    list
+    all
 }
 
 /// Segments of a [`SegmentList`] at most.
 pub const MOST_SEGMENTS: usize = 40;
 
+/// More segments than a [`SegmentList`] holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("{0} segments: must be at most {MOST_SEGMENTS}")]
+pub struct TooManySegments(pub usize);
+
 /// A drive of few segments, kept in place: [`MOST_SEGMENTS`] at most, nothing on the heap.
 ///
 /// A solver's answer: on the stack, `Copy`, so that solving needs no heap. 40 segments are more than any family here
-/// makes; what does not fit is refused by [`SegmentList::push`].
+/// makes, which [`SegmentList::add`] asserts; where that is not known, [`SegmentList::push`] and
+/// [`SegmentList::append`] refuse what does not fit. Nothing is ever left out in silence.
 ///
 /// ```
 /// use hairpin::trajectory::drive::{Gear, Segment, SegmentList};
@@ -184,16 +190,24 @@ impl SegmentList {
         self.len += 1;
         Ok(())
     }
-}
 
-impl Extend<Segment> for SegmentList {
-    /// Adds as many as there is room for.
-    fn extend<I: IntoIterator<Item = Segment>>(&mut self, segments: I) {
-        for segment in segments {
-            if self.push(segment).is_err() {
-                return;
-            }
-        }
+    /// Adds a segment of a drive whose number of segments is known to fit.
+    ///
+    /// # Panics
+    /// If the list is full: a mistake of ours.
+    pub fn add(&mut self, segment: Segment) {
+        assert!(self.push(segment).is_ok(), "a drive of more than {MOST_SEGMENTS} segments");
+    }
+
+    /// Adds all of `segments` at the end, or none.
+    ///
+    /// # Errors
+    /// How many there would be, if that is more than [`MOST_SEGMENTS`].
+    pub fn append(&mut self, segments: &[Segment]) -> Result<(), TooManySegments> {
+        let all = self.len + segments.len();
+        self.segments.get_mut(self.len..all).ok_or(TooManySegments(all))?.copy_from_slice(segments);
+        self.len = all;
+        Ok(())
     }
 }
 
@@ -241,8 +255,30 @@ mod tests {
             assert_eq!(list.push(segment(i)), Ok(()));
         }
         assert_eq!(list.push(segment(99)), Err(segment(99)));
-        list.extend([segment(98)]);
         assert_eq!((list.len(), list[7]), (MOST_SEGMENTS, segment(7)));
         assert_ne!(list, SegmentList::EMPTY);
+    }
+
+    #[test]
+    fn segments_are_appended_all_or_none() {
+        let many: Vec<Segment> = (0..30).map(|i| Segment::straight(f64::from(i), Gear::Forward)).collect();
+        let mut list = SegmentList::EMPTY;
+        assert_eq!(list.append(&many), Ok(()));
+        assert_eq!(list.append(&many), Err(TooManySegments(60)));
+        assert_eq!(&*list, &many[..]);
+        assert_eq!(list.append(&many[..10]), Ok(()));
+        assert_eq!(list.append(&many[..1]), Err(TooManySegments(41)));
+        assert_eq!((list.append(&[]), list.len(), list[39]), (Ok(()), MOST_SEGMENTS, many[9]));
+        // What may be longer than a list, such as the legs of a file, is cut whole.
+        let long = [&many[..], &many].concat();
+        let shorter = shortened(&long, 30.0);
+        assert_eq!((shorter.len(), shorter[59].length_m(), shorter[58].length_m()), (60, 0.0, 27.0));
+    }
+
+    #[test]
+    #[should_panic(expected = "a drive of more than 40 segments")]
+    fn one_more_than_fits_is_a_mistake_of_ours() {
+        let mut list = SegmentList::EMPTY;
+        (0..41).for_each(|_| list.add(Segment::straight(1.0, Gear::Forward)));
     }
 }

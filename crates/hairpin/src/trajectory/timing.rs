@@ -6,23 +6,30 @@
 use super::drive::{MOST_SEGMENTS, Motion, Segment};
 use super::speed::{SpeedProfile, Speeds};
 
+/// Those of [`MOST_SEGMENTS`], and what is driven while the first of them does not act yet.
+const MOST_STRETCHES: usize = MOST_SEGMENTS + 1;
+
 /// Speed and time along a whole drive, with its stops.
 ///
 /// On the stack; a query walks the stretches, of which a leg has one or two.
 #[derive(Debug, Clone, Copy)]
 pub struct Timing {
-    stretches: [(f64, Speeds); MOST_SEGMENTS],
+    stretches: [(f64, Speeds); MOST_STRETCHES],
     len: usize,
     constant: Option<f64>,
     length: f64,
 }
 
 impl Timing {
-    /// The timing of `segments`, [`MOST_SEGMENTS`] at most, under `profile`.
+    /// The timing of `segments` under `profile`.
+    ///
+    /// # Panics
+    /// If there are more stretches than a list of segments, and one that is held before it, can have: a mistake of the
+    /// caller's.
     pub fn new(profile: &SpeedProfile, segments: &[Segment]) -> Self {
         let rest = SpeedProfile::from(1.0).over(0.0);
         let length = segments.iter().map(Segment::length_m).sum();
-        let mut timing = Self { stretches: [(0.0, rest); MOST_SEGMENTS], len: 0, constant: None, length };
+        let mut timing = Self { stretches: [(0.0, rest); MOST_STRETCHES], len: 0, constant: None, length };
         if let SpeedProfile::Constant { speed } = *profile {
             timing.constant = Some(speed);
             return timing;
@@ -40,7 +47,8 @@ impl Timing {
                 }
                 Motion::Arc { length_m, .. } => {
                     stops_last = false;
-                    if gear != Some(segment.gear) && timing.len < MOST_SEGMENTS {
+                    if gear != Some(segment.gear) {
+                        assert!(timing.len < MOST_STRETCHES, "a drive of more than {MOST_STRETCHES} segments");
                         timing.stretches[timing.len].0 = 0.0;
                         timing.len += 1;
                     }

@@ -72,7 +72,7 @@ impl Site<'_> {
 
     /// What of `segments` the speeds are meant for: all but the stretch that is held while the last commands come to
     /// act.
-    fn driven(&self, segments: &[Segment]) -> SegmentList {
+    fn driven(&self, segments: &[Segment]) -> Vec<Segment> {
         let held = match rough::Waiting::before(segments) {
             rough::Waiting::GoesOn => self.rover.response.latency * self.speed.end(),
             rough::Waiting::Stands => 0.0,
@@ -113,13 +113,11 @@ impl Site<'_> {
 
     /// `acting` with what is driven before: commands act late, and until then a vehicle under way goes on as it was at
     /// `start`.
-    pub(in crate::campaign) fn after_waiting(&self, start: &Planar, acting: &[Segment]) -> SegmentList {
+    pub(in crate::campaign) fn after_waiting(&self, start: &Planar, acting: &[Segment]) -> Vec<Segment> {
         let wait_m = self.rover.response.latency * self.speed.start();
         let goes_on = wait_m > 0.0 && rough::Waiting::before(acting) == rough::Waiting::GoesOn;
         let held = Segment::clothoid(wait_m, start.curvature, start.curvature, Gear::Forward);
-        let mut commands = SegmentList::EMPTY;
-        commands.extend(goes_on.then_some(held).into_iter().chain(acting.iter().copied()));
-        commands
+        goes_on.then_some(held).into_iter().chain(acting.iter().copied()).collect()
     }
 
     /// Commands that drive from `start` to `goal` and stay clear of places to keep out of.

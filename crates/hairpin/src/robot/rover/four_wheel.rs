@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::contact::contact;
 use super::rest::{Attitude, Gradient, Settled, Unsettled};
-use super::solve::eliminate;
+use crate::math::linear::reduce;
 use crate::world::terrain::Terrain;
 
 /// Places of the wheels' centres in the body frame, m.
@@ -51,7 +51,7 @@ impl FourWheel {
         let mut damping = 1.0;
         for number in 0..MOST_STEPS {
             let mut rows = self.normal_equations(terrain, at, &pose)?;
-            if !eliminate(&mut rows) {
+            if !reduce(&mut rows) {
                 return Err(Unsettled::Singular);
             }
             let step = [rows[0][3], rows[1][3], rows[2][3]];

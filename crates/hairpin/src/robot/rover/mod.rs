@@ -36,7 +36,6 @@ mod four_wheel;
 mod motion;
 mod rest;
 mod rocker_bogie;
-mod solve;
 mod stability;
 mod suspension;
 mod wheels;

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 use super::contact::contact;
 use super::rest::{Attitude, Gradient, Settled, Unsettled};
-use super::solve::eliminate;
+use crate::math::linear::reduce;
 use crate::world::terrain::Terrain;
 
 /// Geometry of the left side, m; the right one is its mirror image.
@@ -159,7 +159,7 @@ struct System {
 impl System {
     /// The Newton step of (z, φ, θ, β, ρ_l, ρ_r), and dq/d(x, y, ψ).
     fn solve(mut self) -> Option<([f64; 6], Gradient)> {
-        if !eliminate(&mut self.rows) {
+        if !reduce(&mut self.rows) {
             return None;
         }
         // Column 0 is the step, 1 to 3 are the gradient by x, y and ψ.

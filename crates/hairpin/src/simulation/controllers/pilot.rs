@@ -89,3 +89,36 @@ impl Controller<Quadrotor> for Pilot {
         self.controller().schedule()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Point3, Vector3};
+
+    use super::*;
+    use crate::simulation::tests::{cage, flightgoggles};
+    use crate::simulation::{Conditions, FlySettings, Gusts, OwnController, Sortie, fly, fly_with};
+
+    /// Ours brought in by the door for strangers fly the same, to the bit: there is no second way.
+    #[test]
+    fn ours_as_a_strangers_fly_alike() {
+        let (robot, world) = (flightgoggles(), cage());
+        let waypoints = [[5.0, 5.0, 5.0], [12.0, 6.0, 7.0], [6.0, 14.0, 4.0]].map(Point3::from);
+        let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
+        let gusts = Some(Gusts { std: 1.0, correlation: 1.0 });
+        let conditions = Conditions { wind: Vector3::x(), gusts, noise: true, ..Conditions::default() };
+        for kind in [
+            ControllerKind::UnstableWaypoint,
+            ControllerKind::StableWaypoint,
+            ControllerKind::FixedVelocity,
+            ControllerKind::MinimumSnap,
+            ControllerKind::Geometric,
+            ControllerKind::Anafi,
+        ] {
+            let settings = ControllerSettings { kind, ..ControllerSettings::default() };
+            let own = OwnController::new("ours", move |robot| Pilot::new(&settings, robot).unwrap());
+            let ours = fly(&sortie, &settings, &conditions, &FlySettings::default(), 3).unwrap();
+            let theirs = fly_with(&sortie, &own, &conditions, &FlySettings::default(), 3).unwrap();
+            assert_eq!(ours, theirs, "{kind:?}");
+        }
+    }
+}

@@ -10,7 +10,7 @@ use crate::math::random::{Stream, stream, unit};
 use crate::robot::arm::{JointLimit, Opw};
 use crate::simulation::arm::{Order, Plan, PlanSettings, RunSettings};
 use crate::trajectory::program::{JointTarget, NO_EXTERNAL, Speed, Tool, WorkObject, Zone};
-use crate::verification::{ArmClaim, ArmPath, ArmPiece, ArmProgramClaim, verify_arm_program};
+use crate::verification::{ArmClaim, ArmPath, ArmPiece, ArmProgramClaim, ArmProgramReplay, verify_arm_program};
 
 /// A small arm of 0.58 m whose arm's plane passes `b` beside axis 1, its axes counting as `signs` say.
 fn arm(b: f64, signs: Joints) -> Arm {
@@ -71,15 +71,17 @@ fn any(random: &mut Stream, most: f64) -> Isometry3<f64> {
     Isometry3::from_parts(vector(0.1).into(), UnitQuaternion::from_scaled_axis(vector(most)))
 }
 
-/// A program of every kind of move from where its first posture puts the arm, through tools and work objects, with
-/// stops and zones. Configurations are demanded where `configured`.
-fn random_program(arm: &Arm, random: &mut Stream, configured: bool) -> Program {
-    let tools = [Tool::flange(), Tool { tcp: any(random, 0.3), ..Tool::flange() }];
+/// A program of every kind of move from where its first posture puts the arm, through so many tools and two work
+/// objects, with stops and zones. Configurations are demanded where `configured`; chains, of which none tells the
+/// posture, go to poses on lines and arcs alone.
+fn random_program(arm: &Arm, random: &mut Stream, tools: usize, configured: bool) -> Program {
+    let chain = matches!(arm.kinematics, Kinematics::Chain);
+    let all = [Tool { tcp: any(random, 0.3), ..Tool::flange() }, Tool::flange()];
     let object =
         |random: &mut Stream| WorkObject { user: any(random, 2.0), object: any(random, 2.0), ..WorkObject::base() };
     let objects = [WorkObject::base(), object(random)];
-    let mut program = Program::new("Random", "main", tools[0].clone(), objects[0].clone());
-    program.tools = tools.to_vec();
+    let mut program = Program::new("Random", "main", all[0].clone(), objects[0].clone());
+    program.tools = all[..tools].to_vec();
     program.work_objects = objects.to_vec();
     let posture = loop {
         if let Some(joints) = stand(arm, &pose(random)) {
@@ -92,7 +94,7 @@ fn random_program(arm: &Arm, random: &mut Stream, configured: bool) -> Program {
     while program.moves.len() < 7 {
         let kind = (4.5 * unit(random)) as usize;
         if unit(random) < 0.2 {
-            tool = 1 - tool;
+            tool = (tool + 1) % tools;
         }
         let (work_object, flange) = ((2.0 * unit(random)) as usize, pose(random));
         let into_object = program.work_objects[work_object].base_from_object().inverse();
@@ -102,7 +104,7 @@ fn random_program(arm: &Arm, random: &mut Stream, configured: bool) -> Program {
         let to = PoseTarget { configuration, ..PoseTarget::unnamed(pose_of(&flange)) };
         let motion = match kind {
             0 => Motion::AbsoluteJoint(JointTarget { name: None, joints, external: NO_EXTERNAL }),
-            1 => Motion::Joint(to),
+            1 if !chain => Motion::Joint(to),
             2 => Motion::Circular { via: PoseTarget::unnamed(pose_of(&pose(random))), to },
             _ => Motion::Linear(to),
         };
@@ -125,9 +127,25 @@ fn claimed<T>(arm: &Arm, program: &Program, look: impl FnOnce(&ArmClaim) -> T) -
     look(&ArmClaim { joints: &joints_of(arm), build, flange, tool, bodies: &[], solids: &[], clearance: 0.0 })
 }
 
-fn moves(arm: &Arm, program: &Program) -> Vec<ArmProgramMove> {
-    let chain = matches!(arm.kinematics, Kinematics::Chain);
-    moves_of(program, |_, _| None::<Joints>.filter(|_| chain))
+/// Follows a program by both: the controller's plan, the proof's path, and what came of that.
+fn both(
+    arm: &Arm,
+    program: &Program,
+    waypoints: &[Point3<f64>],
+    look: impl FnOnce(&Plan, &ArmPath, &ArmProgramReplay),
+) {
+    let orders = Order::all_of(program).unwrap();
+    let settings = PlanSettings::default();
+    let plan = Plan::new(arm, &start(program), &orders, &settings).unwrap();
+    let moves = moves_of(program, |_, _| None);
+    let asked = ArmProgramClaim {
+        start: start(program),
+        moves: &moves,
+        waypoints,
+        singularity: settings.singularity,
+        clear: false,
+    };
+    claimed(arm, program, |claim| look(&plan, &ArmPath::of(claim, &asked), &verify_arm_program(claim, &asked)));
 }
 
 /// Distance, m, a turn of 1 rad counting as 0.1 m.
@@ -137,118 +155,145 @@ fn off(a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
 
 /// How far a pose lies from pieces of a path.
 fn distance(path: &ArmPath, pieces: &[ArmPiece], pose: &Isometry3<f64>) -> f64 {
-    const SHARES: usize = 512;
+    const SHARES: usize = 256;
+    const STEP: f64 = 1.0 / SHARES as f64;
     let at = |piece: ArmPiece, w: f64| off(&path.at(piece, w).unwrap().1, pose);
-    let coarse = pieces.iter().flat_map(|piece| (0..=SHARES).map(move |i| (*piece, i as f64 / SHARES as f64)));
-    let (piece, w) = coarse.min_by(|a, b| at(a.0, a.1).total_cmp(&at(b.0, b.1))).unwrap();
-    let (mut low, mut high) = ((w - 1.0 / SHARES as f64).max(0.0), (w + 1.0 / SHARES as f64).min(1.0));
-    while high - low > 1e-13 {
+    let coarse = pieces.iter().flat_map(|piece| (0..=SHARES).map(move |i| (*piece, i as f64 * STEP)));
+    let (_, piece, w) = coarse.map(|(piece, w)| (at(piece, w), piece, w)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    let (mut low, mut high) = ((w - STEP).max(0.0), (w + STEP).min(1.0));
+    while high - low > 1e-14 {
         let (left, right) = (low + 0.4 * (high - low), low + 0.6 * (high - low));
         if at(piece, left) < at(piece, right) { high = right } else { low = left }
     }
     at(piece, low)
 }
 
+/// Holds every fifth pose of the plan against the proof's path: how many were exact, and how many were looked at. What
+/// lies between the plan's nodes is a cubic through joint angles.
+fn compared(plan: &Plan, path: &ArmPath, case: &str) -> [usize; 2] {
+    let (planned, pieces) = (plan.path(), path.pieces());
+    let (mut exact, mut seen, mut begin) = (0, 0, 0);
+    for (k, one) in planned.moves().iter().enumerate() {
+        let cut = pieces.contains(&ArmPiece::Corner(k));
+        assert!(!(one.stops && cut), "{case}, move {k}");
+        let own = pieces.iter().copied().filter(|piece| match piece {
+            ArmPiece::Along(index, _) => *index == k,
+            ArmPiece::Corner(index) => *index == k || *index + 1 == k,
+        });
+        let own: Vec<ArmPiece> = own.collect();
+        let along = own.iter().copied().find(|piece| matches!(piece, ArmPiece::Along(..))).unwrap();
+        let end = if cut { path.at(ArmPiece::Corner(k), 0.5) } else { path.at(along, 1.0) };
+        let miss = off(&end.unwrap().1, &planned.track().poses()[one.end]);
+        assert!(miss < 1e-9, "{case}, move {k} ends {miss:e} m apart");
+        for i in (begin + 1..one.end).step_by(5) {
+            let off = distance(path, &own, &planned.track().poses()[i]);
+            assert!(off < 2e-6, "{case}, move {k}: pose {i} is {off:e} m off");
+            exact += usize::from(off < 1e-9);
+            seen += 1;
+        }
+        begin = one.end;
+    }
+    let run = plan.execute(&RunSettings { lag: 0.0, ..RunSettings::default() }, &[], 1).unwrap().recording;
+    let angle = |k: usize| run.channel(&format!("q{}_rad", k + 1)).unwrap()[run.len() - 1];
+    let last = path.at(*pieces.last().unwrap(), 1.0).unwrap().0;
+    assert!((0..6).all(|k| (angle(k) - last[k]).abs() < 1e-9), "{case}: ends in {last:?}");
+    [exact, seen]
+}
+
 #[test]
-fn look_at_it() {
+fn controller_and_proof_come_to_the_same_places() {
+    let (mut whole, mut stopped, mut exact, mut seen) = (0, 0, 0, 0);
     for (number, arm) in arms().iter().enumerate() {
-        let (mut whole, mut stopped, mut disagree) = (0, 0, 0);
-        for seed in 0..8u64 {
-            let mut random = stream(1000 * number as u64 + seed);
-            let program = random_program(arm, &mut random, seed % 2 == 0 && number != 3);
+        for seed in 0..60u64 {
+            let case = format!("arm {number}, seed {seed}");
+            let program = random_program(arm, &mut stream(1000 * number as u64 + seed), 2, seed % 2 == 0);
             if !program.problems().is_empty() {
                 continue;
             }
-            let orders = Order::all_of(&program).unwrap();
-            let plan = Plan::new(arm, &start(&program), &orders, &PlanSettings::default()).unwrap();
-            claimed(arm, &program, |claim| {
-                let moves = moves(arm, &program);
-                let waypoints = vec![Point3::origin(); moves.len()];
-                let asked = ArmProgramClaim {
-                    start: start(&program),
-                    moves: &moves,
-                    waypoints: &waypoints,
-                    singularity: 0.01,
-                    clear: false,
-                };
-                let replay = verify_arm_program(claim, &asked);
+            both(arm, &program, &vec![Point3::origin(); program.moves.len()], |plan, path, replay| {
                 match (plan.stop(), replay.findings.first()) {
-                    (None, None) => {}
-                    (Some(stop), Some(finding)) if stop.order.abs_diff(finding.index) <= 1 => {
-                        stopped += 1;
-                        return;
-                    }
-                    (stop, finding) => {
-                        println!(
-                            "arm {number} seed {seed}: {stop:?} {} | {finding:?}",
-                            stop.map_or(String::new(), |s| s.reason.to_string())
-                        );
-                        disagree += 1;
-                        return;
-                    }
+                    (None, None) => whole += 1,
+                    // A corner belongs to both moves.
+                    (Some(stop), Some(finding)) if stop.order.abs_diff(finding.index) <= 1 => stopped += 1,
+                    (stop, finding) => panic!("{case}: {stop:?}, {finding:?}"),
                 }
-                whole += 1;
-                let path = ArmPath::of(claim, &asked);
-                let planned = plan.path();
-                let pieces = path.pieces();
-                let mut begin = 0;
-                let mut worst_end = 0.0f64;
-                let mut histogram = [0; 16];
-                for (k, m) in planned.moves().iter().enumerate() {
-                    let end = if pieces.contains(&ArmPiece::Corner(k)) {
-                        path.at(ArmPiece::Corner(k), 0.5)
-                    } else {
-                        path.at(ArmPiece::Along(k, [0.0, 1.0]), 1.0)
-                    }
-                    .unwrap();
-                    worst_end = worst_end.max(off(&end.1, &planned.track().poses()[m.end]));
-                    if seed < 8 {
-                        let own: Vec<ArmPiece> = pieces
-                            .iter()
-                            .copied()
-                            .filter(|p| match p {
-                                ArmPiece::Along(i, _) => *i == k,
-                                ArmPiece::Corner(i) => *i == k || *i + 1 == k,
-                            })
-                            .collect();
-                        for i in (begin + 1..m.end).step_by(7) {
-                            let d = distance(&path, &own, &planned.track().poses()[i]);
-                            let bin = (-d.max(1e-15).log10()) as usize;
-                            histogram[bin] += 1;
-                            if d > 2e-6 {
-                                for j in i.saturating_sub(3)..i + 4 {
-                                    let q = &planned.track().poses()[j];
-                                    println!(
-                                        "   {j} t {} p {:?} d {:e}",
-                                        planned.track().times()[j],
-                                        q.translation.vector.as_slice(),
-                                        distance(&path, &own, q)
-                                    );
-                                }
-                                println!(
-                                    "arm {number} seed {seed} move {k} pose {i} of {begin}..{}: {d:e} {own:?} {:?}",
-                                    m.end,
-                                    std::mem::discriminant(&program.moves[k].motion)
-                                );
-                            }
-                        }
-                    }
-                    begin = m.end;
-                }
-                let run = plan.execute(&RunSettings { lag: 0.0, ..RunSettings::default() }, &[], 1).unwrap();
-                let last = run.recording.len() - 1;
-                let joints: Joints =
-                    std::array::from_fn(|j| run.recording.channel(&format!("q{}_rad", j + 1)).unwrap()[last]);
-                let other = path.at(*pieces.last().unwrap(), 1.0).unwrap().0;
-                let apart = (0..6).map(|j| (joints[j] - other[j]).abs()).fold(0.0, f64::max);
-                if apart > 1e-8 || worst_end > 1e-9 {
-                    println!("arm {number} seed {seed}: joints {apart:e} ends {worst_end:e}");
-                }
-                if seed < 8 {
-                    println!("{number} {seed} {histogram:?}");
+                if plan.stop().is_none() && seed < 12 {
+                    let [own, all] = compared(plan, path, &case);
+                    (exact, seen) = (exact + own, seen + all);
                 }
             });
         }
-        println!("arm {number}: whole {whole} stopped {stopped} disagree {disagree}");
     }
+    assert!(whole > 100 && stopped > 20, "{whole} {stopped}");
+    assert!(seen > 1000 && 10 * exact > 9 * seen, "{exact} of {seen}");
+}
+
+/// Where the moves of a program end, base frame.
+fn ends(arm: &Arm, program: &Program) -> Vec<Point3<f64>> {
+    let end = |one: &Move| match &one.motion {
+        Motion::AbsoluteJoint(to) => arm.forward(&to.joints) * program.tools[one.tool].tcp,
+        motion => program.work_objects[one.work_object].base_from_object() * motion.end().unwrap().pose,
+    };
+    program.moves.iter().map(|one| end(one).translation.vector.into()).collect()
+}
+
+#[test]
+fn what_was_changed_in_a_program_is_found() {
+    let mut tried = 0;
+    for (number, arm) in arms().iter().enumerate() {
+        for seed in 0..20u64 {
+            let written = random_program(arm, &mut stream(5000 + 1000 * number as u64 + seed), 1, true);
+            let waypoints = ends(arm, &written);
+            let found = |program: &Program| {
+                let mut found = 0;
+                if program.problems().is_empty() {
+                    both(arm, program, &waypoints, |_, _, replay| {
+                        let missed = replay.misses.iter().filter(|miss| **miss > 1e-6).count();
+                        found = missed + replay.findings.len();
+                    });
+                }
+                found
+            };
+            if !written.problems().is_empty() || found(&written) > 0 {
+                continue;
+            }
+            let changed = |change: &dyn Fn(&mut Program)| {
+                let mut program = written.clone();
+                change(&mut program);
+                program
+            };
+            let shift = |pose: &mut Isometry3<f64>| pose.translation.vector.y += 1e-5;
+            for index in 0..written.moves.len() {
+                let moved = changed(&|program| match &mut program.moves[index].motion {
+                    Motion::AbsoluteJoint(to) => to.joints[2] += 1e-4,
+                    Motion::Joint(to) | Motion::Linear(to) | Motion::Circular { to, .. } => shift(&mut to.pose),
+                });
+                assert!(found(&moved) > 0, "arm {number}, seed {seed}: target {index} was moved");
+                let gone = changed(&|program| drop(program.moves.remove(index)));
+                let lost = || gone.problems().is_empty() && found(&gone) == 0;
+                assert!(index == 0 || !lost(), "arm {number}, seed {seed}: move {index} was taken out");
+                let other = changed(&|program| match &mut program.moves[index].motion {
+                    Motion::AbsoluteJoint(to) => to.joints[4] += 1e-4,
+                    Motion::Joint(to) | Motion::Linear(to) | Motion::Circular { to, .. } => {
+                        to.configuration = to.configuration.map(|[cf1, cf4, cf6, cfx]| [cf1, cf4, cf6, cfx ^ 1]);
+                    }
+                });
+                assert!(found(&other) > 0, "arm {number}, seed {seed}: posture {index} was changed");
+                tried += 1;
+            }
+            assert!(
+                found(&changed(&|program| shift(&mut program.tools[0].tcp))) > 0,
+                "arm {number}, seed {seed}: tool"
+            );
+            for object in 0..2 {
+                let used = written
+                    .moves
+                    .iter()
+                    .any(|one| one.work_object == object && !matches!(one.motion, Motion::AbsoluteJoint(_)));
+                let elsewhere = changed(&|program| shift(&mut program.work_objects[object].user));
+                assert!(!used || found(&elsewhere) > 0, "arm {number}, seed {seed}: work object {object}");
+            }
+        }
+    }
+    assert!(tried > 150, "{tried}");
 }

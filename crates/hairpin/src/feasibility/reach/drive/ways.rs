@@ -90,7 +90,7 @@ fn turn_arc(query: &Query, bounds: &Curvatures, gear: Gear) -> Option<SegmentLis
     let turn = |angle_rad: f64| Segment { motion: Motion::Turn { angle_rad: sign * angle_rad }, gear: Gear::Forward };
     let mut segments = SegmentList::EMPTY;
     let arc = Segment { gear, ..Segment::clothoid(length_m, curvature, curvature, gear) };
-    segments.extend([turn(libm::remainder(bearing - half, TAU)), arc, turn(0.0)]);
+    [turn(libm::remainder(bearing - half, TAU)), arc, turn(0.0)].into_iter().for_each(|segment| segments.add(segment));
     Some(segments)
 }
 

@@ -4,7 +4,7 @@ use super::hazards::Hazards;
 use super::ways::{Way, every, shortest};
 use crate::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
 use crate::feasibility::steering::shooting::solve::Choices;
-use crate::trajectory::drive::{MOST_SEGMENTS, Segment, SegmentList};
+use crate::trajectory::drive::{Segment, SegmentList};
 use crate::world::terrain::KeepOutShape;
 
 /// Legs that are looked for, at most.
@@ -119,8 +119,7 @@ fn seen(from: &Goal, to: &Goal) -> Query {
 
 fn joined(first: &SegmentList, second: &[Segment]) -> Option<SegmentList> {
     let mut all = *first;
-    all.extend(second.iter().copied());
-    (first.len() + second.len() <= MOST_SEGMENTS).then_some(all)
+    all.append(second).is_ok().then_some(all)
 }
 
 impl Beside {

@@ -7,7 +7,7 @@ use crate::feasibility::steering::shooting::families::Problem;
 use crate::feasibility::steering::shooting::query::{Curvatures, Query};
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Settings, Status, Waiting};
 use crate::feasibility::steering::shooting::solve::{Choices, Method, Outcome};
-use crate::trajectory::drive::{Planar, Segment, SegmentList};
+use crate::trajectory::drive::{Planar, SegmentList};
 use crate::world::terrain::{KeepOuts, Terrain};
 
 /// What a drive keeps away from, and how.
@@ -115,7 +115,7 @@ fn attempt<T: Terrain>(
 pub fn motion<T: Terrain>(
     course: &Course<'_, T>,
     start: &Planar,
-    segments: &[Segment],
+    segments: &SegmentList,
     keep_outs: &KeepOuts,
     radius: f64,
 ) -> Option<Intrusion> {

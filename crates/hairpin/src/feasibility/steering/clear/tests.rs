@@ -176,7 +176,7 @@ fn motions_are_looked_along_as_drives_are() {
     let depth = check.worst().expect("a rock").depth;
     assert!((depth - 0.05).abs() < 1e-12, "{depth}");
     let mut drive = SegmentList::EMPTY;
-    drive.extend([Segment::straight(4.0, Gear::Forward)]);
+    drive.add(Segment::straight(4.0, Gear::Forward));
     let found = hazards(&keep_outs).intrusion(&drive).expect("a rock");
     assert!((found.depth - 0.05).abs() < 1e-9 && found.place == 0 && (found.after_m - 2.0).abs() < 0.5, "{found:?}");
 }

@@ -58,7 +58,7 @@ impl Way {
 
     fn of(path: &cc::Path) -> Self {
         let mut segments = SegmentList::EMPTY;
-        path.segments(|segment| segments.extend([segment]));
+        path.segments(|segment| segments.add(segment));
         Self::new(segments, Method::Clothoids)
     }
 }

@@ -165,7 +165,7 @@ fn plainly(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: impl
     match cc::steer(query, bounds, gears) {
         Some(path) if !arc_within(path.length_m()) => {
             let mut segments = SegmentList::EMPTY;
-            path.segments(|segment| add(&mut segments, segment));
+            path.segments(|segment| segments.add(segment));
             Solution { outcome: Outcome::Solved, segments, method: Method::Clothoids, ..solution }
         }
         _ if arc.is_some() => Solution { outcome: Outcome::Solved, ..solution },
@@ -239,7 +239,7 @@ pub(in crate::feasibility::steering) fn turn_drive_turn(query: &Query, bounds: &
     let mut segments = SegmentList::EMPTY;
     let mut push = |segment: Segment| {
         if segment.length_m() > 0.0 || matches!(segment.motion, Motion::Turn { .. }) {
-            add(&mut segments, segment);
+            segments.add(segment);
         }
     };
     push(Segment::clothoid(k0.abs() / rate, k0, 0.0, gear));
@@ -251,15 +251,9 @@ pub(in crate::feasibility::steering) fn turn_drive_turn(query: &Query, bounds: &
     }
     push(Segment::clothoid(kf.abs() / rate, 0.0, kf, gear));
     if segments.is_empty() {
-        add(&mut segments, Segment::straight(0.0, gear));
+        segments.add(Segment::straight(0.0, gear));
     }
     segments
-}
-
-/// Adds a segment; no drive made here comes near the list's capacity.
-fn add(segments: &mut SegmentList, segment: Segment) {
-    let added = segments.push(segment);
-    debug_assert!(added.is_ok(), "a list of segments overflows");
 }
 
 /// `angle` in (−π, π].

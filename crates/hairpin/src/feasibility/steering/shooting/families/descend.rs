@@ -12,10 +12,10 @@
 
 use super::basis::{MOST, Row};
 use super::grid::{Grid, Node};
-use super::linear::solve;
 use super::settings::Settings;
 use crate::feasibility::steering::shooting::Curvatures;
 use crate::feasibility::steering::shooting::flat::Cost;
+use crate::math::linear::solve;
 
 /// Unknowns: the parameters and the length.
 const UNKNOWNS: usize = MOST + 1;
@@ -362,32 +362,30 @@ enum Aim {
 
 /// The step from `shot` and the size of the constraints' multipliers; `None` where the system is singular.
 fn step(grid: &Grid, task: &Task, shot: &Shot, free: &Free, damping: f64, aim: Aim) -> Option<([f64; UNKNOWNS], f64)> {
-    let mut matrix = [[0.0; SYSTEM]; SYSTEM];
-    let mut right = [0.0; SYSTEM];
+    // The equations, their right-hand sides in the last column.
+    let mut rows = [[0.0; SYSTEM + 1]; SYSTEM];
     let scale = [1.0 / (task.bounds.most * task.bounds.most), 1.0 / (free.length * free.length)];
-    for i in 0..UNKNOWNS {
-        matrix[i][..UNKNOWNS].copy_from_slice(&shot.hessian[i]);
+    for (i, row) in rows[..UNKNOWNS].iter_mut().enumerate() {
+        row[..UNKNOWNS].copy_from_slice(&shot.hessian[i]);
         let unit = if i < MOST { scale[0] } else { scale[1] };
         // Parameters that the family does not have stay as they are.
         let idle = i >= grid.count && i < MOST;
-        matrix[i][i] += if idle { 1.0 } else { (damping + 1e-9) * unit };
-        right[i] = if aim == Aim::Both { -shot.gradient[i] } else { 0.0 };
+        row[i] += if idle { 1.0 } else { (damping + 1e-9) * unit };
+        row[SYSTEM] = if aim == Aim::Both { -shot.gradient[i] } else { 0.0 };
     }
     for (c, row) in shot.jacobian.iter().enumerate() {
         for (i, value) in row.iter().enumerate() {
-            matrix[UNKNOWNS + c][i] = *value;
-            matrix[i][UNKNOWNS + c] = *value;
+            rows[UNKNOWNS + c][i] = *value;
+            rows[i][UNKNOWNS + c] = *value;
         }
         // Soft with the damping: far from the goal a step need not go the whole way.
-        matrix[UNKNOWNS + c][UNKNOWNS + c] = -(SOFT + if damping > 1e-4 { damping } else { 0.0 });
-        right[UNKNOWNS + c] = -shot.constraints[c];
+        rows[UNKNOWNS + c][UNKNOWNS + c] = -(SOFT + if damping > 1e-4 { damping } else { 0.0 });
+        rows[UNKNOWNS + c][SYSTEM] = -shot.constraints[c];
     }
-    if !solve(&mut matrix, &mut right) {
-        return None;
-    }
+    let solution = solve(&mut rows)?;
     let mut step = [0.0; UNKNOWNS];
-    step.copy_from_slice(&right[..UNKNOWNS]);
-    let multipliers = right[UNKNOWNS..].iter().map(|y| y * y).sum::<f64>().sqrt();
+    step.copy_from_slice(&solution[..UNKNOWNS]);
+    let multipliers = solution[UNKNOWNS..].iter().map(|y| y * y).sum::<f64>().sqrt();
     let curvature = step[..MOST].iter().fold(0.0, |sum: f64, p| sum + p.abs()) / task.bounds.most;
     let shrink = (BOLDEST[0] / curvature).min(BOLDEST[1] * free.length / step[MOST].abs()).min(1.0);
     step.iter_mut().for_each(|value| *value *= shrink);

@@ -20,7 +20,6 @@ mod descend;
 mod found;
 mod grid;
 mod landing;
-mod linear;
 mod parameters;
 mod pieces;
 mod problem;

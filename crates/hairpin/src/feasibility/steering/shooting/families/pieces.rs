@@ -20,7 +20,7 @@ pub(super) fn segments(basis: &Basis, clock: &Clock, parameters: &Row, length: f
     let mut list = SegmentList::EMPTY;
     match (basis, clock) {
         (Basis::Polynomial(order), Clock::Metres) => {
-            list.extend([arc(length, scaled(&quintic(*order, parameters), length))]);
+            list.add(arc(length, scaled(&quintic(*order, parameters), length)));
             (list, 0.0)
         }
         (Basis::Knots, Clock::Metres) => {
@@ -32,7 +32,7 @@ pub(super) fn segments(basis: &Basis, clock: &Clock, parameters: &Row, length: f
                 };
                 let [y0, y1, m0, m1] = [parameters[k], parameters[k + 1], bend(k), bend(k + 1)];
                 let cubic = [y0, y1 - y0 - (2.0 * m0 + m1) / 6.0, 0.5 * m0, (m1 - m0) / 6.0, 0.0, 0.0];
-                list.extend([arc(h, scaled(&cubic, h))]);
+                list.add(arc(h, scaled(&cubic, h)));
             }
             (list, 0.0)
         }
@@ -76,7 +76,7 @@ fn chain(clock: &Clock, curvature: &impl Fn(f64) -> f64, length: f64) -> (Segmen
     }
     for (edge, (polynomial, _)) in edges.windows(2).zip(&pieces[..count]) {
         let metres = (edge[1] - edge[0]) * length;
-        list.extend([arc(metres, scaled(polynomial, metres))]);
+        list.add(arc(metres, scaled(polynomial, metres)));
     }
     (list, pieces[..count].iter().map(|piece| piece.1).fold(0.0, f64::max))
 }

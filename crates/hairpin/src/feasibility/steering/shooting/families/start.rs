@@ -2,18 +2,18 @@
 
 use super::basis::{MOST, Row};
 use super::grid::Grid;
-use super::linear::solve;
+use crate::math::linear::solve;
 
 /// The parameters whose curvature is nearest to that of the curve: min ∫(Σ pᵢBᵢ − κ)² dσ, κ at the ends counting twice
 /// as much.
 pub(super) fn nearest(grid: &Grid, curvature: &dyn Fn(f64) -> f64, ends: [Option<f64>; 2]) -> Row {
-    let mut matrix = [[0.0; MOST]; MOST];
-    let mut right = [0.0; MOST];
+    // The equations, their right-hand sides in the last column.
+    let mut rows = [[0.0; MOST + 1]; MOST];
     let mut add = |row: &Row, weight: f64, wanted: f64| {
         for i in 0..MOST {
-            right[i] += weight * row[i] * wanted;
+            rows[i][MOST] += weight * row[i] * wanted;
             for j in 0..MOST {
-                matrix[i][j] += weight * row[i] * row[j];
+                rows[i][j] += weight * row[i] * row[j];
             }
         }
     };
@@ -25,10 +25,10 @@ pub(super) fn nearest(grid: &Grid, curvature: &dyn Fn(f64) -> f64, ends: [Option
             add(&end.value, 2.0, wanted);
         }
     }
-    for (i, row) in matrix.iter_mut().enumerate() {
+    for (i, row) in rows.iter_mut().enumerate() {
         row[i] += if i < grid.count { 1e-9 } else { 1.0 };
     }
-    if solve(&mut matrix, &mut right) { right } else { [0.0; MOST] }
+    solve(&mut rows).unwrap_or([0.0; MOST])
 }
 
 /// Curvature that is constant on three pieces, `signs` over `pieces` metres, 1/m, and bends at most by `most`.

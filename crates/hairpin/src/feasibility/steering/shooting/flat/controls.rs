@@ -17,11 +17,11 @@ pub(super) fn arc(query: &Query, bounds: &Curvatures, settings: &Settings) -> An
     let mut segments = SegmentList::EMPTY;
     let mut curvature: f64 = 0.0;
     if y == 0.0 && x > 0.0 {
-        segments.extend([Segment::straight(x, Gear::Forward)]);
+        segments.add(Segment::straight(x, Gear::Forward));
     } else if y != 0.0 && squared > 0.0 {
         curvature = 2.0 * y / squared;
         let length_m = 2.0 * libm::atan2(y, x) / curvature;
-        segments.extend([Segment::clothoid(length_m, curvature, curvature, Gear::Forward)]);
+        segments.add(Segment::clothoid(length_m, curvature, curvature, Gear::Forward));
     }
     let missed = miss(settings.simd, &segments, query);
     let precision = &settings.precision;
@@ -47,9 +47,10 @@ pub fn turn_drive_turn(goal: &Goal) -> SegmentList {
     let towards = if distance > 0.0 { libm::atan2(goal.y, goal.x) } else { 0.0 };
     let last = libm::remainder(goal.yaw - towards, std::f64::consts::TAU);
     let turn = |angle_rad| Segment { motion: Motion::Turn { angle_rad }, gear: Gear::Forward };
-    segments.extend((towards != 0.0).then(|| turn(towards)));
-    segments.extend((distance > 0.0).then(|| Segment::straight(distance, Gear::Forward)));
-    segments.extend((last != 0.0).then(|| turn(last)));
+    let towards = (towards != 0.0).then(|| turn(towards));
+    let straight = (distance > 0.0).then(|| Segment::straight(distance, Gear::Forward));
+    let last = (last != 0.0).then(|| turn(last));
+    [towards, straight, last].into_iter().flatten().for_each(|segment| segments.add(segment));
     segments
 }
 

@@ -195,12 +195,11 @@ impl Curve {
         match self {
             Self::Arc(ends, free) => {
                 let motion = Motion::Arc { length_m: free.length, curvature: ends.curvature(free) };
-                list.extend([Segment { motion, gear: Gear::Forward }]);
+                list.add(Segment { motion, gear: Gear::Forward });
             }
             Self::Chain(chain) => {
-                list.extend(
-                    chain.pieces().map(|(length, from, to)| Segment::clothoid(length, from, to, Gear::Forward)),
-                );
+                let pieces = chain.pieces();
+                pieces.for_each(|(length, from, to)| list.add(Segment::clothoid(length, from, to, Gear::Forward)));
             }
         }
         list

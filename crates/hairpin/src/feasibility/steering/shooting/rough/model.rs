@@ -89,8 +89,8 @@ mod tests {
     fn derivatives_agree_with_central_differences() {
         let mut drive = SegmentList::default();
         let curvature = [0.3, -0.5, 0.4, 0.2, -0.1, 0.05];
-        drive.extend([Segment { motion: Motion::Arc { length_m: 1.6, curvature }, gear: Gear::Forward }]);
-        drive.extend([Segment::clothoid(0.7, 0.2, -0.4, Gear::Forward)]);
+        drive.add(Segment { motion: Motion::Arc { length_m: 1.6, curvature }, gear: Gear::Forward });
+        drive.add(Segment::clothoid(0.7, 0.2, -0.4, Gear::Forward));
         let drive = divided(&drive).expect("pieces");
         for cost in [GroundCost::Curvature, GroundCost::Rate] {
             let model = Model::of(&drive, cost);

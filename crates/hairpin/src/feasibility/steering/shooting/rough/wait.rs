@@ -50,12 +50,12 @@ impl Waiting {
         }
     }
 
-    /// What of `segments` acts before their time is over.
-    pub fn acting<T>(self, course: &Course<'_, T>, segments: &[Segment]) -> SegmentList {
+    /// What of `segments`, a solver's own, acts before their time is over.
+    pub fn acting<T>(self, course: &Course<'_, T>, segments: &SegmentList) -> SegmentList {
         let total: f64 = segments.iter().map(Segment::length_m).sum();
         let mut left = total - self.metres(course, course.speed.end());
         let mut acting = SegmentList::EMPTY;
-        for segment in segments {
+        for segment in segments.iter() {
             let mut segment = *segment;
             if let Motion::Arc { length_m, .. } = &mut segment.motion {
                 if left <= 0.0 {
@@ -64,7 +64,7 @@ impl Waiting {
                 *length_m = length_m.min(left);
                 left -= *length_m;
             }
-            acting.extend([segment]);
+            acting.add(segment);
         }
         acting
     }

@@ -123,8 +123,8 @@ mod tests {
     fn drive() -> SegmentList {
         let mut drive = SegmentList::default();
         let curvature = [0.3, -0.5, 0.4, 0.2, -0.1, 0.05];
-        drive.extend([Segment { motion: Motion::Arc { length_m: 1.6, curvature }, gear: Gear::Forward }]);
-        drive.extend([Segment::clothoid(0.7, 0.2, -0.4, Gear::Forward)]);
+        drive.add(Segment { motion: Motion::Arc { length_m: 1.6, curvature }, gear: Gear::Forward });
+        drive.add(Segment::clothoid(0.7, 0.2, -0.4, Gear::Forward));
         drive
     }
 
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn turns_and_reversals_are_left_alone() {
         let mut both = drive();
-        both.extend([Segment::straight(1.0, Gear::Reverse)]);
+        both.add(Segment::straight(1.0, Gear::Reverse));
         assert!(divided(&both).is_none() && divided(&SegmentList::default()).is_none());
     }
 

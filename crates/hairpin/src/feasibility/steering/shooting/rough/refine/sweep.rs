@@ -103,7 +103,8 @@ mod tests {
         for gear in [Gear::Forward, Gear::Reverse] {
             let from = Planar { x: 3.0, y: -2.0, yaw: 0.7, curvature: 0.1 };
             let mut drive = SegmentList::default();
-            drive.extend([Segment::clothoid(2.0, 0.1, 0.8, gear), Segment::clothoid(1.0, 0.8, -0.1, gear)]);
+            drive.add(Segment::clothoid(2.0, 0.1, 0.8, gear));
+            drive.add(Segment::clothoid(1.0, 0.8, -0.1, gear));
             let drive = divided(&drive).expect("pieces");
             let mut sweep = Sweep::new(&from, 0.0, &drive);
             let end = predict(&course, &from, &drive, |driven| sweep.add(driven)).expect("a way").end;

@@ -97,7 +97,8 @@ mod tests {
         let steps = Steps { length: 0.004, angle: 0.002, least: 50 };
         let course = Course { rover, terrain, speed: 0.3.into(), direction, steps };
         let mut drive = SegmentList::default();
-        drive.extend([Segment::clothoid(2.0, 0.1, 0.8, gear), Segment::clothoid(1.0, 0.8, -0.1, gear)]);
+        drive.add(Segment::clothoid(2.0, 0.1, 0.8, gear));
+        drive.add(Segment::clothoid(1.0, 0.8, -0.1, gear));
         let drive = divided(&drive).expect("pieces");
         let mut variation = Variation::new(&course, &drive);
         predict(&course, from, &drive, |driven| variation.add(driven)).expect("a way");
