@@ -15,7 +15,7 @@ pub struct MadeBy {
     pub simd: String,
 }
 
-/// A scenario that TOML cannot hold: a whole number above 2⁶³ − 1, which [`Scenario::check`] refuses.
+/// A scenario that TOML cannot hold: a whole number above 2⁶³ − 1, which checking refuses.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("the scenario cannot be written as TOML: {0}")]
 pub struct WriteError(String);
