@@ -75,7 +75,7 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     if let Some(model) = &tally.model {
         atomic::write_json(&work.folder.file(learn::NAME), model)?;
     }
-    if let Some(arm) = work.setup.arm()
+    if let Some(arm) = work.setup.own::<ArmSetup>()
         && let Ok(graph) = graph_of(&arm)
     {
         work.folder.write_graph(&arm, &graph)?;

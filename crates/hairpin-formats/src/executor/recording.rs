@@ -135,14 +135,8 @@ impl<'a> Recording<'a> {
             EndReason::Crash => Ended::Crash,
         };
         let reached = self.reached();
-        let outside = |pose: &Isometry3<f64>| {
-            let place = Point3::from(pose.translation.vector);
-            match self.mission.setup.kind() {
-                Kind::Flight(setup) => setup.world.wall_distance(&place) < 0.0,
-                Kind::Drive(setup) => setup.map.patch(place.x, place.y).is_err(),
-                Kind::Arm(_) => false,
-            }
-        };
+        let outside =
+            |pose: &Isometry3<f64>| self.mission.setup.is_outside(&Point3::from(pose.translation.vector));
         let left_world = self.poses.iter().position(outside).map(|index| self.times[index]);
         let mut channels = Vec::new();
         if let Some(legs) = self.legs.take() {

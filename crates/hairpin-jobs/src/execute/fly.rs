@@ -55,7 +55,7 @@ impl Job<'_> {
 /// Flies all runs of `cases` that are not in the folder yet, and violations as often again as the scenario asks for.
 pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<Flown, Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
-    if let (Some(arm), Some(pattern)) = (work.setup.arm(), work.setup.recordings()) {
+    if let (Some(arm), Some(pattern)) = (work.setup.own::<ArmSetup>(), work.setup.recordings()) {
         recorded::take_in(work, &arm, pattern, cases)?;
         return write_table(&work.folder, cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run))));
     }

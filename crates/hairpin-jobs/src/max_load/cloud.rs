@@ -60,7 +60,7 @@ pub enum CloudAnswer {
 pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<CloudAnswer, Problem> {
     let CloudSettings { cell, points, sets, time_limit_s } = settings;
     let setup = arm_setup_for(cell, points, sets)?;
-    let Some(arm) = setup.arm() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
+    let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
     let (begun, deadline) = (Instant::now(), Deadline::after(*time_limit_s));
     let searched = with_stop(watch, deadline, begun, |stop| {
         let graph = graph_of(&arm)?;
@@ -82,7 +82,7 @@ impl CloudSearch {
     /// # Errors
     /// The folder holds something else; a file cannot be written.
     pub fn keep(&self, out: &Path, if_there: IfThere, watch: &dyn Watch) -> Result<(), Problem> {
-        let Some(arm) = self.setup.arm() else { unreachable!("clouds are searched of arms alone") };
+        let Some(arm) = self.setup.own::<ArmSetup>() else { unreachable!("clouds are searched of arms alone") };
         let work = make(out, self.setup.clone(), if_there)?;
         let cases = arm.cases(&self.graph, &self.found);
         work.folder.write_graph(&arm, &self.graph)?;

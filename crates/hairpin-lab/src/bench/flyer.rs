@@ -13,5 +13,5 @@ pub(super) fn robot(name: &str) -> Result<Quadrotor, Problem> {
 
 /// The part of `setup` that flights have.
 pub(super) fn flyer(setup: &Setup) -> Result<FlightSetup<'_>, Problem> {
-    setup.flight().ok_or_else(|| Problem::input(format!("`{}` does not fly", setup.robot_name())))
+    setup.own::<FlightSetup>().ok_or_else(|| Problem::input(format!("`{}` does not fly", setup.robot_name())))
 }

@@ -179,7 +179,7 @@ fn witnessed(
     sets.push(("generate.certify", (reach != "witness").to_string()));
     let setup = cell::setup(FLIGHT_GOGGLES, &sets, None)?;
     let cases = cell::cases(&setup, watch)?;
-    let Some(flight) = setup.flight() else { return Ok(None) };
+    let Some(flight) = setup.own::<FlightSetup>() else { return Ok(None) };
     let in_step: Result<Vec<bool>, String> = cases
         .par_iter()
         .map(|case| Ok(matches!(flight.certificate_in_step(&case.waypoints)?, Certificate::Yes(_))))

@@ -1,13 +1,11 @@
 //! Why nothing, or little, is feasible: where candidates for legs are lost, and the smallest single change that helps.
 
 mod changes;
-mod knobs;
 
 use serde::Serialize;
 
 use super::generate::Known;
-use super::{Mistake, Scenario, Setup, Stop, Tally, arm, drive, flight, generate, verdict};
-use crate::campaign::setup::Kind;
+use super::{Mistake, Scenario, Setup, Stop, Tally, generate, verdict};
 use crate::judgement::Verdict;
 
 pub use super::graph::{Deaths, Lost, Stage};
@@ -45,13 +43,9 @@ pub fn explain(
     stop: &Stop,
     enough: &(dyn Fn() -> bool + Sync),
 ) -> Result<Explanation, Mistake> {
-    let setup = first_of(&setup.scenario, graphs).and_then(|scenario| setup.of_draw(scenario))?;
+    let setup = first_of(setup, graphs).and_then(|scenario| setup.of_draw(scenario))?;
     let tally = searched(&setup, true, stop);
-    let deaths = match setup.kind() {
-        Kind::Flight(setup) => flight::deaths(&setup, graphs),
-        Kind::Drive(setup) => drive::deaths(&setup, graphs),
-        Kind::Arm(setup) => arm::deaths(&setup),
-    };
+    let deaths = setup.kind().lost(graphs);
     let cancelled = || (stop.cancelled)() || enough();
     let looking = Stop { cancelled: &cancelled, ..*stop };
     let changes = if tally.solved > 0 { Vec::new() } else { changes::smallest(&setup, &looking) };
@@ -79,30 +73,16 @@ impl Explanation {
 }
 
 /// The scenario asked for one case of `graphs` graphs, and nothing varied.
-fn first_of(scenario: &Scenario, graphs: u64) -> Result<Scenario, Mistake> {
-    let keys: &[(&str, u64)] = match scenario {
-        Scenario::Flight(_) | Scenario::Drive(_) => {
-            &[("generate.search.graphs", graphs), ("generate.search.cases", graphs), ("generate.search.per_graph", 1)]
-        }
-        Scenario::Arm(_) => &[("generate.search.programs", 1)],
-    };
-    let mut draws: Vec<_> = keys.iter().map(|(key, value)| ((*key).to_owned(), (*value).into())).collect();
-    if scenario.search().method.executes() {
+fn first_of(setup: &Setup, graphs: u64) -> Result<Scenario, Mistake> {
+    let knobs = setup.kind().knobs();
+    let mut draws: Vec<_> = knobs.counts.iter().map(|key| ((*key).to_owned(), graphs.into())).collect();
+    draws.push((knobs.per_graph.into(), 1.into()));
+    if setup.scenario.search().method.executes() {
         // What is feasible does not depend on what it does to the robot.
         draws.push(("generate.search.method".into(), "uniform".into()));
     }
-    match scenario {
-        Scenario::Flight(flight) => draws.push(("generate.score".into(), flight.generate.score_of_legs().into())),
-        Scenario::Drive(drive) => {
-            draws.push(("generate.search.score".into(), drive.generate.search.score_of_legs().into()));
-        }
-        Scenario::Arm(_) => {}
-    }
-    if let Scenario::Flight(flight) = scenario {
-        // As a key that is there, which can be turned.
-        draws.push(("generate.timing".into(), serde_json::json!(flight.generate.timing_in_force())));
-    }
-    super::vary::apply(scenario, &draws)
+    draws.extend(knobs.settled);
+    super::vary::apply(&setup.scenario, &draws)
 }
 
 /// What a search of `setup` finds: all of its graphs, or until the first trajectory.

@@ -17,18 +17,18 @@ use crate::world::World;
 const NODES: usize = 8;
 
 /// Counts the candidates of the first `graphs` graphs, a few at most.
-pub(in crate::campaign) fn deaths(setup: &FlightSetup, graphs: u64) -> Deaths {
+pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Deaths {
     let mut counter = Counter::default();
     let sampled = (0..graphs.min(GRAPHS)).filter_map(|number| Some((number, graph::sample(setup, number).ok()?)));
     if setup.scenario.generate.reach == ReachName::Witness {
-        if let Ok(set) = Witness::new(*setup) {
+        if let Ok(set) = Witness::new(setup) {
             for (number, points) in sampled {
                 count(setup, &set.roadmap(number, &points), points.len() - 1, &mut counter);
             }
         }
         return counter.deaths("pairs of waypoint states near the start");
     }
-    if let Ok(set) = Stepwise::new(*setup) {
+    if let Ok(set) = Stepwise::new(setup) {
         for (_, points) in sampled {
             set.count(&points, &mut counter);
         }
@@ -50,7 +50,7 @@ fn count(setup: &FlightSetup, roadmap: &Roadmap, end: usize, counter: &mut Count
             match fate {
                 Err(None) => counter.lose(Stage::Limits, "max_speed_m_s times the longest leg time"),
                 Err(Some(why)) => {
-                    let (stage, limit) = told(&why, setup.world);
+                    let (stage, limit) = told(&why, &setup.world);
                     counter.lose(stage, &limit);
                 }
                 Ok(next) => {

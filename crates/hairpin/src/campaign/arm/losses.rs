@@ -6,7 +6,7 @@ use crate::campaign::graph::{Counter, Deaths, Stage};
 use crate::feasibility::reachability::Refusal;
 
 /// Counts the moves between all ordered pairs of points, and the arcs through a third, by what became of them.
-pub(in crate::campaign) fn deaths(setup: &ArmSetup) -> Deaths {
+pub(super) fn losses(setup: &ArmSetup) -> Deaths {
     let mut counter = Counter::default();
     if let Ok(graph) = whole_graph(setup) {
         let (n, names) = (graph.points(), setup.part_names());
