@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::feasibility::program::{Checked, Surroundings, check};
 use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;

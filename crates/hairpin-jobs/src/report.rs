@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::coverage::Coverage;
 use hairpin::campaign::report::Shown;

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{self, Case, CaseResult, Scenario, Setup, Status};
+use hairpin::campaign::{self, Case, CaseResult, Setup, Status};
 use hairpin::judgement::Verdict;
 use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario;

@@ -117,7 +117,7 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
 
 impl StressUnit {
     fn of(work: &Work, candidates: &[Candidate]) -> Self {
-        let (factor, unit) = match (select::measured(candidates), work.setup.own::<ArmSetup>().is_some()) {
+        let (factor, unit) = match (select::measured(candidates), work.setup.has_programs()) {
             (false, _) => (1.0, ""),
             (true, false) => (1.0, "m"),
             (true, true) => (1e3, "mm"),

@@ -64,7 +64,7 @@ mod tests {
         let sets = [("robot.drag_quadratic_n_s2_m2".to_owned(), "0".to_owned())];
         let setup = setup_for("flightgoggles", &sets).unwrap();
         let rows = [0.0, 2.0].map(|t| RotorSpeeds { t, speeds: [0.0; 4] });
-        let robot = setup.own::<FlightSetup>().unwrap().robot;
+        let robot = &setup.own::<FlightSetup>().unwrap().robot;
         let track = fly(robot, &rows).unwrap();
         assert!((track.position(1).z + 0.5 * robot.gravity * 4.0).abs() < 1e-9);
         assert!((track.channel("vz_m_s").unwrap()[1] + robot.gravity * 2.0).abs() < 1e-9);

@@ -1,9 +1,8 @@
 //! From the stream of poses to a flight: every promise of the protocol is checked, none is repaired silently. What the
 //! protocol does not ask for is no reason to refuse a flight: how it was flown is the judge's business.
 
-use hairpin::campaign::{Kind, Mission};
+use hairpin::campaign::Mission;
 use hairpin::trajectory::{Channel, Ended, Flight, Track, TrackError};
-use hairpin::world::terrain::Terrain;
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
 

@@ -19,7 +19,7 @@ const LISTED: usize = 10;
 /// Those that are missing, too many, or cannot be used.
 pub(super) fn check(work: &Work, cases: &[Case]) -> Result<(), Problem> {
     match (work.setup.own::<ArmSetup>(), work.setup.recordings()) {
-        (Some(arm), Some(pattern)) => read(work, &arm, pattern, cases).map(drop),
+        (Some(arm), Some(pattern)) => read(work, arm, pattern, cases).map(drop),
         _ => Ok(()),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use hairpin::campaign::arm::graph_of;
+use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::scenario::ArmMode;
 use hairpin::campaign::{Case, Evidence};
 use hairpin::trajectory::program::{Program, Speed};
@@ -46,7 +46,7 @@ pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<W
 pub(super) fn write_clock(work: &Work) -> Result<Written, Problem> {
     let Some(arm) = work.setup.own::<ArmSetup>() else { return Err(Problem::input("--to arc-clock: the campaign is no arm's")) };
     let refuse = |why: String| Problem::input(format!("--to arc-clock: {why}"));
-    let graph = graph_of(&arm).map_err(refuse)?;
+    let graph = graph_of(arm).map_err(refuse)?;
     let clock = arm.arc_clock(&graph).map_err(refuse)?;
     let evidence = match arm.scenario.generate.mode {
         ArmMode::Joint => Evidence::ClearAllLinks,

@@ -5,6 +5,7 @@ mod suite;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::report::worst_first;
 use hairpin::campaign::{self, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Status, Tally, vary};
@@ -104,7 +105,7 @@ pub(crate) fn judge_cases(
     let verdict = campaign::verdict(&work.setup, cases, &results, tally);
     let (verdict, regression) = with_moves(work, &moves, verdict)?;
     work.folder.write_results(cases, &results)?;
-    if work.setup.own::<ArmSetup>().is_some() {
+    if work.setup.has_programs() {
         work.folder.write_moves(&moves)?;
     }
     let suite = suite(work, tally, &verdict, &results, (regression.as_ref(), replayed));

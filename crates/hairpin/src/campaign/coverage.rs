@@ -81,7 +81,9 @@ impl Grid {
     pub fn met(&self, setup: &Setup, waypoints: &[Point3<f64>], run: &Run) -> BTreeSet<usize> {
         let Ok(flight) = &run.outcome else { return BTreeSet::new() };
         let mut met = BTreeSet::new();
-        (setup.kind().motion().meet)(waypoints, flight, &mut |values| drop(met.insert(self.cell(values))));
+        (setup.kind().motion().meet)(waypoints, flight, &mut |values| {
+            met.insert(self.cell(values));
+        });
         met
     }
 

@@ -227,6 +227,11 @@ impl Setup {
         self.kind.is_outside(place)
     }
 
+    /// Whether its motion is programs, which are measured move by move.
+    pub fn has_programs(&self) -> bool {
+        self.programs().is_some()
+    }
+
     /// The logs whose recordings are the runs, where nothing is executed.
     pub fn recordings(&self) -> Option<&str> {
         self.programs().and_then(Programs::recordings)

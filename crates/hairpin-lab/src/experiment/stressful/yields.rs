@@ -1,6 +1,7 @@
 //! Figure 6: distinct trajectories that each reach set gives in equal processor time, over their length; and, which the
 //! paper could not tell, the share of them that has a control witness.
 
+use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::{Case, Known, Stop, generate};
 use hairpin::feasibility::Certificate;
 use hairpin::judgement::Statistics;
