@@ -33,6 +33,7 @@ mod forget;
 mod graph;
 mod json;
 mod judged;
+mod names;
 mod runs;
 mod scenario;
 
@@ -46,29 +47,10 @@ use crate::atomic::{self, WriteError};
 
 pub use error::FolderError;
 pub use graph::graph_decimals;
+pub use names::{ARCS, BASELINE, BEST_SO_FAR, GRAPH, MOVES, OPTIMUM, REASONS};
+use names::{COVERAGE, GENERATION, INFLUENCE, RESULTS, RUNS, SCENARIO, WAYPOINTS};
 
-const SCENARIO: &str = "scenario.toml";
-const GENERATION: &str = "generation.json";
-const RESULTS: &str = "results.parquet";
-const WAYPOINTS: &str = "waypoints.parquet";
-const RUNS: &str = "runs.parquet";
-const INFLUENCE: &str = "influence.json";
-/// The proof that an arm's first program is the heaviest.
-pub const OPTIMUM: &str = "optimum.json";
-/// The costs of an arm's graph.
-pub const GRAPH: &str = "graph.csv";
-/// Why moves are not in it.
-pub const REASONS: &str = "reasons.csv";
-/// The arcs of an arm's graph.
-pub const ARCS: &str = "arcs.csv";
-/// What every run of an arm did on every move.
-pub const MOVES: &str = "moves.json";
-/// The same of earlier releases, which this campaign is held against.
-pub const BASELINE: &str = "baseline.json";
-/// How the largest stress of a search that executes rose.
-pub const BEST_SO_FAR: &str = "best-so-far.tsv";
 const LOCK: &str = ".lock";
-const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];
 
 /// What [`CampaignFolder::create`] does about a campaign that already stands there.

@@ -5,8 +5,8 @@ mod knobs;
 
 use serde::Serialize;
 
-use super::generate::Known;
-use super::{Mistake, Scenario, Setup, Stop, Tally, arm, drive, flight, generate, verdict};
+use self::changes::{searched, smallest};
+use super::{Mistake, Scenario, Setup, Stop, Tally, arm, drive, flight, verdict};
 use crate::campaign::setup::Kind;
 use crate::judgement::Verdict;
 
@@ -54,7 +54,7 @@ pub fn explain(
     };
     let cancelled = || (stop.cancelled)() || enough();
     let looking = Stop { cancelled: &cancelled, ..*stop };
-    let changes = if tally.solved > 0 { Vec::new() } else { changes::smallest(&setup, &looking) };
+    let changes = if tally.solved > 0 { Vec::new() } else { smallest(&setup, &looking) };
     let stopped = tally.solved == 0 && cancelled();
     Ok(Explanation { graphs: tally.graphs, solved: tally.solved, deaths, changes, stopped, tally })
 }
@@ -103,16 +103,4 @@ fn first_of(scenario: &Scenario, graphs: u64) -> Result<Scenario, Mistake> {
         draws.push(("generate.timing".into(), serde_json::json!(flight.generate.timing_in_force())));
     }
     super::vary::apply(scenario, &draws)
-}
-
-/// What a search of `setup` finds: all of its graphs, or until the first trajectory.
-fn searched(setup: &Setup, all: bool, stop: &Stop) -> Tally {
-    let found = std::sync::atomic::AtomicBool::new(false);
-    let cancelled = || (stop.cancelled)() || (!all && found.load(std::sync::atomic::Ordering::Relaxed));
-    let quiet = Stop { cancelled: &cancelled, progress: &|_, _| {}, clock: stop.clock };
-    generate(setup, &Known::default(), &quiet, &mut |cases, _| {
-        if !cases.is_empty() {
-            found.store(true, std::sync::atomic::Ordering::Relaxed);
-        }
-    })
 }
