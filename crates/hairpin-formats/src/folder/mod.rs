@@ -17,8 +17,9 @@
 //! | `reruns/CASE-K.parquet` | a violation run again with other noise, for the time number K |
 //! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
-//! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move; what a later campaign is held against |
-//! | `optimum.json`, `graph.csv`, `reasons.csv`, `arcs.csv` | of arms: the graph, why moves are not in it, its arcs where it has any, and the proof that the first program is the heaviest |
+//! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move, for later campaigns |
+//! | `optimum.json` | of arms: the proof that the first program is the heaviest |
+//! | `graph.csv`, `reasons.csv`, `arcs.csv` | of arms: the graph, why moves are not in it, its arcs where it has any |
 //! | `baseline.json` | of arms with `spec.regression`: the same of earlier releases |
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
 //! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{Case, Evidence};
 use hairpin::math::rotation::between;
-use hairpin::trajectory::Track;
-use hairpin_formats::executor::ATTITUDE_UNKNOWN;
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
 use hairpin_formats::frames::Cage;
 use hairpin_formats::{atomic, csv, geodetic, tum, waypoints};
 use nalgebra::Isometry3;

@@ -10,7 +10,7 @@ use super::{Mistake, Scenario, Setup, Stop, Tally, arm, drive, flight, verdict};
 use crate::campaign::setup::Kind;
 use crate::judgement::Verdict;
 
-pub use super::graph::{Deaths, Lost, Stage};
+use super::graph::Deaths;
 pub use changes::Change;
 
 /// What is known of a scenario's feasibility.
