@@ -9,6 +9,7 @@ mod max_load;
 mod numbers;
 mod pipeline;
 mod requirements;
+mod resources;
 mod select;
 mod shrink;
 mod steer;
@@ -28,6 +29,7 @@ pub(crate) use pipeline::{
     Campaign, Execute, Export, Format, Generate, Judge, Replay, ReportArguments, Stress, Verify,
 };
 pub(crate) use requirements::Requirements;
+pub(crate) use resources::{Kernels, Threads};
 pub(crate) use select::{Select, SelectBy};
 pub(crate) use shrink::Shrink;
 pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerFrame};
@@ -179,26 +181,6 @@ pub(crate) struct New {
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// More than any machine has cores for; each takes memory, and graphs that are searched ahead.
-const MOST_THREADS: i64 = 1024;
-
-/// Threads of the computation.
-#[derive(Debug, Args)]
-pub(crate) struct Threads {
-    /// Threads; all cores if not given. The results do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
-    pub(crate) threads: Option<u16>,
-}
-
-/// The version of the kernels.
-#[derive(Debug, Args)]
-pub(crate) struct Kernels {
-    /// Run all kernels at one SIMD level that every machine has, and record `portable` as the campaign's level: it goes
-    /// on on any machine. The results are those of every other level, bit for bit; it is only slower
-    #[arg(long)]
-    pub(crate) portable: bool,
 }
 
 /// The flight begins level and at rest at the origin, rotors at the first row's speeds. Each row's speeds are asked for

@@ -2,7 +2,7 @@
 //!
 //! | frame | world axes | body axes | yaw |
 //! | --- | --- | --- | --- |
-//! | cage | x along the origin's heading, y to its left, z up; at a floor corner of the cage | forward, left, up | from x, counter-clockwise |
+//! | cage | the origin's heading, its left, up; at a floor corner | forward, left, up | from x, counter-clockwise |
 //! | ENU | east, north, up; at the same point | forward, left, up | from east, counter-clockwise |
 //! | NED | north, east, down; at the same point | forward, right, down | from north, clockwise |
 //! | geodetic | WGS 84 latitude and longitude, altitude | | |

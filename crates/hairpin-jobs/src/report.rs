@@ -9,7 +9,7 @@ use hairpin::campaign::report::Shown;
 use hairpin::campaign::{self, Case, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
-use hairpin_formats::executor::ATTITUDE_UNKNOWN;
+use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
 use crate::Problem;
 use crate::judge::with_moves;

@@ -3,8 +3,16 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use hairpin_jobs::Watch;
+
 /// What is told, for the table.
 pub(crate) const NAME: &str = if cfg!(target_os = "linux") { "processor time" } else { "wall-clock time" };
+
+pub(crate) fn warn_of_debug_build(watch: &dyn Watch) {
+    if cfg!(debug_assertions) {
+        watch.warn("Warning: this is no release build; its speeds mean nothing");
+    }
+}
 
 /// Seconds on a processor since the thread began; where the system does not tell, since `origin`.
 fn now(origin: Instant) -> f64 {

@@ -4,7 +4,7 @@ use clap::Args;
 use hairpin_jobs::explain::ExplainSettings;
 
 use super::numbers::{LARGEST_SEED, seconds};
-use super::{Kernels, Threads};
+use super::resources::{Kernels, Threads};
 
 /// Searches a fixed number of graphs, counts where candidates for legs are lost, by limit, and where nothing is
 /// feasible changes one key at a time, as little as helps. Exit code 3 where nothing is feasible, else 0. Nothing is

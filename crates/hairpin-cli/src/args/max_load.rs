@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::Threads;
 use super::numbers::{LARGEST_SEED, seconds};
+use super::resources::Threads;
 
 /// The path through a graph that costs most, in which no point comes twice (or --visits). Points may be left out; ends
 /// are free unless fixed.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::numbers::{LARGEST_SEED, seconds};
-use super::{Kernels, Threads};
+use super::resources::{Kernels, Threads};
 
 /// What every command that begins a campaign takes.
 #[derive(Debug, Args)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::Threads;
+use super::resources::Threads;
 
 /// Cases keep their numbers and seeds, plans and runs, so that every other command takes the new folder. How stressful
 /// and how different the chosen cases are is told beside the most stressful ones and all.

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use hairpin_jobs::shrink::ShrinkSettings;
 
-use super::Kernels;
 use super::numbers::seconds;
+use super::resources::Kernels;
 
 /// Drops waypoints, leaves out wind, gusts, noise, obstacles and varied values, and shortens legs, as long as the run
 /// violates the same limit. Every candidate is feasible by the same claim as the case before it is executed.

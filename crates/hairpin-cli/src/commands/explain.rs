@@ -1,6 +1,6 @@
 //! `hairpin explain`: why nothing, or little, is feasible.
 
-use hairpin::campaign::explain::Deaths;
+use hairpin::campaign::Deaths;
 use hairpin_jobs::explain::{ExplainSettings, explain};
 use hairpin_jobs::{Problem, Watch, sets};
 use serde_json::json;

@@ -136,7 +136,7 @@ const RADIANS: &[(&str, f64)] = &[("_rad", 1.0), ("_deg", std::f64::consts::PI /
 /// | --- | --- |
 /// | time | `t` (s), `t_s`, `time_s`, `…_ms`, `…_us`, `…_ns` |
 /// | position | `x_m`, `y_m`, `z_m`, or `x_mm`, `y_mm`, `z_mm` |
-/// | orientation | `qw`, `qx`, `qy`, `qz`; `q1` … `q4` (w first); or `rx_deg`, `ry_deg`, `rz_deg` (or `_rad`; R = Rz Ry Rx) |
+/// | orientation | `qw` … `qz`; `q1` … `q4` (w first); or `rx_deg`, `ry_deg`, `rz_deg` (or `_rad`; R = Rz Ry Rx) |
 /// | joints | `q1_rad` … `q6_rad`, or `j`, `joint`, `joint_`, `axis` for `q`, or `_deg` |
 /// | move | `move`, from 0 |
 ///

@@ -13,8 +13,9 @@
 //! ```
 //!
 //! `leg`, `v_m_s` and `q_wxyz` may be left out: legs are then assigned along the path, velocities differentiated, and
-//! the attitude counts as unknown (channel [`ATTITUDE_UNKNOWN`]). The first pose may lie anywhere, and `done` may be
-//! claimed anywhere: the judge sees what was flown, and a `done` without the last waypoint is an unfinished mission.
+//! the attitude counts as unknown (channel [`hairpin::trajectory::ATTITUDE_UNKNOWN`]). The first pose may lie anywhere,
+//! and `done` may be claimed anywhere: the judge sees what was flown, and a `done` without the last waypoint is an
+//! unfinished mission.
 //!
 //! Missions of drives under a steady force say it in `external_force_n` (east, north, up, N).
 //!
@@ -37,5 +38,5 @@ pub use message::{EndReason, FromExecutor, PoseMessage, TimedMessage, ToExecutor
 pub use pool::fly_all;
 pub use process::kill_all;
 pub(crate) use process::{end, start};
-pub use recording::{ATTITUDE_UNKNOWN, PoseError, Recording};
+pub use recording::{PoseError, Recording};
 pub use worker::{Command, CommandError, Limits, Worker};

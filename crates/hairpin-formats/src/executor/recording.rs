@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::message::{EndReason, PoseMessage};
 
-pub use hairpin::trajectory::ATTITUDE_UNKNOWN;
+use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
 /// How far from 1 the length of a quaternion may be: what six printed digits leave.
 const QUATERNION_TOLERANCE: f64 = 1e-3;

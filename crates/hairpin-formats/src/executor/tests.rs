@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::{Mission, Scenario, Setup};
-use hairpin::trajectory::{Ended, Flight};
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, Ended, Flight};
 use nalgebra::Point3;
 use serde_json::json;
 

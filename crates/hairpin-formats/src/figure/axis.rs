@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
-use super::Scale;
+use super::marks::Scale;
 use super::table::three_digits;
 
 /// A range of values with a way to place them.

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 
 use super::axis::Ticked;
-use super::{Figure, Marks, Point, Scale, Series, Spread};
+use super::marks::{Figure, Marks, Point, Scale, Series, Spread};
 
 /// Pixels, without the legend.
 const SIZE: (u32, u32) = (820, 500);

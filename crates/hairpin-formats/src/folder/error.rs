@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::SCENARIO;
+use super::names::SCENARIO;
 use crate::atomic::WriteError;
 use crate::parquet::TableError;
 use crate::scenario;

@@ -17,8 +17,9 @@
 //! | `reruns/CASE-K.parquet` | a violation run again with other noise, for the time number K |
 //! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
-//! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move; what a later campaign is held against |
-//! | `optimum.json`, `graph.csv`, `reasons.csv`, `arcs.csv` | of arms: the graph, why moves are not in it, its arcs where it has any, and the proof that the first program is the heaviest |
+//! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move, for later campaigns |
+//! | `optimum.json` | of arms: the proof that the first program is the heaviest |
+//! | `graph.csv`, `reasons.csv`, `arcs.csv` | of arms: the graph, why moves are not in it, its arcs where it has any |
 //! | `baseline.json` | of arms with `spec.regression`: the same of earlier releases |
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
 //! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
@@ -33,6 +34,7 @@ mod forget;
 mod graph;
 mod json;
 mod judged;
+mod names;
 mod runs;
 mod scenario;
 
@@ -46,29 +48,10 @@ use crate::atomic::{self, WriteError};
 
 pub use error::FolderError;
 pub use graph::graph_decimals;
+pub use names::{ARCS, BASELINE, BEST_SO_FAR, GRAPH, MOVES, OPTIMUM, REASONS};
+use names::{COVERAGE, GENERATION, INFLUENCE, RESULTS, RUNS, SCENARIO, WAYPOINTS};
 
-const SCENARIO: &str = "scenario.toml";
-const GENERATION: &str = "generation.json";
-const RESULTS: &str = "results.parquet";
-const WAYPOINTS: &str = "waypoints.parquet";
-const RUNS: &str = "runs.parquet";
-const INFLUENCE: &str = "influence.json";
-/// The proof that an arm's first program is the heaviest.
-pub const OPTIMUM: &str = "optimum.json";
-/// The costs of an arm's graph.
-pub const GRAPH: &str = "graph.csv";
-/// Why moves are not in it.
-pub const REASONS: &str = "reasons.csv";
-/// The arcs of an arm's graph.
-pub const ARCS: &str = "arcs.csv";
-/// What every run of an arm did on every move.
-pub const MOVES: &str = "moves.json";
-/// The same of earlier releases, which this campaign is held against.
-pub const BASELINE: &str = "baseline.json";
-/// How the largest stress of a search that executes rose.
-pub const BEST_SO_FAR: &str = "best-so-far.tsv";
 const LOCK: &str = ".lock";
-const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];
 
 /// What [`CampaignFolder::create`] does about a campaign that already stands there.

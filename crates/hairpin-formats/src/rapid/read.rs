@@ -10,7 +10,7 @@ use super::lex::{At, decode};
 use super::lines::{Class, Line};
 use super::parse::parse;
 use super::run::{Known, Machine};
-use super::syntax::{RoutineKind, Source, What};
+use super::syntax::{RoutineKind, Source, What, each};
 use super::value;
 
 /// What the reader does not find in the file.
@@ -191,7 +191,7 @@ fn entry(source: &Source, asked: Option<&str>) -> Result<Option<String>, NoModul
     }
     let mut called = BTreeSet::new();
     for routine in &source.routines {
-        super::run::each(&routine.body, &mut |statement| {
+        each(&routine.body, &mut |statement| {
             if let What::Call { name, .. } = &statement.what
                 && !name.eq_ignore_ascii_case(&routine.name)
             {

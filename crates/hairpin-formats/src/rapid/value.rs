@@ -20,6 +20,18 @@ pub(super) enum Value {
     Array(Vec<Value>),
 }
 
+/// A variable, constant or persistent.
+#[derive(Debug, Clone)]
+pub(super) struct Variable {
+    /// As it was declared.
+    pub(super) name: String,
+    /// `None`: a kind that is not followed.
+    pub(super) kind: Option<Kind>,
+    pub(super) value: Value,
+    /// Whether it holds what it was declared with.
+    pub(super) untouched: bool,
+}
+
 /// Why a value is not what it should be, in words that follow a name.
 pub(super) type Unfit = String;
 

@@ -6,7 +6,7 @@ use hairpin::judgement::Statistics;
 
 use super::escape::escape;
 use super::svg;
-use crate::executor::ATTITUDE_UNKNOWN;
+use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
 /// The section; none if no case is shown in full.
 pub(super) fn section(data: &ReportData) -> String {

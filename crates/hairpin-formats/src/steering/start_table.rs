@@ -1,6 +1,6 @@
 //! Files of start tables: a head, the entries as little-endian numbers, and a SHA-256 of all that.
 
-use hairpin::campaign::start_table::{ENTRIES, Entry, NODES, StartTable, StartTableError};
+use hairpin::trajectory::start_table::{ENTRIES, Entry, NODES, StartTable, StartTableError};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
@@ -93,7 +93,7 @@ pub fn read_start_table(bytes: &[u8]) -> Result<StartTable, BrokenTable> {
 
 #[cfg(test)]
 mod tests {
-    use hairpin::campaign::start_table::NONE;
+    use hairpin::trajectory::start_table::NONE;
 
     use super::*;
 

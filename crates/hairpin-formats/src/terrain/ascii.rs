@@ -2,7 +2,8 @@
 
 use hairpin::world::terrain::Grid;
 
-use super::{Raster, TerrainError, bounded};
+use super::error::TerrainError;
+use super::raster::{Raster, bounded};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
     let text =

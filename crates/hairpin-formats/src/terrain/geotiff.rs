@@ -9,7 +9,8 @@ use hairpin::world::terrain::Grid;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-use super::{MOST_CELLS, Raster, TerrainError, bounded};
+use super::error::{MOST_CELLS, TerrainError};
+use super::raster::{Raster, bounded};
 
 const RASTER_TYPE: u16 = 1025;
 const PIXEL_IS_POINT: u16 = 2;

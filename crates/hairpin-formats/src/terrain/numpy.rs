@@ -2,7 +2,9 @@
 
 use npyz::{NpyFile, Order};
 
-use super::{Georeference, Raster, TerrainError, bounded, placed};
+use super::error::TerrainError;
+use super::georeference::{Georeference, placed};
+use super::raster::{Raster, bounded};
 
 pub(super) fn read(bytes: &[u8], georeference: &Georeference) -> Result<Raster, TerrainError> {
     let broken = |error: &dyn std::fmt::Display| TerrainError::Broken(format!("no readable NumPy array: {error}"));

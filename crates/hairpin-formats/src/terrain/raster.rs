@@ -1,46 +1,19 @@
-//! 16-bit rasters whose values are scaled heights: PNG, and raw little-endian files.
+//! The heights of a map, cell by cell.
 
-use super::{Georeference, Raster, TerrainError, bounded, placed};
+use hairpin::world::terrain::Grid;
 
-/// Heights from `values` between the two given heights.
-fn scaled(values: impl Iterator<Item = u16>, georeference: &Georeference) -> Result<Vec<f32>, TerrainError> {
-    let [low, high] = georeference.height_m.ok_or(TerrainError::Missing { key: "height_m" })?;
-    if !(low.is_finite() && high.is_finite() && low < high) {
-        let bound = "two finite heights, the lower first";
-        return Err(TerrainError::Wrong { key: "height_m", value: format!("[{low}, {high}]"), bound });
-    }
-    let step = (high - low) / f64::from(u16::MAX);
-    Ok(values.map(|value| (low + step * f64::from(value)) as f32).collect())
+use super::error::{MOST_CELLS, TerrainError};
+
+/// Heights as a raster has them, rows from the north, NaN where there is no data.
+pub(super) struct Raster {
+    pub(super) grid: Grid,
+    pub(super) heights: Vec<f32>,
 }
 
-pub(super) fn read_png(bytes: &[u8], georeference: &Georeference) -> Result<Raster, TerrainError> {
-    let broken = |error: png::DecodingError| TerrainError::Broken(format!("no readable PNG: {error}"));
-    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().map_err(broken)?;
-    let info = reader.info();
-    let (columns, rows) = bounded(info.width.into(), info.height.into())?;
-    if (info.color_type, info.bit_depth) != (png::ColorType::Grayscale, png::BitDepth::Sixteen) {
-        let found = format!("{:?} of {:?} bits: 16-bit greyscale is needed", info.color_type, info.bit_depth);
-        return Err(TerrainError::Broken(found));
+/// Refuses maps of more than [`MOST_CELLS`] before anything is allocated.
+pub(super) fn bounded(columns: u64, rows: u64) -> Result<(usize, usize), TerrainError> {
+    match columns.checked_mul(rows) {
+        Some(cells) if cells <= MOST_CELLS => Ok((columns as usize, rows as usize)),
+        _ => Err(TerrainError::TooLarge { columns, rows }),
     }
-    let mut pixels = vec![0; 2 * columns * rows];
-    reader.next_frame(&mut pixels).map_err(broken)?;
-    let values = pixels.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
-    Ok(Raster { grid: placed(columns, rows, georeference)?, heights: scaled(values, georeference)? })
-}
-
-pub(super) fn read_raw(bytes: &[u8], georeference: &Georeference) -> Result<Raster, TerrainError> {
-    let cells = bytes.len() / 2;
-    let columns = georeference.columns.unwrap_or_else(|| cells.isqrt());
-    if columns == 0
-        || !bytes.len().is_multiple_of(2)
-        || !cells.is_multiple_of(columns)
-        || (georeference.columns.is_none() && columns * columns != cells)
-    {
-        let found =
-            format!("{} bytes are no rows of {columns} 16-bit heights; columns tells their number", bytes.len());
-        return Err(TerrainError::Broken(found));
-    }
-    let (columns, rows) = bounded(columns as u64, (cells / columns) as u64)?;
-    let values = bytes.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
-    Ok(Raster { grid: placed(columns, rows, georeference)?, heights: scaled(values, georeference)? })
 }

@@ -1,4 +1,4 @@
-use hairpin::world::terrain::Terrain;
+use hairpin::world::terrain::{MapError, Terrain};
 use tiff::encoder::{TiffEncoder, colortype};
 use tiff::tags::Tag;
 

@@ -3,8 +3,8 @@
 
 pub(crate) mod stress;
 
-use hairpin::campaign::case::Violation;
 use hairpin::campaign::{Case, CaseResult, Evidence, Reruns, Run, Status, Tally};
+use hairpin::judgement::Violation;
 use hairpin::judgement::{LegMeasures, Measures};
 use hairpin::trajectory::{Channel, Ended, Flight, Profile, ProfileLeg, Track};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};

@@ -8,7 +8,8 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::{
     self, Case, Mission, Mistake, Run, Setup, Status, execute_again, execute_run, mission, mission_again,
 };
-use hairpin_formats::executor::{ATTITUDE_UNKNOWN, Command, Failed, Limits, fly_all};
+use hairpin::trajectory::ATTITUDE_UNKNOWN;
+use hairpin_formats::executor::{Command, Failed, Limits, fly_all};
 use hairpin_formats::folder::{CampaignFolder, FolderError};
 use hairpin_formats::parquet::runs::RunFacts;
 use rayon::prelude::*;

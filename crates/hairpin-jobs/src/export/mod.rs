@@ -1,19 +1,22 @@
 //! A campaign's trajectories as files that other programs open.
 
 mod programs;
+mod written;
 
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{Case, Evidence};
 use hairpin::math::rotation::between;
-use hairpin::trajectory::Track;
-use hairpin_formats::executor::ATTITUDE_UNKNOWN;
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
 use hairpin_formats::frames::Cage;
 use hairpin_formats::{atomic, csv, geodetic, tum, waypoints};
 use nalgebra::Isometry3;
 
 use crate::Problem;
 use crate::work::{Work, open_to_read};
+
+pub use programs::Language;
+pub use written::Written;
 
 /// A format of trajectories.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,36 +33,6 @@ pub enum Format {
     ArcClock,
     /// CASE.ref.tum and CASE.exec.tum: planned motion and worst run on the same stamps.
     Tum,
-}
-
-/// A language of arms' controllers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Language {
-    /// CASE.mod, CASE_slow.mod for the first run, and CASE.pgf, which names the module.
-    Rapid,
-    /// CASE.script for Universal Robots.
-    Urscript,
-    /// CASE.src and CASE.dat for KUKA.
-    Krl,
-    /// CASE.joint_trajectory.json: the planned joints every 10 ms as a ROS 2 message.
-    JointTrajectory,
-}
-
-/// What came of one format.
-#[derive(Debug, Default)]
-pub struct Written {
-    /// The files.
-    pub files: Vec<PathBuf>,
-    /// Of these, files of a format that asks for attitudes, where nobody knows them: they say level.
-    pub level: Vec<PathBuf>,
-    /// Cases that have no such file, with the reason.
-    pub missing: Vec<String>,
-}
-
-impl Written {
-    fn all(files: Vec<PathBuf>) -> Self {
-        Self { files, ..Self::default() }
-    }
 }
 
 /// A campaign that is exported.

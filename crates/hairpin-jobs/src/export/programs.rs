@@ -8,9 +8,22 @@ use hairpin::campaign::{Case, Evidence};
 use hairpin::trajectory::program::{Program, Speed};
 use hairpin_formats::{atomic, joint_trajectory, krl, rapid, urscript};
 
-use super::{Language, Written};
+use super::written::Written;
 use crate::Problem;
 use crate::work::Work;
+
+/// A language of arms' controllers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    /// CASE.mod, CASE_slow.mod for the first run, and CASE.pgf, which names the module.
+    Rapid,
+    /// CASE.script for Universal Robots.
+    Urscript,
+    /// CASE.src and CASE.dat for KUKA.
+    Krl,
+    /// CASE.joint_trajectory.json: the planned joints every 10 ms as a ROS 2 message.
+    JointTrajectory,
+}
 
 /// Time between the points of joint trajectories, s.
 const SAMPLE: f64 = 0.01;

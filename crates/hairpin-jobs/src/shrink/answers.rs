@@ -11,7 +11,7 @@ use hairpin_formats::atomic;
 use hairpin_formats::checksum::sha256;
 use serde::{Deserialize, Serialize};
 
-use super::ShrinkSettings;
+use super::settings::ShrinkSettings;
 use crate::execute::fly_one;
 use crate::work::Work;
 use crate::{Deadline, Problem, Watch};

@@ -1,45 +1,23 @@
 //! A violating case reduced to the shortest feasible one that still violates.
 
 mod answers;
+mod settings;
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::report::violation;
 use hairpin::campaign::{Case, CaseResult, Shrunk};
-use hairpin::math::simd::Simd;
 use hairpin_formats::repro::{Repro, ShrunkFrom};
 
 use crate::work::{Work, open_to_change};
 use crate::{Problem, Watch};
 use answers::Answers;
 
+pub use settings::ShrinkSettings;
+
 /// Names that a sentence has room for.
 const LISTED: usize = 12;
-
-/// What is shrunk, and how long.
-#[derive(Debug, Clone)]
-pub struct ShrinkSettings {
-    /// Judged campaign folder.
-    pub folder: PathBuf,
-    /// Number of the violating case.
-    pub case: usize,
-    /// Executions at most.
-    pub budget: u64,
-    /// Seconds after which it stops with the smallest so far.
-    pub time_limit_s: Option<f64>,
-    /// File to write; repro/CASE-shrunk.json in the folder if not given.
-    pub out: Option<PathBuf>,
-    /// Version of the kernels.
-    pub simd: Simd,
-}
-
-impl Default for ShrinkSettings {
-    fn default() -> Self {
-        let (folder, case, time_limit_s, out, simd) = Default::default();
-        Self { folder, case, budget: 200, time_limit_s, out, simd }
-    }
-}
 
 /// A violating case that is to be shrunk.
 pub struct Shrinking {

@@ -128,7 +128,7 @@ fn search(
     site: &Site<'_>,
     start: &Planar,
     goal: &Planar,
-    choices: Choices,
+    choices: Choices<'_>,
     over: &dyn Fn() -> bool,
 ) -> Searched {
     let Task { boundary, control, shaping, .. } = *task;

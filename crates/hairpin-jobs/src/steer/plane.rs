@@ -22,7 +22,7 @@ use super::trace::{retrace, trace_step};
 pub(super) struct Task<'a> {
     pub(super) rover: &'a Rover,
     pub(super) keep_outs: &'a KeepOuts,
-    pub(super) solver: &'a Solver,
+    pub(super) solver: &'a Solver<'a>,
     pub(super) control: Control,
     /// The question in the plane.
     pub(super) boundary: &'a Boundary,

@@ -60,15 +60,15 @@ impl Vehicle {
             Status::Infeasible | Status::NotConverged => None,
             Status::Ok => length,
         };
-        let tried = |choices: Choices| {
+        let tried = |choices: Choices<'_>| {
             if short.is_some_and(|length| least >= WORTH_IT * length) {
                 return None;
             }
-            let other = self.answer_by(asked, &Solver { choices, ..self.solver });
+            let other = self.answer_by(asked, &Solver { choices, ..self.solver() });
             let metres = other.drive.filter(|_| other.status == Status::Ok)?.1.length;
             short.is_none_or(|length| metres < WORTH_IT * length).then_some(metres)
         };
-        let choices = self.solver.choices;
+        let choices = self.solver().choices;
         if !choices.reversals {
             remedies.with_reversals_m = tried(Choices { reversals: true, ..choices });
         }
@@ -105,7 +105,7 @@ impl Vehicle {
             let [x, y] = seen_from([start.x, start.y, start.yaw], [place.x, place.y]);
             let (yaw, kf) = (place.yaw - start.yaw, place.curvature.clamp(-most, most));
             let there = Asked { goal: [x, y, yaw], kf, ..*asked };
-            (self.answer_by(&there, &self.solver).status == Status::Ok).then_some([x, y, yaw, kf])
+            (self.answer_by(&there, &self.solver()).status == Status::Ok).then_some([x, y, yaw, kf])
         })
     }
 
@@ -113,9 +113,9 @@ impl Vehicle {
     fn nearest(&self, asked: &Asked, query: &Query) -> Option<[f64; 4]> {
         let bounds = self.bounds(asked);
         let flat_control = [Control::Cubic, Control::Quintic].into_iter().find(|control| *control == self.pace.control);
-        let precision = self.solver.precision(asked).share(SHARE);
-        let flat = Settings { precision, control: flat_control?.flat()?, ..self.solver.choices.flat };
-        let choices = Choices { flat, ..self.solver.choices };
+        let precision = self.solver().precision(asked).share(SHARE);
+        let flat = Settings { precision, control: flat_control?.flat()?, ..self.solver().choices.flat };
+        let choices = Choices { flat, ..self.solver().choices };
         let hazards = hazards(&self.rover, &self.keep_outs, asked);
         let reachable = |query: &Query| {
             direct_arc(query, &bounds, &choices).is_some_and(|drive| hazards.intrusion(&drive).is_none())
@@ -123,7 +123,7 @@ impl Vehicle {
         let goal = nearest(query, &bounds, reachable, || false)?.goal;
         let Goal { x, y, yaw, curvature } = flat::crab(&Query { goal, ..*query }, -asked.direction).goal;
         let there = Asked { goal: [x, y, yaw], kf: curvature, ..*asked };
-        let confirmed = self.answer_by(&there, &self.solver).status == Status::Ok;
+        let confirmed = self.answer_by(&there, &self.solver()).status == Status::Ok;
         confirmed.then_some([x, y, yaw, curvature])
     }
 }

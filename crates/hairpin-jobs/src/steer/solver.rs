@@ -8,31 +8,30 @@ use hairpin::feasibility::steering::shooting::Precision;
 use hairpin::feasibility::steering::shooting::flat::Cost;
 use hairpin::feasibility::steering::shooting::rough::{GroundCost, Settings};
 use hairpin::feasibility::steering::shooting::solve::Choices;
-use hairpin::robot::rover::Rover;
 use hairpin::world::terrain::KeepOuts;
 use hairpin_formats::steering::Asked;
 use hairpin_formats::terrain::read_keep_outs;
 
-use super::{SteerSettings, start_table};
+use super::SteerSettings;
 use crate::Problem;
 
 /// What the questions of a run are answered with.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Solver {
+pub(super) struct Solver<'t> {
     /// In the plane.
-    pub(super) choices: Choices,
+    pub(super) choices: Choices<'t>,
     /// On the ground.
     pub(super) ground: Settings,
     pub(super) time_limit: Option<Duration>,
 }
 
-impl Solver {
+impl Solver<'_> {
     /// Forward arcs with `time_limit` for each question.
     pub(super) fn plain(time_limit: Option<Duration>) -> Self {
         Self { choices: Choices::default(), ground: Settings::default(), time_limit }
     }
 
-    pub(super) fn new(settings: &SteerSettings, rover: &Rover) -> Result<Self, Problem> {
+    pub(super) fn new(settings: &SteerSettings) -> Result<Self, Problem> {
         let mut solver = Self::plain(settings.time_limit);
         let Self { choices, ground, .. } = &mut solver;
         (choices.reversals, choices.turns) = (settings.reversals, settings.turns);
@@ -44,7 +43,6 @@ impl Solver {
         };
         choices.families.cost = choices.flat.cost;
         let effort = &settings.effort;
-        choices.flat.table = effort.start_table.as_deref().map(|path| start_table::load(path, rover)).transpose()?;
         let usual = Precision::default();
         ground.precision = Precision {
             position: usual.position,

@@ -4,9 +4,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use hairpin::feasibility::steering::shooting::Curvatures;
-use hairpin::feasibility::steering::shooting::flat::StartTable;
-use hairpin::feasibility::steering::shooting::flat::start_table::{NONE, steering};
+use hairpin::feasibility::steering::shooting::flat::steering;
 use hairpin::robot::rover::Rover;
+use hairpin::trajectory::start_table::{NONE, StartTable};
 use hairpin_formats::atomic;
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{read_start_table, start_table_bytes};
@@ -51,8 +51,8 @@ pub fn make_start_table(rover: &str, out: &Path) -> Result<MadeTable, Problem> {
     Ok(MadeTable { robot: rover.name, goals, arcs, bytes: bytes.len(), seconds })
 }
 
-/// Reads `path`, which must fit `rover`; kept until the program ends.
-pub(super) fn load(path: &Path, rover: &Rover) -> Result<&'static StartTable, Problem> {
+/// Reads `path`, which must fit `rover`.
+pub(super) fn load(path: &Path, rover: &Rover) -> Result<StartTable, Problem> {
     let wrong = |error: &dyn std::fmt::Display| Problem::input(format!("--start-table {}: {error}", path.display()));
     let table =
         read_start_table(&std::fs::read(path).map_err(|error| wrong(&error))?).map_err(|error| wrong(&error))?;
@@ -63,7 +63,7 @@ pub(super) fn load(path: &Path, rover: &Rover) -> Result<&'static StartTable, Pr
             rover.name
         )));
     }
-    Ok(Box::leak(Box::new(table)))
+    Ok(table)
 }
 
 fn bounds(rover: &Rover) -> Curvatures {

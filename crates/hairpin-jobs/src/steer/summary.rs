@@ -156,7 +156,7 @@ impl Vehicle {
         };
         let Some((solution, _)) = &answered.drive else { return summary };
         summary.profile = answered.profile.map(|profile| speeds(&profile, &Timing::new(&profile, &solution.segments)));
-        let cost = self.solver.ground.cost;
+        let cost = self.solver().ground.cost;
         summary.cost = (cost != GroundCost::Any).then(|| CostOf { name: cost.name(), value: answered.cost });
         if let Some((parameters, fit_error)) = &answered.parameters {
             summary.parameters = Some(controls(parameters, left));

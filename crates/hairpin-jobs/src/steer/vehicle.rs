@@ -9,6 +9,7 @@ use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query, Refusal};
 use hairpin::robot::rover::{Rover, Twist};
 use hairpin::trajectory::SpeedProfile;
+use hairpin::trajectory::start_table::StartTable;
 use hairpin::world::terrain::{ElevationMap, KeepOuts};
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{Asked, Status};
@@ -17,7 +18,7 @@ use super::answered::Answered;
 use super::pace::{Pace, Rows, direction, start, wheels_broken};
 use super::plane::Task;
 use super::solver::{Solver, places};
-use super::{SteerSettings, ground, plane};
+use super::{SteerSettings, ground, plane, start_table};
 use crate::{Problem, Watch};
 
 /// A vehicle that is asked for drives, where it drives, and how they are looked for.
@@ -28,7 +29,9 @@ pub struct Vehicle {
     pub(super) map: Option<ElevationMap>,
     /// What it keeps out of.
     pub(super) keep_outs: KeepOuts,
-    pub(super) solver: Solver,
+    solver: Solver<'static>,
+    /// Where start values are looked up.
+    table: Option<StartTable>,
     /// How fast, and by which controls.
     pub pace: Pace,
 }
@@ -47,21 +50,29 @@ impl Vehicle {
                 rover.name
             )));
         }
-        let solver = Solver::new(settings, &rover)?;
+        let solver = Solver::new(settings)?;
+        let table = settings.effort.start_table.as_deref().map(|path| start_table::load(path, &rover)).transpose()?;
         let keep_outs = places(settings)?;
         let map = settings.terrain.as_ref().map(|(path, georeference)| ground::map(path, georeference, &rover, watch));
-        Ok(Self { map: map.transpose()?, rover, keep_outs, solver, pace: settings.pace })
+        Ok(Self { map: map.transpose()?, rover, keep_outs, solver, table, pace: settings.pace })
     }
 
     /// `rover` on `map`, forward arcs, with `time_limit` for each question: what requirements are checked with.
     pub fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
         let (keep_outs, solver) = (KeepOuts::default(), Solver::plain(time_limit));
-        Self { rover, map, keep_outs, solver, pace: Pace::default() }
+        Self { rover, map, keep_outs, solver, table: None, pace: Pace::default() }
     }
 
     /// Answers a question: solved under the clock, then replayed without it.
     pub fn answer(&self, asked: &Asked) -> Answered {
-        self.answer_by(asked, &self.solver)
+        self.answer_by(asked, &self.solver())
+    }
+
+    /// The solver, with its table.
+    pub(super) fn solver(&self) -> Solver<'_> {
+        let mut solver = self.solver;
+        solver.choices.flat.table = self.table.as_ref();
+        solver
     }
 
     /// The bounds of a question.
@@ -72,7 +83,7 @@ impl Vehicle {
     }
 
     /// Answers a question by other solver.
-    pub(super) fn answer_by(&self, asked: &Asked, solver: &Solver) -> Answered {
+    pub(super) fn answer_by(&self, asked: &Asked, solver: &Solver<'_>) -> Answered {
         let (limits, bounds) = (&self.rover.limits, self.bounds(asked));
         let most = bounds.most;
         let refused = |status, limit, excess| {

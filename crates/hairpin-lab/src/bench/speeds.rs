@@ -43,7 +43,7 @@ pub fn measure(settings: &BenchSettings, watch: &dyn Watch) -> Result<Findings, 
         let names: Vec<&str> = all.iter().map(|row| row.name).chain([WORST]).collect();
         return Err(Problem::input(format!("no bench begins with that name; there are {}", names.join(", "))));
     }
-    warn_of_debug_build(watch);
+    clock::warn_of_debug_build(watch);
     let mut table = vec![["bench", "measured", "unit", "target", "met"].map(str::to_owned).to_vec()];
     let mut objects = Vec::new();
     for row in rows {
@@ -60,10 +60,4 @@ pub fn measure(settings: &BenchSettings, watch: &dyn Watch) -> Result<Findings, 
     let conditions = format!("median of several runs, one core, {clock}, SIMD level {level}");
     let object = json!({ "simd": level, "clock": clock, "benches": objects });
     Ok(Findings::new(vec![Words::Table(table), Words::Text(conditions)], object))
-}
-
-pub(super) fn warn_of_debug_build(watch: &dyn Watch) {
-    if cfg!(debug_assertions) {
-        watch.warn("Warning: this is no release build; its speeds mean nothing");
-    }
 }

@@ -8,11 +8,12 @@ use std::time::Instant;
 use hairpin::campaign::drive::replay_flat;
 use hairpin::campaign::goals::{anywhere, flat_goal};
 use hairpin::feasibility::steering::shooting::cc::{self, Gears};
-use hairpin::feasibility::steering::shooting::flat::{self, StartTable};
+use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::Query;
 use hairpin::feasibility::steering::shooting::solve::{Choices, solve};
 use hairpin::math::random::{Stream, stream, unit};
 use hairpin::trajectory::drive::Segment;
+use hairpin::trajectory::start_table::StartTable;
 use hairpin::verification::DriveReplay;
 use hairpin_jobs::Problem;
 use rayon::prelude::*;
@@ -56,18 +57,18 @@ fn table() -> &'static StartTable {
     TABLE.get_or_init(|| StartTable::generate(&BOUNDS).unwrap_or_else(|error| unreachable!("generic steers: {error}")))
 }
 
-fn with_table() -> flat::Settings {
+fn with_table() -> flat::Settings<'static> {
     flat::Settings { table: Some(table()), ..flat::Settings::default() }
 }
 
 /// Steps of a query in the mean.
-fn steps(queries: &[Query], table: Option<&'static StartTable>) -> f64 {
+fn steps(queries: &[Query], table: Option<&StartTable>) -> f64 {
     let settings = flat::Settings { table, ..flat::Settings::default() };
     let all: u32 = queries.iter().map(|query| flat::forward(query, &BOUNDS, &settings).iterations).sum();
     f64::from(all) / queries.len() as f64
 }
 
-fn choices(reversals: bool) -> Choices {
+fn choices(reversals: bool) -> Choices<'static> {
     Choices { reversals, ..Choices::default() }
 }
 

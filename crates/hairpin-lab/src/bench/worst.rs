@@ -12,7 +12,7 @@ use hairpin_jobs::{Problem, Watch};
 use serde_json::{Value, json};
 
 use super::ground::Yard;
-use super::speeds::warn_of_debug_build;
+use crate::clock::warn_of_debug_build;
 use crate::drives::{BOUNDS, CRATERS};
 use crate::findings::{Findings, Words};
 

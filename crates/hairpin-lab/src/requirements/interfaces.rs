@@ -46,7 +46,7 @@ struct Kind {
     own: fn(&[Segment]) -> bool,
 }
 
-fn forward(query: &Query, settings: flat::Settings) -> SegmentList {
+fn forward(query: &Query, settings: flat::Settings<'_>) -> SegmentList {
     flat::forward(query, &BOUNDS, &settings).segments
 }
 

@@ -22,6 +22,7 @@ pub mod planned_path;
 pub mod profile;
 pub mod program;
 pub mod speed;
+pub mod start_table;
 pub mod timing;
 pub mod track;
 

@@ -367,7 +367,8 @@ impl GroundVehicle {
         [cp * ahead - sp * left, sp * ahead + cp * left, cf / ct * turn, self.turned(way, state[3], s)]
     }
 
-    /// |torque| of each wheel, N·m: m g times rise along the way and rolling resistance, and m a, shared by the wheels; 0 in place.
+    /// |torque| of each wheel, N·m: m g times rise along the way and rolling resistance, and m a, shared by the wheels;
+    /// 0 in place.
     fn torque(&self, way: &Way<'_>, rest: &Rest) -> f64 {
         let (Some(haul), DrivePiece::Arc { direction, .. }) = (&self.haul, way.piece) else { return 0.0 };
         let body = turn(1, rest.pitch()) * turn(0, rest.roll());

@@ -21,6 +21,7 @@
 pub mod bounds;
 pub mod cell;
 mod closed;
+mod error;
 pub mod obstacle;
 pub mod sample;
 pub mod solid;
@@ -30,9 +31,9 @@ pub mod terrain;
 mod tests;
 
 use nalgebra::{Point3, Vector3};
-use thiserror::Error;
 
 pub use bounds::Bounds;
+pub use error::WorldError;
 pub use obstacle::{Obstacle, Shape};
 pub(crate) use sample::short_way;
 pub use sample::{Sampling, SamplingError, sample_free};
@@ -64,33 +65,6 @@ pub struct World {
     keep_in_margin: f64,
     obstacles: Vec<Obstacle>,
     bounds: Vec<Bounds>,
-}
-
-/// Why numbers make no world. `field` is the key below `[world]`.
-///
-/// The one error of everything that stands in a world: keep-outs and regions of cells raise it with their own keys.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("{field} = {value}: must be {bound}")]
-pub struct WorldError {
-    /// Key below `world`, such as `obstacles[2].box.size_m`.
-    pub field: String,
-    /// The offending value as it was given.
-    pub value: String,
-    /// What it must be.
-    pub bound: String,
-}
-
-impl WorldError {
-    /// A mistake in `field`.
-    pub(crate) fn new(field: impl Into<String>, value: impl Into<String>, bound: impl Into<String>) -> Self {
-        Self { field: field.into(), value: value.into(), bound: bound.into() }
-    }
-
-    /// The same mistake in the table `prefix`: `box.size_m` becomes `obstacles[2].box.size_m`.
-    pub fn within(mut self, prefix: &str) -> Self {
-        self.field = format!("{prefix}.{}", self.field);
-        self
-    }
 }
 
 impl World {

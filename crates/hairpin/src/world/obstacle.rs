@@ -5,9 +5,9 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::WorldError;
 use super::bounds::Bounds;
 use super::closed;
+use super::error::WorldError;
 use super::solid::Solid;
 use crate::math::segment;
 

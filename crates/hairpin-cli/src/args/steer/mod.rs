@@ -8,8 +8,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::Threads;
 use super::numbers::{finite, milliseconds, not_negative, positive, steps};
+use super::resources::Threads;
 use super::terrain::{MapFlags, NoData};
 use effort::Effort;
 pub(crate) use effort::StartTable;

@@ -4,9 +4,18 @@ use hairpin::search::heaviest::{Heaviest, Outcome};
 use hairpin_jobs::max_load::{Graph, MaxLoad as Answer};
 use serde_json::{Value, json};
 
-use super::code;
 use crate::args::MaxLoad;
 use crate::console;
+use crate::exit::{DONE, INCONCLUSIVE, NOTHING_FEASIBLE};
+
+/// 3 if there is no path, 5 if none was found in time.
+pub(super) fn code(found: &Heaviest) -> u8 {
+    match found.outcome {
+        Outcome::Found => DONE,
+        Outcome::Infeasible | Outcome::BelowMinCost => NOTHING_FEASIBLE,
+        Outcome::NotFound => INCONCLUSIVE,
+    }
+}
 
 pub(super) fn tell(asked: &MaxLoad, answer: &Answer) {
     if asked.json {

@@ -9,7 +9,7 @@ use hairpin_jobs::sets::Set;
 use hairpin_jobs::{Problem, Watch};
 use serde_json::{Value, json};
 
-use super::code;
+use super::answer::{code, proven_over};
 use crate::args::MaxLoad;
 use crate::exit::NOTHING_FEASIBLE;
 use crate::{console, settings};
@@ -88,7 +88,7 @@ fn tell(asked: &MaxLoad, CloudSearch { setup, graph, found, time, .. }: &CloudSe
         return console::say(&format!("NOTHING FEASIBLE: {why}"));
     };
     let evidence = if found.proven {
-        format!("optimal: {}", super::answer::proven_over(asked.visits))
+        format!("optimal: {}", proven_over(asked.visits))
     } else {
         found.gap_percent().map_or_else(String::new, |gap| format!("gap {gap:.4} %"))
     };

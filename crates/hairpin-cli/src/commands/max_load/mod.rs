@@ -4,12 +4,11 @@ mod answer;
 mod certificate;
 mod cloud;
 
-use hairpin::search::heaviest::{Ends, Heaviest, HeaviestSettings, Method, Outcome};
+use hairpin::search::heaviest::{Ends, HeaviestSettings, Method};
 use hairpin_jobs::max_load::{MaxLoadSettings, max_load};
 use hairpin_jobs::{Problem, Watch};
 
 use crate::args::{MaxLoad, SearchMethod};
-use crate::exit::{DONE, INCONCLUSIVE, NOTHING_FEASIBLE};
 use crate::settings;
 
 /// Runs the command: 3 if there is no path, 5 if none was found in time.
@@ -49,7 +48,7 @@ pub(crate) fn run(asked: &MaxLoad, watch: &dyn Watch) -> Result<u8, Problem> {
     if let Some(out) = &asked.certificate {
         answer.write_certificate(out)?;
     }
-    Ok(code(&answer.found))
+    Ok(answer::code(&answer.found))
 }
 
 fn method(method: SearchMethod) -> Method {
@@ -59,13 +58,5 @@ fn method(method: SearchMethod) -> Method {
         SearchMethod::Branch => Method::Branch,
         SearchMethod::Local => Method::Local,
         SearchMethod::Dfs => Method::Dfs,
-    }
-}
-
-fn code(found: &Heaviest) -> u8 {
-    match found.outcome {
-        Outcome::Found => DONE,
-        Outcome::Infeasible | Outcome::BelowMinCost => NOTHING_FEASIBLE,
-        Outcome::NotFound => INCONCLUSIVE,
     }
 }

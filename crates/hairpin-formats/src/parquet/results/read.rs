@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use hairpin::campaign::case::Violation;
 use hairpin::campaign::{Case, CaseResult, Environment, Evidence, Reruns, Status};
+use hairpin::judgement::Violation;
 use hairpin::judgement::measures::{AccelerationSource, LegSource};
 use hairpin::judgement::{Late, LegMeasures, Measures};
 

@@ -7,8 +7,8 @@ use arrow::array::{
     ArrayRef, Float64Array, Float64Builder, Int64Array, Int64Builder, ListBuilder, StringArray, StringBuilder,
     UInt64Array,
 };
-use hairpin::campaign::case::Violation;
 use hairpin::campaign::{Case, CaseResult, Reruns};
+use hairpin::judgement::Violation;
 use hairpin::judgement::{LegMeasures, Measures, Share};
 
 use super::super::drawn;

@@ -1,12 +1,11 @@
 //! Calls of the file's own routines.
 
-use super::variables::Variable;
 use super::{DEEPEST, Flow, Frame, Machine};
 use crate::rapid::kinds::Kind;
 use crate::rapid::lex::At;
 use crate::rapid::lines::Class;
 use crate::rapid::syntax::{Argument, Expression, Path, Routine};
-use crate::rapid::value::Value;
+use crate::rapid::value::{Value, Variable};
 
 /// A routine about to be executed: its variables, and which of the caller's come back.
 struct Bound<'a> {

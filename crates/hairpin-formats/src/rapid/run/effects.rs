@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{DEEPEST, Machine};
 use crate::rapid::instructions::{self, Effect};
-use crate::rapid::syntax::{Argument, Expression, Path, Statement, Step, What};
+use crate::rapid::syntax::{Argument, Expression, Path, Statement, Step, What, inner};
 
 /// What a block might do.
 #[derive(Debug, Default)]
@@ -47,20 +47,6 @@ pub(super) fn has_way_out(block: &[Statement]) -> bool {
         What::Return(_) | What::Exit | What::Goto(_) => true,
         _ => inner(statement).into_iter().any(has_way_out),
     })
-}
-
-/// Blocks within a statement.
-fn inner(statement: &Statement) -> Vec<&[Statement]> {
-    match &statement.what {
-        What::If { branches, otherwise } => {
-            branches.iter().map(|(_, body)| body.as_slice()).chain([otherwise.as_slice()]).collect()
-        }
-        What::Test { cases, otherwise, .. } => {
-            cases.iter().map(|(_, body)| body.as_slice()).chain([otherwise.as_slice()]).collect()
-        }
-        What::While { body, .. } | What::For { body, .. } => vec![body.as_slice()],
-        _ => Vec::new(),
-    }
 }
 
 impl Machine<'_> {
@@ -166,14 +152,6 @@ impl Machine<'_> {
                 }
             }
         }
-    }
-}
-
-/// Calls `seen` with every statement of the block and of the blocks within.
-pub(in crate::rapid) fn each(block: &[Statement], seen: &mut impl FnMut(&Statement)) {
-    for statement in block {
-        seen(statement);
-        inner(statement).into_iter().for_each(|block| each(block, seen));
     }
 }
 

@@ -15,10 +15,8 @@ use hairpin::trajectory::program::{Move, Tool, WorkObject};
 use super::kinds::Kind;
 use super::lex::At;
 use super::lines::{Class, Line};
-use super::syntax::{Routine, RoutineKind, Source};
-use super::value::Value;
-pub(in crate::rapid) use effects::each;
-use variables::Variable;
+use super::syntax::{Routine, RoutineKind, Source, each};
+use super::value::{Value, Variable};
 
 /// Statements and values at most; a program that takes more is told to be endless.
 const MOST_STEPS: usize = 1_000_000;
@@ -121,7 +119,7 @@ impl<'a> Machine<'a> {
         for routine in &source.routines {
             self.lines.entry(routine.at.line).or_insert_with(Line::unreached);
             for block in [&routine.body, &routine.handlers] {
-                effects::each(block, &mut |statement| {
+                each(block, &mut |statement| {
                     self.lines.entry(statement.at.line).or_insert_with(Line::unreached);
                 });
             }

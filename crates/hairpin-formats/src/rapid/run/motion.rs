@@ -5,13 +5,12 @@ use std::collections::BTreeMap;
 use hairpin::trajectory::program::{Motion, Move, Speed, Tool, WorkObject, Zone};
 
 use super::Machine;
-use super::variables::Variable;
 use crate::rapid::instructions::MoveKind;
 use crate::rapid::kinds::Kind;
 use crate::rapid::lex::At;
 use crate::rapid::lines::Class;
 use crate::rapid::syntax::{Argument, Expression, Path};
-use crate::rapid::value::{self, Unfit, Value};
+use crate::rapid::value::{self, Unfit, Value, Variable};
 
 /// Optional arguments that leave the path as it is.
 const INERT: [&str; 5] = ["conc", "id", "inpos", "tload", "noeoffs"];

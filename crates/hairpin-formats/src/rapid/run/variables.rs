@@ -5,22 +5,10 @@ use crate::rapid::kinds::Kind;
 use crate::rapid::lex::At;
 use crate::rapid::lines::Class;
 use crate::rapid::syntax::{Declaration, Path, Step};
-use crate::rapid::value::Value;
+use crate::rapid::value::{Value, Variable};
 
 /// Data of all declarations together, in values.
 const MOST_VALUES: usize = 1_000_000;
-
-/// A variable, constant or persistent.
-#[derive(Debug, Clone)]
-pub(super) struct Variable {
-    /// As it was declared.
-    pub(super) name: String,
-    /// `None`: a kind that is not followed.
-    pub(super) kind: Option<Kind>,
-    pub(super) value: Value,
-    /// Whether it holds what it was declared with.
-    pub(super) untouched: bool,
-}
 
 impl Machine<'_> {
     /// The variable of the innermost routine, or of the modules.

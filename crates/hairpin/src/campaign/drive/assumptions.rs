@@ -1,9 +1,10 @@
 //! What a drive's claim, execution and limits rest on, said from the run's own settings.
 
 use super::DriveSetup;
-use crate::campaign::scenario::{GroundControllerKind, GroundReach};
+use crate::campaign::scenario::GroundReach;
 use crate::feasibility::reach::drive::{Pace, Slopes};
 use crate::robot::rover::{Kinematics, Suspension};
+use crate::simulation::ground::GroundControllerKind;
 
 /// What stands behind the legs.
 pub(super) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {

@@ -100,7 +100,7 @@ impl DriveSetup {
     }
 
     /// The flat solver that shapes them.
-    pub(super) fn flat_solver(&self) -> flat::Settings {
+    pub(super) fn flat_solver(&self) -> flat::Settings<'static> {
         let starts = self.scenario.generate.solver.starts as u32;
         flat::Settings { starts, simd: self.simd, ..ReachSettings::of(&self.planner).flat }
     }

@@ -4,9 +4,9 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::searched;
+use crate::campaign::generate::{Known, generate};
 use crate::campaign::kind::{Knob, Turn};
-use crate::campaign::{Setup, Stop, vary};
+use crate::campaign::{Setup, Stop, Tally, vary};
 
 /// A number is turned until what helps is known to this share of itself and of the change …
 const PRECISION: f64 = 0.05;
@@ -195,6 +195,18 @@ fn name(key: &str) -> String {
         ("max", Some(bounded)) => format!("greatest {bounded}"),
         _ => format!("{end}{bare}"),
     }
+}
+
+/// What a search of `setup` finds: all of its graphs, or until the first trajectory.
+pub(super) fn searched(setup: &Setup, all: bool, stop: &Stop) -> Tally {
+    let found = std::sync::atomic::AtomicBool::new(false);
+    let cancelled = || (stop.cancelled)() || (!all && found.load(std::sync::atomic::Ordering::Relaxed));
+    let quiet = Stop { cancelled: &cancelled, progress: &|_, _| {}, clock: stop.clock };
+    generate(setup, &Known::default(), &quiet, &mut |cases, _| {
+        if !cases.is_empty() {
+            found.store(true, std::sync::atomic::Ordering::Relaxed);
+        }
+    })
 }
 
 #[cfg(test)]

@@ -4,11 +4,11 @@ mod changes;
 
 use serde::Serialize;
 
-use super::generate::Known;
-use super::{Mistake, Scenario, Setup, Stop, Tally, generate, verdict};
+use self::changes::{searched, smallest};
+use super::graph::Deaths;
+use super::{Mistake, Scenario, Setup, Stop, Tally, verdict};
 use crate::judgement::Verdict;
 
-pub use super::graph::{Deaths, Lost, Stage};
 pub use changes::Change;
 
 /// What is known of a scenario's feasibility.
@@ -48,7 +48,7 @@ pub fn explain(
     let deaths = setup.kind().lost(graphs);
     let cancelled = || (stop.cancelled)() || enough();
     let looking = Stop { cancelled: &cancelled, ..*stop };
-    let changes = if tally.solved > 0 { Vec::new() } else { changes::smallest(&setup, &looking) };
+    let changes = if tally.solved > 0 { Vec::new() } else { smallest(&setup, &looking) };
     let stopped = tally.solved == 0 && cancelled();
     Ok(Explanation { graphs: tally.graphs, solved: tally.solved, deaths, changes, stopped, tally })
 }
@@ -83,16 +83,4 @@ fn first_of(setup: &Setup, graphs: u64) -> Result<Scenario, Mistake> {
     }
     draws.extend(knobs.settled);
     super::vary::apply(&setup.scenario, &draws)
-}
-
-/// What a search of `setup` finds: all of its graphs, or until the first trajectory.
-fn searched(setup: &Setup, all: bool, stop: &Stop) -> Tally {
-    let found = std::sync::atomic::AtomicBool::new(false);
-    let cancelled = || (stop.cancelled)() || (!all && found.load(std::sync::atomic::Ordering::Relaxed));
-    let quiet = Stop { cancelled: &cancelled, progress: &|_, _| {}, clock: stop.clock };
-    generate(setup, &Known::default(), &quiet, &mut |cases, _| {
-        if !cases.is_empty() {
-            found.store(true, std::sync::atomic::Ordering::Relaxed);
-        }
-    })
 }

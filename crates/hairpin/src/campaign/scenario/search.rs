@@ -4,9 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::judgement::Stress;
-
-pub use crate::search::Aggregate;
-pub use crate::world::Sampling;
+use crate::search::Aggregate;
+use crate::world::Sampling;
 
 /// The score that is the stress which partial trajectories were executed to.
 pub const EXECUTED: &str = "executed";

@@ -112,7 +112,9 @@ impl Followed<'_> {
             steps: Steps { length, angle, least: 8 },
         };
         let mut walk = Walk {
-            followed: self,
+            rover: self.rover,
+            turn_rate: self.turn_rate,
+            direction: self.direction,
             timing: &timing,
             terrain,
             states: Vec::new(),

@@ -2,15 +2,19 @@
 
 use nalgebra::Vector3;
 
-use super::{Followed, VehicleState, WheelPeaks, WheelState};
+use super::peaks::WheelPeaks;
+use super::vehicle_state::{VehicleState, WheelState};
 use crate::feasibility::steering::shooting::rough::{Driven, tilt};
-use crate::robot::rover::{Effort, Twist, WheelMotion};
-use crate::trajectory::Timing;
+use crate::robot::rover::{Effort, Rover, Twist, WheelMotion};
+use crate::trajectory::{Direction, Timing};
 use crate::world::terrain::Terrain;
 
 /// A drive under way.
-pub(super) struct Walk<'a, 'f, T> {
-    pub(super) followed: &'a Followed<'f>,
+pub(super) struct Walk<'a, T> {
+    pub(super) rover: &'a Rover,
+    /// Of turns in place, rad/s.
+    pub(super) turn_rate: f64,
+    pub(super) direction: Direction,
     pub(super) timing: &'a Timing,
     pub(super) terrain: &'a T,
     pub(super) states: Vec<VehicleState>,
@@ -19,9 +23,9 @@ pub(super) struct Walk<'a, 'f, T> {
     pub(super) peaks: WheelPeaks,
 }
 
-impl<T: Terrain> Walk<'_, '_, T> {
+impl<T: Terrain> Walk<'_, T> {
     pub(super) fn add(&mut self, driven: &Driven) {
-        let Followed { rover, turn_rate, direction, .. } = *self.followed;
+        let Self { rover, turn_rate, direction, .. } = *self;
         let time = self.timing.time_at(driven.s) + driven.turned / turn_rate;
         let sign = driven.step.signum();
         let delta = direction.at(driven.s, self.timing.length());

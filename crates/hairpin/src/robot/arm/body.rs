@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Vector3};
 
 use super::chain::Chain;
+use super::joints::{AXES, Joints};
 use super::opw::Opw;
-use super::{AXES, Joints};
 
 /// All points within `radius` of the segment a–b, in the link's frame, m.
 ///

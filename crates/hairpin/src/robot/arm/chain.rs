@@ -5,7 +5,7 @@
 
 use nalgebra::{Isometry3, Matrix6, Point3, Vector3, Vector6};
 
-use super::{AXES, Joints};
+use super::joints::{AXES, Joints};
 use crate::math::rotation::{from_rotation_vector, rotation_vector};
 
 /// One turning joint.

@@ -7,7 +7,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
-use super::Joints;
+use super::joints::Joints;
 
 /// Which of the eight inverse solutions of an arm with a spherical wrist.
 ///

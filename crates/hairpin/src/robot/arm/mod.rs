@@ -7,6 +7,7 @@
 //!
 //! | file | what |
 //! | --- | --- |
+//! | `joints` | angles and what joints may do |
 //! | `chain` | forward kinematics, Jacobian, Newton's inverse: for every arm |
 //! | `opw` | the closed inverse, eight branches: for spherical wrists |
 //! | `configuration` | cf1, cf4, cf6, cfx of a controller's robtarget |
@@ -24,6 +25,7 @@ mod chain;
 mod configuration;
 mod description;
 mod dynamics;
+mod joints;
 mod opw;
 mod rates;
 mod singularity;
@@ -39,6 +41,7 @@ pub use description::{
     ArmDescription, ArmError, ArmKind, CapsuleDescription, ChainDescription, ChainJoint, JointsDescription,
     MassDescription, OpwDescription,
 };
+pub use joints::{AXES, JointLimit, Joints};
 pub use opw::{Opw, WristCentre, nearest_turn, nearest_turns};
 pub use rates::{PieceBounds, Sweep};
 pub use singularity::{Margin, Singularity};
@@ -47,36 +50,6 @@ pub use tool::{Tool, WorkObject, unit_quaternion_of};
 use std::f64::consts::TAU;
 
 use nalgebra::Isometry3;
-
-/// Joints of every arm here.
-pub const AXES: usize = 6;
-
-/// Joint angles, rad, from the base on.
-///
-/// q₁ … q₆. Angles may be on any turn within the limits: q and q + 2π are different postures of an arm.
-pub type Joints = [f64; AXES];
-
-/// What one joint may do.
-///
-/// The bounds are the joint's own; coupling between axes (as of parallel rods) is not modelled.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct JointLimit {
-    /// Least angle, rad.
-    pub lower: f64,
-    /// Largest angle, rad.
-    pub upper: f64,
-    /// Largest |q̇|, rad/s.
-    pub speed: f64,
-    /// Largest |q̈|, rad/s².
-    pub acceleration: f64,
-}
-
-impl JointLimit {
-    /// How far `angle` lies inside the bounds, rad; negative outside.
-    pub fn margin(&self, angle: f64) -> f64 {
-        (angle - self.lower).min(self.upper - angle)
-    }
-}
 
 /// How an arm's inverse is found.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,7 +9,8 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3};
 
 use super::chain::{Chain, Joint};
-use super::{AXES, Branch, Joints};
+use super::configuration::Branch;
+use super::joints::{AXES, Joints};
 use crate::math::power::square;
 use crate::math::rotation::from_rotation_vector;
 

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::body::{BellyDescription, Body};
 use super::error::{RoverError, place, within, wrong};
-use super::forces::{ForcesDescription, Weight};
 use super::four_wheel::FourWheel;
+use super::weight::{ForcesDescription, Weight};
 use super::wheels::{Steering, Wheels, WheelsDescription};
 use super::{Kinematics, Limits, Response, RockerBogie, Rover, Slip, Suspension};
 

@@ -9,7 +9,7 @@
 //! ```text
 //! settle    F(z, φ, θ, joints; x, y, ψ) = 0              one gap for each wheel           (suspension)
 //! rates     (ẋ, ẏ, ψ̇) from vx, vy, ωz and the lean       slip by the sine of the slope    (motion)
-//! wheels    v_w = v + ω × r_w                             steer angles, rolling speeds     (wheels)
+//! wheels    v_w = v + ω × r_w                             steer angles, rolling speeds     (rolling)
 //! forces    F = m g (sin(climb) + c cosφ cosθ) + m v̇     torque of each wheel             (forces)
 //! margins   tipping, underside                            by force-angle, by a grid        (stability)
 //! ```
@@ -33,11 +33,14 @@ mod description;
 mod error;
 mod forces;
 mod four_wheel;
+mod kinematics;
 mod motion;
 mod rest;
 mod rocker_bogie;
+mod rolling;
 mod stability;
 mod suspension;
+mod weight;
 mod wheels;
 
 #[cfg(test)]
@@ -47,13 +50,16 @@ pub use body::{Belly, BellyDescription, Body};
 pub use description::{RoverDescription, RoverKind};
 pub use error::RoverError;
 pub(super) use error::within;
-pub use forces::{Effort, ForcesDescription, Weight};
+pub use forces::Effort;
 pub use four_wheel::FourWheel;
-pub use motion::{Kinematics, RateSlopes, Rates, Slip, rate_slopes, rates, slip_share};
+pub use kinematics::{Kinematics, Slip};
+pub use motion::{RateSlopes, Rates, rate_slopes, rates, slip_share};
 pub use rest::{Gradient, Settled, Unsettled};
 pub use rocker_bogie::RockerBogie;
+pub use rolling::{Twist, WheelMotion};
 pub use suspension::Suspension;
-pub use wheels::{Steering, Twist, WheelMotion, Wheels, WheelsDescription};
+pub use weight::{ForcesDescription, Weight};
+pub use wheels::{Steering, Wheels, WheelsDescription};
 
 /// A rover's numbers, SI, all checked and finite. Built by [`RoverDescription::build`].
 ///

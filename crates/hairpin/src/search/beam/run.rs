@@ -11,8 +11,9 @@ use super::super::growth::{Growth, Parent};
 use super::super::objective::LegView;
 use super::super::task::{Found, Task};
 use super::atlas::{Atlas, KnownLeg};
+use super::outcome::{BeamOutcome, Ended};
 use super::reduction::Reduction;
-use super::{BeamOutcome, BeamSettings, Ended};
+use super::settings::BeamSettings;
 use crate::feasibility::reach::Reach;
 
 /// Lookahead at most: the backward pass recurses.

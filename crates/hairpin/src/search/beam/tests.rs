@@ -1,5 +1,6 @@
 //! The beam against brute force, its bound, its pruning, its repeatability.
 
+use super::super::objective::Aggregate;
 use super::super::score::Score;
 use super::super::small::{Octahedron, START, enumerate, points};
 use super::super::task::Task;

@@ -9,7 +9,7 @@ use std::collections::HashSet;
 use super::super::frontier::{IntervalHeap, Tree};
 use super::super::graph::{LegGraph, LegScores, Values};
 use super::super::task::Found;
-use super::ExactSettings;
+use super::settings::ExactSettings;
 
 /// A partial trajectory and the best it can become.
 #[derive(Debug, Clone, Copy)]

@@ -9,7 +9,7 @@ use rustc_hash::FxBuildHasher;
 
 use super::super::graph::{LegGraph, LegScores, Values};
 use super::super::task::Found;
-use super::ExactSettings;
+use super::settings::ExactSettings;
 use crate::math::random::hashed_unit;
 
 /// A partial trajectory without revisits.

@@ -22,7 +22,7 @@ use std::ops::Range;
 
 use nalgebra::Point3;
 
-use super::objective::{Additive, LegView};
+use super::objective::LegView;
 use super::task::Found;
 use crate::feasibility::reach::LegFeatures;
 pub(super) use count::Layer;
@@ -126,21 +126,6 @@ impl<'a, N: Copy> LegGraph<'a, N> {
         let Details { duration, features } = self.details[leg];
         let to = self.waypoint(self.target(leg));
         LegView { candidates: self.candidates, from: self.waypoint(from), to, duration, features }
-    }
-
-    /// The score of every leg.
-    pub(super) fn scores<O: Additive>(&self, objective: &O) -> LegScores {
-        let (mut own, mut left) = (Vec::with_capacity(self.legs()), Vec::with_capacity(self.legs()));
-        let mut views = Vec::new();
-        for node in 0..self.nodes() as u32 {
-            views.clear();
-            views.extend(self.legs_from(node).map(|leg| self.view(node, leg)));
-            for [of_leg, to_next] in objective.parts(&views) {
-                own.push(of_leg);
-                left.push(to_next);
-            }
-        }
-        LegScores::new(own, left, objective.has_sink())
     }
 
     /// The trajectory along `legs` from the start.

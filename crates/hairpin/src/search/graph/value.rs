@@ -3,7 +3,7 @@
 //! Backwards from the end, so that what a partial trajectory can still become is looked up and not searched (Bellman
 //! 1957). Layers near the start hold values only of the few nodes that a walk meets there.
 
-use super::super::objective::Aggregate;
+use super::super::objective::{Additive, Aggregate};
 use super::LegGraph;
 
 /// The scores of a graph's legs under one [`super::super::objective::Additive`].
@@ -78,6 +78,21 @@ impl Values {
 }
 
 impl<N: Copy> LegGraph<'_, N> {
+    /// The score of every leg.
+    pub(in crate::search) fn scores<O: Additive>(&self, objective: &O) -> LegScores {
+        let (mut own, mut left) = (Vec::with_capacity(self.legs()), Vec::with_capacity(self.legs()));
+        let mut views = Vec::new();
+        for node in 0..self.nodes() as u32 {
+            views.clear();
+            views.extend(self.legs_from(node).map(|leg| self.view(node, leg)));
+            for [of_leg, to_next] in objective.parts(&views) {
+                own.push(of_leg);
+                left.push(to_next);
+            }
+        }
+        LegScores::new(own, left, objective.has_sink())
+    }
+
     /// The nodes that walks of 0, 1, 2 … legs from the start lead to, as long as these are few and the walks have no
     /// more than `length` waypoints.
     pub(in crate::search) fn near_start(&self, length: usize) -> Vec<Vec<u32>> {

@@ -136,6 +136,17 @@ const NOT_NEGATIVE: &str = "a number from 0 to 10000";
 const UNIT: &str = "of square 1 within 0.00001";
 
 impl Program {
+    /// The program itself, if it can be executed.
+    ///
+    /// # Errors
+    /// The first of [`Program::problems`].
+    pub fn checked(self) -> Result<Self, ProgramError> {
+        match self.problems().into_iter().next() {
+            Some(problem) => Err(problem),
+            None => Ok(self),
+        }
+    }
+
     /// Everything that keeps the program from being executed, in its order: indices, numbers, quaternions, arcs.
     ///
     /// An arc that begins where a posture ended or where another tool was in use is not looked at: its start is known

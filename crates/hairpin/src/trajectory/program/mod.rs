@@ -86,17 +86,6 @@ impl Program {
         }
     }
 
-    /// The program itself, if it can be executed.
-    ///
-    /// # Errors
-    /// The first of [`Program::problems`].
-    pub fn checked(self) -> Result<Self, ProgramError> {
-        match self.problems().into_iter().next() {
-            Some(problem) => Err(problem),
-            None => Ok(self),
-        }
-    }
-
     /// The same program with no component of any speed above `cap`'s, for a first run: `_slow` after both names, cut to
     /// `longest` characters, and no move timed.
     ///

@@ -6,7 +6,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::Arm;
 use super::claim::ArmBuild;
-use super::inverse::Wrist;
+use super::wrist::Wrist;
 
 /// An angle this near (rad) to the border of two quadrants is in both.
 const BORDER: f64 = 1e-6;

@@ -22,6 +22,7 @@ mod program;
 mod reach;
 mod screws;
 mod solids;
+mod wrist;
 
 #[cfg(test)]
 mod tests;
@@ -34,9 +35,9 @@ pub use graph::{ArmWay, ArmWayClaim, verify_arm_graph};
 pub use path::{ArmPath, ArmPiece};
 pub use program::{ArmProgramReplay, verify_arm_program};
 
-use inverse::Wrist;
 use screws::Screws;
 use solids::box_around;
+use wrist::Wrist;
 
 /// Points on a body's axis, and of a corner, are this near, m.
 const ALONG: f64 = 5e-3;

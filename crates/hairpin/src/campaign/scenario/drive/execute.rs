@@ -4,8 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::scenario::FlakySection;
-
-pub use crate::simulation::ground::GroundControllerKind;
+use crate::simulation::ground::GroundControllerKind;
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

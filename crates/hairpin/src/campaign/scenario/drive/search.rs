@@ -3,8 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{Aggregate, EXECUTED, Sampling, SearchMethod, SearchSection};
+use crate::campaign::scenario::{EXECUTED, SearchMethod, SearchSection};
 use crate::judgement::Stress;
+use crate::search::Aggregate;
+use crate::world::Sampling;
 
 /// Declares the section, and how it becomes that of flights and back; the score stands between two keys that both have.
 macro_rules! drive_search {

@@ -89,7 +89,7 @@ pub struct DriveSettings {
     /// How exactly goals are met on the ground.
     pub solver: rough::Settings,
     /// The flat solver's choices. Its precision should be far finer than the one on the ground.
-    pub flat: flat::Settings,
+    pub flat: flat::Settings<'static>,
     /// The choices of the families of controls that have a search of their own.
     pub families: families::Settings,
     /// What makes a leg stressful.

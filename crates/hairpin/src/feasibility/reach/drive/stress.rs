@@ -33,7 +33,7 @@ impl Term {
 /// | `slope` | max \|climb angle\| along the direction of travel ÷ tilt limit |
 /// | `roll` | max \|φ\| ÷ tilt limit |
 /// | `curvature-change` | ∫ \|κ′\| ds, jumps at stops included, ÷ (2 κ_max): 1 is one change from lock to lock |
-/// | `slip` | mean over the way of √((s₂₀ sin climb)² + (s′₂₀ sin side)²) ÷ sin 20°, s₂₀ and s′₂₀ the rover's own slip; 1 each where it has none |
+/// | `slip` | mean over the way of √((s₂₀ sin climb)² + (s′₂₀ sin side)²) ÷ sin 20° (of the rover's slip, or 1 each) |
 /// | `speed` | distance of the waypoints ÷ (time of the leg × commanded speed) |
 /// | `reversals` | changes of gear on the way |
 /// | `random` | a uniform number in [0, 1) per pair of waypoints, a pure function of the seed and the two indices |

@@ -20,7 +20,7 @@ pub struct Around<'a> {
     /// What the flat drives are shaped by.
     pub control: Control,
     /// What may be driven.
-    pub choices: Choices,
+    pub choices: Choices<'a>,
 }
 
 /// An answer, and where its motion comes too near to a place to keep out of.

@@ -3,26 +3,34 @@
 //! [`generate()`] is the one call: a [`families::Problem`] (query, speeds, direction of travel), a [`Control`], bounds
 //! and [`solve::Choices`]. On the ground, [`rough::solve()`] shapes with it and [`rough::predict()`] integrates.
 //!
-//! What T. Howard's user guide of the rover trajectory generator (2006) lets one set, and what became of it:
+//! What T. Howard's user guide of the rover trajectory generator (2006) lets one set, with its default, and what became
+//! of it:
 //!
-//! | there | default | here |
-//! | --- | --- | --- |
-//! | `SetXPrecision`, `SetYPrecision` | 0.01 m | [`Precision::position`], the distance √(δx² + δy²), so that each is kept; `tolerance_m` of files, `--tolerance-m` |
-//! | `SetYawPrecision` | 0.01 rad | [`Precision::yaw`], `--tolerance-yaw-rad` |
-//! | `SetKPrecision` | 0.01 1/m | [`Precision::curvature`], `--tolerance-curvature-1-m` |
-//! | `SetVPrecision` | 0.01 m/s | [`SPEED_PRECISION`], `--tolerance-speed-m-s`: what speeds at the ends are held to; profiles meet it by construction |
-//! | `SetMaxIterations` | 20 | [`flat::Settings::iterations`] (20), [`families::Settings::iterations`] (60, of each start), [`rough::Settings::iterations`] (30 predictions); `--iterations` sets all three |
-//! | `SetConvergenceRate` | 1.0 | [`flat::Settings::step_scale`], [`families::Settings::step_scale`], [`rough::Settings::step_scale`]; `--step-scale` sets all three |
-//! | `SetTimeStep` | 0.001 s | of what is exported: [`Followed::time_step`](crate::campaign::states::Followed::time_step), `--time-step-s`; solving takes the steps of [`rough::Steps`], which agree with 1 ms within a tenth of the precision, by test |
-//! | `SetMaximumNumberSteps` | 10 000 | [`Followed::most_steps`](crate::campaign::states::Followed::most_steps), `--max-steps` |
-//! | `SetVehicleModel` | generic | [`Rover`](crate::robot::rover::Rover), from a file |
-//! | `SetVehicleControls` | fifth order | the value of [`Control`], `--control` |
-//! | `SolveTrajectory` | | [`generate()`], [`rough::solve()`] |
-//! | `GetVehicleControls` | | [`Generated::solution`] as segments, [`Generated::parameters`] as the family has them |
-//! | `GetPath`, `exportPath` | on | [`Followed::on`](crate::campaign::states::Followed::on), only where it is called; `--path FILE.csv` |
-//! | `setHeuristic` (15.7 MB table) | on | off: start values are Dubins' words, computed in a microsecond. [`flat::StartTable`] (180 kB) through [`flat::Settings::table`], `--start-table`; [`flat::StartTable::generate`] and `hairpin start-table` make it |
-//! | `displayDebug` | on | the observer of [`generate()`]; `RUST_LOG=debug` on the command line. The library prints nothing |
-//! | `DynamicsResponse`, `EvalSuspension` | identity | [`Response`](crate::robot::rover::Response), [`Suspension`](crate::robot::rover::Suspension) |
+//! - `SetXPrecision`, `SetYPrecision` (0.01 m): [`Precision::position`], the distance √(δx² + δy²), so that each is
+//!   kept; `tolerance_m` of files, `--tolerance-m`.
+//! - `SetYawPrecision` (0.01 rad): [`Precision::yaw`], `--tolerance-yaw-rad`.
+//! - `SetKPrecision` (0.01 1/m): [`Precision::curvature`], `--tolerance-curvature-1-m`.
+//! - `SetVPrecision` (0.01 m/s): [`SPEED_PRECISION`], `--tolerance-speed-m-s`: what speeds at the ends are held to;
+//!   profiles meet it by construction.
+//! - `SetMaxIterations` (20): [`flat::Settings::iterations`] (20), [`families::Settings::iterations`] (60, of each
+//!   start), [`rough::Settings::iterations`] (30 predictions); `--iterations` sets all three.
+//! - `SetConvergenceRate` (1.0): [`flat::Settings::step_scale`], [`families::Settings::step_scale`],
+//!   [`rough::Settings::step_scale`]; `--step-scale` sets all three.
+//! - `SetTimeStep` (0.001 s): of what is exported, `campaign::states::Followed::time_step`, `--time-step-s`; solving
+//!   takes the steps of [`rough::Steps`], which agree with 1 ms within a tenth of the precision, by test.
+//! - `SetMaximumNumberSteps` (10 000): `campaign::states::Followed::most_steps`, `--max-steps`.
+//! - `SetVehicleModel` (generic): [`Rover`](crate::robot::rover::Rover), from a file.
+//! - `SetVehicleControls` (fifth order): the value of [`Control`], `--control`.
+//! - `SolveTrajectory`: [`generate()`], [`rough::solve()`].
+//! - `GetVehicleControls`: [`Generated::solution`] as segments, [`Generated::parameters`] as the family has them.
+//! - `GetPath`, `exportPath` (on): `campaign::states::Followed::on`, only where it is called; `--path FILE.csv`.
+//! - `setHeuristic` (on, a table of 15.7 MB): off, for start values are Dubins' words, computed in a microsecond.
+//!   [`StartTable`](crate::trajectory::start_table::StartTable) (180 kB) through [`flat::Settings::table`],
+//!   `--start-table`; `StartTable::generate` and `hairpin start-table` make it.
+//! - `displayDebug` (on): the observer of [`generate()`]; `RUST_LOG=debug` on the command line. The library prints
+//!   nothing.
+//! - `DynamicsResponse`, `EvalSuspension` (identity): [`Response`](crate::robot::rover::Response),
+//!   [`Suspension`](crate::robot::rover::Suspension).
 //!
 //! ```text
 //! x′ = cos θ    y′ = sin θ    θ′ = κ(s; p)          |κ| ≤ κ_max, |κ′| ≤ κ′_max        s in [0, L]

@@ -12,7 +12,7 @@ use super::query::{Curvatures, Goal, Query};
 
 /// What may be driven, and how hard to look for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Choices {
+pub struct Choices<'t> {
     /// The gear of drives without reversals, and of single arcs.
     pub gear: Gear,
     /// Whether the gear may change on the way.
@@ -22,12 +22,12 @@ pub struct Choices {
     /// Whether single arcs are tried at all.
     pub arcs: bool,
     /// For the single arc.
-    pub flat: flat::Settings,
+    pub flat: flat::Settings<'t>,
     /// For the families of controls that have a search of their own; the precision is the single arc's.
     pub families: families::Settings,
 }
 
-impl Default for Choices {
+impl Default for Choices<'_> {
     /// Forward arcs, no reversals, no turns in place.
     fn default() -> Self {
         Self {

@@ -12,7 +12,21 @@
 //! atom     = number | x | y | z | "(" either or sum ")" | sqrt(…) | abs(…) | min(…, …) | max(…, …)
 //! ```
 
-use super::{Condition, Term, WordsError};
+use thiserror::Error;
+
+use super::condition::{Condition, Term};
+
+/// Why a text is no inequation.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("column {column}: expected {expected}, found {found}")]
+pub struct WordsError {
+    /// Column of the mistake, from 1, in characters.
+    pub column: usize,
+    /// What could stand there.
+    pub expected: String,
+    /// What does.
+    pub found: String,
+}
 
 /// The condition that `text` is.
 pub(super) fn condition(text: &str) -> Result<Condition, WordsError> {

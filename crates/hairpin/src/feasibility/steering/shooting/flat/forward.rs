@@ -40,7 +40,7 @@ enum Grade {
 /// The best curve so far, with the steps of all.
 struct Search<'a> {
     query: &'a Query,
-    settings: &'a Settings,
+    settings: &'a Settings<'a>,
     task: Task,
     best: Option<(Grade, Curve)>,
     iterations: u32,

@@ -15,7 +15,7 @@ mod forward;
 mod mirror;
 mod miss;
 mod settings;
-pub mod start_table;
+mod start_table;
 mod tabulate;
 mod task;
 
@@ -24,7 +24,7 @@ mod tests;
 
 pub use controls::{crab, turn_drive_turn};
 pub use settings::{Answer, Control, Cost, Limit, Settings, Status};
-pub use start_table::StartTable;
+pub use start_table::steering;
 
 use super::query::{Curvatures, Goal, Query};
 use crate::trajectory::drive::SegmentList;

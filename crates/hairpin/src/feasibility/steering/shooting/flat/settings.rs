@@ -1,13 +1,13 @@
 //! What may be chosen, and what is answered.
 
-use super::start_table::StartTable;
 use crate::feasibility::steering::shooting::query::Precision;
 use crate::math::simd::Simd;
 use crate::trajectory::drive::SegmentList;
+use crate::trajectory::start_table::StartTable;
 
 /// Choices of the solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct Settings<'t> {
     /// The errors within which the goal counts as met.
     pub precision: Precision,
     /// Steps of each descent at most.
@@ -20,13 +20,13 @@ pub struct Settings {
     pub control: Control,
     /// What to minimise once goal and bounds are met.
     pub cost: Cost,
-    /// Where start values are looked up first; it stays for as long as the program runs.
-    pub table: Option<&'static StartTable>,
+    /// Where start values are looked up first.
+    pub table: Option<&'t StartTable>,
     /// Version of the kernels; all give the same bits.
     pub simd: Simd,
 }
 
-impl Default for Settings {
+impl Default for Settings<'_> {
     /// 1 cm, 0.01 rad, 0.01 1/m; 20 whole steps, 8 starts; fifth order; the first good curve.
     fn default() -> Self {
         Self {

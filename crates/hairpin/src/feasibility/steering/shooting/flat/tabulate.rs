@@ -2,10 +2,11 @@
 
 use super::forward::{self, Curve};
 use super::settings::Settings;
-use super::start_table::{
-    APART, BEHIND, ENTRIES, NODES, NONE, StartTable, StartTableError, TURN, checked_steering, steering,
-};
+use super::start_table::steering;
 use crate::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
+use crate::trajectory::start_table::{
+    APART, BEHIND, ENTRIES, NODES, NONE, StartTable, StartTableError, TURN, checked_steering,
+};
 
 impl StartTable {
     /// The arcs that the solver finds by itself within `bounds`, one for each node.

@@ -1,11 +1,11 @@
 //! Start values by table.
 
-use super::super::start_table::{ENTRIES, StartTable, StartTableError};
 use super::super::{Control, Settings, Status, forward};
 use super::BOUNDS;
 use crate::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
 use crate::math::random::hashed_unit;
 use crate::trajectory::drive::{Motion, Segment};
+use crate::trajectory::start_table::{ENTRIES, StartTable, StartTableError};
 
 /// Bounds of a vehicle ten times as large as the unit one that steers as well as it.
 const LARGE: Curvatures = Curvatures { most: 0.1, most_rate: 0.01 };

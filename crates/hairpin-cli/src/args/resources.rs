@@ -1,0 +1,23 @@
+//! How the machine is used.
+
+use clap::Args;
+
+/// More than any machine has cores for; each takes memory, and graphs that are searched ahead.
+const MOST_THREADS: i64 = 1024;
+
+/// Threads of the computation.
+#[derive(Debug, Args)]
+pub(crate) struct Threads {
+    /// Threads; all cores if not given. The results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    pub(crate) threads: Option<u16>,
+}
+
+/// The version of the kernels.
+#[derive(Debug, Args)]
+pub(crate) struct Kernels {
+    /// Run all kernels at one SIMD level that every machine has, and record `portable` as the campaign's level: it goes
+    /// on on any machine. The results are those of every other level, bit for bit; it is only slower
+    #[arg(long)]
+    pub(crate) portable: bool,
+}
