@@ -1,7 +1,7 @@
 //! What stands before a judgement: in which frame, from which origin, what is counted. Nothing here is left to guess.
 
-use hairpin::campaign::scenario::Origin;
 use hairpin::campaign::kind::{FrameWords, Handed};
+use hairpin::campaign::scenario::Origin;
 use hairpin::campaign::{CaseResult, Setup};
 use hairpin::judgement::LegSource;
 use serde::Serialize;

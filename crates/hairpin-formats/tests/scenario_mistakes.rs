@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use hairpin::campaign::scenario::FlightScenario;
 use hairpin::campaign::Scenario;
+use hairpin::campaign::scenario::FlightScenario;
 use hairpin_formats::scenario::{Report, read_setup};
 
 const FINE: &str = include_str!("fixtures/fine.toml");

@@ -68,8 +68,11 @@ pub fn verify(folder: &Path) -> Result<Verified, Problem> {
     let cases = work.folder.read_cases_without_profiles()?;
     let answers: Vec<Answer> = cases.par_iter().map(|case| check(&work, case)).collect();
     let optimum = work.setup.own::<ArmSetup>().and_then(|arm| optimum::verify(&work, arm, &cases));
-    let graph =
-        work.setup.own::<ArmSetup>().and_then(|arm| Some(arm.graph_again(&graph_of(arm).ok()?))).filter(|graph| graph.moves > 0);
+    let graph = work
+        .setup
+        .own::<ArmSetup>()
+        .and_then(|arm| Some(arm.graph_again(&graph_of(arm).ok()?)))
+        .filter(|graph| graph.moves > 0);
     let around = answers.iter().zip(&cases).filter(|(answer, case)| case.environment.is_some() && answer.is_checked());
     let clear = around.clone().filter(|(answer, _)| answer.fine()).count();
     let surrounded = [around.count(), clear];

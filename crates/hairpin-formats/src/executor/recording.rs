@@ -134,8 +134,7 @@ impl<'a> Recording<'a> {
             EndReason::Crash => Ended::Crash,
         };
         let reached = self.reached();
-        let outside =
-            |pose: &Isometry3<f64>| self.mission.setup.is_outside(&Point3::from(pose.translation.vector));
+        let outside = |pose: &Isometry3<f64>| self.mission.setup.is_outside(&Point3::from(pose.translation.vector));
         let left_world = self.poses.iter().position(outside).map(|index| self.times[index]);
         let mut channels = Vec::new();
         if let Some(legs) = self.legs.take() {

@@ -57,7 +57,9 @@ pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<W
 
 /// Writes `arc_clock.mod`, whose procedure clocks every move of the graph from standstill to standstill.
 pub(super) fn write_clock(work: &Work) -> Result<Written, Problem> {
-    let Some(arm) = work.setup.own::<ArmSetup>() else { return Err(Problem::input("--to arc-clock: the campaign is no arm's")) };
+    let Some(arm) = work.setup.own::<ArmSetup>() else {
+        return Err(Problem::input("--to arc-clock: the campaign is no arm's"));
+    };
     let refuse = |why: String| Problem::input(format!("--to arc-clock: {why}"));
     let graph = graph_of(arm).map_err(refuse)?;
     let clock = arm.arc_clock(&graph).map_err(refuse)?;

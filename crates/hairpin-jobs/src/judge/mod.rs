@@ -166,7 +166,9 @@ pub(crate) fn with_moves(
     moves: &Moves,
     verdict: Verdict,
 ) -> Result<(Verdict, Option<Regression>), Problem> {
-    let Some(arm) = work.setup.own::<ArmSetup>().filter(|_| !moves.cases.is_empty()) else { return Ok((verdict, None)) };
+    let Some(arm) = work.setup.own::<ArmSetup>().filter(|_| !moves.cases.is_empty()) else {
+        return Ok((verdict, None));
+    };
     let path = std::fs::canonicalize(work.folder.path()).unwrap_or_else(|_| work.folder.path().to_owned());
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let regression = arm.regression(moves, &name);

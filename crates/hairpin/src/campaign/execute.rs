@@ -60,5 +60,5 @@ fn run_of(setup: &Setup, case: &Case, run: usize, mission: Result<Mission, Mista
 fn carry_out(setup: &Setup, mission: &Mission, case: &Case) -> Result<Flight, SimulationError> {
     let Mission { waypoints, accept, time_limit, seed, .. } = mission;
     let order = Order { waypoints, accept: *accept, time_limit: *time_limit, seed: *seed };
-    mission.setup.kind().run(setup.kind(), case, &order)
+    mission.setup.kind().run(setup.kind().same(), case, &order)
 }

@@ -195,9 +195,8 @@ impl Setup {
 
     /// Itself, once `[vary]` was looked at.
     fn checked(self) -> Result<Self, Vec<Mistake>> {
-        let mistakes_of = |drawn: &Scenario| {
-            built(drawn, &self.attachments, Some(self.kind()), Look::All).err().unwrap_or_default()
-        };
+        let mistakes_of =
+            |drawn: &Scenario| built(drawn, &self.attachments, Some(self.kind()), Look::All).err().unwrap_or_default();
         let mistakes = check_vary(&self.scenario, &mistakes_of);
         if mistakes.is_empty() { Ok(self) } else { Err(mistakes) }
     }

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::{ArmSetup, Station};
 use super::cell::cell_of;
 use super::check::check;
 use super::frame::{frame_of, mistake};
 use super::graph::stands;
 use super::points::points_of;
+use super::{ArmSetup, Station};
 use crate::campaign::attachments::Attachments;
 use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{ArmScenario, Mistake, PointsSource};

@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::ArmSetup;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, Kind, Order};
+use crate::campaign::kind::{Act, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::campaign::scenario::TimeLawName;
 use crate::simulation::SimulationError;
@@ -61,8 +61,8 @@ impl ArmSetup {
 
 impl Act for ArmSetup {
     /// Runs the program, which was made with `nominal`, on the virtual controller as this setup has it.
-    fn run(&self, nominal: &dyn Kind, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
-        let nominal: &Self = nominal.of_kind();
+    fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
+        let nominal: &Self = nominal.setup();
         if let Some(logs) = &nominal.scenario.execute.logs {
             return Err(SimulationError::new(
                 "execute.logs",

@@ -6,8 +6,8 @@ use crate::campaign::Case;
 use crate::campaign::kind::Programs;
 use crate::campaign::learn::MoveFeatures;
 use crate::campaign::scenario::{LogClock, PathFrom};
-use crate::judgement::moves::{Clock, MeasureSettings, Measured, measure_moves};
 use crate::judgement::Violation;
+use crate::judgement::moves::{Clock, MeasureSettings, Measured, measure_moves};
 use crate::simulation::arm::Plan;
 use crate::trajectory::{ATTITUDE_UNKNOWN, PlannedPath, Track};
 

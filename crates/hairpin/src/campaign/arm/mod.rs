@@ -27,11 +27,11 @@ mod station;
 mod verify;
 mod written;
 
-pub use retrace::GraphAgain;
 pub use clock::ArcClock;
 pub use graph::{ArmGraph, graph_of};
 pub use points::CellPoint;
 pub use recorded::Shorter;
 pub use regression::RegressionError;
+pub use retrace::GraphAgain;
 pub use solve::Question;
 pub use station::{ArmSetup, Station};

@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::ArmSetup;
 use super::graph::{ArmGraph, graph_of};
 use crate::campaign::Case;
-use crate::campaign::kind::{Kind, Replanner};
+use crate::campaign::kind::{Replanner, Same};
 use crate::trajectory::program::{Motion, Program, Zone};
 
 /// A program, and the graph that it is a way through.
@@ -36,8 +36,8 @@ impl Shortened {
 
 impl Replanner for Shortened {
     /// Home at both ends is included. Every move keeps its speed, and its zone where the corner may still be cut.
-    fn plan(&self, setup: &dyn Kind, indices: &[usize], _: &[Point3<f64>]) -> Option<Case> {
-        let setup: &ArmSetup = setup.of_kind();
+    fn plan(&self, setup: Same, indices: &[usize], _: &[Point3<f64>]) -> Option<Case> {
+        let setup: &ArmSetup = setup.setup();
         let between = indices.get(1..indices.len().checked_sub(1)?)?;
         let rows: Vec<usize> = between.iter().map(|index| self.rows[index - 1]).collect();
         let (first, last) = (*rows.first()?, *rows.last()?);

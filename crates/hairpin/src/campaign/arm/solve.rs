@@ -34,7 +34,6 @@ impl<'a> ArmSolver<'a> {
     pub(super) fn new(setup: &'a ArmSetup) -> Self {
         Self { setup }
     }
-
 }
 
 impl Solver for ArmSolver<'_> {

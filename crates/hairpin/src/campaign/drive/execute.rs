@@ -4,7 +4,7 @@ use super::DriveSetup;
 use super::place::place;
 use super::plan::drive_of;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, Kind, Order};
+use crate::campaign::kind::{Act, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::feasibility::steering::shooting::families::Problem;
 use crate::feasibility::steering::shooting::solve::{Choices, Outcome};
@@ -18,8 +18,8 @@ use crate::trajectory::{Direction, Flight, Track};
 
 impl Act for DriveSetup {
     /// Drives the plan, which was made with `nominal`, as this setup has vehicle and latency.
-    fn run(&self, nominal: &dyn Kind, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
-        let (nominal, execute): (&Self, _) = (nominal.of_kind(), &self.scenario.execute);
+    fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
+        let (nominal, execute): (&Self, _) = (nominal.setup(), &self.scenario.execute);
         let plan = drive_of(nominal, case);
         // The scenario's latency takes the place of the robot's.
         let vehicle = if execute.latency_s.is_some() { &self.planner } else { &self.rover };

@@ -29,12 +29,7 @@ enum Claimed<'a> {
 
 /// Up to `asked.count` discs in the way of `track`, the drive of `case` without them. `None` where there is no room for
 /// any.
-pub(super) fn place(
-    setup: &DriveSetup,
-    case: &Case,
-    track: &Track,
-    asked: PlacedDiscsSection,
-) -> Option<Placement> {
+pub(super) fn place(setup: &DriveSetup, case: &Case, track: &Track, asked: PlacedDiscsSection) -> Option<Placement> {
     let claimed = Claimed::by(setup, case)?;
     let beyond = claimed.beyond();
     let placing = Placing {

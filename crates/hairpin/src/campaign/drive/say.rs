@@ -60,12 +60,7 @@ impl Say for DriveSetup {
             robot: json!(self.scenario.robot),
             world: json!(self.scenario.world),
             external_force: self.scenario.execute.external_force_n,
-            frame: FrameWords {
-                relative_to: "map origin",
-                world: "map",
-                axes: "x east, y north",
-                nowhere: None,
-            },
+            frame: FrameWords { relative_to: "map origin", world: "map", axes: "x east, y north", nowhere: None },
             start: Point3::new(start.x_m, start.y_m, height),
         }
     }

@@ -9,13 +9,13 @@ use super::ask::{Asked, Graph, ask, beside, learned};
 use super::legs::count;
 use super::stepwise::Stepwise;
 use super::surround::{coordinates, put};
-use crate::campaign::{Evidence, Stop};
 use crate::campaign::graph::{
     Counter, Executions, Looped, Outcome, Plan, Remembered, Surroundings, Wanted, into_unit_ball,
 };
 use crate::campaign::kind::Solver;
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchMethod, SearchSection};
+use crate::campaign::{Evidence, Stop};
 use crate::feasibility::reach::drive::{
     DriveLegs, DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres,
     sample_ground,

@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::solve::FlightSolver;
 use super::{FlightSetup, knobs, losses, plan, replan, verify};
 use crate::campaign::graph::Deaths;
-use crate::campaign::kind::{Claim, Kind, Knobs, PlanError, Replanner, Solver};
+use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
 use crate::campaign::scenario::FlightScenario;
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
@@ -53,7 +53,7 @@ impl Claim for FlightSetup {
 struct Replanned(Case);
 
 impl Replanner for Replanned {
-    fn plan(&self, setup: &dyn Kind, _: &[usize], points: &[Point3<f64>]) -> Option<Case> {
-        replan::replan(setup.of_kind(), &self.0, points)
+    fn plan(&self, setup: Same, _: &[usize], points: &[Point3<f64>]) -> Option<Case> {
+        replan::replan(setup.setup(), &self.0, points)
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 use super::FlightSetup;
 use super::place::place;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, Kind, LegByLeg, Order};
+use crate::campaign::kind::{Act, LegByLeg, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::simulation::{
     self, Airborne, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError,
@@ -14,7 +14,7 @@ use crate::simulation::{
 use crate::trajectory::{Flight, Profile, Track};
 
 impl Act for FlightSetup {
-    fn run(&self, _: &dyn Kind, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
+    fn run(&self, _: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
         let sortie = sortie(self, order, case.profile());
         let (conditions, settings) = (conditions(self), settings(self, order));
         match &self.controller {

@@ -38,12 +38,7 @@ pub(super) fn score<'a>(setup: &'a FlightSetup, graph: u64, top_speed: f64, loop
 
 /// The scores beside it: a round's other models, the others whose optima are wanted, or those by hand that a search in
 /// the loop starts from.
-pub(super) fn beside<'a>(
-    setup: &'a FlightSetup,
-    graph: u64,
-    top_speed: f64,
-    looped: &Looped<'a>,
-) -> Vec<AnyScore<'a>> {
+pub(super) fn beside<'a>(setup: &'a FlightSetup, graph: u64, top_speed: f64, looped: &Looped<'a>) -> Vec<AnyScore<'a>> {
     let named = |name: &&str| named(setup, name, graph, top_speed);
     match looped.wanted {
         Wanted::Round(round) => {

@@ -18,12 +18,7 @@ const GAPS: [f64; 2] = [0.001, 0.05];
 
 /// Up to `asked.count` obstacles of the shape asked for in the way of `track`, the flight of `case` without them.
 /// `None` where there is no room for any.
-pub(super) fn place(
-    setup: &FlightSetup,
-    case: &Case,
-    track: &Track,
-    asked: &PlacedSection,
-) -> Option<Placement> {
+pub(super) fn place(setup: &FlightSetup, case: &Case, track: &Track, asked: &PlacedSection) -> Option<Placement> {
     let placing = Placing {
         way: &way(case),
         count: asked.count as usize,

@@ -4,7 +4,9 @@ use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
 use super::{FlightSetup, assumptions};
-use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Rotor, Say, surface};
+use crate::campaign::kind::{
+    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Rotor, Say, surface,
+};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::math::rotation::angle_between;
@@ -31,13 +33,7 @@ impl Say for FlightSetup {
         let (size, task) = (self.world.size(), &self.scenario.task);
         let point = |p: [f64; 3]| format!("({}, {}, {})", p[0], p[1], p[2]);
         Facts {
-            world: format!(
-                "{} × {} × {} m, {} obstacles",
-                size.x,
-                size.y,
-                size.z,
-                self.scenario.world.obstacles.len()
-            ),
+            world: format!("{} × {} × {} m, {} obstacles", size.x, size.y, size.z, self.scenario.world.obstacles.len()),
             task: format!("{} waypoints from {} to {} m", task.length, point(task.start_m), point(task.end_m)),
             search: None,
             proven: "reach set",
@@ -114,7 +110,8 @@ fn legs_met(waypoints: &[Point3<f64>], flight: &Flight, meet: &mut dyn FnMut(&[f
 
 /// All numbers of a robot.
 fn description(robot: &Quadrotor) -> QuadrotorDescription {
-    let rotor = |rotor: &crate::robot::quadrotor::Rotor| RotorDescription { x_m: rotor.x, y_m: rotor.y, spin: rotor.spin };
+    let rotor =
+        |rotor: &crate::robot::quadrotor::Rotor| RotorDescription { x_m: rotor.x, y_m: rotor.y, spin: rotor.spin };
     QuadrotorDescription {
         kind: QuadrotorKind::Quadrotor,
         name: robot.name.clone(),

@@ -6,10 +6,10 @@ use super::certificates::Certifier;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
 use super::{FlightSetup, graph, surround};
+use crate::campaign::Stop;
 use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Surroundings, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::ReachName;
-use crate::campaign::Stop;
 use crate::feasibility::certify::Certificate;
 
 /// The part of a search that is the same for every graph.

@@ -42,11 +42,7 @@ fn body_of(robot: &Quadrotor) -> Body {
 /// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere,
 /// they are in the world, no more and no larger than was `asked` for, and wind and gust are no faster. Where nothing
 /// was asked for, as with missions from elsewhere, any is as good as another. Nothing for a case without one.
-pub(super) fn verify_environment(
-    setup: &FlightSetup,
-    asked: Option<EnvironmentSection>,
-    case: &Case,
-) -> Vec<Finding> {
+pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentSection>, case: &Case) -> Vec<Finding> {
     let Some(environment) = &case.environment else { return Vec::new() };
     let mut findings = Vec::new();
     let solids: Vec<ClearSolid> = environment

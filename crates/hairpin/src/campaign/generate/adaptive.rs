@@ -10,8 +10,9 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
+use super::graphs::{GRAPHS_PER_CASE, Graphs};
+use super::known::Known;
 use super::shares::{dealt, every_second};
-use super::{GRAPHS_PER_CASE, Graphs, Known};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Outcome, Plan, Round, Wanted, fingerprint};
 use crate::campaign::learn::{LegSample, ScoreModel};
@@ -256,8 +257,7 @@ impl Campaign<'_> {
                     models,
                     known: &graph.known,
                 };
-                self.begins(number, part)
-                    .then(|| self.sampled.solve(graph.number, Wanted::Round(&round), self.stop))
+                self.begins(number, part).then(|| self.sampled.solve(graph.number, Wanted::Round(&round), self.stop))
             })
             .collect();
         let mut todo = Vec::new();

@@ -5,6 +5,8 @@
 //! `task` and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
 
 mod adaptive;
+mod graphs;
+mod known;
 mod optima;
 mod shares;
 
@@ -13,26 +15,14 @@ use std::collections::HashSet;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::graph::{Executions, Outcome, Partials, Plan, Wanted, fingerprint};
-use super::scenario::{EXECUTED, SearchMethod};
-use super::kind::Solver;
-use super::{Case, Scenario, Setup, Stop, Tally, Witness, trial, vary};
+use self::graphs::{GRAPHS_PER_CASE, Graphs};
+use super::graph::{Outcome, Wanted, fingerprint};
+use super::scenario::SearchMethod;
+use super::{Case, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
-use crate::simulation::Airborne;
 use crate::trajectory::program::{Motion, Program};
+pub use known::Known;
 pub use optima::{Optimum, optima};
-
-/// Graphs sampled per case asked for, where the scenario sets no limit.
-const GRAPHS_PER_CASE: u64 = 20;
-
-/// What an earlier, interrupted generation left.
-#[derive(Debug, Clone, Default)]
-pub struct Known {
-    /// Its cases.
-    pub cases: Vec<Case>,
-    /// Its tally, as of the last unit whose cases are known.
-    pub tally: Tally,
-}
 
 /// `known` without the cases that its tally does not count, as a kill between the writing of both may leave them.
 pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
@@ -137,36 +127,6 @@ fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
         }
     }
     total
-}
-
-/// The graphs of a setup, and what searches them.
-struct Graphs<'a> {
-    setup: &'a Setup,
-    solver: Box<dyn Solver + 'a>,
-}
-
-impl<'a> Graphs<'a> {
-    /// # Errors
-    /// Why nothing can be searched, in a sentence's part.
-    fn of(setup: &'a Setup) -> Result<Self, String> {
-        Ok(Self { setup, solver: setup.kind().solver()? })
-    }
-
-    /// Searches graph number `graph` for what is `wanted`; `stop` ends what has no bound in counts.
-    fn solve(&self, graph: u64, wanted: Wanted, stop: &Stop) -> Outcome {
-        let setup = self.setup;
-        let goes_on = || (!(stop.cancelled)()).then_some(());
-        let execute = |plan: &Plan, least| goes_on().and_then(|()| trial::execute(setup, graph, plan, least));
-        let duration = |plan: &Plan| goes_on().and_then(|()| trial::duration(setup, graph, plan));
-        let furnish = |plan: &Plan| goes_on().and_then(|()| trial::furnish(setup, graph, plan));
-        let part = |plan: &Plan, before: Option<&Airborne>, whole| {
-            goes_on().ok_or(0u64).and_then(|()| trial::execute_partial(setup, graph, plan, before, whole))
-        };
-        let executed = setup.scenario.score() == EXECUTED;
-        let partial = executed.then(|| Partials { execute: &part, resumes: trial::resumes(setup) });
-        let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish, partial };
-        self.solver.solve(graph, executions, wanted, stop)
-    }
 }
 
 /// What tells one case from another: its waypoints, and the points that the arcs of its program pass between them.

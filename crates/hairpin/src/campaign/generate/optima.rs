@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{GRAPHS_PER_CASE, Graphs};
+use super::graphs::{GRAPHS_PER_CASE, Graphs};
 use crate::campaign::graph::{AGGREGATES, Wanted};
 use crate::campaign::{Case, Setup, Stop};
 use crate::search::{Aggregate, Score};
@@ -43,10 +43,8 @@ pub fn optima(setup: &Setup, names: &[&str], stop: &Stop) -> Result<Vec<Optimum>
     let mut first = 0;
     while first < graphs && optima[0].cases.len() < wanted && !(stop.cancelled)() {
         let last = graphs.min(first + batch).min(first + (wanted - optima[0].cases.len()) as u64);
-        let outcomes: Vec<_> = (first..last)
-            .into_par_iter()
-            .map(|graph| all.solve(graph, Wanted::Optima(names), stop))
-            .collect();
+        let outcomes: Vec<_> =
+            (first..last).into_par_iter().map(|graph| all.solve(graph, Wanted::Optima(names), stop)).collect();
         for outcome in outcomes {
             for (optimum, (graph, plan)) in optima.iter_mut().zip(outcome.plans) {
                 let number = optimum.cases.len();

@@ -2,9 +2,9 @@
 
 use nalgebra::Point3;
 
-use super::Kind;
-use crate::campaign::placement::Placement;
+use super::Same;
 use crate::campaign::Case;
+use crate::campaign::placement::Placement;
 use crate::simulation::{Airborne, SimulationError};
 use crate::trajectory::{Flight, Track};
 
@@ -27,7 +27,7 @@ pub(in crate::campaign) trait Act {
     ///
     /// # Errors
     /// Numbers that the simulator does not take; a case without what is to be carried out.
-    fn run(&self, nominal: &dyn Kind, case: &Case, order: &Order) -> Result<Flight, SimulationError>;
+    fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError>;
 
     /// Partial trajectories that go on from where their beginning has led: where controllers know of one waypoint at a
     /// time.

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 use thiserror::Error;
 
-use super::{Kind, Knobs};
+use super::{Knobs, Same};
 use crate::campaign::graph::{Deaths, Executions, Outcome, Wanted};
 use crate::campaign::{Case, Scenario, Stop, Timed};
 use crate::simulation::SimulationError;
@@ -82,5 +82,5 @@ pub(in crate::campaign) trait Solver: Sync {
 pub(in crate::campaign) trait Replanner {
     /// The case over `points`, of which the k-th was its waypoint number `indices[k]`, in the world of `setup`, if that
     /// is feasible as the case was. `None`: it is not, or nothing shows it.
-    fn plan(&self, setup: &dyn Kind, indices: &[usize], points: &[Point3<f64>]) -> Option<Case>;
+    fn plan(&self, setup: Same, indices: &[usize], points: &[Point3<f64>]) -> Option<Case>;
 }

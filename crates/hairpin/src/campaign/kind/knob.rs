@@ -1,4 +1,5 @@
-//! The scenario keys of a family: those that can make more feasible, and which way they are turned; and what a run can be freed of.
+//! The scenario keys of a family: those that can make more feasible, and which way they are turned; and what a run can
+//! be freed of.
 
 use serde_json::Value;
 
@@ -62,7 +63,8 @@ pub(in crate::campaign) struct Knobs {
     pub(in crate::campaign) settled: Vec<(String, Value)>,
 }
 
-/// Farthest that a number is turned, in multiples of its value, where nothing else bounds it: who mistakes a unit is off by as much.
+/// Farthest that a number is turned, in multiples of its value, where nothing else bounds it: who mistakes a unit is
+/// off by as much.
 const FARTHEST: f64 = 1000.0;
 
 impl Knob {

@@ -20,44 +20,22 @@ mod build;
 mod claim;
 mod drawing;
 mod knob;
+mod of_robot;
 mod programs;
+mod same;
 mod say;
 mod solid;
-
-use std::any::Any;
-use std::fmt::Debug;
-use std::sync::Arc;
-
-use super::own_controller::AnyController;
-use crate::math::simd::Simd;
 
 pub(super) use act::{Act, LegByLeg, Order};
 pub use axis::Axis;
 pub(super) use build::{Build, Given};
-pub use claim::{PlanError, Verified};
 pub(super) use claim::{Claim, Replanner, Solver};
+pub use claim::{PlanError, Verified};
 pub use drawing::{Drawing, Relief, Rotor};
 pub(super) use knob::{Condition, Knob, Knobs, Standing, Turn};
+pub(super) use of_robot::Kind;
 pub(super) use programs::Programs;
-pub use say::{FrameWords, Handed};
+pub(super) use same::Same;
 pub(super) use say::{Assumptions, Facts, Motion, RobotWords, Say, word};
+pub use say::{FrameWords, Handed};
 pub use solid::{Surface, surface};
-
-/// A robot in its world, with the scenario that describes both.
-pub(super) trait Kind: Claim + Act + Say + Any + Debug + Send + Sync {
-    /// The same at another version of the kernels, carried out by a controller of the caller's own if one is given;
-    /// `None` if that is one for another kind of robot.
-    fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>>;
-}
-
-impl dyn Kind {
-    /// Itself, where it is a `T`.
-    pub(super) fn own<T: Any>(&self) -> Option<&T> {
-        (self as &dyn Any).downcast_ref()
-    }
-
-    /// The `nominal` setup of the same kind as its own: draws change no robot's kind.
-    pub(super) fn of_kind<T: Any>(&self) -> &T {
-        self.own().unwrap_or_else(|| unreachable!("draws change no robot's kind"))
-    }
-}

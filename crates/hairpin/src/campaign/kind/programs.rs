@@ -20,8 +20,8 @@ pub(in crate::campaign) trait Programs {
     /// What `recording` did on each move of the path; `None` where it is too short. Distances of samples are left out.
     fn measured(&self, programmed: &PlannedPath, recording: &Track) -> Option<Measured>;
 
-    /// What a search knows of each move of the program of `case`; `None` of those from and to home, on arcs, and between
-    /// points of unknown posture.
+    /// What a search knows of each move of the program of `case`; `None` of those from and to home, on arcs, and
+    /// between points of unknown posture.
     fn moves_seen(&self, case: &Case) -> Vec<Option<MoveFeatures>>;
 
     /// The same violation in the units that programs are written in.

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Point3;
 
 use super::text::attitude;
-use crate::campaign::scenario::{DeviationFrom, Terms};
 use crate::campaign::kind::{Drawing, Surface};
+use crate::campaign::scenario::{DeviationFrom, Terms};
 use crate::campaign::{
     Case, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
 };

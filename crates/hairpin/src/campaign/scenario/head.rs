@@ -97,8 +97,8 @@ pub trait Keys: Any {
     /// Executes with the noise of the robot's own densities; where a simulator always has noise, nothing changes.
     fn set_noisy(&mut self);
 
-    /// Takes over who executes and what is within spec from a scenario of its kind; noise and force, which no controller
-    /// chooses, stay. `None`: it is of another kind.
+    /// Takes over who executes and what is within spec from a scenario of its kind; noise and force, which no
+    /// controller chooses, stay. `None`: it is of another kind.
     fn adopt(&mut self, now: &dyn Keys) -> Option<()>;
 
     /// Puts what was searched beside the waypoints into the world, and leaves nothing to be searched for there.

@@ -78,6 +78,6 @@ impl Planner {
             return Some(last.clone());
         }
         let indices: Vec<usize> = route.stops.iter().map(|stop| stop.index).collect();
-        self.0.plan(setup.kind(), &indices, &points)
+        self.0.plan(setup.kind().same(), &indices, &points)
     }
 }

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource};
 use crate::campaign::scenario::kinds::sections;
 use crate::campaign::scenario::{
-    ARM_MOVES, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms,
+    ARM_MOVES, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject,
+    Terms,
 };
 use crate::judgement::Limits;
 

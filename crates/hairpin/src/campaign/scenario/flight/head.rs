@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 
 use super::{DeviationFrom, ExecuteSection, FlightScenario, ReachName};
 use crate::campaign::scenario::kinds::sections;
-use crate::campaign::scenario::{Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms};
+use crate::campaign::scenario::{
+    Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms,
+};
 use crate::judgement::Limits;
 
 /// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
@@ -29,7 +31,12 @@ impl Keys for FlightScenario {
                 workers: *workers,
                 accept: *accept_m,
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
-                patience: Patience { given: *time_limit_s, per_waypoint: SECONDS_PER_WAYPOINT, of_plan: 0.0, spare: 0.0 },
+                patience: Patience {
+                    given: *time_limit_s,
+                    per_waypoint: SECONDS_PER_WAYPOINT,
+                    of_plan: 0.0,
+                    spare: 0.0,
+                },
             },
             controller: self.execute.controller_in_force().map(|controller| controller.word()),
             origin: self.world.origin,
