@@ -84,7 +84,7 @@ impl Say for ArmSetup {
     fn drawing(&self, places: &[Point3<f64>]) -> Drawing {
         let (mut low, mut high) = (Point3::origin(), Point3::origin());
         for place in places {
-            (low, high) = (low.inf(&place), high.sup(&place));
+            (low, high) = (low.inf(place), high.sup(place));
         }
         let mut obstacles = Vec::new();
         for part in &self.station.cell.parts {

@@ -65,13 +65,13 @@ fn bounded(setup: &DriveSetup) -> impl Iterator<Item = Knob> {
 
 fn conditions(scenario: &DriveScenario) -> Vec<Condition> {
     let execute = &scenario.execute;
-    let all: [(bool, &'static str, fn(&mut Scenario)); 2] = [
-        (execute.external_force_n.is_some(), "no external force", |scenario| {
-            change(scenario, |drive| drive.execute.external_force_n = None)
+    let all = [
+        Condition::of(execute.external_force_n.is_some(), "no external force", |all| {
+            change(all, |drive| drive.execute.external_force_n = None)
         }),
-        (execute.noise, "no noise", |scenario| change(scenario, |drive| drive.execute.noise = false)),
+        Condition::of(execute.noise, "no noise", |all| change(all, |drive| drive.execute.noise = false)),
     ];
-    all.into_iter().filter(|(met, ..)| *met).map(|(_, words, without)| Condition { words, without }).collect()
+    all.into_iter().flatten().collect()
 }
 
 fn change(scenario: &mut Scenario, how: impl FnOnce(&mut DriveScenario)) {

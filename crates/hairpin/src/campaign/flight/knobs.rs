@@ -56,18 +56,17 @@ fn turned(scenario: &FlightScenario) -> Vec<Knob> {
 }
 
 fn conditions(scenario: &FlightScenario) -> Vec<Condition> {
-    let world = &scenario.world;
-    let all: [(bool, &'static str, fn(&mut Scenario)); 4] = [
-        (world.gusts.is_some(), "no gusts", |scenario| change(scenario, |flight| flight.world.gusts = None)),
-        (world.discrete_gust.is_some(), "no discrete gust", |scenario| {
-            change(scenario, |flight| flight.world.discrete_gust = None)
+    let (world, noise) = (&scenario.world, scenario.execute.noise);
+    let wind = world.wind_m_s.is_some_and(|wind| wind != [0.0; 3]);
+    let all = [
+        Condition::of(world.gusts.is_some(), "no gusts", |all| change(all, |flight| flight.world.gusts = None)),
+        Condition::of(world.discrete_gust.is_some(), "no discrete gust", |all| {
+            change(all, |flight| flight.world.discrete_gust = None)
         }),
-        (world.wind_m_s.is_some_and(|wind| wind != [0.0; 3]), "no wind", |scenario| {
-            change(scenario, |flight| flight.world.wind_m_s = None)
-        }),
-        (scenario.execute.noise, "no noise", |scenario| change(scenario, |flight| flight.execute.noise = false)),
+        Condition::of(wind, "no wind", |all| change(all, |flight| flight.world.wind_m_s = None)),
+        Condition::of(noise, "no noise", |all| change(all, |flight| flight.execute.noise = false)),
     ];
-    all.into_iter().filter(|(met, ..)| *met).map(|(_, words, without)| Condition { words, without }).collect()
+    all.into_iter().flatten().collect()
 }
 
 fn change(scenario: &mut Scenario, how: impl FnOnce(&mut FlightScenario)) {

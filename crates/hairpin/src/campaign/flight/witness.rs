@@ -31,7 +31,7 @@ impl<'a> Witness<'a> {
             Timing { leg_time_s: Some([shortest, longest]), .. } => LegTiming::ladder(shortest, longest),
             Timing { .. } => return Err("`timing` names neither leg_time_s nor step_s".into()),
         };
-        Ok(Self { setup, judge: judge(&setup)?, timing, remembered: Remembered::default() })
+        Ok(Self { setup, judge: judge(setup)?, timing, remembered: Remembered::default() })
     }
 
     /// The shortest leg time tried, s.

@@ -35,6 +35,13 @@ pub(in crate::campaign) struct Condition {
     pub(in crate::campaign) without: fn(&mut Scenario),
 }
 
+impl Condition {
+    /// Where it is `met`, the words for a run without it, and how a scenario is freed of it.
+    pub(in crate::campaign) fn of(met: bool, words: &'static str, without: fn(&mut Scenario)) -> Option<Self> {
+        met.then_some(Self { words, without })
+    }
+}
+
 /// What stands in a world, one beside the other.
 pub(in crate::campaign) struct Standing {
     /// `obstacles`.
