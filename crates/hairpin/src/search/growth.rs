@@ -21,6 +21,9 @@ pub struct Parent<'a, M> {
 ///
 /// Order is fixed: [`Growth::meet`] with all legs of a parent, then [`Growth::extend`] for each in the same order; a
 /// growth may thereby deal a budget out over them.
+///
+/// Called on one thread and in an order that settings and graph alone decide, so that an implementation may keep state
+/// (a budget, a random stream) and still give the same result in every run.
 pub trait Growth<N> {
     /// What is carried along a partial trajectory.
     type Memory: Clone;
@@ -30,6 +33,8 @@ pub trait Growth<N> {
     const AT_ONCE: bool = false;
 
     /// Score and memory of the trajectory that only stands at its start.
+    ///
+    /// [`ByLegs`] begins with [`Aggregate::neutral`]: 0 for a sum, −∞ for a maximum.
     fn start(&mut self, node: &N) -> (f64, Self::Memory);
 
     /// Takes note of all legs that may extend `parent`; they are then scored in this order.

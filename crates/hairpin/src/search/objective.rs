@@ -53,8 +53,12 @@ pub trait Objective {
 /// Because of `left`, pairs of legs are within reach of a dynamic program over single legs: it carries two numbers a
 /// node in place of a graph over pairs. Any polynomial of one leg's own features is additive, a product of two legs'
 /// features is not.
+///
+/// [`Objective::extend`] must say the same: own(leg) plus what the memory has of the leg before.
 pub trait Additive: Objective {
     /// What the leg scores whatever was flown before it.
+    ///
+    /// NaN counts as −∞.
     fn own(&self, leg: &LegView<'_>) -> f64;
 
     /// What it adds to the score of the leg after it.
@@ -64,6 +68,9 @@ pub trait Additive: Objective {
     }
 
     /// [`Self::own`] and [`Self::left`] of many legs.
+    ///
+    /// One pair \[own, left\] a leg, in their order; to be overridden by scores that are quicker about many, as those
+    /// of another program are.
     fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         legs.iter().map(|leg| [self.own(leg), self.left(leg)]).collect()
     }

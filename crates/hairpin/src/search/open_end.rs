@@ -61,6 +61,8 @@ impl<R> OpenEnd<R> {
     }
 
     /// `objective`, to which the leg to the sink adds nothing under `aggregate`.
+    ///
+    /// The neutral number of `aggregate` is what the leg to the sink scores: 0 in a sum, −∞ in a maximum.
     pub fn score<'a, O: Objective>(&self, objective: &'a O, aggregate: Aggregate) -> OpenScore<'a, O> {
         OpenScore { objective, aggregate, sink: self.sink() }
     }
@@ -71,6 +73,8 @@ impl<R> OpenEnd<R> {
     }
 
     /// What was found, without the sink.
+    ///
+    /// The score stays as it is; what does not end at the sink is only unwrapped.
     pub fn closed<N: Copy>(&self, found: Found<OpenNode<N>>) -> Found<N> {
         let Found { mut waypoints, nodes, mut leg_times, score } = found;
         if waypoints.last() == Some(&self.sink()) {
@@ -84,6 +88,7 @@ impl<R> OpenEnd<R> {
         Found { nodes: nodes.iter().filter_map(own).collect(), waypoints, leg_times, score }
     }
 
+    /// Index of the sink: behind the graph's own.
     fn sink(&self) -> u32 {
         self.candidates.len().saturating_sub(1) as u32
     }

@@ -121,6 +121,8 @@ impl Score {
     ];
 
     /// The names of those that say what is stressful.
+    ///
+    /// In the order of [`Score::NAMES`].
     pub fn by_hand() -> impl Iterator<Item = &'static str> {
         Self::NAMES.into_iter().filter(|name| *name != "random")
     }

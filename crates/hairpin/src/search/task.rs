@@ -37,6 +37,8 @@ pub struct Task<'a, N, R: ?Sized> {
 
 impl<N, R: Reach<N> + ?Sized> Task<'_, N, R> {
     /// Index of the end.
+    ///
+    /// The last candidate; 0 for a task without candidates.
     pub fn end(&self) -> u32 {
         self.candidates.len().saturating_sub(1) as u32
     }

@@ -70,12 +70,17 @@ impl<'g, 'a, N: Copy> Sampler<'g, 'a, N> {
     }
 
     /// Number of walks.
+    ///
+    /// What one draw is one of.
     pub fn total(&self) -> Count {
         self.counts.from_start(self.length - 1)
     }
 
     /// Draws one into `legs` (numbers of the graph's legs). A rank below the number of walks is drawn and its
     /// walk looked up by the counts, in integers; where they are too large for that, leg by leg in proportion.
+    ///
+    /// `legs` is cleared first and has length − 1 entries after. Exact uniformity needs counts below 2¹²⁸; beyond, each
+    /// leg is drawn with the relative error of a double.
     pub fn draw(&self, rng: &mut Stream, legs: &mut Vec<u32>) {
         legs.clear();
         let mut node = 0;
@@ -115,6 +120,8 @@ impl<'g, 'a, N: Copy> Sampler<'g, 'a, N> {
 }
 
 /// Uniform in 0 .. `bound`, without bias.
+///
+/// Rejection from the next power of two: less than two draws on the average.
 fn below(rng: &mut Stream, bound: u128) -> u128 {
     if bound <= 1 {
         return 0;
@@ -133,6 +140,9 @@ fn below(rng: &mut Stream, bound: u128) -> u128 {
 }
 
 /// Draws `wanted` trajectories of `graph`, each equally likely, scored under `objective`.
+///
+/// Without revisits the walks drawn from are those of [`LegGraph::without_returns`], of which far fewer are rejected.
+/// An empty outcome with `walks` zero proves that there is no trajectory.
 ///
 /// ```
 /// use hairpin::feasibility::reach::{Everywhere, StepNode, StepReach, StepSettings};
@@ -179,6 +189,7 @@ where
     outcome
 }
 
+/// A trajectory's score, added up from its start, as a search would have.
 fn score<N: Copy, O: Objective>(graph: &LegGraph<'_, N>, objective: &O, legs: &[u32], aggregate: Aggregate) -> f64 {
     let (mut total, mut memory, mut node) = (aggregate.neutral(), objective.start(), 0);
     for &leg in legs {

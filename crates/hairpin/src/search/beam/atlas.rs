@@ -2,6 +2,10 @@
 //!
 //! Expanding the same node again costs nothing: its legs stay until there are too many. Dead ends are remembered by
 //! (node, steps left), exactly within the lookahead and by the caller's necessary test beyond it.
+//!
+//! Knowing an expansion already makes the beam cheap: many partial trajectories end at one node, and the reach set,
+//! which is dear, is asked once a node rather than once a trajectory. Numbers are dense, so that what is known of a
+//! node is an index away; they depend on the order of expansion alone, hence are the same in every run.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -13,11 +17,17 @@ use super::super::task::Task;
 use crate::feasibility::reach::{Leg, LegFeatures, Reach};
 
 /// A leg between numbered nodes.
+///
+/// Features are kept with the leg, because an objective asks for them at every extension.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct KnownLeg {
+    /// Number of the node that it leads to.
     pub(super) to: u32,
+    /// That node's waypoint, an index into the task's candidates.
     pub(super) waypoint: u32,
+    /// Planned duration, s.
     pub(super) duration: f64,
+    /// What objectives see of the leg.
     pub(super) features: LegFeatures,
 }
 
@@ -43,6 +53,7 @@ pub(super) struct Atlas<'a, N, R: ?Sized, P> {
     can: Vec<u64>,
     cannot: Vec<u64>,
     words: usize,
+    /// Times the reach set was asked, nodes that were forgotten and asked again counted again.
     pub(super) evaluations: u64,
 }
 
@@ -53,6 +64,10 @@ where
     P: Fn(&N, usize) -> bool,
 {
     /// An atlas that knows the start, node 0, for trajectories of `length` waypoints.
+    ///
+    /// `may_arrive(node, s)` is a necessary condition for the end to be reachable from `node` in exactly s legs; it may
+    /// be true too often, never false where a walk exists. Without `revisits` a node at the end or back at the start
+    /// has no future but the empty one.
     pub(super) fn new(task: &'a Task<'a, N, R>, may_arrive: P, revisits: bool, length: usize) -> Self {
         let mut atlas = Self {
             task,
@@ -73,10 +88,12 @@ where
         atlas
     }
 
+    /// The node of a number; numbers come from [`Atlas::legs`] and stay valid for good.
     pub(super) fn node(&self, number: u32) -> N {
         self.nodes[number as usize]
     }
 
+    /// The leg at an index that [`Atlas::legs`] gave since the last [`Atlas::tidy`].
     pub(super) fn leg(&self, index: usize) -> &KnownLeg {
         &self.legs[index]
     }
@@ -110,6 +127,11 @@ where
     }
 
     /// Whether `node` may still arrive at the end in `steps` legs: exactly, over walks, for at most `lookahead` steps.
+    ///
+    /// A_s(v) = necessary(v, s) ∧ (s > lookahead ∨ ∃ leg v→w: A_{s−1}(w)), A_0(v) = v is at the end. Answers are
+    /// remembered in one bit per (node, s), two for yes and no, so that the recursion visits each pair once: O(legs ·
+    /// lookahead) for the whole graph. It is over walks: a yes may still be blocked by waypoints that the trajectory
+    /// has used, a no is final.
     pub(super) fn arrives(&mut self, node: u32, steps: usize, lookahead: usize) -> bool {
         let end = self.task.end();
         let waypoint = self.waypoints[node as usize];
@@ -135,6 +157,9 @@ where
     }
 
     /// Remembers that no `steps` legs lead from `node` to the end.
+    ///
+    /// Beyond the lookahead the condition is only necessary; an expansion that left nothing, and for no reason of its
+    /// own trajectory (a waypoint visited, a score refused), tells it for all.
     pub(super) fn learn_dead(&mut self, node: u32, steps: usize) {
         let word = node as usize * self.words + steps / 64;
         self.cannot[word] |= 1 << (steps % 64);

@@ -5,6 +5,18 @@
 //! iteration after which `per_graph` distinct trajectories are complete ends the graph.
 //!
 //! Source: Hildebrandt et al., *Feasible and stressful trajectory generation for mobile robots*, ISSTA 2020.
+//!
+//! ```text
+//! F ← {start}
+//! repeat   S ← the `width` best of F;   F ← F \ S
+//!          for each p of S:   complete p if it has L waypoints, else F ← F ∪ { p·w : w in reach of p, L − |p| − 1 legs may arrive }
+//!          F ← the `frontier` best of F
+//! until `per_graph` complete, F empty, or `iterations` are used up
+//! ```
+//!
+//! It is a beam that never forgets below its bound of memory: what was not the best comes up again once the better ones
+//! have died, so that a graph with a trajectory gives one, given iterations enough. Beam scores are those of beginnings
+//! and say nothing of what follows; the optimum is `exact`'s.
 
 mod atlas;
 mod outcome;

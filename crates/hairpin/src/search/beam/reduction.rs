@@ -2,6 +2,9 @@
 //!
 //! The paper names it as future work. With revisits and a score without memory it is exact dominance: a future is a
 //! function of (node, length).
+//!
+//! Without revisits a future depends on the set of waypoints used as well, so that equals in (node, length) are not
+//! equals in what may follow; `keep` > 1 leaves room for that, and the outcome then claims no proof.
 
 use std::collections::HashMap;
 
@@ -11,6 +14,8 @@ use rustc_hash::FxBuildHasher;
 const MOST_PAIRS: usize = 1 << 20;
 
 /// The best `keep` scores per (node, length).
+///
+/// `keep` scores of 8 bytes a pair; a lookup is a hash and a binary search among `keep`.
 #[derive(Debug)]
 pub(super) struct Reduction {
     keep: usize,
@@ -20,11 +25,14 @@ pub(super) struct Reduction {
 }
 
 impl Reduction {
+    /// Nothing remembered; `keep` of 0 is taken as 1.
     pub(super) fn new(keep: usize) -> Self {
         Self { keep: keep.max(1), places: HashMap::default(), scores: Vec::new() }
     }
 
     /// Whether a new partial trajectory is among the best; if so it is remembered.
+    ///
+    /// Of equal scores the earlier ones stay. Not idempotent: each call takes a seat.
     pub(super) fn admits(&mut self, node: u32, length: u32, score: f64) -> bool {
         if self.places.len() >= MOST_PAIRS / self.keep {
             self.places.clear();
@@ -48,6 +56,8 @@ impl Reduction {
     }
 
     /// Whether a partial trajectory that was admitted has not been overtaken by better ones since.
+    ///
+    /// True while fewer than `keep` seats are taken, or where the worst that sits is not better.
     pub(super) fn still_admits(&self, node: u32, length: u32, score: f64) -> bool {
         self.places.get(&(node, length)).is_none_or(|&place| {
             let worst = self.scores[(place as usize + 1) * self.keep - 1];

@@ -38,10 +38,14 @@ pub struct Snapshot {
 }
 
 /// Better is greater: by score, ties by waypoint index.
+///
+/// A total order, so that the search does not depend on how a heap arranges equals. O(1) where scores differ, else as
+/// long as the trajectories since they parted.
 fn order<M: Clone>(tree: &Tree<M>, a: &Entry, b: &Entry) -> Ordering {
     a.score.total_cmp(&b.score).then_with(|| tree.lexicographic(b.id, a.id))
 }
 
+/// One graph's search in progress; made, run to its end by `finish`, and gone.
 pub(super) struct Run<'a, N, R: ?Sized, G: Growth<N>, P> {
     task: &'a Task<'a, N, R>,
     growth: &'a mut G,
@@ -64,6 +68,7 @@ where
     G: Growth<N>,
     P: Fn(&N, usize) -> bool,
 {
+    /// Lengths below 2 and tasks with fewer than two candidates begin with an empty frontier: exhausted, with proof.
     pub(super) fn new(task: &'a Task<'a, N, R>, growth: &'a mut G, may_arrive: P, settings: &'a BeamSettings) -> Self {
         let (score, memory) = growth.start(&task.start);
         let tree = Tree::new(0, 0, score, memory);
@@ -97,6 +102,9 @@ where
     }
 
     /// Runs the graph to its end.
+    ///
+    /// The observer is shown each iteration after it was made; sorting the frontier for it is paid for only if there is
+    /// one.
     pub(super) fn finish(mut self, mut observe: Option<&mut dyn FnMut(&Snapshot)>) -> BeamOutcome<N> {
         let mut selected = Vec::with_capacity(self.settings.width.max(1));
         while self.outcome.iterations < self.settings.iterations {
@@ -150,6 +158,10 @@ where
     }
 
     /// Puts every partial trajectory that is one leg longer on the frontier.
+    ///
+    /// In the order of the graph's legs: those that revisit are left out, then those that cannot arrive, then the
+    /// growth meets what is left and scores it, and the reduction says which of them stay. A partial trajectory that
+    /// got no child gives its slot back.
     fn expand(&mut self, id: u32) {
         self.outcome.expansions += 1;
         let settings = self.settings;
@@ -215,6 +227,9 @@ where
     }
 
     /// Keeps a trajectory of full length; that it ends at the end was asked when it was made.
+    ///
+    /// Two are the same if their waypoints are, whatever nodes they pass: the one that came first is kept, the other
+    /// counted as a duplicate.
     fn complete(&mut self, id: u32) {
         let waypoints = self.tree.waypoints(id);
         if self.outcome.found.iter().any(|found| found.waypoints == waypoints) {
@@ -231,6 +246,8 @@ where
     }
 
     /// Drops the worst until the frontier has its size.
+    ///
+    /// Every drop is counted and ends all hope of a proof.
     fn bound(&mut self) {
         while self.frontier.len() > self.settings.frontier {
             let Some(worst) = self.frontier.pop_worst(|a, b| order(&self.tree, a, b)) else { return };

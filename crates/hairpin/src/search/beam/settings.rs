@@ -1,4 +1,7 @@
 //! How a graph is searched by the beam.
+//!
+//! The paper fixes length, width and the aggregate; iterations, the frontier's size, reduction and lookahead are what a
+//! program adds that must end on graphs without a trajectory, too.
 
 use crate::search::objective::Aggregate;
 

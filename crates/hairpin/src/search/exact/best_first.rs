@@ -25,11 +25,13 @@ fn order(tree: &Tree<f64>, a: &Entry, b: &Entry) -> Ordering {
     by_bound.then_with(|| tree.lexicographic(b.id, a.id))
 }
 
+/// What the search found, and what it left open.
 pub(super) struct BestFirst<N> {
     /// Distinct, in the order of their scores.
     pub(super) found: Vec<Found<N>>,
     /// The best that what was not expanded can become; `None` if nothing is left.
     pub(super) open_bound: Option<f64>,
+    /// Partial trajectories extended, at most the settings' `expansions`.
     pub(super) expansions: u64,
 }
 
@@ -37,6 +39,10 @@ pub(super) struct BestFirst<N> {
 /// could follow ([`Values`]). As no bound grows along a trajectory, the first complete one popped is the best, and so
 /// on to the `best`-th. Where the budget of expansions ends first, the bound at the top is what nothing left can
 /// exceed.
+///
+/// f(p) = g(p) ⊕ (what p's last leg leaves) ⊕ V_s(node of p): admissible, as V is over walks and a walk may do more
+/// than a trajectory without revisits; consistent up to rounding, which the parent's bound clips. An expansion costs
+/// one lookup and a push of O(log n) for each leg; memory grows by as many entries.
 pub(super) fn best_first<N: Copy>(
     graph: &LegGraph<'_, N>,
     scores: &LegScores,

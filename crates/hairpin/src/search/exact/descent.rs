@@ -13,6 +13,8 @@ use super::settings::ExactSettings;
 use crate::math::random::hashed_unit;
 
 /// A partial trajectory without revisits.
+///
+/// 48 bytes; the set itself is kept beside, one bit a waypoint, only for the layer that is extended.
 #[derive(Debug, Clone, Copy)]
 struct Label {
     bound: f64,
@@ -29,6 +31,9 @@ struct Label {
 
 /// Best first, distinct; and the labels expanded. Of two labels at one node with the same waypoints visited the one of
 /// the lower bound is left out: whatever completes it completes the other one as well.
+///
+/// O(length · width · legs of a node) time, O(length · width) memory. Not a proof of anything: a label that was cut off
+/// for width may have led to the best.
 pub(super) fn descent<N: Copy>(
     graph: &LegGraph<'_, N>,
     scores: &LegScores,
@@ -90,6 +95,9 @@ pub(super) fn descent<N: Copy>(
 }
 
 /// A random word per waypoint: sets are equal where the words' exclusive or is, up to 2⁻⁶⁴.
+///
+/// Zobrist's hash: a set grows by one exclusive or. A collision merges two labels that differ, which loses one
+/// candidate of a heuristic and cannot give a wrong trajectory, because revisits are tested on the exact sets.
 fn key(waypoint: u64) -> u64 {
     let half = |salt| (hashed_unit(salt, &[waypoint]) * 4_294_967_296.0) as u64;
     half(1) << 32 | half(2)

@@ -1,6 +1,10 @@
 //! A priority queue with two ends: the best is taken to be expanded, the worst dropped to keep memory bounded.
 //!
 //! O(log n) to push and to take from either end; no pointers, so that the frontier is one allocation.
+//!
+//! Van Leeuwen and Wood, "Interval heaps", The Computer Journal 36(3), 1993. The order is a closure given at every
+//! call: entries are small numbers into a tree of trajectories, and what they compare by lives there. Every call on one
+//! heap must give the same order.
 
 use std::cmp::Ordering;
 
@@ -12,10 +16,12 @@ pub(in crate::search) struct IntervalHeap<T> {
 }
 
 impl<T: Copy> IntervalHeap<T> {
+    /// An empty heap, without an allocation.
     pub(in crate::search) fn new() -> Self {
         Self { items: Vec::new() }
     }
 
+    /// Number of items.
     pub(in crate::search) fn len(&self) -> usize {
         self.items.len()
     }
@@ -25,6 +31,7 @@ impl<T: Copy> IntervalHeap<T> {
         &self.items
     }
 
+    /// O(log n) comparisons along the side of the heap that the item belongs to.
     pub(in crate::search) fn push(&mut self, item: T, order: impl Fn(&T, &T) -> Ordering) {
         self.items.push(item);
         let at = self.items.len() - 1;
@@ -45,6 +52,8 @@ impl<T: Copy> IntervalHeap<T> {
     }
 
     /// Takes the greatest item.
+    ///
+    /// `None` when empty. O(log n).
     pub(in crate::search) fn pop_best(&mut self, order: impl Fn(&T, &T) -> Ordering) -> Option<T> {
         let last = self.items.pop()?;
         match self.items.len() {
@@ -80,6 +89,8 @@ impl<T: Copy> IntervalHeap<T> {
     }
 
     /// Takes the least item.
+    ///
+    /// `None` when empty. O(log n).
     pub(in crate::search) fn pop_worst(&mut self, order: impl Fn(&T, &T) -> Ordering) -> Option<T> {
         let last = self.items.pop()?;
         let n = self.items.len();
@@ -132,6 +143,7 @@ impl<T: Copy> IntervalHeap<T> {
     }
 }
 
+/// Index of the low item of the parent of the pair that item `at` ≥ 2 is in; the pair's high item is the next.
 fn low_of_parent(at: usize) -> usize {
     (at / 2 - 1) / 2 * 2
 }

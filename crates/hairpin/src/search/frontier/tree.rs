@@ -42,10 +42,12 @@ impl<M: Clone> Tree<M> {
         Self { partials: vec![root], memories: vec![memory], free: Vec::new() }
     }
 
+    /// The partial trajectory of a number that was not released.
     pub(in crate::search) fn get(&self, id: u32) -> &Partial {
         &self.partials[id as usize]
     }
 
+    /// What the score carries along it: a value of its own for each partial trajectory, as siblings differ in it.
     pub(in crate::search) fn memory(&self, id: u32) -> &M {
         &self.memories[id as usize]
     }
@@ -57,6 +59,9 @@ impl<M: Clone> Tree<M> {
     }
 
     /// A new partial trajectory: `parent` and one more leg.
+    ///
+    /// Returns its number, which may be one that was given back. `parent` keeps its own and can be extended any number
+    /// of times. O(1).
     pub(in crate::search) fn grow(
         &mut self,
         parent: u32,
@@ -84,6 +89,8 @@ impl<M: Clone> Tree<M> {
     }
 
     /// Gives back `id`, unless others continue it, and every beginning of it that nothing else needs.
+    ///
+    /// Amortised O(1): each slot is freed once. The caller must not use `id` again.
     pub(in crate::search) fn release(&mut self, mut id: u32) {
         while self.partials[id as usize].children == 0 {
             self.free.push(id);
@@ -96,6 +103,8 @@ impl<M: Clone> Tree<M> {
     }
 
     /// The partial trajectories from `id` back to the start.
+    ///
+    /// `id` itself first, the root last.
     pub(in crate::search) fn backwards(&self, id: u32) -> impl Iterator<Item = &Partial> {
         let mut next = id;
         std::iter::from_fn(move || {
@@ -113,6 +122,9 @@ impl<M: Clone> Tree<M> {
     }
 
     /// Lexicographic order of the waypoint lists, then of the nodes where lists are equal.
+    ///
+    /// From the leaves towards the common beginning, at which it stops: what differs earliest is met last and
+    /// overwrites. A list that begins another comes first.
     pub(in crate::search) fn lexicographic(&self, a: u32, b: u32) -> Ordering {
         let (mut a, mut b) = (a, b);
         let (long_a, long_b) = (self.get(a).length, self.get(b).length);

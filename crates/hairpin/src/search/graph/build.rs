@@ -15,6 +15,10 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
     ///
     /// With trajectories of L waypoints a leg v→w is kept where d(start, v) + 1 + d(w, end) ≤ L − 1 in legs: what no
     /// such walk uses would only be carried along.
+    ///
+    /// The end is the last candidate. `length` counts both ends; a graph serves all shorter lengths as well. Each node
+    /// reached is one call of `reach`, which is nearly all of the time. With a step-wise set the nodes are pairs of
+    /// waypoints, so up to n² of them.
     pub fn explore<R: Reach<N> + ?Sized>(start: N, candidates: &'a [Point3<f64>], reach: &R, length: usize) -> Self {
         Self::grow(start, candidates, length, |from, out| reach.legs(from, candidates, out)).trimmed(length)
     }
@@ -126,6 +130,8 @@ impl<N: Copy> LegGraph<'_, N> {
     }
 
     /// Only nodes and legs on a walk from the start to the end of at most `length` waypoints.
+    ///
+    /// Two breadth-first passes and a copy in place; a leg that is gone cannot bring back another, so once is enough.
     fn trimmed(self, length: usize) -> Self {
         let after = self.distances_from_start();
         let before = self.distances_to_end();

@@ -2,6 +2,10 @@
 //!
 //! Counting is the dynamic program over (+, ×) in place of (max, +). Zero is a proof that the graph has none; a count
 //! is what a share of found trajectories is held against.
+//!
+//! ```text
+//! N_0(v) = 1 if v is at the end, else 0          N_s(v) = Σ over legs v→w of N_{s−1}(w)
+//! ```
 
 use std::fmt;
 
@@ -49,6 +53,7 @@ pub(in crate::search) enum Layer {
     About(Vec<f64>),
 }
 
+/// Which of the two all of a layer's counts are: a layer turns to doubles as a whole, as soon as one sum does not fit.
 impl Layer {
     pub(in crate::search) fn at(&self, node: u32) -> Count {
         match self {
@@ -66,6 +71,8 @@ pub struct Counts {
 
 impl Counts {
     /// Walks of `legs` legs from the start to the end, that is trajectories of `legs` + 1 waypoints.
+    ///
+    /// `legs` below the length that the pass was made for.
     pub fn from_start(&self, legs: usize) -> Count {
         self.layers[legs].at(0)
     }
@@ -102,6 +109,7 @@ impl<N: Copy> LegGraph<'_, N> {
         Counts { layers }
     }
 
+    /// N₀: one walk of no legs from each node at the end.
     fn last_layer(&self) -> Layer {
         Layer::Exact((0..self.nodes() as u32).map(|node| u128::from(self.at_end(node))).collect())
     }

@@ -17,6 +17,9 @@ pub(in crate::search) struct LegScores {
 
 impl LegScores {
     /// `own` and `left` of every leg; `sink`: the last leg is left nothing.
+    ///
+    /// One entry per leg of the graph, in its order. NaN counts as −∞: such a leg is the last to be chosen, and still a
+    /// leg.
     pub(in crate::search) fn new(mut own: Vec<f64>, mut left: Vec<f64>, sink: bool) -> Self {
         for score in own.iter_mut().chain(&mut left).filter(|score| score.is_nan()) {
             *score = f64::NEG_INFINITY;
@@ -79,6 +82,9 @@ impl Values {
 
 impl<N: Copy> LegGraph<'_, N> {
     /// The score of every leg.
+    ///
+    /// A row at a time, all legs of a node together, which is what scores that are asked of a program or are made in
+    /// SIMD lanes need.
     pub(in crate::search) fn scores<O: Additive>(&self, objective: &O) -> LegScores {
         let (mut own, mut left) = (Vec::with_capacity(self.legs()), Vec::with_capacity(self.legs()));
         let mut views = Vec::new();
@@ -115,6 +121,9 @@ impl<N: Copy> LegGraph<'_, N> {
     /// Sum:  V_s(v) = max over legs v→w of own + left + V_{s−1}(w)       (left: if there is a leg after it)
     /// Max:  F_s(v) = max over legs v→w of own,   V_s(v) = max over legs v→w of max(left + F_{s−1}(w), V_{s−1}(w))
     /// ```
+    ///
+    /// O(legs · length) additions and as many comparisons; memory nodes · length doubles, whole layers also where only
+    /// few nodes have a value. `scores` must be those of this graph.
     pub(in crate::search) fn values(
         &self,
         length: usize,
@@ -162,6 +171,9 @@ impl<N: Copy> LegGraph<'_, N> {
 
     /// The layer of walks of `legs` legs, before that of one leg less, of the `nodes` given or of all; `add` is
     /// compiled into the loop.
+    ///
+    /// Rows are looked at in four lanes with a maximum each; no order of the maxima matters, so that lanes and plain
+    /// loops give the same bits.
     fn layer_of_values(
         &self,
         legs: usize,

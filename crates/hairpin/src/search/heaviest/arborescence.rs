@@ -7,10 +7,14 @@
 //! least its own.
 //!
 //! All circles of best arcs are contracted at once, O(m) a round.
+//!
+//! Edmonds, "Optimum branchings" (J. Res. NBS 71B, 1967). Weights are 64-bit integers throughout, costs times a power
+//! of two, so that sums, reduced costs and the bound are exact and a certificate can be checked to the last bit.
 
 use super::choices::{Choice, Choices, Made, OPEN, OUT};
 use super::relaxation::{Relaxation, best_ends};
 
+/// An arc that is in no contracted circle yet; `weight` is what of it is left after the rounds so far.
 #[derive(Clone, Copy)]
 struct Live {
     id: u32,
@@ -46,6 +50,7 @@ pub(super) struct Arborescence {
 const NOBODY: u32 = u32::MAX;
 
 impl Arborescence {
+    /// The point that a choice leads into: an arc's end, and the point itself for its start, its loop and its end.
     fn head(choices: &Choices, id: u32) -> usize {
         match choices.kind(id as usize) {
             Choice::Arc(arc) => choices.arcs[arc].to as usize,

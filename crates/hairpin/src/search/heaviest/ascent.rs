@@ -13,15 +13,21 @@ use super::relaxation::Relaxation;
 const MOMENTUM: f64 = 0.3;
 
 /// Multipliers, the best so far, and what relaxed solutions had in common.
+///
+/// One λ a point and one for the start, all in units of the scaled costs.
 pub(super) struct Ascent {
     /// The best multipliers, and their bound.
     pub(super) best: Vec<i64>,
+    /// L(`best`), scaled; `i64::MAX` before the first look.
     pub(super) bound: i64,
     /// How often each choice was in the late relaxed solutions.
     pub(super) often: Vec<f64>,
     weight: f64,
+    /// Where the multipliers are now: points, then the start.
     pub(super) at: Vec<i64>,
+    /// Arcs too many at `at`, of each point and the start: a subgradient of L.
     pub(super) excess: Vec<i32>,
+    /// The direction of the last step: momentum · the one before + (1 − momentum) · excess.
     pub(super) step: Vec<f64>,
     /// No multiplier is farther from 0, so that sums stay in their numbers.
     pub(super) limit: i64,
@@ -41,6 +47,7 @@ pub(super) enum Ended {
 /// What an ascent may do.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pace {
+    /// Looks at the relaxation at most; at least one is made.
     pub(super) iterations: usize,
     /// First α.
     pub(super) alpha: f64,
@@ -49,6 +56,7 @@ pub(super) struct Pace {
 }
 
 impl Ascent {
+    /// All multipliers 0; buffers that every later run uses again.
     pub(super) fn new(choices: &Choices, limit: i64) -> Self {
         Self {
             best: vec![0; choices.points + 1],
@@ -63,6 +71,11 @@ impl Ascent {
     }
 
     /// From `begin` downwards until the bound is below `threshold`. The relaxation is left at the last multipliers.
+    ///
+    /// Each look is one spanning tree or arborescence. `threshold` and `target` are scaled costs: a bound below the
+    /// first closes the problem, since nothing in it is wanted, and the second is where Polyak's step aims. `stop` is
+    /// asked every 32 looks. Rounding to whole multipliers costs nothing but a slightly different step: L is a bound at
+    /// any λ.
     pub(super) fn run<R: Relaxation>(
         &mut self,
         relaxation: &mut R,
@@ -142,6 +155,8 @@ impl Ascent {
     }
 
     /// Share of the late relaxed solutions in which a choice was.
+    ///
+    /// Later ones weigh more, by 1.1 a look: the weights are geometric and their sum is (1.1ⁿ − 1)/0.1.
     pub(super) fn share(&self, id: usize) -> f64 {
         self.often[id] / ((self.weight - 1.0) / 0.1)
     }

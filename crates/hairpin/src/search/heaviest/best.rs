@@ -1,6 +1,8 @@
 //! The best paths found so far, pairwise different.
 
 /// Up to so many paths, the heaviest first.
+///
+/// In the order of costs, ties as they came; costs unscaled.
 #[derive(Clone)]
 pub(super) struct Best {
     wanted: usize,
@@ -12,11 +14,14 @@ pub(super) struct Best {
 }
 
 impl Best {
+    /// `wanted` of 0 is taken as 1; `turns`: costs are symmetric, and a path is held with its lesser end first.
     pub(super) fn new(wanted: usize, turns: bool, least: i64) -> Self {
         Self { wanted: wanted.max(1), turns, paths: Vec::new(), least }
     }
 
     /// Takes a path that is good enough and not there yet; whether it did.
+    ///
+    /// The caller answers for `cost` being the path's.
     pub(super) fn offer(&mut self, cost: i64, mut path: Vec<usize>) -> bool {
         if self.turns && path.first() > path.last() {
             path.reverse();
@@ -31,6 +36,9 @@ impl Best {
     }
 
     /// What a further path must cost to be wanted.
+    ///
+    /// One more than the worst that is held once there are enough: branch and bound closes what cannot come to it, and
+    /// so also closes what is only as good.
     pub(super) fn needed(&self) -> i64 {
         let beaten = if self.paths.len() == self.wanted { self.paths[self.wanted - 1].0 + 1 } else { 0 };
         beaten.max(self.least)
@@ -41,6 +49,7 @@ impl Best {
         self.paths.first().map_or(-1, |(cost, _)| *cost)
     }
 
+    /// (cost, points in order), heaviest first.
     pub(super) fn into_paths(self) -> Vec<(i64, Vec<usize>)> {
         self.paths
     }

@@ -28,19 +28,25 @@ const SHARED_OUT: usize = 32;
 /// What all problems of a search share.
 #[derive(Clone, Copy)]
 pub(super) struct Ground<'a> {
+    /// The costs, unscaled.
     pub(super) arcs: &'a Arcs,
+    /// What a path is made of: arcs, starts, loops and ends, by number.
     pub(super) choices: &'a Choices,
+    /// What costs were multiplied by in multipliers and bounds.
     pub(super) scale: i64,
     /// Bound of the whole less the best cost, scaled.
     pub(super) gap: f64,
     /// Problems looked at, at most, in each part.
     pub(super) most_nodes: u64,
+    /// Whether to end early, with what is open told; asked from several threads.
     pub(super) stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 /// A problem: choices made, where its multipliers begin, and its bound.
 pub(super) struct Open {
+    /// Choices that are in or out on the way to this problem, with all that follows from them.
     pub(super) made: Made,
+    /// Those of the problem that it was split from: bounds change little, so few steps are needed.
     pub(super) multipliers: Vec<i64>,
     pub(super) bound: i64,
     /// The step and side that it hangs on.
@@ -48,6 +54,7 @@ pub(super) struct Open {
 }
 
 impl Open {
+    /// A problem that hangs on nothing: a root.
     pub(super) fn new(made: Made, multipliers: Vec<i64>, bound: i64) -> Self {
         Self { made, multipliers, bound, parent: None }
     }
@@ -55,6 +62,7 @@ impl Open {
 
 /// What a search has come to.
 pub(super) struct Searched {
+    /// The heaviest paths known at its end, those that it began with among them.
     pub(super) best: Best,
     /// The largest bound of what is still open, scaled; `None` if nothing is.
     pub(super) open: Option<i64>,
@@ -81,6 +89,9 @@ struct Branching<'a, R> {
 type Part<'a, R> = (Option<(usize, u8)>, Branching<'a, R>, Option<i64>);
 
 /// Searches all of a problem; the steps go to `record`.
+///
+/// Complete with `open` of `None`: then no path outside `best` reaches [`Best::needed`]. Parts know of each other's
+/// paths only afterwards, which costs nodes and keeps the result free of the number of threads.
 pub(super) fn branch<R: Relaxation>(ground: Ground<'_>, problem: Open, best: Best, record: &mut Recorder) -> Searched {
     let (first, before) = (record.next_number(), best.cost());
     let mut own = Branching::<R>::new(ground, best, std::mem::take(record));
@@ -145,6 +156,7 @@ impl<'a, R: Relaxation> Branching<'a, R> {
         self.nodes >= self.ground.most_nodes || self.nodes.is_multiple_of(4) && (self.ground.stop)()
     }
 
+    /// Least scaled bound that is still of interest.
     fn threshold(&self) -> i64 {
         self.best.needed() * self.ground.scale
     }
@@ -160,6 +172,10 @@ impl<'a, R: Relaxation> Branching<'a, R> {
     }
 
     /// Looks at one problem; what is left of it goes to `open`.
+    ///
+    /// In rounds: bound, decide by reduced costs, follow what is decided, and bound again while that decides enough;
+    /// then split on the contested choice. The side without it is pushed last, so that depth first looks at it first;
+    /// sides that contradict themselves become leaves of the certificate.
     fn look(&mut self, problem: Open, open: &mut Vec<Open>) {
         let Open { mut made, mut multipliers, parent, bound: mut least } = problem;
         self.nodes += 1;
@@ -244,6 +260,7 @@ impl<'a, R: Relaxation> Branching<'a, R> {
         (of(OUT), of(IN))
     }
 
+    /// The relaxed solution as a path, offered with its true cost.
     fn take_path(&mut self) {
         let path = path_of(self.ground.choices, self.relaxation.used());
         if let Some(cost) = self.ground.arcs.total(&path) {

@@ -12,7 +12,9 @@ use super::problem::{Arcs, Ends};
 
 /// Whether a choice is made.
 pub(super) const OPEN: u8 = 0;
+/// No solution of what is left has it.
 pub(super) const OUT: u8 = 1;
+/// Every solution of what is left has it.
 pub(super) const IN: u8 = 2;
 
 /// An arc: costs are scaled. Undirected ones are there once, with `from < to`.
@@ -27,7 +29,9 @@ pub(super) struct Arc {
 pub(super) struct Choices {
     /// Points.
     pub(super) points: usize,
+    /// Whether i→j and j→i are two choices; else a rule of a point counts both of its arcs.
     pub(super) directed: bool,
+    /// In the order of their numbers, which are those of their choices.
     pub(super) arcs: Vec<Arc>,
     /// Choices of each rule, rules one after another: of each point (its arcs out, where directed, then its arcs in),
     /// then of starts and ends.
@@ -51,6 +55,8 @@ pub(super) enum Choice {
 }
 
 impl Choices {
+    /// m arcs give m + 3n choices: arcs, then n starts, n loops, n ends. Rules are held as rows of members, O(m + n)
+    /// memory.
     pub(super) fn new(points: usize, directed: bool, arcs: Vec<Arc>) -> Self {
         let mut choices = Self { points, directed, arcs, members: Vec::new(), first: Vec::new(), starts_rule: 0 };
         choices.starts_rule = if directed { 2 * points } else { points };
@@ -83,6 +89,8 @@ impl Choices {
 
     /// The same with only the arcs that are among the `most` best of either of their points, by what multipliers leave
     /// of their costs.
+    ///
+    /// A smaller problem whose paths are paths of the whole, so good for finding; its bounds are none of the whole.
     pub(super) fn near(&self, multipliers: &[i64], most: usize) -> Self {
         let mut of_point = vec![Vec::new(); self.points];
         for (id, arc) in self.arcs.iter().enumerate() {
@@ -99,18 +107,22 @@ impl Choices {
         Self::new(self.points, self.directed, arcs)
     }
 
+    /// m + 3n.
     pub(super) fn len(&self) -> usize {
         self.arcs.len() + 3 * self.points
     }
 
+    /// Number of the choice that the path begins at `point`.
     pub(super) fn start(&self, point: usize) -> usize {
         self.arcs.len() + point
     }
 
+    /// Number of the choice that `point` is left out.
     pub(super) fn looped(&self, point: usize) -> usize {
         self.arcs.len() + self.points + point
     }
 
+    /// Number of the choice that the path ends at `point`; ends are the last n choices.
     pub(super) fn end(&self, point: usize) -> usize {
         self.arcs.len() + 2 * self.points + point
     }
@@ -126,6 +138,9 @@ impl Choices {
     }
 
     /// The number that a choice has in certificates, whatever arcs are here.
+    ///
+    /// i·n + j of the arc i→j, n² + point of its start, n² + n + point of its loop, n² + 2n + point of its end: it does
+    /// not change as arcs are forgotten.
     pub(super) fn number(&self, id: usize) -> u64 {
         let n = self.points as u64;
         match self.kind(id) {
@@ -162,6 +177,7 @@ impl Choices {
         }
     }
 
+    /// The choices that have a share in a rule, in the order of their numbers.
     fn members(&self, rule: usize) -> &[u32] {
         &self.members[self.first[rule] as usize..self.first[rule + 1] as usize]
     }
@@ -173,8 +189,11 @@ impl Choices {
 }
 
 /// Choices made so far, closed under the rules.
+///
+/// Invariant after [`Made::follow`]: of every rule, 0 ≤ needs ≤ open. A copy is O(m + n), which is what a split costs.
 #[derive(Clone)]
 pub(super) struct Made {
+    /// [`OPEN`], [`OUT`] or [`IN`] of each choice.
     pub(super) state: Vec<u8>,
     /// Shares that each rule still needs, and that are open.
     needs: Vec<i32>,
@@ -218,6 +237,9 @@ impl Made {
     }
 
     /// Makes a choice that is open, without its consequences; `None` if it closes a circle or breaks a rule.
+    ///
+    /// A choice that was made already is left alone, and contradicts another state. After `None` this is no problem any
+    /// more and must be dropped.
     pub(super) fn choose(&mut self, choices: &Choices, id: usize, state: u8) -> Option<()> {
         if self.state[id] != OPEN {
             return (self.state[id] == state).then_some(());
@@ -242,6 +264,9 @@ impl Made {
     }
 
     /// Two chains become one: no arc may close it.
+    ///
+    /// Each chain's two ends know each other, so that joining is O(1) and the arc between the new ends, if there is
+    /// one, goes out at once.
     fn join(&mut self, choices: &Choices, arc: Arc) -> Option<()> {
         // A chain's last point is the tail of `from`'s chain; directed chains run from first to last.
         let (first, last) = (self.other_end[arc.from as usize], self.other_end[arc.to as usize]);
@@ -265,6 +290,9 @@ impl Made {
     }
 
     /// Makes all choices that follow; `None` if they contradict each other.
+    ///
+    /// To a fixed point: a rule is looked at again whenever one of its choices was made. O(m) over a whole descent of
+    /// the tree, as a choice is made once.
     pub(super) fn follow(&mut self, choices: &Choices) -> Option<()> {
         while let Some(rule) = self.waiting.pop() {
             let rule = rule as usize;

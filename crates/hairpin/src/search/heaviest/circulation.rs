@@ -17,6 +17,8 @@
 use super::problem::{Arcs, Ends, NONE};
 
 /// What a branch says of an arc.
+///
+/// Arcs that do not exist are out from the beginning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum State {
     Open,
@@ -29,12 +31,15 @@ pub(super) enum State {
 pub(super) struct Net {
     /// Points and the dummy, which is the last.
     pub(super) nodes: usize,
+    /// Times that a path may meet a point, K.
     pub(super) visits: i64,
     costs: Vec<i64>,
     states: Vec<State>,
 }
 
 /// A heaviest circulation, or the proof that there is none.
+///
+/// Prices are kept for both answers: they are the certificate, by [`Net::bound`].
 #[derive(Debug, Clone)]
 pub(super) struct Circulation {
     /// Its arcs; `None` if there is none.
@@ -44,6 +49,8 @@ pub(super) struct Circulation {
 }
 
 impl Net {
+    /// Arcs from the dummy to where a path may begin, and to it from where one may end, cost nothing. That sums of them
+    /// stay within 64 bits is checked before.
     pub(super) fn new(arcs: &Arcs, ends: Ends, visits: i64) -> Self {
         let n = arcs.points();
         let nodes = n + 1;
@@ -63,10 +70,12 @@ impl Net {
         Self { nodes, visits, costs, states }
     }
 
+    /// Number of the point that closes paths.
     pub(super) fn dummy(&self) -> usize {
         self.nodes - 1
     }
 
+    /// What is decided of an arc, O(1).
     pub(super) fn state(&self, (from, to): (usize, usize)) -> State {
         self.states[from * self.nodes + to]
     }
@@ -84,11 +93,15 @@ impl Net {
         self.costs[from * self.nodes + to]
     }
 
+    /// s of a row or a column.
     fn supply(&self, node: usize) -> i64 {
         if node == self.dummy() { 1 } else { self.visits }
     }
 
     /// The bound of the head of this file.
+    ///
+    /// Of any prices at all, optimal or not; 128 bits, so that it cannot overflow. O(n²). Below 0 it proves that there
+    /// is no circulation, as none costs less than 0.
     pub(super) fn bound(&self, prices: &[i64]) -> i128 {
         let n = self.nodes;
         let price = |index: usize| i128::from(prices[index]);
@@ -159,6 +172,9 @@ impl<'a> Transport<'a> {
     }
 
     /// How much may be sent in all.
+    ///
+    /// One unit of an open arc, K of a point's loop, nothing where a branch has decided: what is in has been sent
+    /// beforehand.
     fn capacity(&self, from: usize, to: usize) -> i64 {
         match self.net.state((from, to)) {
             State::Open => 1,
@@ -234,6 +250,7 @@ impl<'a> Transport<'a> {
         }
     }
 
+    /// One unit along the way that [`Transport::shortest`] found, backwards over `before`.
     fn send(&mut self, row: usize, column: usize) {
         let n = self.net.nodes;
         self.supply[row] -= 1;

@@ -7,6 +7,9 @@
 use super::problem::{Arcs, Ends, NONE};
 
 /// The heaviest path, and whether the search came to its end; `path` is where it begins.
+///
+/// O(n!) at worst. The cut is cost + (points left) · (largest cost) > best. `stop` is asked every 4096 extensions; then
+/// the path is the best so far.
 pub(super) fn depth_first(
     arcs: &Arcs,
     ends: Ends,

@@ -1,6 +1,10 @@
 //! Where multipliers begin: each point's, in turn, where the bound without connectedness is least.
 //!
 //! Coordinate descent on the assignment bound: cheap, and closer to the end than zero.
+//!
+//! Held and Karp begin at 0; here each coordinate moves to (undirected: half of the way to) the middle of the interval
+//! where the relaxation without trees is least, so that neighbours do not overshoot together. The tree's own ascent
+//! goes on from there.
 
 use super::problem::{Arcs, NONE};
 

@@ -20,6 +20,9 @@ const SOME: usize = 16;
 const QUICK_NODES: u64 = 4;
 
 /// What one method finds; several paths only from branch and bound.
+///
+/// A start that is also the end is the path of that one point. With `Auto` between [`FEW`] and [`SOME`] points, branch
+/// and bound is tried with few nodes first; its answer counts where it is a proof.
 pub(super) fn one(
     arcs: &Arcs,
     settings: &HeaviestSettings,
@@ -63,6 +66,8 @@ pub(super) fn one(
     Ok(wanted(found, settings))
 }
 
+/// The method that is meant, `Auto` resolved. Errors: subsets that do not fit into `most_bytes`; several paths from a
+/// method that gives one.
 fn choose(arcs: &Arcs, settings: &HeaviestSettings) -> Result<Method, HeaviestMistake> {
     let (points, bytes, bound) = (arcs.points(), subset_bytes(arcs), settings.most_bytes);
     let fits = points <= MOST_SUBSET_POINTS && bytes <= u128::from(bound);

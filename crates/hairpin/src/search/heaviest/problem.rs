@@ -139,11 +139,16 @@ impl Arcs {
     }
 
     /// Whether c(i, j) = c(j, i) everywhere.
+    ///
+    /// Missing arcs must be missing both ways. It decides between trees and arborescences, and whether backwards is
+    /// another path.
     pub fn symmetric(&self) -> bool {
         self.symmetric
     }
 
     /// Σ c along `path`; `None` if an arc is missing or a point does not exist.
+    ///
+    /// 0 for a single point and for no point. That no point comes twice is not looked at.
     pub fn total(&self, path: &[usize]) -> Option<i64> {
         if path.iter().any(|point| *point >= self.points) {
             return None;
@@ -152,6 +157,8 @@ impl Arcs {
     }
 
     /// Share of the ordered pairs that are arcs.
+    ///
+    /// m/(n(n − 1)), in 0 … 1; 0 for a single point.
     pub fn density(&self) -> f64 {
         let arcs = self.costs.iter().filter(|cost| **cost != NONE).count();
         arcs as f64 / (self.points * (self.points - 1)).max(1) as f64
@@ -203,6 +210,8 @@ impl Ends {
 
     /// A path that meets the ends, as a beginning: the heaviest arc that may be a path, or the fewest arcs by
     /// breadth-first search if both ends are fixed; `None` if there is none.
+    ///
+    /// O(n²). Only two fixed ends can leave none: a single point is a path.
     pub(super) fn first_path(self, arcs: &Arcs) -> Option<Vec<usize>> {
         let n = arcs.points();
         let (Some(start), Some(end)) = (self.start, self.end) else {

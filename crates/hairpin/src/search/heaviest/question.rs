@@ -8,6 +8,8 @@ use super::record::Proof;
 /// How a path is searched.
 ///
 /// `Local` gives a bound as well, that of the root; `Dfs` is there to be compared with.
+///
+/// All but `Local` end with a proof, given time and memory; `Dfs` in factorial time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// Subsets for few points, else branch and bound; between the two, subsets where that is not proven at once.
@@ -44,10 +46,14 @@ pub struct HeaviestSettings {
     /// Fixed ends.
     pub ends: Ends,
     /// Paths below this cost are not wanted.
+    ///
+    /// Bounds close whatever cannot come to it, so that a high one makes a no quick.
     pub min_cost: Option<i64>,
     /// How to search.
     pub method: Method,
     /// How many pairwise different paths are wanted, the heaviest first.
+    ///
+    /// 0 is taken as 1. Where costs are symmetric and no end is fixed, a path and its reverse are one.
     pub programs: usize,
     /// Root seed of the local search.
     pub seed: u64,
@@ -55,8 +61,12 @@ pub struct HeaviestSettings {
     pub kicks: Option<u64>,
     /// Problems that each part of branch and bound looks at, at most: a limit that gives the same answer on any
     /// machine.
+    ///
+    /// There are about 32 parts, so that the whole may look at that many times as many.
     pub most_nodes: Option<u64>,
     /// Bytes that the table of subsets may take.
+    ///
+    /// 2ⁿ · n cells, which [`HeaviestMistake::Memory`] tells where it is too little. 1 GiB if not given.
     pub most_bytes: u64,
     /// Whether to keep the proof.
     pub proof: bool,
@@ -79,6 +89,8 @@ impl Default for HeaviestSettings {
 }
 
 /// Why a question has no answer.
+///
+/// Found before anything is searched.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum HeaviestMistake {
     /// The table or the ends.
@@ -151,6 +163,8 @@ impl Heaviest {
     }
 
     /// 100 (bound − cost) / cost; 0 where both are 0, infinite where only the cost is.
+    ///
+    /// `None` without a path or a bound. Not of the optimum, which may lie anywhere between.
     pub fn gap_percent(&self) -> Option<f64> {
         let (cost, bound) = (self.paths.first()?.0, self.bound?);
         Some(if bound == cost { 0.0 } else { 100.0 * (bound - cost) as f64 / cost as f64 })
@@ -158,6 +172,9 @@ impl Heaviest {
 }
 
 /// Holds the answer to the cost that was asked for.
+///
+/// Paths below `min_cost` go; if that was the first, the outcome is `BelowMinCost` where it is proven or the bound says
+/// so, else `NotFound`.
 pub(super) fn wanted(mut found: Heaviest, settings: &HeaviestSettings) -> Heaviest {
     let least = settings.min_cost.unwrap_or(0);
     if found.outcome == Outcome::Found && found.paths.first().is_none_or(|(cost, _)| *cost < least) {

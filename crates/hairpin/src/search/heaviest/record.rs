@@ -54,7 +54,9 @@ pub struct Proof {
 /// Steps as they come; a search that is to prove nothing to anybody keeps none.
 #[derive(Clone, Default)]
 pub(super) struct Recorder {
+    /// Whether steps are kept; if not, every number is 0 and nothing is written.
     pub(super) wanted: bool,
+    /// In the order in which they were taken.
     pub(super) steps: Vec<Step>,
 }
 
@@ -71,6 +73,7 @@ impl Recorder {
         self.steps.len().saturating_sub(1)
     }
 
+    /// Says what comes after a step.
     pub(super) fn follow(&mut self, step: usize, next: Next) {
         if self.wanted {
             self.steps[step].next = next;
@@ -88,6 +91,8 @@ impl Recorder {
     }
 
     /// Puts the steps of a part behind the own ones; where they begin.
+    ///
+    /// Numbers inside the part are moved with it.
     pub(super) fn append(&mut self, part: Vec<Step>) -> usize {
         let base = self.steps.len();
         let moved = part.into_iter().map(|step| {

@@ -7,6 +7,9 @@
 use super::choices::{Arc, Choice, Choices, IN, Made, OUT};
 
 /// A problem without its rules on degrees, which multipliers price instead; what is left is solved exactly.
+///
+/// L(λ) = (costs of what is used) + Σ λ · (what each rule allows − what is used of it), so that L(λ) ≥ every path's
+/// cost. Weights are integers: costs times the scale, multipliers in the same unit.
 pub(super) trait Relaxation: Send {
     /// For problems of this shape.
     fn new(choices: &Choices) -> Self;
@@ -16,9 +19,13 @@ pub(super) trait Relaxation: Send {
     fn solve(&mut self, choices: &Choices, made: &Made, multipliers: &[i64], renew: bool) -> Option<i64>;
 
     /// Choices in the relaxed solution.
+    ///
+    /// One structure, not a path: degrees may be wrong.
     fn used(&self) -> &[u32];
 
     /// How far the relaxed solution is from each rule: arcs too many at each point, starts too many.
+    ///
+    /// n + 1 numbers, points and then starts: a subgradient of L up to its sign. All 0 where the structure is a path.
     fn excess(&self, choices: &Choices, excess: &mut [i32]);
 
     /// After [`Relaxation::solve`] with value `bound`: every open choice whose opposite has a bound below `threshold`,
@@ -35,6 +42,8 @@ pub(super) trait Relaxation: Send {
 }
 
 /// The two best ends: weight and choice.
+///
+/// An end weighs −λ of its point. An end that is in stands alone. `None` where no end is left.
 pub(super) fn best_ends(choices: &Choices, made: &Made, multipliers: &[i64]) -> [Option<(i64, usize)>; 2] {
     let mut best = [None, None];
     for (point, multiplier) in multipliers[..choices.points].iter().enumerate() {
@@ -56,6 +65,8 @@ pub(super) fn best_ends(choices: &Choices, made: &Made, multipliers: &[i64]) -> 
 }
 
 /// The path that relaxed choices are, if they keep all rules.
+///
+/// Points from the start on; loops and ends add nothing.
 pub(super) fn path_of(choices: &Choices, used: &[u32]) -> Vec<usize> {
     const NOBODY: u32 = u32::MAX;
     let mut beside = vec![[NOBODY; 2]; choices.points];

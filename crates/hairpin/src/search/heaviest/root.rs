@@ -28,6 +28,8 @@ const MANY_OPEN: usize = 5;
 const BITS: u32 = 33;
 
 /// Units of a multiplier in one unit of cost.
+///
+/// A power of two, at most 2¹⁶: fine enough for multipliers, coarse enough for sums over n points to stay in 64 bits.
 pub(super) fn scale_of(arcs: &Arcs) -> i64 {
     let mut scale = 1;
     while scale < 1 << 16 && arcs.largest().max(1) * scale < 1 << (BITS - 1) {
@@ -160,6 +162,7 @@ impl<'a, R: Relaxation> Root<'a, R> {
         self.best.cost() > before
     }
 
+    /// [`STEPS`] subgradient steps from the multipliers; the local search ranks its candidates by them afterwards.
     fn ascend(&mut self, threshold: i64) -> Ended {
         let pace = Pace { iterations: STEPS, alpha: 0.7, patience: 6 };
         let target = self.best.cost().max(0) as f64 * self.scale as f64;
@@ -182,10 +185,12 @@ impl<'a, R: Relaxation> Root<'a, R> {
         ended
     }
 
+    /// Arcs that are neither in nor out: what branching has to decide.
     fn open_arcs(&self) -> usize {
         self.made.state[..self.choices.arcs.len()].iter().filter(|state| **state == OPEN).count()
     }
 
+    /// Least scaled bound of interest: that of a path heavier than the best.
     fn threshold(&self) -> i64 {
         self.best.needed() * self.scale
     }
@@ -231,6 +236,7 @@ impl<'a, R: Relaxation> Root<'a, R> {
         true
     }
 
+    /// A step of the proof at the multipliers, after the last one.
     fn look(&mut self, out: Vec<u64>, into: Vec<u64>) {
         let first = self.record.next_number() == 0;
         let step = self.record.step(&self.multipliers, out, into);
@@ -241,6 +247,8 @@ impl<'a, R: Relaxation> Root<'a, R> {
     }
 
     /// Decides what the bound at the multipliers decides, and forgets the arcs that are out; whether nothing is left.
+    ///
+    /// The first time of the full table: O(m log m) and the tree's exchanges; then of few arcs.
     fn decide(&mut self) -> bool {
         let Some(bound) = self.relaxation.solve(&self.choices, &self.made, &self.multipliers, true) else {
             return self.close();

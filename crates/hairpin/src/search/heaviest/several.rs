@@ -29,6 +29,9 @@ struct Part {
 }
 
 /// The `settings.programs` heaviest paths of `arcs`, the heaviest first, given the heaviest itself.
+///
+/// At most programs · n questions to [`one`]. `proven` holds for the list as a whole: that no path outside it is
+/// heavier than its last. Ties come in the order in which parts were made.
 pub(super) fn several(
     arcs: &Arcs,
     settings: &HeaviestSettings,

@@ -13,6 +13,13 @@ use super::several::several;
 /// Equations and sources: docs/heaviest-paths.md. Measured on instances of the published kind: `hairpin bench
 /// max-load`.
 ///
+/// | asked | answered by |
+/// | --- | --- |
+/// | `programs` ≤ 1, or any method but `Auto` | that method |
+/// | several paths, `Auto` | the heaviest first, then by Lawler's partition |
+///
+/// No path at all (fixed ends that no walk joins) is an answer, `Infeasible`, and no error.
+///
 /// # Errors
 /// Ends that are no points; a table of subsets that would not fit; several paths from a method that gives one.
 pub fn heaviest(

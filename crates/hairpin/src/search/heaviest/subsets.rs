@@ -22,6 +22,9 @@ pub fn subset_bytes(arcs: &Arcs) -> u128 {
 }
 
 /// The heaviest path, and `None` if there is none. The caller has asked [`subset_bytes`] whether it fits.
+///
+/// Any set may be the last, as points may be left out; of equal paths the one of the greatest (set, last point) as
+/// numbers.
 pub(super) fn best_by_subsets(arcs: &Arcs, ends: Ends) -> Option<Vec<usize>> {
     if arcs.points() == 1 {
         return (ends.may_start(0) && ends.may_end(0)).then(|| vec![0]);
@@ -30,11 +33,15 @@ pub(super) fn best_by_subsets(arcs: &Arcs, ends: Ends) -> Option<Vec<usize>> {
 }
 
 /// Whether sums fit into half of 32 bits, whose other half marks what cannot be.
+///
+/// (largest cost) · n < 2²⁹.
 fn narrow(arcs: &Arcs) -> bool {
     (arcs.largest() as i128) * (arcs.points() as i128) < (1 << 29)
 }
 
 /// Points, rounded up to what fills a vector.
+///
+/// Eight lanes at least, then a multiple of four, at most 28: one compiled sweep for each.
 fn lanes(points: usize) -> usize {
     points.next_multiple_of(if points <= 8 { 8 } else { 4 })
 }

@@ -49,11 +49,13 @@ impl Table {
         Self { size: n + 1, costs, symmetric }
     }
 
+    /// Below 0 for what is missing, and only for that.
     #[inline]
     pub(super) fn cost(&self, from: u32, to: u32) -> i64 {
         self.costs[from as usize * self.size + to as usize]
     }
 
+    /// n: the number of points.
     pub(super) fn dummy(&self) -> u32 {
         self.size as u32 - 1
     }
@@ -63,8 +65,11 @@ impl Table {
 const OUT: u32 = u32::MAX;
 
 /// Points in cyclic order, and where each is.
+///
+/// Points that are left out have no place. The dummy is always in.
 #[derive(Clone, PartialEq, Eq)]
 pub(super) struct Tour {
+    /// Points in the order of the tour, from any of them on.
     pub(super) order: Vec<u32>,
     place: Vec<u32>,
 }
@@ -85,37 +90,44 @@ impl Tour {
         tail[1..].iter().chain(head).map(|point| *point as usize).collect()
     }
 
+    /// Without an allocation, once it was as long.
     pub(super) fn copy_from(&mut self, other: &Self) {
         self.order.clone_from(&other.order);
         self.place.copy_from_slice(&other.place);
     }
 
+    /// Points in the tour, the dummy counted.
     pub(super) fn len(&self) -> usize {
         self.order.len()
     }
 
+    /// Whether the point is in the tour, O(1).
     #[inline]
     pub(super) fn has(&self, point: u32) -> bool {
         self.place[point as usize] != OUT
     }
 
+    /// Place in [`Tour::order`] of a point that is in the tour.
     #[inline]
     pub(super) fn at(&self, point: u32) -> usize {
         self.place[point as usize] as usize
     }
 
+    /// Successor, cyclically; of the last point of a path the dummy.
     #[inline]
     pub(super) fn next(&self, point: u32) -> u32 {
         let at = self.at(point) + 1;
         self.order[if at == self.order.len() { 0 } else { at }]
     }
 
+    /// Predecessor, cyclically; of the first point of a path the dummy.
     #[inline]
     pub(super) fn previous(&self, point: u32) -> u32 {
         let at = self.at(point);
         self.order[if at == 0 { self.order.len() - 1 } else { at - 1 }]
     }
 
+    /// Σ c around the tour, penalties included. O(n).
     pub(super) fn total(&self, table: &Table) -> i64 {
         let after = self.order.iter().skip(1).chain(self.order.first());
         self.order.iter().zip(after).map(|(a, b)| table.cost(*a, *b)).sum()
@@ -166,6 +178,8 @@ impl Tour {
     }
 
     /// Moves the stretch of `length` points that begins at place `at` forward by `by` places, without turning it.
+    ///
+    /// Places count cyclically. O(length + by) where that does not pass the array's end, else O(n).
     pub(super) fn rotate(&mut self, at: usize, length: usize, by: usize) {
         let n = self.order.len();
         if at + length + by <= n {
@@ -180,6 +194,7 @@ impl Tour {
         }
     }
 
+    /// Writes the places of all from `from` on.
     fn renumber(&mut self, from: usize) {
         for place in from..self.order.len() {
             self.place[self.order[place] as usize] = place as u32;

@@ -21,6 +21,10 @@ const PATIENCE: usize = 10;
 
 impl Ascent {
     /// From `begin` downwards until the bound is below `threshold`. The relaxation is left at the last multipliers.
+    ///
+    /// `step` holds the mean v̄, not a step; multipliers are always set out from the best ones, λ = best + t v̄.
+    /// Barahona and Anbil, "The volume algorithm: producing primal solutions with a subgradient method", Mathematical
+    /// Programming 87, 2000.
     pub(super) fn mean<R: Relaxation>(
         &mut self,
         relaxation: &mut R,

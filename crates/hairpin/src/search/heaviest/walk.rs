@@ -48,18 +48,27 @@ pub struct WalkProof {
 }
 
 /// What came of a search.
+///
+/// The heaviest path above the floor, and what is known beyond it.
 pub(super) struct Walks {
+    /// Cost and points in order; `None` where none was heavier than the floor.
     pub(super) best: Option<(i64, Vec<usize>)>,
+    /// No path of the region costs more.
     pub(super) bound: i64,
+    /// Whether the search came to its end.
     pub(super) proven: bool,
+    /// Circulations solved.
     pub(super) nodes: u64,
+    /// The proof, if it was to be kept.
     pub(super) steps: Vec<WalkStep>,
 }
 
 /// Which circulations are looked at: arcs that must be used, and arcs that must not.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Region {
+    /// Arcs that must be used.
     pub(super) within: Vec<Arrow>,
+    /// Arcs that must not be used.
     pub(super) without: Vec<Arrow>,
 }
 
@@ -67,10 +76,13 @@ pub(super) struct Region {
 pub(super) struct Search<'a> {
     pub(super) arcs: &'a Arcs,
     pub(super) ends: Ends,
+    /// Times that a point may come, at most.
     pub(super) visits: usize,
     /// Paths must be heavier.
     pub(super) above: i64,
+    /// Circulations solved at most.
     pub(super) most_nodes: Option<u64>,
+    /// Whether steps are kept for a proof.
     pub(super) keep: bool,
     pub(super) stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -97,6 +109,8 @@ impl Search<'_> {
     /// Best first: the open branch of the greatest bound is split, or closed by its parent's prices where its bound is
     /// no more than the best path found (or the weight it has to be above). What stays open when stopped is the bound
     /// of the answer.
+    ///
+    /// A circulation is O(n³ K) and a look at a problem costs one; problems are copies of the net, n² each.
     pub(super) fn run(&self, region: &Region) -> Walks {
         let mut net = Net::new(self.arcs, self.ends, self.visits as i64);
         region.within.iter().for_each(|arc| net.decide(*arc, State::In));
@@ -149,6 +163,7 @@ impl Search<'_> {
         found
     }
 
+    /// Notes the prices of a branch as the next step of the proof.
     fn step(&self, found: &mut Walks, branches: &mut [Branch], number: usize, prices: Vec<i64>) {
         branches[number].step = found.steps.len();
         if self.keep {
@@ -230,6 +245,8 @@ fn parts(nodes: usize, used: &[Arrow]) -> Vec<usize> {
 }
 
 /// The smallest part without the dummy.
+///
+/// `None` where all arcs hang together with the dummy: the circulation is a path.
 fn apart(net: &Net, used: &[Arrow]) -> Option<Vec<usize>> {
     let part = parts(net.nodes, used);
     let of = |root: usize| (0..net.nodes).filter(|node| part[*node] == root).collect::<Vec<_>>();

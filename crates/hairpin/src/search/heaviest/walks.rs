@@ -17,12 +17,16 @@ pub struct WalkSettings {
     /// Fixed ends.
     pub ends: Ends,
     /// How often a point may come.
+    ///
+    /// 1 … [`MOST_VISITS`].
     pub visits: usize,
     /// Paths below this cost are not wanted.
     pub min_cost: Option<i64>,
     /// How many different paths are wanted, the heaviest first: each lacks an arc (or an end) of every one before it.
     pub programs: usize,
     /// Problems looked at at most for each of them.
+    ///
+    /// A node is one circulation, O(n³ · visits).
     pub most_nodes: Option<u64>,
     /// Whether to keep the proof of the heaviest.
     pub proof: bool,
@@ -48,6 +52,20 @@ pub enum WalkMistake {
 ///
 /// Exponential in the worst case; on instances of the published kind one look is mostly enough up to 50 points
 /// (docs/heaviest-paths.md).
+///
+/// The proof is there if it was asked for (`proof`, one path) and the search came to its end.
+///
+/// ```
+/// use hairpin::search::heaviest::{Arcs, Ends, WalkSettings, heaviest_walk};
+///
+/// // Two points and both arcs between them: with two visits each the path goes there and back again.
+/// let arcs = Arcs::new(2, &[None, Some(3), Some(2), None])?;
+/// let settings =
+///     WalkSettings { ends: Ends::default(), visits: 2, min_cost: None, programs: 1, most_nodes: None, proof: false };
+/// let (answer, _) = heaviest_walk(&arcs, &settings, &|| false)?;
+/// assert!(answer.proven && answer.paths[0].0 == 5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// Ends that are no points, visits out of bounds, costs whose sums could overflow.

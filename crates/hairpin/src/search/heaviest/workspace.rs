@@ -45,6 +45,9 @@ impl Workspace {
 
     /// `count` points in `clusters` clusters, as people teach them: normal with a deviation of `spread` m in each
     /// coordinate about centres that are uniform in the workspace; the same seed gives the same points.
+    ///
+    /// Points take turns among the clusters; those outside the workspace are drawn again. `clusters` of 0 is taken as
+    /// 1.
     pub fn clustered(&self, count: usize, clusters: usize, spread: f64, seed: u64) -> Vec<Point3<f64>> {
         let centres = self.points(clusters.max(1), named_seed(seed, "centres", 0));
         let mut random = stream(named_seed(seed, "clusters", 0));
@@ -60,6 +63,8 @@ impl Workspace {
 
     /// The arcs between `points` in both directions, where the segment keeps clear of the core; costs are distances in
     /// whole micrometres. Ball and half space are convex: segments between points in them need no look.
+    ///
+    /// Symmetric to the bit. O(n²) segments.
     ///
     /// # Errors
     /// No point, or too many.

@@ -49,6 +49,8 @@ impl Default for EvolveSettings {
 }
 
 /// A trajectory and what its execution came to.
+///
+/// `trial.worst_leg` counts legs of `found` from 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tested<N> {
     /// The trajectory; its score is the stress.
@@ -86,6 +88,10 @@ struct Evolution<'g, 'a, N, F> {
 ///
 /// `first` is executed in its order; of the budget what is left goes to children. `best_so_far` never falls and has one
 /// entry for each execution.
+///
+/// One execution a child, no generations: steady-state evolution with truncation. Parents are drawn by u² over the pool
+/// in the order of stress, so that its first quarter has half of the children. Ends when the budget does, or when 300
+/// children in a row were known or could not be made.
 pub fn evolve<N, F>(
     graph: &LegGraph<'_, N>,
     first: &[Found<N>],
@@ -153,6 +159,8 @@ impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F>
     }
 
     /// A trajectory that differs from its parents in one stretch, or is grown anew where there are no parents.
+    ///
+    /// Stretches have 2 … 5 legs. `None` where none could be grown, or a waypoint came twice and must not.
     fn child(&mut self) -> Option<Vec<u32>> {
         let count = self.settings.length - 1;
         let mut taken = vec![false; if self.settings.revisits { 0 } else { self.graph.candidates().len() }];
@@ -208,6 +216,9 @@ impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F>
     }
 
     /// `head`, `steps` legs grown anew, `tail`.
+    ///
+    /// `taken` is empty where waypoints may come twice; else it is marked with what head and tail use. With a tail the
+    /// stretch must lead into the tail's first node, without one to the end.
     fn stretch(&mut self, taken: &mut [bool], head: &[u32], steps: usize, tail: &[u32]) -> Option<Vec<u32>> {
         let target = |leg: u32| self.graph.target(leg as usize);
         let from = head.last().map_or(0, |&leg| target(leg));

@@ -14,6 +14,9 @@ const NEAR: usize = 16;
 
 /// The trajectory along `legs` with its waypoint number `moved` + 1 put to one of those near it that it does not use,
 /// drawn uniformly, and all others left; `None` where `graph` has no such legs.
+///
+/// `legs` are numbers of the graph's legs from the start on, `moved` counts them. Where nodes are pairs of waypoints,
+/// the legs after the moved waypoint have other nodes until both of a pair are old ones; each must be in the graph.
 pub(super) fn nearby<N: Copy>(
     graph: &LegGraph<'_, N>,
     legs: &[u32],
@@ -39,6 +42,8 @@ pub(super) fn nearby<N: Copy>(
 }
 
 /// One of the places nearest to `waypoint` that `legs` do not lead to.
+///
+/// Uniform among the [`NEAR`] nearest, Euclidean, ties by index. `None` where all are used.
 fn near<N: Copy>(graph: &LegGraph<'_, N>, legs: &[u32], waypoint: u32, rng: &mut Stream) -> Option<u32> {
     let candidates = graph.candidates();
     let used = |place: &u32| legs.iter().any(|&leg| graph.waypoint(graph.target(leg as usize)) == *place);

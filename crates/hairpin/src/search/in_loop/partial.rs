@@ -36,6 +36,8 @@ pub struct PartialSettings {
 }
 
 /// What executing a partial trajectory came to.
+///
+/// `legs` are what the budget pays: those from the state that execution began at.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ran<S> {
     /// The stress so far; NaN: none was measured yet.
@@ -82,6 +84,8 @@ enum Unscored {
 /// What executes partial trajectories over nodes `N`.
 ///
 /// Errors are counts: what failed has used its legs up.
+///
+/// `whole` matters to robots that brake at their last waypoint: a partial trajectory is executed as if it went on.
 pub trait Execute<N> {
     /// A robot and its controller where a partial trajectory has led them.
     type State;
@@ -127,6 +131,8 @@ pub struct Executed<'o, O, E> {
 
 impl<'o, O: Additive, E> Executed<'o, O, E> {
     /// With nothing executed yet.
+    ///
+    /// The budget is executions · legs of a whole trajectory.
     pub fn new(settings: PartialSettings, objective: &'o O, execute: E) -> Self {
         let mut executed = Self {
             settings,
@@ -163,12 +169,16 @@ impl<'o, O: Additive, E> Executed<'o, O, E> {
     }
 
     /// Legs kept back.
+    ///
+    /// (trajectories still wanted) · (legs of one): what only complete trajectories may use.
     fn reserve(&self) -> u64 {
         self.legs().saturating_mul(self.settings.wanted.saturating_sub(self.complete) as u64)
     }
 
     /// Legs from a partial trajectory of `done` legs that one expansion executes: with `width` expansions for each leg
     /// up to the end the budget lasts until then.
+    ///
+    /// (left − reserve)/(width · Σ_{l > done} cost(l)), at least 1; cost(l) is 1 leg with resumption, l without.
     fn share(&self, done: u64) -> usize {
         let cost = |legs: u64| if self.settings.resumes { 1 } else { legs };
         let way: u64 = (done + 1..=self.legs()).map(cost).sum();

@@ -27,20 +27,27 @@ pub(super) enum Goal {
 
 /// A depth-first search that tries legs in random order, the shortest ones more often.
 pub(super) struct Regrow<'g, 'a, N> {
+    /// Where legs come from.
     pub(super) graph: &'g LegGraph<'a, N>,
+    /// Where the stretch ends.
     pub(super) goal: Goal,
     /// Waypoints that may not be used, by index; empty where all may.
     pub(super) taken: &'g mut [bool],
+    /// Of the search that it belongs to.
     pub(super) rng: &'g mut Stream,
     spent: u32,
 }
 
 impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
+    /// With nothing spent of the budget of [`BUDGET`] legs, which all calls of [`Regrow::grow`] share.
     pub(super) fn new(graph: &'g LegGraph<'a, N>, goal: Goal, taken: &'g mut [bool], rng: &'g mut Stream) -> Self {
         Self { graph, goal, taken, rng, spent: 0 }
     }
 
     /// Appends `steps` legs from `node` to the goal; `false` leaves `legs` as it was.
+    ///
+    /// Neither uniform over stretches nor complete: `false` is no proof that there is none. `taken` is as before
+    /// afterwards.
     pub(super) fn grow(&mut self, node: u32, steps: usize, legs: &mut Vec<u32>) -> bool {
         let row = self.graph.legs_from(node);
         if steps == 0 || row.is_empty() {
@@ -95,6 +102,7 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
         legs
     }
 
+    /// Marks a waypoint, where marks are kept.
     fn take(&mut self, waypoint: usize, taken: bool) {
         if let Some(mark) = self.taken.get_mut(waypoint) {
             *mark = taken;

@@ -63,6 +63,10 @@ pub struct Shifted<P> {
 ///
 /// Only feasible plans are executed; drawing them is free. Accepted where the stress is no less, so that plateaus are
 /// walked.
+///
+/// x′ = x + σ n for 1 … 3 waypoints in a row (3 of 10 changes); one waypoint anew at neighbour + f · longest leg in a
+/// uniform direction (5 of 10); or 1 … 3 drawn towards a neighbour by the factor f (2 of 10), f = 0.05^u, u uniform. σ
+/// at the end is handed back, so that a search can be gone on with. `trial.worst_leg` says where to look.
 pub fn shift<P>(
     points: &[Point3<f64>],
     trial: Trial,
@@ -113,6 +117,8 @@ pub fn shift<P>(
 }
 
 /// `points` with one or a few of those before `last` changed, the first never; mostly those at the worst leg.
+///
+/// `last` is the first index that must stay, or the number of points.
 fn moved(points: &[Point3<f64>], worst_leg: usize, last: usize, step: f64, rng: &mut Stream) -> Vec<Point3<f64>> {
     let kind = unit(rng);
     let places = kind < PLACED;

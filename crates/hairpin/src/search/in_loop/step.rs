@@ -6,6 +6,8 @@
 const GROWTH: f64 = 1.5;
 
 /// `step` after an execution that was a success, or not.
+///
+/// × 1.5, or × 1.5^(−1/4): in balance at p = 1/5.
 pub(super) fn after(step: f64, success: bool) -> f64 {
     step * if success { GROWTH } else { libm::pow(GROWTH, -0.25) }
 }

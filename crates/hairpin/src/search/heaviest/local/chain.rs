@@ -54,6 +54,10 @@ impl Local<'_> {
     }
 
     /// The best next arc of a chain: the gain with its follower taken away, and the new open end.
+    ///
+    /// `first` … `open` is the tour as a path; an arc open–to is put in and the arc to–end taken out, where `end` is
+    /// the neighbour of `to` on the side of `open`. Greatest gain g + c(open, to) − c(to, end) wins; moves that do not
+    /// gain under the potentials are not looked at (Lin and Kernighan's gain criterion).
     fn link(&self, first: u32, open: u32, gain: i64, forward: bool) -> Option<(i64, u32)> {
         let mut chosen = None;
         for at in 0..self.each {

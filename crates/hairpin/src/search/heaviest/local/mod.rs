@@ -24,6 +24,8 @@ const CANDIDATES: usize = 8;
 const KICKED: usize = 10;
 
 /// A local search that can be gone on with.
+///
+/// A tour is a path closed over the dummy, n, and may leave points out. `total` counts penalties, `heaviest` does not.
 pub(super) struct Local<'a> {
     arcs: &'a Arcs,
     ends: Ends,
@@ -45,6 +47,9 @@ pub(super) struct Local<'a> {
 
 impl<'a> Local<'a> {
     /// Begins at `path`, with [`Local::rank`].
+    ///
+    /// Potentials are in units of cost: of each point, then of the dummy. The path is improved at once, before any
+    /// kick; all draws come from `random`, in an order that the table and the settings decide.
     pub(super) fn new(arcs: &'a Arcs, ends: Ends, path: &[usize], potentials: &[i64], random: Stream) -> Self {
         let table = Table::new(arcs, ends);
         let tour = Tour::of_path(&table, path);
@@ -119,6 +124,8 @@ impl<'a> Local<'a> {
     }
 
     /// Kicks and improves `times`, or until `stop` says so, which is asked now and then. Returns how often.
+    ///
+    /// `stop` is asked every 64 kicks. A kick costs the few points that it woke, not a look at the whole tour.
     pub(super) fn kick(&mut self, times: u64, stop: &(dyn Fn() -> bool + Sync)) -> u64 {
         for time in 0..times {
             if time % 64 == 63 && stop() {
@@ -166,10 +173,12 @@ impl<'a> Local<'a> {
         }
     }
 
+    /// A whole number in 0 … bound − 1, uniform up to 2⁻⁶⁴ · bound (Lemire's multiplication, without rejection).
     fn below(&mut self, bound: usize) -> usize {
         ((u128::from(self.random.next_u64()) * bound as u128) >> 64) as usize
     }
 
+    /// The point's moves are to be looked at again; those that are left out of the tour have none.
     fn wake(&mut self, point: u32) {
         if !self.queued[point as usize] && self.tour.has(point) {
             self.queued[point as usize] = true;
@@ -235,6 +244,8 @@ impl<'a> Local<'a> {
         }
     }
 
+    /// Chains first, as they gain most where costs are symmetric; leaving a point out is looked at only where points
+    /// are left out already or an arc of it is missing: in a full tour of arcs that there are, it rarely gains.
     fn improve_at(&mut self, point: u32) -> bool {
         (self.table.symmetric && self.chain(point))
             || self.stretch(point)
@@ -242,6 +253,7 @@ impl<'a> Local<'a> {
             || (self.tour.len() < self.table.size || self.penalised(point)) && self.leave_out(point)
     }
 
+    /// Whether one of its two arcs is missing: only those cost less than 0 in the table.
     fn penalised(&self, point: u32) -> bool {
         self.table.cost(self.tour.previous(point), point) < 0 || self.table.cost(point, self.tour.next(point)) < 0
     }

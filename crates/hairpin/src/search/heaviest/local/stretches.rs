@@ -1,4 +1,7 @@
 //! Stretches that are moved: short ones to anywhere, neighbouring ones in each other's place.
+//!
+//! Both look at candidates under potentials first, as an arc that does not beat the one given up cannot begin a move
+//! that gains.
 
 use super::Local;
 
@@ -83,6 +86,9 @@ impl Local<'_> {
     }
 
     /// Exchanges two neighbouring stretches of any length, neither turned: three arcs for three.
+    ///
+    /// Or-3opt: a(→b…d)(c…e)→f becomes a(→c…e)(b…d)→f, the only 3-opt move that turns nothing, so that it serves
+    /// directed costs. O(candidates²).
     pub(super) fn exchange_stretches(&mut self, point: u32) -> bool {
         let n = self.tour.len();
         if n < 5 {

@@ -6,6 +6,7 @@ use super::Local;
 const SCANNED: usize = 200;
 
 impl Local<'_> {
+    /// Takes a point that is in the tour out of it, gain or not, and wakes its neighbours.
     pub(super) fn take_out(&mut self, point: u32) {
         let (before, after) = (self.tour.previous(point), self.tour.next(point));
         self.total += self.table.cost(before, after) - self.table.cost(before, point) - self.table.cost(point, after);
@@ -14,6 +15,7 @@ impl Local<'_> {
         self.wake(after);
     }
 
+    /// Leaves `point` out if c(before, after) > c(before, point) + c(point, after), never the dummy; whether it did.
     pub(super) fn leave_out(&mut self, point: u32) -> bool {
         if point == self.table.dummy() || self.tour.len() < 3 {
             return false;
@@ -28,6 +30,9 @@ impl Local<'_> {
     }
 
     /// Puts points that are left out where they help most, beside another or in its place; whether any did.
+    ///
+    /// One sweep in the order of the points, each put where it gains most; O(n) places each in tours of at most
+    /// [`SCANNED`].
     pub(super) fn put_in(&mut self) -> bool {
         let mut any = false;
         for point in 0..self.table.dummy() {

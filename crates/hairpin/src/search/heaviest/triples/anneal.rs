@@ -25,6 +25,9 @@ const STEPS: f64 = 20_000.0;
 const STEPS_A_LOOK: u64 = 256;
 /// The heaviest orders that are met when chains are annealed from `first`, the heaviest first, at most `count`: `first`
 /// is among them or worse than they are. `share` of the full number of steps is taken; `seed` is the round's own.
+///
+/// Four chains of `share` · 20 000 steps a point; a step costs O(n). Which chain met an order does not matter: they are
+/// put together in the order of cost, then of points.
 pub(super) fn annealed(
     question: &Question,
     first: &[usize],
@@ -96,6 +99,10 @@ struct Order {
 
 impl Order {
     /// One change of it, drawn; sometimes none.
+    ///
+    /// A point is drawn. If it is in the order: left out (1 of 8), a stretch turned (3 of 8), two exchanged (1 of 8),
+    /// else up to three from it on moved elsewhere; if not, put in the place of another or between two. Nothing is
+    /// drawn again if it does not change the order.
     fn change(&mut self, random: &mut Stream) {
         let length = self.path.len();
         let below = |bound: usize, random: &mut Stream| (random.next_u64() % bound.max(1) as u64) as usize;

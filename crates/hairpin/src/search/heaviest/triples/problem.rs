@@ -11,6 +11,8 @@ pub(super) const IMPOSSIBLE: i64 = i64::MIN / 4;
 pub const MOST_TRIPLE_POINTS: usize = 500;
 
 /// What is searched.
+///
+/// Arcs and triples are of the same points.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Question<'a> {
     pub(super) arcs: &'a Arcs,
@@ -19,6 +21,7 @@ pub(super) struct Question<'a> {
 }
 
 impl Question<'_> {
+    /// n, home among them where there is one.
     pub(super) fn points(&self) -> usize {
         self.arcs.points()
     }
@@ -81,6 +84,20 @@ pub enum TriplesMistake {
 /// Costs of triples: t(i, k, j) ≥ 0 of the move from i through k to j, or no such move.
 ///
 /// n³ numbers of 8 bytes: 1 GB at 500 points.
+///
+/// `largest` and symmetry are known from the beginning. Costs are in the unit of the [`Arcs`] beside them.
+///
+/// ```
+/// use hairpin::search::heaviest::{Arcs, HeaviestSettings, Triples, heaviest_with_triples};
+///
+/// // Over three points straight on costs 2; an arc through the middle one is worth 5.
+/// let arcs = Arcs::new(3, &[None, Some(1), None, None, None, Some(1), None, None, None])?;
+/// let triples = Triples::new(3, &[([0, 1, 2], 5)])?;
+/// assert_eq!(triples.best_on(&arcs, &[0, 1, 2]), Some((5, vec![1]))); // the point at place 1 is passed
+/// let answer = heaviest_with_triples(&arcs, &triples, &HeaviestSettings::default(), &|| false)?;
+/// assert!(answer.proven && answer.paths[0] == (5, vec![0, 1, 2]) && answer.passed[0] == [1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Triples {
     points: usize,
@@ -92,6 +109,8 @@ pub struct Triples {
 
 impl Triples {
     /// Of `moves` \[from, via, to\] with their costs, among `points` points.
+    ///
+    /// A move that is given twice has its last cost. The largest cost allowed is that of [`Arcs`].
     ///
     /// # Errors
     /// Too many points, points that do not exist or come twice, a cost that is negative or whose sums could overflow.
@@ -118,6 +137,8 @@ impl Triples {
     }
 
     /// Cost of the move from `from` through `via` to `to`.
+    ///
+    /// `None` also for points that do not exist.
     pub fn cost(&self, from: usize, via: usize, to: usize) -> Option<i64> {
         let known = from.max(via).max(to) < self.points;
         known.then(|| self.raw(from, via, to)).filter(|cost| *cost >= 0)
@@ -173,6 +194,7 @@ impl Triples {
         last
     }
 
+    /// n: points that triples may name.
     pub(super) fn points(&self) -> usize {
         self.points
     }
@@ -201,6 +223,7 @@ impl Triples {
 /// What an order costs, fines and all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Worth {
+    /// Cost of the best cut, less the fines.
     pub(super) value: i64,
     /// Whether no arc of it is missing.
     pub(super) way: bool,

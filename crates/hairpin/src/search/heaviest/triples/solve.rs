@@ -26,6 +26,10 @@ const FIRST_KICKS: u64 = 200;
 /// met, and the bound holds for the heaviest. Of `settings` count ends, the least cost, how many paths, the seed, and
 /// the bytes a table may take.
 ///
+/// max over orders p and their cuts of Σ_arcs c(p_k, p_{k+1}) + Σ_triples t(p_k, p_{k+1}, p_{k+2}). Exact: O(2ⁿ n³)
+/// time, 2ⁿ · n · 8 bytes, 168 MB at 20 points. Else five rounds of annealing and prices; `stop` ends them early, with
+/// a path and a bound all the same.
+///
 /// # Errors
 /// Ends that are no points.
 ///
@@ -86,6 +90,8 @@ fn cut(arcs: &Arcs, triples: &Triples, mut found: Heaviest) -> Heaviest {
 }
 
 /// A path to begin with: the heaviest of arcs alone that local search finds, else one of few moves.
+///
+/// `None` where breadth-first search finds no way between the ends either, which proves nothing.
 fn first_order(
     arcs: &Arcs,
     triples: &Triples,

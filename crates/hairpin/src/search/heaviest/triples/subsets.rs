@@ -2,6 +2,9 @@
 //!
 //! b(S, i) is the most that can still come at i when the points of S (i among them) were met:
 //! b(S, i) = max(0 where a path may end in i, max_j c(i, j) + b(S ∪ j, j), max_{k, j} t(i, k, j) + b(S ∪ k ∪ j, j)).
+//!
+//! Held and Karp's recursion with moves of two lengths. Sets are visited from the largest down, so that both S ∪ j and
+//! S ∪ k ∪ j are known; O(2ⁿ n³) at most, the inner loop a row of t.
 
 use std::collections::BinaryHeap;
 
@@ -55,6 +58,7 @@ impl<'a> Subsets<'a> {
         Some(table)
     }
 
+    /// b(`set`, `last`); [`IMPOSSIBLE`] where no allowed end can be reached.
     fn rest(&self, set: usize, last: usize) -> i64 {
         self.best[set * self.points + last]
     }
@@ -117,6 +121,9 @@ impl<'a> Subsets<'a> {
     }
 
     /// What a beginning that ends in `earlier`, `last` can come to.
+    ///
+    /// max(`ended` + b(S, last), `passing` + max_j t(earlier, last, j) + b(S ∪ j, j)): exact, so that the first whole
+    /// order that comes off the heap is the heaviest.
     fn bound(&self, set: usize, earlier: Option<usize>, last: usize, ended: i64, passing: i64) -> i64 {
         let open = (0..self.points).filter(|point| set >> point & 1 == 0);
         let through = earlier.map_or(IMPOSSIBLE, |earlier| {

@@ -53,6 +53,10 @@ impl<'a> Prices<'a> {
     }
 
     /// Takes a `share` of all its steps towards `reached`, which a path is known to cost.
+    ///
+    /// Polyak's step: length · (bound − goal)/Σ (visits − 1)², down again to the best prices and half the length after
+    /// [`PATIENCE`] steps in vain. Ends early where the bound meets `reached`, which is then proven, or where the walk
+    /// visits every point once.
     pub(super) fn step(&mut self, share: f64, reached: i64, stop: &(dyn Fn() -> bool + Sync)) {
         let goal = (reached.max(0) * self.scale) as f64;
         for _ in 0..((share * self.steps as f64).ceil() as usize) {
@@ -107,6 +111,8 @@ impl<'a> Walks<'a> {
     }
 
     /// Σλ plus the heaviest walk's cost, times `scale`, and how often it comes to each point.
+    ///
+    /// O(n · (n² + triples)) additions, n² numbers and as many predecessors.
     fn heaviest(&self, prices: &[i64], scale: i64) -> (i64, Vec<i64>) {
         let n = self.points;
         // f(m, ·), and where each came from: the point before, and the one on the way.
