@@ -33,6 +33,9 @@ pub struct Airborne {
 impl Airborne {
     /// At the first waypoint of `sortie`, which alone is looked at, at rest and hovering.
     ///
+    /// `sortie.waypoints` beyond the first and its profile are not looked at. Noise, gusts and dropouts come from
+    /// `seed`, as in a run that is flown at once.
+    ///
     /// # Errors
     /// As [`super::fly`]; a controller that plans over all waypoints.
     pub fn at_start(
@@ -59,6 +62,9 @@ impl Airborne {
     }
 
     /// Flies on in `world`, the sortie's, until `waypoint` is reached or the run ends.
+    ///
+    /// `waypoint` in m. After the run has ended nothing is flown any more, and no error told: [`Airborne::ended`] says
+    /// so.
     ///
     /// # Errors
     /// A waypoint that is not finite; [`SimulationError::Controller`].
@@ -94,6 +100,8 @@ impl Airborne {
     }
 
     /// The flight so far; one that was halted counts as done.
+    ///
+    /// A copy: the log is put together anew at each call, O(samples).
     pub fn so_far(&self) -> Flight {
         self.run.clone().into_flight()
     }

@@ -2,6 +2,12 @@
 //!
 //! Three clocks, all whole multiples of the physics' step: physics, rate loop (about 1 ms), outer loop (the
 //! controller's own). Looks at waypoints and hazards and the log have theirs.
+//!
+//! ```text
+//! physics   h            plant: rigid body, rotors, drag                         FlySettings::step
+//! rates     ≈ 1 ms       body rates → moments → mixer → rotor speeds              whole multiple of h
+//! outer     controller   waypoints or plan → command                             the controller's own period
+//! ```
 
 use multiversion::multiversion;
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
@@ -24,6 +30,8 @@ use crate::world::World;
 const INNER_PERIOD: f64 = 0.001;
 
 /// What flies where.
+///
+/// `profile`, where there is one, has one leg fewer than `waypoints` has points.
 #[derive(Debug, Clone, Copy)]
 pub struct Sortie<'a> {
     /// The robot.
@@ -72,6 +80,7 @@ impl Default for FlySettings {
 }
 
 impl FlySettings {
+    /// Ranges as the fields say.
     pub(super) fn check(&self) -> Result<(), SimulationError> {
         if !(1e-5..=1e-3).contains(&self.step) {
             return Err(SimulationError::new("step", self.step.to_string(), "from 1e-5 to 1e-3 s"));
@@ -113,6 +122,7 @@ pub(super) struct ClosedLoop {
 }
 
 impl ClosedLoop {
+    /// Errors: a robot whose rotors cannot hover and turn about every axis.
     pub(super) fn new(
         sortie: &Sortie,
         conditions: &Conditions,
@@ -162,6 +172,7 @@ impl ClosedLoop {
         self.inner.follow(dt, state, command);
     }
 
+    /// `ticks` of the rate loop, the last command held.
     pub(super) fn fly_at(&mut self, simd: Simd, ticks: u64) {
         match simd {
             Simd::Widest => fly_on(self, ticks),
@@ -211,6 +222,7 @@ impl ClosedLoop {
         (1..self.steps).for_each(|_| self.step::<DISTURBED>(speeds));
     }
 
+    /// m, world frame.
     pub(super) fn position(&self) -> Vector3<f64> {
         vector(self.motion.position)
     }
@@ -220,6 +232,8 @@ impl ClosedLoop {
         if self.motion.is_finite() { self.motion.up.to_array()[2] } else { f64::NAN }
     }
 
+    /// A sample at `t` s on leg `leg`, with the share of (rotor, tick) pairs at a limit since the last sample; counts
+    /// begin anew.
     pub(super) fn record(&mut self, recorder: &mut Recorder, t: f64, leg: usize) {
         let saturated = if self.ticks > 0 { self.at_limit as f64 / (4 * self.ticks) as f64 } else { 0.0 };
         (self.at_limit, self.ticks) = (0, 0);

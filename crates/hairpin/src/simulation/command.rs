@@ -7,6 +7,8 @@ use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::Profile;
 
 /// What is measured of a flight: the plant's own state, exactly. World frame: z up.
+///
+/// No noise and no delay: what a controller makes of them is disturbed elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightState {
     /// When, s.
@@ -94,6 +96,8 @@ impl Demand {
 }
 
 /// The columns x, y, z of the attitude whose z lies along `force` and whose yaw is 0; level where that is undefined.
+///
+/// y = z × e_x/|z × e_x|, x = y × z.
 pub(super) fn level_heading(force: &Vector3<f64>) -> Matrix3<f64> {
     let axes = || {
         let z = force.try_normalize(1e-9)?;

@@ -1,4 +1,11 @@
 //! The rigid body under four rotors: numbers, and equations with a rotation matrix for the attitude.
+//!
+//! ```text
+//! u₁ = kf Σ w²,  τ_x = kf Σ y w²,  τ_y = −kf Σ x w²,  τ_z = km Σ spin · w²
+//! ```
+//!
+//! World z up, body x forward, y left, z up. The attitude is a rotation matrix and not a quaternion, which the robot's
+//! own equations have.
 
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
@@ -71,6 +78,8 @@ impl Body {
     }
 
     /// Whether mass and inertia are a body's.
+    ///
+    /// Finite, mass and inertia above 0; that the inertia is one a body can have is the robot's file's to say.
     pub(super) fn is_physical(&self) -> bool {
         let numbers = [self.gravity, self.drag_linear, self.drag_quadratic, self.aerodynamic_moment];
         self.mass > 0.0
@@ -88,6 +97,9 @@ impl Mixer {
 
     /// ẋ of the rigid body under squared rotor speeds:
     /// ṗ = v;  m v̇ = R e₃ u₁ − m g e₃ − (c₁ + c₂|v|) v;  Ṙ = R [ω]×;  I ω̇ = τ − ω × Iω − c_a |ω| ω.
+    ///
+    /// Squares may be negative (a rotor that pulls): what cannot be flown is told elsewhere, and integrates all the
+    /// same.
     pub(super) fn derivative(&self, body: &Body, state: &State, squares: &[f64; 4]) -> State {
         let wrench = self.wrench_from_squares * Vector4::from(*squares);
         let velocity = Vector3::new(state[3], state[4], state[5]);

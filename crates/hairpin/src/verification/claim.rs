@@ -1,6 +1,8 @@
 //! What is claimed, as plain numbers: a chain of legs through waypoints.
 
 /// One leg: p_axis(τ) = Σ c_i τ^i, τ ∈ [0, duration], m, world frame, yaw 0.
+///
+/// τ runs from 0 at the leg's own start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leg {
     /// Duration, s.
@@ -10,6 +12,9 @@ pub struct Leg {
 }
 
 /// A flight: leg k joins waypoints k and k + 1, level and without angular rates at both, at rest at start and end.
+///
+/// `waypoints` has one entry more than `legs`; anything else is a finding of [`verify`](super::verify), as are numbers
+/// that are none.
 ///
 /// ```
 /// use hairpin::verification::{Body, Claim, Leg, RotorPlace, Tolerances, verify};

@@ -10,6 +10,8 @@ use super::claim::Leg;
 use super::finding::{Collector, Finding};
 
 /// A solid.
+///
+/// Convex; a box along the axes of the world. Numbers that are none make every path too near.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClearSolid {
     /// A ball: centre and radius, m.
@@ -40,6 +42,9 @@ const RESOLUTION: f64 = 1e-4;
 ///
 /// Doubles with 1 nm of room, not intervals. A path that touches a solid at exactly the clearance is decided by that
 /// room.
+///
+/// One finding a solid, field `environment.obstacles[k].clearance`, value the least distance found (to 0.1 mm), bound
+/// the clearance, m. Halving stops after 40 levels, which counts as too near.
 ///
 /// ```
 /// use hairpin::verification::{ClearClaim, ClearSolid, Leg, verify_clear};
@@ -136,11 +141,13 @@ fn approaches(around: &[[f64; 8]; 3], away: Option<[f64; 3]>, h: f64) -> f64 {
     }
 }
 
+/// √(v·v).
 fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 impl ClearSolid {
+    /// Whether all of its numbers are numbers.
     fn is_finite(&self) -> bool {
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         match self {

@@ -48,6 +48,9 @@ const ROUNDING: f64 = 1e-9;
 /// A step of the replay that turns the body by Δψ, and its direction of travel by Δδ, leaves its chord c by no more
 /// than c (|Δψ| + |Δδ|)/4, as a curve does whose direction changes by so much. A leg that cannot be replayed is as near
 /// as can be.
+///
+/// Distances are those of the body's origin in the plane. Fields `environment.keep_out[k].radius`, `.outside`,
+/// `.clearance`, in m. One replay a leg, and O(steps) for each disc.
 pub fn verify_clear_ground<T: Terrain>(vehicle: &GroundVehicle, terrain: &T, claim: &ClearGroundClaim) -> Vec<Finding> {
     let mut findings = Vec::new();
     let legs = claim.drive.legs(vehicle, terrain);
@@ -76,6 +79,8 @@ struct Steps(Option<Vec<([[f64; 2]; 2], f64)>>);
 
 impl ClearDrive<'_> {
     /// When each leg begins, s, and its steps; straight legs have no clock.
+    ///
+    /// Straight legs are one chord each that nothing leaves.
     fn legs<T: Terrain>(&self, vehicle: &GroundVehicle, terrain: &T) -> Vec<(f64, Steps)> {
         match self {
             Self::Straight(waypoints) => {
@@ -94,6 +99,7 @@ impl ClearDrive<'_> {
 }
 
 impl Steps {
+    /// Replays one leg from its own start; the first entry is the start itself.
     fn of<T: Terrain>(vehicle: &GroundVehicle, terrain: &T, leg: &DriveLegClaim) -> Self {
         let claim = leg.ground();
         let mut last = claim.start;

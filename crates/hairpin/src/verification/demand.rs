@@ -33,6 +33,9 @@ pub(super) enum Singular {
 const SMALL: f64 = 1e-6;
 
 /// The demand of `leg` at τ.
+///
+/// `tau` in s from the leg's start. p to fourth order gives F to second, R to second, ω to first and τ. `Singular`
+/// where |F| falls below 10⁻⁶ of the weight or the thrust points along ±y, where yaw 0 has no meaning.
 pub(super) fn demand(body: &Body, mixer: &Mixer, leg: &Leg, tau: f64) -> Result<Demand, Singular> {
     let taylor = leg.taylor(tau);
     let velocity: JetVector = taylor.map(|p| Jet([p[1], 2.0 * p[2], 3.0 * p[3]]));

@@ -9,6 +9,9 @@ use crate::world::terrain::Terrain;
 /// One leg of a drive as it was written.
 ///
 /// As the campaign's table of legs has it: a leg stands on its own, and joints are checked beside.
+///
+/// World frame. A leg is replayed from `from`, not from where the leg before came to: errors of legs do not add up
+/// here, and joints are held to 1 nm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveLegClaim {
     /// x, y (m), ψ (rad), κ (1/m) at its first waypoint.
@@ -28,6 +31,8 @@ pub struct DriveLegClaim {
 
 impl DriveLegClaim {
     /// Change of the direction of travel, rad/m.
+    ///
+    /// (δ_end − δ_start)/metres; 0 of a leg that only turns in place.
     fn crab_rate(&self) -> f64 {
         let metres: f64 = self.pieces.iter().map(DrivePiece::length).sum();
         if metres > 0.0 { (self.direction[1] - self.direction[0]) / metres } else { 0.0 }
@@ -48,6 +53,8 @@ impl DriveLegClaim {
 }
 
 /// What the whole drive claims.
+///
+/// `legs` has one entry fewer than `waypoints`, and at least one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrivesClaim<'a> {
     /// Waypoints, x and y, m.
@@ -95,6 +102,10 @@ const ROUNDING: f64 = 1e-6;
 ///
 /// Fields of findings: `legs[k].end…`, `legs[k].start…`, bounds and speeds by their names. One replay a leg, 2000 steps
 /// or more each.
+///
+/// Per leg: joint (position, heading, curvature, direction of travel), speeds and stops, direction within bounds, |κ|,
+/// |κ′| and jumps of κ of the commands, then the replay on the ground: end pose and curvature, tilt, wheel torque. Of a
+/// leg that cannot be replayed `stopped_after` tells after how many metres.
 pub fn verify_drives<T: Terrain>(
     vehicle: &GroundVehicle,
     terrain: &T,

@@ -5,6 +5,8 @@ use std::fmt::Display;
 /// What a proof may leave open.
 ///
 /// What a proof was held to belongs to it: reports state these beside the findings.
+///
+/// Absolute, not relative: a leg of 100 m is held to the same 0.1 mm as one of 1 m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
     /// Distance from the next waypoint at the end of a leg, and from the polynomial on the way, m.
@@ -117,6 +119,8 @@ impl Proof {
 }
 
 /// Keeps the larger.
+///
+/// NaN is never larger, and has to be told by a finding.
 pub(super) fn note(worst: &mut Worst, value: f64, leg: usize, at: f64) {
     if value > worst.value {
         *worst = Worst { value, leg, at };
@@ -149,6 +153,8 @@ impl<'a> Collector<'a> {
     }
 
     /// A finding unless it `holds`.
+    ///
+    /// `field` is appended to what the collector is about: `legs[2].` + `end.velocity`.
     pub fn unless(&mut self, holds: bool, field: impl Display, value: f64, bound: f64, unit: &'static str) {
         if !holds {
             let Self { into, about, leg, at } = self;
@@ -157,6 +163,8 @@ impl<'a> Collector<'a> {
     }
 
     /// What does not hold, in words alone.
+    ///
+    /// The words are the whole field; value NaN, bound 0, no unit.
     pub fn refuse(&mut self, what: String) {
         let Self { into, leg, at, .. } = self;
         into.push(Finding { field: what, value: f64::NAN, bound: 0.0, unit: "", leg: *leg, at: *at });

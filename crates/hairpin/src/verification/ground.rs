@@ -10,6 +10,9 @@ use crate::world::terrain::{NoGround, Terrain};
 /// The vehicle, as plain numbers.
 ///
 /// Units in the names, as in files: what is compared here is a file with a file.
+///
+/// Slip: progress = ±1 − s₁ sin(rise along)/sin 20°, drift = −s₂ sin(rise across)/sin 20°, shares of the commanded
+/// speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroundVehicle {
     /// How it stands.
@@ -64,6 +67,8 @@ pub struct Haul {
 }
 
 /// What a drive on the ground was asked to do; world frame.
+///
+/// κ and pieces are in the body's plane, poses in the world; z, roll and pitch are the ground's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundClaim {
     /// x, y (m), ψ (rad) of the start.
@@ -91,6 +96,8 @@ pub struct GroundReplay {
     /// Curvature of the steering at the end less what it should be, 1/m.
     pub error_curvature: f64,
     /// Largest angle of the body's z axis from the vertical, rad.
+    ///
+    /// acos(cos φ cos θ).
     pub max_tilt: f64,
     /// Largest |torque| of each wheel while driving, N·m; 0 without a haul.
     pub max_torque: f64,
@@ -121,6 +128,14 @@ const TURN_STEP: f64 = 0.005;
 /// ẋ, ẏ, ψ̇ are Howard and Kelly's (IJRR 26(2), 2007) of the commanded twist after slip; with `exact` they are not
 /// rates at all, but the rest whose screw from the last one has that twist.
 ///
+/// Without `exact`, with body rates (vx, vy, ωz) per metre commanded, roll φ and pitch θ of the rest there:
+///
+/// ```text
+/// ẋ = cos ψ (cos θ vx + sin θ sin φ vy) − sin ψ cos φ vy
+/// ẏ = sin ψ (cos θ vx + sin θ sin φ vy) + cos ψ cos φ vy
+/// ψ̇ = cos φ / cos θ · ωz,          δ̇ = clamp((atan(κ L) − δ)/T, ±δ̇_max)
+/// ```
+///
 /// # Errors
 /// [`Stopped`] where the ground ends or the body finds no rest.
 pub fn replay_ground<T: Terrain>(
@@ -133,6 +148,8 @@ pub fn replay_ground<T: Terrain>(
 }
 
 /// [`replay_ground`]; `pass` is shown x, y (m) and ψ (rad) after each step.
+///
+/// With `exact` once for each step's end; else after each midpoint step.
 ///
 /// # Errors
 /// As [`replay_ground`].
@@ -280,6 +297,8 @@ impl GroundClaim {
     }
 
     /// Metres that the vehicle goes on for in `time` seconds before the drive, and after it.
+    ///
+    /// time · v at the first and at the last knot; 0 without knots.
     fn metres_of(&self, time: f64) -> [f64; 2] {
         let speed = |knot: Option<&[f64; 2]>| knot.map_or(0.0, |[_, v]| *v);
         [time * speed(self.speed.first()), time * speed(self.speed.last())]
@@ -324,11 +343,13 @@ fn tilt(rest: &Rest) -> f64 {
     libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0))
 }
 
+/// state + h · rates.
 fn moved(state: &[f64; 4], rates: &[f64; 4], h: f64) -> [f64; 4] {
     [state[0] + h * rates[0], state[1] + h * rates[1], state[2] + h * rates[2], state[3] + h * rates[3]]
 }
 
 impl GroundVehicle {
+    /// Whether the steering follows its command with a delay of its own; else κ is the command's.
     fn lags(&self) -> bool {
         self.steering_time_constant_s > 0.0 || self.steering_rate_rad_s.is_finite()
     }

@@ -9,6 +9,8 @@ use super::heaviest_choices::{Chosen, IN, Layout, OPEN, OUT};
 
 /// A path and what proves it.
 ///
+/// As the campaign's file has it; costs and cost in one unit, whatever it is.
+///
 /// ```
 /// use hairpin::verification::{HeaviestClaim, verify_heaviest};
 ///
@@ -143,6 +145,7 @@ pub(super) fn loop_free(n: usize, [start, end]: [Option<usize>; 2], path: &[usiz
     Ok(())
 }
 
+/// Points, ends, arcs, and the sum of costs in 128 bits: errors in words.
 fn check_path(claim: &HeaviestClaim) -> Result<(), String> {
     let n = claim.points;
     if n == 0 || claim.costs.len() != n * n {

@@ -8,6 +8,9 @@
 use super::heaviest_choices::{Chosen, IN, Layout, OUT};
 
 /// No path that keeps the choices (and the probe) costs more, scaled; `None` if there is none.
+///
+/// `multipliers` are n of the points and one of the start, in units of cost / scale; L of this file's equations with
+/// every choice that is in taken and every one that is out left away. Exact in 128 bits.
 pub(super) fn bound(
     layout: &Layout<'_>,
     chosen: &Chosen,
@@ -37,6 +40,9 @@ pub(super) fn bound(
 }
 
 /// The heaviest spanning tree with all that is in.
+///
+/// Prim over n + 1 points, the dummy being n: what is in comes first, then the heaviest. `None` where the points do not
+/// hang together, or what is in closes a circle. O(n²).
 fn tree(layout: &Layout<'_>, multipliers: &[i64], state: &dyn Fn(usize) -> u8) -> Option<i128> {
     let n = layout.points;
     let price = |point: usize| i128::from(multipliers[point]);
@@ -78,6 +84,8 @@ struct Way {
 }
 
 /// The heaviest arborescence from the dummy with all that is in.
+///
+/// Edmonds, one circle at a time, O(n³). What is in is kept by leaving out whatever else enters the same point.
 fn arborescence(
     layout: &Layout<'_>,
     multipliers: &[i64],

@@ -4,30 +4,40 @@
 //! queues.
 
 pub(super) const OPEN: u8 = 0;
+/// No path of what is left has it.
 pub(super) const OUT: u8 = 1;
+/// Every path of what is left has it.
 pub(super) const IN: u8 = 2;
 
 /// The table, and how choices are numbered.
 pub(super) struct Layout<'a> {
+    /// n.
     pub(super) points: usize,
+    /// Whether i→j and j→i are two choices.
     pub(super) directed: bool,
+    /// In rows, unscaled.
     pub(super) costs: &'a [Option<i64>],
+    /// What costs are multiplied by.
     pub(super) scale: i64,
 }
 
 impl Layout<'_> {
+    /// n² + 3n: arcs (the diagonal has numbers, too), starts, loops, ends.
     pub(super) fn len(&self) -> usize {
         self.points * (self.points + 3)
     }
 
+    /// The choice that the path begins at `point`.
     pub(super) fn start(&self, point: usize) -> usize {
         self.points * self.points + point
     }
 
+    /// The choice that `point` is left out.
     pub(super) fn looped(&self, point: usize) -> usize {
         self.points * (self.points + 1) + point
     }
 
+    /// The choice that the path ends at `point`.
     pub(super) fn end(&self, point: usize) -> usize {
         self.points * (self.points + 2) + point
     }
@@ -46,6 +56,7 @@ impl Layout<'_> {
 /// What is chosen so far.
 #[derive(Clone)]
 pub(super) struct Chosen {
+    /// [`OPEN`], [`OUT`] or [`IN`] by number.
     pub(super) state: Vec<u8>,
 }
 
@@ -81,6 +92,8 @@ impl Chosen {
     }
 
     /// With all that follows; `None` if it contradicts itself.
+    ///
+    /// O(n²) a round, at most as many rounds as there are choices.
     pub(super) fn closed(mut self, layout: &Layout<'_>) -> Option<Self> {
         loop {
             let before = self.state.clone();
@@ -111,10 +124,12 @@ impl Chosen {
         }
     }
 
+    /// How many of these are in that state.
     fn count(&self, choices: &[usize], state: u8) -> usize {
         choices.iter().filter(|choice| self.state[**choice] == state).count()
     }
 
+    /// Those that are open get this state.
     fn set_open(&mut self, choices: &[usize], state: u8) {
         for choice in choices {
             if self.state[*choice] == OPEN {
@@ -123,6 +138,7 @@ impl Chosen {
         }
     }
 
+    /// `None` where none can be or two are.
     fn exactly_one(&mut self, choices: &[usize]) -> Option<()> {
         let (chosen, open) = (self.count(choices, IN), self.count(choices, OPEN));
         match (chosen, open) {

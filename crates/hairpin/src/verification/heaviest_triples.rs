@@ -10,6 +10,8 @@ use super::heaviest::loop_free;
 /// A path and what it is held against.
 ///
 /// The path's own cost is added up from its moves, arcs and triples, as `passed` cuts it.
+///
+/// `passed` in the order of the path; a triple's middle is the point passed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TriplesClaim {
     /// Number of points.
@@ -34,6 +36,20 @@ pub struct TriplesClaim {
 pub const MOST_TRIPLES_AGAIN: usize = 20;
 
 /// All that does not hold; empty: the path is one of this cost, and none is heavier.
+///
+/// Findings in words, the first one only. 8 n 2ⁿ bytes: 168 MB at 20 points, the most that are searched again.
+///
+/// ```
+/// use hairpin::verification::{TriplesClaim, verify_triples};
+///
+/// // Three points in a row: 1 + 1 straight, 5 in one move through the middle.
+/// let costs = vec![None, Some(1), None, None, None, Some(1), None, None, None];
+/// let (triples, start, end) = (vec![([0, 1, 2], 5)], None, None);
+/// let mut claim = TriplesClaim { points: 3, costs, triples, start, end, path: vec![0, 1, 2], passed: vec![1], cost: 5 };
+/// assert!(verify_triples(&claim).is_empty());
+/// (claim.passed, claim.cost) = (vec![], 2); // a path of that cost, but not the heaviest
+/// assert!(!verify_triples(&claim).is_empty());
+/// ```
 pub fn verify_triples(claim: &TriplesClaim) -> Vec<String> {
     if let Err(what) = check_path(claim) {
         return vec![what];

@@ -13,8 +13,10 @@ pub(super) struct Jet(pub(super) [f64; 3]);
 pub(super) type JetVector = [Jet; 3];
 
 impl Jet {
+    /// The series of 0.
     pub(super) const ZERO: Self = Self([0.0; 3]);
 
+    /// c0: the value now.
     pub(super) fn value(self) -> f64 {
         self.0[0]
     }
@@ -39,6 +41,7 @@ impl Jet {
         Self([r, -b * r * r, (b * b * r - c) * r * r])
     }
 
+    /// A number times the series.
     pub(super) fn scaled(self, factor: f64) -> Self {
         Self(self.0.map(|c| c * factor))
     }
@@ -66,14 +69,17 @@ impl Mul for Jet {
     }
 }
 
+/// a · b, to second order.
 pub(super) fn dot(a: &JetVector, b: &JetVector) -> Jet {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// a × b, to second order.
 pub(super) fn cross(a: &JetVector, b: &JetVector) -> JetVector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// Each component times one series.
 pub(super) fn times(a: &JetVector, factor: Jet) -> JetVector {
     a.map(|component| component * factor)
 }

@@ -35,6 +35,9 @@ const ROUNDING: f64 = 1e-12;
 /// All conditions at all legs' ends, within `absolute` (SI) plus rounding: start and end position, velocity against
 /// the leg before (rest at the flight's ends), thrust equal to the weight and pointing up (m v̇ + D(v) = 0), and not
 /// turning (m v̈ + dD/dt = 0).
+///
+/// Eight a leg: four orders at either end, each the worst of its axes by difference/allowed. Velocities at a leg's
+/// start are compared with the leg before, at its end only the flight's last must be at rest.
 pub(super) fn mismatches(body: &Body, claim: &Claim, absolute: f64) -> Vec<Mismatch> {
     let mut found = Vec::with_capacity(8 * claim.legs.len());
     let still: Derivative = [(0.0, 0.0); 3];
@@ -90,6 +93,7 @@ fn level(body: &Body, knot: &[Derivative; 4]) -> (Derivative, Derivative) {
     (wanted(0), wanted(1))
 }
 
+/// (difference, allowed) of the axis where their ratio is largest.
 fn compare(found: &Derivative, wanted: &Derivative, absolute: f64) -> (f64, f64) {
     let mut worst = (0.0, absolute);
     let mut ratio = -1.0;

@@ -9,6 +9,7 @@ use super::finding::Collector;
 /// The speeds of one leg, and what they are held to.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PaceClaim<'a> {
+    /// The leg's commands.
     pub(super) pieces: &'a [DrivePiece],
     /// Metres of the leg, rising from 0, with the speed there, m/s; v² is linear between.
     pub(super) knots: &'a [[f64; 2]],
@@ -105,6 +106,8 @@ fn speed_at(knots: &[[f64; 2]], s: f64) -> f64 {
 }
 
 /// ∫ ds/v over `total` metres, and the turns' time.
+///
+/// Σ 2Δs/(v₀ + v₁) + (what lies beyond the last knot)/v_last + Σ |turn|/turn rate.
 fn seconds(claim: &PaceClaim, total: f64) -> f64 {
     let knots = claim.knots;
     let end = knots[knots.len() - 1];

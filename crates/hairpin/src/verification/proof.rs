@@ -20,6 +20,10 @@ use crate::math::power::square;
 ///
 /// Each leg is integrated at halved steps until two runs agree to what [`Tolerances::accuracy`] asks for, so that
 /// accuracy is estimated and not assumed.
+///
+/// Squared rotor speeds come from the polynomial alone (`demand`), the state from integrating them: if both agree at
+/// the leg's end, the flatness map, its derivatives and the robot's signs are right. Within a leg the path must stay
+/// within [`Tolerances::position`] of its polynomial.
 pub fn verify(body: &Body, claim: &Claim, tolerances: &Tolerances) -> Proof {
     let mut proof = Proof::default();
     let refuse =
@@ -54,6 +58,9 @@ pub fn verify(body: &Body, claim: &Claim, tolerances: &Tolerances) -> Proof {
 ///
 /// ẇ = (w_demanded − w)/τ for each rotor. The claim leaves lag out, since snap jumps at waypoints and rotor speeds with
 /// it; this number says how much that is.
+///
+/// Rotors begin at what the first leg demands at its start. Also `None` where a demand is singular or an integration
+/// does not converge.
 pub fn open_loop_with_lag(body: &Body, claim: &Claim) -> Option<EndError> {
     let sound = claim.legs.len() + 1 == claim.waypoints.len() && claim.legs.iter().all(Leg::is_finite);
     let first = claim.legs.first().filter(|_| sound && body.is_physical())?;
@@ -127,6 +134,7 @@ fn fly_legs(proof: &mut Proof, flyer: &Flyer, claim: &Claim, tolerances: &Tolera
     proof.open_loop = whole.then(|| end_error(&chained, claim));
 }
 
+/// Position, velocity and body rates by their norms, attitude by its angle from level.
 fn check_end(proof: &mut Proof, replay: &Replay, target: &State, leg: usize, at: f64, tolerances: &Tolerances) {
     let distance = |from: usize| (from..from + 3).map(|i| square(replay.end[i] - target[i])).sum::<f64>().sqrt();
     let (position, velocity, rates) = (distance(0), distance(3), distance(15));
@@ -142,10 +150,12 @@ fn check_end(proof: &mut Proof, replay: &Replay, target: &State, leg: usize, at:
     found.above("flown.rates", rates, tolerances.rates, "rad/s");
 }
 
+/// ṗ(τ), m/s.
 fn velocity_at(leg: &Leg, tau: f64) -> [f64; 3] {
     leg.taylor(tau).map(|axis| axis[1])
 }
 
+/// Of a state at the end of the whole flight.
 fn end_error(state: &State, claim: &Claim) -> EndError {
     let last = claim.waypoints[claim.waypoints.len() - 1];
     EndError {
@@ -155,6 +165,7 @@ fn end_error(state: &State, claim: &Claim) -> EndError {
     }
 }
 
+/// A finding `thrust`, `yaw` or `integration` of a leg that could not be flown.
 fn unflown(proof: &mut Proof, trouble: Trouble, leg: usize, began: f64, tolerances: &Tolerances) {
     let (what, value, bound, unit, tau) = match trouble {
         Trouble::Singular(tau, Singular::FreeFall(thrust)) => ("thrust", thrust, f64::MIN_POSITIVE, "N", tau),

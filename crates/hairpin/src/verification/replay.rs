@@ -8,8 +8,11 @@ use crate::math::power::square;
 
 /// Everything that flying needs.
 pub(super) struct Flyer<'a> {
+    /// Numbers of the robot.
     pub(super) body: &'a Body,
+    /// Rotor speeds to forces and back.
     pub(super) mixer: Mixer,
+    /// The integrator.
     pub(super) gauss: Gauss,
     /// Largest error of any component of the state (SI), by the change on halving the step.
     pub(super) accuracy: f64,
@@ -50,6 +53,9 @@ const STANDSTILL: f64 = 1e-3;
 
 impl Flyer<'_> {
     /// Flies `leg` from `start` and from `chained`.
+    ///
+    /// Begins with steps of 0.2 s or so and halves until two runs differ by at most [`GAIN`] · accuracy; the finer
+    /// run's error is then below the accuracy. Steps end at standstills, so that none straddles the turn of the drag.
     pub(super) fn replay(&self, leg: &Leg, start: &State, chained: &State) -> Result<Replay, Trouble> {
         let mut steps = (leg.duration / FIRST_STEP).ceil().clamp(2.0, MOST_STEPS as f64) as usize;
         let standstills = standstills(leg);
@@ -94,6 +100,8 @@ impl Flyer<'_> {
         times.windows(2).map(of_step).collect()
     }
 
+    /// `commands` are squared rotor speeds at the stages of each step; `observe` is shown each step's end. `None` where
+    /// a step does not converge.
     fn fly(
         &self,
         start: &State,
@@ -112,6 +120,8 @@ impl Flyer<'_> {
 
     /// Flies `leg` with rotors that follow what it demands with a first-order lag: ẇ = (demand − w)/τ_m. `speeds` are
     /// the rotors' own, carried from leg to leg.
+    ///
+    /// Steps of at most half the time constant, and not halved further: an estimate, no proof.
     pub(super) fn replay_with_lag(&self, leg: &Leg, start: &State, speeds: &mut [f64; 4]) -> Result<State, Trouble> {
         let lag = self.body.rotor_time_constant;
         let steps = (leg.duration / (0.5 * lag)).ceil().clamp(2.0, MOST_STEPS as f64) as usize;

@@ -8,6 +8,9 @@ use super::finding::{Collector, Proof, Tolerances, Worst, note};
 use super::replay::{Flyer, Trouble};
 
 /// Rotor speeds against their limits on a grid, refined around each rotor's extremes where they come near a limit.
+///
+/// Findings `rotorK.max` and `rotorK.min`, K from 1, rad/s, beyond 10⁻⁹ of the largest squared speed; the proof's
+/// slowest and fastest rotor are kept in any case.
 pub(super) fn check_rotors(
     proof: &mut Proof,
     flyer: &Flyer,
@@ -76,6 +79,7 @@ fn refine(flyer: &Flyer, leg: &Leg, rotor: usize, sign: f64, from: (f64, f64), h
     Ok(best)
 }
 
+/// √|w²| with the sign of w²: a rotor that would have to pull has a negative speed.
 fn signed_root(square: f64) -> f64 {
     square.abs().sqrt().copysign(square)
 }

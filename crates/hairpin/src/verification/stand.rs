@@ -12,6 +12,8 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use crate::world::terrain::{NoGround, Terrain};
 
 /// What rests on the ground, m, in the body frame (x forward, y left, z up).
+///
+/// `Level` needs no ground and knows no tilt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stand {
     /// A point that stays level.
@@ -101,24 +103,32 @@ const FARTHEST: f64 = 0.3;
 /// Why there is no rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum NoRest {
+    /// A wheel's place has no ground.
     Ground(NoGround),
+    /// Newton came to no rest from any guess, or to one with a link on its head.
     NotFound,
 }
 
 impl Rest {
+    /// z of the body's origin in the world, m.
     pub(super) fn height(&self) -> f64 {
         self.unknowns[0]
     }
 
+    /// φ, rad, left side up.
     pub(super) fn roll(&self) -> f64 {
         self.unknowns[1]
     }
 
+    /// θ, rad, nose down.
     pub(super) fn pitch(&self) -> f64 {
         self.unknowns[2]
     }
 
     /// At rest on the ground below `place` (x, y, ψ), looked for from the slope there, from level, and from in between.
+    ///
+    /// Unknown are z, φ, θ and with a rocker-bogie the rocker's and both bogies' angles, such that every wheel's gap is
+    /// 0; of four wheels the gaps' sum of squares is least.
     pub(super) fn find<T: Terrain>(stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<Self, NoRest> {
         if *stand == Stand::Level {
             return Ok(Self { unknowns: Unknowns::zeros(), inverse: None });

@@ -14,7 +14,9 @@ use crate::world::terrain::Terrain;
 
 /// How the body leans: roll and pitch, rad.
 pub(super) struct Place {
+    /// φ, rad.
     pub(super) roll: f64,
+    /// θ, rad.
     pub(super) pitch: f64,
 }
 
@@ -27,6 +29,10 @@ const ENOUGH: f64 = 1e-6;
 
 /// The place (x, y, ψ) after a step of `h` from `from`, where the body has come to `rest`, at the rates that `body`
 /// gives for how it leans halfway; `rest` is then the one there.
+///
+/// `body` gives vx, vy (m) and ωz (rad) per unit of `h`. A fixed-point iteration on the place: what the twist lacks is
+/// added, turned into the world; it contracts as steps are small beside the ground's curvature. `NoRest` where the body
+/// finds no rest, or 60 tries leave more than 10⁻⁶.
 pub(super) fn carry<T: Terrain>(
     stand: &Stand,
     terrain: &T,
@@ -79,6 +85,7 @@ fn rotation(turn: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() + sin * across + (1.0 - cos) * across * across
 }
 
+/// world_from_body = Rz(ψ) Ry(θ) Rx(φ).
 fn attitude(rest: &Rest, yaw: f64) -> Matrix3<f64> {
     turn(2, yaw) * turn(1, rest.pitch()) * turn(0, rest.roll())
 }

@@ -55,10 +55,14 @@ pub struct SplitClaim {
 }
 
 const FREE: u8 = 0;
+/// Every path of what is left uses it.
 const USED: u8 = 1;
+/// No path of what is left uses it, or it is no arc.
 const GONE: u8 = 2;
 
 /// All that does not hold, in words; empty: the path is one of this cost, and none is heavier.
+///
+/// The first finding only. O(steps · n²) time; every step holds its n² states while it waits.
 pub fn verify_walk(claim: &WalkClaim) -> Vec<String> {
     check_path(claim).and_then(|()| check_tree(claim)).err().into_iter().collect()
 }

@@ -9,7 +9,8 @@
 //! ```text
 //! F ← {start}
 //! repeat   S ← the `width` best of F;   F ← F \ S
-//!          for each p of S:   complete p if it has L waypoints, else F ← F ∪ { p·w : w in reach of p, L − |p| − 1 legs may arrive }
+//!          for each p of S:   complete p if it has L waypoints, else
+//!              F ← F ∪ { p·w : w in reach of p, the end in reach of w within L − |p| − 1 legs }
 //!          F ← the `frontier` best of F
 //! until `per_graph` complete, F empty, or `iterations` are used up
 //! ```

@@ -3,6 +3,11 @@
 //!
 //! A window T averages progress, never position: the path stays the path. Where the averaged law asks too much of a
 //! joint, caps are lowered there and the passes repeated, at most eight times; then all of it is slowed down.
+//!
+//! ```text
+//! x = ṡ² linear in s between knots  ⇒  s̈ = (x₁ − x₀)/2h constant,  Δt = 2h/(ṡ₀ + ṡ₁)
+//! window T:  ṡ_f(t) = (s(t) − s(t − T))/T,   s̈_f(t) = (ṡ(t) − ṡ(t − T))/T,   |s⃛_f| ≤ 2 max|s̈|/T
+//! ```
 
 use super::grid::Section;
 use super::profile::{Knots, Limits};
@@ -11,6 +16,8 @@ use crate::math::power::square;
 use crate::robot::arm::{AXES, JointLimit, Joints};
 
 /// s(t) of a section from rest to rest. With a window T: s_f(t) = (1/T) ∫ s over (t − T, t).
+///
+/// Four numbers a knot; progress at a time is a binary search and a cubic.
 #[derive(Debug, Clone)]
 pub(super) struct Law {
     /// Times of the knots without the window, s.
@@ -28,8 +35,11 @@ pub(super) struct Law {
 /// Progress at a time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Progress {
+    /// Parameter, m.
     pub(super) s: f64,
+    /// ṡ, m/s.
     pub(super) rate: f64,
+    /// s̈, m/s².
     pub(super) acceleration: f64,
 }
 
@@ -48,6 +58,9 @@ const LOOKS: f64 = 20.0;
 
 impl Law {
     /// The law of `section`; of a section without a motion one that is over at once.
+    ///
+    /// A trapezoid is one pair of passes; an S-curve looks 20 times a window at what each joint is asked for, so that
+    /// between looks a limit may be exceeded by what [`USED_AVERAGED`] leaves room for.
     pub(super) fn of(section: &Section, limits: &[JointLimit; AXES], settings: &PlanSettings) -> Self {
         let knots = Knots::of(section);
         if section.spans.is_empty() {
@@ -84,6 +97,7 @@ impl Law {
         }
     }
 
+    /// `squared` is x = ṡ² at every knot.
     fn new(knots: &Knots, squared: &[f64], window: f64) -> Self {
         let nodes = squared.len();
         let rates: Vec<f64> = squared.iter().map(|x| x.sqrt()).collect();
@@ -110,6 +124,7 @@ impl Law {
         &self.s
     }
 
+    /// Number of the interval between knots that `t` lies in, clamped to those that there are.
     fn interval(&self, t: f64) -> usize {
         (self.times.partition_point(|time| *time <= t).max(1) - 1).min(self.times.len().saturating_sub(2))
     }
@@ -145,6 +160,8 @@ impl Law {
     }
 
     /// Progress at `t` s after the section's start.
+    ///
+    /// Before 0 at rest at the beginning, after [`Law::duration`] at rest at the end.
     pub(super) fn at(&self, t: f64) -> Progress {
         self.averaged(self.raw(t), || self.raw(t - self.window))
     }
@@ -165,6 +182,8 @@ impl Law {
     }
 
     /// When progress reaches `s`.
+    ///
+    /// s since the section's start, by 50 bisections; progress never falls, so that there is one answer.
     pub(super) fn when(&self, s: f64) -> f64 {
         let (mut low, mut high) = (0.0, self.duration());
         if s <= 0.0 {
@@ -189,6 +208,8 @@ impl Law {
 
     /// The largest excess of a joint's speed (squared) or acceleration over its limit, as a ratio; `slower` is
     /// multiplied where there is one.
+    ///
+    /// At most 1: the law keeps every limit at every look. `slower` are factors of x, one a knot.
     fn lower(&self, section: &Section, asked: &Asked, slower: &mut [f64]) -> f64 {
         let step = self.window / LOOKS;
         let (mut worst, mut span, mut head, mut tail) = (0.0f64, 0, 0, 0);

@@ -43,6 +43,7 @@ enum Way {
 }
 
 impl ToolCurve {
+    /// p(u) = p₀ + u (p₁ − p₀), the turn about one axis from R₀ to R₁ the shorter way.
     pub(super) fn line(from: Isometry3<f64>, to: &Isometry3<f64>) -> Self {
         let shift = to.translation.vector - from.translation.vector;
         let turn = rotation_vector(&(from.rotation.inverse() * to.rotation));
@@ -70,6 +71,7 @@ impl ToolCurve {
         }
     }
 
+    /// Without a turn the orientation itself, to the bit.
     fn rotation(&self, u: f64) -> UnitQuaternion<f64> {
         if self.turn == Vector3::zeros() {
             self.from.rotation

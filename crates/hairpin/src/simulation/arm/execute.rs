@@ -52,6 +52,10 @@ impl Plan<'_> {
     ///
     /// Linear in the duration over `interpolation`.
     ///
+    /// Per set point q_k follows by [`Servo`], then by its play; the pose recorded is forward(q) · tool · offset, which
+    /// noise of an instrument is added to. Three streams of `seed`: pauses, and what is measured, so that faults move
+    /// no noise.
+    ///
     /// # Errors
     /// Settings or faults out of their bounds.
     pub fn execute(&self, settings: &RunSettings, faults: &[Fault], seed: u64) -> Result<Run, SimulationError> {
@@ -97,6 +101,7 @@ impl Plan<'_> {
         Ok(Run { recording: column.track(settings.sample), stop: self.stop().copied(), interpolation_steps })
     }
 
+    /// Joint k, from 0, with the faults that are about it; of several plays the last counts, shares of speed multiply.
     fn joint(&self, faults: &[Fault], k: usize, lag: f64, step: f64) -> Joint {
         let angle = self.start()[k];
         let (mut speed, mut play) = (self.arm.limits[k].speed, None);
@@ -111,6 +116,8 @@ impl Plan<'_> {
     }
 
     /// When each section begins in this run.
+    ///
+    /// s, one a section: what the plan says, later by all pauses and delays so far.
     fn begins(&self, faults: &[Fault], noise: &Noise, seed: u64) -> Vec<f64> {
         let mut random = stream(named_seed(seed, "pause", 0));
         let mut late = 0.0;
@@ -141,6 +148,7 @@ impl Plan<'_> {
     }
 }
 
+/// What faults add to the lag of joint k (from 0), s.
 fn extra(faults: &[Fault], k: usize) -> f64 {
     let lags = faults.iter().map(|fault| match fault {
         Fault::ExtraLag { axis, lag } if *axis == k + 1 => *lag,
@@ -156,6 +164,7 @@ struct Cursor {
 }
 
 impl Cursor {
+    /// Joint angles planned for `t` s, rad; between sections those where the last one ended.
     fn set_point(&mut self, timed: &[Timed], begins: &[f64], t: f64) -> Joints {
         while self.section + 1 < timed.len() && t >= begins[self.section + 1] {
             (self.section, self.span) = (self.section + 1, 0);
@@ -231,6 +240,7 @@ impl Columns {
         self.status.push(f64::from(status as u8));
     }
 
+    /// Speeds by differences of places without noise, m/s.
     fn track(self, sample: f64) -> Track {
         let still = std::iter::once(0.0);
         let speed = still.chain(self.places.windows(2).map(|pair| (pair[1] - pair[0]).norm() / sample)).collect();

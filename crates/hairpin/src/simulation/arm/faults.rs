@@ -45,6 +45,9 @@ pub enum Fault {
 }
 
 impl Fault {
+    ///
+    /// Widths to 1 rad, shares to 1, lags to 10 s, delays to 3600 s, offsets to 10 m.
+    ///
     /// # Errors
     /// An axis that is none of 1 … 6, a number out of its bounds.
     pub(super) fn check(&self) -> Result<(), SimulationError> {
@@ -71,6 +74,8 @@ impl Fault {
 }
 
 /// Play between a drive and its link.
+///
+/// Hysteresis of a dead band: q ← clamp(q, θ − w/2, θ + w/2).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Play {
     half: f64,
@@ -79,6 +84,8 @@ pub(super) struct Play {
 
 impl Play {
     /// In the middle of its width.
+    ///
+    /// `width` in rad, the whole of it.
     pub(super) fn new(width: f64, angle: f64) -> Self {
         Self { half: 0.5 * width, link: angle }
     }

@@ -67,8 +67,12 @@ pub struct Stop {
 }
 
 /// Solves for joint angles, and counts what that takes.
+///
+/// Kinematics alone: collisions are nothing that a controller of this kind looks at.
 pub(super) struct Follower<'a> {
+    /// Its kinematics, bounds and margins.
     pub(super) arm: &'a Arm,
+    /// The singularity's margin below which it stops.
     pub(super) settings: &'a PlanSettings,
     /// Inverse kinematics iterations so far.
     pub(super) iterations: u64,
@@ -101,6 +105,9 @@ impl Follower<'_> {
     }
 
     /// The joint angles that a joint move to `flange` ends in: of the wanted configuration, or those nearest to `near`.
+    ///
+    /// Without a configuration whole turns count as other solutions, and the least largest turn of an axis wins; with
+    /// one the quadrants pick the turns, and bounds are asked afterwards.
     pub(super) fn end(
         &mut self,
         flange: &Isometry3<f64>,

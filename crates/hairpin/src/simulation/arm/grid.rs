@@ -21,6 +21,8 @@ pub(super) struct Span {
 }
 
 /// The path between two stops over its parameter s, m: joint angles and tool poses at nodes.
+///
+/// `s`, `joints`, `slopes` and `poses` are of one length n, `spans` of n − 1. Without a span it is a place to stand in.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Section {
     /// Parameter, from 0.
@@ -41,7 +43,9 @@ pub(super) struct Section {
 
 /// Slope and curvature of the joint angles over s.
 pub(super) struct Jet {
+    /// dq/ds, rad/m.
     pub(super) slope: Joints,
+    /// d²q/ds², rad/m².
     pub(super) bend: Joints,
 }
 
@@ -51,6 +55,7 @@ impl Section {
         Self { s: vec![0.0], joints: vec![joints], poses: vec![pose], joins: vec![0], ..Self::default() }
     }
 
+    /// Number of the last node.
     pub(super) fn last(&self) -> usize {
         self.s.len() - 1
     }
@@ -60,6 +65,7 @@ impl Section {
         self.s[self.last()]
     }
 
+    /// A node `step` farther in s, and the span that leads to it.
     pub(super) fn push(&mut self, step: f64, joints: Joints, pose: Isometry3<f64>, span: Span) {
         self.s.push(self.length() + step);
         self.joints.push(joints);
@@ -76,6 +82,8 @@ impl Section {
 
     /// Slopes at the nodes by differences of third and fourth order within each piece, the mean of both sides where
     /// pieces join.
+    ///
+    /// Nodes of a piece are evenly spaced. A piece has 2 spans at least, or its chord for a slope.
     pub(super) fn shape(&mut self) {
         let mut slopes = vec![[0.0; AXES]; self.s.len()];
         let pieces = self.joins.len() - 1;
@@ -94,6 +102,8 @@ impl Section {
     }
 
     /// The span that `s` lies in, searched from `from` on.
+    ///
+    /// O(spans between the two); the first or the last for an `s` outside.
     pub(super) fn span(&self, s: f64, from: usize) -> usize {
         let last = self.spans.len() - 1;
         let mut i = from.min(last);
@@ -112,6 +122,8 @@ impl Section {
     }
 
     /// The cubic of span `i` at `s`.
+    ///
+    /// q(u) = q₀ + p (q₁ − q₀) + u(1 − u)² h m₀ + u²(u − 1) h m₁, p = u²(3 − 2u); C¹ across nodes.
     pub(super) fn joints_at(&self, i: usize, s: f64) -> Joints {
         let h = self.s[i + 1] - self.s[i];
         let u = ((s - self.s[i]) / h).clamp(0.0, 1.0);

@@ -15,7 +15,9 @@ use crate::trajectory::{PlannedMove, PlannedPath, Track};
 /// A section with its law and when it begins.
 #[derive(Debug)]
 pub(super) struct Timed {
+    /// Where.
     pub(super) section: Section,
+    /// How fast, since `begin`.
     pub(super) law: Law,
     /// When the arm sets out, s.
     pub(super) begin: f64,
@@ -58,6 +60,8 @@ impl<'a> Plan<'a> {
     /// The plan of `orders` for an arm that stands at `start`, rad. Where it cannot be followed it ends at
     /// [`Plan::stop`].
     ///
+    /// Path first, law second: the law of a section knows nothing of the others, as the arm stands between them.
+    ///
     /// # Errors
     /// Settings or orders out of their bounds; no order; a start outside the joints' bounds.
     pub fn new(
@@ -96,6 +100,8 @@ impl<'a> Plan<'a> {
     }
 
     /// When each move's target is passed, s: of a blended one the middle of its blend. Moves after a stop are missing.
+    ///
+    /// Rising; one entry a move.
     pub fn passed(&self) -> &[f64] {
         &self.passed
     }
@@ -123,6 +129,9 @@ impl<'a> Plan<'a> {
     }
 
     /// The path as planned, blends and all, for the judge: what `from = "blended"` means.
+    ///
+    /// `base_from_tcp` with its times, s, at every node and knot; the tool's, as the set points have it and not the
+    /// lagging joints.
     pub fn path(&self) -> PlannedPath {
         let mut moves = Vec::with_capacity(self.passed.len());
         let (mut times, mut poses): (Vec<f64>, Vec<Isometry3<f64>>) = (Vec::new(), Vec::new());
@@ -150,6 +159,7 @@ impl<'a> Plan<'a> {
         PlannedPath::new(Track::new(times, poses, Vec::new()).expect("times rise and poses are finite"), moves)
     }
 
+    /// `base_from_tcp` at a parameter between nodes, from the joints' cubic.
     fn pose_at(&self, section: &Section, s: f64, span: &mut usize) -> Isometry3<f64> {
         *span = section.span(s, *span);
         let tool = &self.orders[section.spans[*span].order].tool;

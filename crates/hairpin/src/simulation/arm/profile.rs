@@ -140,6 +140,7 @@ fn joints_allow(at: &Jet, limits: &[JointLimit; AXES]) -> f64 {
     bends.fold(speeds_allow(at, limits), f64::min)
 }
 
+/// x ≤ (q̇_max/q′)² of every joint.
 fn speeds_allow(at: &Jet, limits: &[JointLimit; AXES]) -> f64 {
     let speeds = limits.iter().zip(&at.slope).map(|(limit, slope)| square(limit.speed / slope));
     speeds.fold(f64::INFINITY, f64::min)

@@ -28,6 +28,7 @@ impl Order {
     }
 }
 
+/// base_from_tcp = base_from_object · target; of a zone only the radius of the tool's point is kept.
 fn order(program: &Program, one: &Move, name: String) -> Result<Order, SimulationError> {
     let (tool, object) = (&program.tools[one.tool], &program.work_objects[one.work_object]);
     if !tool.held {
@@ -59,6 +60,7 @@ fn order(program: &Program, one: &Move, name: String) -> Result<Order, Simulatio
     })
 }
 
+/// \[cf1, cf4, cf6, cfx\] as a program has them.
 fn configuration(numbers: [i32; 4]) -> Result<Configuration, SimulationError> {
     let [cf1, cf4, cf6, cfx] = numbers;
     match u8::try_from(cfx) {

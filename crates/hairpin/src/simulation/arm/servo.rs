@@ -16,6 +16,7 @@ pub(super) struct Servo {
 }
 
 impl Servo {
+    /// At rest at `angle` (rad); `lag` and `step` in s, `speed` in rad/s.
     pub(super) fn new(lag: f64, step: f64, speed: f64, angle: f64) -> Self {
         let decay = if lag > 0.0 { libm::exp(-step / lag) } else { 0.0 };
         Self { lag, decay, step, speed, angle }

@@ -74,6 +74,7 @@ pub struct Noise {
 }
 
 impl PlanSettings {
+    /// Windows to 1 s, accelerations above 0 to 10⁶, waits to 3600 s, margins in 0 … 1.
     pub(super) fn check(&self) -> Result<(), SimulationError> {
         if let Shape::SCurve(width) = self.shape {
             positive("shape.s_curve", width, 1.0)?;
@@ -86,6 +87,7 @@ impl PlanSettings {
 }
 
 impl RunSettings {
+    /// Samples above 0 to 10 s, set points no farther apart than samples, lags to 10 s.
     pub(super) fn check(&self) -> Result<(), SimulationError> {
         positive("sample", self.sample, 10.0)?;
         positive("interpolation", self.interpolation, self.sample)?;

@@ -9,6 +9,9 @@ use crate::trajectory::{PlannedMove, PlannedPath, Track};
 impl Plan<'_> {
     /// The path through every target. A point's time is that of the blended plan at the same share of its move's time.
     ///
+    /// Between passings of targets k and k + 1: t = t_k + (τ − τ_k)/(τ_{k+1} − τ_k) · (t_{k+1} − t_k), τ of the sharp
+    /// plan without waits, t of this one. Where this plan stops early, so does it.
+    ///
     /// # Errors
     /// None that [`Plan::new`] has not had.
     pub fn sharp_path(&self) -> Result<PlannedPath, SimulationError> {

@@ -1,11 +1,19 @@
 //! What is claimed of an arm, as plain numbers.
+//!
+//! Everything is in the arm's base frame unless a name says otherwise: `a_from_b` maps coordinates in b to those in a.
+//! The claim has the description's numbers again, and the program's text parsed; it knows no arm, no cell and no
+//! planner.
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// One joint: q turns the link about `axis` where `parent_from_joint` puts it.
+///
+/// parent_from_link = `parent_from_joint` · Rot(`axis`, q), as in URDF.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArmJointClaim {
     /// At angle 0.
+    ///
+    /// m and a unit quaternion.
     pub parent_from_joint: Isometry3<f64>,
     /// Of length 1.
     pub axis: Vector3<f64>,
@@ -14,6 +22,8 @@ pub struct ArmJointClaim {
 }
 
 /// All points within `radius` of a segment, in the frame of a link.
+///
+/// A capsule; with both ends equal a ball.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArmBodyClaim {
     /// 1 to 6: what joint k moves; the tool is in 6.
@@ -81,6 +91,9 @@ pub struct ArmClaim<'a> {
     /// The cell.
     pub solids: &'a [ArmSolidClaim<'a>],
     /// What bodies keep from solids, m.
+    ///
+    /// Beyond touching, on every move that is to be clear; where corners are cut links may come as near as to touch,
+    /// and the tool's point keeps it by the triangle of the corner.
     pub clearance: f64,
 }
 
@@ -90,12 +103,16 @@ pub struct ArmTarget {
     /// `object_from_tcp`.
     pub pose: Isometry3<f64>,
     /// Quadrants of axes 1, 4 and 6 and which of the eight postures, where it must be met in one.
+    ///
+    /// RAPID's confdata \[cf1, cf4, cf6, cfx\]: quadrant k of an axis is k · 90° … (k + 1) · 90°; cfx 0 … 7.
     pub configuration: Option<[i32; 4]>,
     /// Joint angles there, rad, as claimed of arms of which a configuration does not tell them.
     pub angles: Option<[f64; 6]>,
 }
 
 /// How a move of a program leads from where the one before it ended.
+///
+/// MoveAbsJ, MoveJ, MoveL and MoveC of a program, in this order.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ArmMotion {
     /// All joints in step, to these angles, rad.
@@ -116,12 +133,18 @@ pub struct ArmProgramMove {
     /// `flange_from_tcp` that its targets are for.
     pub tool: Isometry3<f64>,
     /// `base_from_user` and `user_from_object` that they are in.
+    ///
+    /// RAPID's wobjdata: uframe and oframe.
     pub object: [Isometry3<f64>; 2],
     /// How far (m) before its end the path may leave it; 0 where the arm stops.
+    ///
+    /// The zone's radius about the end point; what is cut is at most half of either move.
     pub zone: f64,
 }
 
 /// A program, and what is claimed of it.
+///
+/// `waypoints` has one entry a move: [`ArmProgramReplay`](super::ArmProgramReplay) tells the distances.
 pub struct ArmProgramClaim<'a> {
     /// Where the arm stands before it, rad.
     pub start: [f64; 6],
@@ -141,6 +164,8 @@ pub struct ArmMoveFinding {
     /// The move, from 0.
     pub index: usize,
     /// Share of it.
+    ///
+    /// 0 at its beginning, 1 at its end; findings about the corner at its end have 1.
     pub at: f64,
     /// What, in words.
     pub what: String,

@@ -1,4 +1,13 @@
 //! Which of several postures an arm is in, and how far from a singularity, told by where its axes lie.
+//!
+//! Signs of places in space, where the claim has those of angles in closed form:
+//!
+//! ```text
+//! before   = (across × up) · (c − base)             wrist's centre c before (> 0) or behind axis 1
+//! elbow    = across · (upper × fore)/(|upper| |fore|)   sine of the bend of the elbow
+//! bend     = (e₄ × e₆) · e₅                          sine of axis 5's angle
+//! cfx      = 4 [before < 0] + 2 [elbow < 0] + [bend < 0]
+//! ```
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -26,6 +35,7 @@ struct Seen {
 }
 
 impl Arm<'_> {
+    /// Upper arm and forearm are seen along axis 2, so that an offset sideways does not count.
     fn seen(&self, wrist: &Wrist, signs: &[f64; 6], q: &[f64; 6]) -> Seen {
         let carried = self.screws.carried(q);
         let line = |k: usize| carried.line(&self.screws, k);
@@ -63,6 +73,9 @@ impl Arm<'_> {
     }
 
     /// What is wrong with the configuration of `q` where `wanted` is asked for.
+    ///
+    /// `wanted` is \[cf1, cf4, cf6, cfx\]; `None` where all four agree. An angle within [`BORDER`] of a quadrant's
+    /// border may be told as either.
     pub(super) fn other_than(&self, q: &[f64; 6], wanted: &[i32; 4]) -> Option<String> {
         let cfx = self.cfx(q);
         let inside = |axis: usize, quadrant: i32| (q[axis] - middle_of(quadrant)).abs() <= FRAC_PI_4 + BORDER;
@@ -77,6 +90,8 @@ impl Arm<'_> {
 
     /// The nearest singularity and how far it is: |sin| of axis 5 and of the elbow, distance of the wrist before axis 1
     /// over the arm's length; of other builds 1/‖J⁻¹‖ of the flange, lengths over the reach.
+    ///
+    /// A pure number, 0 in a singularity: the same three measures that the claim keeps above its bound.
     pub(super) fn margin(&self, q: &[f64; 6]) -> (&'static str, f64) {
         if let (Some(wrist), ArmBuild::SphericalWrist(signs)) = (&self.wrist, self.claim.build) {
             let Seen { before, elbow, bend, length } = self.seen(wrist, &signs, q);

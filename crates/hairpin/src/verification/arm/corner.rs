@@ -7,6 +7,10 @@ use super::{ALONG, ArmClaim, ROUNDING};
 
 /// What the tool's point would meet in the triangle that a blend of `zone` m at the middle of `way` stays in, a half of
 /// either leg at most.
+///
+/// `way` is the tool's point at the beginning of the move, in the corner, and at the end of the next, m. The triangle
+/// is sampled at [`ALONG`] and its points hold a ball of the tool's radius; `None` where all keep their distance, or
+/// the arm has no tool.
 pub(super) fn corner(claim: &ArmClaim, way: &[Point3<f64>; 3], zone: f64) -> Option<String> {
     let tool = claim.bodies.iter().find(|body| body.tool)?;
     let [before, at, after] = way;

@@ -13,6 +13,8 @@ pub(super) enum Course {
 }
 
 /// `base_from_tcp` over the share.
+///
+/// The point runs evenly along line or arc, the orientation evenly about one axis; both over the same share.
 #[derive(Debug, Clone)]
 pub(super) struct ToolCourse {
     ends: [Isometry3<f64>; 2],
@@ -20,6 +22,7 @@ pub(super) struct ToolCourse {
 }
 
 impl ToolCourse {
+    /// `base_from_tcp` at both ends.
     pub(super) fn straight(from: Isometry3<f64>, to: Isometry3<f64>) -> Self {
         Self { ends: [from, to], round: None }
     }
@@ -30,6 +33,7 @@ impl ToolCourse {
         Some(Self { ends: [from, to], round: Some(Round::through(&a, via, &b)?) })
     }
 
+    /// `base_from_tcp` at a share of the way, 0 … 1.
     pub(super) fn at(&self, share: f64) -> Isometry3<f64> {
         let [from, to] = &self.ends;
         let (a, b) = (from.translation.vector, to.translation.vector);
@@ -49,6 +53,8 @@ impl ToolCourse {
 }
 
 /// Distance and angle between two poses.
+///
+/// m, and rad in 0 … π.
 pub(super) fn apart(a: &Isometry3<f64>, b: &Isometry3<f64>) -> (f64, f64) {
     let across = a.rotation.conjugate() * b.rotation;
     let angle = 2.0 * libm::atan2(across.imag().norm(), across.w.abs());
@@ -98,11 +104,13 @@ impl Round {
         Some(Self { centre, axes: [out, aside], angle })
     }
 
+    /// c + cos(sα) u + sin(sα) v.
     fn at(&self, share: f64) -> Point3<f64> {
         let angle = share * self.angle;
         self.centre + self.axes[0] * libm::cos(angle) + self.axes[1] * libm::sin(angle)
     }
 
+    /// r α, m.
     fn length(&self) -> f64 {
         self.axes[0].norm() * self.angle
     }

@@ -16,6 +16,8 @@ const WAY_OF_A_TURN: f64 = 0.01 / (1.5 * std::f64::consts::PI / 180.0);
 const CHORDS: usize = 8;
 
 /// A move, and the joint angles that lead its tool along it.
+///
+/// `stands` are dense enough that Newton finds any share between two of them.
 #[derive(Debug, Clone)]
 pub(super) struct Leg {
     course: Course,
@@ -53,6 +55,9 @@ impl Leg {
 impl Arm<'_> {
     /// Follows `course` with a tool (`link6_from_tcp`) from the angles `begun`.
     ///
+    /// Samples every 2 mm, 0.01 rad of turning or 0.01 rad of the axis that moves most. A move of the tool is followed
+    /// by Newton from each sample to the next, so that no branch of the inverse is ever chosen, only kept.
+    ///
     /// # Errors
     /// Where it cannot be followed.
     pub(super) fn follow(&self, course: Course, tool: Isometry3<f64>, begun: &[f64; 6]) -> Result<Leg, Wrong> {
@@ -79,6 +84,8 @@ impl Arm<'_> {
     }
 
     /// The first thing that does not hold on a leg.
+    ///
+    /// Its share of the leg and what it is; at the samples alone.
     pub(super) fn first_wrong(&self, leg: &Leg, asked: &Asked) -> Option<Wrong> {
         // Joints pass singularities.
         let singularity = if matches!(leg.course, Course::Joints(_)) { 0.0 } else { asked.singularity };
@@ -89,6 +96,8 @@ impl Arm<'_> {
     }
 
     /// Joint angles at a share of a leg.
+    ///
+    /// Led on from the nearest sample; `None` where Newton loses the way.
     pub(super) fn stand(&self, leg: &Leg, share: f64) -> Option<[f64; 6]> {
         match &leg.course {
             Course::Joints(ends) => Some(between(ends, share)),
@@ -121,10 +130,12 @@ impl Arm<'_> {
     }
 }
 
+/// All joints in step.
 fn between([from, to]: &[[f64; 6]; 2], share: f64) -> [f64; 6] {
     std::array::from_fn(|k| (1.0 - share) * from[k] + share * to[k])
 }
 
+/// Largest turn of a joint, rad.
 fn largest(from: &[f64; 6], to: &[f64; 6]) -> f64 {
     (0..6).map(|k| (to[k] - from[k]).abs()).fold(0.0, f64::max)
 }

@@ -11,6 +11,8 @@ use super::{Arm, NO_ARC, ROUNDING, Wrong};
 const ARRIVES: f64 = 1e-3;
 
 /// A move of a graph, by the numbers of its points.
+///
+/// Points index postures and poses alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ArmWayClaim {
     /// Where it starts.
@@ -34,6 +36,13 @@ pub enum ArmWay {
 
 /// The first thing that does not hold on each move of a graph, numbered as in `moves`: posture `postures[k]` (rad) must
 /// have the tool at `poses[k]`, and every move must lead from one posture to the other.
+///
+/// A move starts where posture and pose say, is followed in its own way, and must arrive at the target's pose (1e-6 m
+/// and rad or so, what rounding may take) and within 1e-3 rad of the target's posture, so that the next move begins
+/// where this one ended. Bounds and clearance are asked at every sample, singularities not. O(moves · samples · bodies
+/// · solids).
+///
+/// `poses[k]` is `base_from_tcp`; indices beyond the lists are the caller's mistake and panic.
 pub fn verify_arm_graph(
     claim: &ArmClaim,
     postures: &[[f64; 6]],
@@ -48,6 +57,7 @@ pub fn verify_arm_graph(
     moves.iter().enumerate().filter_map(one).collect()
 }
 
+/// The first thing wrong with one move: start, way, target, posture, in this order.
 fn wrong(
     arm: &Arm,
     postures: &[[f64; 6]],

@@ -3,6 +3,9 @@
 //!
 //! (Paden, "Kinematics and control of robot manipulators", 1986; Murray, Li, Sastry, "A mathematical introduction to
 //! robotic manipulation", 1994, 3.3.)
+//!
+//! Axis 1 from the wrist's place along axis 2, axes 2 and 3 as two links in a plane, axes 4 to 6 from what is left to
+//! turn: two times two times two postures at most.
 
 use std::f64::consts::TAU;
 
@@ -19,6 +22,9 @@ const IN_LINE: f64 = 1e-12;
 impl Arm<'_> {
     /// The angles that a move in joints from `near` to `target` ends at, its last link being at `link`: those claimed
     /// of it, those of its configuration, or those whose largest turn is least.
+    ///
+    /// `link` is `base_from_link6`. `None`: nothing tells them, since the arm has no spherical wrist and no angles were
+    /// claimed.
     ///
     /// # Errors
     /// Why there are none, in words.
@@ -89,6 +95,8 @@ impl Arm<'_> {
 
     /// Angles of axes 2 and 3 that put the wrist's centre at `goal`: |a + Rot(θ₃)c| is the distance of the goal from
     /// axis 2, then θ₂ turns the one onto the other.
+    ///
+    /// Empty where the goal is nearer or farther than the two links reach.
     fn two_links(&self, wrist: &Wrist, goal: &Point3<f64>) -> Vec<[f64; 2]> {
         let ((shoulder, across), (elbow, third)) = (self.screws.lines[1], self.screws.lines[2]);
         let flat = |way: Vector3<f64>| way - across * across.dot(&way);
@@ -100,6 +108,8 @@ impl Arm<'_> {
     }
 
     /// Both ways to turn the wrist by what `rest` turns.
+    ///
+    /// Angles of axes 4, 5 and 6, rad; with axes 4 and 6 in line axis 4 stays at `near`.
     fn wrist_angles(&self, rest: &Isometry3<f64>, near: f64) -> [[f64; 3]; 2] {
         let screws = &self.screws;
         let [fourth, fifth, sixth] = [3, 4, 5].map(|k| screws.lines[k].1);

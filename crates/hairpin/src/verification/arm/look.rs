@@ -19,6 +19,10 @@ pub(super) struct Asked<'a> {
 
 impl Arm<'_> {
     /// What is wrong with a posture.
+    ///
+    /// Bounds first, then singularities, then the first body that is too near to a solid. A body is points of its axis,
+    /// every [`ALONG`] or nearer, each with the body's radius: an under-estimate of what it fills, so that no true
+    /// claim is refused.
     pub(super) fn wrong_at(&self, asked: &Asked, q: &[f64; 6]) -> Option<String> {
         for (k, joint) in self.claim.joints.iter().enumerate() {
             // No number is within no bounds.

@@ -8,6 +8,19 @@
 //! and by points of their triangles (`corner`), distances of points from solids by formulas of their own (`solids`).
 //! What is proven to keep a distance everywhere keeps it at every sample, so that no true claim is refused; a false one
 //! is found where samples see it.
+//!
+//! ```text
+//! claim   program (moves as written) or graph (postures, poses, ways) · arm · cell, plain numbers
+//! follow  E(q) = exp(ξ₁q₁) … exp(ξ₆q₆) · rest;   Newton: q ← q + J(q)⁻¹ log(pose · E(q)⁻¹)      sample to sample
+//! look    q within bounds · margin from singularities · distance of every body from every solid
+//! end     pose, configuration and posture that the next move begins at
+//! ```
+//!
+//! | asked | answer |
+//! | --- | --- |
+//! | [`verify_arm_program`] | distance from each waypoint, the first thing wrong on each move and corner |
+//! | [`verify_arm_graph`] | the first thing wrong on each move of the graph |
+//! | [`ArmPath`] | the path itself, for whoever compares executions with it |
 
 mod claim;
 mod configuration;

@@ -37,6 +37,9 @@ pub struct ArmPath<'a> {
 
 impl<'a> ArmPath<'a> {
     /// The path of `program`.
+    ///
+    /// Moves are followed until one cannot be; what was found wrong on the way stays with the path. A corner's cut is
+    /// min(zone, half of this move, half of the next), lengths in the path's parameter.
     pub fn of(claim: &'a ArmClaim<'a>, program: &ArmProgramClaim) -> Self {
         let arm = Arm::of(claim);
         let (legs, findings) = arm.legs(program);
@@ -52,6 +55,8 @@ impl<'a> ArmPath<'a> {
     }
 
     /// Its pieces, in order.
+    ///
+    /// Shares of moves, and corners between them, that lie end to end: where one ends the next begins.
     pub fn pieces(&self) -> Vec<ArmPiece> {
         let mut pieces = Vec::with_capacity(2 * self.legs.len());
         let mut entry = 0.0;
@@ -67,6 +72,8 @@ impl<'a> ArmPath<'a> {
     }
 
     /// Joint angles (rad) and `base_from_tcp` at the share w of a piece; `None` where the tool cannot be led there.
+    ///
+    /// w in 0 … 1 over the piece. Of moves in joints the pose is where these joints have the tool.
     pub fn at(&self, piece: ArmPiece, w: f64) -> Option<([f64; 6], Isometry3<f64>)> {
         match piece {
             ArmPiece::Along(index, [from, to]) => {
@@ -89,6 +96,7 @@ impl<'a> ArmPath<'a> {
         before.pose(1.0).is_some() && after.pose(0.0).is_some() && before.tool() == after.tool()
     }
 
+    /// The equations of this file's head.
     fn cut_at(&self, index: usize, w: f64) -> Option<([f64; 6], Isometry3<f64>)> {
         let [before, after] = [&self.legs[index], &self.legs[index + 1]];
         let [f, g] = [index, index + 1].map(|leg| self.cuts[index] / self.lengths[leg]);

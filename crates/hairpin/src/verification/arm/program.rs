@@ -27,6 +27,13 @@ pub struct ArmProgramReplay {
 }
 
 /// Follows a program from where the arm stands before it.
+///
+/// Targets are multiplied out as base_from_user · user_from_object · object_from_tcp, with the tool that each move
+/// names. A move must keep bounds, margin and (if `clear`) distances at every sample, end within rounding at its
+/// target, in its configuration; corners are looked at twice, as the path about them and as the triangle that a zone
+/// stays in.
+///
+/// Nothing panics on a program that cannot be followed: moves from there on are left out of `misses` and `findings`.
 pub fn verify_arm_program(claim: &ArmClaim, program: &ArmProgramClaim) -> ArmProgramReplay {
     let path = ArmPath::of(claim, program);
     let own_tool = claim.flange * claim.tool;
@@ -79,6 +86,7 @@ fn begin(path: &ArmPath) -> Point3<f64> {
     arm.place(&(arm.claim.flange * arm.claim.tool), first.begin()).translation.vector.into()
 }
 
+/// Whether move `index` is there and is one along a line.
 fn straight(program: &ArmProgramClaim, index: usize) -> bool {
     program.moves.get(index).is_some_and(|one| matches!(one.motion, ArmMotion::Straight(_)))
 }
@@ -131,6 +139,7 @@ impl Arm<'_> {
         (*joints, told.unwrap_or_else(|| self.place(tool, joints)))
     }
 
+    /// `start` is `base_from_tcp` with the move's own tool.
     fn leg(&self, one: &ArmProgramMove, begun: &[f64; 6], start: Isometry3<f64>) -> Result<Leg, Wrong> {
         let (tool, base_from_object) = (self.claim.flange * one.tool, one.object[0] * one.object[1]);
         let course = match &one.motion {

@@ -16,6 +16,9 @@ const HALVINGS: usize = 8;
 
 impl Arm<'_> {
     /// Joint angles near `q` with the tool (`link6_from_tcp`) at `pose`.
+    ///
+    /// q ← q + J(q)⁻¹ (Δp, Δθ) until |Δp| < 10⁻¹¹ m and |Δθ| < 10⁻¹¹ rad: quadratic near a regular posture. `None`
+    /// where J is singular, a step is longer than [`LOST`], or [`MOST_STEPS`] do not do.
     pub(super) fn reach(&self, tool: &Isometry3<f64>, q: &[f64; 6], pose: &Isometry3<f64>) -> Option<[f64; 6]> {
         let mut q = *q;
         for _ in 0..MOST_STEPS {
@@ -45,6 +48,7 @@ impl Arm<'_> {
         self.led(course, tool, q, [from, to], HALVINGS)
     }
 
+    /// At most 2⁸ parts.
     fn led(
         &self,
         course: &ToolCourse,

@@ -1,5 +1,12 @@
 //! Where a chain's links are, by products of exponentials: every joint turns about a line that is known where all
 //! angles are 0.
+//!
+//! ```text
+//! E_k = exp(ξ₁q₁) … exp(ξ_k q_k),   base_from_link k = E_k · rest_k,   column k of J = (ω_k × (p − r_k), ω_k)
+//! ```
+//!
+//! Brockett, "Robotic manipulators and the product of exponentials formula" (1984). The claim multiplies frames from
+//! joint to joint instead, so that a sign wrong in either shows.
 
 use nalgebra::{Isometry3, Matrix6, Point3, Quaternion, UnitQuaternion, Vector3};
 
@@ -19,6 +26,7 @@ pub(super) struct Screws {
 pub(super) struct Carried([Isometry3<f64>; 7]);
 
 impl Screws {
+    /// Links at angles 0, by the frames of the joints one after the other.
     pub(super) fn of(joints: &[ArmJointClaim; 6]) -> Self {
         let mut rest = [Isometry3::identity(); 7];
         for (k, joint) in joints.iter().enumerate() {
@@ -28,6 +36,7 @@ impl Screws {
         Self { lines: std::array::from_fn(line), rest }
     }
 
+    /// E₀ = 1 to E₆, of angles in rad.
     pub(super) fn carried(&self, q: &[f64; 6]) -> Carried {
         let mut all = [Isometry3::identity(); 7];
         for (k, angle) in q.iter().enumerate() {

@@ -50,6 +50,7 @@ pub(super) fn distance(form: &ArmSolidForm, p: &Point3<f64>) -> f64 {
     }
 }
 
+/// Of the segment.
 fn nearest_on([a, b]: &[Point3<f64>; 2], p: &Point3<f64>) -> Point3<f64> {
     let way = b - a;
     let square = way.norm_squared();
@@ -75,6 +76,9 @@ fn nearest_in(triangle: &[Point3<f64>; 3], p: &Point3<f64>) -> Point3<f64> {
 }
 
 /// Van Oosterom & Strackee 1983.
+///
+/// tan(Ω/2) = a·(b × c)/(|a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|), signed by the side, sr. "The solid angle of a
+/// plane triangle", IEEE Trans. Biomedical Engineering 30(2).
 fn solid_angle(triangle: &[Point3<f64>; 3], p: &Point3<f64>) -> f64 {
     let [a, b, c] = triangle.map(|corner| corner - p);
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
