@@ -3,6 +3,11 @@
 //!
 //! One trait for all kinds of robots; [`Controlled`] says of a kind what is measured and what can be asked for. Ours
 //! implement it as what a stranger brings does, and runs know no other way.
+//!
+//! ```text
+//! plant ── R::State ──▶ Controller<R>::control(dt, state, reference) ── R::Command ──▶ loops, actuators ──▶ plant
+//!                             ▲ reset(reference) once         schedule() ──▶ leg that the run is judged by
+//! ```
 
 use std::fmt;
 use std::sync::Arc;
@@ -11,8 +16,12 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 /// A kind of robot as its controllers see it.
+///
+/// A robot's room of `simulation` implements it; controllers are generic over nothing else.
 pub trait Controlled: Sized {
     /// What it does, in a sentence's part: `it flies`.
+    ///
+    /// It names the kind to whom a controller of another kind is offered.
     const DOES: &'static str;
     /// What is measured, stamped.
     type State;
@@ -77,12 +86,18 @@ pub trait Controller<R: Controlled> {
 }
 
 /// Why a controller has no command, in its own words.
+///
+/// Strings convert by themselves: `Err("no path ahead".into())`.
 pub type Fault = Box<dyn std::error::Error + Send + Sync>;
 
 /// Where a run is to go.
+///
+/// Always at least one waypoint, the start.
 pub struct Reference<'a, R: Controlled> {
     /// In order, m, world frame, the start included. Runs that a search flies leg by leg know them as far as they have
     /// come.
+    ///
+    /// Of drives the ends of legs, z that of the ground.
     pub waypoints: &'a [Point3<f64>],
     /// Index of the next one; their number once all were reached.
     pub next: usize,
@@ -105,15 +120,21 @@ impl<R: Controlled> Reference<'_, R> {
 }
 
 /// Where a controller stands in what it follows.
+///
+/// Numbers of legs never fall during a run; `over` stays true.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Schedule {
     /// Number of the leg.
+    ///
+    /// From 0: leg k joins waypoints k and k + 1.
     pub leg: usize,
     /// Whether it has come to the end.
     pub over: bool,
 }
 
 /// What was wrong at a controller's turn.
+///
+/// The run ends there without a flight: an error of the caller's controller, not a crash.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Misbehaviour {
     /// It asked for what is no number.
@@ -146,6 +167,9 @@ pub struct OwnController<R: Controlled> {
 
 impl<R: Controlled> OwnController<R> {
     /// `make` is called once for each run, from any thread, with the robot as it was planned with.
+    ///
+    /// Runs are made in any order and number; what `make` answers must not depend on it for results to be the same
+    /// again.
     pub fn new<C: Controller<R> + 'static>(name: &str, make: impl Fn(&R) -> C + Send + Sync + 'static) -> Self {
         Self { name: name.into(), make: Arc::new(move |robot| Box::new(make(robot))) }
     }

@@ -61,6 +61,9 @@ impl Course {
     }
 
     /// Takes note of the position at `t`.
+    ///
+    /// `t` in s and never falling, `position` in m. Without a schedule several waypoints may be reached at one look, in
+    /// order.
     pub(crate) fn note(&mut self, t: f64, position: &Vector3<f64>, schedule: Option<Schedule>) {
         let last = self.waypoints.len() - 1;
         match schedule {
@@ -86,6 +89,7 @@ impl Course {
         }
     }
 
+    /// Whether waypoint k is no farther than the acceptance radius.
     fn within(&self, k: usize, position: &Vector3<f64>) -> bool {
         (self.waypoints[k].coords - position).norm_squared() <= self.accept * self.accept
     }

@@ -36,6 +36,7 @@ pub struct DiscreteGust {
 }
 
 impl DiscreteGust {
+    /// m/s, world frame; none before and after.
     fn at(&self, t: f64) -> Vector3<f64> {
         let share = (t - self.start) / self.duration;
         if share > 0.0 && share < 1.0 {
@@ -62,6 +63,7 @@ pub struct Conditions {
 }
 
 impl Conditions {
+    /// Everything finite, deviations and correlation times ≥ 0, a gust's duration > 0; the field names what is not.
     pub(super) fn check(&self) -> Result<(), SimulationError> {
         if !self.wind.iter().all(|c| c.is_finite()) {
             return Err(SimulationError::new("wind", format!("{:?}", self.wind.as_slice()), "finite"));
@@ -102,6 +104,7 @@ pub struct Disturbances {
     noise: Option<Noise>,
 }
 
+/// The velocity that acts during the next step, and how it is renewed after it.
 #[derive(Debug, Clone)]
 struct GustProcess {
     stream: Stream,
@@ -145,6 +148,9 @@ impl Disturbances {
     }
 
     /// Sets what acts on the plant during the next step.
+    ///
+    /// Air in m/s, force in N and moment in N·m; draws three normals a step for gusts and six for noise. To be called
+    /// once before each step.
     #[inline(always)]
     pub fn act_on(&mut self, plant: &mut Plant) {
         plant.air = self.wind;

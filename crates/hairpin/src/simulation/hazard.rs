@@ -16,6 +16,8 @@ const TUMBLE_TIME: f64 = 0.5;
 const FARTHEST: f64 = 1e5;
 
 /// Whether a robot at `position` with its body z axis `up` is where nothing is simulated any more.
+///
+/// Beyond 100 km, or no number.
 pub(crate) fn is_lost(position: &Vector3<f64>, up: f64) -> bool {
     !(position.norm_squared() < FARTHEST * FARTHEST && up.is_finite())
 }
@@ -73,6 +75,8 @@ impl Hazards {
         None
     }
 
+    /// The ball about `p` has the radius d(p) − clearance, as distance is 1-Lipschitz: most looks cost two
+    /// subtractions.
     fn hits_obstacle(&mut self, world: &World, p: &Point3<f64>) -> bool {
         let before = std::mem::replace(&mut self.before, *p);
         if world.obstacles().is_empty() {

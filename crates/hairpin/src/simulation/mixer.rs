@@ -47,6 +47,8 @@ impl Mixer {
     }
 
     /// Rotor speeds for angular accelerations about body x, y and z (rad/s²) and an acceleration by thrust (m/s²).
+    ///
+    /// Lanes: roll, pitch, yaw acceleration, thrust per mass. O(1): nothing is searched, also where limits bind.
     #[inline(always)]
     pub(crate) fn mix(&self, wanted: f64x4) -> Mixed {
         let squares = transform(&self.inverse, wanted);

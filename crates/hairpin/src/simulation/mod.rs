@@ -3,6 +3,16 @@
 //! One verb a kind of robot: [`fly`] flies a robot along a course (or [`Airborne`], leg by leg), [`ground::drive`]
 //! drives a vehicle along its plan, and each says what happened; [`fly_with`] and [`ground::drive_with`] do so by a
 //! [`Controller`] of the caller's own. The act shares the robot's numbers with the claim and nothing else.
+//!
+//! | robot | planned as | flown or driven by | plant adds |
+//! | --- | --- | --- | --- |
+//! | quadrotor | waypoints, a [`Profile`](crate::trajectory::Profile) | [`fly`] | rotor lag, wind, gusts, noise |
+//! | rover, car | a [`Drive`](crate::trajectory::Drive) | [`ground::drive`] | slip, steering lag, latency, torque, noise |
+//! | arm | a program's moves | [`arm::Plan`] | servo lag, faults, noise of the instrument |
+//!
+//! Every run by a controller of ours is a pure function of its arguments and a seed. What it gives is a
+//! [`Track`](crate::trajectory::Track), poses with named channels, which the judge reads as it reads a log of a real
+//! robot.
 
 mod airborne;
 pub mod arm;

@@ -123,11 +123,15 @@ impl Plant {
     }
 
     /// Drag force over the velocity through the air, N s/m, at a speed through it.
+    ///
+    /// c₁ + c₂ |v|.
     pub(super) fn drag_per_speed(&self, speed: f64) -> f64 {
         self.drag_linear + self.drag_quadratic * speed
     }
 
     /// Angular acceleration under the moment `m` (N·m) at body rates `w`, rad/s².
+    ///
+    /// I⁻¹ (m − c_ω |ω| ω − ω × Iω), for principal axes.
     pub(super) fn angular(&self, w: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
         let m = m - w * (self.aerodynamic_moment * w.norm());
         let coupled = Vector3::new(w.y * w.z, w.x * w.z, w.x * w.y);

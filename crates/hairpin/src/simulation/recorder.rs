@@ -85,6 +85,7 @@ impl Recorder {
         Track::new(times, poses, channels).expect("our own samples are finite and in order")
     }
 
+    /// Parts in the order they were flown.
     fn joined(&self) -> Samples {
         let mut all = Samples::default();
         for part in self.sealed.iter().map(Arc::as_ref).chain([&self.open]) {

@@ -57,11 +57,15 @@ pub fn fly_with(
 }
 
 /// Loops, course and log of a run, without its controller.
+///
+/// Copied it flies on alike: everything that the future depends on is in it, but for the controller.
 #[derive(Debug, Clone)]
 pub(super) struct Run {
     loops: ClosedLoop,
+    /// What was reached.
     pub(super) course: Course,
     hazards: Hazards,
+    /// The log so far.
     pub(super) recorder: Recorder,
     settings: FlySettings,
     /// Ticks between two looks at the course, two samples of the log, two turns of the outer loop; and those to the
@@ -69,6 +73,7 @@ pub(super) struct Run {
     every: Due,
     to: Due,
     tick: u64,
+    /// Why it ended, once it did.
     pub(super) ended: Option<Ended>,
 }
 
@@ -81,9 +86,13 @@ struct Due {
 }
 
 /// Who flies, and by which plan.
+///
+/// Lent for a call: the controller outlives the run where it is the caller's.
 pub(super) struct Hand<'a> {
+    /// As errors name it.
     pub(super) name: &'a str,
     pub(super) controller: &'a mut dyn Controller<Quadrotor>,
+    /// The planned motion, for those that follow one.
     pub(super) plan: Option<&'a Profile>,
 }
 
@@ -186,6 +195,8 @@ impl Run {
     }
 
     /// The controller's turn.
+    ///
+    /// A command that is not finite is an error, unless the state itself was lost already.
     fn turn(&mut self, hand: &mut Hand, t: f64) -> Result<(), SimulationError> {
         let dt = self.every.turn as f64 * self.loops.period;
         let state = self.loops.state(t);
@@ -200,6 +211,7 @@ impl Run {
         Ok(())
     }
 
+    /// The course's own end and what lingers after it, else the time limit.
     fn end_of_time(&self, t: f64) -> Option<Ended> {
         let rounding = 1e-9;
         if self.course.over().is_some_and(|over| t >= over + self.settings.linger - rounding) {
@@ -208,6 +220,7 @@ impl Run {
         (t >= self.settings.time_limit - rounding).then_some(Ended::Time)
     }
 
+    /// Whole ticks of the rate loop nearest to `period` s, at least one.
     fn ticks(&self, period: f64) -> u64 {
         ((period / self.loops.period).round() as u64).max(1)
     }
@@ -223,6 +236,7 @@ impl Run {
     }
 }
 
+/// Two waypoints or more, all finite, and one leg of the profile between each two.
 fn check_course(sortie: &Sortie) -> Result<(), SimulationError> {
     let points = sortie.waypoints;
     if points.len() < 2 {

@@ -29,6 +29,8 @@ pub(super) struct Knots {
 const HALVINGS: i32 = 6;
 
 impl Knots {
+    /// One interval a span, 12 of a section's only one, else 7 of the first and of the last: their first or last half
+    /// is halved again and again.
     pub(super) fn of(section: &Section) -> Self {
         let mut knots =
             Self { s: vec![0.0], intervals: Vec::with_capacity(section.spans.len() + 4 * HALVINGS as usize) };

@@ -2,6 +2,9 @@
 //!
 //! Its limits are chosen, not measured, in the range of small camera drones: 15 m/s horizontally, 4 m/s vertically, 35°
 //! of tilt, and a constant deceleration that leaves half of the tilt in hand.
+//!
+//! v = clip(K_p e) · min(1, √(2 b |e|)/|v|, v_z,max/|v_z|), b = 3 m/s²: the speed from which constant braking just
+//! stops at the waypoint; then the cascade's velocity loop.
 
 use nalgebra::Vector3;
 

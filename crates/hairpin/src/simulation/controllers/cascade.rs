@@ -1,4 +1,11 @@
 //! Position to velocity to acceleration to attitude: the cascade that all controllers but the geometric one share.
+//!
+//! ```text
+//! v* = clip(K_p (p* − p), v_max)            e = v* − v
+//! a* = K_v e + ∫ K_i e dt − K_d v̇_f         f = limit(a* + g e₃)        demand: thrust f, yaw 0
+//! ```
+//!
+//! v̇_f is the measured velocity's derivative behind a low-pass of 50 ms. Gains ask for accelerations, not forces.
 
 use nalgebra::Vector3;
 
@@ -26,6 +33,8 @@ pub(crate) struct Gains {
 }
 
 /// The cascade with its memory.
+///
+/// `max_speed` is the gains' or the robot's, whichever is less.
 #[derive(Debug, Clone)]
 pub(crate) struct Cascade {
     gains: Gains,
@@ -65,6 +74,8 @@ impl Cascade {
 
     /// The demand that brings the measured velocity to `wanted` (m/s) within the envelope; the integral stops where
     /// the envelope binds, unless it winds up.
+    ///
+    /// One turn of `dt` s. The first one after a restart has no derivative.
     pub(crate) fn follow(&mut self, dt: f64, state: &FlightState, wanted: &Vector3<f64>) -> Demand {
         let g = &self.gains;
         let error = wanted - state.velocity;
@@ -91,6 +102,8 @@ impl Controller<Quadrotor> for Cascade {
 }
 
 /// What force an outer loop may ask for: a tilt limit and a share of the robot's own thrust.
+///
+/// Per mass, m/s², so that it belongs to a robot.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Envelope {
     gravity: f64,
@@ -110,6 +123,8 @@ impl Envelope {
     }
 
     /// Thrust per mass for an acceleration (m/s²), height before the plane, and whether it was given in full.
+    ///
+    /// f_z = clamp(a_z + g, least, most), |f_xy| ≤ min(f_z tan(tilt), √(most² − f_z²)).
     pub(crate) fn limit(&self, acceleration: &Vector3<f64>) -> (Vector3<f64>, bool) {
         let wanted = acceleration.z + self.gravity;
         let up = wanted.min(self.most).max(self.least);

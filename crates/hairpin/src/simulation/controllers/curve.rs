@@ -17,6 +17,8 @@ const LEAST_LEG_TIME: f64 = 0.2;
 pub(super) const NOT_RESET: &str = "asked for a command before it was reset to a course";
 
 /// Leg times of the minimum-snap reference.
+///
+/// The sum over legs is the same: what differs is how it is shared out, and so where the curve swings out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SegmentTimes {
@@ -28,6 +30,8 @@ pub enum SegmentTimes {
 }
 
 /// A profile and a clock on it.
+///
+/// `leg` counts from 0, `tau` is in s since its start.
 #[derive(Debug, Clone)]
 pub(crate) struct Curve {
     legs: Vec<ProfileLeg>,
@@ -36,6 +40,8 @@ pub(crate) struct Curve {
 }
 
 /// Position, velocity, acceleration, jerk, snap of a reference.
+///
+/// m/s^k for the k-th, world frame.
 pub(crate) type Sample = [Vector3<f64>; 5];
 
 impl Curve {
@@ -87,6 +93,8 @@ impl Curve {
 }
 
 /// How fast a robot is to fly along a curve that it makes for itself.
+///
+/// For robots that make their own curve; a planned profile has times of its own.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pace {
     /// Half a g, or half of what the thrust leaves, m/s².

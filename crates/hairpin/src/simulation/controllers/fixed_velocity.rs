@@ -1,4 +1,7 @@
 //! `fixed-velocity`: one speed, shared over the axes by the direction to the waypoint, until the last one is reached.
+//!
+//! v* = speed · (p* − p)/|p* − p| until the last waypoint was reached, then K_p (p* − p). It never brakes for a
+//! waypoint, so that corners are cut by as much as the velocity loop takes.
 
 use nalgebra::Vector3;
 

@@ -3,6 +3,11 @@
 //! Lee, Leok, McClamroch, "Geometric tracking control of a quadrotor UAV on SE(3)" (CDC 2010); Mellinger, Kumar,
 //! "Minimum snap trajectory generation and control for quadrotors" (ICRA 2011). The reference's acceleration gives
 //! the force, its jerk the rates, its snap the angular accelerations, all with the robot's drag in still air.
+//!
+//! ```text
+//! f* = a_r + g e₃ + D(v_r)/m + sat(k_p (p_r − p) + k_v (v_r − v), g)      R* : z along f*, yaw 0
+//! ω_ff, ω̇_ff from f_r, ḟ_r, f̈_r of the reference alone
+//! ```
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -21,6 +26,8 @@ const MAX_CORRECTION: f64 = 1.0;
 const PERIOD: f64 = 0.004;
 
 /// See the file's first line.
+///
+/// Its clock runs with time, not with the robot: who is late falls behind, and is judged for it.
 #[derive(Debug, Clone)]
 pub(crate) struct Geometric {
     pace: Pace,
@@ -79,6 +86,8 @@ impl Controller<Quadrotor> for Geometric {
 }
 
 /// f = a + g e₃ + D(v)/m with D/m = (c₁ + c₂‖v‖) v, and its first two time derivatives.
+///
+/// m/s², m/s³, m/s⁴. At rest quadratic drag and its derivatives count as none.
 fn thrust_and_derivatives(sample: &Sample, gravity: f64, (linear, quadratic): (f64, f64)) -> [Vector3<f64>; 3] {
     let [_, v, a, j, s] = sample;
     let mut force = a + Vector3::z() * gravity + v * linear;

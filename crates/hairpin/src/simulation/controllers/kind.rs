@@ -6,6 +6,13 @@ use serde::{Deserialize, Serialize};
 use super::curve::SegmentTimes;
 
 /// The six controllers.
+///
+/// | word | commands | knows |
+/// | --- | --- | --- |
+/// | `unstable-waypoint`, `stable-waypoint`, `anafi` | a velocity towards the waypoint | the next waypoint |
+/// | `fixed-velocity` | a velocity of one size | the next waypoint |
+/// | `minimum-snap` | a velocity towards a moving point | all waypoints |
+/// | `geometric` | thrust, attitude, rates | the plan, or all waypoints |
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ControllerKind {
@@ -37,12 +44,16 @@ impl ControllerKind {
     }
 
     /// Whether it plans over all waypoints before it flies; the others know of one at a time.
+    ///
+    /// Those cannot be flown leg by leg ([`Airborne`](crate::simulation::Airborne)).
     pub fn plans_ahead(self) -> bool {
         matches!(self, Self::MinimumSnap | Self::Geometric)
     }
 }
 
 /// Which controller flies, and its settings.
+///
+/// `Default` is `stable-waypoint`; settings of other controllers are not looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ControllerSettings {
     /// The controller.

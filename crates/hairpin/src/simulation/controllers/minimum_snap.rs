@@ -23,6 +23,9 @@ const GAINS: Gains = Gains {
 const LEASH: f64 = 3.0;
 
 /// See the file's first line. The point's velocity is fed forward to the velocity loop.
+///
+/// v* = K_p (p_r − p) + v_r while the point is within 3 m, K_p (p_r − p) alone where it waits: late robots stretch
+/// time, they do not cut the curve.
 #[derive(Debug, Clone)]
 pub(crate) struct MinimumSnap {
     cascade: Cascade,

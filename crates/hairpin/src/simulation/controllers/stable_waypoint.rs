@@ -16,6 +16,7 @@ const GAINS: Gains = Gains {
     max_tilt: 0.5,
 };
 
+/// Commands of velocity go through one of these as well, whatever controller gives them.
 pub(in crate::simulation) fn cascade(robot: &Quadrotor) -> Cascade {
     Cascade::new(robot, GAINS)
 }

@@ -17,6 +17,7 @@ const GAINS: Gains = Gains {
     max_tilt: 0.5,
 };
 
+/// With these gains and the robot's own top speed.
 pub(super) fn cascade(robot: &Quadrotor) -> Cascade {
     Cascade::new(robot, GAINS)
 }

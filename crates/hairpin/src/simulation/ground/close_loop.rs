@@ -85,6 +85,8 @@ pub fn drive_with(
 }
 
 /// A run whose settings are within bounds, and its plan.
+///
+/// `settings` have their time limit and patience filled in.
 struct Checked<'a> {
     sortie: &'a GroundSortie<'a>,
     conditions: &'a GroundConditions,
@@ -97,6 +99,8 @@ struct Checked<'a> {
 }
 
 impl<'a> Checked<'a> {
+    /// Errors name `latency`, `start_offset`, `external_force`, `clearance_radius`, or what of the drive cannot be
+    /// planned.
     fn new(
         sortie: &'a GroundSortie,
         conditions: &'a GroundConditions,
@@ -124,6 +128,9 @@ impl<'a> Checked<'a> {
     }
 
     /// Drives to the end.
+    ///
+    /// Each turn: how it stands, whether the run ends, a sample if one is due, the controller's command, the plant
+    /// until the next.
     fn carry_out(&self, name: &str, controller: &mut dyn Controller<Rover>) -> Result<Flight, SimulationError> {
         let mut run = Run::new(self, name, controller)?;
         let log_every = ((self.plan.duration / SAMPLES / run.period).round() as u64).max(1);
@@ -168,6 +175,7 @@ fn pull(vehicle: &Rover, force: &[f64; 3]) -> Result<Vector3<f64>, SimulationErr
     }
 }
 
+/// `off-map` without ground, `stuck` without rest.
 fn word(lost: Lost) -> Ended {
     match lost {
         Lost::NoGround => Ended::OffMap,
@@ -191,6 +199,7 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
+    /// Errors name the leg's start where the vehicle cannot stand there, and periods out of 0.001 … 1 s.
     fn new(
         checked: &'a Checked,
         name: &'a str,
@@ -229,11 +238,15 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
+    /// The controller by name, when (s), and why.
     fn failed(&self, t: f64, why: impl Into<Misbehaviour>) -> SimulationError {
         SimulationError::Controller { name: self.name.into(), t, why: why.into() }
     }
 
     /// The controller's turn at `t`, and the plant until the next.
+    ///
+    /// A command acts `latency` s after it was given, also between turns: the plant is advanced from one such moment to
+    /// the next.
     fn turn(&mut self, t: f64) -> Result<(), SimulationError> {
         let measured = self.measure(t);
         let asked = self.controller.control(self.period, &measured, &self.watch.reference());
@@ -254,6 +267,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// The plant's state, with white noise on x, y (1 cm) and ψ (0.3°) where the run has it: three normals a turn.
     fn measure(&mut self, t: f64) -> DriveState {
         let plant = &self.plant;
         let mut at = Planar { x: plant.x, y: plant.y, yaw: plant.yaw, curvature: plant.curvature() };
@@ -282,6 +296,7 @@ impl<'a> Run<'a> {
     }
 }
 
+/// `pose` moved in its own frame, m and rad.
 fn beside(pose: &Planar, [forward, left, yaw]: &[f64; 3]) -> Planar {
     let (sin, cos) = libm::sincos(pose.yaw);
     Planar {

@@ -27,6 +27,8 @@ pub struct DriveState {
 
 /// What a controller asks of motors and steering until its next turn; it acts after the latency, within the vehicle's
 /// limits and lags.
+///
+/// `Default` holds still with straight wheels. Numbers beyond the vehicle's limits are clipped, not refused.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriveCommand {
     /// Along the direction of travel, m/s, negative in reverse.

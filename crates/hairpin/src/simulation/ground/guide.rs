@@ -1,5 +1,8 @@
 //! Where a run stands in its plan: progress along a section, stops between sections, turns in place. The same for every
 //! controller of ours; what differs is how each steers.
+//!
+//! Sections are what lies between stops: driven in one gear, or a turn in place. Before each the vehicle waits until
+//! its wheels are ready (or patience ends), and a section is over 2 mm or 0.005 rad before its end.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -77,6 +80,8 @@ pub(super) struct Guide<'a> {
 impl<'a> Guide<'a> {
     /// At the beginning of `plan`, driven at up to `speed` (m/s) and `turn_rate` (rad/s) by commands that act `latency`
     /// s late.
+    ///
+    /// Waits at most 3 s + 6 steering time constants + the time of a full swing.
     pub(super) fn new(plan: &'a Plan, nominal: &Rover, latency: f64, [speed, turn_rate]: [f64; 2]) -> Self {
         let response = &nominal.response;
         let swing = 2.0 * libm::atan(nominal.limits.curvature * response.steered_axle) / response.steering_rate;
@@ -156,6 +161,8 @@ impl<'a> Guide<'a> {
         speed_at(stations, ahead).min(braking).max(creeping).min(most)
     }
 
+    /// The first section that is not over says what to do; turns are counted from angle to angle, so that more than
+    /// half a turn is one.
     fn next(&mut self, measured: &DriveState, dt: f64) -> Task<'a> {
         let plan = self.plan;
         loop {

@@ -2,6 +2,21 @@
 //!
 //! [`drive`] is the one verb, [`drive_with`] the same by a controller of the caller's own. The true vehicle may slip,
 //! lag and delay otherwise than the one that was planned with.
+//!
+//! ```text
+//! Drive ── nominal vehicle ──▶ Plan (sections of stations, a Track)
+//!                                │
+//!           Guide: where, how fast ──▶ driver: curvature ──▶ latency ──▶ Plant (true vehicle on the map) ──▶ log
+//!                     ▲                                                       │
+//!                     └────────────────── pose, with noise ───────────────────┘
+//! ```
+//!
+//! | room | is |
+//! | --- | --- |
+//! | `plan` | where the commands lead the vehicle that was planned with |
+//! | `guide`, `controllers` | what a controller of ours does with it |
+//! | `plant` | suspension at every step, slip, lags, torque |
+//! | `watch`, `recorder` | what ends a run, and its log |
 
 mod close_loop;
 mod command;

@@ -94,6 +94,8 @@ pub fn planned_track(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> 
 }
 
 impl Plan {
+    /// Bounds of speed, curvature and acceleration are lifted, as the plan's commands keep them already; steering lags
+    /// and slip of the nominal vehicle act. 4 steps of at most 5 mm between stations.
     pub(super) fn new(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> Result<Self, SimulationError> {
         check(drive)?;
         let mut at_once = nominal.clone();
@@ -140,6 +142,7 @@ impl Plan {
 }
 
 impl Draft {
+    /// From the leg's own start, wherever the one before came to.
     fn add_leg(&mut self, vehicle: &Rover, terrain: &ElevationMap, drive: &Drive, leg: usize) -> Result<(), Lost> {
         let timing = drive.legs[leg].timing();
         let mut driven = 0.0;
@@ -232,6 +235,7 @@ impl Draft {
         Ok(())
     }
 
+    /// A pose of the track, now.
     fn note(&mut self, plant: &Plant, leg: usize) {
         self.times.push(self.duration);
         self.poses.push(plant.world_from_body());
@@ -239,6 +243,7 @@ impl Draft {
     }
 }
 
+/// Segments of 0 … 100 km, turns of at most 1000 rad, everything finite; errors name the field and the leg.
 fn check(drive: &Drive) -> Result<(), SimulationError> {
     if drive.legs.is_empty() {
         return Err(SimulationError::new("drive.legs", "0".into(), "at least one"));
@@ -321,6 +326,8 @@ pub(super) fn direction_at(stations: &[Station], s: f64) -> f64 {
 }
 
 /// Mean change of the planned direction over the `ahead` metres after `s`, rad/m.
+///
+/// `ahead` > 0.
 pub(super) fn turning(stations: &[Station], s: f64, ahead: f64) -> f64 {
     (direction_at(stations, s + ahead) - direction_at(stations, s)) / ahead
 }

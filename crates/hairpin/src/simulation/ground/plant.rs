@@ -52,6 +52,7 @@ const STILL: f64 = 1e-9;
 /// mass is a tilt of gravity to slip, torque and tip-over margin.
 #[derive(Debug, Clone)]
 pub(super) struct Plant<'a> {
+    /// The true one: its slip, lags and bounds act.
     pub(super) vehicle: &'a Rover,
     terrain: &'a ElevationMap,
     /// Of travel in the body, rad.
@@ -108,10 +109,12 @@ impl<'a> Plant<'a> {
         Ok(plant)
     }
 
+    /// x, y (m), ψ (rad).
     fn place(&self) -> [f64; 3] {
         [self.x, self.y, self.yaw]
     }
 
+    /// The rest at the plant's place, without one nearby to begin from.
     fn rest_from_nothing(&self) -> Result<(Settled, Gradient), Lost> {
         if self.vehicle.suspension == Suspension::Level {
             // A point needs no wheels to stand, but it does need ground.
@@ -132,6 +135,9 @@ impl<'a> Plant<'a> {
     }
 
     /// Goes on for `time` s under `command`.
+    ///
+    /// In steps of at most 4 mm of travel and 0.02 rad in place; none is taken for a vehicle that neither moves nor
+    /// turns.
     pub(super) fn advance(&mut self, command: &DriveCommand, time: f64) -> Result<(), Lost> {
         let mut left = time;
         while left > 1e-12 {
@@ -144,6 +150,7 @@ impl<'a> Plant<'a> {
         Ok(())
     }
 
+    /// The commanded speed within the vehicle's largest, m/s.
     fn bounded_speed(&self, command: &DriveCommand) -> f64 {
         command.speed.clamp(-self.vehicle.limits.speed, self.vehicle.limits.speed)
     }
@@ -188,6 +195,8 @@ impl<'a> Plant<'a> {
     }
 
     /// Turns the wheels for `h` s towards `curvature`.
+    ///
+    /// δ ← δ + clamp((1 − e^(−h/T)) (δ* − δ), ±δ̇_max h), δ* = atan(clamp(κ*, ±κ_max) L): the lag exactly.
     fn steer(&mut self, curvature: f64, h: f64) {
         let response = &self.vehicle.response;
         let most = self.vehicle.limits.curvature;
@@ -199,6 +208,9 @@ impl<'a> Plant<'a> {
     }
 
     /// Brings the speeds towards their commands; the way and the angle gone meanwhile.
+    ///
+    /// m (signed) and rad. A vehicle whose acceleration is bounded covers the mean of both speeds, one that takes any
+    /// speed at once the new one.
     fn accelerate(&mut self, command: &DriveCommand, h: f64) -> (f64, f64) {
         let most = self.vehicle.limits.acceleration * h;
         let wanted = if command.turn_rate == 0.0 { self.bounded_speed(command) } else { 0.0 };
@@ -239,6 +251,8 @@ impl<'a> Plant<'a> {
 
     /// What the wheels do while they drive with `sign` and gain `acceleration` (m/s²) along their way; `None` without a
     /// weight.
+    ///
+    /// As [`Rover::effort`] has it, with the steady force as a lean of gravity.
     fn effort(&self, sign: f64, acceleration: f64) -> Option<Effort> {
         self.vehicle.effort(&self.pose, self.travels, sign, acceleration, &self.pulled(&self.pose, self.yaw))
     }
@@ -268,6 +282,8 @@ impl<'a> Plant<'a> {
     }
 
     /// Velocity of the body's origin, m/s, world frame.
+    ///
+    /// ż from the suspension's gradient, for a point from the slope of the ground.
     pub(super) fn velocity(&self) -> Vector3<f64> {
         let stands = (&self.pose, &self.gradient);
         let moved = self.motion(stands, self.yaw, self.speed, self.curvature(), self.turn_rate);

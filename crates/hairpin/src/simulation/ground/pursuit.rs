@@ -22,11 +22,15 @@ pub(super) struct PurePursuit {
 }
 
 impl PurePursuit {
+    /// For the vehicle as it was planned with.
     pub(super) fn new(nominal: &Rover) -> Self {
         Self { most: nominal.limits.curvature }
     }
 
     /// Curvature to the point ahead, 1/m. In reverse the way leads backwards, and the wheels bend it the other way.
+    ///
+    /// Lookahead 0.5 smallest radii + 0.3 s · v, along the path's commanded metres; the answer is within the largest
+    /// curvature.
     pub(super) fn steer(&self, measured: &DriveState, along: &Along) -> f64 {
         let ahead = RADII / self.most + TIME * along.speed;
         let target = station_at(along.stations, along.s + ahead, along.sign);

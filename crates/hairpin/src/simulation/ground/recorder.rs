@@ -38,6 +38,8 @@ impl Recorder {
     }
 
     /// Appends a sample; one that is not later than the last is left out. `least` is the worst since the sample before.
+    ///
+    /// Only a margin that was not looked at yet is asked of the plant, which may have lost the ground: [`Lost`].
     pub(super) fn push(
         &mut self,
         t: f64,
@@ -73,6 +75,8 @@ impl Recorder {
     }
 
     /// The track.
+    ///
+    /// With channels named by unit, in the order of [`MOTION`], slip and what follows.
     pub(super) fn into_track(self) -> Track {
         Track::new(self.times, self.poses, self.channels).expect("our own samples are finite and in order")
     }

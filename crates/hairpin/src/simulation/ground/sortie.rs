@@ -6,6 +6,8 @@ use crate::trajectory::Drive;
 use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// What drives where.
+///
+/// `nominal` has the numbers that the plan was made with, `vehicle` those that were drawn for the run.
 #[derive(Debug, Clone, Copy)]
 pub struct GroundSortie<'a> {
     /// The vehicle as it is: its slip, its latency and its lags act.
@@ -23,6 +25,8 @@ pub struct GroundSortie<'a> {
 }
 
 /// What is added to the vehicle's own imperfections.
+///
+/// `Default` adds nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct GroundConditions {
     /// A command acts this much later, s, on top of the vehicle's own latency.
@@ -56,6 +60,7 @@ impl Default for DriveSettings {
 }
 
 impl DriveSettings {
+    /// Radii, limits and patience finite and above 0, `linger` at least 0; errors name the field.
     pub(super) fn check(&self) -> Result<(), SimulationError> {
         let limit = self.time_limit.unwrap_or(1.0);
         for (field, value) in [("accept", self.accept), ("time_limit", limit), ("patience", self.patience)] {

@@ -93,6 +93,9 @@ impl<'a> Watch<'a> {
     }
 
     /// Takes note of the vehicle at `t`, and says whether the run ends there.
+    ///
+    /// In this order: tip-over, belly contact, places to keep out of (by the chord since the last look), the end of the
+    /// course, time, no progress.
     pub(super) fn note(&mut self, t: f64, plant: &Plant) -> Option<Ended> {
         if self.least.margin < 0.0 {
             return Some(Ended::TipOver);
@@ -125,6 +128,8 @@ impl<'a> Watch<'a> {
     }
 
     /// Which waypoints are reached at `at`, and whether that was all.
+    ///
+    /// Distances are over the ground plan: z is not compared.
     fn progress(&mut self, t: f64, at: [f64; 2], stands: bool) -> bool {
         let accept = square(self.settings.accept);
         let within = |p: &Point3<f64>| square(p.x - at[0]) + square(p.y - at[1]) <= accept;

@@ -11,8 +11,12 @@ use crate::simulation::ground::guide::{Along, Guide, Task};
 use crate::simulation::ground::pursuit::PurePursuit;
 
 /// A controller in a run: it follows the plan, by its schedule.
+///
+/// Speeds are the guide's alone; what a driver of ours decides is curvature.
 pub(in crate::simulation::ground) struct Guided<'a> {
+    /// Where along the plan, and how fast.
     pub(in crate::simulation::ground) guide: Guide<'a>,
+    /// How to steer.
     pub(in crate::simulation::ground) driver: Driver<'a>,
 }
 
@@ -35,6 +39,8 @@ impl Controller<Rover> for Guided<'_> {
 }
 
 /// How it steers.
+///
+/// Each answers with a curvature within the vehicle's largest.
 pub(in crate::simulation::ground) enum Driver<'a> {
     PurePursuit(PurePursuit),
     Stanley(Stanley),

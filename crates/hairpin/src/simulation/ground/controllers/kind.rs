@@ -8,9 +8,17 @@ use crate::trajectory::drive::{Gear, Planar, SegmentList};
 
 /// Solves for the commands of one gear that lead the nominal vehicle, lags included but without latency, from a pose
 /// and curvature to another, both in the world, while its direction of travel turns evenly; `None`: no answer.
+///
+/// Curvatures in 1/m, directions in rad; called once a cycle, from the run's own thread.
 pub type Resolve<'a> = dyn Fn(&Planar, &Planar, Gear, Direction) -> Option<SegmentList> + Sync + 'a;
 
 /// The controllers of ground vehicles.
+///
+/// | word | law | source |
+/// | --- | --- | --- |
+/// | `pure-pursuit` | κ = 2y/D² to a point ahead | Coulter 1992 |
+/// | `stanley` | δ = Δχ − atan(e/d) of the leading axle | Thrun et al. 2006 |
+/// | `predictive` | boundary-value drive to a point ahead | Howard and Kelly 2007 |
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum GroundControllerKind {

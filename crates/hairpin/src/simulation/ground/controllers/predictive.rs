@@ -51,6 +51,8 @@ struct Learnt {
     moment: f64,
 }
 
+/// c = −Σ k off·x/(Σ k x² way + prior), x = rise/sin 20°, weights k falling with the way behind by e per [`MEMORY`]
+/// radii.
 impl Learnt {
     /// Takes note of `off` (m) on a `way` (m) with `rise` per metre; all before counts `kept` as much.
     fn note(&mut self, off: f64, rise: f64, way: f64, kept: f64) {
@@ -97,6 +99,7 @@ pub(in crate::simulation::ground) struct Predictive<'a> {
 }
 
 impl<'a> Predictive<'a> {
+    /// Knows the vehicle as it was planned with; `latency` in s. Nothing is learnt yet.
     pub(super) fn new(nominal: &Rover, latency: f64, solve: &'a Resolve<'a>) -> Self {
         Self {
             nominal: nominal.clone(),
@@ -149,11 +152,14 @@ impl<'a> Predictive<'a> {
         [self.slip[0].drift(rises[0]), self.slip[1].drift(rises[1])]
     }
 
+    /// 1.5 smallest radii + 0.5 s · speed, m.
     fn horizon(&self, speed: f64) -> f64 {
         RADII / self.nominal.limits.curvature + TIME * speed
     }
 
     /// `from` after what the wheels have rolled, leaning as measured, with `drift` per metre.
+    ///
+    /// Midpoint rule in one step; the ground is taken to lean all along as it does now.
     fn rolled(&self, lean: &DriveState, from: &Planar, rolls: &Rolls, drift: &[f64; 2]) -> Planar {
         let Rolls { way, curvature, direction } = *rolls;
         let direction = libm::sincos(direction);
@@ -174,6 +180,9 @@ impl<'a> Predictive<'a> {
     }
 
     /// Where the vehicle will be when what is commanded now acts, and how many metres it goes until then.
+    ///
+    /// Each command under way for the time that it will act: steering and speed follow it with the nominal lags and
+    /// bounds.
     fn predicted(&self, measured: &DriveState) -> (Planar, f64) {
         let response = &self.nominal.response;
         let (mut at, mut way, mut speed) = (measured.at, 0.0, measured.speed);
@@ -208,6 +217,9 @@ impl<'a> Predictive<'a> {
     }
 
     /// The curvature to command for the next `dt` s.
+    ///
+    /// 1/m, within the largest curvature: the answer's at the middle of the step that the command will act on, else
+    /// pure pursuit's.
     pub(super) fn steer(&mut self, measured: &DriveState, along: &Along, dt: f64) -> f64 {
         if self.section.replace(along.section) != Some(along.section) {
             (self.answer, self.until_next) = (None, 0.0);

@@ -26,10 +26,12 @@ pub(in crate::simulation::ground) struct Stanley {
 }
 
 impl Stanley {
+    /// Largest curvature and steered axle are the planned vehicle's.
     pub(super) fn new(nominal: &Rover) -> Self {
         Self { most: nominal.limits.curvature, axle: nominal.response.steered_axle }
     }
 
+    /// κ in 1/m, within the largest curvature; d = 0.6 smallest radii + 0.3 s · v.
     pub(super) fn steer(&self, measured: &DriveState, along: &Along) -> f64 {
         let plan = station_at(along.stations, along.s, along.sign);
         let direction = direction_at(along.stations, along.s);
