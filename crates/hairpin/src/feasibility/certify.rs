@@ -19,6 +19,12 @@ const SLOWER: f64 = 1.12;
 ///
 /// Of the authors' trajectories that are "valid by construction" a third need more than full thrust: `Unknown` and `No`
 /// are what that looks like here.
+///
+/// ```text
+/// No        a necessary condition fails: place, distance or time, with the number
+/// Yes       every leg proven between samples, total time within the limit
+/// Unknown   neither: the leg refused last, its limit and margin
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub enum Certificate {
     /// A control witness: level at every waypoint, at rest at both ends, all limits proven.
@@ -68,6 +74,10 @@ pub enum Impossible {
 /// again, so that leg times and velocities settle together. A witness that takes too long as a whole is none.
 ///
 /// At most a hundred rounds, each judging legs until one fails; deterministic.
+///
+/// Slowing down is by 1.12 a round, of a leg's time first and then of its ends' speeds, below a tenth of which they are
+/// at rest. Lists of fewer than two waypoints have no legs, and are certified empty where their point is in the free
+/// space.
 pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming, longest_flight: f64) -> Certificate {
     let (shortest, longest) = timing.range();
     if let Some(impossible) = impossible(judge, waypoints, longest, longest_flight) {
@@ -124,6 +134,8 @@ fn slow_down(leg: usize, times: &mut [f64], share: &mut [f64], longest: f64) -> 
 
 /// The level states at the waypoints, with minimum-snap velocities times `share`; at rest where the curve cannot be
 /// solved for.
+///
+/// `times` in s, one a leg; `share` in 0 … 1, one a waypoint. Velocities are cut to the judge's top speed.
 fn ends(judge: &LegJudge, waypoints: &[Point3<f64>], times: &[f64], share: &[f64]) -> Vec<LegEnd> {
     let curve = minimum_snap(waypoints, times).unwrap_or_default();
     let velocity = |k: usize| {

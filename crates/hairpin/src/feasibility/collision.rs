@@ -45,6 +45,8 @@ pub struct FreeSpace {
 }
 
 /// Control points of a piece of path and the times at which it begins and ends.
+///
+/// `points` by axis, m; times in s since the leg began.
 struct Piece {
     points: [[f64; 8]; 3],
     from: f64,
@@ -72,6 +74,7 @@ impl Piece {
         (1..7).map(|i| (self.point(i) - (a + (b - a) * (i as f64 / 7.0))).norm()).fold(0.0, f64::max)
     }
 
+    /// De Casteljau at ½: both halves' control points, exactly those of the same path.
     fn halves(&self) -> (Piece, Piece) {
         let (mut left, mut right) = ([[0.0; 8]; 3], [[0.0; 8]; 3]);
         for axis in 0..3 {
@@ -95,6 +98,8 @@ impl FreeSpace {
     }
 
     /// The corners of the box that the walls leave.
+    ///
+    /// Lowest and highest, m: the margin inside of the world's own.
     pub fn walls(&self) -> (Point3<f64>, Point3<f64>) {
         (self.low, self.high)
     }
@@ -103,6 +108,9 @@ impl FreeSpace {
     ///
     /// A path lies in the hull of its Bernstein control points, and no farther from its chord than they do; pieces that
     /// this does not decide are halved. A wall may be touched (to 1e-9 m).
+    ///
+    /// Ends are asked exactly, what lies between them by the hull of the control points; a leg that keeps well clear
+    /// costs one look at 8 points an axis and a box test for each obstacle.
     ///
     /// # Errors
     /// The wall or obstacle that is violated, or that is nearer than 1/4096 of the leg can resolve.
@@ -128,6 +136,8 @@ impl FreeSpace {
     }
 
     /// Whether `p`, where the path is `at` seconds after it began, lies in the free space.
+    ///
+    /// `at` is only told. A NaN coordinate violates a wall.
     ///
     /// # Errors
     /// The wall or obstacle that is too near.
@@ -165,6 +175,7 @@ impl FreeSpace {
         })
     }
 
+    /// Distance to the nearer of two opposite walls' margins, m; negative beyond.
     fn wall_margin(&self, p: &Point3<f64>, axis: usize) -> f64 {
         (p[axis] - self.low[axis]).min(self.high[axis] - p[axis])
     }

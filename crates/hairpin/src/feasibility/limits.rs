@@ -64,6 +64,8 @@ impl Limit {
 /// Why a leg is refused.
 ///
 /// `Violates` is a fact about the leg; `Unproven` is one about the effort: the leg may be feasible, and is refused.
+///
+/// 32 bytes and no allocation: legs are refused by the million, and names of parts are looked up where they are told.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Infeasible {
     /// A limit is violated at `at`, s since the leg began, by `-margin` (signed margin < 0 in the limit's unit).
@@ -93,6 +95,8 @@ pub enum Infeasible {
 
 impl Infeasible {
     /// The evidence for a limit with signed margin `margin` at `at`.
+    ///
+    /// A margin below 0 is a violation, any other (NaN among them) what could not be proven.
     pub(crate) fn at(limit: Limit, part: usize, at: f64, margin: f64) -> Self {
         let part = part as u16;
         if margin < 0.0 {

@@ -3,6 +3,8 @@
 use crate::feasibility::reachability::Refusal;
 
 /// Another configuration in which the move fits.
+///
+/// \[cf1, cf4, cf6, cfx\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
     /// At the move's end.
@@ -12,6 +14,8 @@ pub struct Fit {
 }
 
 /// A move that the arm cannot execute.
+///
+/// `line` is that of the program's own text, where it came from one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// Index of the move.

@@ -10,6 +10,8 @@ use crate::robot::arm::{AXES, Arm, Joints};
 const BORDER: f64 = 1e-3;
 
 /// All postures within the limits that put the flange there, on every turn of every axis.
+///
+/// `flange` is `base_from_flange`; `near` is where arms without a closed inverse begin to look.
 pub(super) fn within_limits(arm: &Arm, flange: &Isometry3<f64>, near: &Joints) -> Vec<Joints> {
     arm.inverse(flange, near).iter().flat_map(|q| arm.turns_of(q)).collect()
 }
@@ -29,6 +31,7 @@ pub(super) fn room(arm: &Arm, q: &Joints) -> f64 {
     arm.limits.iter().zip(q).map(|(limit, angle)| limit.margin(*angle)).fold(f64::INFINITY, f64::min)
 }
 
+/// Σ |Δq|, rad.
 fn distance(a: &Joints, b: &Joints) -> f64 {
     (0..AXES).map(|k| (a[k] - b[k]).abs()).sum()
 }

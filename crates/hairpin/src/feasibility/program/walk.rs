@@ -11,6 +11,9 @@ use crate::trajectory::program::{Motion, Move, PoseTarget, Program};
 use crate::world::cell::Cell;
 
 /// What came of a program.
+///
+/// `followed` + `ends_only` is the number of moves looked at; a program is executable if `findings` is empty and all
+/// moves were followed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checked {
     /// Moves that were looked at as a whole.
@@ -42,6 +45,14 @@ const MOST_REMEDIES: usize = 50;
 /// meet are proven between samples ([`follow`]). After a move that is refused the arm is taken to stand at its target.
 ///
 /// After a refused move the walk goes on from its target, so that one mistake is one finding.
+///
+/// | move | proven |
+/// | --- | --- |
+/// | MoveAbsJ | bounds at its end, and the way there in joints |
+/// | MoveJ | the demanded posture, else the nearest, and the way there in joints |
+/// | MoveL, MoveC | one branch all along, limits, margins, bodies; then the demanded configuration |
+///
+/// `count` may be less than the program has; its indices of tools and work objects are the caller's to have checked.
 pub fn check(
     arm: &Arm,
     program: &Program,
@@ -111,14 +122,17 @@ impl Walk<'_> {
         self.at.unwrap_or([0.0; AXES])
     }
 
+    /// base_from_object · target.
     fn base_from_tcp(&self, m: &Move, target: &PoseTarget) -> Isometry3<f64> {
         self.program.work_objects[m.work_object].base_from_object() * target.pose
     }
 
+    /// `base_from_flange` that puts the move's tool at the target.
     fn flange(&self, m: &Move, target: &PoseTarget) -> Isometry3<f64> {
         self.base_from_tcp(m, target) * self.program.tools[m.tool].tcp.inverse()
     }
 
+    /// With the bodies of the move's own tool.
     fn followed(&self, m: &Move, way: &Way, start: &Joints) -> Result<Followed, Refusal> {
         let (tool, bodies) = &self.tools[m.tool];
         follow(self.arm, tool, Some(bodies), way, start, self.settings, &mut 0)
@@ -145,6 +159,7 @@ impl Walk<'_> {
         }
     }
 
+    /// Takes the tool along the way, and looks at where that arrives if a configuration is demanded.
     fn follow(&mut self, index: usize, m: &Move, to: &PoseTarget, way: &Way, start: &Joints) {
         match self.followed(m, way, start) {
             Ok(followed) => {

@@ -4,6 +4,11 @@
 //! constant input, seen from its body, depends on speed and steering alone, so each bin of these has one hull, turned
 //! by the heading at hand. Heading, speed and steering at the next waypoint are those of the run that ended nearest to
 //! it. Neither sound nor complete, as every hull of end points; headings and states are rounded to their bins.
+//!
+//! ```text
+//! waypoint w follows (v, ψ, bin) if  R(−ψ)(w − v) ∈ conv {ends of the bin's runs}  and  |w − v| ≤ v_max Δt
+//! next node: ψ + Δψ and bin of the run that ended nearest to R(−ψ)(w − v)
+//! ```
 
 use std::f64::consts::TAU;
 
@@ -28,6 +33,9 @@ pub struct BodyNode {
 }
 
 /// What is told apart, and what is tried.
+///
+/// inputs² runs for each of |speeds| · |steerings| bins. Each level 1 to 1000 finite numbers; `step` finite and above
+/// 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyGrid {
     /// Speeds at which hulls are sampled, m/s; a state belongs to the nearest.
@@ -45,6 +53,8 @@ pub struct BodyGrid {
 }
 
 /// Why there is no hull.
+///
+/// Raised by [`BodyHull::sampled`], and by what samples with it.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum NoBodyHull {
     /// A setting out of bounds.
@@ -107,6 +117,8 @@ impl BodyHull {
     /// steering) = `state`, under the constant inputs at `shares` (0 … 1) between their limits, and tells (x, y, ψ) and
     /// (speed, steering) at the end.
     ///
+    /// Bins of which all runs end on a line reach nothing, and are no error while others span an area.
+    ///
     /// # Errors
     /// [`NoBodyHull`].
     pub fn sampled(
@@ -155,11 +167,14 @@ impl BodyHull {
     }
 
     /// A necessary test for searches: false only if no `steps` legs lead from `node` to the last of `points`.
+    ///
+    /// |end − here| ≤ steps · farthest: triangle inequality, whatever is carried.
     pub fn may_arrive(&self, points: &[Point3<f64>], node: &BodyNode, steps: usize) -> bool {
         let way = points[points.len() - 1] - points[node.current as usize];
         way.norm() <= steps as f64 * (self.farthest + 2.0 * ON_EDGE)
     }
 
+    /// The nearest of the headings told apart, modulo a turn.
     fn heading(&self, yaw: f64) -> u32 {
         let headings = f64::from(self.grid.headings);
         ((yaw / TAU).rem_euclid(1.0) * headings).round() as u32 % self.grid.headings
@@ -194,6 +209,7 @@ impl Reach<BodyNode> for BodyHull {
     }
 }
 
+/// The first setting out of bounds, by name.
 fn check(grid: &BodyGrid) -> Result<(), NoBodyHull> {
     let levels = |values: &[f64]| values.iter().find(|value| !value.is_finite()).copied();
     let bounds = [

@@ -31,6 +31,9 @@ pub struct CarriedNode {
 }
 
 /// What is carried and what is simulated.
+///
+/// What is not carried is reset at each waypoint, as the hull's identity has it; with nothing carried and no quadratic
+/// drag this is the hull, and a test holds both to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BruteForceSettings {
     /// Sampling of the runs.
@@ -83,6 +86,8 @@ struct Bin {
 ///
 /// Far dearer than a hull until its cells are known; its use is to be the oracle, and to say what the hull's
 /// assumptions cost.
+///
+/// Shared between threads behind a lock; what is remembered changes the time and never the answer.
 pub struct BruteForce {
     model: Quadrotor,
     speeds: Vec<Vector4<f64>>,
@@ -93,6 +98,8 @@ pub struct BruteForce {
 
 impl BruteForce {
     /// For `robot`, under these settings.
+    ///
+    /// Nothing is simulated yet.
     ///
     /// # Errors
     /// [`NoHull::Setting`]: a setting out of bounds.
@@ -154,6 +161,8 @@ impl BruteForce {
     }
 
     /// The cell of what the run that ended nearest to `d` carries on.
+    ///
+    /// Rounded to the nearest cell; 0 for what is not to be kept.
     fn kept(&self, bin: &Bin, d: &Vector3<f64>) -> [i32; 6] {
         let BruteForceSettings { keep_attitude, keep_rates, attitude_bin, rate_bin, .. } = self.settings;
         if !keep_attitude && !keep_rates {
@@ -170,10 +179,12 @@ impl BruteForce {
     }
 }
 
+/// Position of a state, m.
 fn place(state: &QuadrotorState) -> Vector3<f64> {
     Vector3::new(state[0], state[1], state[2])
 }
 
+/// The first setting out of bounds, by name.
 fn checked(settings: &BruteForceSettings) -> Result<(), NoHull> {
     check(&settings.hull)?;
     let bounds: [(&'static str, f64, bool, &'static str); 6] = [

@@ -24,12 +24,15 @@ pub(super) fn beyond(plane: &Plane, x: &Vector3<f64>) -> f64 {
 /// The point farthest beyond a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Farthest {
+    /// n · x − b, m; −∞ of no points.
     pub(super) distance: f64,
     /// Its number in the points that the first cloud was made from.
     pub(super) point: u32,
 }
 
 /// Some of the points of a set, each known by its number there.
+///
+/// A structure of arrays: 8 points are three vector loads a plane.
 pub(super) struct Cloud {
     /// The last block is filled up with copies of the last point.
     blocks: Vec<Block>,
@@ -55,6 +58,8 @@ impl Cloud {
 
     /// Appends to `out`, for every plane, the point that lies farthest beyond it, or any if none lies beyond it by more
     /// than `tolerance`; the first of equals.
+    ///
+    /// O(planes · points); the point is looked up only where one lies beyond.
     pub(super) fn farthest(&self, planes: &[Plane], tolerance: f64, out: &mut Vec<Farthest>) {
         let first = out.len();
         out.resize(first + planes.len(), Farthest { distance: f64::NEG_INFINITY, point: 0 });
@@ -65,6 +70,8 @@ impl Cloud {
     }
 
     /// The numbers of the points that lie farther than `tolerance` beyond any of `planes`.
+    ///
+    /// In rising order. `tolerance` may be negative: then those less deep inside are there as well.
     pub(super) fn outside(&self, planes: &[Plane], tolerance: f64) -> Vec<u32> {
         let mut distances = vec![[0.0; LANES]; self.blocks.len()];
         outermost(self.simd, &self.blocks, planes, &mut distances);

@@ -16,6 +16,7 @@ const FIRST_TOLERANCE: f64 = 1e-11;
 
 /// What [`convex_hull`] finds.
 pub(super) struct Found {
+    /// Closed surface, neighbours by number.
     pub(super) triangles: Vec<Triangle>,
     /// The points but those deep inside: every plane that holds them holds all.
     pub(super) shell: Cloud,
@@ -23,6 +24,8 @@ pub(super) struct Found {
 
 /// The hull of `points`, whose bounding box has the diagonal `extent`; `None` if the points lie in one plane, or nearly
 /// so that no tolerance up to a millionth of the extent gives a hull.
+///
+/// Six tolerances from 10⁻¹¹ of the extent upwards. At least one finite point.
 pub(super) fn convex_hull(simd: Simd, points: &[Vector3<f64>], extent: f64) -> Option<Found> {
     let cloud = Cloud::new(simd, points, (0..points.len() as u32).collect());
     let extremes = extremes(&cloud);

@@ -14,6 +14,8 @@ use crate::math::simd::{Simd, kernel};
 pub(super) const LANES: usize = 8;
 
 /// What scores see of the displacement `leg` (m) after `before` (0 at the start), both flown in `step` s.
+///
+/// v = |leg|/step, turn = ∠(before, leg) in [0, π], slope = climb/length.
 #[inline]
 pub(super) fn features(before: &Vector3<f64>, leg: &Vector3<f64>, step: f64) -> LegFeatures {
     let length_before = before.norm();
@@ -81,6 +83,8 @@ fn length_and_turn(before: [f64; 3], length_before: f64, leg: [f64; 3]) -> (f64,
 }
 
 /// The angle from the x axis to (`along`, `across`), `across` ≥ 0, rad in [0, π]; undefined at the origin.
+///
+/// atan2(across, along), folded into [0, π/8] by two halvings of the octant.
 #[inline(always)]
 fn angle(across: f64, along: f64) -> f64 {
     let size = along.abs();

@@ -6,6 +6,8 @@ use super::{Leg, Reach};
 
 /// The legs of `inner` for which `keep(from, leg)` holds. What is dear to judge (segments against obstacles) is judged
 /// once per pair of waypoints: see [`PairMask`].
+///
+/// Order and features of what stays are the inner set's.
 #[derive(Debug, Clone)]
 pub struct Filtered<R, F> {
     /// The reach set.
@@ -28,6 +30,8 @@ impl<N, R: Reach<N>, F: Fn(&N, &Leg<N>) -> bool> Reach<N> for Filtered<R, F> {
 
 /// Two bits per unordered pair of waypoints: judged when first asked for, then remembered. A search looks at few of the
 /// pairs of a graph.
+///
+/// 2 n² bits, of which those above the diagonal are used.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PairMask {
     points: usize,
@@ -41,6 +45,8 @@ impl PairMask {
     }
 
     /// Whether the leg between waypoints `a` and `b` is allowed; asks `allowed` the first time.
+    ///
+    /// The answer must be symmetric and not depend on when it is asked.
     #[inline]
     pub fn allows(&mut self, a: u32, b: u32, allowed: impl FnOnce() -> bool) -> bool {
         let (low, high) = (a.min(b) as usize, a.max(b) as usize);

@@ -24,6 +24,7 @@ pub(super) struct Graph {
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
 impl Graph {
+    /// m; waypoints are finite.
     pub(super) fn new(points: &[Point3<f64>]) -> Self {
         let mut words = vec![[[f32::NAN; WORD]; 3]; points.len().div_ceil(WORD)];
         let mut farthest: f64 = 0.0;
@@ -38,14 +39,17 @@ impl Graph {
         Self { points: points.iter().map(|point| point.coords).collect(), words, margin }
     }
 
+    /// Exact, in the order of their indices.
     pub(super) fn points(&self) -> &[Vector3<f64>] {
         &self.points
     }
 
+    /// Words of 64 waypoints.
     pub(super) fn words(&self) -> usize {
         self.words.len()
     }
 
+    /// Exact, m.
     #[inline]
     pub(super) fn point(&self, index: u32) -> Vector3<f64> {
         self.points[index as usize]

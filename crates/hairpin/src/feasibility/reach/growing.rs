@@ -1,4 +1,7 @@
 //! A hull that grows by one point after the other: triangles that know their neighbours, and how a point is put in.
+//!
+//! Barber, Dobkin and Huhdanpaa, "The Quickhull algorithm for convex hulls" (ACM TOMS 22, 1996), with the plane's sign,
+//! not a merge of facets, deciding what is seen: what rounding tangles is told and tried again with a larger tolerance.
 
 use nalgebra::Vector3;
 
@@ -23,6 +26,8 @@ pub(super) struct Triangle {
 }
 
 /// What rounding has broken.
+///
+/// The horizon was no single loop, a triangle had no area, or points came back without end.
 pub(super) struct Tangled;
 
 /// The plane through three points, its normal by the right hand, and twice the triangle's area.
@@ -52,6 +57,7 @@ pub(super) struct Growing<'a> {
 }
 
 impl<'a> Growing<'a> {
+    /// The tetrahedron of four points, d below the triangle a, b, c as it turns.
     pub(super) fn new(points: &'a [Vector3<f64>], [a, b, c, d]: [u32; 4], tolerance: f64) -> Result<Self, Tangled> {
         let mut hull = Self {
             points,
@@ -72,6 +78,7 @@ impl<'a> Growing<'a> {
         Ok(hull)
     }
 
+    /// Appends a triangle; one without area is tangled.
     fn push(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> Result<(), Tangled> {
         let (plane, area) = plane(self.points, corners);
         if area.is_nan() || area <= 0.0 {
@@ -81,10 +88,12 @@ impl<'a> Growing<'a> {
         Ok(())
     }
 
+    /// To be called after [`Growing::sweep`].
     pub(super) fn into_triangles(self) -> Vec<Triangle> {
         self.triangles
     }
 
+    /// One a triangle, in their order.
     pub(super) fn planes(&self) -> Vec<Plane> {
         self.triangles.iter().map(|triangle| triangle.plane).collect()
     }

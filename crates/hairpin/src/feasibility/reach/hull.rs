@@ -99,6 +99,9 @@ pub struct Hull {
 impl Hull {
     /// Samples the robot's constant rotor-speed runs and takes their hull.
     ///
+    /// Rotor speeds are even between the robot's limits; runs begin level and at rest. Linear drag acts, quadratic drag
+    /// and aerodynamic moment do not.
+    ///
     /// # Errors
     /// [`NoHull`]: settings out of bounds, a flat set, or a failed [`Self::self_check`].
     pub fn new(robot: &Quadrotor, settings: &HullSettings) -> Result<Self, NoHull> {
@@ -125,6 +128,7 @@ impl Hull {
         Self::of(samples, settings.step, settings)
     }
 
+    /// The hull of end points; `carry` is φ(Δt), s.
     fn of(samples: Vec<Vector3<f64>>, carry: f64, settings: &HullSettings) -> Result<Self, NoHull> {
         let HullSettings { step, simd, .. } = *settings;
         Ok(Self { polytope: Polytope::hull(simd, &samples)?, samples, carry, step, simd })
@@ -132,6 +136,8 @@ impl Hull {
 
     /// Compares four runs from random velocities with the full model (quadratic drag and aerodynamic moment off) by
     /// the plain integrator: the ends must agree to 1 cm, and the polytope must hold all its samples.
+    ///
+    /// `speeds` must be those that were sampled, in their order. Seeded: the same four runs every time.
     ///
     /// # Errors
     /// [`NoHull::SelfCheck`] with the worst distance.
@@ -164,6 +170,8 @@ impl Hull {
     }
 
     /// Distance of the farthest sampled end, m; v_max of the scores is this ÷ step.
+    ///
+    /// From rest: max |R(u)|.
     pub fn farthest(&self) -> f64 {
         self.samples.iter().map(|sample| sample.norm()).fold(0.0, f64::max)
     }
@@ -184,6 +192,9 @@ impl Hull {
     /// drag, where it reads current + n·before + n(n+1)/2·K). Velocities are taken as averages.
     ///
     /// The same half-spaces scaled: O(facets).
+    ///
+    /// Necessary, not sufficient: the waypoints in between may be missing. With no steps left the end must be here, to
+    /// 1 nm.
     pub fn may_reach(&self, current: &Vector3<f64>, before: &Vector3<f64>, end: &Vector3<f64>, steps: u32) -> bool {
         let ratio = self.carry / self.step;
         let (mut leg, mut drift, mut scale) = (0.0, 0.0, 0.0);

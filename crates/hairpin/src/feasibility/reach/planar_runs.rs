@@ -10,6 +10,8 @@ use crate::robot::rover::Rover;
 /// |κ′| ≤ most_rate and stay within their bounds.
 ///
 /// Rovers, cars and differential drives by the same numbers that generator and certifier take.
+///
+/// Latency and lags are left out, slip and slopes too: a filter for searches, never a claim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanarVehicle {
     /// Least (negative: in reverse) and largest speed, m/s.
@@ -42,6 +44,8 @@ impl PlanarVehicle {
     }
 
     /// Its hulls for legs of `step` s.
+    ///
+    /// 7 speeds × 7 curvatures, 81 runs each, 120 headings.
     ///
     /// # Errors
     /// [`NoBodyHull`]: numbers that are not finite, runs that span no area.

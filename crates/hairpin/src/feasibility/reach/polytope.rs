@@ -61,6 +61,22 @@ impl Polytope {
     /// The convex hull of `points`, m. Coplanar triangles are merged into facets, and every facet is moved out by the
     /// last digits it takes to hold all the points.
     ///
+    /// Interior points cost a scan each. Thinner than 10⁻⁶ of its diagonal a set counts as flat.
+    ///
+    /// ```
+    /// use hairpin::feasibility::reach::Polytope;
+    /// use hairpin::math::simd::Simd;
+    /// use nalgebra::Vector3;
+    ///
+    /// // The corners of a cube of 2 m: twelve triangles, merged into six facets.
+    /// let corners: Vec<Vector3<f64>> =
+    ///     (0..8).map(|i| Vector3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)) * 2.0).collect();
+    /// let cube = Polytope::hull(Simd::default(), &corners)?;
+    /// assert!(cube.facets() == 6 && (cube.volume() - 8.0).abs() < 1e-9);
+    /// assert!(cube.contains(&Vector3::repeat(1.0)) && !cube.contains(&Vector3::repeat(2.1)));
+    /// # Ok::<(), hairpin::feasibility::reach::NoPolytope>(())
+    /// ```
+    ///
     /// # Errors
     /// [`NoPolytope`].
     pub fn hull(simd: Simd, points: &[Vector3<f64>]) -> Result<Self, NoPolytope> {
@@ -103,11 +119,15 @@ impl Polytope {
     }
 
     /// max n · x over the polytope, m: its support in direction `n`.
+    ///
+    /// `n` need not be of length 1; O(vertices).
     pub fn support(&self, n: &Vector3<f64>) -> f64 {
         self.vertices.iter().map(|v| n.dot(v)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Number of facets after merging.
+    ///
+    /// What one membership test costs at most, in groups of eight.
     pub fn facets(&self) -> usize {
         self.facets
     }
@@ -168,6 +188,7 @@ kernel! {
     }
 }
 
+/// Least and greatest coordinates.
 fn bounds(points: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
     let mut min = Vector3::repeat(f64::INFINITY);
     let mut max = -min;

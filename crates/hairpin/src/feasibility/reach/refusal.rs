@@ -14,6 +14,8 @@ type Probes = [[[f64; WORD]; 3]; WORDS];
 
 /// Numbers of `planes` such that each cuts off most of what those before it left of the box from `min` to `max`,
 /// counted on evenly spread points; those that cut off nothing more keep their order.
+///
+/// A permutation; membership does not depend on it, only how soon a point outside is refused.
 pub(super) fn refusal_order(simd: Simd, planes: &[Plane], min: &Vector3<f64>, max: &Vector3<f64>) -> Vec<u32> {
     let mut cuts = vec![[0; WORDS]; planes.len()];
     let mut order = Vec::with_capacity(planes.len());

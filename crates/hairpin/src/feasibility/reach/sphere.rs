@@ -5,6 +5,8 @@ use nalgebra::Vector3;
 use super::step::StepSet;
 
 /// A ball around the current waypoint.
+///
+/// |d| ≤ radius, whatever the velocity: neither drag nor momentum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
     /// Radius, m: top speed × step.

@@ -1,4 +1,8 @@
 //! Step-wise reach: which waypoints of one graph lie in a fixed set around where the velocity alone would carry.
+//!
+//! ```text
+//! next ∈ current + (current − previous) · carry/Δt + set        |next − current| ≤ v_max Δt        next ≠ current
+//! ```
 
 use nalgebra::{Point3, Vector3};
 
@@ -34,6 +38,8 @@ pub trait StepSet: Sync {
 }
 
 /// What a step-wise search assumes beside the set.
+///
+/// Every leg takes `step`, so that a trajectory of L waypoints takes (L − 1) · `step`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepSettings {
     /// Duration of every leg, s.
@@ -72,6 +78,8 @@ pub struct StepReach<'a, S> {
 
 impl<'a, S: StepSet> StepReach<'a, S> {
     /// Binds `set` to `points` (index 0 the start, the last the end).
+    ///
+    /// The set's step must be that of the settings.
     pub fn new(set: &'a S, points: &[Point3<f64>], settings: StepSettings) -> Self {
         let (min, max) = set.bounding_box();
         let drift = if settings.average_velocity { set.carry() / settings.step } else { 0.0 };
@@ -95,6 +103,9 @@ impl<'a, S: StepSet> StepReach<'a, S> {
     }
 
     /// Whether a leg of displacement `leg` (m) follows one of displacement `before` (0 at the start).
+    ///
+    /// leg − before · drift ∈ set and |leg| ≤ v_max Δt: the plain test that [`Self::successors`] answers for all at
+    /// once.
     pub fn feasible(&self, before: &Vector3<f64>, leg: &Vector3<f64>) -> bool {
         leg.norm_squared() <= self.longest * self.longest && self.set.contains(&(leg - before * self.drift))
     }

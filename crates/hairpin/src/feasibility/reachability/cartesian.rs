@@ -14,6 +14,8 @@ use crate::world::cell::Cell;
 /// How sure an answer must be.
 ///
 /// `Fast` agrees with `Certified` away from contact, and claims nothing.
+///
+/// `Certified` says "free" of the real numbers; what floating point cannot tell is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Level {
     /// Free is proven; what is neither proven free nor met is refused and called undecided.
@@ -40,6 +42,9 @@ pub struct CartesianSettings {
 /// A pair's refusal names the first part that it meets, in the cell's order.
 ///
 /// n²/2 segments times the parts of the cell, on one thread.
+///
+/// A move a–b is free if the capsule {a + t(b − a)} ⊕ ball(radius) meets no part. The point's own place is part of
+/// every move from it, so that a point inside a part has none.
 ///
 /// ```
 /// use hairpin::feasibility::reachability::{CartesianSettings, Level, cartesian};

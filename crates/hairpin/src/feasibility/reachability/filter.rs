@@ -24,6 +24,8 @@ const TINY: f64 = 1e-290;
 /// What the filter says of a segment.
 pub(super) const OPEN: u64 = 0;
 /// Proven clear.
+///
+/// One bit, so that lanes are or-ed.
 pub(super) const CLEAR: u64 = 1;
 /// Proven to meet the region.
 pub(super) const HIT: u64 = 2;
@@ -62,6 +64,9 @@ enum Kind {
 
 impl Filter {
     /// Prepares `points` against a region grown by `radius`; `None` for regions without a filter.
+    ///
+    /// Without one: words, regions without bounds, and points so far from the region that their coordinates lose 10⁻⁹
+    /// of it.
     pub(super) fn new(region: &Region, points: &[Point3<f64>], radius: f64) -> Option<Self> {
         if let Region::HalfSpace { .. } = region {
             return heights(region, points, radius);
@@ -107,6 +112,9 @@ impl Filter {
     }
 
     /// Judges the segments from point `i` to the points from `i + 1` on.
+    ///
+    /// `out` has one entry for each point behind `i`: [`OPEN`], [`CLEAR`] or [`HIT`]. The same bits at every level of
+    /// SIMD.
     pub(super) fn row(&self, simd: Simd, i: usize, out: &mut [u64]) {
         let [xs, ys, zs] = &self.coordinates;
         let from = [xs[i], ys[i], zs[i]];

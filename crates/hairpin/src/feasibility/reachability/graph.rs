@@ -6,6 +6,9 @@ use super::refusal::Refusal;
 /// For every ordered pair of N points: possible at a cost, or refused with a reason.
 ///
 /// n² entries; a reason is a number into a list of refusals.
+///
+/// What [`crate::search::heaviest`] takes is its [`matrix`](Self::matrix). Directed where moves are (joint mode), alike
+/// both ways in Cartesian mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReachabilityGraph {
     points: usize,
@@ -28,6 +31,8 @@ impl ReachabilityGraph {
     }
 
     /// Sets the costs of the moves that are possible.
+    ///
+    /// `cost(from, to)` ≥ 0, asked once for each possible move, row by row.
     pub fn with_costs(mut self, unit: &'static str, mut cost: impl FnMut(usize, usize) -> i64) -> Self {
         self.unit = unit;
         for from in 0..self.points {
@@ -67,6 +72,8 @@ impl ReachabilityGraph {
     }
 
     /// Why a move is refused.
+    ///
+    /// `None` of a possible move, and of a point to itself.
     pub fn refusal(&self, from: usize, to: usize) -> Option<&Refusal> {
         let reason = self.reasons[from * self.points + to];
         (from != to && reason > 0).then(|| &self.refusals[reason as usize - 1])

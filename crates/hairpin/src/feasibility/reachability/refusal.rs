@@ -119,6 +119,8 @@ impl Refusal {
     }
 
     /// Its name, for machines.
+    ///
+    /// `collision`, `reach`, `limit`, `singularity`, `arc` or `configuration`.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::ToolMeets { .. } | Self::Collides { .. } | Self::SelfCollides { .. } => "collision",
@@ -149,6 +151,8 @@ impl Refusal {
     }
 
     /// The sentence, with the names of the parts of the cell.
+    ///
+    /// `parts` in the cell's order; one that is missing is `?`.
     pub fn told<'r>(&'r self, parts: &'r [String]) -> Told<'r> {
         Told { refusal: self, parts }
     }
@@ -168,6 +172,7 @@ impl fmt::Display for Degrees {
     }
 }
 
+/// 0 the base, 1 to 6 links, 7 the tool.
 fn body(link: usize) -> String {
     match link {
         0 => "the base".into(),

@@ -7,6 +7,8 @@ use crate::math::outward::Real;
 /// What is proven of a segment a + t(b − a), t in [0, 1], grown by a radius.
 ///
 /// Both answers are of the real numbers: no later computation can contradict them.
+///
+/// `Undecided` is within rounding of contact, or beyond the effort allowed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
     /// It does not meet the region.

@@ -76,6 +76,8 @@ pub struct DependentRotors;
 
 /// The flatness map of one robot.
 ///
+/// Yaw 0 throughout: the body's x axis stays in the plane of world x and z.
+///
 /// ```
 /// use hairpin::feasibility::steering::Flatness;
 /// use hairpin::robot::quadrotor::QuadrotorDescription;
@@ -166,6 +168,8 @@ impl Flatness {
     ///
     /// With these a leg begins and ends level and without rates whatever its velocity: F = m g e₃, Ḟ = 0. Without drag
     /// all three are 0.
+    ///
+    /// World frame.
     pub fn level(&self, velocity: &Vector3<f64>) -> [Vector3<f64>; 3] {
         let v = [velocity.x, velocity.y, velocity.z];
         let (zero, speed) = ([0.0; 3], velocity.norm());
@@ -262,6 +266,8 @@ impl Flatness {
     }
 
     /// Attitude, rates and rotor speeds `tau` seconds into a leg.
+    ///
+    /// Rotor speeds are not held to any limit.
     pub fn body_state(&self, leg: &ProfileLeg, tau: f64) -> BodyState {
         let demand = self.demand(&flat_state(leg, tau));
         let [fx, fy, fz] = demand.force;
@@ -276,6 +282,8 @@ impl Flatness {
 }
 
 /// The flat state `tau` seconds into a leg.
+///
+/// `tau` in s since the leg's start.
 pub fn flat_state(leg: &ProfileLeg, tau: f64) -> FlatState<f64> {
     let d = |order| <[f64; 3]>::from(leg.derivative(tau, order));
     FlatState { velocity: d(1), acceleration: d(2), jerk: d(3), snap: d(4) }

@@ -49,6 +49,8 @@ impl LegJudge {
     /// The judge for `robot` in `world`. The robot's clearance radius is kept to obstacles, the world's keep-in margin
     /// to walls.
     ///
+    /// `limits` come on top of the robot's own rotor limits.
+    ///
     /// # Errors
     /// [`DependentRotors`].
     pub fn new(
@@ -79,6 +81,8 @@ impl LegJudge {
     }
 
     /// The speed that waypoint velocities are drawn up to, m/s: the task's limit or the robot's top speed.
+    ///
+    /// min of both.
     pub fn top_speed(&self) -> f64 {
         self.top_speed
     }
@@ -114,6 +118,9 @@ impl LegJudge {
     /// Necessary tests come first: mean speed; rotor speeds at both ends, in closed form from the end snap; speed,
     /// thrust, tilt and walls at four instants. What passes is proven by [`Self::prove`].
     ///
+    /// A duration that is not finite and positive is [`Limit::Duration`]. Most infeasible legs end at the tests before
+    /// the proof.
+    ///
     /// # Errors
     /// The limit that fails, where, and by how much.
     pub fn judge(&self, from: &LegEnd, to: &LegEnd, duration: f64) -> Result<ProfileLeg, Infeasible> {
@@ -133,6 +140,8 @@ impl LegJudge {
     }
 
     /// Proves that every limit holds at every instant of `leg`, which need not be level at its ends.
+    ///
+    /// Space first, then the body.
     ///
     /// # Errors
     /// As [`Self::judge`].

@@ -55,6 +55,7 @@ pub(super) struct BodyLimits {
 }
 
 impl BodyLimits {
+    /// Rotor speeds are compared by their squares.
     pub(super) fn new(robot: &Quadrotor, limits: Limits, settings: ProofSettings) -> Self {
         let weight = robot.mass * robot.gravity;
         Self {
@@ -110,11 +111,14 @@ impl BodyLimits {
         None
     }
 
+    /// Limit − acos(F_z/|F|), rad.
     fn tilt_margin(&self, vertical: f64, thrust: f64) -> f64 {
         self.limits.max_tilt - libm::acos((vertical / thrust).clamp(-1.0, 1.0))
     }
 
     /// The least margin at one instant, with its limit and part, in the limit's unit.
+    ///
+    /// Least as a share of the limit, so that limits of different units compare.
     pub(super) fn worst(&self, flatness: &Flatness, leg: &ProfileLeg, tau: f64) -> (Limit, usize, f64) {
         let demand: Demand<f64> = flatness.demand(&flat_state(leg, tau));
         let vertical = demand.force[2] / self.weight - LEAST_VERTICAL_THRUST;
@@ -139,6 +143,9 @@ impl BodyLimits {
     }
 
     /// Proves speed, thrust, tilt and rotor limits on the whole leg.
+    ///
+    /// Four intervals at a time in lanes, each degree-1 Taylor models of all demands; halved in two where neither
+    /// proven nor violated at its centre.
     ///
     /// # Errors
     /// A violation at an instant, or an interval that the settings do not let it decide.

@@ -26,7 +26,9 @@ pub(super) struct Solved {
 /// The ends of a leg.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ends<'a> {
+    /// Pose and curvature at the first waypoint.
     pub(super) from: &'a Planar,
+    /// Pose and curvature at the last.
     pub(super) to: &'a Planar,
     /// Distance between them, m.
     pub(super) distance: f64,
@@ -39,6 +41,9 @@ pub(super) struct Ends<'a> {
 }
 
 /// The drive that joins `ends`, or why there is none; counts what it tries to solve.
+///
+/// `Err` has the reason that came farthest in the order of [`LegRefusal`]. Deterministic: ways in their order, the
+/// first that keeps all limits.
 pub(super) fn judge(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -168,6 +173,7 @@ fn as_moved(site: &DriveSite, settings: &DriveSettings, from: &Planar, segments:
     motion
 }
 
+/// Length driven, turns in place none.
 fn metres(segments: &[Segment]) -> f64 {
     segments.iter().map(Segment::length_m).sum()
 }

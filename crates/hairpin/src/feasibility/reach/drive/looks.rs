@@ -8,6 +8,9 @@ use crate::trajectory::Drive;
 use crate::world::terrain::KeepOuts;
 
 /// Where the predicted motion of a drive is looked at, in order.
+///
+/// |p − look| ≤ metres for every place p of the step around a look: what is that much farther from a keep-out than the
+/// radius is clear of it between looks as well.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveLooks {
     /// x and y, m, and the metres of the step around them.

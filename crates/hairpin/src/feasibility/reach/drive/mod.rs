@@ -5,6 +5,17 @@
 //! in turn (forward, reverse, turns in place), each solved on the map and looked along for limits, keep-outs and torque
 //! → kept with its score. What was refused is counted by its one reason ([`DriveTally`]), which is what an empty
 //! campaign tells.
+//!
+//! | file | does |
+//! | --- | --- |
+//! | `sample` | places on the map where a body can stand |
+//! | `settings` | what legs may do, and how hard they are looked for |
+//! | `roadmap` | nodes, legs solved lazily, whole drives |
+//! | `ways`, `judge` | manoeuvres in turn, each solved by [`steering`](crate::feasibility::steering) |
+//! | `watch`, `looks` | limits, keep-outs and torque along the predicted motion |
+//! | `pace` | speeds of whole drives |
+//! | `stress`, `straight` | scores of legs, and of straight lines where there are no commands |
+//! | `tally` | reasons of refused legs, counted |
 
 mod judge;
 mod looks;

@@ -10,6 +10,12 @@ use crate::trajectory::drive::{Gear, Motion, Segment};
 /// How speeds follow each other along a drive.
 ///
 /// Speeds are of whole drives: they follow once the legs are known, by one pass forward and one back.
+///
+/// | pace | v along a leg |
+/// | --- | --- |
+/// | `Constant` | the commanded speed |
+/// | `Ramp` | v² linear in the metres from one joint to the next |
+/// | `Trapezoid` | up at a, the commanded speed, down at a |
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pace {
     /// The commanded speed all along: changes of gear and turns in place take no time to stop for.
@@ -21,6 +27,8 @@ pub enum Pace {
 }
 
 /// Speeds at waypoints, and how hard speed changes.
+///
+/// Both bounds of `waypoints` are cut to the commanded speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slopes {
     /// Least and greatest speed at which waypoints are passed, m/s: each has one of its own, drawn evenly.
@@ -36,6 +44,8 @@ const STREAM: u64 = u64::MAX;
 
 impl Pace {
     /// The speed at which waypoint `index` is passed unless something slows the vehicle there, m/s.
+    ///
+    /// A pure function of its arguments: every leg to and from a waypoint knows the same.
     pub(super) fn wish(&self, speed: f64, seed: u64, index: usize) -> f64 {
         match self {
             Self::Constant => speed,
@@ -60,6 +70,8 @@ impl Pace {
     /// A wish gives way to stops before and after turns in place and where the gear changes, to the steering's rate
     /// within both legs, and to what the acceleration makes of their metres: v² ≤ w² + 2 a L, w the speed at the other
     /// end.
+    ///
+    /// One profile a leg. Two passes, O(segments); with [`Pace::Constant`] wishes count for nothing.
     pub fn over(&self, speed: f64, wishes: &[f64], legs: &[&[Segment]], response: &Response) -> Vec<SpeedProfile> {
         let (slopes, even) = match self {
             Self::Constant => return vec![speed.into(); legs.len()],

@@ -57,6 +57,9 @@ impl DriveLegs {
 /// pose and curvature within the solver's precision and keeps every limit of [`DriveSettings`] on the way. Its
 /// [`LegFeatures`] have the speeds at both ends, the angle from the direction of travel to the straight
 /// line to the next waypoint as `turn`, and the score of the settings as `ground`.
+///
+/// n waypoints with M headings make up to (n M)² legs, of which a search asks few. Not shared between threads: what is
+/// solved lies in cells.
 pub struct DriveRoadmap<'a> {
     site: DriveSite<'a>,
     settings: DriveSettings,
@@ -84,6 +87,9 @@ impl<'a> DriveRoadmap<'a> {
     /// Every other waypoint gets M headings in which the body stands within its limits, fewer where it does not:
     /// towards a waypoint drawn from those at a leg's distance, every fourth anywhere. With `end` the last waypoint has
     /// that pose alone.
+    ///
+    /// `points` in m, x and y those of nodes; z is the ground's. Nothing is solved yet. Waypoints where the body stands
+    /// in no heading drawn have no node.
     pub fn new(
         site: DriveSite<'a>,
         points: &[Point3<f64>],
@@ -154,6 +160,8 @@ impl<'a> DriveRoadmap<'a> {
 
     /// The drive over `nodes`, with its speeds; `None` where two successive ones are no leg, and where a leg that was
     /// solved for the commanded speed has no commands for those that it really has, which lags of the steering can do.
+    ///
+    /// From rest to rest unless the pace is constant. At most five rounds of fitting commands to speeds.
     pub fn drive(&self, nodes: &[DriveNode]) -> Option<Drive> {
         let states: Vec<usize> = nodes.iter().map(|node| self.state(node)).collect();
         // Nothing leaves the last: its legs need not be solved.
@@ -192,6 +200,8 @@ impl<'a> DriveRoadmap<'a> {
     }
 
     /// The drive over solved `legs`, with its speeds.
+    ///
+    /// `None` where commands and speeds do not settle.
     fn joined(&self, mut legs: Vec<(Ends, Way, Box<[Segment]>)>) -> Option<Drive> {
         let profiles = self.settled(&mut legs)?;
         let DriveSettings { speed, turn_rate, .. } = self.settings;
@@ -248,6 +258,7 @@ impl<'a> DriveRoadmap<'a> {
         }
     }
 
+    /// Number of a node's pose.
     fn state(&self, node: &DriveNode) -> usize {
         let state = self.first[node.waypoint as usize] + node.heading;
         assert!(state < self.first[node.waypoint as usize + 1], "a node of another roadmap: {node:?}");
@@ -261,6 +272,7 @@ impl<'a> DriveRoadmap<'a> {
         DriveNode { waypoint: waypoint as u32, heading: state - self.first[waypoint] }
     }
 
+    /// Between two waypoints over the ground plan, m.
     fn distance(&self, a: usize, b: usize) -> f64 {
         apart(&self.points[a], &self.points[b])
     }
@@ -323,10 +335,12 @@ impl Reach<DriveNode> for DriveRoadmap<'_> {
     }
 }
 
+/// √(Δx² + Δy²).
 fn apart(a: &Point3<f64>, b: &Point3<f64>) -> f64 {
     libm::hypot(b.x - a.x, b.y - a.y)
 }
 
+/// Whether waypoints this far apart (m) may have a leg.
 fn at_a_leg(settings: &DriveSettings, distance: f64) -> bool {
     (settings.leg_m[0]..=settings.leg_m[1]).contains(&distance)
 }

@@ -14,6 +14,8 @@ use crate::world::terrain::Terrain;
 use crate::world::{Sampling, short_way};
 
 /// How places are spread.
+///
+/// Draws are of x and y; z is the map's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroundSampling {
     /// How many.

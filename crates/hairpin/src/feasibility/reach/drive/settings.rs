@@ -30,6 +30,8 @@ pub struct DriveSite<'a> {
 
 impl<'a> DriveSite<'a> {
     /// `rover` keeps all of itself out of `keep_outs`, whichever way it turns.
+    ///
+    /// `radius` is the vehicle's footprint.
     pub fn new(rover: &'a Rover, map: &'a ElevationMap, keep_outs: &'a KeepOuts) -> Self {
         Self { rover, map, keep_outs, radius: footprint(rover) }
     }
@@ -50,6 +52,8 @@ pub struct Manoeuvres {
 ///
 /// Looked at along the predicted motion every 3 cm or 0.03 rad at most, and again in a tenth of that where tilt or
 /// joints came near a limit.
+///
+/// Tilt and joints are held with 0.002 rad of room for what lies between looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveLimits {
     /// Largest angle between the body's z axis and the vertical, rad; infinite: none.
@@ -146,6 +150,8 @@ impl DriveSettings {
         low + (high - low) * hashed_unit(self.seed, &[DIRECTIONS, index as u64])
     }
 
+    /// What the predictor is asked: looks at most `steps` apart, and closer where commands change fast or the steering
+    /// lags.
     pub(super) fn course<'a>(
         &self,
         site: &DriveSite<'a>,

@@ -35,6 +35,8 @@ impl<'a> StraightLegs<'a> {
     }
 
     /// The score of the leg between two waypoints, each with its index, after a turn in place by `turn` rad.
+    ///
+    /// A pure number by [`GroundScore`]; lines are kept by their two indices, which must belong to one graph.
     pub fn stress(&self, from: (u32, &Point3<f64>), to: (u32, &Point3<f64>), turn: f64) -> f64 {
         let way = to.1 - from.1;
         let distance = libm::hypot(way.x, way.y);
@@ -54,6 +56,7 @@ impl<'a> StraightLegs<'a> {
         })
     }
 
+    /// What the body meets along the line, in the mean of the directions allowed.
     fn follow(&self, from: &Point3<f64>, to: &Point3<f64>, distance: f64) -> Met {
         let direction = mean(self.settings.directions);
         let yaw = libm::atan2(to.y - from.y, to.x - from.x) - direction;

@@ -3,6 +3,8 @@
 use thiserror::Error;
 
 /// The terms a score on the ground may have, each of one leg; larger is more stressful.
+///
+/// Numbers without a unit, of the order of 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Term {
     Slope,
@@ -66,12 +68,19 @@ pub struct UnknownTerms {
 /// What was met on a leg, from which its score is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Demands {
+    /// Largest |climb| over the tilt that scores 1.
     pub(super) slope: f64,
+    /// Largest |φ| over the same.
     pub(super) roll: f64,
+    /// ∫ |κ′| ds over 2 κ_max.
     pub(super) curvature_change: f64,
+    /// Mean share of slip.
     pub(super) slip: f64,
+    /// Mean speed as the crow flies over the commanded speed.
     pub(super) speed: f64,
+    /// Changes of gear.
     pub(super) reversals: f64,
+    /// Uniform in 0 … 1.
     pub(super) random: f64,
 }
 

@@ -49,6 +49,8 @@ impl LegRefusal {
     ];
 
     /// What it says of a leg, as in "12 …".
+    ///
+    /// In the plural, without the number.
     pub fn says(self) -> &'static str {
         match self {
             Self::Detour => "would need a longer way round than allowed",
@@ -68,6 +70,8 @@ impl LegRefusal {
 }
 
 /// Legs of one graph by what became of them.
+///
+/// asked = feasible + Σ refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DriveTally {
     /// Pairs of headed waypoints at a leg's distance that were asked for.
@@ -96,6 +100,7 @@ impl DriveTally {
         }
     }
 
+    /// One leg and what became of it.
     pub(super) fn count<T>(&mut self, outcome: &Result<T, LegRefusal>) {
         self.asked += 1;
         match outcome {

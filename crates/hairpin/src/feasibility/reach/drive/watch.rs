@@ -14,6 +14,7 @@ use crate::world::terrain::{ElevationMap, KeepOuts, NoGround, Terrain};
 /// tilt or joints, for on rough ground the body leans by up to a degree more between two of the first looks, or within
 /// a step of a keep-out.
 const STEPS: Steps = Steps { length: 0.03, angle: 0.03, least: 8 };
+/// Looks at a tenth of the distance.
 pub(super) const CLOSER: Steps = Steps { length: 0.003, angle: 0.003, least: 8 };
 const NEAR: f64 = 0.05;
 /// Room left below the limits of tilt and joints for what lies between two looks, rad.
@@ -28,6 +29,8 @@ const SIN_20: f64 = 0.342_020_143_325_668_7;
 const SAMPLES: u32 = 32;
 
 /// What was met on the way.
+///
+/// Over the whole drive, lean and slip as predicted.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Met {
     /// Largest |climb angle| along the direction of travel, rad.
@@ -40,6 +43,9 @@ pub(super) struct Met {
 
 /// Follows `motion` from `start` at `speed`, travelling in `direction` of the body, and looks at every limit on the
 /// way.
+///
+/// `Err` is the first limit that is broken on the way. Twice over where something came near: the second look's numbers
+/// are only for the limits.
 pub(super) fn watch(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -127,6 +133,7 @@ pub(super) fn curvature_change(start: f64, segments: &[Segment]) -> f64 {
     sum
 }
 
+/// One pass over a drive.
 struct Watcher<'a> {
     site: &'a DriveSite<'a>,
     settings: &'a DriveSettings,
@@ -260,6 +267,7 @@ fn on_map(map: &ElevationMap, at: &Planar) -> Result<(), LegRefusal> {
     map.patch(at.x, at.y).map(|_| ()).map_err(|place| no_ground(&place))
 }
 
+/// Off the map, or a cell without data.
 fn no_ground(place: &NoGround) -> LegRefusal {
     match place {
         NoGround::OffMap { .. } => LegRefusal::MapEdge,

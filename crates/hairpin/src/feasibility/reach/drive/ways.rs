@@ -30,6 +30,8 @@ impl Way {
 
     /// The flat drive of `query`, whose direction of travel turns by `swing` (rad): where the controls do not know of
     /// that, as one that looks along the mean direction.
+    ///
+    /// `query` is in the frame of the start. `None` where it is none within the bounds, or the solver finds no answer.
     pub(super) fn steer(self, settings: &DriveSettings, query: &Query, swing: f64) -> Option<SegmentList> {
         let bounds = &settings.bounds;
         let query = Query::new(query.start_curvature, query.goal, bounds).ok()?;
@@ -52,6 +54,8 @@ impl Way {
 }
 
 /// The ways of driving, in the order in which they are tried.
+///
+/// Cheapest manoeuvre first: forward, reverse, changes of gear, turns in place.
 pub(super) fn ways(settings: &DriveSettings) -> impl Iterator<Item = Way> {
     let Manoeuvres { forward, reverse, turn_in_place } = settings.manoeuvres;
     let along = !matches!(settings.control, Control::Arc | Control::TurnDriveTurn);

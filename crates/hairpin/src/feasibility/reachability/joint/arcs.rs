@@ -14,6 +14,8 @@ use crate::robot::arm::{Arm, Joints, Tool};
 use crate::world::cell::Cell;
 
 /// Every ordered triple of different points, \[start, point on the way, end\].
+///
+/// n(n − 1)(n − 2) triples together, in the order of start, via, end.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ArcGraph {
     /// Possible arcs with their costs in the cost's unit, in the order of their triples.
@@ -28,6 +30,9 @@ const SAME_TURN: f64 = 1e-9;
 /// Every arc from a station through another to a third: followed like any move, every link clear of the cell between
 /// samples, from the angles `joints` of its start to those of its end. The tool keeps its orientation, so that all
 /// three points must have the same.
+///
+/// In parallel over starts, the answer in one order. O(n³) arcs, each followed like a move. The angles at the point on
+/// the way must exist, though the arc need not pass it in that posture.
 pub fn arcs(
     arm: &Arm,
     tool: &Tool,

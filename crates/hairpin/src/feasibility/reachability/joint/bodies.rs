@@ -43,6 +43,8 @@ pub(super) enum Look {
 
 impl<'a> Bodies<'a> {
     /// Of an arm with a tool in a cell, everything to be kept `clearance` (m, ≥ 0) from the cell.
+    ///
+    /// The tool is a capsule from the flange's centre to its point, with its own radius.
     pub fn new(arm: &'a Arm, tool: &Tool, cell: &'a Cell, clearance: f64) -> Self {
         let links = arm.links.iter().enumerate();
         let mut capsules: Vec<(usize, Capsule)> =
@@ -61,6 +63,9 @@ impl<'a> Bodies<'a> {
 
     /// What can be said of all configurations within `turns` (rad a joint) of `q`, `at` the share of the move. Counts
     /// questions.
+    ///
+    /// Distances at `q` against radius + clearance + displacement, where a body's displacement is at most Σ_k turn_k ·
+    /// (its distance from axis k).
     pub(super) fn look(&self, q: &Joints, turns: &Joints, at: f64, queries: &mut u64) -> Look {
         let frames = self.arm.chain.frames(q);
         let axes = self.arm.chain.axes(&frames);
@@ -112,6 +117,8 @@ impl<'a> Bodies<'a> {
     }
 
     /// Why the arm cannot stand at `q`; `None` where it can. `at` is told.
+    ///
+    /// What is undecided is refused as well.
     pub fn standing(&self, q: &Joints, at: f64) -> Option<Refusal> {
         match self.look(q, &[0.0; AXES], at, &mut 0) {
             Look::Clear => None,
@@ -157,6 +164,7 @@ fn triangle_clear(region: &Region, corners: &[Vector3<f64>; 3], room: f64, depth
         && triangle_clear(region, &[middle, *b, *c], room, depth + 1)
 }
 
+/// A capsule in the base: number, both ends (m), radius (m).
 fn place(body: usize, capsule: &Capsule, frames: &Frames) -> (usize, Point3<f64>, Point3<f64>, f64) {
     let frame: &Isometry3<f64> = &frames[body.min(AXES)];
     (body, frame * capsule.a, frame * capsule.b, capsule.radius)

@@ -7,6 +7,8 @@ use crate::math::rotation::angle_between;
 use crate::trajectory::program::Arc;
 
 /// An arc from its start through a point to its end.
+///
+/// Within 0 … 240°; points at least 0.1 mm apart and at least 1° out of line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {
     arc: Arc,
@@ -55,6 +57,8 @@ impl Circle {
     }
 
     /// The point at `s` in [0, 1].
+    ///
+    /// Base frame, m; evenly along the arc.
     pub fn at(&self, s: f64) -> Vector3<f64> {
         self.arc.point(s).coords
     }

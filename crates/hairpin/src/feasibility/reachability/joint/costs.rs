@@ -31,6 +31,8 @@ const PERIOD: f64 = 0.004;
 /// A trapezoid over s from rest to rest: speed v, acceleration a, time T.
 ///
 /// In the move's parameter s in [0, 1].
+///
+/// s(0) = 0, s(T) = 1, at rest at both; a triangle where the speed is not reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trapezoid {
     /// Largest ds/dt, 1/s.
@@ -93,10 +95,14 @@ impl Cost {
     }
 
     /// Of the free move `motion` from the joint angles `start`; `entry` is its place in a table. Never negative.
+    ///
+    /// `start` are the joint angles (rad) that the move begins at, `entry` = from · n + to. Rounded to the nearest
+    /// whole unit.
     pub fn of_move(&self, arm: &Arm, tool: &Tool, motion: &Motion, start: &Joints, entry: usize) -> i64 {
         self.value(arm, tool, motion, start, entry).round() as i64
     }
 
+    /// The same before rounding, in the unit.
     fn value(&self, arm: &Arm, tool: &Tool, motion: &Motion, start: &Joints, entry: usize) -> f64 {
         match self {
             Self::Distance => 1e6 * distance(arm, tool, motion),
@@ -171,6 +177,7 @@ fn sample(arm: &Arm, tool: &Tool, motion: &Motion, start: &Joints) -> Sampled {
     Sampled { q, first, second }
 }
 
+/// m; of joint moves the sum of 32 chords.
 fn distance(arm: &Arm, tool: &Tool, motion: &Motion) -> f64 {
     match motion {
         Motion::Joint { start, end } => {

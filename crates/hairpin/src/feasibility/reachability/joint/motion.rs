@@ -40,12 +40,16 @@ pub enum Motion {
 
 impl Motion {
     /// The straight move between two poses `base_from_tcp`.
+    ///
+    /// The shorter of the two turns; of a half turn either.
     pub fn linear(start: &Isometry3<f64>, end: &Isometry3<f64>) -> Self {
         let shift = end.translation.vector - start.translation.vector;
         Self::Linear { start: *start, shift, turn: turn(&start.rotation, &end.rotation) }
     }
 
     /// The move on a circle; its end takes the orientation of `end`.
+    ///
+    /// The circle must begin at the start's point.
     pub fn circular(start: &Isometry3<f64>, circle: Circle, end: &UnitQuaternion<f64>) -> Self {
         Self::Circular { start: *start, circle, turn: turn(&start.rotation, end) }
     }

@@ -55,6 +55,8 @@ impl Default for JointSettings {
 }
 
 /// The graph, and the joint angles that it stands for.
+///
+/// `joints`, `from_home` and `to_home` have one entry a point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointGraph {
     /// Moves between the points.
@@ -70,6 +72,8 @@ pub struct JointGraph {
 }
 
 /// A way in which a refused move would be possible.
+///
+/// For the straight move to the same point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alternative {
     /// Configuration of the first point.
@@ -82,6 +86,9 @@ pub struct Alternative {
 /// not, and what it costs. Both moves in joints between home and every point are checked as well.
 ///
 /// n² moves followed, each from its start's posture; 2n more from home and back.
+///
+/// A station's angles stand for it in every move: a straight move that arrives at others of the same pose is refused
+/// ([`Refusal::Configuration`]). Single-threaded, so that questions are counted in one order.
 pub fn joint(
     arm: &Arm,
     tool: &Tool,

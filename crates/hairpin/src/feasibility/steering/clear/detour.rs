@@ -1,4 +1,7 @@
 //! Detours: drives in several legs, over poses beside what is in the way.
+//!
+//! A best-first search over poses: key = metres driven + straight rest to the goal, which no way around can beat. Poses
+//! are added as places turn out to be in the way, at most [`PLACES`] of them, each left and right and in both headings.
 
 use super::hazards::Hazards;
 use super::ways::{Way, every, shortest};
@@ -36,6 +39,8 @@ struct Beside {
 
 /// A clear drive over poses beside what is in the way, `first` of all, and the legs that were looked for: best first by
 /// what is driven and the straight rest.
+///
+/// `None` where no detour is clear within [`LEGS`] legs.
 pub(super) fn detour(
     query: &Query,
     bounds: &Curvatures,
@@ -117,6 +122,7 @@ fn seen(from: &Goal, to: &Goal) -> Query {
     Query { start_curvature: from.curvature, goal }
 }
 
+/// `None` where a list has no room for both.
 fn joined(first: &SegmentList, second: &[Segment]) -> Option<SegmentList> {
     let mut all = *first;
     all.append(second).is_ok().then_some(all)

@@ -16,6 +16,8 @@ const ASIDE: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
 /// The default control with a constant direction of travel goes around them, as [`solve`] does. Other families that
 /// have parameters to spare ([`Problem::spare`]) are bent along the ways that it finds, kept at several distances, and
 /// along the words of Dubins, until one stays clear. Those without any answer with their one drive, which is checked.
+///
+/// Beside the drive the deepest intrusion of its path; `None` of it: clear all along. Intrusions are of the plane.
 pub fn generate(
     problem: &Problem,
     control: Control,

@@ -11,6 +11,8 @@ use crate::trajectory::drive::{Planar, SegmentList};
 use crate::world::terrain::{KeepOuts, Terrain};
 
 /// What a drive keeps away from, and how.
+///
+/// Frames: places in the map, drives from `start` of the question.
 #[derive(Debug, Clone, Copy)]
 pub struct Around<'a> {
     /// The places, in the map.
@@ -39,6 +41,9 @@ const ADDED: [f64; 4] = [0.0, 0.05, 0.15, 0.4];
 
 /// Commands from `start` whose motion on the ground ends at `goal` and stays clear of all places; `over` as in
 /// [`rough::solve_until`].
+///
+/// Four attempts at most, which keep 0, 5, 15 and 40 cm more than asked for in the plane; `iterations` counts the
+/// predictions of all.
 pub fn solve_on_ground<T: Terrain>(
     course: &Course<'_, T>,
     start: &Planar,
@@ -112,6 +117,8 @@ fn attempt<T: Terrain>(
 
 /// Where the predicted motion of `segments` comes too near to `keep_outs`, at its worst; what cannot be predicted does
 /// not.
+///
+/// The wait before late commands act is looked along as well. `radius` in m.
 pub fn motion<T: Terrain>(
     course: &Course<'_, T>,
     start: &Planar,

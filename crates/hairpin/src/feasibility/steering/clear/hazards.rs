@@ -8,6 +8,8 @@ use crate::world::terrain::KeepOuts;
 /// Places to keep out of, as a drive from some pose meets them.
 ///
 /// One list serves drives in any frame: places stay in the map, drives bring their start.
+///
+/// The frame of drives: origin at `start`, x along its direction of travel.
 #[derive(Debug, Clone, Copy)]
 pub struct Hazards<'a> {
     /// The places, in the map.
@@ -42,6 +44,8 @@ const TURN: f64 = 0.5;
 /// m; 0 for a vehicle that is a point.
 ///
 /// max of ‖(|x| + r, y)‖ over wheels of radius r and of the underside's farthest corner.
+///
+/// Level, joints at 0: leaning and joints only bring wheels nearer to the axis as seen from above.
 pub fn footprint(rover: &Rover) -> f64 {
     let (wheels, count, radius) = rover.suspension.wheels(&[0.0; 3]);
     let belly = &rover.body.belly;
@@ -62,6 +66,8 @@ impl Hazards<'_> {
     ///
     /// A look that finds room d vouches for the next d metres; where d is small, chords do, widened by ½√(ℓ² − c²): no
     /// curve of length ℓ leaves its chord of length c by more.
+    ///
+    /// Turns in place turn the circle about its own middle and need no look.
     pub fn intrusion(&self, segments: &[Segment]) -> Option<Intrusion> {
         self.worst(segments, f64::INFINITY)
     }
@@ -115,6 +121,7 @@ impl Hazards<'_> {
         check.worst
     }
 
+    /// From the frame of the flat solver.
     fn in_map(&self, x: f64, y: f64) -> [f64; 2] {
         let (sin, cos) = libm::sincos(self.start.yaw + self.direction);
         [self.start.x + cos * x - sin * y, self.start.y + sin * x + cos * y]
@@ -143,6 +150,8 @@ impl<'a> MotionCheck<'a> {
     }
 
     /// Looks along the way from where the vehicle was seen last; steps are arcs, which leave their chord c by c Δψ/8.
+    ///
+    /// Places must come in the order of the motion.
     pub fn see(&mut self, at: &Planar) {
         let here = [at.x, at.y];
         match self.last {
@@ -172,6 +181,7 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
+    /// distance − radius, m.
     fn room(&self, [x, y]: [f64; 2]) -> f64 {
         self.keep_outs.distance(x, y) - self.radius
     }
@@ -187,6 +197,7 @@ impl Check<'_> {
         self.line(from, to, bulge, after_m);
     }
 
+    /// Everything within `bulge` (m) of a segment.
     fn line(&mut self, from: [f64; 2], to: [f64; 2], bulge: f64, after_m: f64) {
         let Some(nearest) = self.keep_outs.nearest_to_segment(from, to) else { return };
         let depth = self.radius + bulge - nearest.distance;

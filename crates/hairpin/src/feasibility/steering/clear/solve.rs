@@ -7,6 +7,8 @@ use crate::feasibility::steering::shooting::query::{Curvatures, Query};
 use crate::feasibility::steering::shooting::solve::{self, Choices, Outcome, Solution};
 
 /// A solution, and where it comes too near to a place to keep out of.
+///
+/// `intrusion.depth` is what the best drive lacks, so that 0 cannot occur in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cleared {
     /// The drive that stays clear; where none was found, the one that comes least near.

@@ -8,8 +8,11 @@ use crate::trajectory::drive::{Segment, SegmentList};
 /// A drive to the goal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Way {
+    /// In the frame of the start.
     pub(super) segments: SegmentList,
+    /// Which kind it is.
     pub(super) method: Method,
+    /// m.
     pub(super) length: f64,
 }
 
@@ -47,6 +50,7 @@ pub(super) fn shortest(query: &Query, bounds: &Curvatures, choices: &Choices) ->
     cc::steer(query, bounds, gears(choices)).map(|path| Way::of(&path))
 }
 
+/// Both where reversals are allowed, else the preferred one.
 fn gears(choices: &Choices) -> Gears {
     if choices.reversals { Gears::Both } else { Gears::Only(choices.gear) }
 }

@@ -6,6 +6,16 @@ use super::flat;
 ///
 /// Parameters beyond the conditions ([`Control::parameters`] − [`Control::conditions`]) are free to keep bounds, lower
 /// a cost or go around places.
+///
+/// | name | κ | parameters | conditions |
+/// | --- | --- | --- | --- |
+/// | `arc` | constant | 2 | 2 |
+/// | `turn-drive-turn` | 0, and two angles | 3 | 3 |
+/// | `cubic` | Σ aᵢ sⁱ, i ≤ 3 | 5 | 5 |
+/// | `quintic` | Σ aᵢ sⁱ, i ≤ 5 | 7 | 5 |
+/// | `time-polynomial` | Σ aᵢ tⁱ, i ≤ 5 | 7 | 5 |
+/// | `knots` | natural cubic spline | 9 | 5 |
+/// | `velocity-polynomial` | ω(t)/v(t) | 7 | 5 |
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Control {
     /// Constant curvature: (κ, L). Heading and curvature at the end are as they come.
@@ -52,6 +62,8 @@ impl Control {
     }
 
     /// The control of this name.
+    ///
+    /// `None` for any other word.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|control| control.name() == name)
     }

@@ -21,6 +21,9 @@ pub enum Gears {
 /// stands.
 ///
 /// Cusps cost no length here and time elsewhere: the vehicle stands there.
+///
+/// At most eleven segments: a lead, four turns of up to three, a straight between, a lead; all in the frame of the
+/// start.
 #[derive(Debug, Clone, Copy)]
 pub struct Path {
     length_m: f64,
@@ -61,6 +64,9 @@ const STRAIGHT: f64 = 1e-10;
 /// clothoid, arc, clothoid (Fraichard and Scheuer, IEEE T-RO 20, 2004) that may stand at cusps with their wheels at the
 /// stop (Banzhaf et al., IEEE ITSC 2017). Each is the shortest of its family, not of all paths. `None` only where
 /// `query` or `bounds` hold numbers that [`Query::new`] refuses.
+///
+/// Words at the largest curvature and at half of it, from each anchor of the start to each of the goal; a word is given
+/// up as soon as it is longer than the best.
 pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
     let mut best: Option<Path> = None;
     for_each_anchoring(query, bounds, gears, |circle, family, from, to, gear| {
@@ -77,6 +83,8 @@ pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
 }
 
 /// Hands over every path of these words that solves `query` within `bounds`, in no order.
+///
+/// A few hundred at most.
 pub fn every(query: &Query, bounds: &Curvatures, gears: Gears, mut take: impl FnMut(Path)) {
     for_each_anchoring(query, bounds, gears, |circle, family, from, to, gear| {
         if let Some(straight) = straight_ahead(family, from, to) {
@@ -163,6 +171,7 @@ fn anchors(pose: Pose, curvature: f64, circle: &Circle, family: Family, along: f
 }
 
 impl Anchor {
+    /// Of its lead, m.
     fn length(&self) -> f64 {
         self.lead.map_or(0.0, |lead| lead.length)
     }

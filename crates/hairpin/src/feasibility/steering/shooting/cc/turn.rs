@@ -21,7 +21,9 @@ const UNDER: f64 = 1.0 - 1e-12;
 /// Which way a turn goes, as signs: `sense` +1 left, −1 right; `gear` +1 forward, −1 in reverse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Way {
+    /// 1 left, −1 right.
     pub(super) sense: f64,
+    /// 1 forward, −1 in reverse.
     pub(super) gear: f64,
 }
 
@@ -62,6 +64,8 @@ pub(super) enum Body {
 }
 
 /// A turn as it is driven.
+///
+/// Deflection = lead turning + sense · gear · arc + lead turning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Turn {
     pub(super) way: Way,
@@ -150,6 +154,8 @@ impl Circle {
     }
 
     /// Off the circle to `curvature`: on it in the other gear, backwards in time.
+    ///
+    /// Centre and turning in the frame of the turn's end.
     pub(super) fn exit_to(&self, way: Way, curvature: f64) -> Lead {
         let on = self.entry_from(Way { gear: -way.gear, ..way }, curvature);
         Lead { turning: -on.turning, ..on }

@@ -4,6 +4,10 @@
 //! that meet at a heading θ have centres Rot(θ)·D apart, with D known, and a straight of length L adds (±L, 0) to it.
 //! Each word is then a triangle, or less, between the first and the last centre. At a cusp the vehicle stands: it may
 //! come there at zero curvature, or at full curvature and swing its wheels over.
+//!
+//! Reeds and Shepp, "Optimal paths for a car that goes both forwards and backwards" (Pacific J. Math. 145, 1990): C S
+//! C, C C C and, with cusps, C|C|C, C|CC, CC|C, CC|CC, C|CC|C, C|CSC, CSC|C, C|CSC|C. With clothoids none of these need
+//! be optimal.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -21,8 +25,11 @@ pub(super) enum Family {
 /// A pose in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pose {
+    /// m.
     pub(super) x: f64,
+    /// m.
     pub(super) y: f64,
+    /// rad, not wrapped.
     pub(super) heading: f64,
 }
 
@@ -37,16 +44,22 @@ impl Pose {
 /// A straight before the turn `before`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Straight {
+    /// Index of the turn that follows it.
     pub(super) before: usize,
+    /// 1 forward, −1 in reverse.
     pub(super) gear: f64,
+    /// m, ≥ 0.
     pub(super) length: f64,
 }
 
 /// A path that was found.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plan {
+    /// Metres driven, turns and straight.
     pub(super) length: f64,
+    /// In the order they are driven.
     pub(super) turns: [Option<Turn>; 4],
+    /// At most one in a word.
     pub(super) straight: Option<Straight>,
 }
 
@@ -101,6 +114,7 @@ pub(super) fn every(circle: &Circle, family: Family, from: (Pose, f64), to: (Pos
 }
 
 impl Ends {
+    /// Curvatures in 1/m, as the vehicle drives them.
     fn new(circle: &Circle, (start, k0): (Pose, f64), (end, kf): (Pose, f64)) -> Self {
         Self {
             first: WAYS.map(|way| {
@@ -364,6 +378,7 @@ fn angle(adjacent: f64, hypotenuse: f64) -> f64 {
     libm::acos((adjacent / hypotenuse).clamp(-1.0, 1.0))
 }
 
+/// √(x² + y²).
 fn norm((x, y): (f64, f64)) -> f64 {
     (x * x + y * y).sqrt()
 }

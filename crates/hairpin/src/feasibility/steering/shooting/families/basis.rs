@@ -36,6 +36,8 @@ impl Basis {
     }
 
     /// How many there are.
+    ///
+    /// Entries of a [`Row`] beyond are 0.
     pub(super) fn count(&self) -> usize {
         match self {
             Self::Polynomial(order) | Self::Ratio(order, _) => order + 1,
@@ -44,6 +46,8 @@ impl Basis {
     }
 
     /// Bᵢ(u) and dBᵢ/du.
+    ///
+    /// `u` in 0 … 1. A ratio has no value where its speed is 0 inside.
     pub(super) fn at(&self, u: f64) -> (Row, Row) {
         match self {
             Self::Polynomial(order) => legendre(*order, u),
