@@ -35,6 +35,8 @@ pub struct WitnessNode {
 /// How a roadmap is drawn.
 ///
 /// More velocities find more, at the square of their number.
+///
+/// The default: 8 velocities, leg times from 0.8 s to 4 s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoadmapSettings {
     /// Velocities per waypoint, M; 0 is taken as 1.
@@ -83,6 +85,10 @@ impl WitnessLegs {
 
 /// The waypoint states of one graph and the legs between them, judged when first asked for and kept. One graph is one
 /// task on one thread.
+///
+/// State (waypoint, velocity): level, without rates, with the acceleration and jerk that this velocity asks for there.
+/// A leg is the polynomial of degree 7 between two states at the shortest rung of times for which [`LegJudge::judge`]
+/// proves it.
 #[derive(Debug)]
 pub struct Roadmap<'a> {
     judge: &'a LegJudge,
@@ -105,6 +111,9 @@ impl<'a> Roadmap<'a> {
     ///
     /// Velocity k of a waypoint has a speed drawn from the k-th of M equal parts of [0, top speed] and points towards a
     /// waypoint drawn from those that a leg at that speed can reach (the nearest one if there is none).
+    ///
+    /// `points` in m, two or more. Nothing is judged yet. Each waypoint draws from its own stream, so that adding
+    /// waypoints behind changes no velocity's speed.
     pub fn new(judge: &'a LegJudge, points: &[Point3<f64>], settings: &RoadmapSettings) -> Self {
         let rungs = settings.timing.rungs();
         let longest = settings.timing.range().1;
@@ -131,6 +140,8 @@ impl<'a> Roadmap<'a> {
     }
 
     /// The same, with `legs` of one that was drawn alike.
+    ///
+    /// Drawn alike: the same judge, points and settings.
     ///
     /// # Panics
     /// If it has another number of states.
@@ -160,6 +171,8 @@ impl<'a> Roadmap<'a> {
     }
 
     /// Number of legs between all states; judges every leg that was not asked for yet.
+    ///
+    /// (n M)² judgements at worst.
     pub fn legs_count(&self) -> usize {
         (0..self.states.len()).map(|state| self.kept_legs(state).len()).sum()
     }
@@ -197,6 +210,8 @@ impl<'a> Roadmap<'a> {
     /// `None` where the straight line alone takes longer at the speed limit than the longest leg may.
     ///
     /// The evidence is that of the leg time nearest to what the line takes at the mean of the speeds at both ends.
+    ///
+    /// For telling why nothing was found: every refused candidate is judged once more.
     pub fn candidates(&self, from: &WitnessNode) -> Vec<Result<WitnessNode, Option<Infeasible>>> {
         let (left, own) = (self.state(from), from.waypoint as usize);
         let longest = self.rungs.last().copied().unwrap_or(0.0);
@@ -223,6 +238,9 @@ impl<'a> Roadmap<'a> {
 
     /// The trajectory over `nodes` as polynomials, built once for what is returned.
     ///
+    /// Legs are judged again, since only their rungs are kept. Velocity and, for the model, acceleration and jerk agree
+    /// where legs meet.
+    ///
     /// # Errors
     /// Why two successive nodes are no leg: the evidence of the longest leg time.
     pub fn profile(&self, nodes: &[WitnessNode]) -> Result<Profile, Infeasible> {
@@ -235,6 +253,7 @@ impl<'a> Roadmap<'a> {
         Ok(Profile { legs: nodes.windows(2).map(leg).collect::<Result<_, _>>()? })
     }
 
+    /// Number of a node's state.
     fn state(&self, node: &WitnessNode) -> usize {
         let state = self.first[node.waypoint as usize] + node.velocity;
         assert!(state < self.first[node.waypoint as usize + 1], "a node of another roadmap: {node:?}");
@@ -256,6 +275,7 @@ impl<'a> Roadmap<'a> {
             .map(|rung| rung as u32)
     }
 
+    /// Time of the straight line at the speed limit, s.
     fn fastest(&self, from: &Point3<f64>, to: &Point3<f64>) -> f64 {
         (to - from).norm() / self.judge.limits().max_speed
     }
@@ -283,6 +303,7 @@ impl<'a> Roadmap<'a> {
         legs
     }
 
+    /// One leg to the end judged for each state.
     fn find_arrivals(&self) -> Vec<bool> {
         let end = self.states.len() - 1;
         let goal = self.points[self.points.len() - 1];
@@ -293,6 +314,7 @@ impl<'a> Roadmap<'a> {
             .collect()
     }
 
+    /// Infinite where no waypoint has a leg to the end.
     fn find_approach(&self) -> Vec<f64> {
         let arrivals = self.arrivals.get_or_init(|| self.find_arrivals());
         let near: Vec<Point3<f64>> = (0..self.points.len())

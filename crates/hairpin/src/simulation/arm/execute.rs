@@ -52,7 +52,7 @@ impl Plan<'_> {
     ///
     /// Linear in the duration over `interpolation`.
     ///
-    /// Per set point q_k follows by [`Servo`], then by its play; the pose recorded is forward(q) · tool · offset, which
+    /// Per set point q_k follows by its servo, then by its play; the pose recorded is forward(q) · tool · offset, which
     /// noise of an instrument is added to. Three streams of `seed`: pauses, and what is measured, so that faults move
     /// no noise.
     ///

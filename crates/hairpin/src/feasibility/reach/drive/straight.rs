@@ -36,7 +36,7 @@ impl<'a> StraightLegs<'a> {
 
     /// The score of the leg between two waypoints, each with its index, after a turn in place by `turn` rad.
     ///
-    /// A pure number by [`GroundScore`]; lines are kept by their two indices, which must belong to one graph.
+    /// A pure number by the settings' score; lines are kept by their two indices, which must belong to one graph.
     pub fn stress(&self, from: (u32, &Point3<f64>), to: (u32, &Point3<f64>), turn: f64) -> f64 {
         let way = to.1 - from.1;
         let distance = libm::hypot(way.x, way.y);

@@ -3,6 +3,8 @@
 use crate::trajectory::speed::Speeds;
 
 /// What the argument u ∈ [0, 1] of controls measures, and σ(u), the share of the metres that is driven by then.
+///
+/// σ rises from 0 to 1; dσ/du ≥ 0 and is 0 only where the vehicle stands.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Clock {
     /// Share of the metres: σ = u.
@@ -20,6 +22,8 @@ pub(super) enum Clock {
 
 impl Clock {
     /// Seconds of `speeds`, which move.
+    ///
+    /// Length and duration are those of the profile.
     pub(super) fn seconds(speeds: Speeds) -> Self {
         Self::Seconds { speeds, length: speeds.length(), duration: speeds.duration() }
     }
@@ -50,6 +54,8 @@ impl Clock {
     }
 
     /// u(σ), the inverse of [`Clock::share`].
+    ///
+    /// Of polynomials by Newton's steps within a bracket, to the last digits.
     pub(super) fn at_share(&self, share: f64) -> f64 {
         match self {
             Self::Metres => share,

@@ -36,7 +36,9 @@ pub(super) struct Task {
     pub(super) start: f64,
     /// κ at the end; `None` where it is as it comes.
     pub(super) end: Option<f64>,
+    /// In the task's own units, where the largest curvature is 1.
     pub(super) bounds: Curvatures,
+    /// What is lowered beside.
     pub(super) cost: Cost,
     /// What a drive of less cost may be at the longest, m.
     pub(super) longest: f64,
@@ -47,18 +49,22 @@ pub(super) struct Task {
 /// Parameters and length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Free {
+    /// p; those beyond the family's count stay 0.
     pub(super) parameters: Row,
+    /// L > 0.
     pub(super) length: f64,
 }
 
 /// How a descent ended.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fit {
+    /// The drive.
     pub(super) free: Free,
     /// Largest of the constraints' errors, m, rad, 1/m.
     pub(super) miss: f64,
     /// Largest |κ|/most or |κ′|/most_rate at the nodes.
     pub(super) bends: f64,
+    /// Steps taken, polishing included.
     pub(super) iterations: u32,
 }
 
@@ -104,15 +110,18 @@ struct Shot {
 }
 
 impl Shot {
+    /// max |c|; infinite where one is no number.
     fn miss(&self) -> f64 {
         self.constraints.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) })
     }
 
+    /// ‖c‖.
     fn norm(&self) -> f64 {
         self.constraints.iter().map(|c| c * c).sum::<f64>().sqrt()
     }
 }
 
+/// Σ aᵢ bᵢ.
 fn dot(a: &Row, b: &Row) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -191,6 +200,7 @@ struct Squares {
 }
 
 impl Squares {
+    /// One node's share of the sums.
     fn add(&mut self, parameters: &Row, row: &Row, weight: f64) {
         let value = dot(parameters, row);
         self.whole += weight * value * value;
@@ -273,6 +283,9 @@ impl Shot {
 }
 
 /// Descends from `start`, as many steps as `settings` say at most; `observe` sees the miss and the bends after each.
+///
+/// At most three descents in a row, each with a hundredfold weight on what exceeds the bounds, from where the last one
+/// ended.
 pub(super) fn descend(
     grid: &Grid,
     task: &Task,

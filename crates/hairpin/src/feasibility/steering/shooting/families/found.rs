@@ -14,18 +14,27 @@ const EXACT: f64 = 1e-7;
 
 /// What a descent came to.
 pub(super) struct Found {
+    /// In units of the least radius.
     pub(super) fit: Fit,
     /// How deep it comes into what is in the way, m.
     pub(super) depth: f64,
     /// What it costs by what was asked for.
     pub(super) cost: f64,
+    /// What it was held to.
     pub(super) task: Task,
     /// What it was found on.
+    ///
+    /// The functions that its parameters are of.
     pub(super) basis: Basis,
+    /// What they are functions of.
     pub(super) clock: Clock,
     /// The commands that are handed out, by how much they differ from the family, and what they are worth.
+    ///
+    /// Metres and 1/m, driven forward.
     pub(super) segments: SegmentList,
+    /// 1/m.
     pub(super) fit_error: f64,
+    /// By [`judge`], of the segments.
     pub(super) status: Status,
 }
 
@@ -60,6 +69,8 @@ pub(super) fn cost(segments: &[Segment], asked: Cost) -> f64 {
 }
 
 /// Judges by the numbers that are handed out, not by those that made them.
+///
+/// End by quadrature of the commands, |κ| and |κ′| by their exact extremes. Of several failures the goal's comes first.
 pub(super) fn judge(
     segments: &[Segment],
     task: &Task,

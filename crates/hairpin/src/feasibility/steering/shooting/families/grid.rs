@@ -26,6 +26,8 @@ pub(super) struct Node {
 }
 
 /// The table.
+///
+/// A fixed table on the stack: [`PANELS`] panels of 8 nodes.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
     nodes: [Node; POINTS * PANELS],
@@ -116,6 +118,8 @@ impl Grid {
     }
 
     /// The nodes, in their order.
+    ///
+    /// σ rises along them.
     pub(super) fn nodes(&self) -> &[Node] {
         &self.nodes[..self.len]
     }

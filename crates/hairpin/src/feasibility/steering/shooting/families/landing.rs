@@ -10,6 +10,9 @@ const MOST_PANELS: f64 = 1024.0;
 
 /// x, y and change of heading of a forward drive that begins at the origin along x, its direction of travel turning
 /// evenly by `swing`.
+///
+/// x = ∫ cos(θ + δ) ds, y = ∫ sin(θ + δ) ds with δ = swing · s/L; m and rad. Eight Gauss points for each radian of
+/// turning; turns in place count for nothing.
 pub(super) fn landing(segments: &[Segment], swing: f64) -> [f64; 3] {
     let total: f64 = segments.iter().map(Segment::length_m).sum();
     let rate = if total > 0.0 { swing / total } else { 0.0 };

@@ -57,6 +57,8 @@ impl Parameters {
 }
 
 /// The parameters of `basis` on `clock`, for a drive of `length` metres and `duration` seconds.
+///
+/// `row` in 1/m, of the family's own functions.
 pub(super) fn named(basis: &Basis, clock: &Clock, row: &Row, length: f64, duration: f64) -> Parameters {
     match (basis, clock) {
         (Basis::Knots, _) => Parameters::Knots { curvature: *row, length },

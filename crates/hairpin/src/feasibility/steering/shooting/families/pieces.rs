@@ -47,6 +47,8 @@ pub(super) fn segments(basis: &Basis, clock: &Clock, parameters: &Row, length: f
 }
 
 /// Pieces of fifth order, halved where they are worst.
+///
+/// Pieces never straddle a kink of the clock. `curvature` is of the share of the metres.
 fn chain(clock: &Clock, curvature: &impl Fn(f64) -> f64, length: f64) -> (SegmentList, f64) {
     let mut list = SegmentList::EMPTY;
     let kinks = clock.kinks().map(|u| clock.share(u));
@@ -103,6 +105,7 @@ fn fitted(curvature: &impl Fn(f64) -> f64, from: f64, to: f64) -> ([f64; 6], f64
     (polynomial, apart.map(|t| (value(t) - at(t)).abs()).fold(0.0, f64::max))
 }
 
+/// Forward.
 fn arc(length_m: f64, curvature: [f64; 6]) -> Segment {
     Segment { motion: Motion::Arc { length_m, curvature }, gear: Gear::Forward }
 }

@@ -11,6 +11,8 @@ use crate::trajectory::drive::SegmentList;
 /// direction of travel.
 ///
 /// The frame looks along the first direction of travel; a body that crabs stands turned in it.
+///
+/// The body's yaw is that of the path less δ(s), δ = swing · s/L.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Problem {
     /// Where to; driven forward. Its yaw is the change of the body's heading.
@@ -39,6 +41,8 @@ impl Problem {
 
     /// The path of travel's own question: it turns by the direction, too, and begins and ends with its share of the
     /// bend.
+    ///
+    /// A start value's question, not a claim: curvatures are clipped to the bounds.
     pub fn path(&self, bounds: &Curvatures) -> Query {
         let (Query { goal, start_curvature }, most) = (self.query, bounds.most);
         let bend = self.swing / libm::hypot(goal.x, goal.y).max(0.5 / most);
@@ -58,6 +62,8 @@ pub struct Among<'a> {
 }
 
 /// What was found.
+///
+/// κ in the frame of the body's own heading, as commands have it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Answer {
     /// Whether it does what was asked, and what it lacks otherwise.
@@ -74,6 +80,8 @@ pub struct Answer {
 }
 
 /// One step of a descent, as an observer gets it.
+///
+/// `miss` and `bends` in the search's own units, where the least radius is 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
     /// Which start, from 0.

@@ -40,6 +40,9 @@ const RADII: [f64; 4] = [1.0, 1.5, 2.5, 0.8];
 /// Metres and radians. Mirrored problems have mirrored answers, to the bit. `stop` is asked before each descent;
 /// `observe` sees every step. The single arc and turns in place are not of these families: they are answered as the
 /// quintic.
+///
+/// Up to `starts` descents of up to `iterations` steps; a step is one pass over the grid and one dense solve of 16
+/// equations.
 pub fn solve(
     problem: &Problem,
     control: Control,
@@ -60,6 +63,8 @@ pub fn solve(
 
 /// The same among what is in the way: of the drives that meet goal and bounds the one that comes least deep into it,
 /// begun with the guides, too.
+///
+/// Not mirrored: what is in the way has no mirror image.
 pub fn solve_among(
     problem: &Problem,
     control: Control,
@@ -72,6 +77,7 @@ pub fn solve_among(
     search(problem, control, bounds, settings, among, stop, observe)
 }
 
+/// About the x axis.
 fn mirror(problem: &Problem) -> Problem {
     let Goal { x, y, yaw, curvature } = problem.query.goal;
     let goal = Goal { x, y: -y, yaw: -yaw, curvature: -curvature };
@@ -79,6 +85,7 @@ fn mirror(problem: &Problem) -> Problem {
     Problem { query, swing: -problem.swing, ..*problem }
 }
 
+/// About the x axis: curvatures change their signs.
 fn mirrored(mut answer: Answer) -> Answer {
     for segment in answer.segments.iter_mut() {
         if let Motion::Arc { curvature, .. } = &mut segment.motion {
@@ -280,6 +287,7 @@ impl Search<'_> {
         timed && matches!(self.problem.speed, SpeedProfile::Trapezoid { .. }) && !self.problem.speed.is_constant()
     }
 
+    /// The best that was found, in metres.
     fn answer(self) -> Answer {
         let Problem { query, speed, .. } = self.problem;
         let Some(Found { fit, basis, clock, segments, fit_error, status, .. }) = self.best else {

@@ -4,6 +4,8 @@ use crate::feasibility::steering::shooting::Precision;
 use crate::feasibility::steering::shooting::flat::Cost;
 
 /// How long and how exactly to look.
+///
+/// Counts, no time: the same answer on every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// The errors within which the goal counts as met; the descents go on to a thousandth of it.

@@ -35,6 +35,8 @@ const NEAR: f64 = 0.05;
 /// min ½ Σ cⱼ²/(2j+5) + penalty   such that   position(c, L) = (x, y)
 /// ```
 /// from `start` until the end is met within the tolerance and the bounds hold, or for `iterations` steps.
+///
+/// The answer is where it stopped, good or not. `iterations` may be 0: then the start is judged.
 pub(in super::super) fn descend(task: &Task, ends: &Ends, start: Free, iterations: u32) -> Fit {
     let Task { bounds, freedoms, tolerance, step_scale, simd } = *task;
     let narrow = Curvatures { most: bounds.most * (1.0 - MARGIN), most_rate: bounds.most_rate * (1.0 - MARGIN) };

@@ -72,6 +72,7 @@ const fn weights() -> Table {
     out
 }
 
+/// Filled at compile time.
 const fn at_nodes() -> [Table; BASIS] {
     let rule = Gauss::<NODES>::RULE;
     let mut out = [[[0.0; LANES]; GROUPS]; BASIS];
@@ -125,6 +126,8 @@ impl Ends {
     }
 
     /// Position error (m) at the end of the curve, and its derivative by c₀, c₁, c₂, L.
+    ///
+    /// 32 Gauss points over the whole curve, the same bits at every level of SIMD.
     pub(super) fn miss(&self, simd: Simd, free: &Free) -> ([f64; 2], [[f64; SHAPES + 1]; 2]) {
         let mut m = Moments::default();
         moments(simd, &self.factors(free), &mut m);

@@ -34,6 +34,8 @@ const fn at_samples(order: usize) -> [Table; BASIS] {
 
 /// Adds `weight`/2 · Σ max(0, |κᵢ|/most − 1)² + max(0, |κ′ᵢ|/most_rate − 1)² over all samples, with its Gauss-Newton
 /// matrix. Returns the largest relative excess of a sample over its bound, 0 if there is none.
+///
+/// 24 samples, ends included; what lies between is asked of [`keeps`].
 pub(super) fn penalise(
     simd: Simd,
     ends: &Ends,
@@ -99,6 +101,8 @@ fn polynomials(ends: &Ends, free: &Free) -> ([f64; 6], [f64; 6]) {
 }
 
 /// Whether the curve keeps both bounds everywhere.
+///
+/// By bounds of the polynomials themselves, not by samples.
 pub(super) fn keeps(ends: &Ends, free: &Free, bounds: &Curvatures) -> bool {
     let (turning, bending) = polynomials(ends, free);
     within(&turning, free.length * bounds.most * KEPT)

@@ -9,12 +9,15 @@ pub(super) const UNKNOWNS: usize = SHAPES + 1;
 /// What is to become small, to second order.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Objective {
+    /// g.
     pub(super) gradient: [f64; UNKNOWNS],
     /// Lower triangle; positive definite.
     pub(super) matrix: [[f64; UNKNOWNS]; UNKNOWNS],
 }
 
 /// d of min gᵀd + ½dᵀHd such that Jd = −e: d = −H⁻¹(g + Jᵀλ), (JH⁻¹Jᵀ)λ = e − JH⁻¹g.
+///
+/// With one freedom c₁ and c₂ stay as they are: the curve is a cubic.
 pub(super) fn step(
     objective: &Objective,
     error: &[f64; 2],
@@ -88,6 +91,7 @@ impl Cholesky {
         Self { lower, inverse }
     }
 
+    /// H⁻¹ right, by two substitutions.
     fn solve(&self, right: &[f64; UNKNOWNS]) -> [f64; UNKNOWNS] {
         let mut x = *right;
         for i in 0..UNKNOWNS {

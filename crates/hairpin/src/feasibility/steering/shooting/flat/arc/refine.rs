@@ -50,6 +50,9 @@ const LONGEST: f64 = 1.5;
 
 /// The cheapest arc found from `start`, which must meet its end within the tolerance and keep the bounds, as the answer
 /// does. Also the steps taken, `iterations` at most.
+///
+/// ∫κ² ds = fᵀ G₁ f/L and ∫κ′² ds = fᵀ G₂ f/L³ with f the factors of the basis: quadratic in c, so that Newton's matrix
+/// is exact. The length grows by at most one half.
 pub(in super::super) fn refine(task: &Task, ends: &Ends, start: Free, cost: Cost, iterations: u32) -> (Free, u32) {
     let Task { bounds, freedoms, simd, .. } = *task;
     let narrow = Curvatures { most: bounds.most * (1.0 - MARGIN), most_rate: bounds.most_rate * (1.0 - MARGIN) };

@@ -27,6 +27,8 @@ pub(super) struct Factor {
 
 impl Bordered {
     /// The factorisation; pivots that rounding makes negative are lifted.
+    ///
+    /// O(pieces), without an allocation.
     #[inline(always)]
     pub(super) fn factor(&self) -> Factor {
         let mut factor = Factor { inverse: [0.0; PIECES], beside: [0.0; PIECES], border: [0.0; PIECES] };

@@ -1,5 +1,8 @@
 //! A chain of clothoids: curvature piecewise linear in arc length. Its bounds on κ and κ′ are exact at the knots, and
 //! it comes near every curve that keeps them, so it finds what a single polynomial cannot bend to.
+//!
+//! θ(s) = ∫κ ds, κ linear between 17 knots of which both ends are prescribed: 15 knots and the length are free.
+//! `position` ends it, `bordered` solves its systems, `descent` fits it.
 
 mod bordered;
 mod descent;
@@ -15,6 +18,8 @@ use crate::feasibility::steering::shooting::query::Curvatures;
 pub(super) const PIECES: usize = 16;
 
 /// κ at the knots and the length; the shares of the pieces stay as they are.
+///
+/// |κ| is largest at a knot, |κ′| constant on a piece.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chain {
     /// κ at the beginning of each piece, 1/m; the first is prescribed.

@@ -11,6 +11,7 @@ const NODES: usize = 4;
 /// Values and derivatives at the end: x, y (m), heading (rad).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct End {
+    /// x, y (m) and θ (rad).
     pub(super) values: [f64; 3],
     /// By κ₁ … κ_{N−1} and, last, by L.
     pub(super) gradients: [[f64; 3]; PIECES],
