@@ -7,7 +7,7 @@
 //! | robot | planned as | flown or driven by | plant adds |
 //! | --- | --- | --- | --- |
 //! | quadrotor | waypoints, a [`Profile`](crate::trajectory::Profile) | [`fly`] | rotor lag, wind, gusts, noise |
-//! | rover, car | a [`Drive`](crate::trajectory::Drive) | [`ground::drive`] | slip, steering lag, latency, torque, noise |
+//! | rover, car | a [`Drive`](crate::trajectory::Drive) | [`ground::drive`] | slip, steering lag, latency, noise |
 //! | arm | a program's moves | [`arm::Plan`] | servo lag, faults, noise of the instrument |
 //!
 //! Every run by a controller of ours is a pure function of its arguments and a seed. What it gives is a

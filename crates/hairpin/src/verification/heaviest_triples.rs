@@ -45,7 +45,8 @@ pub const MOST_TRIPLES_AGAIN: usize = 20;
 /// // Three points in a row: 1 + 1 straight, 5 in one move through the middle.
 /// let costs = vec![None, Some(1), None, None, None, Some(1), None, None, None];
 /// let (triples, start, end) = (vec![([0, 1, 2], 5)], None, None);
-/// let mut claim = TriplesClaim { points: 3, costs, triples, start, end, path: vec![0, 1, 2], passed: vec![1], cost: 5 };
+/// let (path, passed) = (vec![0, 1, 2], vec![1]);
+/// let mut claim = TriplesClaim { points: 3, costs, triples, start, end, path, passed, cost: 5 };
 /// assert!(verify_triples(&claim).is_empty());
 /// (claim.passed, claim.cost) = (vec![], 2); // a path of that cost, but not the heaviest
 /// assert!(!verify_triples(&claim).is_empty());

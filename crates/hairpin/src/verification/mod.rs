@@ -13,10 +13,10 @@
 //! | --- | --- | --- |
 //! | a flight's polynomials are flyable | [`verify`], [`open_loop_with_lag`] | knots, rotor speeds, end states, path |
 //! | a flight keeps off solids | [`verify_clear`] | distances between samples, Taylor sums |
-//! | a drive ends where it should | [`replay_drive`], [`replay_ground`], [`verify_drives`] | pose, κ, speeds, tilt, torque |
+//! | a drive ends where it should | [`replay_drive`], [`replay_ground`], [`verify_drives`] | pose, κ, speeds, tilt |
 //! | a drive keeps off discs | [`verify_clear_ground`] | chords and what leaves them |
 //! | an arm's program or graph holds | [`verify_arm_program`], [`verify_arm_graph`] | bounds, margins, cell, targets |
-//! | no path is heavier | [`verify_heaviest`], [`verify_walk`], [`verify_triples`] | every bound, or a search of its own |
+//! | no path is heavier | [`verify_heaviest`], [`verify_walk`], [`verify_triples`] | every bound, or its own search |
 //!
 //! Each takes plain numbers, as files hold them, and gives findings; none panics on what a file may hold unless it says
 //! so, and an empty list of findings is the proof.

@@ -23,23 +23,29 @@ impl Findings {
         self.0.push(mistake);
     }
 
+    /// One mistake, with the value as it was given, unless `fine`.
     pub(in crate::campaign) fn require(&mut self, fine: bool, key: &str, value: impl ToString, bound: &str) {
         if !fine {
             self.add(Mistake { key: key.into(), value: value.to_string(), bound: bound.into() });
         }
     }
 
+    /// Both ends are allowed.
     pub(in crate::campaign) fn count(&mut self, key: &str, value: u64, least: u64, most: u64) {
         self.require((least..=most).contains(&value), key, value, &format!("{least} … {}", grouped(most)));
     }
 
     /// `least` itself is allowed.
+    ///
+    /// NaN is refused.
     pub(in crate::campaign) fn from(&mut self, key: &str, value: f64, least: f64, most: f64, unit: &str) {
         let bound = format!("≥ {least} and ≤ {most}{unit}");
         self.require(value >= least && value <= most, key, value, &bound);
     }
 
     /// `least` itself is not allowed.
+    ///
+    /// NaN is refused; `most` is allowed.
     pub(in crate::campaign) fn above(&mut self, key: &str, value: f64, least: f64, most: f64, unit: &str) {
         let bound = format!("> {least} and ≤ {most}{unit}");
         self.require(value > least && value <= most, key, value, &bound);
@@ -87,6 +93,8 @@ impl Findings {
     }
 
     /// Whether rounds can learn. `score`: the key of the score, and its value.
+    ///
+    /// Only of the method `adaptive`: its score has a name, and nothing is varied that shapes plans.
     pub(in crate::campaign) fn rounds<'k>(
         &mut self,
         method: SearchMethod,
@@ -114,6 +122,8 @@ impl Findings {
 
     /// Whether `count` obstacles of an environment are for the stress that is searched; `execution`: a flight or a
     /// drive.
+    ///
+    /// At most 100, and executions for them: 2 per trajectory of a graph, one to find it, and those that confirm.
     pub(in crate::campaign) fn placed(&mut self, search: &SearchSection, count: u64, execution: &str) {
         let key = "generate.environment.obstacles";
         let bound = format!(

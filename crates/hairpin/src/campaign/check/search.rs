@@ -9,6 +9,8 @@ const MOST_ROUNDS: u64 = 1_000;
 const MOST_LEARNED: u64 = 100_000;
 
 /// Bounds of all that does not depend on what moves: but for `waypoints`.
+///
+/// Upper bounds refuse what would fill the memory, not what is slow.
 pub(in crate::campaign) fn check_search(search: &SearchSection, found: &mut Findings) {
     found.count("generate.search.width", search.width, 1, 100_000);
     found.count("generate.search.cases", search.cases, 1, 1_000_000);
@@ -60,6 +62,7 @@ fn check_unconfirmed(search: &SearchSection, what: &str, found: &mut Findings) {
     found.require(search.confirm == 0, "generate.search.confirm", search.confirm, &bound);
 }
 
+/// Executions: at least what every round needs, at most 100 000.
 fn check_adaptive(search: &SearchSection, found: &mut Findings) {
     // Told already.
     if search.rounds.is_some_and(|rounds| rounds > MOST_ROUNDS) {

@@ -38,12 +38,15 @@ const LEAST_SHARE: f64 = 0.01;
 
 /// All mistakes of `[vary]` in a scenario whose nominal values have none; `built` gives those of a scenario that was
 /// drawn.
+///
+/// Each key is tried alone, the others nominal: two that are fine by themselves may make a scenario that is not.
 pub(in crate::campaign) fn check_vary(scenario: &Scenario, built: &dyn Fn(&Scenario) -> Vec<Mistake>) -> Vec<Mistake> {
     let mut nominal = Tree::new(scenario);
     let entries = scenario.vary().iter();
     entries.filter_map(|entry| check_entry(scenario, &mut nominal, entry, built).err()).collect()
 }
 
+/// A scenario is built for both ends of the range or every choice, up to 1000.
 fn check_entry(
     scenario: &Scenario,
     nominal: &mut Tree,
@@ -79,6 +82,8 @@ fn check_entry(
 }
 
 /// The values at the ends of the range, or every choice; what is wrong with the distribution as (value, bound).
+///
+/// Of a normal distribution the ends of its interval, where at least 1 % of the draws lie within the truncation.
 fn ends(distribution: &Distribution, nominal: Option<&Value>) -> Result<Vec<Value>, (String, String)> {
     let refuse = |value: String, bound: &str| Err((value, bound.to_owned()));
     match (&distribution.uniform, &distribution.normal, &distribution.choice) {
@@ -140,6 +145,8 @@ fn ends(distribution: &Distribution, nominal: Option<&Value>) -> Result<Vec<Valu
 }
 
 /// The probability that a draw lies between `min` and `max`.
+///
+/// Φ((high − μ)/σ) − Φ((low − μ)/σ) with Φ(x) = erfc(−x/√2)/2; 1 or 0 where σ = 0.
 fn share_kept(distribution: &Distribution, mean: f64, deviation: f64) -> f64 {
     let (low, high) = distribution.interval(mean, deviation);
     if deviation <= 0.0 {

@@ -20,10 +20,13 @@ pub(super) struct Graph<'a> {
     pub(super) graph: u64,
     /// Its waypoints, the start first and, if there is one, the end last.
     pub(super) points: &'a [Point3<f64>],
+    /// Executions, models and surroundings of a search that runs what it finds.
     pub(super) looped: Looped<'a>,
 }
 
 /// A graph, and what its legs and scores are.
+///
+/// Nodes `N` of a reach set `R`, legs scored by `O`.
 pub(super) struct Asked<'a, N, R, O> {
     pub(super) scenario: &'a DriveScenario,
     pub(super) graph: Graph<'a>,
@@ -39,6 +42,9 @@ pub(super) struct Asked<'a, N, R, O> {
 /// Searches from the start to the task's end, or to wherever the last waypoint lies. `may_arrive(node, steps)` is
 /// necessary for the end to be reached from `node` in `steps` legs; `plan` gives `None` for what no drive can be made
 /// of.
+///
+/// Without an end the trajectory has a leg more in the search, which leads from any waypoint to an end that all have in
+/// common and costs nothing; plans come without it.
 pub(super) fn ask<N, R, O>(
     asked: Asked<'_, N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,

@@ -7,6 +7,9 @@ use crate::robot::rover::{Kinematics, Suspension};
 use crate::simulation::ground::GroundControllerKind;
 
 /// What stands behind the legs.
+///
+/// Sentences of the reach set, the bounds of plans, and what the map may hide: cells coarser than half the wheelbase,
+/// and cells without data.
 pub(super) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     said.push(match generate.reach {

@@ -50,6 +50,8 @@ impl Claim for DriveSetup {
 }
 
 /// The case that others are planned after.
+///
+/// Its passings (headings, curvatures, gears) are kept where its waypoints are.
 struct Replanned(Case);
 
 impl Replanner for Replanned {

@@ -16,6 +16,9 @@ const MARGIN: f64 = 3.0;
 const AROUND: usize = 32;
 
 /// The stretch of ground around `places`.
+///
+/// 3 m around them, within the map; the whole map for none. Heights in m by rows from south to north, in steps of a
+/// 160th of the longer side and no finer than the map's cells.
 pub(super) fn ground(setup: &DriveSetup, places: &[Point3<f64>]) -> Drawing {
     let (map_low, map_high) = setup.map.extent();
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -53,6 +56,8 @@ pub(super) fn ground(setup: &DriveSetup, places: &[Point3<f64>]) -> Drawing {
 }
 
 /// A keep-out as a flat shape a little over the ground at its outline.
+///
+/// 5 cm above the highest known ground at its corners; a circle has 32 of them.
 fn keep_out(setup: &DriveSetup, place: &KeepOut) -> Surface {
     let corners: Vec<[f64; 2]> = match &place.shape {
         KeepOutShape::Circle { center_m: [x, y], radius_m } => (0..AROUND)

@@ -58,6 +58,8 @@ impl Act for DriveSetup {
 
 /// Commands in one gear from `from` to `to` on the ground, travelling in `direction`, as far as the nominal vehicle
 /// goes; `None` where there are none.
+///
+/// Curvatures at both ends are clamped to the plan's bounds: an executed drive may have strayed beyond them.
 fn solve(setup: &DriveSetup, from: &Planar, to: &Planar, gear: Gear, direction: Direction) -> Option<SegmentList> {
     let bounds = setup.bounds();
     let within = |at: &Planar| Planar { curvature: at.curvature.clamp(-bounds.most, bounds.most), ..*at };

@@ -8,6 +8,7 @@ use crate::campaign::kind::{Condition, Knob, Knobs, Standing};
 use crate::campaign::scenario::{DriveScenario, Manoeuvre};
 use crate::judgement::Stress;
 
+/// Keys that are not given have no knob where the robot's bound holds in their place.
 pub(super) fn knobs(setup: &DriveSetup) -> Knobs {
     let scenario = &setup.scenario;
     Knobs {
@@ -25,6 +26,7 @@ pub(super) fn knobs(setup: &DriveSetup) -> Knobs {
     }
 }
 
+/// Each with the loosest value that it may be turned to.
 fn turned(scenario: &DriveScenario) -> Vec<Knob> {
     let (task, generate) = (&scenario.task, &scenario.generate);
     let search = &generate.search;
@@ -63,6 +65,7 @@ fn bounded(setup: &DriveSetup) -> impl Iterator<Item = Knob> {
     all.into_iter().filter_map(|(key, now, most, unit)| Knob::up_to(key, now?, most, unit))
 }
 
+/// What a run meets that its plan does not know.
 fn conditions(scenario: &DriveScenario) -> Vec<Condition> {
     let execute = &scenario.execute;
     let all = [

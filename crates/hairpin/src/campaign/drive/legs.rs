@@ -13,6 +13,8 @@ const NODES: usize = 16;
 
 /// Counts the legs of the first nodes of `roadmap`, of trajectories of `length` waypoints that end at the last one
 /// where `ends`.
+///
+/// Breadth first from the start, 16 nodes at most: a sample near the start, not the whole roadmap. Each leg is solved.
 pub(super) fn count(roadmap: &DriveRoadmap, points: &[Point3<f64>], length: usize, ends: bool, counter: &mut Counter) {
     let mut open = VecDeque::from([(roadmap.start(), 1)]);
     let mut seen = HashSet::from([roadmap.start()]);

@@ -29,6 +29,9 @@ enum Claimed<'a> {
 
 /// Up to `asked.count` discs in the way of `track`, the drive of `case` without them. `None` where there is no room for
 /// any.
+///
+/// Each disc is as near to the executed way as the plan lets it be; the plan keeps the vehicle's radius from all of
+/// them by the reach set's own test.
 pub(super) fn place(setup: &DriveSetup, case: &Case, track: &Track, asked: PlacedDiscsSection) -> Option<Placement> {
     let claimed = Claimed::by(setup, case)?;
     let beyond = claimed.beyond();
@@ -63,6 +66,8 @@ impl<'a> Claimed<'a> {
     }
 
     /// The plan as a chain of segments at height 0.
+    ///
+    /// At most 600 chords; what they cut off is what the larger gap is for.
     fn way(&self) -> Vec<Point3<f64>> {
         match self {
             Self::Straight(waypoints) => waypoints.iter().map(flat).collect(),
@@ -97,6 +102,8 @@ impl<'a> Claimed<'a> {
 }
 
 /// Directions in which a disc may give way: away from the plan, and along it.
+///
+/// Horizontal unit vectors.
 fn directions(away: &Vector3<f64>) -> Vec<Unit<Vector3<f64>>> {
     let away = Unit::new_normalize(*away);
     let along = Unit::new_normalize(Vector3::new(-away.y, away.x, 0.0));
@@ -107,6 +114,7 @@ fn circle(asked: PlacedDiscsSection, center: &Point3<f64>) -> CircleSection {
     CircleSection { center_m: [center.x, center.y], radius_m: asked.radius_m }
 }
 
+/// All of the disc, by the map's extent.
 fn on_map(setup: &DriveSetup, circle: &CircleSection) -> bool {
     let (low, high) = setup.map.extent();
     let (center, radius) = (circle.center_m, circle.radius_m);

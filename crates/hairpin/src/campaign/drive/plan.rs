@@ -24,6 +24,9 @@ pub(super) fn drive_of(setup: &DriveSetup, case: &Case) -> Drive {
 }
 
 /// The timed reference of a mission at `rate` (Hz).
+///
+/// At t = k / rate up to the drive's end; places linear between the track's stamps, velocities those of the later one.
+/// Empty for a drive that the ground does not carry.
 pub(super) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> Vec<Timed> {
     let Ok(track) = track(setup, case) else { return Vec::new() };
     let column = |name| track.channel(name).unwrap_or_default();
@@ -44,6 +47,8 @@ pub(super) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> Vec<Timed> {
 }
 
 /// Turns towards each waypoint and straight lines to it, from rest to rest.
+///
+/// Each turn is the shortest, −π to π. Of a range of directions of travel its middle is taken.
 fn straight_legs(setup: &DriveSetup, waypoints: &[Point3<f64>]) -> Drive {
     let (speed, [low, high]) = (setup.speed(), setup.directions());
     // Straight legs have one direction.

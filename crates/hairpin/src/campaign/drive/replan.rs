@@ -13,6 +13,8 @@ use crate::world::terrain::Terrain;
 /// passed as that was, if that is feasible as the case is: each leg solved again within the limits where it has drives,
 /// by the same reach set, from the task's start, where that was all. Of waypoints made elsewhere nothing was claimed
 /// but that they lie on the map. `None`: it is not.
+///
+/// The score stays that of the old case; a bound that was proven does not carry over.
 pub(super) fn replan(setup: &DriveSetup, case: &Case, indices: &[usize], points: &[Point3<f64>]) -> Option<Case> {
     let on_ground = |p: &Point3<f64>| Some(Point3::new(p.x, p.y, setup.map.patch(p.x, p.y).ok()?.height));
     let waypoints: Vec<Point3<f64>> = points.iter().map(on_ground).collect::<Option<_>>()?;

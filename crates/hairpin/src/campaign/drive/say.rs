@@ -94,6 +94,8 @@ impl Say for DriveSetup {
 }
 
 /// Every sample: the tilt of the body, the curvature of its way, the slip of its wheels.
+///
+/// °, 1/m, and |slip| as a share; a channel that a track has not counts as 0.
 fn samples_met(track: &Track, meet: &mut dyn FnMut(&[f64])) {
     let column = |name| track.channel(name).unwrap_or_default();
     let (curvature, slip) = (column("curvature_1_m"), column("slip"));

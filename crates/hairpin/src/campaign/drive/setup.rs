@@ -42,16 +42,22 @@ pub struct DriveSetup {
 
 impl DriveSetup {
     /// Commanded speed, m/s.
+    ///
+    /// The scenario's or else the robot's default, and no more than the robot's limit.
     pub fn speed(&self) -> f64 {
         self.scenario.generate.limits.speed_m_s.unwrap_or(self.rover.default_speed).min(self.rover.limits.speed)
     }
 
     /// Commanded rate of turns in place, rad/s: the outermost wheel goes at [`Self::speed`].
+    ///
+    /// v / r with r the distance of the outermost wheel from the origin, at least 0.1 m.
     pub fn turn_rate(&self) -> f64 {
         self.speed() / self.rover.suspension.outer_radius().max(0.1)
     }
 
     /// How speeds follow each other along a drive.
+    ///
+    /// Trapezoids where the acceleration is bounded and nothing else is asked for; else constant.
     pub fn pace(&self) -> Pace {
         let given = &self.scenario.generate.speed;
         let acceleration = given.acceleration_m_s2.unwrap_or(self.rover.limits.acceleration);
@@ -80,6 +86,8 @@ impl DriveSetup {
     }
 
     /// Largest tilt of a plan, rad.
+    ///
+    /// The scenario's or the robot's, whichever is smaller.
     pub fn tilt(&self) -> f64 {
         self.scenario.generate.limits.tilt_deg.map_or(f64::INFINITY, f64::to_radians).min(self.rover.limits.tilt)
     }
@@ -182,6 +190,8 @@ fn planner_of(rover: &Rover) -> Rover {
 }
 
 /// The ground of a section; `seed` is the scenario's.
+///
+/// A generator's seed is the scenario's where the section has none of its own.
 ///
 /// # Errors
 /// The key that is out of bounds; a file that was not read before.

@@ -42,6 +42,8 @@ impl Site<'_> {
     }
 
     /// Commands that drive forward from `start` to `goal` within the vehicle's own bounds.
+    ///
+    /// `start` and `goal` in the map's frame; curvatures 1/m in the direction of travel.
     pub fn drive(&self, start: &Planar, goal: &Planar, settings: &Settings) -> Answer {
         let bounds = self.bounds();
         let precision = Precision { position: FLAT, yaw: FLAT, curvature: FLAT };
@@ -59,6 +61,9 @@ impl Site<'_> {
     }
 
     /// Commands that drive from `start` to `goal`, shaped within `bounds` by the flat solver `steer`.
+    ///
+    /// Sought is the flat goal g whose commands S(g) are predicted to end at `goal`, E(S(g)) = goal, by Broyden's
+    /// method from g = goal, until that holds within the settings' precision or the iterations end: [`Answer::status`].
     pub fn solve(
         &self,
         start: &Planar,
@@ -142,6 +147,8 @@ impl Site<'_> {
     }
 
     /// What `segments` from `start` cost along their motion; `None` where they do not pass.
+    ///
+    /// In the unit of `cost`, integrated over the metres driven.
     pub fn cost(&self, start: &Planar, segments: &[Segment], cost: GroundCost) -> Option<f64> {
         rough::cost_along(&self.course(Steps::default()), start, segments, cost)
     }
@@ -251,6 +258,8 @@ pub fn replay_flat(query: &Query, direction: f64, segments: &[Segment]) -> Drive
 }
 
 /// `segment` as it is written.
+///
+/// The gear is the arc's direction, 1 or −1; lengths in m, curvatures in 1/m, angles in rad.
 pub fn drive_piece(segment: &Segment) -> DrivePiece {
     match segment.motion {
         Motion::Arc { length_m, curvature } => DrivePiece::Arc { length_m, curvature, direction: segment.gear.sign() },

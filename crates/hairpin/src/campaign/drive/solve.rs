@@ -94,6 +94,10 @@ impl<'a> DriveSolver<'a> {
     }
 
     /// Start, free waypoints and, if there is one, the end.
+    ///
+    /// n free waypoints in a disc of area n π (l₁² − l₀²) / 12 with l₀ and l₁ the leg's least and greatest length, so
+    /// that each has about 12 others at a leg's distance; around the middle of both ends, and never so small that the
+    /// ends lie outside.
     fn sample(&self, graph: u64) -> Result<Vec<Point3<f64>>, String> {
         let task = &self.setup.scenario.task;
         let [low, high] = task.leg_m;
@@ -132,6 +136,8 @@ impl<'a> DriveSolver<'a> {
         DriveRoadmap::new(self.site(), points, &start, None, &settings)
     }
 
+    /// Legs that were solved are kept for the next round of an adaptive campaign. Where nothing is found the reason is
+    /// what legs were refused for.
     fn by_roadmap(&self, graph: Graph) -> Outcome {
         let points = graph.points;
         let (number, again) = (graph.graph, matches!(graph.looped.wanted, Wanted::Round(_)));

@@ -49,6 +49,8 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Searches a graph.
+    ///
+    /// What is found has the evidence `hull-feasible` with the hull, and none with the others.
     pub(super) fn solve(&self, scored: &DriveSettings, graph: Graph) -> Outcome {
         let (settings, points) = (self.settings(), graph.points);
         let start = StepNode { previous: 0, current: 0 };
@@ -132,6 +134,8 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Whether a leg has one of the task's lengths and is clear of keep-outs.
+    ///
+    /// Horizontal distance within `task.leg_m`; the straight segment keeps the vehicle's radius from every keep-out.
     fn allows(&self, a: &Point3<f64>, b: &Point3<f64>) -> bool {
         let [low, high] = self.setup.scenario.task.leg_m;
         let apart = libm::hypot(b.x - a.x, b.y - a.y);

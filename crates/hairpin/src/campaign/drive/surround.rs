@@ -9,6 +9,8 @@ pub(super) fn coordinates(asked: &DriveEnvironmentSection) -> usize {
 }
 
 /// `plan` under the force at `place`, as shares of its bound east and north.
+///
+/// (F east, F north, 0) in N, F the bound; a place within the unit disc is a force within it.
 pub(super) fn put(asked: &DriveEnvironmentSection, plan: &Plan, place: &[f64]) -> Plan {
     let mut environment = plan.environment.clone().unwrap_or_default();
     if let (Some(most), [east, north]) = (asked.external_force_n, place) {

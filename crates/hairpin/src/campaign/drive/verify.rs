@@ -14,6 +14,8 @@ use crate::verification::{
 
 /// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that
 /// claims no witness.
+///
+/// Tolerances are the scenario's own: positions m, yaw rad, curvatures 1/m, torques N·m, accelerations m/s².
 pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
     let drive = case.commands()?;
     let legs = leg_claims(case, drive);
@@ -41,6 +43,8 @@ pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
 /// vehicle's radius from, everywhere, no more and no larger ones than were `asked` for; the force is horizontal and no
 /// larger than was asked for; and there is nothing else. Where nothing was asked for, as with missions from elsewhere,
 /// any force and disc is as good as another. Nothing for a case without one.
+///
+/// A force at its bound may exceed it by a share of 10⁻¹², which is rounding.
 pub(super) fn verify_environment(
     setup: &DriveSetup,
     asked: Option<DriveEnvironmentSection>,
@@ -85,6 +89,8 @@ pub(super) fn verify_environment(
     findings
 }
 
+/// Poses as [x, y, yaw, curvature]; durations those of the case, or where it has none those that follow from the
+/// speeds.
 fn leg_claims(case: &Case, drive: &Drive) -> Vec<DriveLegClaim> {
     let end = |at: &Planar| [at.x, at.y, at.yaw, at.curvature];
     (drive.legs.iter().enumerate())

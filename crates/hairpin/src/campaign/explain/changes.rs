@@ -27,11 +27,16 @@ pub struct Change {
     /// As it is told: `length 12`, `max_speed 8.0 → 9.3 m/s`.
     pub words: String,
     /// How large the change is beside the value: |to − from| / from; of a switch 1.
+    ///
+    /// 1 as well where the value is 0 or no number.
     pub relative: f64,
 }
 
 /// Every key's smallest change that helps, the smallest first; switches and keys that are equally far in the order of
 /// the list.
+///
+/// One key after the other, each by up to some dozen searches of the same graphs; a search ends at its first
+/// trajectory.
 pub(super) fn smallest(setup: &Setup, stop: &Stop) -> Vec<Change> {
     let knobs = setup.kind().knobs().turned;
     let mut found: Vec<Change> = knobs.iter().filter_map(|knob| Trial { setup, stop, knob }.change()).collect();
@@ -47,6 +52,7 @@ struct Trial<'a> {
 }
 
 impl Trial<'_> {
+    /// `None` where no value up to the loosest helps, or the search was stopped.
     fn change(&self) -> Option<Change> {
         let (from, to) = match &self.knob.turn {
             Turn::Number { now, loosest, .. } => (json!(now), json!(self.number(*now, *loosest)?)),
@@ -92,6 +98,9 @@ impl Trial<'_> {
 
     /// The value nearest to `now` that helps: steps that double on the way to `loosest`, then bisection of the last
     /// one.
+    ///
+    /// The first step is a tenth of the value, at most a quarter of the way. Bisection takes what helps to go on
+    /// helping beyond; where it does not, the value found is one that helps, and no longer the nearest.
     fn number(&self, now: f64, loosest: f64) -> Option<f64> {
         let whole_way = self.bounded(now, loosest) - now;
         if whole_way == 0.0 {
@@ -116,6 +125,7 @@ impl Trial<'_> {
         (!(self.stop.cancelled)()).then(|| rounded(now, now + share * whole_way))
     }
 
+    /// Upwards only: steps from a quarter of the number, doubled, then bisection to 2 % or 1.
     fn whole(&self, now: u64, loosest: u64) -> Option<u64> {
         let (mut short, mut step) = (now, 1.max(now / 4));
         let mut long = now + step;
@@ -140,6 +150,7 @@ impl Trial<'_> {
             .find(|value| (least..=now + STEPS).contains(value) && self.helps(&json!(value)))
     }
 
+    /// The key's name and both values with their unit, or the switch's own words.
     fn words(&self, from: &Value, to: &Value) -> String {
         let name = name(self.knob.key);
         match &self.knob.turn {
@@ -165,6 +176,8 @@ fn whole_number(value: f64, least: usize) -> String {
 }
 
 /// `value` with three digits, away from `from`.
+///
+/// The change is never made smaller by it.
 fn rounded(from: f64, value: f64) -> f64 {
     if value == 0.0 {
         return 0.0;
@@ -198,6 +211,8 @@ fn name(key: &str) -> String {
 }
 
 /// What a search of `setup` finds: all of its graphs, or until the first trajectory.
+///
+/// The progress is told to nobody.
 pub(super) fn searched(setup: &Setup, all: bool, stop: &Stop) -> Tally {
     let found = std::sync::atomic::AtomicBool::new(false);
     let cancelled = || (stop.cancelled)() || (!all && found.load(std::sync::atomic::Ordering::Relaxed));

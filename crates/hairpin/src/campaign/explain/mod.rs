@@ -19,6 +19,8 @@ pub struct Explanation {
     /// Of these, graphs with a feasible trajectory.
     pub solved: u64,
     /// What became of the candidates for legs.
+    ///
+    /// Candidates near the starts of a few graphs, by the stage that refused them.
     pub deaths: Deaths,
     /// Single changes with which something is feasible, the smallest first; none are looked for where something is.
     pub changes: Vec<Change>,
@@ -34,6 +36,8 @@ pub struct Explanation {
 ///
 /// The same graphs (of the same seeds) are asked with every change. `enough` ends the search for changes with those
 /// that were found, `stop` that of the scenario's own graphs as well.
+///
+/// Only one key is changed at a time: that two together would help is not found.
 ///
 /// # Errors
 /// A scenario that no search can be begun with.

@@ -15,6 +15,8 @@ const QUICKEST: f64 = 0.25;
 const SLOWEST: f64 = 10.0;
 
 /// The step of step-wise sets, s.
+///
+/// 1 s where the scenario's timing is a range.
 fn step(setup: &FlightSetup) -> f64 {
     setup.scenario.generate.timing_in_force().step_s.unwrap_or(1.0)
 }
@@ -34,10 +36,14 @@ impl FlightSetup {
 pub(super) struct Certifier {
     judge: LegJudge,
     timing: LegTiming,
+    /// s; infinite without a limit.
     longest_flight: f64,
 }
 
 impl Certifier {
+    ///
+    /// Legs may take from a quarter of the step to ten times it, each its own time.
+    ///
     /// # Errors
     /// As [`judge`].
     pub(super) fn new(setup: &FlightSetup) -> Result<Self, String> {
@@ -51,11 +57,15 @@ impl Certifier {
     }
 
     /// The answer for `waypoints`.
+    ///
+    /// `No` where no flight at all exists under the limits, `Unknown` where none was found.
     pub(super) fn answer(&self, waypoints: &[Point3<f64>]) -> Certificate {
         certify(&self.judge, waypoints, &self.timing, self.longest_flight)
     }
 
     /// Notes the answer in the plan; a `yes` brings its witness, with leg times of its own.
+    ///
+    /// `no` and `unknown` leave evidence and leg times as they are.
     pub(super) fn certify(&self, plan: &mut Plan) {
         match self.answer(&plan.waypoints) {
             Certificate::Yes(profile) => {

@@ -50,6 +50,8 @@ impl Claim for FlightSetup {
 }
 
 /// The case that others are planned after.
+///
+/// Waypoints are the new ones alone: which of the case's they were does not matter to a flight.
 struct Replanned(Case);
 
 impl Replanner for Replanned {

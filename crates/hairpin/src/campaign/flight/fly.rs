@@ -48,10 +48,12 @@ impl LegByLeg for FlightSetup {
     }
 }
 
+/// The profile is that of the case's witness, for controllers that follow one; leg by leg there is none.
 fn sortie<'a>(setup: &'a FlightSetup, order: &Order<'a>, profile: Option<&'a Profile>) -> Sortie<'a> {
     Sortie { robot: &setup.robot, world: &setup.world, waypoints: order.waypoints, profile }
 }
 
+/// `stable-waypoint` where the scenario names nothing.
 fn controller(setup: &FlightSetup) -> ControllerSettings {
     let execute = &setup.scenario.execute;
     ControllerSettings {
@@ -61,6 +63,7 @@ fn controller(setup: &FlightSetup) -> ControllerSettings {
     }
 }
 
+/// Velocities in m/s in the cage's axes.
 fn conditions(setup: &FlightSetup) -> Conditions {
     let world = &setup.scenario.world;
     Conditions {
@@ -75,6 +78,7 @@ fn conditions(setup: &FlightSetup) -> Conditions {
     }
 }
 
+/// Step and walls are the scenario's; acceptance radius (m) and time limit (s) are the order's.
 fn settings(setup: &FlightSetup, order: &Order) -> FlySettings {
     let execute = &setup.scenario.execute;
     FlySettings {

@@ -8,6 +8,9 @@ use crate::world::{self, SamplingError};
 
 /// The waypoints of graph number `graph`: index 0 the start, the last the end, free ones between.
 ///
+/// m, in the cage's frame; free ones keep the robot's radius from obstacles. The same seed and number give the same
+/// graph.
+///
 /// # Errors
 /// Too little free space.
 pub(super) fn sample(setup: &FlightSetup, graph: u64) -> Result<Vec<Point3<f64>>, SamplingError> {

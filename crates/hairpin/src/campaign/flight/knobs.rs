@@ -8,6 +8,7 @@ use crate::campaign::kind::{Condition, Knob, Knobs, Standing};
 use crate::campaign::scenario::{FlightScenario, ReachName};
 use crate::judgement::Stress;
 
+/// Timing is written out, so that a default can be turned as well.
 pub(super) fn knobs(setup: &FlightSetup) -> Knobs {
     let scenario = &setup.scenario;
     let timing = json!(scenario.generate.timing_in_force());
@@ -30,6 +31,7 @@ pub(super) fn knobs(setup: &FlightSetup) -> Knobs {
     }
 }
 
+/// Limits that are not given bind nothing and have none; a tilt goes up to 90°, margins down to 0.
 fn turned(scenario: &FlightScenario) -> Vec<Knob> {
     let (generate, world) = (&scenario.generate, &scenario.world);
     let (limits, search) = (&generate.limits, &generate.search);
@@ -55,6 +57,7 @@ fn turned(scenario: &FlightScenario) -> Vec<Knob> {
     .collect()
 }
 
+/// Gusts, discrete gust, wind and noise, each only where there is some.
 fn conditions(scenario: &FlightScenario) -> Vec<Condition> {
     let (world, noise) = (&scenario.world, scenario.execute.noise);
     let wind = world.wind_m_s.is_some_and(|wind| wind != [0.0; 3]);

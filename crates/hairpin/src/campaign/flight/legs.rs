@@ -10,6 +10,8 @@ use crate::search::Score;
 
 /// The judge of legs under the scenario's limits.
 ///
+/// Speeds without a limit are infinite in it; tilts are in rad.
+///
 /// # Errors
 /// A rotor layout without a flatness map, in a sentence's part.
 pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
@@ -22,6 +24,9 @@ pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
 }
 
 /// The score for graph number `graph`, the scenario's or the first model of a round; `top_speed` (m/s) scores 1.
+///
+/// In this order: the score whose optimum is wanted, a round's first model, the scenario's model, the user's own, the
+/// scenario's by name.
 pub(super) fn score<'a>(setup: &'a FlightSetup, graph: u64, top_speed: f64, looped: &Looped<'a>) -> AnyScore<'a> {
     let generate = &setup.scenario.generate;
     if let Wanted::Optima([name, ..]) = looped.wanted {
@@ -53,6 +58,7 @@ pub(super) fn beside<'a>(setup: &'a FlightSetup, graph: u64, top_speed: f64, loo
     }
 }
 
+/// The random score is seeded by the graph: each has its own.
 fn named<'a>(setup: &'a FlightSetup, name: &str, graph: u64, top_speed: f64) -> AnyScore<'a> {
     let seed = named_seed(setup.scenario.seed, "score", graph);
     // The name was checked with the scenario, and top speeds are > 0 with the robot.

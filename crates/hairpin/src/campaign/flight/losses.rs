@@ -36,6 +36,7 @@ pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Deaths {
     counter.deaths("pairs of waypoints near the start")
 }
 
+/// Breadth first from the start, over the first 8 nodes and all of their candidates: a sample, not the whole graph.
 fn count(setup: &FlightSetup, roadmap: &Roadmap, end: usize, counter: &mut Counter) {
     let length = setup.scenario.task.length as usize;
     let mut open = VecDeque::from([(roadmap.start(), 1)]);
@@ -70,6 +71,7 @@ fn count(setup: &FlightSetup, roadmap: &Roadmap, end: usize, counter: &mut Count
     }
 }
 
+/// The stage, and the scenario's key or the obstacle's name; of thrust and rotor speeds the limit's own.
 fn told(why: &Infeasible, world: &World) -> (Stage, String) {
     let (Infeasible::Violates { limit, part, .. } | Infeasible::Unproven { limit, part, .. }) = *why;
     let (stage, name) = match limit {

@@ -18,6 +18,8 @@ const GAPS: [f64; 2] = [0.001, 0.05];
 
 /// Up to `asked.count` obstacles of the shape asked for in the way of `track`, the flight of `case` without them.
 /// `None` where there is no room for any.
+///
+/// Each is as near to the executed way as the plan lets it be.
 pub(super) fn place(setup: &FlightSetup, case: &Case, track: &Track, asked: &PlacedSection) -> Option<Placement> {
     let placing = Placing {
         way: &way(case),
@@ -37,6 +39,8 @@ pub(super) fn place(setup: &FlightSetup, case: &Case, track: &Track, asked: &Pla
 
 /// Whether every planned leg of `case` keeps the robot's radius from `shape`: its witness everywhere on it, else its
 /// straight legs.
+///
+/// Of a witness the proof of free space, on polynomials rather than samples.
 fn leaves_clear(setup: &FlightSetup, case: &Case, shape: &Shape) -> bool {
     let radius = setup.robot.clearance_radius;
     let Some(profile) = case.profile() else {
@@ -49,6 +53,8 @@ fn leaves_clear(setup: &FlightSetup, case: &Case, shape: &Shape) -> bool {
 }
 
 /// The plan as a chain of segments.
+///
+/// Witnesses in 12 chords per leg.
 fn way(case: &Case) -> Vec<Point3<f64>> {
     let Some(profile) = case.profile() else { return case.waypoints.clone() };
     let along = profile
@@ -59,6 +65,8 @@ fn way(case: &Case) -> Vec<Point3<f64>> {
 }
 
 /// Directions in which an obstacle may give way: away from the plan, and across that.
+///
+/// Five unit vectors; `away` is not 0.
 fn directions(away: &Vector3<f64>) -> Vec<Unit<Vector3<f64>>> {
     let away = Unit::new_normalize(*away);
     let axis = Vector3::ith(away.iamin(), 1.0);
@@ -67,6 +75,7 @@ fn directions(away: &Vector3<f64>) -> Vec<Unit<Vector3<f64>>> {
     vec![away, one, -one, other, -other]
 }
 
+/// Boxes are parallel to the cage's axes. `None` where neither is asked for.
 fn shape(asked: &PlacedSection, center: &Point3<f64>) -> Option<Shape> {
     let center = center.coords.into();
     match (asked.radius_m, asked.size_m) {
@@ -83,6 +92,7 @@ fn section(asked: &PlacedSection, number: usize, center: &Point3<f64>) -> Obstac
     ObstacleSection { name: name(number), cuboid, sphere, capsule: None, hull: None, mesh: None }
 }
 
+/// By the bounding box.
 fn inside(world: &World, shape: &Shape) -> bool {
     let bounds = shape.bounds();
     (0..3).all(|axis| bounds.min[axis] >= 0.0 && bounds.max[axis] <= world.size()[axis])

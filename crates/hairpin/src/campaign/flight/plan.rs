@@ -11,6 +11,8 @@ use crate::trajectory::{Channel, Track, TrackError};
 const RATE: f64 = 100.0;
 
 /// Stamps from 0 to `duration` at `rate`, the end included.
+///
+/// s; the last interval may be shorter than 1 / `rate`, and is left out below 1 ns.
 fn stamps(duration: f64, rate: f64) -> Vec<f64> {
     let count = (duration * rate).floor() as usize;
     let mut times: Vec<f64> = (0..=count).map(|k| k as f64 / rate).collect();
@@ -21,6 +23,9 @@ fn stamps(duration: f64, rate: f64) -> Vec<f64> {
 }
 
 /// The leg at `t` and the time since it began.
+///
+/// 0 ≤ τ ≤ the leg's duration; a stamp at a waypoint belongs to the leg that begins there, beyond the end to the last
+/// one.
 fn locate(leg_times: &[f64], t: f64) -> (usize, f64) {
     let mut start = 0.0;
     for (leg, duration) in leg_times.iter().enumerate() {
@@ -32,6 +37,7 @@ fn locate(leg_times: &[f64], t: f64) -> (usize, f64) {
     (0, 0.0)
 }
 
+/// Of a witness p(τ) and p′(τ) of its polynomial; else constant velocity along the straight leg.
 fn sample(case: &Case, t: f64) -> (usize, Timed) {
     let (leg, tau) = locate(&case.leg_times, t);
     if let Some(profile) = case.profile() {
@@ -44,6 +50,8 @@ fn sample(case: &Case, t: f64) -> (usize, Timed) {
 }
 
 /// The timed reference of a mission at `rate` (Hz).
+///
+/// Positions in m and velocities in m/s, in the cage's frame; the last stamp is the flight's end.
 pub(super) fn timed(case: &Case, rate: f64) -> Vec<Timed> {
     stamps(case.leg_times.iter().sum(), rate).into_iter().map(|t| sample(case, t).1).collect()
 }

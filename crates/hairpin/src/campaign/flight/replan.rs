@@ -13,6 +13,8 @@ use crate::feasibility::certify::Certificate;
 /// `case` with `points` in the place of its waypoints, if they are feasible as its own were: witnessed where it was, by
 /// the same reach set where that was all. Of waypoints made elsewhere nothing was claimed but what every waypoint is
 /// held to, that it is in the world and clear of obstacles, if they were. `None`: they are not, or nothing shows it.
+///
+/// Bounds and certificates are of the old waypoints and are dropped, but for a witness that is found again.
 pub(super) fn replan(setup: &FlightSetup, case: &Case, points: &[Point3<f64>]) -> Option<Case> {
     let generate = &setup.scenario.generate;
     let made_elsewhere = case.leg_times.is_empty();
@@ -52,6 +54,8 @@ pub(super) fn replan(setup: &FlightSetup, case: &Case, points: &[Point3<f64>]) -
 }
 
 /// Whether all points are in free space and, where no witness proves more, all straight legs are clear.
+///
+/// Points keep the keep-in margin from the walls, and all the robot's radius from obstacles.
 fn free(setup: &FlightSetup, points: &[Point3<f64>], whole_legs: bool) -> bool {
     let radius = setup.robot.clearance_radius;
     let inside = points.iter().all(|p| setup.world.is_free(p, radius));

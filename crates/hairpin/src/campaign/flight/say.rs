@@ -94,6 +94,9 @@ impl Say for FlightSetup {
 }
 
 /// Every leg that was flown: its mean speed, the turn from the leg before, and how steep it is.
+///
+/// Speed is the leg's length over the time between both arrivals; turn in 0 … 180°, 0 for the first leg; climb in −90 …
+/// 90°. Legs of which an arrival is missing are left out.
 fn legs_met(waypoints: &[Point3<f64>], flight: &Flight, meet: &mut dyn FnMut(&[f64])) {
     let mut before = Vector3::zeros();
     for (leg, pair) in waypoints.windows(2).enumerate() {

@@ -59,6 +59,8 @@ impl Kind for FlightSetup {
 }
 
 /// Whether two sections describe one space; its air is not part of it.
+///
+/// Size, margin and obstacles.
 fn same_space(a: &WorldSection, b: &WorldSection) -> bool {
     (a.size_m, a.keep_in_margin_m) == (b.size_m, b.keep_in_margin_m) && a.obstacles == b.obstacles
 }
@@ -76,6 +78,8 @@ fn robot_of(source: &RobotSource<QuadrotorDescription>) -> Result<Quadrotor, Mis
 }
 
 /// The world of a resolved section.
+///
+/// Obstacles without a name are called by their number.
 ///
 /// # Errors
 /// The world's key that is out of bounds.

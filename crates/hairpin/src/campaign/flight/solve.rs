@@ -57,6 +57,9 @@ impl<'a> FlightSolver<'a> {
     }
 
     /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible.
+    ///
+    /// Start and end stay where they are; what is in between keeps the margin from the walls and the robot's radius
+    /// from obstacles. A bound that was proven is dropped.
     fn moved(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let FlightSetup { world, robot, .. } = self.setup;
         let inner = &points[1..points.len() - 1];

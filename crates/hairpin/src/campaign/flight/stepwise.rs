@@ -39,6 +39,8 @@ enum Set {
 }
 
 /// Whether the end lies within so many steps of the sphere.
+///
+/// |end − p| ≤ steps · radius, 10⁻⁹ m for rounding: necessary for the end to be reached.
 fn set_near(set: &Sphere, points: &[Point3<f64>], node: &StepNode, steps: usize) -> bool {
     (points[points.len() - 1] - points[node.current as usize]).norm() <= set.radius * steps as f64 + 1e-9
 }
@@ -122,6 +124,8 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Whether the hull, so many steps long, still holds the end.
+    ///
+    /// Necessary as well; always true where waypoints are left at rest, as then nothing is carried over.
     fn hull_near(&self, hull: &Hull, points: &[Point3<f64>], node: &StepNode, steps: usize) -> bool {
         let (here, before) = (points[node.current as usize], points[node.previous as usize]);
         let end = points[points.len() - 1];
@@ -189,6 +193,8 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Keeps the legs whose segment is clear of obstacles by the robot's radius, and searches.
+    ///
+    /// Each pair of waypoints is tested against the obstacles once, when a search first asks for it.
     fn clear_of_obstacles<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
         &self,
         asked: Asked,
@@ -213,6 +219,7 @@ impl<'a> Stepwise<'a> {
         self.ask(asked, &Filtered { inner: reach, keep }, start, may_arrive)
     }
 
+    /// Evidence is `hull-feasible` with a hull, and none with `none` and `sphere`.
     fn ask<N: Copy + Eq + Ord + Hash, R: Reach<N>>(
         &self,
         Asked { graph, points, looped }: Asked,

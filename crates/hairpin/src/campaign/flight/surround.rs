@@ -4,11 +4,15 @@ use crate::campaign::graph::{Plan, into_unit_ball};
 use crate::campaign::scenario::{DiscreteGustSection, EnvironmentSection};
 
 /// How many numbers there are: three of the wind, three of the gust and its time.
+///
+/// 0, 3, 4 or 7.
 pub(super) fn coordinates(asked: &EnvironmentSection) -> usize {
     3 * usize::from(asked.wind_m_s.is_some()) + 4 * usize::from(asked.gust_m_s.is_some())
 }
 
 /// Takes velocities beyond their bound back to it, along themselves.
+///
+/// The time is no velocity and is left as it is.
 pub(super) fn bound(asked: &EnvironmentSection, place: &mut [f64]) {
     let velocities = usize::from(asked.wind_m_s.is_some()) + usize::from(asked.gust_m_s.is_some());
     for velocity in place.chunks_exact_mut(3).take(velocities) {
@@ -17,6 +21,9 @@ pub(super) fn bound(asked: &EnvironmentSection, place: &mut [f64]) {
 }
 
 /// `plan` in the air at `place`, flown for about `duration` s.
+///
+/// Wind and gust are their bounds (m/s) times the place; the gust's middle is at (1 + τ)/2 of the duration for its last
+/// coordinate τ, and it begins no earlier than the flight.
 pub(super) fn put(asked: &EnvironmentSection, plan: &Plan, place: &[f64], duration: f64) -> Plan {
     let mut environment = plan.environment.clone().unwrap_or_default();
     let mut velocities = place.chunks_exact(3);

@@ -42,6 +42,9 @@ fn body_of(robot: &Quadrotor) -> Body {
 /// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere,
 /// they are in the world, no more and no larger than was `asked` for, and wind and gust are no faster. Where nothing
 /// was asked for, as with missions from elsewhere, any is as good as another. Nothing for a case without one.
+///
+/// A speed at its bound may exceed it by a share of 10⁻¹², which is rounding. Gusts last as long as was asked for: a
+/// shorter one would be steeper.
 pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentSection>, case: &Case) -> Vec<Finding> {
     let Some(environment) = &case.environment else { return Vec::new() };
     let mut findings = Vec::new();
@@ -129,6 +132,8 @@ pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentS
 }
 
 /// The straight legs of a case that claims no more than these; at 1 m/s where it has no times.
+///
+/// As polynomials of degree 1 in the time since the leg began.
 fn straight(case: &Case) -> Vec<Leg> {
     let leg = |(number, pair): (usize, &[nalgebra::Point3<f64>])| {
         let way = pair[1] - pair[0];

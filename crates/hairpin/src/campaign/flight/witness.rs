@@ -40,6 +40,8 @@ impl<'a> Witness<'a> {
     }
 
     /// The witness of `waypoints` flown in order, if one is found for them alone.
+    ///
+    /// Under the scenario's limits of leg and flight times; velocities at waypoints are chosen for this sequence.
     pub(super) fn through(&self, waypoints: &[Point3<f64>]) -> Certificate {
         let longest = self.setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
         certify(&self.judge, waypoints, &self.timing, longest)
@@ -57,6 +59,9 @@ impl<'a> Witness<'a> {
     }
 
     /// Searches graph number `graph` over `points`.
+    ///
+    /// A profile longer than the flight time's limit is no plan. Legs that were judged are kept for the next round of
+    /// an adaptive campaign.
     pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
         let scenario = &self.setup.scenario;
         let again = matches!(looped.wanted, Wanted::Round(_));

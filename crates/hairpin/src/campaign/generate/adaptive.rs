@@ -36,6 +36,8 @@ struct Graph {
     /// Fingerprints of what was executed.
     known: HashSet<[u8; 16]>,
     /// The most stressful, the first of equals first.
+    ///
+    /// At most `generate.search.per_graph`.
     kept: Vec<Plan>,
     curve: Curve,
 }
@@ -61,9 +63,12 @@ struct Campaign<'a> {
     sampled: &'a Graphs<'a>,
     stop: &'a Stop<'a>,
     search: SearchSection,
+    /// s, by the clock of the caller.
     begun: f64,
     graphs: Vec<Graph>,
+    /// Legs of all trajectories executed so far, in the order of these.
     samples: Vec<LegSample>,
+    /// Also those that failed or were not begun: numbers of trajectories are never used twice.
     executed: u64,
     tally: Tally,
 }
@@ -96,6 +101,8 @@ pub(super) fn generate(
 }
 
 impl Campaign<'_> {
+    /// Without a limit of time in one part; with one in parts of 8 executions per graph, so that what was found can
+    /// still be executed.
     fn round(&mut self, number: u64) {
         let share = dealt(self.search.executions, self.search.adaptive_rounds(), number);
         let mut told = RoundTally::default();

@@ -5,10 +5,13 @@ use super::plan::Plan;
 /// What the search gave.
 #[derive(Default)]
 pub(in crate::campaign) struct Answer {
+    /// The best first, where a search ranks them.
     pub(in crate::campaign) plans: Vec<Plan>,
     /// Trajectories found that break a limit of whole trajectories.
     pub(in crate::campaign) refused: usize,
+    /// The graph has no feasible trajectory of the length; `false` where that is only not known.
     pub(in crate::campaign) proven_empty: bool,
+    /// Nodes expanded, draws made, or executions, by the search's method.
     pub(in crate::campaign) expansions: u64,
     pub(in crate::campaign) dropped: u64,
     pub(in crate::campaign) duplicates: u64,
@@ -17,6 +20,8 @@ pub(in crate::campaign) struct Answer {
     /// How many, after those, are optima of scores by hand.
     pub(in crate::campaign) by_hand: usize,
     /// The largest stress after each execution in the loop.
+    ///
+    /// Never falls; in the unit of the stress.
     pub(in crate::campaign) best_so_far: Vec<f64>,
     /// Why nothing was found.
     pub(in crate::campaign) reason: Option<String>,

@@ -50,6 +50,8 @@ pub struct Deaths {
     /// What a candidate is.
     pub of: &'static str,
     /// Candidates.
+    ///
+    /// [`Self::left`] and all of [`Self::lost`] together.
     pub asked: u64,
     /// Those that are legs on which the end can still be reached.
     pub left: u64,
@@ -83,6 +85,7 @@ impl Counter {
         self.left += count;
     }
 
+    /// Equally frequent ones are in the order of the steps, then of their names.
     pub(in crate::campaign) fn deaths(self, of: &'static str) -> Deaths {
         let mut lost: Vec<Lost> =
             self.lost.into_iter().map(|((stage, limit), count)| Lost { stage, limit, count }).collect();

@@ -15,6 +15,8 @@ pub(in crate::campaign) struct Executions<'a> {
     pub(in crate::campaign) duration: &'a dyn Fn(&Plan) -> Option<f64>,
     /// A plan with the obstacles that are asked for, executed twice: without them, to see where they belong, and among
     /// them.
+    ///
+    /// Costs two executions; `None` as well where no obstacle finds room.
     pub(in crate::campaign) furnish: &'a dyn Fn(&Plan) -> Option<(Plan, Trial)>,
     /// Of parts of trajectories, where these are to be scored by them.
     pub(in crate::campaign) partial: Option<Partials<'a>>,
@@ -37,6 +39,8 @@ pub(in crate::campaign) struct Partials<'a> {
 #[derive(Clone, Copy)]
 pub(in crate::campaign) struct Surroundings<'a> {
     /// Numbers between −1 and 1 that say what disturbs the robot all along: the air, a force.
+    ///
+    /// 0: nothing disturbs it.
     pub(in crate::campaign) coordinates: usize,
     /// Puts numbers that are not allowed to the nearest that are.
     pub(in crate::campaign) bound: &'a dyn Fn(&mut [f64]),
@@ -50,6 +54,8 @@ pub(in crate::campaign) struct Surroundings<'a> {
 pub(super) type Move<'a> = &'a dyn Fn(&Plan, &[Point3<f64>]) -> Option<Plan>;
 
 /// Takes `vector` back to length 1 where it is longer, along itself.
+///
+/// v / max(1, ‖v‖).
 pub(in crate::campaign) fn into_unit_ball(vector: &mut [f64]) {
     let norm = vector.iter().map(|x| x * x).sum::<f64>().sqrt().max(1.0);
     vector.iter_mut().for_each(|x| *x /= norm);

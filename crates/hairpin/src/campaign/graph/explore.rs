@@ -33,6 +33,8 @@ impl<N: Copy + Eq + Hash, R: Reach<N>> Explored<'_, N, R> {
     /// Counts the candidates of the first nodes. `before` and `after` give the limit that refuses a leg between two
     /// waypoints whatever the reach set says, and though it has the leg; `may_arrive` is necessary for the end to be
     /// reached in so many legs.
+    ///
+    /// Breadth first, 32 nodes at most; each has all other waypoints as candidates.
     pub(in crate::campaign) fn count(
         &self,
         place: impl Fn(&N) -> u32,

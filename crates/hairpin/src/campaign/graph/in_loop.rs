@@ -30,6 +30,9 @@ const STAGES: [(usize, f64); 3] = [(6, 0.4), (2, 0.4), (1, 1.0)];
 const STEP: f64 = 0.15;
 const LARGEST_STEP: f64 = 0.3;
 
+/// Of the executions 40 % go to disturbances where these are searched, and of the others a fifth to evolution where
+/// waypoints are moved as well; then the best 6, 2 and 1 are moved on with 40 %, 40 % and all of what is left.
+/// Obstacles come last, two executions for each trajectory that is kept.
 pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
     let search = question.search;
     let graph = question.leg_graph();
@@ -159,6 +162,7 @@ fn go_on(so_far: &mut Vec<f64>, next: &[f64]) {
     so_far.extend(next.iter().map(|stress| most.max(*stress)));
 }
 
+/// m.
 fn mean_leg(plan: &Plan) -> f64 {
     let legs = plan.waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm());
     legs.sum::<f64>() / (plan.waypoints.len() - 1) as f64

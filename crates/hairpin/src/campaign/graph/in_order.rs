@@ -6,6 +6,8 @@ use crate::campaign::SeenLeg;
 use crate::feasibility::reach::Reach;
 
 /// What a search would see of the legs from every point to the one after it; `None` where `reach` lacks one.
+///
+/// One leg fewer than points. Of several legs to one waypoint the reach set's first is taken.
 pub(in crate::campaign) fn in_order<N: Copy, R: Reach<N>>(
     reach: R,
     start: N,

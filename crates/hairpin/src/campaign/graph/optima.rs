@@ -11,6 +11,8 @@ use crate::search::{Additive, Aggregate, ExactOutcome, ExactSearch, ExactSetting
 pub(in crate::campaign) const AGGREGATES: [Aggregate; 2] = [Aggregate::Max, Aggregate::Sum];
 
 /// Of every score of the question, its own first, the optimum under each of [`AGGREGATES`].
+///
+/// Each at most one trajectory, with its bound.
 pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &'q Question<N, R, O>,
     graph: &'q LegGraph<'_, N>,

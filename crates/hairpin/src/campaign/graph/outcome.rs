@@ -46,6 +46,7 @@ impl Outcome {
         }
     }
 
+    /// The reason is the other's, the later one.
     pub(in crate::campaign) fn add(&mut self, other: Outcome) {
         self.plans.extend(other.plans);
         self.graphs += other.graphs;

@@ -34,6 +34,7 @@ impl<N: Copy, R, O> Execute<N> for Carried<'_, '_, N, R, O> {
     }
 }
 
+/// The frontier is at most 1000 partial trajectories.
 pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     partials: &Partials,

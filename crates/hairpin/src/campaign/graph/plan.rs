@@ -9,12 +9,18 @@ use crate::search::Found;
 /// A trajectory that a graph gave.
 #[derive(Debug, Clone)]
 pub(in crate::campaign) struct Plan {
+    /// m, both ends included.
     pub(in crate::campaign) waypoints: Vec<Point3<f64>>,
+    /// s, one per leg.
     pub(in crate::campaign) leg_times: Vec<f64>,
+    /// What the search saw of each leg; empty where no search chose them.
     pub(in crate::campaign) seen: Vec<SeenLeg>,
+    /// In the score's own unit; of what was executed for it the stress.
     pub(in crate::campaign) score: f64,
+    /// No trajectory of the graph scores higher, where a search has proven it.
     pub(in crate::campaign) bound: Option<f64>,
     pub(in crate::campaign) evidence: Evidence,
+    /// `yes`, `no` or `unknown`, where a witness was searched afterwards.
     pub(in crate::campaign) certified: Option<&'static str>,
     pub(in crate::campaign) witness: Option<Witness>,
     /// What was found beside the waypoints.

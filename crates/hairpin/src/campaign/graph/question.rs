@@ -101,6 +101,7 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> Question<'_, N, R, O> 
         Some(plan)
     }
 
+    /// Up to the first leg that the reach set has no longer.
     fn seen(&self, found: &Found<N>) -> Vec<SeenLeg> {
         let mut legs = Vec::new();
         let pairs = found.nodes.windows(2);
@@ -114,6 +115,8 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> Question<'_, N, R, O> 
     }
 
     /// The answer with the plans of `found`, the best first, and a proven upper bound of the score.
+    ///
+    /// Those that break a limit of whole trajectories are counted as refused.
     pub(super) fn answer(&self, found: Vec<Found<N>>, bound: Option<f64>) -> Answer {
         let count = found.len();
         let plans: Vec<Plan> = found.into_iter().filter_map(|found| self.planned(found)).collect();

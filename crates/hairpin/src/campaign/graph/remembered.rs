@@ -32,6 +32,8 @@ impl<T> Remembered<T> {
     }
 
     /// Keeps what was found of graph number `graph`, which takes so many bytes, if there is room.
+    ///
+    /// Half a GiB in all: what finds no room is dropped.
     pub(in crate::campaign) fn keep(&self, graph: u64, found: T, bytes: usize) {
         let mut kept = self.kept();
         if kept.bytes + bytes <= MOST_BYTES {

@@ -25,6 +25,9 @@ const REDRAWS: u32 = 6;
 
 /// Trajectories that were not executed yet. What models cannot give is drawn, so that a round is as large as it was
 /// asked for.
+///
+/// Models share the optima wanted evenly, the first ones one more; scores by hand take turns over rounds and graphs,
+/// each under both aggregates.
 pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     round: &Round,
@@ -84,6 +87,8 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> New<'_, '_, N, R, O> {
     }
 
     /// The best `wanted` under `score`.
+    ///
+    /// Asks for the best k, then 4 k, up to 256, until enough are new or there are no more.
     fn best(&mut self, search: &ExactSearch<'_, '_, N>, score: &O, aggregate: Aggregate, mut wanted: usize) {
         if wanted == 0 {
             return;
@@ -103,6 +108,8 @@ impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> New<'_, '_, N, R, O> {
     }
 
     /// Uniform draws; whether there is nothing to draw from.
+    ///
+    /// Draws of a seed are a sequence: twice as many begin with those that are known. Six repetitions at most.
     fn draw(&mut self, graph: &LegGraph<'_, N>, number: u64, mut wanted: usize) -> bool {
         let (search, seed) = (self.question.search, self.question.seed);
         let seed = if number == 0 { seed } else { named_seed(seed, "round", number) };

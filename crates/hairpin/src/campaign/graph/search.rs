@@ -24,6 +24,7 @@ pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Add
     }
 }
 
+/// Optima of the method `exact` are proven, its bound holds for the graph; the others find what they find.
 fn by_method<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
@@ -41,6 +42,7 @@ fn by_method<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     }
 }
 
+/// Ends with the frontier or the iterations; an empty frontier is a proof only where the beam lost nothing.
 fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question: &Question<N, R, O>,
     may_arrive: impl Fn(&N, usize) -> bool,
@@ -71,6 +73,7 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(quest
     Answer { proven_empty, expansions: outcome.expansions, reason, ..question.answer(outcome.found, outcome.bound) }
 }
 
+/// Proven empty where no walk of the length leads from start to end.
 fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
     let search = question.search;
     let graph = question.leg_graph();

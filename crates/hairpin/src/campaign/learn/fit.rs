@@ -21,6 +21,8 @@ impl ScoreModel {
     /// Degree (1 to 4) and penalty have the least error in 10-fold cross-validation over trajectories. The same choice
     /// made on four fifths of the trajectories is tested on the last fifth.
     ///
+    /// Samples of one trajectory follow each other: a trajectory ends where the number changes.
+    ///
     /// # Errors
     /// [`NoFit`]: fewer than 12 trajectories, numbers that are none, legs that are all the same.
     pub fn learn(stress: Stress, subject: Subject, samples: &[LegSample]) -> Result<Self, NoFit> {
@@ -41,6 +43,8 @@ impl ScoreModel {
         Self::fit(stress, subject, MoveFeatures::named(), &Pairs { rows, before })
     }
 
+    /// The model of all rows, its cross-validation, and the test on every fifth trajectory, for which the choice is
+    /// made again without those.
     fn fit(stress: Stress, subject: Subject, features: Vec<Feature>, all: &Pairs) -> Result<Self, NoFit> {
         let mut trajectories = all.rows.groups.clone();
         trajectories.dedup();
@@ -68,6 +72,7 @@ impl ScoreModel {
     }
 }
 
+/// One row per leg, in their order.
 pub(super) fn pairs(samples: &[LegSample]) -> Pairs {
     let inputs = |leg: &SeenLeg| legs::inputs(&leg.features, leg.duration).to_vec();
     let rows = Rows {
@@ -78,6 +83,8 @@ pub(super) fn pairs(samples: &[LegSample]) -> Pairs {
     Pairs { rows, before: samples.iter().map(|sample| sample.before.as_ref().map(inputs)).collect() }
 }
 
+/// r² = 1 − Σ (y − ŷ)² / Σ (y − ȳ)² over the legs, 0 where all y are equal; the rank correlation is of the
+/// trajectories' largest y and ŷ, which need not be of the same leg.
 fn held_out(fitted: &Parts, unseen: &Pairs) -> HeldOut {
     let Pairs { rows: unseen, before } = unseen;
     let n = unseen.values.len().max(1) as f64;
@@ -105,6 +112,7 @@ fn held_out(fitted: &Parts, unseen: &Pairs) -> HeldOut {
     }
 }
 
+/// Over trajectory number (u64), inputs and stress (f64) of each row, little-endian, in the order of the rows.
 fn hash(rows: &Rows) -> String {
     let mut hasher = blake3::Hasher::new();
     for ((inputs, value), group) in rows.inputs.iter().zip(&rows.values).zip(&rows.groups) {

@@ -24,6 +24,7 @@ pub(super) fn named() -> Vec<Feature> {
     named.into_iter().map(|(name, unit)| Feature { name: name.into(), unit: unit.into() }).collect()
 }
 
+/// Slope = climb / length; 0 for a leg without a length. `duration` in s.
 pub(super) fn inputs(leg: &LegFeatures, duration: f64) -> [f64; FEATURES] {
     let slope = if leg.length > 0.0 { leg.climb / leg.length } else { 0.0 };
     let [v_in, v_out, length] = [leg.v_in, leg.v_out, leg.length].map(|size| libm::log(1.0 + size));
@@ -40,5 +41,7 @@ pub struct LegSample {
     /// What a search sees of the leg before it; `None` for a first one.
     pub before: Option<SeenLeg>,
     /// Its stress.
+    ///
+    /// In the unit of what is learned (that of its `Stress`), as the run that was executed had it.
     pub stress: f64,
 }

@@ -18,10 +18,14 @@ pub struct HeldOut {
     /// Trajectories that were held out.
     pub trajectories: usize,
     /// Share of the variance over their legs that is explained.
+    ///
+    /// 1 is exact; 0 is no better than the mean, and negative is worse.
     pub r2: f64,
     /// Root of the mean squared error over their legs, in units of the stress.
     pub rmse: f64,
     /// Spearman's ρ between told and measured largest stress of a trajectory: what a search makes use of.
+    ///
+    /// −1 to 1.
     pub rank_correlation: Option<f64>,
 }
 
@@ -135,6 +139,7 @@ impl ScoreModel {
         self.before.as_ref().map_or(Ok(()), |before| self.check_polynomial("before", before))
     }
 
+    /// Lengths of all lists, the monomials of the degree, ranges that rise, and numbers within ±10⁵⁰.
     fn check_polynomial(&self, part: &'static str, polynomial: &PolynomialRidge) -> Result<(), ModelMistake> {
         let wrong = |field, found: String, bound: &str| {
             Err(ModelMistake::Polynomial { part, field, found, bound: bound.to_owned() })
@@ -168,16 +173,22 @@ impl ScoreModel {
     }
 
     /// The stress expected of a leg, in [`Self::unit`], but for what the leg before leaves to it.
+    ///
+    /// `duration` in s. Beyond the range of what was learned from, inputs count as its nearest end.
     pub fn own(&self, leg: &LegFeatures, duration: f64) -> f64 {
         self.polynomial.value(&legs::inputs(leg, duration))
     }
 
     /// What a leg leaves to the stress of the one after it, in [`Self::unit`].
+    ///
+    /// 0 where no such part was learned.
     pub fn left(&self, leg: &LegFeatures, duration: f64) -> f64 {
         self.before.as_ref().map_or(0.0, |before| before.value(&legs::inputs(leg, duration)))
     }
 
     /// [`Self::own`] and [`Self::left`] of many legs with their durations.
+    ///
+    /// [own, left] of each, to the last bit as one by one.
     pub(in crate::campaign) fn parts<'l>(&self, legs: impl Iterator<Item = (&'l LegFeatures, f64)>) -> Vec<[f64; 2]> {
         let inputs: Vec<_> = legs.map(|(leg, duration)| legs::inputs(leg, duration)).collect();
         let mut parts = Vec::with_capacity(inputs.len());

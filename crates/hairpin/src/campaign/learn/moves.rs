@@ -20,14 +20,24 @@ pub struct MoveFeatures {
     /// Its rise, m.
     pub climb: f64,
     /// Angle between the orientations at both ends, rad.
+    ///
+    /// 0 to π.
     pub turn: f64,
     /// Programmed speed of the tool's point, m/s.
+    ///
+    /// At most 7: [`Self::speed_of`].
     pub speed: f64,
     /// Largest turn of a joint, rad.
+    ///
+    /// maxₖ |Δqₖ|.
     pub largest: f64,
     /// All turns of joints together, rad.
+    ///
+    /// Σₖ |Δqₖ|.
     pub turns: f64,
     /// The longest that a joint takes at its largest speed, s.
+    ///
+    /// maxₖ |Δqₖ| / q̇ₖ,ₘₐₓ: a lower bound of any move between the two.
     pub duration: f64,
 }
 

@@ -18,6 +18,7 @@ const MOST_DEGREE: u32 = 4;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Pairs {
     pub(super) rows: Rows,
+    /// As many as rows; `None` for the first leg of a trajectory.
     pub(super) before: Vec<Option<Vec<f64>>>,
 }
 
@@ -36,6 +37,8 @@ impl Parts {
     /// 1981): the own part, the part before to what that leaves unexplained, and the own part again. Each has the
     /// degree (1 to 4) and the penalty of the least error in cross-validation; the part before is kept where it lessens
     /// the error of both together.
+    ///
+    /// Costs three cross-validations over degrees and penalties, and one of both parts together.
     ///
     /// # Errors
     /// [`NoFit`].
@@ -100,6 +103,8 @@ impl Parts {
 
 impl Pairs {
     /// All trajectories but one in so many, the first of which is number `first`; and those.
+    ///
+    /// Trajectories are counted where the group changes from one row to the next.
     pub(super) fn split(&self, every: usize, first: usize) -> (Self, Self) {
         let (mut seen, mut unseen) = (Self::default(), Self::default());
         let (mut place, mut last) = (0, None);

@@ -17,6 +17,9 @@ impl ScoreModel {
     /// The optimum under a model drawn so is one that may be the true one, as far as the data say: bootstrapped
     /// Thompson sampling. Sources: Efron 1979; Osband and Van Roy 2015.
     ///
+    /// Each trajectory comes with all of its legs: legs of one trajectory are not independent. The same seed gives the
+    /// same model.
+    ///
     /// # Errors
     /// [`NoFit`]: no trajectory, or all that were drawn are the same.
     pub(in crate::campaign) fn resampled(&self, samples: &[LegSample], seed: u64) -> Result<Self, NoFit> {

@@ -17,6 +17,8 @@ pub(in crate::campaign) enum AnyScore<'a> {
 
 impl AnyScore<'_> {
     /// [`Additive::own`] and [`Additive::left`].
+    ///
+    /// In the unit of the score; of a learned one its stress.
     fn both(&self, leg: &LegView<'_>) -> [f64; 2] {
         match self {
             Self::Named(score) => [score.own(leg), score.left(leg)],

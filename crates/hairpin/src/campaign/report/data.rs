@@ -28,6 +28,8 @@ pub struct Metric {
     /// Whether smaller is worse.
     pub lower_is_worse: bool,
     /// One value per case that has one, in the order of the results.
+    ///
+    /// In [`Self::unit`].
     pub values: Vec<f64>,
 }
 
@@ -53,10 +55,16 @@ pub struct Shown {
     /// The worst run; `None` where the executor failed.
     pub flown: Option<Track>,
     /// Distance from the reference at each stamp of `flown`, m.
+    ///
+    /// Also where it is not judged; 0 where the judge compares nothing.
     pub distances: Vec<f64>,
     /// Whether it was judged there: inside `corner_m` of a waypoint overshoot is, instead.
+    ///
+    /// As long as [`Self::distances`].
     pub judged: Vec<bool>,
     /// Of the judged distances.
+    ///
+    /// `None` where none was.
     pub statistics: Option<Statistics>,
 }
 
@@ -135,6 +143,9 @@ pub struct Pieces<'a> {
 }
 
 /// The results' order in tables: failures, then doubts, then passes, each by its deviation, the largest first.
+///
+/// Within each, crashes come before all else, and equals in the order of their numbers. Executors that failed are last:
+/// they say nothing of the robot.
 pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
     let rank = |result: &CaseResult| match result.status {
         Status::Fail => 0,
@@ -155,6 +166,9 @@ pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
 }
 
 /// A case in full: `run` is the result's worst one. Distances are those that were judged.
+///
+/// The reference is the scenario's with the run's own draws: the leg being executed, the nearer of it and the one
+/// before, or the planned path.
 ///
 /// # Errors
 /// A track that the judge refuses.

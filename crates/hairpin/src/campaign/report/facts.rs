@@ -7,6 +7,8 @@ use crate::campaign::kind::{Facts, word};
 use crate::campaign::{CaseResult, Status};
 use crate::judgement::{Measures, share};
 
+/// Largest deviation and its case, the share of violations among judged cases with its interval at the scenario's
+/// confidence (0.95 if none is given), and the number of cases.
 pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     let of = |a: &str, b: String, c: String| [a.to_owned(), b, c];
     let judged = pieces.results.iter().filter(|r| matches!(r.status, Status::Pass | Status::Fail)).count();
@@ -35,6 +37,7 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     numbers
 }
 
+/// Of equals the case of the smallest number.
 fn largest_deviation(results: &[CaseResult]) -> Option<(&CaseResult, &Measures)> {
     let measured = results.iter().filter_map(|result| result.measures.as_ref().map(|m| (result, m)));
     measured.max_by(|a, b| a.1.max_deviation.total_cmp(&b.1.max_deviation).then(b.0.case.cmp(&a.0.case)))
@@ -73,6 +76,8 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
     ]
 }
 
+/// Measures that no case has are left out. Limits are in the metric's unit: ms of the latest arrival, else as the
+/// specification has them.
 pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {
     let limits = pieces.setup.scenario.head().terms.limits;
     let metric = |name, unit, limit, of: fn(&Measures) -> Option<f64>| Metric {

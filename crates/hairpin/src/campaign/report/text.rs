@@ -8,6 +8,9 @@ use crate::judgement::Violation;
 
 /// `nose up 12°, left side down 8°`: how far the body's forward and left axes point above or below the horizon, which
 /// needs no convention of signs; `upside down` is said too. The body is forward, left, up.
+///
+/// Angles are asin of the axis's z component in the world, to whole degrees; sides at 0° are not told. Level is
+/// `level`.
 pub fn attitude(world_from_body: &UnitQuaternion<f64>) -> String {
     let side = |name: &str, axis: Vector3<f64>| {
         let degrees = (world_from_body * axis).z.clamp(-1.0, 1.0).asin().to_degrees().round();
@@ -54,6 +57,8 @@ pub const COLUMNS: [&str; 11] = [
 ];
 
 /// One row of the table of cases, under [`COLUMNS`].
+///
+/// What was not measured is a dash. Cases are numbered with four digits, saturation is a share in percent.
 pub fn cells(result: &CaseResult) -> [String; 11] {
     let of = |value: fn(&crate::judgement::Measures) -> f64| number(result.measures.as_ref().map(value));
     [

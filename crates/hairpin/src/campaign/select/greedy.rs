@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 
 /// The `count` heaviest, the heaviest first; the first of equals.
+///
+/// O(n log n).
 pub(super) fn heaviest(weights: &[f64], count: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..weights.len()).collect();
     order.sort_by(|a, b| weights[*b].total_cmp(&weights[*a]));
@@ -14,6 +16,8 @@ pub(super) fn heaviest(weights: &[f64], count: usize) -> Vec<usize> {
 /// the item that adds most to half of the weights and the whole of the distances, which is at least half of the best
 /// for distances that are a metric (Borodin, Lee, Ye: Max-sum diversification, monotone submodular functions and
 /// dynamic updates, 2012).
+///
+/// O(n · count) distances, each asked for once; of equal gains the first item.
 pub(super) fn dispersed(weights: &[f64], distance: impl Fn(usize, usize) -> f64, count: usize) -> Vec<usize> {
     // One item has no pairs: its weight alone decides.
     let per_weight = 0.5 * (count.saturating_sub(1)).max(1) as f64;
@@ -34,6 +38,8 @@ pub(super) fn dispersed(weights: &[f64], distance: impl Fn(usize, usize) -> f64,
 /// `count` sets that cover most: each time the one that covers most that is new, of equals the heaviest; at least 1 −
 /// 1/e of what the best choice covers (Nemhauser, Wolsey, Fisher: An analysis of approximations for maximizing
 /// submodular set functions, 1978).
+///
+/// Weights 0 … 1. O(n · count) differences of sets.
 pub(super) fn covering(sets: &[&BTreeSet<usize>], weights: &[f64], count: usize) -> Vec<usize> {
     let mut covered = BTreeSet::new();
     let mut left: BTreeSet<usize> = (0..sets.len()).collect();
@@ -49,6 +55,7 @@ pub(super) fn covering(sets: &[&BTreeSet<usize>], weights: &[f64], count: usize)
     chosen
 }
 
+/// The first of those that gain most; `None` of nothing.
 fn first_best(left: &BTreeSet<usize>, gain: impl Fn(usize) -> f64) -> Option<usize> {
     left.iter().copied().reduce(|best, item| if gain(item) > gain(best) { item } else { best })
 }

@@ -51,17 +51,23 @@ pub struct Candidate {
     /// Its number.
     pub case: usize,
     /// Its largest deviation, m, or where it was not executed its score.
+    ///
+    /// Executed cases without measures count by their score as well.
     pub stress: f64,
     /// Places along its way, m.
     route: Vec<Point3<f64>>,
     /// What came of it, each measure in its own unit; empty where it was not executed.
     behaviour: Vec<f64>,
     /// Cells of the grid of motion that it met.
+    ///
+    /// By their numbers in the grid.
     pub cells: BTreeSet<usize>,
 }
 
 impl Candidate {
     /// The candidate that `case` is, with what its worst run came to and the cells that it met.
+    ///
+    /// `case` has at least one waypoint.
     pub fn new(case: &Case, result: Option<&CaseResult>, cells: BTreeSet<usize>) -> Self {
         let measures = result.and_then(|result| result.measures.as_ref());
         Self {
@@ -75,10 +81,13 @@ impl Candidate {
 }
 
 /// Whether all of `candidates` were executed and measured: their stress is a deviation, m, then.
+///
+/// One that was not makes all of them compared by their ways alone.
 pub fn measured(candidates: &[Candidate]) -> bool {
     candidates.iter().all(|candidate| !candidate.behaviour.is_empty())
 }
 
+/// What a robot has no measure of counts as 0, of all cases alike.
 fn behaviour(m: &Measures) -> Vec<f64> {
     vec![
         m.max_deviation,
@@ -92,6 +101,8 @@ fn behaviour(m: &Measures) -> Vec<f64> {
 }
 
 /// Places along a way, evenly by its length.
+///
+/// As many as are compared; waypoints in the plane or in space alike.
 fn evenly(waypoints: &[Point3<f64>]) -> Vec<Point3<f64>> {
     let lengths: Vec<f64> = waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
     let whole: f64 = lengths.iter().sum();
@@ -130,10 +141,14 @@ pub struct Measured {
     /// Mean of the cases' stress in its own unit.
     pub stress: f64,
     /// Largest of them.
+    ///
+    /// Negative infinity of no case.
     pub worst: f64,
     /// Mean distance between two cases, 0 … 1.
     pub spread: f64,
     /// Least distance between two cases.
+    ///
+    /// 0 where there are fewer than two.
     pub nearest: f64,
     /// Cells of the grid of motion that are met.
     pub cells: usize,
@@ -141,6 +156,8 @@ pub struct Measured {
 
 impl<'a> Choice<'a> {
     /// Among `candidates`.
+    ///
+    /// O(n²) distances on all threads, O(n) memory. The stress of each is (s − min) / (max − min).
     pub fn new(candidates: &'a [Candidate]) -> Self {
         let stress = unit(&candidates.iter().map(|c| c.stress).collect::<Vec<_>>());
         let measures = candidates.first().map_or(0, |c| c.behaviour.len());
@@ -158,6 +175,9 @@ impl<'a> Choice<'a> {
     }
 
     /// How far two ways are apart, m, and what came of them.
+    ///
+    /// √(Σ |pᵢ − qᵢ|² / n) over the n points of both ways, and the Euclidean distance of the measures as shares of
+    /// their ranges.
     fn distances(&self, a: usize, b: usize) -> [f64; 2] {
         let [one, other] = [a, b].map(|place| &self.candidates[place].route);
         let way: f64 = one.iter().zip(other).map(|(p, q)| (p - q).norm_squared()).sum();
@@ -166,6 +186,8 @@ impl<'a> Choice<'a> {
     }
 
     /// Both distances are metrics, and so is their mean over constants.
+    ///
+    /// Of those that are not all 0: ½ (d / d_max + b / b_max), or one of them alone.
     fn apart(&self, a: usize, b: usize) -> f64 {
         let parts = self.longest.iter().filter(|longest| **longest > 0.0).count().max(1) as f64;
         let share = |(distance, longest): (f64, f64)| if longest > 0.0 { distance / longest } else { 0.0 };
@@ -173,6 +195,8 @@ impl<'a> Choice<'a> {
     }
 
     /// `count` of the candidates, as their places in the list, in the order in which they are chosen.
+    ///
+    /// At most as many as there are. [`By::guarantee`] says how good they are.
     pub fn best(&self, count: usize, by: By) -> Vec<usize> {
         match by {
             By::Stress => greedy::heaviest(&self.stress, count),
@@ -185,6 +209,8 @@ impl<'a> Choice<'a> {
     }
 
     /// How good a choice of places is.
+    ///
+    /// Of places as [`Self::best`] gives them; O(k²) distances for k of them.
     pub fn measure(&self, chosen: &[usize]) -> Measured {
         let stress = || chosen.iter().map(|place| self.candidates[*place].stress);
         // Sum and least of each row; rows are added up in their order, on any number of threads.

@@ -28,6 +28,8 @@ impl Job<'_> {
     }
 
     /// Keeps `change` if it still violates so.
+    ///
+    /// Plan and run are asked again; where either is refused, the scenario stays.
     fn without(&mut self, words: &str, change: &dyn Fn(&mut Scenario)) {
         if self.stopped {
             return;
@@ -43,6 +45,9 @@ impl Job<'_> {
     }
 
     /// As few of what stands in the world as it still violates among.
+    ///
+    /// By delta debugging; only where no varied key names one of them by its place, and not where all of them went at
+    /// once.
     fn fewer(&mut self, standing: &Standing) {
         let all: Vec<usize> = (0..standing.count).collect();
         let before = self.best.simplified.len();

@@ -13,6 +13,8 @@ const ROUNDED: [f64; 3] = [1.0, 0.1, 0.01];
 impl Job<'_> {
     /// Makes every leg as short as bisection finds it to violate still, the last one first; what follows it moves
     /// along. Then rounds the coordinates as far as that goes.
+    ///
+    /// Up to 5 runs per leg and 3 for the coordinates. An arm's points stay where they are.
     pub(super) fn shorten(&mut self) {
         if !self.route.moves() {
             return;
@@ -47,6 +49,8 @@ impl Job<'_> {
 }
 
 /// `route` with leg number `leg` of `share` of its length.
+///
+/// All waypoints behind the leg are moved by −(1 − share) of it: later legs keep length and direction.
 fn with_leg(route: &Route, leg: usize, share: f64) -> Route {
     let mut shorter = route.clone();
     let back = (route.stops[leg + 1].at - route.stops[leg].at) * (1.0 - share);
@@ -56,6 +60,7 @@ fn with_leg(route: &Route, leg: usize, share: f64) -> Route {
     shorter
 }
 
+/// Every coordinate to the nearest multiple of `unit`, m.
 fn rounded(route: &Route, unit: f64) -> Route {
     let mut rounded = route.clone();
     // By division, so that a tenth is the nearest number to it.
@@ -66,6 +71,7 @@ fn rounded(route: &Route, unit: f64) -> Route {
     rounded
 }
 
+/// Whether no leg is shorter than 0.25 m.
 fn apart(route: &Route) -> bool {
     route.stops.windows(2).all(|pair| (pair[1].at - pair[0].at).norm() >= SHORTEST)
 }

@@ -63,6 +63,11 @@ pub enum ShrinkError {
 ///
 /// What is asked of `run` depends on its answers alone.
 ///
+/// At most three passes of waypoints, conditions and lengths, fewer once a pass changes nothing. The number of runs is
+/// that of delta debugging: O(n log n) of n waypoints as a rule, O(n²) at worst.
+///
+/// What is kept is 1-minimal at best: no single waypoint can go, which does not make it the smallest of all.
+///
 /// # Errors
 /// A case that does not violate, at all or again.
 pub fn shrink(
@@ -126,12 +131,15 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
+    /// By the name of the limit; where and by how much may differ.
     fn violates(&self, result: &CaseResult) -> bool {
         result.violations.iter().any(|violation| violation.what == self.what)
     }
 
     /// Whether the way along `route` under `setup` is feasible and violates; then it is the smallest so far. `None`:
     /// stopped.
+    ///
+    /// A way that cannot be planned does not violate, and costs no run.
     fn holds(&mut self, setup: Option<&Setup>, route: &Route) -> Option<bool> {
         let own = setup.unwrap_or(&self.setup);
         let Some(case) = self.planner.plan(own, &self.best.case, route) else { return Some(false) };

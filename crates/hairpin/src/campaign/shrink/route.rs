@@ -19,11 +19,15 @@ pub(super) struct Stop {
 pub(super) struct Route {
     pub(super) stops: Vec<Stop>,
     /// Waypoints at both ends that stay, as an arm's home.
+    ///
+    /// At each end, 0 or 1.
     ends: usize,
 }
 
 impl Route {
     /// That of `case` as it is.
+    ///
+    /// Of arms both homes stay.
     pub(super) fn of(case: &Case) -> Self {
         let stop = |(index, at): (usize, &Point3<f64>)| Stop { index, at: *at };
         Self {
@@ -71,6 +75,8 @@ impl Planner {
     }
 
     /// The case along `route`, if that is feasible; `last` is the smallest so far, which needs no plan of its own.
+    ///
+    /// `None` where it is not feasible by the claim that the case stands on.
     pub(super) fn plan(&self, setup: &Setup, last: &Case, route: &Route) -> Option<Case> {
         let points = route.points();
         // What is left out of a scenario only makes a plan easier: it stands as it is.

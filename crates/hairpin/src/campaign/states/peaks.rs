@@ -30,6 +30,9 @@ impl WheelPeaks {
     }
 
     /// The first bound of the vehicle's wheels that is exceeded, by its name and by how much, in rad, s and N·m.
+    ///
+    /// Steer angles first, then their rate, speed, acceleration, torque. A share of 10⁻⁶ above a bound is rounding; a
+    /// number that is none breaks it.
     pub fn broken(&self, rover: &Rover) -> Option<(&'static str, f64)> {
         /// What sampling and rounding may add.
         const ROUNDING: f64 = 1e-6;

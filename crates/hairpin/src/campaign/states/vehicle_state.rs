@@ -9,6 +9,8 @@ pub struct VehicleState {
     /// Since the drive began, s; turns in place take their time.
     pub time: f64,
     /// Metres driven.
+    ///
+    /// Turns in place add none.
     pub s: f64,
     /// Over the ground; the curvature is the steering's.
     pub at: Planar,
@@ -27,6 +29,8 @@ pub struct VehicleState {
     /// What the wheels push or brake with; `None` without a weight.
     pub effort: Option<Effort>,
     /// Steer angle (rad) and rolling speed (rad/s) of each wheel.
+    ///
+    /// Those beyond the vehicle's count are 0.
     pub wheels: [WheelState; 6],
 }
 
@@ -56,6 +60,7 @@ pub(super) fn sampled(states: &[VehicleState], step: f64) -> Vec<VehicleState> {
     sampled
 }
 
+/// Linear in all but speeds of different sign, which jump to the later one. Yaw is continuous, not wrapped.
 fn between(a: &VehicleState, b: &VehicleState, time: f64) -> VehicleState {
     let share = if b.time > a.time { (time - a.time) / (b.time - a.time) } else { 0.0 };
     let mix = |a: f64, b: f64| a + share * (b - a);

@@ -24,6 +24,8 @@ pub(super) struct Walk<'a, T> {
 }
 
 impl<T: Terrain> Walk<'_, T> {
+    /// time = t(s) + |turned| / ω; a wheel's rolling speed is its share of the body's twist times the pace over its
+    /// radius.
     pub(super) fn add(&mut self, driven: &Driven) {
         let Self { rover, turn_rate, direction, .. } = *self;
         let time = self.timing.time_at(driven.s) + driven.turned / turn_rate;

@@ -17,6 +17,8 @@ pub(super) use tree::Tree;
 const REDRAWS: usize = 10_000;
 
 /// The values of run number `run` of the case with `case_seed`; none for run 0. Keys in alphabetical order.
+///
+/// The same scenario, seed and run give the same values, on any machine.
 pub fn draw(scenario: &Scenario, case_seed: u64, run: usize) -> Vec<(String, Value)> {
     if run == 0 { Vec::new() } else { draw_keys(scenario, case_seed, run as u64, |key| !shapes_the_plan(key)) }
 }
@@ -27,6 +29,8 @@ pub fn draw_for_case(scenario: &Scenario, case_seed: u64, case: usize) -> Vec<(S
 }
 
 /// The scenario with the drawn values in place of the nominal ones, and nothing left to vary.
+///
+/// Bounds are not checked here: the setup that is built of it does.
 ///
 /// # Errors
 /// A key that the scenario has not, or a value of another type than the key's.
@@ -55,6 +59,7 @@ pub fn shapes_the_plan(key: &str) -> bool {
     key.starts_with("task.") || key.starts_with("generate.")
 }
 
+/// The stream of a key is seeded by the case's seed, the key, and `index`. Keys that cannot be read are left out.
 fn draw_keys(scenario: &Scenario, seed: u64, index: u64, wanted: impl Fn(&str) -> bool) -> Vec<(String, Value)> {
     let keys: Vec<_> = scenario.vary().iter().filter(|(key, _)| wanted(key)).collect();
     let mut nominal = Tree::new(scenario);
@@ -68,6 +73,9 @@ fn draw_keys(scenario: &Scenario, seed: u64, index: u64, wanted: impl Fn(&str) -
 }
 
 /// One draw; `nominal` says where whole numbers are wanted. `None` for what [`super::Setup::build`] refuses.
+///
+/// Uniform: low + u (high − low), of whole numbers ⌊low + u (high − low + 1)⌋. Normal: redrawn until it lies within the
+/// truncation. Lists are drawn number by number.
 fn sample(distribution: &Distribution, nominal: Option<&Value>, random: &mut Stream) -> Option<Value> {
     if let Some([low, high]) = &distribution.uniform {
         return zip(low, high, nominal, &mut |low, high, whole| {

@@ -9,6 +9,7 @@ use crate::world::terrain::ElevationMap;
 /// The largest force that may be searched, N.
 const MOST_FORCE: f64 = 1e6;
 
+/// Robot and map where they could be read: what depends on them is not told without.
 pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, map: Option<&ElevationMap>, found: &mut Findings) {
     let search = scenario.generate.search.section();
     let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);
@@ -42,6 +43,7 @@ pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, map: Option
     }
 }
 
+/// 0 < 2 r < the map's shorter side.
 fn check_radius(placed: PlacedDiscsSection, map: Option<&ElevationMap>, found: &mut Findings) {
     let side = map.map_or(f64::INFINITY, |map| {
         let (low, high) = map.extent();

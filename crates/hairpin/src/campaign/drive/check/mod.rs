@@ -62,6 +62,8 @@ impl Build for DriveSetup {
 
 impl DriveSetup {
     /// Kernels and controller stay those of the setup that is known.
+    ///
+    /// Nothing is checked here.
     fn of(
         given: Given<'_, Self>,
         [rover, planner]: [Arc<Rover>; 2],
@@ -76,6 +78,7 @@ impl DriveSetup {
     }
 }
 
+/// A name, a learned model's file made for the same robot, or a program of the user's own.
 fn check_score(keys: &DriveScenario, files: &Attachments, found: &mut Findings) {
     let (key, search) = ("generate.search.score", &keys.generate.search);
     let score = &search.score;
@@ -90,6 +93,7 @@ fn check_score(keys: &DriveScenario, files: &Attachments, found: &mut Findings) 
     found.rounds(search.method, (key, given), keys.vary.keys());
 }
 
+/// A file or a generator; the generator's keys only with one.
 fn check_ground(world: &GroundSection, found: &mut Findings) {
     let terrain = &world.terrain;
     let one = terrain.file.is_some() != terrain.generator.is_some();
@@ -105,6 +109,7 @@ fn check_ground(world: &GroundSection, found: &mut Findings) {
     }
 }
 
+/// Leg lengths within (0, 1000] m and rising; the start's curvature within the robot's.
 fn check_task(task: &DriveTask, rover: Option<&Rover>, found: &mut Findings) {
     found.count("task.length", task.length, 2, LONGEST);
     let [low, high] = task.leg_m;
@@ -133,6 +138,7 @@ fn check_places(task: &DriveTask, map: &ElevationMap, found: &mut Findings) {
     }
 }
 
+/// Roadmaps have at most 5000 nodes (waypoints × headings), a quarter of that for methods other than the beam.
 fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut Findings) {
     let search = &generate.search;
     found.count("generate.headings", generate.headings, 1, 64);
@@ -215,6 +221,7 @@ fn check_direction(generate: &DriveGenerate, rover: &Rover, found: &mut Findings
     found.require(crabs, key, value, "0: the robot does not steer all wheels (steering = \"all-wheel\")");
 }
 
+/// Profiles that change speed need an acceleration, the robot's or the scenario's, which is no larger than the robot's.
 fn check_speed(speed: &SpeedSection, rover: Option<&Rover>, found: &mut Findings) {
     if let Some([low, high]) = speed.waypoint_m_s {
         found.from("generate.speed.waypoint_m_s[0]", low, 0.0, 100.0, " m/s");
@@ -240,6 +247,7 @@ fn check_speed(speed: &SpeedSection, rover: Option<&Rover>, found: &mut Findings
     found.require(idle || !given, "generate.speed.waypoint_m_s", "given", "left out where the speed is constant");
 }
 
+/// Hairpin's own controller or a command, not both.
 fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Findings) {
     let both = execute.controller.is_some() && execute.command.is_some();
     let given = format!("\"{}\"", execute.command.as_deref().unwrap_or_default());
@@ -273,6 +281,7 @@ fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Find
     }
 }
 
+/// Limits are finite; shares lie in [0, 1), confidence in [0.5, 1).
 fn check_spec(spec: &DriveSpec, found: &mut Findings) {
     let limits = &spec.limits;
     if let Some(most) = limits.path_deviation_m {

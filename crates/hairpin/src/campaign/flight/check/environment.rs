@@ -5,6 +5,8 @@ use crate::campaign::check::Findings;
 use crate::campaign::scenario::{EnvironmentSection, FlightScenario, PlacedSection};
 use crate::judgement::Stress;
 
+/// Winds and gusts up to 100 m/s, searched only where none is given or varied; obstacles only for the stress
+/// `clearance`.
 pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
     let search = &scenario.generate.search;
     let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);
@@ -40,6 +42,7 @@ pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
     }
 }
 
+/// A ball (2 r less than every side of the world) or a box (every edge less than the shortest).
 fn check_obstacles(scenario: &FlightScenario, placed: &PlacedSection, found: &mut Findings) {
     let key = "generate.environment.obstacles";
     found.placed(&scenario.generate.search, placed.count, "flight");

@@ -3,6 +3,7 @@
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::ExecuteSection;
 
+/// Integration steps of 10⁻⁵ … 10⁻³ s.
 pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
     check_who(execute, found);
     found.count("execute.repeat", execute.repeat, 1, 100_000);

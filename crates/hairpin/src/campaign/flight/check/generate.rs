@@ -16,6 +16,7 @@ const MOST_NODES: u64 = 50_000;
 /// The same for the dynamic programs, which judge every leg before they start.
 const MOST_NODES_IN_PAIRS: u64 = 16_000;
 
+/// The hull's resolution lies in 2 … 12, velocities per waypoint in 1 … 64.
 pub(super) fn check(scenario: &FlightScenario, files: &Attachments, found: &mut Findings) {
     let generate = &scenario.generate;
     check_timing(generate, found);
@@ -27,6 +28,7 @@ pub(super) fn check(scenario: &FlightScenario, files: &Attachments, found: &mut 
     check_limits(&generate.limits, found);
 }
 
+/// A range of leg times is for the reach set `witness` alone; a step is at most 60 s there and 10 s elsewhere.
 fn check_timing(generate: &GenerateSection, found: &mut Findings) {
     let key = "generate.timing";
     let bound = "exactly one of leg_time_s and step_s";
@@ -51,6 +53,7 @@ fn check_timing(generate: &GenerateSection, found: &mut Findings) {
     }
 }
 
+/// Bounds of waypoints by method, and for `witness` of nodes: waypoints × velocities.
 fn check_search(search: &SearchSection, generate: &GenerateSection, found: &mut Findings) {
     let in_pairs = search.method != SearchMethod::Beam;
     let most = if in_pairs { MOST_WAYPOINTS_IN_PAIRS } else { MOST_WAYPOINTS };
@@ -81,6 +84,7 @@ fn check_score(scenario: &FlightScenario, files: &Attachments, found: &mut Findi
     found.require(Score::NAMES.contains(&score), key, format!("\"{score}\""), &bound);
 }
 
+/// Speed (m/s) and flight time (s) above 0, tilt in (0, 180]°.
 fn check_limits(limits: &LimitsSection, found: &mut Findings) {
     if let Some(speed) = limits.max_speed_m_s {
         found.above("generate.limits.max_speed_m_s", speed, 0.0, 1000.0, " m/s; leave it out for no cap");

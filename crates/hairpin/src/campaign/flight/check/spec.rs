@@ -3,6 +3,7 @@
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::SpecSection;
 
+/// Limits are finite; the share of violations lies in [0, 1), the confidence in [0.5, 1).
 pub(super) fn check(spec: &SpecSection, found: &mut Findings) {
     if let Some(deviation) = &spec.deviation {
         found.above("spec.deviation.max_m", deviation.max_m, 0.0, 1e6, " m");

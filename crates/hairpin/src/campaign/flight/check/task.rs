@@ -10,6 +10,7 @@ use crate::world::World;
 /// A trajectory of 10 000 waypoints takes hours to fly; its case file stays below 100 MB.
 const LONGEST: u64 = 10_000;
 
+/// Without world or robot, which are wrong themselves then, what depends on them is not told.
 pub(super) fn check(task: &TaskSection, world: Option<&World>, robot: Option<&Quadrotor>, found: &mut Findings) {
     found.count("task.length", task.length, 2, LONGEST);
     for (key, p) in [("task.start_m", task.start_m), ("task.end_m", task.end_m)] {
@@ -21,6 +22,8 @@ pub(super) fn check(task: &TaskSection, world: Option<&World>, robot: Option<&Qu
     }
 }
 
+/// Within the walls by the keep-in margin, and the robot's radius from every obstacle; signed distances, m. Outside the
+/// walls nothing is said of obstacles.
 fn check_end(key: &str, p: [f64; 3], world: &World, robot: Option<&Quadrotor>, found: &mut Findings) {
     let margin = world.keep_in_margin();
     for (axis, &x) in p.iter().enumerate() {

@@ -10,6 +10,7 @@ const MOST_OBSTACLES: usize = 10_000;
 /// Points of one hull or mesh: a few hundred MB of trees at most.
 const MOST_POINTS: usize = 1_000_000;
 
+/// A world that passes may still be none: shapes are built afterwards.
 pub(super) fn check(world: &WorldSection, found: &mut Findings) {
     if let Some(base) = &world.base {
         found.require(false, "world.base", format!("\"{base}\""), "merged into the world first");
@@ -49,6 +50,7 @@ pub(super) fn check(world: &WorldSection, found: &mut Findings) {
     }
 }
 
+/// Degrees, and metres above mean sea level.
 fn check_origin(origin: &Origin, found: &mut Findings) {
     found.from("world.origin.lat_deg", origin.lat_deg, -90.0, 90.0, "°");
     found.from("world.origin.lon_deg", origin.lon_deg, -180.0, 180.0, "°");
@@ -56,6 +58,8 @@ fn check_origin(origin: &Origin, found: &mut Findings) {
     found.from("world.origin.x_axis_heading_deg", origin.x_axis_heading_deg, 0.0, 360.0, "°");
 }
 
+/// Exactly one shape. A mesh has at least 4 triangles of indices that exist; that it is closed is for whoever builds
+/// it.
 fn check_obstacle(key: &str, obstacle: &ObstacleSection, found: &mut Findings) {
     let shapes = [
         ("box", obstacle.cuboid.is_some()),
@@ -103,6 +107,7 @@ fn check_obstacle(key: &str, obstacle: &ObstacleSection, found: &mut Findings) {
     }
 }
 
+/// 4 … 1 000 000, each within ±20 km.
 fn points(key: &str, points: &[[f64; 3]], found: &mut Findings) {
     let fine = (4..=MOST_POINTS).contains(&points.len());
     found.require(fine, key, format!("{} points", points.len()), "4 … 1 000 000 points");
@@ -111,6 +116,7 @@ fn points(key: &str, points: &[[f64; 3]], found: &mut Findings) {
     }
 }
 
+/// False for NaN.
 fn is_place(x: f64) -> bool {
     x.abs() <= 2.0 * LARGEST_M
 }
