@@ -17,7 +17,7 @@ pub(super) fn reruns(data: &ReportData) -> String {
             let [value, low, high] = [share.value, share.low, share.high].map(|share| 100.0 * share);
             let (k, n) = (reruns.violated, reruns.of);
             Some(format!(
-                "<tr><th scope=\"row\">{case:04}</th><td>{k} of {n}</td><td>{value:.1} %</td><td>[{low:.1}, {high:.1}]</td></tr>"
+                "<tr><th scope=\"row\">{case}</th><td>{k} of {n}</td><td>{value:.1} %</td><td>[{low:.1}, {high:.1}]</td></tr>"
             ))
         })
         .collect();

@@ -55,5 +55,5 @@ fn rerun_property(result: &CaseResult) -> Option<(String, String)> {
     let share = reruns.share(CONFIDENCE)?;
     let (violated, of) = (reruns.violated, reruns.of);
     let value = format!("{violated} of {of} violate, share {:.2} [{:.2}, {:.2}]", share.value, share.low, share.high);
-    Some((format!("reruns {:04}", result.case), value))
+    Some((format!("reruns {}", result.case), value))
 }

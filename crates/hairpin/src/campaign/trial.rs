@@ -7,7 +7,7 @@ use super::mission::{flight_time_limit, run_seed};
 use super::placement::Placement;
 use super::samples::samples_of;
 use super::setup::Kind;
-use super::{Case, Environment, Run, Setup, drive, execute_again, execute_run, flight};
+use super::{Case, CaseNumber, Environment, Run, Setup, drive, execute_again, execute_run, flight};
 use crate::judgement::{Measures, Stress};
 use crate::search::in_loop::{Ran, Trial};
 use crate::simulation::Airborne;
@@ -111,7 +111,7 @@ pub(super) fn execute_partial(
     if whole {
         airborne.finish(flying.world).map_err(|_| flown)?;
     }
-    let run = Run { case: 0, run: 0, drawn: Vec::new(), outcome: Ok(airborne.flight()) };
+    let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(airborne.flight()) };
     let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
     Ok(Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
 }

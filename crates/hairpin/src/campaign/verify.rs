@@ -1,14 +1,14 @@
 //! Hands the written witnesses to the verification room.
 
 use super::setup::Kind;
-use super::{Case, Scenario, Setup, arm, drive, flight, vary};
+use super::{Case, CaseNumber, Scenario, Setup, arm, drive, flight, vary};
 use crate::verification::{EndError, Proof};
 
 /// What verification says of one case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verified {
     /// Number of the case.
-    pub case: usize,
+    pub case: CaseNumber,
     /// The proof, and what was found of its environment; `None` for a case that claims no witness and has none.
     pub proof: Option<Proof>,
     /// End error of a whole flight, open loop, with rotor lag: what the claim leaves out.

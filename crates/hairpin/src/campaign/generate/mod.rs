@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use super::graph::{Executions, Outcome, Partials, Plan, Wanted, fingerprint};
 use super::scenario::{EXECUTED, SearchMethod};
 use super::setup::Kind;
-use super::{Case, Scenario, Setup, Stop, Tally, Witness, arm, drive, flight, trial, vary};
+use super::{Case, CaseNumber, Scenario, Setup, Stop, Tally, Witness, arm, drive, flight, trial, vary};
 use crate::math::random::case_seed;
 use crate::simulation::Airborne;
 use crate::trajectory::program::{Motion, Program};
@@ -44,7 +44,7 @@ pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
     }
     let varied = varies(scenario);
     let units = known.tally.units;
-    known.cases.retain(|case| if varied { (case.number as u64) < units } else { case.graph < units });
+    known.cases.retain(|case| if varied { (case.number.0 as u64) < units } else { case.graph < units });
     known
 }
 
@@ -122,7 +122,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
 /// Case number `case` of a scenario whose plan varies: its own scenario, its own graphs.
 fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
     let seed = case_seed(setup.scenario.seed(), case);
-    let draws = vary::draw_for_case(&setup.scenario, seed, case as usize);
+    let draws = vary::draw_for_case(&setup.scenario, seed, CaseNumber(case as usize));
     let drawn = setup.drawn(&draws).map_err(|mistake| mistake.to_string());
     let (drawn, solver) = match drawn.as_ref().map_err(Clone::clone).and_then(|drawn| Ok((drawn, Solver::new(drawn)?)))
     {
