@@ -42,7 +42,7 @@ pub(super) fn coverage(data: &ReportData) -> String {
         let bars: String = (0..axis.cells())
             .map(|place| {
                 let met = coverage.cases.keys().filter(|cell| coverage.grid.places(**cell)[number] == place).count();
-                format!("<td>{}: {met} of {cells}</td>", escape(&axis.told(place)))
+                format!("<td>{}: {met} of {cells}</td>", escape(&axis.in_words(place)))
             })
             .collect();
         let unit = if axis.unit.is_empty() { String::new() } else { format!(", {}", axis.unit) };
