@@ -142,7 +142,7 @@ impl Command {
 
 /// Kinds of robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Kind {
+pub(crate) enum RobotKind {
     Quadrotor,
     Arm,
     Rover,
@@ -153,8 +153,8 @@ pub(crate) enum Kind {
 #[derive(Debug, Args)]
 pub(crate) struct Demo {
     /// The robot to show
-    #[arg(value_enum, default_value_t = Kind::Quadrotor)]
-    pub(crate) kind: Kind,
+    #[arg(value_enum, default_value_t = RobotKind::Quadrotor)]
+    pub(crate) kind: RobotKind,
     /// Campaign folder
     #[arg(long, value_name = "DIR", default_value = "hairpin-demo")]
     pub(crate) out: PathBuf,
@@ -174,7 +174,7 @@ pub(crate) struct Demo {
 pub(crate) struct New {
     /// The robot's kind
     #[arg(value_enum)]
-    pub(crate) kind: Kind,
+    pub(crate) kind: RobotKind,
     /// Overwrite the file
     #[arg(long)]
     pub(crate) force: bool,

@@ -168,7 +168,7 @@ fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFinding> {
             from: finding.from.clone(),
             to: finding.to.clone(),
             reason: finding.reason(parts),
-            sentence: finding.told(parts),
+            sentence: finding.in_words(parts),
         };
         found.push((finding.index, new));
     }

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use hairpin::campaign::CaseNumber;
 use thiserror::Error;
 
 use super::names::SCENARIO;
@@ -67,12 +68,12 @@ pub enum FolderError {
         path: PathBuf,
     },
     /// Files of one folder contradict each other.
-    #[error("{}: case {case:04} {what}", path.display())]
+    #[error("{}: case {case} {what}", path.display())]
     Contradiction {
         /// The file.
         path: PathBuf,
         /// Number of the case.
-        case: usize,
+        case: CaseNumber,
         /// What is wrong with it.
         what: &'static str,
     },

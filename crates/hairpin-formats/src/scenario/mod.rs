@@ -31,7 +31,7 @@ pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
 use crate::{library, schema};
 use resolve::{Resolver, is_urdf};
-use tree::{Kind, Node};
+use tree::{Node, NodeKind};
 
 /// Reads a scenario, resolves it, and builds what it describes.
 ///
@@ -175,7 +175,7 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
 /// The robot's kind, where its table says it.
 fn kind_of(root: &Node) -> Option<&str> {
     match &root.get("robot")?.get("kind")?.kind {
-        Kind::Text(kind) => Some(kind),
+        NodeKind::Text(kind) => Some(kind),
         _ => None,
     }
 }

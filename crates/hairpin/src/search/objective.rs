@@ -64,7 +64,7 @@ pub trait Additive: Objective {
     }
 
     /// [`Self::own`] and [`Self::left`] of many legs.
-    fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+    fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         legs.iter().map(|leg| [self.own(leg), self.left(leg)]).collect()
     }
 

@@ -59,7 +59,7 @@ impl Regression {
         }
         let worst = self.programs.iter().filter_map(|one| Some((one, one.comparison.worst()?)));
         match worst.max_by(|a, b| beyond(a.1).total_cmp(&beyond(b.1))) {
-            Some((one, worst)) => format!("{count}, worst {}{}", worst.told(), of(one)),
+            Some((one, worst)) => format!("{count}, worst {}{}", worst.in_words(), of(one)),
             None => count,
         }
     }
@@ -97,7 +97,7 @@ impl Regression {
 
 impl MoveComparison {
     /// `p17→p09 +41 ms (band ±6 ms)`, with as many decimals as it takes.
-    pub fn told(&self) -> String {
+    pub fn in_words(&self) -> String {
         let (difference, band, unit) = match self.metric {
             Metric::Duration => (1e3 * self.difference(), 1e3 * self.band, "ms"),
             Metric::Deviation => (1e3 * self.difference(), 1e3 * self.band, "mm"),

@@ -6,8 +6,8 @@
 //! → kept with its score. What was refused is counted by its one reason ([`DriveTally`]), which is what an empty
 //! campaign tells.
 
+mod clearance;
 mod judge;
-mod looks;
 mod pace;
 mod roadmap;
 mod sample;
@@ -18,7 +18,7 @@ mod tally;
 mod watch;
 mod ways;
 
-pub use looks::DriveLooks;
+pub use clearance::ClearanceSamples;
 pub use pace::{Pace, Slopes};
 pub use roadmap::{DriveLegs, DriveNode, DriveRoadmap};
 pub use sample::{GroundSampling, TooFewPlaces, sample_ground};
