@@ -7,9 +7,20 @@ use hairpin::campaign::CaseNumber;
 use thiserror::Error;
 
 use super::names::SCENARIO;
-use crate::atomic::WriteError;
+use crate::atomic::{WriteError, is_lost};
 use crate::parquet::TableError;
 use crate::scenario;
+
+impl FolderError {
+    /// Whether results were lost for want of space, or because the device failed.
+    pub fn is_lost(&self) -> bool {
+        match self {
+            Self::Write(error) => error.is_lost(),
+            Self::Copy { cause, .. } => is_lost(cause),
+            _ => false,
+        }
+    }
+}
 
 /// Why a campaign folder cannot be used.
 #[derive(Debug, Error)]

@@ -80,18 +80,18 @@ impl Regression {
         let Verdict { sentence, exit_code } = verdict;
         if worse == 0 {
             let said = format!("against {baseline}: no move outside the baseline's band{better}");
-            return Verdict { sentence: format!("{sentence}; {said}"), exit_code };
+            return Verdict::of(&format!("{sentence}; {said}"), exit_code);
         }
         if exit_code == 1 {
             let said = format!("against {baseline}: {}{better}", self.outside());
-            return Verdict { sentence: format!("{sentence}; {said}"), exit_code };
+            return Verdict::of(&format!("{sentence}; {said}"), exit_code);
         }
         let spec = match (exit_code, limited) {
             (0, true) => "all still within spec".to_owned(),
             (0, false) => "no spec was given".to_owned(),
             _ => sentence,
         };
-        Verdict { sentence: format!("{}: {}{better}; {spec}", self.head(), self.outside()), exit_code: 1 }
+        Verdict::of(&format!("{}: {}{better}; {spec}", self.head(), self.outside()), 1)
     }
 }
 
