@@ -1,5 +1,6 @@
 //! Every shipped scenario gives the cases that it promises.
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::{Evidence, Known, Stop, generate};
 use hairpin_formats::library;
 use hairpin_formats::scenario::setup_for;
@@ -11,7 +12,7 @@ const CASES: u64 = 10;
 fn every_shipped_scenario_gives_nine_tenths_of_its_cases() {
     for shipped in library::scenarios() {
         let name = shipped.name;
-        let arm = setup_for(name, &[]).is_ok_and(|setup| setup.arm().is_some());
+        let arm = setup_for(name, &[]).is_ok_and(|setup| setup.own::<ArmSetup>().is_some());
         let key = if arm { "generate.search.programs" } else { "generate.search.cases" };
         let sets = [(key.to_owned(), CASES.to_string())];
         let setup = setup_for(name, &sets).unwrap_or_else(|report| panic!("{name}: {report}"));

@@ -1,10 +1,9 @@
 //! What stands before a judgement: in which frame, from which origin, what is counted. Nothing here is left to guess.
 
+use hairpin::campaign::kind::{FrameWords, Handed};
 use hairpin::campaign::scenario::Origin;
-use hairpin::campaign::{CaseResult, Kind, Scenario, Setup};
+use hairpin::campaign::{CaseResult, Setup};
 use hairpin::judgement::LegSource;
-use hairpin::world::terrain::Terrain;
-use nalgebra::Point3;
 use serde::Serialize;
 
 use crate::frames::{Cage, Geodetic};
@@ -27,10 +26,9 @@ pub struct Header {
     pub aligned: bool,
     /// From where the leg being flown is known.
     pub leg_source: LegSources,
+    #[serde(skip)]
+    frame: FrameWords,
 }
-
-/// What places of an arm's campaign are relative to.
-const ARM: &str = "arm's base";
 
 /// Judged cases by where the leg being flown is known from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -44,18 +42,15 @@ pub struct LegSources {
 impl Header {
     /// The header of `results`.
     pub fn of(setup: &Setup, results: &[CaseResult]) -> Self {
-        let scenario = &setup.scenario;
+        let (scenario, Handed { frame, start, .. }) = (&setup.scenario, setup.handed());
         let from = |source: LegSource| {
             results.iter().filter(|r| r.measures.as_ref().is_some_and(|m| m.leg_source == source)).count()
         };
         Self {
             origin: scenario.origin(),
-            start: scenario.origin().map(|origin| Cage::new(&origin).geodetic(&start(setup))),
-            relative_to: match scenario {
-                Scenario::Flight(_) => "cage origin",
-                Scenario::Drive(_) => "map origin",
-                Scenario::Arm(_) => ARM,
-            },
+            start: scenario.origin().map(|origin| Cage::new(&origin).geodetic(&start)),
+            relative_to: frame.relative_to,
+            frame,
             length: scenario.length(),
             length_counts: "waypoints",
             aligned: false,
@@ -67,13 +62,12 @@ impl Header {
     pub fn lines(&self) -> Vec<[String; 2]> {
         let line = |label: &str, value: String| [label.to_owned(), value];
         let mut lines = Vec::new();
-        if self.relative_to == ARM {
-            lines.push(line("frame", "the arm's base: z up, m; programs are in their work object, mm".into()));
+        let FrameWords { world, axes, nowhere, .. } = self.frame;
+        if let Some(nowhere) = nowhere {
+            lines.push(line("frame", nowhere.into()));
             self.told_for_all(&mut lines);
             return lines;
         }
-        let ground = self.relative_to == "map origin";
-        let world = if ground { "map" } else { "cage" };
         match (&self.origin, &self.start) {
             (Some(origin), Some(start)) => {
                 lines.push(line(
@@ -97,7 +91,6 @@ impl Header {
                 ));
             }
             _ => {
-                let axes = if ground { "x east, y north" } else { "x and y along its edges" };
                 lines.push(line("frame", format!("{world}: {axes}, z up, m; not placed on Earth (no world.origin)")));
                 lines.push(line("altitude", format!("z is relative to the {}; AMSL is not known", self.relative_to)));
             }
@@ -129,19 +122,5 @@ impl Header {
                 _ => format!("told by the executor in {executor} cases, by monotone assignment in {assigned}"),
             },
         ));
-    }
-}
-
-/// The first waypoint, world frame, m.
-fn start(setup: &Setup) -> Point3<f64> {
-    match setup.kind() {
-        Kind::Flight(setup) => Point3::from(setup.scenario.task.start_m),
-        Kind::Drive(setup) => {
-            let start = &setup.scenario.task.start;
-            let height = setup.map.patch(start.x_m, start.y_m).map_or(0.0, |patch| patch.height);
-            Point3::new(start.x_m, start.y_m, height)
-        }
-        // Arms stand where they stand: their scenarios have no place on Earth.
-        Kind::Arm(_) => Point3::origin(),
     }
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::Scenario;
+use hairpin::campaign::scenario::FlightScenario;
 use hairpin_formats::scenario::{Report, read_setup};
 
 const FINE: &str = include_str!("fixtures/fine.toml");
@@ -155,14 +156,14 @@ fn machines_get_fields() {
 fn overrides() {
     let set = |key: &str, value: &str| {
         let read = read(FINE, &[(key, value)]).unwrap_or_else(|report| panic!("{report}"));
-        read.flight().expect("a flight").clone()
+        read.own::<FlightScenario>().expect("a flight").clone()
     };
     assert_eq!(set("generate.search.width", "7").generate.search.width, 7);
     assert_eq!(set("world.obstacles[0].box.size_m", "[1, 1, 1]").world.obstacles[0].cuboid.unwrap().size_m, [1.0; 3]);
     assert_eq!(set("world.obstacles.0.box.size_m[2]", "4").world.obstacles[0].cuboid.unwrap().size_m, [2.0, 2.0, 4.0]);
     assert_eq!(
         set("robot.mass_kg", "1.2").robot,
-        read(&FINE.replace("mass_kg = 1.0", "mass_kg = 1.2"), &[]).unwrap().flight().unwrap().robot
+        read(&FINE.replace("mass_kg = 1.0", "mass_kg = 1.2"), &[]).unwrap().own::<FlightScenario>().unwrap().robot
     );
     assert_eq!(set("spec.overshoot", "{ max_m = 2 }").spec.overshoot.unwrap().max_m, 2.0);
     assert!(set("vary", "{}").vary.is_empty());

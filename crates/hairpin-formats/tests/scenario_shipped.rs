@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hairpin::campaign::drive::DriveSetup;
 use hairpin::campaign::scenario::{FlightScenario, RobotSource};
 use hairpin::campaign::{Scenario, Setup};
 use hairpin_formats::scenario::{Report, read_setup, setup_for, to_toml};
@@ -21,7 +22,7 @@ fn fine(name: &str, sets: &[(&str, &str)]) -> Scenario {
 }
 
 fn flight(scenario: &Scenario) -> &FlightScenario {
-    scenario.flight().expect("a scenario of flights")
+    scenario.own::<FlightScenario>().expect("a scenario of flights")
 }
 
 fn robot_name(scenario: &Scenario) -> &str {
@@ -96,7 +97,7 @@ fn every_shipped_robot_and_world_serves() {
     for robot in library::rovers().chain(library::cars()).chain(library::differential_drives()) {
         let setup = setup(robot.name, &[]).unwrap_or_else(|report| panic!("{}: {report}", robot.name));
         assert_eq!(setup.robot_name(), robot.name);
-        assert!(setup.drive().is_some());
+        assert!(setup.own::<DriveSetup>().is_some());
     }
     for robot in library::quadrotors() {
         assert_eq!(robot_name(&fine(robot.name, &[])), robot.name);

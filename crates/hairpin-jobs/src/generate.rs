@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use hairpin::campaign::arm::graph_of;
+use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Stop, Tally, learn, planned};
 use hairpin_formats::atomic;
@@ -75,12 +75,12 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     if let Some(model) = &tally.model {
         atomic::write_json(&work.folder.file(learn::NAME), model)?;
     }
-    if let Some(arm) = work.setup.arm()
-        && let Ok(graph) = graph_of(&arm)
+    if let Some(arm) = work.setup.own::<ArmSetup>()
+        && let Ok(graph) = graph_of(arm)
     {
-        work.folder.write_graph(&arm, &graph)?;
+        work.folder.write_graph(arm, &graph)?;
         // What is claimed is proven, however late it is.
-        optimum::keep(work, &arm, &graph, &cases, &Stop { cancelled: &|| watch.stopped(), ..stop })?;
+        optimum::keep(work, arm, &graph, &cases, &Stop { cancelled: &|| watch.stopped(), ..stop })?;
         // What a controller reads is what is executed and judged: numbers as the module has them.
         cases = work.folder.read_cases()?;
     }

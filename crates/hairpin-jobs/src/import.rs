@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::feasibility::program::{Checked, Surroundings, check};
 use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;
@@ -125,7 +126,7 @@ fn follow(follower: &Follower, module: &Module) -> Result<Follow, Problem> {
         Follower::Cell(cell) => cell,
     };
     let setup = setup_for(cell, &[])?;
-    let Some(arm) = setup.arm() else { return Err(Problem::input(format!("--cell {cell}: is no arm's"))) };
+    let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("--cell {cell}: is no arm's"))) };
     let around = Surroundings {
         cell: Some(&arm.station.cell),
         tool_radius: arm.station.tool.radius,

@@ -33,11 +33,11 @@ pub fn learn(folder: &Path, out: &Path, stress: Stress) -> Result<Learned, Probl
     let cases = work.folder.read_cases()?;
     let table = work.folder.read_runs_table()?;
     let place = folder.display();
-    let what = if work.setup.arm().is_some() { "move" } else { "leg" };
+    let what = if work.setup.has_programs() { "move" } else { "leg" };
     let found = |samples: usize| {
         let missing = match samples {
             0 if table.is_empty() => format!("nothing was executed: hairpin execute {place}"),
-            0 if work.setup.arm().is_none() && cases.iter().all(|case| case.seen.is_empty()) => {
+            0 if !work.setup.has_programs() && cases.iter().all(|case| case.seen.is_empty()) => {
                 "no search saw the legs of its cases, as of missions made elsewhere".to_owned()
             }
             0 => format!("{} was measured on none of them", stress.word()),
@@ -46,7 +46,7 @@ pub fn learn(folder: &Path, out: &Path, stress: Stress) -> Result<Learned, Probl
         Err(Problem::input(format!("{place}: no {what} to learn from: {missing}")))
     };
     let runs = |case: &Case| work.folder.read_runs(case.number, &table);
-    let learned = if work.setup.arm().is_some() {
+    let learned = if work.setup.has_programs() {
         let of_case = |case: &Case| Ok(move_samples(&work.setup, case, &runs(case)?, stress));
         let samples = cases.par_iter().map(of_case).collect::<Result<Vec<_>, Problem>>()?.concat();
         found(samples.len())?;
@@ -66,7 +66,7 @@ pub fn learn(folder: &Path, out: &Path, stress: Stress) -> Result<Learned, Probl
     })?;
     atomic::write_json(out, &model)?;
     let score_key = work.setup.scenario.score_key();
-    Ok(Learned { model, score_key, arm: work.setup.arm().is_some() })
+    Ok(Learned { model, score_key, arm: work.setup.has_programs() })
 }
 
 #[cfg(test)]

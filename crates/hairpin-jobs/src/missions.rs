@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, CaseNumber, Kind, Tally};
-use hairpin::world::terrain::Terrain;
+use hairpin::campaign::{Case, CaseNumber, Tally};
 use hairpin_formats::waypoints::{Mission, environment_path};
 
 use crate::generate::keep_cases;
@@ -16,11 +15,6 @@ use crate::{Problem, Watch};
 pub(crate) fn adopt(work: &Work, missions: &[Mission], watch: &dyn Watch) -> Result<(), Problem> {
     let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
     let mut cases = Vec::with_capacity(missions.len());
-    let outside = |p: &nalgebra::Point3<f64>| match work.setup.kind() {
-        Kind::Flight(setup) => setup.world.wall_distance(p) < 0.0,
-        Kind::Drive(setup) => setup.map.patch(p.x, p.y).is_err(),
-        Kind::Arm(_) => false,
-    };
     for (number, Mission { name, waypoints, environment }) in missions.iter().enumerate() {
         if waypoints.len() < 2 {
             return Err(Problem::input(format!(
@@ -28,7 +22,7 @@ pub(crate) fn adopt(work: &Work, missions: &[Mission], watch: &dyn Watch) -> Res
                 waypoints.len()
             )));
         }
-        if let Some(outside) = waypoints.iter().position(outside) {
+        if let Some(outside) = waypoints.iter().position(|place| work.setup.is_outside(place)) {
             watch.warn(&format!("Warning: {name}.csv: waypoint {outside} lies outside the world"));
         }
         let seed = hairpin::math::random::case_seed(work.setup.scenario.seed(), number as u64);

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::coverage::Coverage;
 use hairpin::campaign::report::Shown;
@@ -53,7 +54,7 @@ pub(crate) fn write_report(
     (moves, regression): (&Moves, Option<&Regression>),
 ) -> Result<(), Problem> {
     let mut assumptions = campaign::assumptions(&work.setup, cases, tally);
-    if let Some(arm) = work.setup.arm() {
+    if let Some(arm) = work.setup.own::<ArmSetup>() {
         assumptions.extend(arm.said_of_moves(moves, regression));
     }
     let mut data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions)

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{self, Case, CaseResult, Scenario, Setup, Status};
+use hairpin::campaign::{self, Case, CaseResult, Setup, Status};
 use hairpin::judgement::Verdict;
 use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario;
@@ -98,7 +98,7 @@ impl Saved {
         let refuse = |why: String| Problem::of_file(file, why);
         let case = repro.case().map_err(refuse)?;
         let mut saved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
-        let setup = if adopt(&mut saved.scenario, &now.scenario) {
+        let setup = if saved.scenario.adopt(&*now.scenario).is_some() {
             saved.attachments.baseline = now.attachments.baseline.clone();
             let setup = Setup::new(saved).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
             Some(setup.with_simd(now.simd))
@@ -114,28 +114,6 @@ impl Saved {
         let result = campaign::judge(setup, &self.case, std::slice::from_ref(&flown))?;
         Ok(Some(Replayed { file: self.file.clone(), result }))
     }
-}
-
-/// Takes over who executes and what is within spec; noise and force, which no controller chooses, stay those of the
-/// saved run. Whether both are of one kind.
-fn adopt(saved: &mut Scenario, now: &Scenario) -> bool {
-    match (saved, now) {
-        (Scenario::Flight(saved), Scenario::Flight(now)) => {
-            let noise = saved.execute.noise;
-            (saved.robot, saved.execute, saved.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
-            saved.execute.noise = noise;
-        }
-        (Scenario::Drive(saved), Scenario::Drive(now)) => {
-            let (noise, force) = (saved.execute.noise, saved.execute.external_force_n);
-            (saved.robot, saved.execute, saved.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
-            (saved.execute.noise, saved.execute.external_force_n) = (noise, force);
-        }
-        (Scenario::Arm(saved), Scenario::Arm(now)) => {
-            (saved.robot, saved.execute, saved.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
-        }
-        _ => return false,
-    }
-    true
 }
 
 impl Replayed {

@@ -117,7 +117,7 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
 
 impl StressUnit {
     fn of(work: &Work, candidates: &[Candidate]) -> Self {
-        let (factor, unit) = match (select::measured(candidates), work.setup.arm().is_some()) {
+        let (factor, unit) = match (select::measured(candidates), work.setup.has_programs()) {
             (false, _) => (1.0, ""),
             (true, false) => (1.0, "m"),
             (true, true) => (1e3, "mm"),
@@ -161,7 +161,7 @@ fn write(
     (all, results): (&[Case], &[CaseResult]),
     chosen: &[Case],
 ) -> Result<PathBuf, Problem> {
-    let key = if work.setup.arm().is_some() { "generate.search.programs" } else { "generate.search.cases" };
+    let key = work.setup.scenario.head().cases_key;
     let varied = work.setup.scenario.vary().clone();
     let mut changes = vec![(key.into(), chosen.len().into())];
     if work.setup.attachments.baseline.is_some() {

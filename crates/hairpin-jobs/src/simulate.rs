@@ -22,7 +22,7 @@ const STEP_S: f64 = 5e-4;
 /// A robot without rotors; a file that cannot be read, or is no profile of this robot.
 pub fn simulate(robot: &str, sets: &[Set], rotor_speeds: &Path) -> Result<Track, Problem> {
     let setup = setup_for(robot, sets)?;
-    let Some(FlightSetup { robot, .. }) = setup.flight() else {
+    let Some(FlightSetup { robot, .. }) = setup.own::<FlightSetup>() else {
         return Err(Problem::input(format!("`{}` has no rotors: simulate flies quadrotors", setup.robot_name())));
     };
     fly(robot, &read(rotor_speeds, robot)?)
@@ -64,7 +64,7 @@ mod tests {
         let sets = [("robot.drag_quadratic_n_s2_m2".to_owned(), "0".to_owned())];
         let setup = setup_for("flightgoggles", &sets).unwrap();
         let rows = [0.0, 2.0].map(|t| RotorSpeeds { t, speeds: [0.0; 4] });
-        let robot = setup.flight().unwrap().robot;
+        let robot = &setup.own::<FlightSetup>().unwrap().robot;
         let track = fly(robot, &rows).unwrap();
         assert!((track.position(1).z + 0.5 * robot.gravity * 4.0).abs() < 1e-9);
         assert!((track.channel("vz_m_s").unwrap()[1] + robot.gravity * 2.0).abs() < 1e-9);

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::arm::{GraphAgain, graph_of};
 use hairpin::campaign::{self, Case, CaseNumber, Evidence};
 use hairpin::verification::Finding;
@@ -66,9 +67,12 @@ pub fn verify(folder: &Path) -> Result<Verified, Problem> {
     let work = open_to_read(folder)?;
     let cases = work.folder.read_cases_without_profiles()?;
     let answers: Vec<Answer> = cases.par_iter().map(|case| check(&work, case)).collect();
-    let optimum = work.setup.arm().and_then(|arm| optimum::verify(&work, &arm, &cases));
-    let graph =
-        work.setup.arm().and_then(|arm| Some(arm.graph_again(&graph_of(&arm).ok()?))).filter(|graph| graph.moves > 0);
+    let optimum = work.setup.own::<ArmSetup>().and_then(|arm| optimum::verify(&work, arm, &cases));
+    let graph = work
+        .setup
+        .own::<ArmSetup>()
+        .and_then(|arm| Some(arm.graph_again(&graph_of(arm).ok()?)))
+        .filter(|graph| graph.moves > 0);
     let around = answers.iter().zip(&cases).filter(|(answer, case)| case.environment.is_some() && answer.is_checked());
     let clear = around.clone().filter(|(answer, _)| answer.fine()).count();
     let surrounded = [around.count(), clear];

@@ -3,6 +3,7 @@
 mod campaigns;
 
 use campaigns::{ENDLESS, asked, check_witness, distance_to_hull, from_mast, run, setup};
+use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Evidence, Scenario, Setup, Stop, generate, optima, verdict};
 use hairpin::feasibility::reach::sampling;
@@ -58,10 +59,10 @@ fn every_reach_set_by_every_search_gives_what_it_claims() {
                 if reach == "witness" {
                     check_witness(&setup, case, &what);
                 } else {
-                    check_straight(setup.flight().expect("a flight").robot, case, &what);
+                    check_straight(&setup.own::<FlightSetup>().expect("a flight").robot, case, &what);
                 }
                 if reach == "hull" {
-                    check_hull(setup.flight().expect("a flight").robot, case, &what);
+                    check_hull(&setup.own::<FlightSetup>().expect("a flight").robot, case, &what);
                 }
             }
         }

@@ -4,6 +4,7 @@
 mod campaigns;
 
 use campaigns::{asked, distance_to_hull, of, run, scenario};
+use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Evidence, Setup};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -22,7 +23,7 @@ struct End {
 
 /// Total thrust over mass and the moments over inertia of every combination of `resolution` speeds per rotor.
 fn inputs(setup: &Setup, resolution: u32) -> Vec<(f64, Vector3<f64>)> {
-    let robot = setup.flight().expect("a flight").robot;
+    let robot = &setup.own::<FlightSetup>().expect("a flight").robot;
     let (low, high) = robot.rotor_speed;
     let speed = |level: u32| low + (high - low) * f64::from(level) / f64::from(resolution - 1);
     let one = |number: u32| {
@@ -42,7 +43,7 @@ fn inputs(setup: &Setup, resolution: u32) -> Vec<(f64, Vector3<f64>)> {
 fn fly(setup: &Setup, (pull, turn): (f64, Vector3<f64>), start: &End) -> End {
     const STEPS: i32 = 1000;
     let h = 1.0 / f64::from(STEPS);
-    let robot = setup.flight().expect("a flight").robot;
+    let robot = &setup.own::<FlightSetup>().expect("a flight").robot;
     let inertia = robot.inertia;
     let turning = |w: &Vector3<f64>| turn - w.cross(&inertia.component_mul(w)).component_div(&inertia);
     let (mut end, mut velocity) = (*start, Vector3::zeros());
@@ -63,7 +64,7 @@ fn fly(setup: &Setup, (pull, turn): (f64, Vector3<f64>), start: &End) -> End {
 fn leap(setup: &Setup, (pull, turn): (f64, Vector3<f64>)) -> Vector3<f64> {
     let [roll, pitch, yaw] = [turn.x, turn.y, turn.z];
     let up = UnitQuaternion::from_euler_angles(roll, pitch, yaw) * Vector3::z();
-    up * pull - Vector3::z() * setup.flight().expect("a flight").robot.gravity
+    up * pull - Vector3::z() * setup.own::<FlightSetup>().expect("a flight").robot.gravity
 }
 
 const LEVEL: [i32; 6] = [0; 6];

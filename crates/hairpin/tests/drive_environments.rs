@@ -1,5 +1,6 @@
 //! Keep-outs searched beside the waypoints of drives: clear of what is planned, in the way of what is driven.
 
+use hairpin::campaign::drive::DriveSetup;
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::scenario::CircleSection;
 use hairpin::campaign::{Case, Scenario, Setup, Stop, execute_run, generate, judge, planned, verify};
@@ -78,7 +79,7 @@ fn what_is_planned_is_clear_of_what_was_placed_and_what_is_driven_comes_nearer()
     let straight = Asked { robot: "differential-drive", reach: "none", ..CAR };
     for (asked, meets) in [(CAR, true), (straight, false)] {
         let (setup, reach) = (setup(asked), asked.reach);
-        let radius = setup.drive().expect("a drive").radius();
+        let radius = setup.own::<DriveSetup>().expect("a drive").radius();
         let cases = searched(&setup);
         assert_eq!(cases.len(), 2, "{reach}");
         for case in &cases {
@@ -140,7 +141,7 @@ fn a_disc_in_the_way_of_the_plan_or_off_the_map_is_refused() {
         }
     };
     let plan = places(&planned(&setup, &case).expect("a plan"));
-    let (radius, middle) = (setup.drive().expect("a drive").radius(), plan[plan.len() / 2]);
+    let (radius, middle) = (setup.own::<DriveSetup>().expect("a drive").radius(), plan[plan.len() / 2]);
     assert_eq!(fields(&|_| {}), "");
     assert_eq!(fields(&moved(1, middle)), "environment.keep_out[1].clearance");
     // A disc drawn towards the plan is found two millimetres too near, and not two before that.

@@ -105,6 +105,7 @@ fn what_a_robot_is_is_asked_in_one_place() {
     let places = kinds::places(&HOUSE);
     let told: Vec<String> = places.iter().map(|place| format!("{}:{} {}", place.path, place.line, place.by)).collect();
     held("places that tell kinds apart", known::TELLING_KINDS_APART, &told);
+    held("asked for what one kind alone has", known::ASKED_BY_TYPE, &kinds::asked_by_type(&HOUSE));
 }
 
 #[test]

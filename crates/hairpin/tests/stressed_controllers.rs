@@ -5,6 +5,7 @@ mod campaigns;
 use std::sync::Mutex;
 
 use campaigns::{ENDLESS, asked, of, run, scenario};
+use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{
     Case, CaseResult, Run, Setup, Status, assumptions, execute, execute_run, how_obtained, judge, shrink,
@@ -61,8 +62,8 @@ fn runs_are_those_of_a_fresh_controller_on_any_number_of_threads() {
     assert!(runs == runs_of(&own, &cases, 3) && runs.len() == 8 && runs != runs_of(&ours, &cases, 1));
     // The same by hand, for a run without noise.
     let quiet = campaign(asked("hull", "uniform", 4), json!({})).with_controller(tiring()).expect("a controller");
-    let flight = quiet.flight().expect("a flight");
-    let sortie = Sortie { robot: flight.robot, world: flight.world, waypoints: &cases[2].waypoints, profile: None };
+    let flight = quiet.own::<FlightSetup>().expect("a flight");
+    let sortie = Sortie { robot: &flight.robot, world: &flight.world, waypoints: &cases[2].waypoints, profile: None };
     let settings = FlySettings { time_limit: 45.0, ..FlySettings::default() };
     let by_hand = fly_with(&sortie, &tiring(), &Conditions::default(), &settings, 0).expect("a flight");
     assert_eq!(execute_run(&quiet, &cases[2], 0).outcome, Ok(by_hand));

@@ -1,10 +1,9 @@
 //! The messages of the protocol as types; their field names are the protocol's.
 
-use hairpin::campaign::scenario::{CellSection, GroundDescription, GroundSection, RobotSource, WorldSection};
-use hairpin::campaign::{Kind, Mission};
-use hairpin::robot::arm::ArmDescription;
-use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
+use hairpin::campaign::Mission;
+use hairpin::campaign::kind::Handed;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// What hairpin says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -27,33 +26,16 @@ pub struct MissionMessage {
     case: String,
     run: usize,
     seed: u64,
-    robot: Robot,
-    world: World,
-    /// Steady force on what drives, east, north, up, where there is one.
+    /// The robot's numbers.
+    robot: Value,
+    world: Value,
+    /// Steady force on it, east, north, up, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     external_force_n: Option<[f64; 3]>,
     waypoints_m: Vec<[f64; 3]>,
     accept_m: f64,
     time_limit_s: f64,
     timed: Vec<TimedMessage>,
-}
-
-/// The robot's numbers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-enum Robot {
-    Flyer(Box<QuadrotorDescription>),
-    Driver(RobotSource<GroundDescription>),
-    Arm(RobotSource<ArmDescription>),
-}
-
-/// The robot's world.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-enum World {
-    Cage(WorldSection),
-    Ground(GroundSection),
-    Cell(CellSection),
 }
 
 /// One sample of the planned motion.
@@ -75,54 +57,19 @@ pub fn mission_message(mission: &Mission) -> ToExecutor {
         p_m: sample.position.coords.into(),
         v_m_s: sample.velocity.into(),
     });
-    let (robot, world) = match mission.setup.kind() {
-        Kind::Flight(setup) => {
-            (Robot::Flyer(Box::new(description(setup.robot))), World::Cage(setup.scenario.world.clone()))
-        }
-        Kind::Drive(setup) => {
-            (Robot::Driver(setup.scenario.robot.clone()), World::Ground(setup.scenario.world.clone()))
-        }
-        Kind::Arm(setup) => (Robot::Arm(setup.scenario.robot.clone()), World::Cell(setup.scenario.world.clone())),
-    };
+    let Handed { robot, world, external_force, .. } = mission.setup.handed();
     ToExecutor::Mission(Box::new(MissionMessage {
         case: mission.case.clone(),
         run: mission.run,
         seed: mission.seed,
         robot,
         world,
-        external_force_n: mission.setup.drive().and_then(|drive| drive.scenario.execute.external_force_n),
+        external_force_n: external_force,
         waypoints_m: mission.waypoints.iter().map(|p| p.coords.into()).collect(),
         accept_m: mission.accept,
         time_limit_s: mission.time_limit,
         timed: timed.collect(),
     }))
-}
-
-fn description(robot: &Quadrotor) -> QuadrotorDescription {
-    let rotor =
-        |rotor: &hairpin::robot::quadrotor::Rotor| RotorDescription { x_m: rotor.x, y_m: rotor.y, spin: rotor.spin };
-    QuadrotorDescription {
-        kind: QuadrotorKind::Quadrotor,
-        name: robot.name.clone(),
-        source: String::new(),
-        caveat: robot.caveat.clone(),
-        mass_kg: robot.mass,
-        rotors: robot.rotors.iter().map(rotor).collect(),
-        inertia_kg_m2: Some(robot.inertia.into()),
-        thrust_coefficient_n_s2: Some(robot.thrust_coefficient),
-        moment_coefficient_n_m_s2: Some(robot.moment_coefficient),
-        rotor_speed_rad_s: Some([robot.rotor_speed.0, robot.rotor_speed.1]),
-        thrust_to_weight: None,
-        rotor_time_constant_s: Some(robot.rotor_time_constant),
-        drag_linear_n_s_m: Some(robot.drag_linear),
-        drag_quadratic_n_s2_m2: Some(robot.drag_quadratic),
-        aerodynamic_moment_n_m_s2: Some(robot.aerodynamic_moment),
-        force_noise_n2_s: Some(robot.force_noise),
-        moment_noise_n2_m2_s: Some(robot.moment_noise),
-        max_speed_m_s: Some(robot.max_speed),
-        clearance_radius_m: Some(robot.clearance_radius),
-        gravity_m_s2: Some(robot.gravity),
-    }
 }
 
 /// What the executor says. Fields that we do not know are ignored.

@@ -1,9 +1,8 @@
 //! From the stream of poses to a flight: every promise of the protocol is checked, none is repaired silently. What the
 //! protocol does not ask for is no reason to refuse a flight: how it was flown is the judge's business.
 
-use hairpin::campaign::{Kind, Mission};
+use hairpin::campaign::Mission;
 use hairpin::trajectory::{Channel, Ended, Flight, Track, TrackError};
-use hairpin::world::terrain::Terrain;
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
 
@@ -135,14 +134,7 @@ impl<'a> Recording<'a> {
             EndReason::Crash => Ended::Crash,
         };
         let reached = self.reached();
-        let outside = |pose: &Isometry3<f64>| {
-            let place = Point3::from(pose.translation.vector);
-            match self.mission.setup.kind() {
-                Kind::Flight(setup) => setup.world.wall_distance(&place) < 0.0,
-                Kind::Drive(setup) => setup.map.patch(place.x, place.y).is_err(),
-                Kind::Arm(_) => false,
-            }
-        };
+        let outside = |pose: &Isometry3<f64>| self.mission.setup.is_outside(&Point3::from(pose.translation.vector));
         let left_world = self.poses.iter().position(outside).map(|index| self.times[index]);
         let mut channels = Vec::new();
         if let Some(legs) = self.legs.take() {

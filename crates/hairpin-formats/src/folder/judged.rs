@@ -4,7 +4,8 @@ use std::fs;
 use std::io;
 
 use hairpin::campaign::baseline::Moves;
-use hairpin::campaign::coverage::{Axis, Coverage};
+use hairpin::campaign::coverage::Coverage;
+use hairpin::campaign::kind::Axis;
 use hairpin::campaign::{Case, CaseResult, Influence};
 
 use super::{COVERAGE, CampaignFolder, FolderError, INFLUENCE, MOVES, RESULTS};

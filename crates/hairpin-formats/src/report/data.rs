@@ -1,6 +1,7 @@
 //! What the report's script draws, as JSON: thinned and rounded to what a screen shows, so that files stay small.
 
-use hairpin::campaign::report::{Metric, Relief, ReportData, Shown, Surface};
+use hairpin::campaign::kind::{Relief, Surface};
+use hairpin::campaign::report::{Metric, ReportData, Shown};
 use hairpin::trajectory::Track;
 use nalgebra::{Point3, Vector3};
 use serde_json::{Value, json};

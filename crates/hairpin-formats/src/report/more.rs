@@ -1,6 +1,6 @@
 //! Sections that only some campaigns have: violations that were run again, and what the test set exercised.
 
-use hairpin::campaign::coverage::Axis;
+use hairpin::campaign::kind::Axis;
 use hairpin::campaign::report::ReportData;
 
 use super::escape::escape;

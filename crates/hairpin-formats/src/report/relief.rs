@@ -1,6 +1,6 @@
 //! Ground as light falls on it: shading for the 3D view, and a picture for the views without JavaScript.
 
-use hairpin::campaign::report::Relief;
+use hairpin::campaign::kind::Relief;
 
 /// Direction to the sun, by the cartographers' custom from the north-west, and how much steeper slopes are drawn.
 const SUN: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];

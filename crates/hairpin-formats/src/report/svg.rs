@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use hairpin::campaign::report::{Drawing, Shown, Surface};
+use hairpin::campaign::kind::{Drawing, Surface};
+use hairpin::campaign::report::Shown;
 use hairpin::trajectory::Track;
 use nalgebra::Point3;
 

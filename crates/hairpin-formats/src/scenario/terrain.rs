@@ -43,9 +43,8 @@ pub(super) fn read(
 
 /// Turns the poses of a file in another frame into the map's own.
 pub(super) fn turn(scenario: &mut Scenario) {
-    match scenario {
-        Scenario::Drive(drive) if drive.world.frame == Frame::Ned => turn_poses(drive),
-        _ => {}
+    if let Some(drive) = scenario.own_mut::<DriveScenario>().filter(|drive| drive.world.frame == Frame::Ned) {
+        turn_poses(drive);
     }
 }
 

@@ -127,7 +127,7 @@ fn fly(setup: &Setup, case: &Case) -> (Result<Flight, String>, CaseResult) {
     }
     let flight = flight(case);
     let corner = Settings { corner: 1.0, ..Settings::default() };
-    let FlightSetup { world, robot, .. } = setup.flight().unwrap();
+    let FlightSetup { world, robot, .. } = setup.own::<FlightSetup>().unwrap();
     let clearance = |p: &Point3<f64>| world.obstacle_distance(p) - robot.clearance_radius;
     let settings = Settings { clearance: Some(&clearance), ..corner };
     let measures = measure(&flight.track, &case.waypoints, &settings).unwrap();

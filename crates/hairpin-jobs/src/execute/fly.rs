@@ -4,6 +4,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::{
     self, Case, Mission, Mistake, Run, Setup, Status, execute_again, execute_run, mission, mission_again,
 };
@@ -56,8 +57,8 @@ impl Job<'_> {
 /// Flies all runs of `cases` that are not in the folder yet, and violations as often again as the scenario asks for.
 pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<Flown, Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
-    if let (Some(arm), Some(pattern)) = (work.setup.arm(), work.setup.recordings()) {
-        recorded::take_in(work, &arm, pattern, cases)?;
+    if let (Some(arm), Some(pattern)) = (work.setup.own::<ArmSetup>(), work.setup.recordings()) {
+        recorded::take_in(work, arm, pattern, cases)?;
         return write_table(&work.folder, cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run))));
     }
     let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));

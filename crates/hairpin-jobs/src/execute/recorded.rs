@@ -18,8 +18,8 @@ const LISTED: usize = 10;
 /// # Errors
 /// Those that are missing, too many, or cannot be used.
 pub(super) fn check(work: &Work, cases: &[Case]) -> Result<(), Problem> {
-    match (work.setup.arm(), work.setup.recordings()) {
-        (Some(arm), Some(pattern)) => read(work, &arm, pattern, cases).map(drop),
+    match (work.setup.own::<ArmSetup>(), work.setup.recordings()) {
+        (Some(arm), Some(pattern)) => read(work, arm, pattern, cases).map(drop),
         _ => Ok(()),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use hairpin::campaign::arm::graph_of;
+use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::scenario::ArmMode;
 use hairpin::campaign::{Case, Evidence};
 use hairpin::trajectory::program::{Program, Speed};
@@ -57,9 +57,11 @@ pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<W
 
 /// Writes `arc_clock.mod`, whose procedure clocks every move of the graph from standstill to standstill.
 pub(super) fn write_clock(work: &Work) -> Result<Written, Problem> {
-    let Some(arm) = work.setup.arm() else { return Err(Problem::input("--to arc-clock: the campaign is no arm's")) };
+    let Some(arm) = work.setup.own::<ArmSetup>() else {
+        return Err(Problem::input("--to arc-clock: the campaign is no arm's"));
+    };
     let refuse = |why: String| Problem::input(format!("--to arc-clock: {why}"));
-    let graph = graph_of(&arm).map_err(refuse)?;
+    let graph = graph_of(arm).map_err(refuse)?;
     let clock = arm.arc_clock(&graph).map_err(refuse)?;
     let evidence = match arm.scenario.generate.mode {
         ArmMode::Joint => Evidence::ClearAllLinks,
@@ -101,7 +103,7 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.script"), text.map_err(|error| error.to_string())?)]
         }
         Language::JointTrajectory => {
-            let arm = work.setup.arm().ok_or("it is no arm's")?;
+            let arm = work.setup.own::<ArmSetup>().ok_or("it is no arm's")?;
             let (times, joints) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
             let names = std::array::from_fn(|axis| format!("joint_{}", axis + 1));
             let text =

@@ -5,6 +5,7 @@ mod suite;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::report::worst_first;
 use hairpin::campaign::{
@@ -102,11 +103,11 @@ pub(crate) fn judge_cases(
         met.push(case.met);
     }
     let influences = campaign::influences(&work.setup.scenario, &deviations);
-    let moves = work.setup.arm().map(|arm| arm.moves(cases, &deviations)).unwrap_or_default();
+    let moves = work.setup.own::<ArmSetup>().map(|arm| arm.moves(cases, &deviations)).unwrap_or_default();
     let verdict = campaign::verdict(&work.setup, cases, &results, tally);
     let (verdict, regression) = with_moves(work, &moves, verdict)?;
     work.folder.write_results(cases, &results)?;
-    if work.setup.arm().is_some() {
+    if work.setup.has_programs() {
         work.folder.write_moves(&moves)?;
     }
     let suite = suite(work, tally, &verdict, &results, (regression.as_ref(), replayed));
@@ -167,7 +168,9 @@ pub(crate) fn with_moves(
     moves: &Moves,
     verdict: Verdict,
 ) -> Result<(Verdict, Option<Regression>), Problem> {
-    let Some(arm) = work.setup.arm().filter(|_| !moves.cases.is_empty()) else { return Ok((verdict, None)) };
+    let Some(arm) = work.setup.own::<ArmSetup>().filter(|_| !moves.cases.is_empty()) else {
+        return Ok((verdict, None));
+    };
     let path = std::fs::canonicalize(work.folder.path()).unwrap_or_else(|_| work.folder.path().to_owned());
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let regression = arm.regression(moves, &name);

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::arm::{ArmGraph, graph_of};
 use hairpin::campaign::{Setup, Stop, Tally};
 use hairpin::search::heaviest::Heaviest;
@@ -60,10 +61,10 @@ pub enum CloudAnswer {
 pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<CloudAnswer, Problem> {
     let CloudSettings { cell, points, sets, time_limit_s } = settings;
     let setup = arm_setup_for(cell, points, sets)?;
-    let Some(arm) = setup.arm() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
+    let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
     let (begun, deadline) = (Instant::now(), Deadline::after(*time_limit_s));
     let searched = with_stop(watch, deadline, begun, |stop| {
-        let graph = graph_of(&arm)?;
+        let graph = graph_of(arm)?;
         let found = arm.heaviest(&graph, stop)?;
         Ok((graph, found))
     });
@@ -82,11 +83,11 @@ impl CloudSearch {
     /// # Errors
     /// The folder holds something else; a file cannot be written.
     pub fn keep(&self, out: &Path, if_there: IfThere, watch: &dyn Watch) -> Result<(), Problem> {
-        let Some(arm) = self.setup.arm() else { unreachable!("clouds are searched of arms alone") };
+        let Some(arm) = self.setup.own::<ArmSetup>() else { unreachable!("clouds are searched of arms alone") };
         let work = make(out, self.setup.clone(), if_there)?;
         let cases = arm.cases(&self.graph, &self.found);
-        work.folder.write_graph(&arm, &self.graph)?;
-        with_stop(watch, self.deadline, self.begun, |stop| optimum::keep(&work, &arm, &self.graph, &cases, stop))?;
+        work.folder.write_graph(arm, &self.graph)?;
+        with_stop(watch, self.deadline, self.begun, |stop| optimum::keep(&work, arm, &self.graph, &cases, stop))?;
         let solved = u64::from(!cases.is_empty());
         let tally = Tally { complete: true, graphs: 1, units: 1, solved, ..Tally::default() };
         keep_cases(&work, &cases, 0, &tally)

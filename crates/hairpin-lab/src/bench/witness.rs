@@ -33,7 +33,7 @@ impl Legs {
         let given = setup.scenario.generate.limits;
         let max_speed = given.max_speed_m_s.unwrap_or(setup.robot.max_speed);
         let limits = Limits { max_speed, max_tilt: given.max_tilt_deg.unwrap_or(90.0).to_radians() };
-        let judge = LegJudge::new(setup.robot, setup.world, limits, ProofSettings::default());
+        let judge = LegJudge::new(&setup.robot, &setup.world, limits, ProofSettings::default());
         let judge = judge.map_err(Problem::input)?;
         let [shortest, longest] = setup.scenario.generate.timing_in_force().leg_time_s.unwrap_or([0.8, 4.0]);
         let (margin, size) = (setup.world.keep_in_margin(), setup.world.size());

@@ -1,33 +1,22 @@
 //! "Assumptions and limits of this run", said from the run's own settings and numbers.
 
+use super::kind::Assumptions;
 use super::scenario::SearchMethod;
-use super::setup::Kind;
-use super::{Case, Setup, Tally, arm, drive, flight};
+use super::{Case, Setup, Tally};
 
 /// The sentences of the section, in the order of the pipeline: robot, claim, search, act, verdict.
 pub fn assumptions(setup: &Setup, cases: &[Case], tally: &Tally) -> Vec<String> {
     let mut said = Vec::new();
     robot(setup, &mut said);
-    match setup.kind() {
-        Kind::Flight(setup) => flight::claim(&setup, cases, &mut said),
-        Kind::Drive(setup) => drive::claim(&setup, &mut said),
-        Kind::Arm(setup) => arm::claim(&setup, &mut said),
+    let Assumptions { claim, search: own_search, beside, act, verdict } = setup.kind().assumptions(cases, tally);
+    said.extend(claim);
+    match own_search {
+        Some(own) => said.extend(own),
+        None => search(setup, cases, tally, beside, &mut said),
     }
-    match setup.kind() {
-        Kind::Arm(setup) => arm::search(&setup, cases, tally, &mut said),
-        Kind::Flight(_) | Kind::Drive(_) => search(setup, cases, tally, &mut said),
-    }
-    match setup.kind() {
-        Kind::Flight(setup) => flight::act(&setup, &mut said),
-        Kind::Drive(setup) => drive::act(&setup, &mut said),
-        Kind::Arm(setup) => arm::act(&setup, &mut said),
-    }
+    said.extend(act);
     runs(setup, &mut said);
-    match setup.kind() {
-        Kind::Flight(setup) => flight::verdict(&setup, &mut said),
-        Kind::Drive(setup) => drive::verdict(&setup, &mut said),
-        Kind::Arm(setup) => arm::verdict(&setup, &mut said),
-    }
+    said.extend(verdict);
     said.push("Leaving the world and a crash are violations whatever the spec says.".into());
     said.push("This is a test generator: what it writes is stressful by design and is no safety certificate.".into());
     said
@@ -43,7 +32,7 @@ fn robot(setup: &Setup, said: &mut Vec<String>) {
     }
 }
 
-fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) {
+fn search(setup: &Setup, cases: &[Case], tally: &Tally, beside: Option<String>, said: &mut Vec<String>) {
     let search = setup.scenario.search();
     if !tally.missions.is_empty() {
         said.push(format!("Missions: {} waypoint files made elsewhere; nothing was searched.", tally.missions.len()));
@@ -77,11 +66,7 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) 
             search.executions
         ));
     }
-    match setup.kind() {
-        Kind::Flight(setup) => said.extend(flight::searched_beside(&setup)),
-        Kind::Drive(setup) => said.extend(drive::searched_beside(&setup)),
-        Kind::Arm(_) => {}
-    }
+    said.extend(beside);
     let made: u64 = tally.rounds.iter().map(|round| round.executions).sum();
     if search.method == SearchMethod::Adaptive && made < search.executions && search.time_s.is_none() && !tally.stopped
     {
@@ -122,8 +107,5 @@ fn runs(setup: &Setup, said: &mut Vec<String>) {
             varied.join(", "),
             repeat - 1
         )),
-    }
-    if setup.arm().is_none() {
-        said.push(format!("A waypoint counts as reached within {} m.", execute.accept));
     }
 }

@@ -5,33 +5,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
-use super::arm::ArmSetup;
-use super::setup::Kind;
-use super::{Run, Setup};
-use crate::math::rotation::angle_between;
-use crate::trajectory::{Flight, Track};
-
-/// Joints of an arm.
-const JOINTS: usize = 6;
-/// Below this share of its fastest a joint stands.
-const STANDS: f64 = 0.01;
-
-/// One axis of the grid.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Axis {
-    /// What is counted: `speed`.
-    pub name: String,
-    /// Its unit; empty where values are numbered.
-    pub unit: String,
-    /// Bounds of the cells, rising, one more than there are; what lies beyond belongs to the outermost.
-    pub edges: Vec<f64>,
-    /// Names of the cells, where these are no ranges.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub words: Vec<String>,
-}
+use super::case::Run;
+use super::kind::Axis;
+use super::setup::Setup;
 
 /// The grid of a robot's motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -69,68 +48,10 @@ impl Coverage {
     }
 }
 
-impl Axis {
-    fn even(name: &str, unit: &str, from: f64, to: f64, cells: usize) -> Self {
-        let edges = (0..=cells).map(|i| from + (to - from) * i as f64 / cells as f64).collect();
-        Self { name: name.into(), unit: unit.into(), edges, words: Vec::new() }
-    }
-
-    fn of(name: &str, unit: &str, edges: &[f64]) -> Self {
-        Self { name: name.into(), unit: unit.into(), edges: edges.to_vec(), words: Vec::new() }
-    }
-
-    fn worded(name: &str, words: &[&str]) -> Self {
-        let edges = (0..=words.len()).map(|i| i as f64).collect();
-        Self { name: name.into(), unit: String::new(), edges, words: words.iter().map(|word| (*word).into()).collect() }
-    }
-
-    /// `1.2 … 2.4`, or the word of cell number `place`.
-    pub fn in_words(&self, place: usize) -> String {
-        match self.words.get(place) {
-            Some(word) => word.clone(),
-            None => format!("{} … {}", rounded(self.edges[place]), rounded(self.edges[place + 1])),
-        }
-    }
-
-    /// Cells along it.
-    pub fn cells(&self) -> usize {
-        self.edges.len() - 1
-    }
-
-    /// The cell that `value` lies in.
-    fn cell(&self, value: f64) -> usize {
-        self.edges.partition_point(|edge| *edge <= value).saturating_sub(1).min(self.cells() - 1)
-    }
-}
-
 impl Grid {
     /// The grid for the robot of `setup`, over what it can do.
     pub fn of(setup: &Setup) -> Self {
-        let axes = match setup.kind() {
-            Kind::Flight(setup) => {
-                let limit = setup.scenario.generate.limits.max_speed_m_s.unwrap_or(f64::INFINITY);
-                vec![
-                    Axis::even("speed", "m/s", 0.0, limit.min(setup.robot.max_speed), 5),
-                    Axis::even("turn", "°", 0.0, 180.0, 4),
-                    Axis::of("climb", "°", &[-90.0, -45.0, -15.0, 15.0, 45.0, 90.0]),
-                ]
-            }
-            Kind::Drive(setup) => {
-                let most = setup.bounds().most;
-                vec![
-                    Axis::even("slope", "°", 0.0, setup.tilt().to_degrees().min(45.0), 5),
-                    Axis::even("curvature", "1/m", -most, most, 5),
-                    Axis::of("slip", "", &[0.0, 0.05, 0.1, 0.2, 0.4, 1.0]),
-                ]
-            }
-            Kind::Arm(_) => vec![
-                Axis::worded("joint", &["1", "2", "3", "4", "5", "6"]),
-                Axis::even("place in range", "%", 0.0, 100.0, 8),
-                Axis::even("speed", "% of limit", 0.0, 100.0, 4),
-                Axis::worded("direction", &["rising", "falling", "reversing"]),
-            ],
-        };
-        Self { axes }
+        Self { axes: setup.kind().motion().axes }
     }
 
     /// Cells in all.
@@ -160,14 +81,9 @@ impl Grid {
     pub fn met(&self, setup: &Setup, waypoints: &[Point3<f64>], run: &Run) -> BTreeSet<usize> {
         let Ok(flight) = &run.outcome else { return BTreeSet::new() };
         let mut met = BTreeSet::new();
-        let mut meet = |values: &[f64]| {
+        (setup.kind().motion().meet)(waypoints, flight, &mut |values| {
             met.insert(self.cell(values));
-        };
-        match setup.kind() {
-            Kind::Flight(_) => of_flight(waypoints, flight, &mut meet),
-            Kind::Drive(_) => of_drive(&flight.track, &mut meet),
-            Kind::Arm(setup) => of_arm(&setup, &flight.track, &mut meet),
-        }
+        });
         met
     }
 
@@ -179,63 +95,6 @@ impl Grid {
         }
         Coverage { cells: self.cells(), hit: by_cell.len(), cases: by_cell, grid: self }
     }
-}
-
-/// Every leg that was flown: its mean speed, the turn from the leg before, and how steep it is.
-fn of_flight(waypoints: &[Point3<f64>], flight: &Flight, meet: &mut dyn FnMut(&[f64])) {
-    let mut before = Vector3::zeros();
-    for (leg, pair) in waypoints.windows(2).enumerate() {
-        let way = pair[1] - pair[0];
-        let times = flight.reached.get(leg).copied().flatten().zip(flight.reached.get(leg + 1).copied().flatten());
-        if let Some((from, to)) = times.filter(|(from, to)| to > from) {
-            let turn = if leg == 0 { 0.0 } else { angle_between(&before, &way).to_degrees() };
-            let climb = libm::atan2(way.z, libm::hypot(way.x, way.y)).to_degrees();
-            meet(&[way.norm() / (to - from), turn, climb]);
-        }
-        before = way;
-    }
-}
-
-/// Every sample: the tilt of the body, the curvature of its way, the slip of its wheels.
-fn of_drive(track: &Track, meet: &mut dyn FnMut(&[f64])) {
-    let column = |name| track.channel(name).unwrap_or_default();
-    let (curvature, slip) = (column("curvature_1_m"), column("slip"));
-    for (i, pose) in track.poses().iter().enumerate() {
-        let up = (pose.rotation * Vector3::z()).z.clamp(-1.0, 1.0);
-        let of = |values: &[f64]| values.get(i).copied().unwrap_or(0.0);
-        meet(&[libm::acos(up).to_degrees(), of(curvature), of(slip).abs()]);
-    }
-}
-
-/// Every sample of every joint that moves, and where it turns back the fastest that it was on the way there.
-fn of_arm(setup: &ArmSetup, track: &Track, meet: &mut dyn FnMut(&[f64])) {
-    let times = track.times();
-    for joint in 0..JOINTS {
-        let Some(angles) = track.channel(&format!("q{}_rad", joint + 1)) else { continue };
-        let limit = &setup.station.arm.limits[joint];
-        let place = |angle: f64| 100.0 * (angle - limit.lower) / (limit.upper - limit.lower);
-        // The direction of the stroke, +1 or −1, and the largest share of the joint's fastest in it.
-        let (mut direction, mut fastest) = (0.0, 0.0_f64);
-        for i in 1..times.len().min(angles.len()) {
-            let rate = (angles[i] - angles[i - 1]) / (times[i] - times[i - 1]);
-            let speed = rate.abs() / limit.speed;
-            if speed < STANDS {
-                continue;
-            }
-            let (at, joint) = (place(angles[i]), joint as f64 + 0.5);
-            if direction * rate < 0.0 {
-                meet(&[joint, at, 100.0 * fastest, 2.5]);
-                fastest = 0.0;
-            }
-            (direction, fastest) = (rate.signum(), fastest.max(speed));
-            meet(&[joint, at, 100.0 * speed, if rate > 0.0 { 0.5 } else { 1.5 }]);
-        }
-    }
-}
-
-/// To three decimals, without zeros behind.
-fn rounded(edge: f64) -> f64 {
-    (1e3 * edge).round() / 1e3
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::setup::Kind;
-use super::{Case, CaseNumber, Mission, Mistake, Run, Setup, Stop, arm, drive, flight, mission, mission_again};
+use super::kind::Order;
+use super::{Case, CaseNumber, Mission, Mistake, Run, Setup, Stop, mission, mission_again};
 use crate::simulation::SimulationError;
 use crate::trajectory::Flight;
 
@@ -58,24 +58,7 @@ fn run_of(setup: &Setup, case: &Case, run: usize, mission: Result<Mission, Mista
 
 /// `setup` is the nominal one, which the plan was made with; the mission has its own.
 fn carry_out(setup: &Setup, mission: &Mission, case: &Case) -> Result<Flight, SimulationError> {
-    match (setup.kind(), mission.setup.kind()) {
-        (Kind::Drive(nominal), Kind::Drive(setup)) => drive::drive(&nominal, &setup, case, &drive_order(mission)),
-        (Kind::Arm(nominal), Kind::Arm(setup)) => arm::run(&nominal, &setup, case, mission.seed),
-        (_, Kind::Flight(setup)) => flight::fly(&setup, &flight_order(mission, case)),
-        (_, Kind::Drive(_) | Kind::Arm(_)) => unreachable!("draws change no robot's kind"),
-    }
-}
-
-fn flight_order<'a>(mission: &'a Mission, case: &'a Case) -> flight::Order<'a> {
-    flight::Order {
-        waypoints: &mission.waypoints,
-        profile: case.profile(),
-        accept: mission.accept,
-        time_limit: mission.time_limit,
-        seed: mission.seed,
-    }
-}
-
-fn drive_order(mission: &Mission) -> drive::Order {
-    drive::Order { accept: mission.accept, time_limit: mission.time_limit, seed: mission.seed }
+    let Mission { waypoints, accept, time_limit, seed, .. } = mission;
+    let order = Order { waypoints, accept: *accept, time_limit: *time_limit, seed: *seed };
+    mission.setup.kind().run(setup.kind().same(), case, &order)
 }

@@ -2,14 +2,11 @@
 
 use std::cell::OnceCell;
 
-use nalgebra::Point3;
-
 use super::influence::RunDeviation;
 use super::scenario::DeviationFrom;
-use super::setup::Kind;
-use super::{Case, CaseResult, Mistake, Run, Setup, Status, arm, planned};
+use super::{Case, CaseResult, Mistake, Run, Setup, Status};
 use crate::judgement::moves::Measured;
-use crate::judgement::{self, Clearance, JudgementError, Measures, Reference, Settings, Violation};
+use crate::judgement::{self, JudgementError, Late, Measures, Reference, Settings, Violation};
 use crate::trajectory::{Flight, PlannedPath, Track};
 
 /// The result of a case: its worst run. A run with a violation is worse than one without, a crash is worse than any
@@ -139,7 +136,7 @@ impl PartialOrd for Gravity {
 struct Planned {
     /// What deviations are measured from.
     reference: OnceCell<Option<Track>>,
-    /// Of arms: the path with its zones and where its moves end.
+    /// Of programs: the path with its zones and where its moves end.
     programmed: OnceCell<Option<PlannedPath>>,
 }
 
@@ -165,7 +162,7 @@ fn judge_run(
         DeviationFrom::Path => plan.reference.get_or_init(|| reference(setup, case)).as_ref(),
         DeviationFrom::Leg | DeviationFrom::NearestLeg => None,
     };
-    let clearance = clearance_of(own);
+    let clearance = own.kind().clearance();
     let settings = Settings {
         reference: match (terms.from, path) {
             (DeviationFrom::Path, Some(path)) => Reference::Path(path),
@@ -176,15 +173,15 @@ fn judge_run(
         clearance: clearance.as_deref(),
     };
     Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|mut measures| {
-        let arm = setup.arm();
-        let moves = arm.and_then(|arm| {
-            let programmed = plan.programmed.get_or_init(|| arm.planned(case).ok()).as_ref();
-            arm::measured(&arm, programmed?, &flight.track)
+        let programs = setup.kind().programs();
+        let moves = programs.and_then(|programs| {
+            let programmed = plan.programmed.get_or_init(|| programs.programmed(case)).as_ref();
+            programs.measured(programmed?, &flight.track)
         });
-        measures.latest = moves.as_ref().and_then(arm::latest);
+        measures.latest = moves.as_ref().and_then(latest);
         let mut violations = judgement::violations(&measures, flight, &terms.limits);
-        if arm.is_some() {
-            violations = violations.into_iter().map(arm::in_small_units).collect();
+        if let Some(programs) = programs {
+            violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
         }
         JudgedRun {
             violations,
@@ -197,29 +194,17 @@ fn judge_run(
     }))
 }
 
-/// How far the robot, a ball or a disc about its origin, is from what it must not meet, m; `None` where there is
-/// nothing.
-fn clearance_of(setup: &Setup) -> Option<Box<Clearance<'_>>> {
-    match setup.kind() {
-        Kind::Flight(setup) => {
-            let (world, radius) = (setup.world, setup.robot.clearance_radius);
-            (!world.obstacles().is_empty())
-                .then(|| Box::new(move |p: &Point3<f64>| world.obstacle_distance(p) - radius) as Box<Clearance<'_>>)
-        }
-        Kind::Drive(setup) => {
-            let (places, radius) = (setup.keep_out, setup.radius());
-            (!setup.scenario.world.keep_out.is_empty())
-                .then(|| Box::new(move |p: &Point3<f64>| places.distance(p.x, p.y) - radius) as Box<Clearance<'_>>)
-        }
-        // What is proven clear of an arm's plan is not measured again along its recordings.
-        Kind::Arm(_) => None,
+/// The planned motion that deviations are measured from.
+fn reference(setup: &Setup, case: &Case) -> Option<Track> {
+    match setup.kind().programs() {
+        Some(programs) => programs.reference(case),
+        None => setup.kind().planned(case).ok(),
     }
 }
 
-/// The planned motion that deviations are measured from.
-fn reference(setup: &Setup, case: &Case) -> Option<Track> {
-    match setup.arm() {
-        Some(arm) => arm.reference(case).map(|path| path.track().clone()),
-        None => planned(setup, case).ok(),
-    }
+/// The latest of all arrivals at points; `None` where it arrived nowhere.
+fn latest(measured: &Measured) -> Option<Late> {
+    let arrivals = measured.moves.iter().enumerate();
+    let late = arrivals.filter_map(|(leg, m)| Some(Late { by: m.late()?, at: m.arrived?, leg }));
+    late.max_by(|a, b| a.by.total_cmp(&b.by))
 }

@@ -2,18 +2,19 @@
 
 use nalgebra::Point3;
 
-use super::flight::FlightSetup;
-use super::planned::timed;
-use super::setup::Kind;
+use super::kind::PlanError;
 use super::{Case, Mistake, Setup, Timed, vary};
 use crate::math::random::named_seed;
+use crate::trajectory::Track;
 
-/// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
-const SECONDS_PER_WAYPOINT: f64 = 9.0;
-/// A drive is given up after this multiple of its planned duration …
-const SLOWNESS: f64 = 2.0;
-/// … and this time, s.
-const SPARE_SECONDS: f64 = 60.0;
+/// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`: of flights at 100 Hz, of drives step by
+/// step of its prediction on the ground, of programs as the virtual controller plans them.
+///
+/// # Errors
+/// A case whose numbers are no motion, as a folder that was edited may hold.
+pub fn planned(setup: &Setup, case: &Case) -> Result<Track, PlanError> {
+    setup.kind().planned(case)
+}
 
 /// One run of a case, as it is flown: by our simulator or by an executor of the user's.
 #[derive(Debug, Clone)]
@@ -60,17 +61,10 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
     let drawn = vary::draw(&setup.scenario, case.seed, run);
     let varied = if drawn.is_empty() { setup.clone() } else { setup.drawn(&drawn)? };
     // The plan is the nominal robot's, whatever was drawn for the one that carries it out.
-    let timed = timed(setup, case);
-    let time_limit = match varied.kind() {
-        Kind::Flight(setup) => flight_time_limit(&setup, case.waypoints.len()),
-        Kind::Drive(setup) => {
-            let planned = timed.last().map_or(0.0, |last| last.t);
-            setup.scenario.execute.time_limit_s.unwrap_or(SLOWNESS * planned + SPARE_SECONDS)
-        }
-        // The virtual controller's runs end with their program.
-        Kind::Arm(_) => f64::INFINITY,
-    };
-    let accept = varied.scenario.executor().accept;
+    let timed = if case.leg_times.is_empty() { Vec::new() } else { setup.kind().timed(case) };
+    let executor = varied.scenario.executor();
+    let time_limit = executor.patience.time_limit(case.waypoints.len(), timed.last().map_or(0.0, |last| last.t));
+    let accept = executor.accept;
     Ok(Mission {
         case: case.id(),
         run,
@@ -87,9 +81,4 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
 /// The seed of run number `run` of a case.
 pub(super) fn run_seed(case_seed: u64, run: usize) -> u64 {
     named_seed(case_seed, "run", run as u64)
-}
-
-/// Time limit of a flight over so many waypoints, s.
-pub(super) fn flight_time_limit(setup: &FlightSetup, waypoints: usize) -> f64 {
-    setup.scenario.execute.time_limit_s.unwrap_or(SECONDS_PER_WAYPOINT * waypoints as f64)
 }

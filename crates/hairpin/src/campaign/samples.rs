@@ -41,7 +41,7 @@ pub fn learn(setup: &Setup, stress: Stress, samples: &[LegSample]) -> Result<Sco
 /// knew of them; of moves whose angles are not known (Cartesian mode), on arcs, and of those that a run did not come to
 /// there are none.
 pub fn move_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> Vec<MoveSample> {
-    let Some(features) = setup.arm().map(|arm| arm.moves_seen(case)) else { return Vec::new() };
+    let Some(features) = setup.kind().programs().map(|programs| programs.moves_seen(case)) else { return Vec::new() };
     let measured = runs.iter().filter_map(|run| measures_of(setup, case, run));
     let of_run = |measures: Measures| -> Vec<MoveSample> {
         let pairs = features.iter().zip(&measures.legs);

@@ -1,20 +1,24 @@
-//! From a scenario's numbers to the things they describe: a scenario is checked by building it.
+//! From a scenario's numbers to the things they describe: a scenario is checked by building it. Kinds of robots are
+//! chosen by the one `match` here.
 
+use std::any::Any;
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use nalgebra::Point3;
 use serde_json::Value;
 
 use super::arm::ArmSetup;
 use super::attachments::{Attachments, Resolved};
+use super::case::Case;
 use super::check::check_vary;
-use super::drive::{DriveSetup, Driver};
-use super::flight::{FlightSetup, Flyer};
-use super::machine::{Look, Machine};
-use super::scenario::{Mistake, Scenario};
+use super::drive::DriveSetup;
+use super::flight::FlightSetup;
+use super::kind::{Build, Given, Handed, Kind, Programs, RobotWords};
+use super::own_controller::AnyController;
+use super::scenario::{Environment, Mistake, Scenario};
 use super::user_score::LegScorer;
 use super::vary;
-use super::{AnyController, Case, Environment};
 use crate::math::simd::Simd;
 
 /// A resolved scenario and what it describes. What draws leave as it is they share.
@@ -26,19 +30,45 @@ pub struct Setup {
     pub attachments: Arc<Attachments>,
     /// Version of the kernels that generate and execute.
     pub simd: Simd,
-    machine: Machine,
+    kind: Arc<dyn Kind>,
     own_controller: Option<AnyController>,
 }
 
-/// A setup, by what its robot does.
+/// Which keys are looked at.
 #[derive(Debug, Clone, Copy)]
-pub enum Kind<'a> {
-    /// It flies.
-    Flight(FlightSetup<'a>),
-    /// It drives.
-    Drive(DriveSetup<'a>),
-    /// It is an arm.
-    Arm(ArmSetup<'a>),
+enum Look {
+    /// All that have a bound.
+    All,
+    /// Those that the robot and its world are made of: all were looked at before some were drawn.
+    Built,
+}
+
+/// What `scenario` describes; what `known` has alike is shared with it.
+fn built(
+    scenario: &Scenario,
+    files: &Arc<Attachments>,
+    known: Option<&dyn Kind>,
+    look: Look,
+) -> Result<Arc<dyn Kind>, Vec<Mistake>> {
+    match scenario {
+        Scenario::Flight(keys) => made::<FlightSetup>(keys, files, known, look),
+        Scenario::Drive(keys) => made::<DriveSetup>(keys, files, known, look),
+        Scenario::Arm(keys) => made::<ArmSetup>(keys, files, known, look),
+    }
+}
+
+fn made<S: Build>(
+    keys: &Arc<S::Keys>,
+    files: &Arc<Attachments>,
+    known: Option<&dyn Kind>,
+    look: Look,
+) -> Result<Arc<dyn Kind>, Vec<Mistake>> {
+    let given = Given::<S> { keys, files, known: known.and_then(<dyn Kind>::own) };
+    let made = match look {
+        Look::All => S::check(given)?,
+        Look::Built => S::build(given).map_err(|mistake| vec![mistake])?,
+    };
+    Ok(Arc::new(made))
 }
 
 impl Setup {
@@ -49,9 +79,9 @@ impl Setup {
     /// Every key whose value is out of bounds, in the order of the file.
     pub fn build(resolved: Resolved) -> Result<Self, Vec<Mistake>> {
         let Resolved { scenario, attachments } = resolved;
-        let machine = Machine::of(&scenario, &attachments, None, Look::All)?;
         let attachments = attachments.into();
-        Self { scenario, attachments, simd: Simd::default(), machine, own_controller: None }.checked()
+        let kind = built(&scenario, &attachments, None, Look::All)?;
+        Self { scenario, attachments, simd: Simd::default(), kind, own_controller: None }.checked()
     }
 
     /// The same, which tells the first mistake alone.
@@ -81,7 +111,8 @@ impl Setup {
 
     /// The same at another version of the kernels.
     pub fn with_simd(self, simd: Simd) -> Self {
-        Self { simd, ..self }
+        let kind = self.kind.with(simd, self.own_controller.as_ref()).unwrap_or_else(|| self.kind.clone());
+        Self { simd, kind, ..self }
     }
 
     /// The same executed by a controller of the caller's own, wherever the scenario's would execute: runs, searches
@@ -95,10 +126,11 @@ impl Setup {
     /// only ours have.
     pub fn with_controller(self, controller: impl Into<AnyController>) -> Result<Self, Mistake> {
         let controller = controller.into();
-        match controller.mistake(&self.scenario) {
-            Some(mistake) => Err(mistake),
-            None => Ok(Self { own_controller: Some(controller), ..self }),
+        if let Some(mistake) = controller.mistake(&self.scenario) {
+            return Err(mistake);
         }
+        let kind = self.kind.with(self.simd, Some(&controller)).ok_or_else(|| controller.foreign())?;
+        Ok(Self { kind, own_controller: Some(controller), ..self })
     }
 
     /// The controller of the caller's own.
@@ -109,8 +141,8 @@ impl Setup {
     /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; kernels and controller stay
     /// these.
     pub(super) fn of_draw(&self, scenario: Scenario) -> Result<Self, Mistake> {
-        let machine = Machine::of(&scenario, &self.attachments, self.known(), Look::Built).map_err(first)?;
-        Ok(self.with(scenario, machine))
+        let kind = built(&scenario, &self.attachments, Some(self.kind()), Look::Built).map_err(first)?;
+        Ok(self.with(scenario, kind))
     }
 
     /// This setup with what `case` has beside its waypoints in its world.
@@ -145,88 +177,63 @@ impl Setup {
         }
     }
 
-    /// What draws share.
-    fn known(&self) -> Option<(&Scenario, &Machine)> {
-        Some((&self.scenario, &self.machine))
-    }
-
     fn surrounded_by(&self, environment: &Environment) -> Scenario {
         let mut around = self.scenario.clone();
         around.surround(environment);
         around
     }
 
-    fn with(&self, scenario: Scenario, machine: Machine) -> Self {
+    fn with(&self, scenario: Scenario, kind: Arc<dyn Kind>) -> Self {
         let (attachments, own_controller) = (self.attachments.clone(), self.own_controller.clone());
-        Self { scenario, attachments, simd: self.simd, machine, own_controller }
+        Self { scenario, attachments, simd: self.simd, kind, own_controller }
     }
 
     fn check(&self, scenario: Scenario) -> Result<Self, Vec<Mistake>> {
-        let machine = Machine::of(&scenario, &self.attachments, self.known(), Look::All)?;
-        self.with(scenario, machine).checked()
+        let kind = built(&scenario, &self.attachments, Some(self.kind()), Look::All)?;
+        self.with(scenario, kind).checked()
     }
 
     /// Itself, once `[vary]` was looked at.
     fn checked(self) -> Result<Self, Vec<Mistake>> {
-        let built =
-            |drawn: &Scenario| Machine::of(drawn, &self.attachments, self.known(), Look::All).err().unwrap_or_default();
-        let mistakes = check_vary(&self.scenario, &built);
+        let mistakes_of =
+            |drawn: &Scenario| built(drawn, &self.attachments, Some(self.kind()), Look::All).err().unwrap_or_default();
+        let mistakes = check_vary(&self.scenario, &mistakes_of);
         if mistakes.is_empty() { Ok(self) } else { Err(mistakes) }
     }
 
-    /// The setup by what its robot does.
-    pub fn kind(&self) -> Kind<'_> {
-        let Self { scenario, attachments, simd, machine, own_controller } = self;
-        let simd = *simd;
-        match (scenario, machine) {
-            (Scenario::Flight(scenario), Machine::Flyer(Flyer { robot, world })) => {
-                let controller = match own_controller {
-                    Some(AnyController::Flight(controller)) => Some(controller),
-                    _ => None,
-                };
-                Kind::Flight(FlightSetup { scenario, attachments, robot, world, controller, simd })
-            }
-            (Scenario::Drive(scenario), Machine::Driver(Driver { rover, planner, map, keep_out })) => {
-                let controller = match own_controller {
-                    Some(AnyController::Drive(controller)) => Some(controller),
-                    _ => None,
-                };
-                Kind::Drive(DriveSetup { scenario, attachments, rover, planner, map, keep_out, controller, simd })
-            }
-            (Scenario::Arm(scenario), Machine::Arm(station)) => {
-                Kind::Arm(ArmSetup { scenario, attachments, station, simd })
-            }
-            _ => unreachable!("a setup's machine is built from its scenario"),
-        }
+    /// What jobs ask of it, whatever robot it has.
+    pub(super) fn kind(&self) -> &dyn Kind {
+        &*self.kind
     }
 
-    /// The setup of flights.
-    pub fn flight(&self) -> Option<FlightSetup<'_>> {
-        match self.kind() {
-            Kind::Flight(setup) => Some(setup),
-            Kind::Drive(_) | Kind::Arm(_) => None,
-        }
+    /// The setup of its kind, if that is `T`: [`FlightSetup`], [`DriveSetup`], [`ArmSetup`]. For what one kind of robot
+    /// alone has.
+    pub fn own<T: Any>(&self) -> Option<&T> {
+        self.kind().own()
     }
 
-    /// The setup of drives.
-    pub fn drive(&self) -> Option<DriveSetup<'_>> {
-        match self.kind() {
-            Kind::Drive(setup) => Some(setup),
-            Kind::Flight(_) | Kind::Arm(_) => None,
-        }
+    fn programs(&self) -> Option<&dyn Programs> {
+        self.kind.programs()
     }
 
-    /// The setup of an arm.
-    pub fn arm(&self) -> Option<ArmSetup<'_>> {
-        match self.kind() {
-            Kind::Arm(setup) => Some(setup),
-            Kind::Flight(_) | Kind::Drive(_) => None,
-        }
+    /// What executors of the user's are handed of it.
+    pub fn handed(&self) -> Handed {
+        self.kind.handed()
+    }
+
+    /// Whether a place (m, world frame) lies where its robot cannot be: outside of its world.
+    pub fn is_outside(&self, place: &Point3<f64>) -> bool {
+        self.kind.is_outside(place)
+    }
+
+    /// Whether its motion is programs, which are measured move by move.
+    pub fn has_programs(&self) -> bool {
+        self.programs().is_some()
     }
 
     /// The logs whose recordings are the runs, where nothing is executed.
     pub fn recordings(&self) -> Option<&str> {
-        self.arm().and_then(|arm| arm.scenario.execute.logs.as_deref())
+        self.programs().and_then(Programs::recordings)
     }
 
     /// The score of the user's own, if that is what legs are scored by.
@@ -241,17 +248,21 @@ impl Setup {
 
     /// The robot's name.
     pub fn robot_name(&self) -> &str {
-        self.machine.names().0
+        self.robot_words().name
     }
 
     /// What must be said wherever the robot is named; empty if nothing.
     pub fn caveat(&self) -> &str {
-        self.machine.names().1
+        self.robot_words().caveat
     }
 
     /// Names of the robot's numbers that were derived, not given.
     pub fn estimated(&self) -> Vec<&str> {
-        self.machine.estimated()
+        self.robot_words().estimated
+    }
+
+    fn robot_words(&self) -> RobotWords<'_> {
+        self.kind.robot_words()
     }
 }
 

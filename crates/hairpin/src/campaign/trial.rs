@@ -2,12 +2,12 @@
 
 use super::graph::Plan;
 use super::judge::measures_of;
+use super::kind::Order;
 use super::learn::LegSample;
-use super::mission::{flight_time_limit, run_seed};
+use super::mission::run_seed;
 use super::placement::Placement;
 use super::samples::samples_of;
-use super::setup::Kind;
-use super::{Case, CaseNumber, Environment, Run, Setup, drive, execute_again, execute_run, flight};
+use super::{Case, CaseNumber, Environment, Run, Setup, execute_again, execute_run};
 use crate::judgement::{Measures, Stress};
 use crate::search::in_loop::{Ran, Trial};
 use crate::simulation::Airborne;
@@ -68,7 +68,7 @@ pub(super) fn execute_and_learn(
 /// Whether a part of a trajectory can be executed from where its beginning has led: where controllers know of one
 /// waypoint at a time.
 pub(super) fn resumes(setup: &Setup) -> bool {
-    setup.flight().is_some_and(|setup| flight::goes_on(&setup))
+    setup.kind().leg_by_leg().is_some()
 }
 
 /// Executes `plan`, the first waypoints of a trajectory of graph number `graph`, or all where it is `whole`: on from
@@ -85,7 +85,7 @@ pub(super) fn execute_partial(
     whole: bool,
 ) -> Result<Ran<Airborne>, u64> {
     let legs = plan.waypoints.len() as u64 - 1;
-    let Some(flying) = setup.flight().filter(|setup| flight::goes_on(setup)) else {
+    let Some(flying) = setup.kind().leg_by_leg() else {
         let stress = executed(setup, graph, plan).and_then(|executed| trial(setup, &executed.measures));
         return Ok(Ran { stress: stress.ok_or(legs)?.stress, state: None, legs });
     };
@@ -93,25 +93,26 @@ pub(super) fn execute_partial(
     let mut airborne = match before {
         Some(before) => before.clone(),
         None => {
-            let order = flight::Order {
+            let executor = setup.scenario.executor();
+            let length = setup.scenario.length().unwrap_or_default() as usize;
+            let order = Order {
                 waypoints: &case.waypoints,
-                profile: None,
-                accept: setup.scenario.executor().accept,
-                time_limit: flight_time_limit(&flying, flying.scenario.task.length as usize),
+                accept: executor.accept,
+                time_limit: executor.patience.time_limit(length, 0.0),
                 seed: run_seed(case.seed, 0),
             };
-            flight::at_start(&flying, &order).map_err(|_| legs)?
+            flying.at_start(&order).map_err(|_| legs)?
         }
     };
     let mut flown = 0;
     for waypoint in &case.waypoints[airborne.waypoints()..] {
         flown += u64::from(!airborne.ended());
-        airborne.fly_to(flying.world, *waypoint).map_err(|_| flown)?;
+        flying.fly_to(&mut airborne, *waypoint).map_err(|_| flown)?;
     }
     if whole {
-        airborne.finish(flying.world).map_err(|_| flown)?;
+        flying.finish(&mut airborne).map_err(|_| flown)?;
     }
-    let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(airborne.flight()) };
+    let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(airborne.so_far()) };
     let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
     Ok(Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
 }
@@ -143,11 +144,7 @@ fn placement(setup: &Setup, executed: &Executed) -> Option<Placement> {
     let wanted = setup.scenario.search().stress == Stress::Clearance;
     let furnished = case.environment.as_ref().is_some_and(Environment::is_furnished);
     let track = &run.outcome.as_ref().ok().filter(|_| wanted && !furnished)?.track;
-    match setup.kind() {
-        Kind::Flight(setup) => flight::place(&setup, case, track, &setup.scenario.generate.environment?.obstacles?),
-        Kind::Drive(setup) => drive::place(&setup, case, track, setup.scenario.generate.environment?.obstacles?),
-        Kind::Arm(_) => None,
-    }
+    setup.kind().place(case, track)
 }
 
 fn trial(setup: &Setup, measures: &Measures) -> Option<Trial> {

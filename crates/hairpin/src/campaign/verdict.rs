@@ -2,7 +2,7 @@
 
 use super::case::gap_word;
 use super::judge::Gravity;
-use super::{Case, CaseResult, Evidence, Reruns, Setup, Status, Tally, arm};
+use super::{Case, CaseResult, Evidence, Reruns, Setup, Status, Tally};
 use crate::judgement::{self, Claim, Judged, Measures, Verdict, Violation, Worst};
 
 /// Confidence of intervals where the spec names none.
@@ -115,7 +115,11 @@ fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation,
             leg: measures.leg_worst,
         })
     };
-    let told = |violation| if setup.arm().is_some() { arm::in_small_units(violation) } else { violation };
+    let programs = setup.kind().programs();
+    let told = |violation| match programs {
+        Some(programs) => programs.in_their_units(violation),
+        None => violation,
+    };
     let value = result.violations.first().cloned().or_else(|| nearest().map(told))?;
     let saturation = measures.legs.get(value.leg).and_then(|leg| leg.saturation_share).or(measures.saturation_share);
     Some((result.case.to_string(), value, saturation))
@@ -134,12 +138,7 @@ pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str
         proven if proven > 0 && proven == tally.graphs => "proof".into(),
         _ => format!("{} graphs searched", tally.graphs),
     };
-    let open = setup.scenario.drive().is_some_and(|scenario| scenario.task.end_m.is_none());
-    let ends = if open { "from the start" } else { "from start to end" };
-    let chain = match setup.scenario.length() {
-        Some(length) => format!("no chain of {length} waypoints {ends}"),
-        None => "no program from home to home".into(),
-    };
+    let chain = setup.kind().facts().nothing;
     let what = match &tally.nothing {
         Some(reason) => format!("{chain}: {reason}"),
         None => chain,

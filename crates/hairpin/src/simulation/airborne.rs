@@ -94,7 +94,7 @@ impl Airborne {
     }
 
     /// The flight so far; one that was halted counts as done.
-    pub fn flight(&self) -> Flight {
+    pub fn so_far(&self) -> Flight {
         self.run.clone().into_flight()
     }
 }
@@ -156,14 +156,14 @@ mod tests {
                     elsewhere.fly_to(world, Point3::new(2.0, 2.0, 3.0)).unwrap();
                     let mut next = run.clone();
                     next.fly_to(world, *waypoint).unwrap();
-                    assert!(elsewhere.flight() != next.flight() || run.ended());
+                    assert!(elsewhere.so_far() != next.so_far() || run.ended());
                     run = next;
-                    let (so_far, length) = (run.flight().track, run.flight().track.len());
+                    let (so_far, length) = (run.so_far().track, run.so_far().track.len());
                     assert_eq!(so_far.times(), &whole.track.times()[..length], "{kind:?}");
                     assert_eq!(so_far.poses(), &whole.track.poses()[..length], "{kind:?}");
                 }
                 run.finish(world).unwrap();
-                assert_eq!(run.flight(), whole, "{kind:?}, {time_limit} s");
+                assert_eq!(run.so_far(), whole, "{kind:?}, {time_limit} s");
                 endings.push(whole.ended);
             }
         }

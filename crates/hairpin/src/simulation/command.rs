@@ -50,6 +50,7 @@ pub enum FlightCommand {
 }
 
 impl Controlled for Quadrotor {
+    const DOES: &'static str = "it flies";
     type State = FlightState;
     type Plan = Profile;
     type Command = FlightCommand;

@@ -12,6 +12,8 @@ use thiserror::Error;
 
 /// A kind of robot as its controllers see it.
 pub trait Controlled: Sized {
+    /// What it does, in a sentence's part: `it flies`.
+    const DOES: &'static str;
     /// What is measured, stamped.
     type State;
     /// The planned motion in time.

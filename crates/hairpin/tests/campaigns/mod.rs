@@ -1,6 +1,7 @@
 //! Small campaigns to check by equations of the tests' own. Not every test asks everything of them.
 #![allow(dead_code)]
 
+use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Scenario, Setup, Stop, Tally, generate, verify};
 use hairpin::robot::quadrotor::QuadrotorDescription;
@@ -72,7 +73,7 @@ pub(crate) fn from_mast(p: &Point3<f64>) -> f64 {
 pub(crate) fn check_witness(setup: &Setup, case: &Case, what: &str) {
     let proof = verify(setup, case).proof.expect("a witnessed case has a proof");
     assert!(proof.findings.is_empty(), "{what}: {:?}", proof.findings);
-    let radius = setup.flight().expect("a flight").robot.clearance_radius;
+    let radius = setup.own::<FlightSetup>().expect("a flight").robot.clearance_radius;
     for leg in &case.profile().expect("a witness").legs {
         for k in 0..=1000 {
             let t = leg.duration * f64::from(k) / 1000.0;

@@ -15,18 +15,19 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["vary", "user_score", "baseline"],
     // What a case and its runs are.
     &["case"],
-    &["learn", "influence", "placement"],
+    &["learn", "influence", "placement", "own_controller"],
     // What files hold beside the keys.
     &["tally", "attachments"],
     // What the kinds have in common.
-    &["check", "build"],
+    &["check"],
     &["graph"],
+    // What the kinds are asked.
+    &["kind"],
     // The kinds.
     &["flight", "drive", "arm"],
     // A scenario becomes a setup: the one `match`.
-    &["own_controller", "machine"],
     &["setup"],
-    &["planned", "coverage", "goals", "states"],
+    &["coverage", "goals", "states"],
     // The jobs.
     &["mission", "judge"],
     &["execute", "samples"],

@@ -13,8 +13,14 @@ const KINDS: &[&[&str]] = &[&["Flight", "Flyer", "Profile"], &["Drive", "Driver"
 /// Sums of data: the module that declares one of them takes it apart for all others.
 const DATA: &[&str] = &["hairpin::campaign::case::Witness"];
 
+/// The sum of all kinds' keys. A macro declares it, which no reader of declarations sees.
+const KEYS: &str = "Scenario";
+
 /// What the kinds answer: asking one for its own is asking which it is.
 const CALLS: &[&str] = &[".flight", ".drive", ".arm"];
+
+/// What asks for the setup or the keys of one kind by their type: for verbs that are about that kind alone.
+const OWN: &[&str] = &["own", "own_mut"];
 
 /// Where each kind may know itself.
 pub(crate) const ROOMS: &[&str] = &[
@@ -39,9 +45,6 @@ pub(crate) struct Place {
 
 /// Every such place outside the kinds' own rooms, in order.
 pub(crate) fn places(house: &House) -> Vec<Place> {
-    let elsewhere = |file: &&File| {
-        !file.in_test && !ROOMS.iter().any(|room| file.module == *room || file.module.starts_with(&format!("{room}::")))
-    };
     house.files.iter().filter(elsewhere).flat_map(|file| of_file(house, file)).collect()
 }
 
@@ -74,11 +77,39 @@ fn of_file(house: &House, file: &File) -> Vec<Place> {
     found.into_iter().map(place).collect()
 }
 
+/// Every place outside the kinds' own rooms that asks a setup or a scenario for what one kind alone has, by its type:
+/// `own::<ArmSetup>()`.
+pub(crate) fn asked_by_type(house: &House) -> Vec<String> {
+    let of_file = |file: &&File| {
+        let text = &file.outline.text;
+        let asks = |mention: &&Mention| {
+            let at = mention.at;
+            at > 3
+                && !mention.in_test
+                && text.is(at - 1, '<')
+                && text.word(at - 3).is_some_and(|word| OWN.contains(&word))
+                && text.is(at - 4, '.')
+        };
+        let told = |mention: &Mention| format!("{}:{} {}", file.path, mention.line, mention.path.join("::"));
+        file.outline.mentions.iter().filter(asks).map(told).collect::<Vec<_>>()
+    };
+    house.files.iter().filter(elsewhere).collect::<Vec<_>>().iter().flat_map(of_file).collect()
+}
+
+/// Whether a file is of the product, and none of the kinds' own.
+fn elsewhere(file: &&File) -> bool {
+    let within = |room: &&str| file.module == **room || file.module.starts_with(&format!("{room}::"));
+    !file.in_test && !ROOMS.iter().any(within)
+}
+
 /// Whether `mention` is a variant of an enum that has one for each of at least two kinds.
 fn names_a_kind(house: &House, file: &File, mention: &Mention) -> bool {
     let of_kinds = |variants: &[(String, usize)]| {
         KINDS.iter().filter(|words| variants.iter().any(|(variant, _)| words.contains(&variant.as_str()))).count() > 1
     };
+    if mention.path.windows(2).any(|pair| pair[0] == KEYS && KINDS.iter().any(|words| words.contains(&&*pair[1]))) {
+        return true;
+    }
     house.mentioned(file, mention).into_iter().any(|found| {
         let Found::Item { module, name, rest } = found else { return false };
         let Some(What::Enum(variants)) = house.declared(&module, &name).map(|declared| &declared.what) else {
@@ -114,6 +145,7 @@ fn asking_what_a_robot_is_is_counted() {
         ("use hairpin::campaign::setup::Kind as K; fn f(k: K) { match k { K::Arm => 1, _ => 2 } }", one("match", 1)),
         ("fn f(k: Kind) { use Kind::Arm; match k { Arm => 1, _ => 2 } }", one("match", 1)),
         ("fn f(s: &S) { assert!(s.arm().is_some()) }", one(".arm", 1)),
+        ("fn f(s: Scenario) { match s { Scenario::Flight(keys) => 1, _ => 2 } }", one("match", 1)),
         (
             "enum Solver { Flight(F), Drive(D) } impl Solver { fn f(self) { \
              match self { Self::Flight(f) => 1, Self::Drive(d) => 2 } } }",
@@ -147,4 +179,13 @@ fn asking_what_a_robot_is_is_counted() {
     let own = "use crate::campaign::setup::Kind; fn f(k: Kind) { match k { Kind::Arm => 1, _ => 2 } }";
     assert_eq!(found("hairpin::campaign::arm::solve", own), Vec::new(), "a kind knows itself");
     assert_eq!(found("hairpin::campaign::army", own), one("match", 1));
+}
+
+#[test]
+fn asking_by_type_is_counted() {
+    let found = |module: &str, text: &str| asked_by_type(&super::forged::house(&[(module, text)])).len();
+    let text = "fn f(s: &Setup) { s.own::<ArmSetup>(); s.own_mut::<a::B>(); s.owner::<C>(); own::<D>(); }";
+    assert_eq!(found("hairpin_jobs::verify", text), 2);
+    assert_eq!(found("hairpin_jobs::verify", &format!("#[cfg(test)] mod tests {{ {text} }}")), 0);
+    assert_eq!(found("hairpin::campaign::arm::solve", text), 0, "a kind knows itself");
 }

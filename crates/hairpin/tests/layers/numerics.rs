@@ -58,7 +58,8 @@ const MACHINE_DEPENDENT_ABOVE: &[&str] = &[
 ];
 
 /// Modules whose numbers are only looked at.
-pub(crate) const SHOWN: &[&str] = &["hairpin::campaign::report", "hairpin_formats::report", "hairpin_lab::bench"];
+pub(crate) const SHOWN: &[&str] =
+    &["hairpin::campaign::kind::solid", "hairpin::campaign::report", "hairpin_formats::report", "hairpin_lab::bench"];
 
 /// Why `file` must not have `path` outside of tests.
 pub(crate) fn breach(file: &File, path: &Seen) -> Option<String> {

@@ -1,6 +1,7 @@
 //! Figure 6: distinct trajectories that each reach set gives in equal processor time, over their length; and, which the
 //! paper could not tell, the share of them that has a control witness.
 
+use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::{Case, Known, Stop, generate};
 use hairpin::feasibility::Certificate;
 use hairpin::judgement::Statistics;
@@ -179,7 +180,7 @@ fn witnessed(
     sets.push(("generate.certify", (reach != "witness").to_string()));
     let setup = cell::setup(FLIGHT_GOGGLES, &sets, None)?;
     let cases = cell::cases(&setup, watch)?;
-    let Some(flight) = setup.flight() else { return Ok(None) };
+    let Some(flight) = setup.own::<FlightSetup>() else { return Ok(None) };
     let in_step: Result<Vec<bool>, String> = cases
         .par_iter()
         .map(|case| Ok(matches!(flight.certificate_in_step(&case.waypoints)?, Certificate::Yes(_))))

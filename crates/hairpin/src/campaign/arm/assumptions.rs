@@ -6,7 +6,7 @@ use crate::campaign::{Case, Tally};
 use crate::search::heaviest::MOST_EXACT_POINTS;
 
 /// What stands behind the moves.
-pub(in crate::campaign) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
+pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     let clearance = generate.moves.clearance_mm;
     said.push(match generate.mode {
@@ -45,7 +45,7 @@ pub(in crate::campaign) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
 }
 
 /// How programs were found.
-pub(in crate::campaign) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) {
+pub(super) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut Vec<String>) {
     let search = &setup.scenario.generate.search;
     if !tally.missions.is_empty() {
         said.push(format!("Missions: {} waypoint files made elsewhere; nothing was searched.", tally.missions.len()));
@@ -77,7 +77,7 @@ pub(in crate::campaign) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tall
 }
 
 /// Who ran them.
-pub(in crate::campaign) fn act(setup: &ArmSetup, said: &mut Vec<String>) {
+pub(super) fn act(setup: &ArmSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
     said.push(match &execute.logs {
         Some(logs) => format!(
@@ -98,7 +98,7 @@ pub(in crate::campaign) fn act(setup: &ArmSetup, said: &mut Vec<String>) {
 }
 
 /// What deviation is.
-pub(in crate::campaign) fn verdict(setup: &ArmSetup, said: &mut Vec<String>) {
+pub(super) fn verdict(setup: &ArmSetup, said: &mut Vec<String>) {
     let spec = &setup.scenario.spec;
     said.push(match spec.path.map(|limit| limit.from) {
         Some(PathFrom::Blended) => {

@@ -2,33 +2,33 @@
 
 use std::sync::Arc;
 
-use super::Station;
 use super::cell::cell_of;
 use super::check::check;
 use super::frame::{frame_of, mistake};
 use super::graph::stands;
 use super::points::points_of;
+use super::{ArmSetup, Station};
 use crate::campaign::attachments::Attachments;
-use crate::campaign::build::Build;
+use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{ArmScenario, Mistake, PointsSource};
+use crate::math::simd::Simd;
 use crate::robot::arm::{Tool, WorkObject};
 
-impl Build for Arc<Station> {
+impl Build for ArmSetup {
     type Keys = ArmScenario;
 
-    fn build(keys: &ArmScenario, files: &Attachments, known: Option<(&ArmScenario, &Self)>) -> Result<Self, Mistake> {
-        match known {
-            Some((old, known)) if same_station(old, keys) => Ok(known.clone()),
-            _ => station_of(keys, files).map(Self::new),
-        }
+    fn build(given: Given<'_, Self>) -> Result<Self, Mistake> {
+        let Given { keys, files, known } = given;
+        let station = match known {
+            Some(known) if same_station(&known.scenario, keys) => known.station.clone(),
+            _ => Arc::new(station_of(keys, files)?),
+        };
+        let simd = known.map_or_else(Simd::default, |known| known.simd);
+        Ok(Self { scenario: keys.clone(), attachments: files.clone(), station, simd })
     }
 
-    fn check(
-        keys: &ArmScenario,
-        files: &Attachments,
-        known: Option<(&ArmScenario, &Self)>,
-    ) -> Result<Self, Vec<Mistake>> {
-        check(keys, files, || Self::build(keys, files, known))
+    fn check(given: Given<'_, Self>) -> Result<Self, Vec<Mistake>> {
+        check(given.keys, given.files, || Self::build(given))
     }
 }
 

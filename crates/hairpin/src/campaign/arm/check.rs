@@ -1,8 +1,6 @@
 //! The bounds of every key of an arm's scenario.
 
-use std::sync::Arc;
-
-use super::Station;
+use super::ArmSetup;
 use super::points::count;
 use crate::campaign::attachments::Attachments;
 use crate::campaign::check::Findings;
@@ -23,8 +21,8 @@ const MOST_POINTS: u64 = 10_000;
 pub(super) fn check(
     keys: &ArmScenario,
     files: &Attachments,
-    build: impl FnOnce() -> Result<Arc<Station>, Mistake>,
-) -> Result<Arc<Station>, Vec<Mistake>> {
+    build: impl FnOnce() -> Result<ArmSetup, Mistake>,
+) -> Result<ArmSetup, Vec<Mistake>> {
     let mut found = Findings::default();
     found.head(keys.hairpin, keys.seed);
     let points = count(&keys.task, files);
@@ -38,8 +36,8 @@ pub(super) fn check(
     let bound = "left out where runs are recorded elsewhere: nothing can be drawn for them";
     found.require(!drawn, "vary", "given", bound);
     check_spec(&keys.spec, &mut found);
-    let station = if found.0.is_empty() { found.take(build()) } else { None };
-    station.ok_or(found.0)
+    let built = if found.0.is_empty() { found.take(build()) } else { None };
+    built.ok_or(found.0)
 }
 
 fn check_task(task: &ArmTask, points: u64, found: &mut Findings) {

@@ -1,172 +1,45 @@
-//! Hands an arm, its cell and a program to the verification room, as plain numbers.
+//! What of programs is claimed, and by whom.
 
-use nalgebra::{Isometry3, Point3};
+use super::solve::ArmSolver;
+use super::{ArmSetup, knobs, losses, plan, replan, verify};
+use crate::campaign::graph::Losses;
+use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Solver};
+use crate::campaign::{Case, Scenario, Timed};
+use crate::trajectory::Track;
+use crate::verification::{EndError, Proof};
 
-use rayon::prelude::*;
-
-use super::ArmSetup;
-use super::graph::{ArmGraph, allowed};
-use super::written::{build_of, joints_of, moves_of};
-use crate::campaign::scenario::MoveName;
-use crate::campaign::{Case, Evidence};
-use crate::robot::arm::{AXES, Configuration, Joints, Kinematics};
-use crate::trajectory::program::Program;
-use crate::verification::{
-    ArmBodyClaim, ArmClaim, ArmMoveFinding, ArmProgramClaim, ArmProgramReplay, ArmSolidClaim, ArmSolidForm, ArmWay,
-    ArmWayClaim, verify_arm_graph, verify_arm_program,
-};
-use crate::world::cell::{Region, Words};
-use crate::world::{Shape, Solid};
-
-/// Whether words hold at a point.
-type Holds = Box<dyn Fn(&Point3<f64>) -> bool>;
-
-/// Moves that are followed together.
-const SHARE: usize = 32;
-
-/// What following a graph's moves again came to.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct GraphAgain {
-    /// Moves followed.
-    pub moves: usize,
-    /// What does not hold.
-    pub findings: Vec<String>,
-}
-
-impl ArmSetup<'_> {
-    /// Follows `program`, which must be one that a controller executes, by code of its own: frames, postures, bounds,
-    /// targets, corners that are cut, and, where all links are claimed to be clear, the distance that links and tool
-    /// keep from the cell.
-    pub(super) fn followed_again(&self, case: &Case, program: &Program) -> ArmProgramReplay {
-        // The angles at the end of a move in joints are claimed of arms alone of which a configuration does not tell
-        // them.
-        let told = |pose: &Isometry3<f64>, wanted: &Configuration| match self.station.arm.kinematics {
-            Kinematics::Opw(_) => None,
-            Kinematics::Chain => self.posture(pose, wanted),
-        };
-        let moves = moves_of(program, told);
-        let claim = ArmProgramClaim {
-            start: self.station.home,
-            moves: &moves,
-            waypoints: &case.waypoints,
-            singularity: self.plan_settings().singularity,
-            clear: case.evidence == Evidence::ClearAllLinks,
-        };
-        self.claimed(|arm| verify_arm_program(arm, &claim))
+impl Claim for ArmSetup {
+    fn solver(&self) -> Result<Box<dyn Solver + '_>, String> {
+        Ok(Box::new(ArmSolver::new(self)))
     }
 
-    /// Follows every move that `graph` has, between points, from home and back, by code of its own; what does not hold,
-    /// in words. In Cartesian mode, which knows no joints, there is nothing to follow.
-    pub fn graph_again(&self, graph: &ArmGraph) -> GraphAgain {
-        let Some(postures) = &graph.postures else { return GraphAgain::default() };
-        let (n, home) = (graph.points(), self.station.home);
-        let known: Vec<usize> = (0..n).filter(|row| postures[*row].is_ok()).collect();
-        let place = |row: usize| known.binary_search(&row).ok();
-        let angles: Vec<Joints> = known.iter().filter_map(|row| postures[*row].as_ref().ok().copied()).collect();
-        let poses: Vec<Isometry3<f64>> = known.iter().map(|row| self.station.points[*row].pose).collect();
-        let kind = match self.scenario.generate.moves.kind {
-            MoveName::Linear => ArmWay::Straight,
-            MoveName::Joint => ArmWay::Joints,
-        };
-        let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to)));
-        let free = pairs.filter(|(from, to)| from != to && graph.reachability.refusal(*from, *to).is_none());
-        let between = free.filter_map(|(from, to)| Some(ArmWayClaim { from: place(from)?, to: place(to)?, way: kind }));
-        let arcs = graph.arcs.iter().flat_map(|arcs| &arcs.free).filter_map(|([from, via, to], _)| {
-            Some(ArmWayClaim { from: place(*from)?, to: place(*to)?, way: ArmWay::Through(place(*via)?) })
-        });
-        let home_is = known.len();
-        let from_home = (0..n).filter(|row| graph.from_home[*row]).filter_map(place);
-        let from_home = from_home.map(|to| ArmWayClaim { from: home_is, to, way: ArmWay::Joints });
-        let to_home = (0..n).filter(|row| graph.to_home[*row]).filter_map(place);
-        let to_home = to_home.map(|from| ArmWayClaim { from, to: home_is, way: ArmWay::Joints });
-        let moves: Vec<ArmWayClaim> = between.chain(arcs).chain(from_home).chain(to_home).collect();
-        let with_home = [&angles[..], &[home]].concat();
-        let at_home = [&poses[..], &[self.station.tool_at(&home)]].concat();
-        let name = |place: usize| known.get(place).map_or("home".into(), |row| self.point_name(*row));
-        let told = |part: &[ArmWayClaim], finding: ArmMoveFinding| {
-            let ArmWayClaim { from, to, way } = part[finding.index];
-            let via = if let ArmWay::Through(via) = way { format!("{}→", name(via)) } else { String::new() };
-            format!("{}→{via}{}: {} at {:.0} % of the move", name(from), name(to), finding.what, 100.0 * finding.at)
-        };
-        let look = |part: &[ArmWayClaim]| -> Vec<String> {
-            let found = self.claimed(|claim| verify_arm_graph(claim, &with_home, &at_home, part));
-            found.into_iter().map(|finding| told(part, finding)).collect()
-        };
-        let findings: Vec<Vec<String>> = moves.par_chunks(SHARE).map(look).collect();
-        GraphAgain { moves: moves.len(), findings: findings.concat() }
+    /// There is one graph, whose moves are all looked at.
+    fn lost(&self, _: u64) -> Losses {
+        losses::losses(self)
     }
 
-    /// Hands arm, tool and cell to `look`.
-    fn claimed<T>(&self, look: impl FnOnce(&ArmClaim) -> T) -> T {
-        let station = self.station;
-        let chain = &station.arm.chain;
-        let joints = joints_of(&station.arm);
-        let links = station.arm.links.iter().enumerate().skip(1);
-        let mut bodies: Vec<ArmBodyClaim> = links
-            .flat_map(|(link, body)| {
-                body.capsules.iter().map(move |capsule| ArmBodyClaim {
-                    link,
-                    name: format!("link {link}"),
-                    tool: false,
-                    axis: [capsule.a, capsule.b],
-                    radius: capsule.radius,
-                })
-            })
-            .collect();
-        let in_link = |p: Point3<f64>| chain.flange * p;
-        let tip: Point3<f64> = station.tool.tcp.translation.vector.into();
-        bodies.push(ArmBodyClaim {
-            link: AXES,
-            name: "the tool".into(),
-            tool: true,
-            axis: [in_link(Point3::origin()), in_link(tip)],
-            radius: station.tool.radius,
-        });
-        // Words are not grown: they are held against the tool's line itself.
-        let words: Vec<Option<Holds>> = station.cell.parts.iter().map(|part| within(&part.region)).collect();
-        let parts = station.cell.parts.iter().zip(&words);
-        let solids: Vec<ArmSolidClaim> = parts
-            .filter_map(|(part, words)| {
-                let form = match words {
-                    Some(words) => ArmSolidForm::Where(words.as_ref()),
-                    None => form_of(&part.region)?,
-                };
-                Some(ArmSolidClaim { name: &part.name, tool_only: words.is_some(), form })
-            })
-            .collect();
-        look(&ArmClaim {
-            joints: &joints,
-            build: build_of(&station.arm),
-            flange: chain.flange,
-            tool: station.tool.tcp,
-            bodies: &bodies,
-            solids: &solids,
-            clearance: self.scenario.generate.moves.clearance_mm * 1e-3 + allowed(self.scenario),
-        })
+    fn replanner(&self, case: &Case) -> Result<Box<dyn Replanner>, String> {
+        Ok(Box::new(replan::Shortened::new(self, case)?))
     }
-}
 
-/// Of words where they hold.
-fn within(region: &Region) -> Option<Holds> {
-    let Region::Words(words) = region else { return None };
-    let words: Words = words.clone();
-    Some(Box::new(move |p: &Point3<f64>| words.holds([p.x, p.y, p.z])))
-}
+    fn planned(&self, case: &Case) -> Result<Track, PlanError> {
+        plan::track(self, case)
+    }
 
-/// The plain numbers of a region; words have none, and what is beyond a sphere is no part of a cell.
-fn form_of(region: &Region) -> Option<ArmSolidForm<'static>> {
-    let triangles = |solid: &Solid| {
-        let vertices = solid.vertices();
-        let corners = solid.triangles().iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize]));
-        ArmSolidForm::Triangles(corners.collect())
-    };
-    Some(match region {
-        Region::Shape(Shape::Sphere { center, radius }) => ArmSolidForm::Ball(*center, *radius),
-        Region::Shape(Shape::Box { center, half_extents }) => ArmSolidForm::Box(*center, *half_extents),
-        Region::Shape(Shape::Capsule { a, b, radius }) => ArmSolidForm::Capsule([*a, *b], *radius),
-        Region::Shape(Shape::Hull(solid) | Shape::Mesh(solid)) => triangles(solid),
-        Region::Cylinder { a, b, radius } => ArmSolidForm::Cylinder([*a, *b], *radius),
-        Region::HalfSpace { normal, offset } => ArmSolidForm::HalfSpace(*normal, *offset),
-        Region::Beyond { .. } | Region::Words(_) => return None,
-    })
+    /// Arms get their program instead.
+    fn timed(&self, _: &Case) -> Vec<Timed> {
+        Vec::new()
+    }
+
+    fn verify(&self, case: &Case, _: &Scenario) -> (Option<Proof>, Option<EndError>) {
+        let mut proof = verify::verify(self, case);
+        if case.environment.is_some() {
+            proof.get_or_insert_default();
+        }
+        (proof, None)
+    }
+
+    fn knobs(&self) -> Knobs {
+        knobs::knobs(self)
+    }
 }

@@ -24,7 +24,7 @@ pub struct ArcClock {
     pub speed: Speed,
 }
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// The moves of `graph`, to be clocked at the first of the scenario's speeds.
     ///
     /// # Errors

@@ -4,6 +4,8 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::ArmSetup;
 use crate::campaign::Case;
+use crate::campaign::kind::{Act, Order, Same};
+use crate::campaign::placement::Placement;
 use crate::campaign::scenario::TimeLawName;
 use crate::simulation::SimulationError;
 use crate::simulation::arm::{Fault, Noise, Plan, PlanSettings, RunSettings, Shape};
@@ -15,7 +17,7 @@ const S_CURVE: f64 = 0.04;
 /// Jitter of fine points beside that of positions, s per mm of noise.
 const PAUSE_PER_MM: f64 = 0.05;
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// How the virtual controller plans.
     pub(super) fn plan_settings(&self) -> PlanSettings {
         let shape = match self.scenario.execute.profile {
@@ -57,31 +59,31 @@ impl ArmSetup<'_> {
     }
 }
 
-/// Runs the program of `case`, which was made with `nominal`, as `own` has it.
-///
-/// # Errors
-/// A case without a program; settings, orders or faults out of bounds.
-pub(in crate::campaign) fn run(
-    nominal: &ArmSetup,
-    own: &ArmSetup,
-    case: &Case,
-    seed: u64,
-) -> Result<Flight, SimulationError> {
-    if let Some(logs) = &nominal.scenario.execute.logs {
-        return Err(SimulationError::new(
-            "execute.logs",
-            logs.clone(),
-            "left out where the virtual controller is to run the program",
-        ));
+impl Act for ArmSetup {
+    /// Runs the program, which was made with `nominal`, on the virtual controller as this setup has it.
+    fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
+        let nominal: &Self = nominal.setup();
+        if let Some(logs) = &nominal.scenario.execute.logs {
+            return Err(SimulationError::new(
+                "execute.logs",
+                logs.clone(),
+                "left out where the virtual controller is to run the program",
+            ));
+        }
+        let program = program_of(case)?;
+        let orders = nominal.orders(program)?;
+        let plan = Plan::new(&self.station.arm, &nominal.station.home, &orders, &self.plan_settings())?;
+        let run = plan.execute(&self.run_settings(), &self.faults(), order.seed)?;
+        let ended = if run.stop.is_some() { Ended::Halted } else { Ended::Done };
+        let track = legs_of(&run.recording)?;
+        let reached = reached(&track, case.waypoints.len(), ended);
+        Ok(Flight { track, ended, left_world: None, reached })
     }
-    let program = program_of(case)?;
-    let orders = nominal.orders(program)?;
-    let plan = Plan::new(&own.station.arm, &nominal.station.home, &orders, &own.plan_settings())?;
-    let run = plan.execute(&own.run_settings(), &own.faults(), seed)?;
-    let ended = if run.stop.is_some() { Ended::Halted } else { Ended::Done };
-    let track = legs_of(&run.recording)?;
-    let reached = reached(&track, case.waypoints.len(), ended);
-    Ok(Flight { track, ended, left_world: None, reached })
+
+    /// Cells stay as they are.
+    fn place(&self, _: &Case, _: &Track) -> Option<Placement> {
+        None
+    }
 }
 
 /// The program of a case.

@@ -44,7 +44,7 @@ impl ArmGraph {
     /// In which configuration a point is met: the proven one; in Cartesian mode the cloud's, or one in which the arm
     /// can stand there.
     pub(super) fn configuration(&self, setup: &ArmSetup, row: usize) -> Option<Configuration> {
-        let station = setup.station;
+        let station = &setup.station;
         match &self.postures {
             Some(postures) => postures[row].as_ref().ok().map(|q| station.arm.configuration(q)),
             None => {
@@ -60,7 +60,7 @@ impl ArmGraph {
     /// is proven clear of the cell, grown by the tool and by what the spec allows. Joint moves stop everywhere: their
     /// blends lie in no such triangle.
     pub(super) fn blends(&self, setup: &ArmSetup, rows: &[usize], k: usize, zone: f64) -> bool {
-        let (station, scenario) = (setup.station, setup.scenario);
+        let (station, scenario) = (&setup.station, &setup.scenario);
         if scenario.generate.moves.kind == MoveName::Joint {
             return false;
         }
@@ -102,7 +102,7 @@ pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
 /// # Errors
 /// No point could be drawn, or a table of costs of another size, in a sentence's part.
 pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
-    let (station, scenario) = (setup.station, setup.scenario);
+    let (station, scenario) = (&setup.station, &setup.scenario);
     if station.points.is_empty() {
         return Err(nowhere(scenario));
     }
@@ -117,7 +117,7 @@ pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
     })
 }
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// Names of the cell's parts, as refusals count them.
     pub fn part_names(&self) -> Vec<String> {
         self.station.cell.parts.iter().map(|part| part.name.clone()).collect()
@@ -145,7 +145,7 @@ fn nowhere(scenario: &ArmScenario) -> String {
 }
 
 fn in_space(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
-    let (station, scenario) = (setup.station, setup.scenario);
+    let (station, scenario) = (&setup.station, &setup.scenario);
     let points: Vec<Point3<f64>> = station.points.iter().map(|point| point.pose.translation.vector.into()).collect();
     let settings = CartesianSettings { radius: sphere(station, scenario), level: Level::Certified, simd: setup.simd };
     let reachability = cartesian(&points, &station.cell_within_reach(), &settings);
@@ -165,7 +165,7 @@ fn in_space(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
 }
 
 fn in_joints(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
-    let (station, scenario) = (setup.station, setup.scenario);
+    let (station, scenario) = (&setup.station, &setup.scenario);
     let stands: Vec<Stand> = (station.points.iter())
         .map(|point| Stand { pose: point.pose, configuration: point.configuration.and_then(configuration) })
         .collect();
@@ -288,7 +288,7 @@ fn by_name(name: CostName) -> Cost {
 
 /// What one unit of a cost is, and in which unit users are told.
 fn unit_of(cost: &Cost, setup: &ArmSetup) -> (f64, String) {
-    let files = setup.attachments;
+    let files = &setup.attachments;
     if let CostSection::Learned(learned) = &setup.scenario.generate.cost {
         return (1e-6, files.model(&learned.score).map_or_else(String::new, |model| model.read.unit.clone()));
     }

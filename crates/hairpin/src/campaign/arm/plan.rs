@@ -9,12 +9,12 @@ use crate::simulation::SimulationError;
 use crate::simulation::arm::{Plan, RunSettings};
 use crate::trajectory::{Channel, PlannedPath, Track};
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// The path of the program of `case`, blends and all, and where its moves end.
     ///
     /// # Errors
     /// A program that cannot be planned.
-    pub(in crate::campaign) fn planned(&self, case: &Case) -> Result<PlannedPath, SimulationError> {
+    pub(super) fn planned_path(&self, case: &Case) -> Result<PlannedPath, SimulationError> {
         let orders = self.orders(program_of(case)?)?;
         let plan = Plan::new(&self.station.arm, &self.station.home, &orders, &self.plan_settings())?;
         match plan.stop() {
@@ -38,7 +38,7 @@ impl ArmSetup<'_> {
     /// # Errors
     /// A program that cannot be planned, or that the arm cannot follow to its end.
     pub fn planned_joints(&self, case: &Case, sample: f64) -> Result<(Vec<f64>, Vec<Joints>), SimulationError> {
-        self.planned(case)?;
+        self.planned_path(case)?;
         let orders = self.orders(program_of(case)?)?;
         let plan = Plan::new(&self.station.arm, &self.station.home, &orders, &self.plan_settings())?;
         let usual = RunSettings::default();
@@ -54,8 +54,8 @@ impl ArmSetup<'_> {
 ///
 /// # Errors
 /// A program that cannot be planned, as a folder that was edited may hold.
-pub(in crate::campaign) fn track(setup: &ArmSetup, case: &Case) -> Result<Track, PlanError> {
-    let planned = setup.planned(case)?;
+pub(super) fn track(setup: &ArmSetup, case: &Case) -> Result<Track, PlanError> {
+    let planned = setup.planned_path(case)?;
     let path = planned.track();
     let leg = |i: usize| planned.moves().partition_point(|m| m.end < i).min(planned.moves().len().saturating_sub(1));
     let legs = Channel { name: "leg".into(), values: (0..path.len()).map(|i| leg(i) as f64).collect() };

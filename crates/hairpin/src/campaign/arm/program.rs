@@ -28,7 +28,7 @@ pub(super) struct Way {
 /// Name of the home posture in programs.
 const HOME: &str = "pHome";
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// Name of the point of row `row`: digits enough that names sort like rows.
     pub fn point_name(&self, row: usize) -> String {
         let digits = self.station.points.len().saturating_sub(1).to_string().len().max(2);
@@ -37,7 +37,7 @@ impl ArmSetup<'_> {
 
     /// Tool and work object of programs.
     pub(super) fn frames(&self) -> (Tool, WorkObject) {
-        let station = self.station;
+        let station = &self.station;
         let tool = Tool {
             name: station.tool.name.clone(),
             declare: self.scenario.world.tool.declare,

@@ -20,7 +20,7 @@ pub struct Shorter {
     pub name: String,
 }
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// `recording` (`base_from_tcp`, its channel `move` if it has one counted from 0 after home) as a run of the
     /// program of `case`, on its own stamps.
     ///
@@ -36,7 +36,7 @@ impl ArmSetup<'_> {
         recording: Track,
         orientation_known: bool,
     ) -> Result<Result<Flight, Shorter>, SimulationError> {
-        let path = self.planned(case)?;
+        let path = self.planned_path(case)?;
         let moves = path.moves().len();
         if let Some(value) =
             recording.channel("move").and_then(|values| values.iter().find(|value| **value > moves as f64))

@@ -32,7 +32,7 @@ pub enum RegressionError {
 /// Names of moves that are told of a program that differs.
 const DIFFERENT: usize = 3;
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// What all runs did, from what judging them gave.
     pub fn moves(&self, cases: &[Case], runs: &[RunDeviation]) -> Moves {
         let of = |case: &Case| {

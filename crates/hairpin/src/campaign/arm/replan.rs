@@ -1,12 +1,15 @@
 //! Fewer points for a program, every move still proven by the graph.
 
+use nalgebra::Point3;
+
 use super::ArmSetup;
 use super::graph::{ArmGraph, graph_of};
 use crate::campaign::Case;
+use crate::campaign::kind::{Replanner, Same};
 use crate::trajectory::program::{Motion, Program, Zone};
 
 /// A program, and the graph that it is a way through.
-pub(in crate::campaign) struct Replanner {
+pub(super) struct Shortened {
     graph: ArmGraph,
     case: Case,
     program: Program,
@@ -14,10 +17,10 @@ pub(in crate::campaign) struct Replanner {
     rows: Vec<usize>,
 }
 
-impl Replanner {
+impl Shortened {
     /// # Errors
     /// A case whose program is no way from home through the scenario's cloud and back, in a sentence's part.
-    pub(in crate::campaign) fn new(setup: &ArmSetup, case: &Case) -> Result<Self, String> {
+    pub(super) fn new(setup: &ArmSetup, case: &Case) -> Result<Self, String> {
         let program = case.program().cloned().ok_or("the case has no program")?;
         let graph = graph_of(setup)?;
         let between = program.moves.get(1..program.moves.len().saturating_sub(1)).unwrap_or_default();
@@ -29,10 +32,12 @@ impl Replanner {
         }
         Ok(Self { graph, case: case.clone(), program, rows })
     }
+}
 
-    /// The case over the waypoints at `indices`, home at both ends included, if all moves between them are possible.
-    /// Every move keeps its speed, and its zone where the corner may still be cut.
-    pub(in crate::campaign) fn plan(&self, setup: &ArmSetup, indices: &[usize]) -> Option<Case> {
+impl Replanner for Shortened {
+    /// Home at both ends is included. Every move keeps its speed, and its zone where the corner may still be cut.
+    fn plan(&self, setup: Same, indices: &[usize], _: &[Point3<f64>]) -> Option<Case> {
+        let setup: &ArmSetup = setup.setup();
         let between = indices.get(1..indices.len().checked_sub(1)?)?;
         let rows: Vec<usize> = between.iter().map(|index| self.rows[index - 1]).collect();
         let (first, last) = (*rows.first()?, *rows.last()?);

@@ -3,29 +3,23 @@
 use nalgebra::Isometry3;
 
 use super::ArmSetup;
-use super::execute::program_of;
-use crate::campaign::Case;
 use crate::campaign::learn::{MoveFeatures, ScoreModel};
 use crate::robot::arm::{Configuration, Joints};
 use crate::simulation::arm::{Order, Target};
 use crate::trajectory::program::Speed;
 
-impl ArmSetup<'_> {
-    /// The features of each move of the program of `case`; `None` of those from and to home, on arcs, and between
-    /// points of unknown posture.
-    pub(in crate::campaign) fn moves_seen(&self, case: &Case) -> Vec<Option<MoveFeatures>> {
-        let orders = program_of(case).and_then(|program| self.orders(program)).unwrap_or_default();
-        let one = |(index, order): (usize, &Order)| {
-            let before = orders.get(index.checked_sub(1)?)?;
-            let ((start, from), (end, to)) = (self.stand(before)?, self.stand(order)?);
-            match order.target {
-                Target::Joint(..) | Target::Line(..) => {
-                    Some(MoveFeatures::of(&self.station.arm, [&start, &end], &from, &to, order.speed.tcp))
-                }
-                Target::Joints(_) | Target::Arc(..) => None,
+impl ArmSetup {
+    /// The features of move number `index` of a program; `None` of those from and to home, on arcs, and between points
+    /// of unknown posture.
+    pub(super) fn seen_of(&self, orders: &[Order], index: usize) -> Option<MoveFeatures> {
+        let (before, order) = (orders.get(index.checked_sub(1)?)?, &orders[index]);
+        let ((start, from), (end, to)) = (self.stand(before)?, self.stand(order)?);
+        match order.target {
+            Target::Joint(..) | Target::Line(..) => {
+                Some(MoveFeatures::of(&self.station.arm, [&start, &end], &from, &to, order.speed.tcp))
             }
-        };
-        orders.iter().enumerate().map(one).collect()
+            Target::Joints(_) | Target::Arc(..) => None,
+        }
     }
 
     /// Pose and angles at the end of a move to a point.
@@ -40,7 +34,7 @@ impl ArmSetup<'_> {
 
     /// Angles with the tool at `pose` in a configuration.
     pub(super) fn posture(&self, pose: &Isometry3<f64>, wanted: &Configuration) -> Option<Joints> {
-        let (station, flange) = (self.station, self.station.flange(pose));
+        let (station, flange) = (&self.station, self.station.flange(pose));
         let turned = station.arm.inverse(&flange, &station.home).into_iter().flat_map(|q| station.arm.turns_of(&q));
         turned.into_iter().find(|q| station.arm.configuration(q) == *wanted)
     }

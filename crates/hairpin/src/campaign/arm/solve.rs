@@ -3,7 +3,8 @@
 use super::ArmSetup;
 use super::graph::{ArmGraph, graph_of};
 use super::program::Way;
-use crate::campaign::graph::{Outcome, Plan};
+use crate::campaign::graph::{Executions, Outcome, Plan, Wanted};
+use crate::campaign::kind::Solver;
 use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, Evidence, Stop};
 use crate::search::heaviest::{
@@ -25,19 +26,21 @@ pub struct Question {
 }
 
 /// The search for an arm's programs.
-pub(in crate::campaign) struct Solver<'a> {
-    setup: ArmSetup<'a>,
+pub(super) struct ArmSolver<'a> {
+    setup: &'a ArmSetup,
 }
 
-impl<'a> Solver<'a> {
-    pub(in crate::campaign) fn new(setup: ArmSetup<'a>) -> Self {
+impl<'a> ArmSolver<'a> {
+    pub(super) fn new(setup: &'a ArmSetup) -> Self {
         Self { setup }
     }
+}
 
+impl Solver for ArmSolver<'_> {
     /// The programs of the one graph that there is.
-    pub(in crate::campaign) fn solve(&self, stop: &Stop) -> Outcome {
+    fn solve(&self, _: u64, _: Executions, _: Wanted, stop: &Stop) -> Outcome {
         let mut outcome = Outcome { graphs: 1, ..Outcome::default() };
-        let graph = match graph_of(&self.setup) {
+        let graph = match graph_of(self.setup) {
             Ok(graph) => graph,
             Err(reason) => return Outcome { reason: Some(reason), ..outcome },
         };
@@ -59,7 +62,7 @@ impl<'a> Solver<'a> {
     }
 }
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// The programs along the paths that were found, as cases of a campaign.
     pub fn cases(&self, graph: &ArmGraph, found: &Heaviest) -> Vec<Case> {
         let paths = found.paths.iter().enumerate();
@@ -166,7 +169,7 @@ impl ArmSetup<'_> {
     }
 
     fn plan(&self, graph: &ArmGraph, rows: &[usize], cost: i64, found: &Heaviest, number: usize) -> Plan {
-        let station = self.station;
+        let station = &self.station;
         let passed = found.passed.get(number).map_or(&[][..], Vec::as_slice);
         let way = Way {
             rows: rows.to_vec(),
@@ -198,10 +201,10 @@ impl ArmSetup<'_> {
     }
 }
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// Durations that the virtual controller plans for the moves of `program`; none where it cannot.
     pub(super) fn leg_times(&self, program: &Program) -> Vec<f64> {
-        let station = self.station;
+        let station = &self.station;
         let planned = self.orders(program).and_then(|orders| {
             let plan = controller::Plan::new(&station.arm, &station.home, &orders, &self.plan_settings())?;
             Ok(times(plan.passed(), orders.len()))

@@ -1,10 +1,15 @@
 //! What a scenario of an arm describes: the arm with its tool, the cell around it, and the points of the cloud.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Vector3};
 
 use super::points::{CellPoint, count};
 use crate::campaign::attachments::Attachments;
+use crate::campaign::kind::Kind;
+use crate::campaign::own_controller::AnyController;
 use crate::campaign::scenario::ArmScenario;
+use crate::math::simd::Simd;
 use crate::robot::arm::{Arm, Joints, Tool, WorkObject};
 use crate::world::cell::{Cell, Part, Region};
 
@@ -26,22 +31,29 @@ pub struct Station {
 }
 
 /// A scenario of an arm and what it describes.
-#[derive(Debug, Clone, Copy)]
-pub struct ArmSetup<'a> {
+#[derive(Debug, Clone)]
+pub struct ArmSetup {
     /// Every key.
-    pub scenario: &'a ArmScenario,
+    pub scenario: Arc<ArmScenario>,
     /// What its files hold.
-    pub attachments: &'a Attachments,
+    pub attachments: Arc<Attachments>,
     /// Arm, cell and points.
-    pub station: &'a Station,
+    pub station: Arc<Station>,
     /// Version of the kernels.
-    pub simd: crate::math::simd::Simd,
+    pub simd: Simd,
 }
 
-impl ArmSetup<'_> {
+impl ArmSetup {
     /// How many points the scenario asks for: where none of those to be drawn fits there are fewer.
     pub fn asked_points(&self) -> u64 {
-        count(&self.scenario.task, self.attachments)
+        count(&self.scenario.task, &self.attachments)
+    }
+}
+
+impl Kind for ArmSetup {
+    /// Nobody has brought a controller of arms yet.
+    fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>> {
+        controller.is_none().then(|| Arc::new(Self { simd, ..self.clone() }) as Arc<dyn Kind>)
     }
 }
 

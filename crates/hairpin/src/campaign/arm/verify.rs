@@ -12,7 +12,7 @@ const MET: f64 = 1e-6;
 /// its bounds, and, where all links are claimed to be clear, none come nearer to a part of the cell than was claimed,
 /// nor touch it where a zone cuts a corner. Sampled: what the graph proves between samples is not proven again. `None`
 /// for a case that has no program.
-pub(in crate::campaign) fn verify(setup: &ArmSetup, case: &Case) -> Option<Proof> {
+pub(super) fn verify(setup: &ArmSetup, case: &Case) -> Option<Proof> {
     let program = case.program()?;
     let mut proof = Proof::default();
     if let Some(refusal) = refused(program) {

@@ -91,7 +91,7 @@ where
 
 /// What was learned of legs, by rounds before this one or by the scenario's model, or what the user's own program says
 /// of them.
-pub(super) fn learned<'a>(setup: &DriveSetup<'a>, looped: &Looped<'a>) -> Option<AnyScore<'a>> {
+pub(super) fn learned<'a>(setup: &'a DriveSetup, looped: &Looped<'a>) -> Option<AnyScore<'a>> {
     let score = &setup.scenario.generate.search.score;
     let model = setup.attachments.model(score).map(|model| &*model.read);
     let learned = looped.models().first().or(model).map(AnyScore::Learned);

@@ -7,7 +7,7 @@ use crate::robot::rover::{Kinematics, Suspension};
 use crate::simulation::ground::GroundControllerKind;
 
 /// What stands behind the legs.
-pub(in crate::campaign) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
+pub(super) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     said.push(match generate.reach {
         GroundReach::None => "Reach `none`: every waypoint counts as reachable; nothing is claimed.".into(),
@@ -98,14 +98,14 @@ fn pace(setup: &DriveSetup) -> String {
 }
 
 /// Who drove them.
-pub(in crate::campaign) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
+pub(super) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
     match (&execute.command, execute.controller_in_force()) {
         (Some(command), None) => {
             said.push(format!("Executed by `{command}`; legs are those that it reported."));
         }
         (_, controller) => {
-            let who = match setup.controller {
+            let who = match &setup.controller {
                 Some(own) => format!("`{}`, the caller's own, knows the nominal vehicle and the plan", own.name()),
                 None => {
                     let ours = controller.unwrap_or(GroundControllerKind::Predictive);
@@ -128,7 +128,7 @@ pub(in crate::campaign) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
 }
 
 /// What deviation is.
-pub(in crate::campaign) fn verdict(setup: &DriveSetup, said: &mut Vec<String>) {
+pub(super) fn verdict(setup: &DriveSetup, said: &mut Vec<String>) {
     let limits = &setup.scenario.spec.limits;
     said.push(match limits.path_deviation_m {
         Some(_) => "Deviation is the distance from the planned path, along it. Tracks are not aligned.".into(),
@@ -144,7 +144,7 @@ pub(in crate::campaign) fn verdict(setup: &DriveSetup, said: &mut Vec<String>) {
 }
 
 /// What was searched beside the waypoints.
-pub(in crate::campaign) fn searched_beside(setup: &DriveSetup) -> Option<String> {
+pub(super) fn searched_beside(setup: &DriveSetup) -> Option<String> {
     let environment = setup.scenario.generate.environment?;
     let mut searched = Vec::new();
     searched.extend(environment.external_force_n.map(|force| format!("a steady horizontal force of up to {force} N")));

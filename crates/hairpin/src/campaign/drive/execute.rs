@@ -1,8 +1,11 @@
 //! Drives a mission in our own simulator.
 
 use super::DriveSetup;
+use super::place::place;
 use super::plan::drive_of;
 use crate::campaign::Case;
+use crate::campaign::kind::{Act, Order, Same};
+use crate::campaign::placement::Placement;
 use crate::feasibility::steering::shooting::families::Problem;
 use crate::feasibility::steering::shooting::solve::{Choices, Outcome};
 use crate::feasibility::steering::shooting::{Control, Query, generate, rough};
@@ -11,56 +14,46 @@ use crate::simulation::ground::{
     self, DriveSettings, GroundConditions, GroundController, GroundControllerKind, GroundSortie,
 };
 use crate::trajectory::drive::{Gear, Planar, SegmentList};
-use crate::trajectory::{Direction, Flight};
+use crate::trajectory::{Direction, Flight, Track};
 
-/// How a mission is to be driven.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::campaign) struct Order {
-    /// A waypoint counts as reached inside this radius, m.
-    pub(in crate::campaign) accept: f64,
-    /// s.
-    pub(in crate::campaign) time_limit: f64,
-    /// The run's seed.
-    pub(in crate::campaign) seed: u64,
-}
-
-/// Drives the plan of `case`, which was made with `nominal`, as `own` has it: its vehicle and its latency.
-pub(in crate::campaign) fn drive(
-    nominal: &DriveSetup,
-    own: &DriveSetup,
-    case: &Case,
-    order: &Order,
-) -> Result<Flight, SimulationError> {
-    let execute = &own.scenario.execute;
-    let plan = drive_of(nominal, case);
-    // The scenario's latency takes the place of the robot's.
-    let vehicle = if execute.latency_s.is_some() { own.planner } else { own.rover };
-    let sortie = GroundSortie {
-        vehicle,
-        nominal: nominal.rover,
-        terrain: own.map,
-        keep_outs: own.keep_out,
-        clearance_radius: own.radius(),
-        drive: &plan,
-    };
-    let conditions = GroundConditions {
-        latency: execute.latency_s.unwrap_or(0.0),
-        noise: execute.noise,
-        external_force: execute.external_force_n.unwrap_or_default(),
-        ..GroundConditions::default()
-    };
-    let settings =
-        DriveSettings { accept: order.accept, time_limit: Some(order.time_limit), ..DriveSettings::default() };
-    if let Some(controller) = own.controller {
-        return ground::drive_with(&sortie, controller, &conditions, &settings, order.seed);
+impl Act for DriveSetup {
+    /// Drives the plan, which was made with `nominal`, as this setup has vehicle and latency.
+    fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
+        let (nominal, execute): (&Self, _) = (nominal.setup(), &self.scenario.execute);
+        let plan = drive_of(nominal, case);
+        // The scenario's latency takes the place of the robot's.
+        let vehicle = if execute.latency_s.is_some() { &self.planner } else { &self.rover };
+        let sortie = GroundSortie {
+            vehicle,
+            nominal: &nominal.rover,
+            terrain: &self.map,
+            keep_outs: &self.keep_out,
+            clearance_radius: self.radius(),
+            drive: &plan,
+        };
+        let conditions = GroundConditions {
+            latency: execute.latency_s.unwrap_or(0.0),
+            noise: execute.noise,
+            external_force: execute.external_force_n.unwrap_or_default(),
+            ..GroundConditions::default()
+        };
+        let settings =
+            DriveSettings { accept: order.accept, time_limit: Some(order.time_limit), ..DriveSettings::default() };
+        if let Some(controller) = &self.controller {
+            return ground::drive_with(&sortie, controller, &conditions, &settings, order.seed);
+        }
+        let resolve = |from: &Planar, to: &Planar, gear: Gear, direction| solve(nominal, from, to, gear, direction);
+        let controller = match execute.controller_in_force().unwrap_or(GroundControllerKind::Predictive) {
+            GroundControllerKind::PurePursuit => GroundController::PurePursuit,
+            GroundControllerKind::Stanley => GroundController::Stanley,
+            GroundControllerKind::Predictive => GroundController::Predictive(&resolve),
+        };
+        ground::drive(&sortie, &controller, &conditions, &settings, order.seed)
     }
-    let resolve = |from: &Planar, to: &Planar, gear: Gear, direction| solve(nominal, from, to, gear, direction);
-    let controller = match execute.controller_in_force().unwrap_or(GroundControllerKind::Predictive) {
-        GroundControllerKind::PurePursuit => GroundController::PurePursuit,
-        GroundControllerKind::Stanley => GroundController::Stanley,
-        GroundControllerKind::Predictive => GroundController::Predictive(&resolve),
-    };
-    ground::drive(&sortie, &controller, &conditions, &settings, order.seed)
+
+    fn place(&self, case: &Case, track: &Track) -> Option<Placement> {
+        place(self, case, track, self.scenario.generate.environment?.obstacles?)
+    }
 }
 
 /// Commands in one gear from `from` to `to` on the ground, travelling in `direction`, as far as the nominal vehicle

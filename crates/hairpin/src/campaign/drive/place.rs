@@ -29,12 +29,7 @@ enum Claimed<'a> {
 
 /// Up to `asked.count` discs in the way of `track`, the drive of `case` without them. `None` where there is no room for
 /// any.
-pub(in crate::campaign) fn place(
-    setup: &DriveSetup,
-    case: &Case,
-    track: &Track,
-    asked: PlacedDiscsSection,
-) -> Option<Placement> {
+pub(super) fn place(setup: &DriveSetup, case: &Case, track: &Track, asked: PlacedDiscsSection) -> Option<Placement> {
     let claimed = Claimed::by(setup, case)?;
     let beyond = claimed.beyond();
     let placing = Placing {
@@ -63,7 +58,7 @@ impl<'a> Claimed<'a> {
     /// What stands behind `case`; `None` for a drive that the ground does not carry.
     fn by(setup: &DriveSetup, case: &'a Case) -> Option<Self> {
         let Some(drive) = case.commands() else { return Some(Self::Straight(&case.waypoints)) };
-        let site = DriveSite::new(setup.planner, setup.map, setup.keep_out);
+        let site = DriveSite::new(&setup.planner, &setup.map, &setup.keep_out);
         ClearanceSamples::along(&site, &settings(setup).ok()?, drive).map(Self::Drive)
     }
 

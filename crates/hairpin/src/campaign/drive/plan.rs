@@ -13,9 +13,9 @@ use crate::trajectory::{Drive, DriveLeg, Track};
 ///
 /// # Errors
 /// A drive that the ground does not carry, as a folder that was edited may hold.
-pub(in crate::campaign) fn track(setup: &DriveSetup, case: &Case) -> Result<Track, PlanError> {
+pub(super) fn track(setup: &DriveSetup, case: &Case) -> Result<Track, PlanError> {
     let drive = drive_of(setup, case);
-    Ok(planned_track(setup.planner, setup.map, &drive)?.with_velocities())
+    Ok(planned_track(&setup.planner, &setup.map, &drive)?.with_velocities())
 }
 
 /// The commands of `case`, or the straight way where it has none.
@@ -24,7 +24,7 @@ pub(super) fn drive_of(setup: &DriveSetup, case: &Case) -> Drive {
 }
 
 /// The timed reference of a mission at `rate` (Hz).
-pub(in crate::campaign) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> Vec<Timed> {
+pub(super) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> Vec<Timed> {
     let Ok(track) = track(setup, case) else { return Vec::new() };
     let column = |name| track.channel(name).unwrap_or_default();
     let velocities = [column("vx_m_s"), column("vy_m_s"), column("vz_m_s")];

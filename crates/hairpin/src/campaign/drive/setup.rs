@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use crate::campaign::attachments::Attachments;
+use crate::campaign::kind::Kind;
+use crate::campaign::own_controller::AnyController;
 use crate::campaign::scenario::{
     DriveScenario, GeneratorName, GroundDescription, Mistake, NoData, ProfileName, RobotSource, TerrainSection,
 };
@@ -18,27 +20,27 @@ use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
 use super::Site;
 
 /// A resolved scenario of drives and what it describes.
-#[derive(Debug, Clone, Copy)]
-pub struct DriveSetup<'a> {
+#[derive(Debug, Clone)]
+pub struct DriveSetup {
     /// Every key, the robot's table inline.
-    pub scenario: &'a DriveScenario,
+    pub scenario: Arc<DriveScenario>,
     /// What its files hold.
-    pub attachments: &'a Attachments,
+    pub attachments: Arc<Attachments>,
     /// The vehicle.
-    pub rover: &'a Rover,
+    pub rover: Arc<Rover>,
     /// The vehicle as plans have it: without latency, which a leg's end cannot hand to the next one.
-    pub planner: &'a Rover,
+    pub planner: Arc<Rover>,
     /// The ground.
-    pub map: &'a Arc<ElevationMap>,
+    pub map: Arc<ElevationMap>,
     /// Where nothing may drive.
-    pub keep_out: &'a KeepOuts,
+    pub keep_out: Arc<KeepOuts>,
     /// A controller of the caller's own in the place of the scenario's.
-    pub controller: Option<&'a OwnController<Rover>>,
+    pub controller: Option<OwnController<Rover>>,
     /// Version of the kernels.
     pub simd: Simd,
 }
 
-impl<'a> DriveSetup<'a> {
+impl DriveSetup {
     /// Commanded speed, m/s.
     pub fn speed(&self) -> f64 {
         self.scenario.generate.limits.speed_m_s.unwrap_or(self.rover.default_speed).min(self.rover.limits.speed)
@@ -84,7 +86,7 @@ impl<'a> DriveSetup<'a> {
 
     /// Radius of the circle about its origin that holds the vehicle, m.
     pub fn radius(&self) -> f64 {
-        DriveSite::new(self.planner, self.map, self.keep_out).radius
+        DriveSite::new(&self.planner, &self.map, &self.keep_out).radius
     }
 
     /// How exactly legs are solved on the ground.
@@ -100,37 +102,21 @@ impl<'a> DriveSetup<'a> {
     /// The flat solver that shapes them.
     pub(super) fn flat_solver(&self) -> flat::Settings<'static> {
         let starts = self.scenario.generate.solver.starts as u32;
-        flat::Settings { starts, simd: self.simd, ..ReachSettings::of(self.planner).flat }
+        flat::Settings { starts, simd: self.simd, ..ReachSettings::of(&self.planner).flat }
     }
 
     /// The vehicle on its ground at the commanded speed, travelling in `direction` of its body.
-    pub fn site(&self, direction: Direction) -> Site<'a> {
-        Site { rover: self.planner, map: self.map, speed: self.speed().into(), direction }
+    pub fn site(&self, direction: Direction) -> Site<'_> {
+        Site { rover: &self.planner, map: &self.map, speed: self.speed().into(), direction }
     }
 }
 
-/// A vehicle, and the ground it drives on.
-#[derive(Debug, Clone)]
-pub(in crate::campaign) struct Driver {
-    /// The vehicle.
-    pub(in crate::campaign) rover: Arc<Rover>,
-    /// The vehicle as plans have it.
-    pub(in crate::campaign) planner: Arc<Rover>,
-    /// The ground.
-    pub(in crate::campaign) map: Arc<ElevationMap>,
-    /// Where nothing may drive.
-    pub(in crate::campaign) keep_out: Arc<KeepOuts>,
-}
-
-impl Driver {
-    /// The vehicle, and as plans have it.
-    pub(super) fn rovers(
-        keys: &DriveScenario,
-        known: Option<(&DriveScenario, &Self)>,
-    ) -> Result<[Arc<Rover>; 2], Mistake> {
+impl DriveSetup {
+    /// The vehicle of `keys`, and as plans have it: those of `known`, if they are described alike.
+    pub(super) fn rovers(keys: &DriveScenario, known: Option<&Self>) -> Result<[Arc<Rover>; 2], Mistake> {
         let kinematics = keys.generate.kinematics;
-        if let Some((old, known)) = known
-            && (&old.robot, old.generate.kinematics) == (&keys.robot, kinematics)
+        if let Some(known) = known
+            && (&known.scenario.robot, known.scenario.generate.kinematics) == (&keys.robot, kinematics)
         {
             return Ok([known.rover.clone(), known.planner.clone()]);
         }
@@ -143,23 +129,33 @@ impl Driver {
     pub(super) fn map(
         keys: &DriveScenario,
         files: &Attachments,
-        known: Option<(&DriveScenario, &Self)>,
+        known: Option<&Self>,
     ) -> Result<Arc<ElevationMap>, Mistake> {
         let terrain = &keys.world.terrain;
         match known {
-            Some((old, known)) if (&old.world.terrain, old.seed) == (terrain, keys.seed) => Ok(known.map.clone()),
+            Some(known) if (&known.scenario.world.terrain, known.scenario.seed) == (terrain, keys.seed) => {
+                Ok(known.map.clone())
+            }
             _ => map_of(terrain, keys.seed, files),
         }
     }
 
-    pub(super) fn keep_out(
-        keys: &DriveScenario,
-        known: Option<(&DriveScenario, &Self)>,
-    ) -> Result<Arc<KeepOuts>, Mistake> {
+    /// The keep-outs of `keys`, likewise.
+    pub(super) fn keep_out(keys: &DriveScenario, known: Option<&Self>) -> Result<Arc<KeepOuts>, Mistake> {
         match known {
-            Some((old, known)) if old.world.keep_out == keys.world.keep_out => Ok(known.keep_out.clone()),
+            Some(known) if known.scenario.world.keep_out == keys.world.keep_out => Ok(known.keep_out.clone()),
             _ => keys.world.keep_outs().map(Arc::new),
         }
+    }
+}
+
+impl Kind for DriveSetup {
+    fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>> {
+        let controller = match controller {
+            Some(own) => Some(own.of::<Rover>()?.clone()),
+            None => None,
+        };
+        Some(Arc::new(Self { simd, controller, ..self.clone() }))
     }
 }
 

@@ -9,12 +9,13 @@ use super::ask::{Asked, Graph, ask, beside, learned};
 use super::legs::count;
 use super::stepwise::Stepwise;
 use super::surround::{coordinates, put};
-use crate::campaign::Evidence;
 use crate::campaign::graph::{
     Counter, Executions, Looped, Outcome, Plan, Remembered, Surroundings, Wanted, into_unit_ball,
 };
+use crate::campaign::kind::Solver;
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchMethod, SearchSection};
+use crate::campaign::{Evidence, Stop};
 use crate::feasibility::reach::drive::{
     DriveLegs, DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres,
     sample_ground,
@@ -33,8 +34,8 @@ const NEIGHBOURS: f64 = 12.0;
 const LEARNED_FROM: &str = "slope+slip";
 
 /// The part of a search that is the same for every graph.
-pub(in crate::campaign) struct Solver<'a> {
-    setup: DriveSetup<'a>,
+pub(super) struct DriveSolver<'a> {
+    setup: &'a DriveSetup,
     settings: DriveSettings,
     search: SearchSection,
     /// The reach set, where it is another than `witness`.
@@ -43,40 +44,17 @@ pub(in crate::campaign) struct Solver<'a> {
     remembered: Remembered<DriveLegs>,
 }
 
-impl<'a> Solver<'a> {
+impl<'a> DriveSolver<'a> {
     /// # Errors
     /// Why nothing can be searched, in a sentence's part.
-    pub(in crate::campaign) fn new(setup: DriveSetup<'a>) -> Result<Self, String> {
-        let settings = settings(&setup)?;
+    pub(super) fn new(setup: &'a DriveSetup) -> Result<Self, String> {
+        let settings = settings(setup)?;
         let stepwise = match setup.scenario.generate.reach {
             GroundReach::Witness => None,
             GroundReach::None | GroundReach::Sphere | GroundReach::Hull => Some(Stepwise::new(setup)?),
         };
         let search = setup.scenario.generate.search.section();
         Ok(Self { setup, settings, search, stepwise, remembered: Remembered::default() })
-    }
-
-    /// Searches graph number `graph`; `executions` are for searches in the loop, `round` for adaptive campaigns.
-    pub(in crate::campaign) fn solve(&self, graph: u64, executions: Executions, wanted: Wanted) -> Outcome {
-        let points = match self.sample(graph) {
-            Ok(points) => points,
-            Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
-        };
-        let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved(graph, plan, points);
-        let asked = self.setup.scenario.generate.environment;
-        let put = |plan: &Plan, place: &[f64], _| asked.map_or_else(|| plan.clone(), |asked| put(&asked, plan, place));
-        let surroundings = asked.map(|asked| Surroundings {
-            coordinates: coordinates(&asked),
-            bound: &into_unit_ball,
-            put: &put,
-            obstacles: asked.obstacles.is_some(),
-        });
-        let looped = Looped { executions, surroundings, moved: &moved, wanted };
-        let asked = Graph { search: &self.search, graph, points: &points, looped };
-        match &self.stepwise {
-            Some(stepwise) => stepwise.solve(&self.settings, asked),
-            None => self.by_roadmap(asked),
-        }
     }
 
     /// `plan` over `points`, as many as its own, by the same reach set; heights are the ground's. `None` where they are
@@ -167,10 +145,10 @@ impl<'a> Solver<'a> {
             let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
             Some(Plan { leg_times, witness: Some(drive.into()), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
-        let score = learned(&self.setup, &graph.looped).unwrap_or(AnyScore::Named(Score::Ground));
+        let score = learned(self.setup, &graph.looped).unwrap_or(AnyScore::Named(Score::Ground));
         let also = beside(&graph.looped);
         let (reach, start) = (&roadmap, roadmap.start());
-        let asked = Asked { scenario: self.setup.scenario, graph, reach, start, score, also, lookahead: 0 };
+        let asked = Asked { scenario: &self.setup.scenario, graph, reach, start, score, also, lookahead: 0 };
         let mut outcome = ask(asked, |node, steps| roadmap.may_arrive(node, steps), plan);
         if outcome.plans.is_empty() {
             outcome.reason = Some(roadmap.tally().to_string());
@@ -184,7 +162,31 @@ impl<'a> Solver<'a> {
     }
 
     fn site(&self) -> DriveSite<'_> {
-        DriveSite::new(self.setup.planner, self.setup.map, self.setup.keep_out)
+        DriveSite::new(&self.setup.planner, &self.setup.map, &self.setup.keep_out)
+    }
+}
+
+impl Solver for DriveSolver<'_> {
+    fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, _: &Stop) -> Outcome {
+        let points = match self.sample(graph) {
+            Ok(points) => points,
+            Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
+        };
+        let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved(graph, plan, points);
+        let asked = self.setup.scenario.generate.environment;
+        let put = |plan: &Plan, place: &[f64], _| asked.map_or_else(|| plan.clone(), |asked| put(&asked, plan, place));
+        let surroundings = asked.map(|asked| Surroundings {
+            coordinates: coordinates(&asked),
+            bound: &into_unit_ball,
+            put: &put,
+            obstacles: asked.obstacles.is_some(),
+        });
+        let looped = Looped { executions, surroundings, moved: &moved, wanted };
+        let asked = Graph { search: &self.search, graph, points: &points, looped };
+        match &self.stepwise {
+            Some(stepwise) => stepwise.solve(&self.settings, asked),
+            None => self.by_roadmap(asked),
+        }
     }
 }
 
@@ -218,14 +220,14 @@ pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
         control: generate.control.control(),
         directions: setup.directions(),
         score: ground_score(setup)?,
-        ..DriveSettings::of(setup.planner)
+        ..DriveSettings::of(&setup.planner)
     };
     Ok(settings)
 }
 
 /// What a leg's `ground` is: the score that is named or, as an input of a learned one, slope and slip.
 fn ground_score(setup: &DriveSetup) -> Result<GroundScore, String> {
-    let (search, files) = (&setup.scenario.generate.search, setup.attachments);
+    let (search, files) = (&setup.scenario.generate.search, &setup.attachments);
     let of_file = files.model(&search.score).is_some() || files.user_score(&search.score).is_some();
     let learned = of_file || search.method == SearchMethod::Adaptive;
     let name = if learned { LEARNED_FROM } else { search.score_of_legs() };

@@ -17,7 +17,7 @@ use crate::search::{Found, LegView};
 
 /// A step-wise reach set.
 pub(super) struct Stepwise<'a> {
-    setup: DriveSetup<'a>,
+    setup: &'a DriveSetup,
     set: Set,
 }
 
@@ -32,7 +32,7 @@ impl<'a> Stepwise<'a> {
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.
-    pub(super) fn new(setup: DriveSetup<'a>) -> Result<Self, String> {
+    pub(super) fn new(setup: &'a DriveSetup) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let (step, speed) = (generate.step_s, setup.speed());
         let set = match generate.reach {
@@ -41,7 +41,7 @@ impl<'a> Stepwise<'a> {
             GroundReach::Hull => {
                 let reverse = generate.manoeuvres.contains(&Manoeuvre::Reverse);
                 let vehicle =
-                    PlanarVehicle { bounds: setup.bounds(), ..PlanarVehicle::of(setup.planner, speed, reverse) };
+                    PlanarVehicle { bounds: setup.bounds(), ..PlanarVehicle::of(&setup.planner, speed, reverse) };
                 Set::Hull(Box::new(vehicle.hull(step).map_err(|error| error.to_string())?))
             }
         };
@@ -135,7 +135,7 @@ impl<'a> Stepwise<'a> {
     fn allows(&self, a: &Point3<f64>, b: &Point3<f64>) -> bool {
         let [low, high] = self.setup.scenario.task.leg_m;
         let apart = libm::hypot(b.x - a.x, b.y - a.y);
-        let keep_out = self.setup.keep_out;
+        let keep_out = &self.setup.keep_out;
         (low..=high).contains(&apart) && keep_out.segment_distance([a.x, a.y], [b.x, b.y]) >= self.setup.radius()
     }
 
@@ -148,7 +148,7 @@ impl<'a> Stepwise<'a> {
         start: N,
         place: impl Fn(&N) -> u32,
     ) -> Outcome {
-        let (scenario, points) = (self.setup.scenario, graph.points);
+        let (scenario, points) = (&self.setup.scenario, graph.points);
         let keep = |from: &N, leg: &Leg<N>| self.allows(&points[place(from) as usize], &points[leg.waypoint as usize]);
         let filtered = Filtered { inner: reach, keep };
         let evidence = match self.set {
@@ -157,11 +157,11 @@ impl<'a> Stepwise<'a> {
         };
         let plan = |found: Found<N>| Some(Plan::new(&found, points, evidence));
         let (reach, lookahead) = (&filtered, 1);
-        if let Some(score) = learned(&self.setup, &graph.looped) {
+        if let Some(score) = learned(self.setup, &graph.looped) {
             let also = beside(&graph.looped);
             return ask(Asked { scenario, graph, reach, start, score, also, lookahead }, |_, _| true, plan);
         }
-        let site = DriveSite::new(self.setup.planner, self.setup.map, self.setup.keep_out);
+        let site = DriveSite::new(&self.setup.planner, &self.setup.map, &self.setup.keep_out);
         let seed = named_seed(scenario.seed, "score", graph.graph);
         let scored = DriveSettings { seed, ..scored.clone() };
         let straight = StraightLegs::new(site, &scored);

@@ -14,7 +14,7 @@ use crate::verification::{
 
 /// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that
 /// claims no witness.
-pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
+pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
     let drive = case.commands()?;
     let legs = leg_claims(case, drive);
     let waypoints = waypoints_of(case);
@@ -34,14 +34,14 @@ pub(in crate::campaign) fn verify(setup: &DriveSetup, case: &Case) -> Option<Pro
             Pace::Ramp(slopes) | Pace::Trapezoid(slopes) => slopes.acceleration,
         },
     };
-    Some(verify_drives(&ground_vehicle(setup.planner), setup.map.as_ref(), &claim, &tolerances))
+    Some(verify_drives(&ground_vehicle(&setup.planner), setup.map.as_ref(), &claim, &tolerances))
 }
 
 /// What does not hold of the environment of `case`: its keep-outs are discs on the map that the plan keeps the
 /// vehicle's radius from, everywhere, no more and no larger ones than were `asked` for; the force is horizontal and no
 /// larger than was asked for; and there is nothing else. Where nothing was asked for, as with missions from elsewhere,
 /// any force and disc is as good as another. Nothing for a case without one.
-pub(in crate::campaign) fn verify_environment(
+pub(super) fn verify_environment(
     setup: &DriveSetup,
     asked: Option<DriveEnvironmentSection>,
     case: &Case,
@@ -81,7 +81,7 @@ pub(in crate::campaign) fn verify_environment(
         clearance: setup.radius(),
         extent: setup.map.extent(),
     };
-    findings.extend(verify_clear_ground(&ground_vehicle(setup.planner), setup.map.as_ref(), &claim));
+    findings.extend(verify_clear_ground(&ground_vehicle(&setup.planner), setup.map.as_ref(), &claim));
     findings
 }
 

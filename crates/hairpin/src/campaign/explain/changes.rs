@@ -4,8 +4,8 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::knobs::{Knob, Turn, knobs};
 use crate::campaign::generate::{Known, generate};
+use crate::campaign::kind::{Knob, Turn};
 use crate::campaign::{Setup, Stop, Tally, vary};
 
 /// A number is turned until what helps is known to this share of itself and of the change …
@@ -33,7 +33,8 @@ pub struct Change {
 /// Every key's smallest change that helps, the smallest first; switches and keys that are equally far in the order of
 /// the list.
 pub(super) fn smallest(setup: &Setup, stop: &Stop) -> Vec<Change> {
-    let mut found: Vec<Change> = knobs(setup).iter().filter_map(|knob| Trial { setup, stop, knob }.change()).collect();
+    let knobs = setup.kind().knobs().turned;
+    let mut found: Vec<Change> = knobs.iter().filter_map(|knob| Trial { setup, stop, knob }.change()).collect();
     found.sort_by(|a, b| a.relative.total_cmp(&b.relative));
     found
 }

@@ -1,16 +1,14 @@
 //! Why nothing, or little, is feasible: where candidates for legs are lost, and the smallest single change that helps.
 
 mod changes;
-mod knobs;
 
 use serde::Serialize;
 
 use self::changes::{searched, smallest};
-use super::{Mistake, Scenario, Setup, Stop, Tally, arm, drive, flight, verdict};
-use crate::campaign::setup::Kind;
+use super::graph::Losses;
+use super::{Mistake, Scenario, Setup, Stop, Tally, verdict};
 use crate::judgement::Verdict;
 
-use super::graph::Deaths;
 pub use changes::Change;
 
 /// What is known of a scenario's feasibility.
@@ -21,7 +19,8 @@ pub struct Explanation {
     /// Of these, graphs with a feasible trajectory.
     pub solved: u64,
     /// What became of the candidates for legs.
-    pub deaths: Deaths,
+    #[serde(rename = "deaths")]
+    pub losses: Losses,
     /// Single changes with which something is feasible, the smallest first; none are looked for where something is.
     pub changes: Vec<Change>,
     /// Whether the search for changes was stopped before it came to an end.
@@ -45,18 +44,14 @@ pub fn explain(
     stop: &Stop,
     enough: &(dyn Fn() -> bool + Sync),
 ) -> Result<Explanation, Mistake> {
-    let setup = first_of(&setup.scenario, graphs).and_then(|scenario| setup.of_draw(scenario))?;
+    let setup = first_of(setup, graphs).and_then(|scenario| setup.of_draw(scenario))?;
     let tally = searched(&setup, true, stop);
-    let deaths = match setup.kind() {
-        Kind::Flight(setup) => flight::deaths(&setup, graphs),
-        Kind::Drive(setup) => drive::deaths(&setup, graphs),
-        Kind::Arm(setup) => arm::deaths(&setup),
-    };
+    let losses = setup.kind().lost(graphs);
     let cancelled = || (stop.cancelled)() || enough();
     let looking = Stop { cancelled: &cancelled, ..*stop };
     let changes = if tally.solved > 0 { Vec::new() } else { smallest(&setup, &looking) };
     let stopped = tally.solved == 0 && cancelled();
-    Ok(Explanation { graphs: tally.graphs, solved: tally.solved, deaths, changes, stopped, tally })
+    Ok(Explanation { graphs: tally.graphs, solved: tally.solved, losses, changes, stopped, tally })
 }
 
 impl Explanation {
@@ -79,28 +74,14 @@ impl Explanation {
 }
 
 /// The scenario asked for one case of `graphs` graphs, and nothing varied.
-fn first_of(scenario: &Scenario, graphs: u64) -> Result<Scenario, Mistake> {
-    let keys: &[(&str, u64)] = match scenario {
-        Scenario::Flight(_) | Scenario::Drive(_) => {
-            &[("generate.search.graphs", graphs), ("generate.search.cases", graphs), ("generate.search.per_graph", 1)]
-        }
-        Scenario::Arm(_) => &[("generate.search.programs", 1)],
-    };
-    let mut draws: Vec<_> = keys.iter().map(|(key, value)| ((*key).to_owned(), (*value).into())).collect();
-    if scenario.search().method.executes() {
+fn first_of(setup: &Setup, graphs: u64) -> Result<Scenario, Mistake> {
+    let knobs = setup.kind().knobs();
+    let mut draws: Vec<_> = knobs.counts.iter().map(|key| ((*key).to_owned(), graphs.into())).collect();
+    draws.push((knobs.per_graph.into(), 1.into()));
+    if setup.scenario.search().method.executes() {
         // What is feasible does not depend on what it does to the robot.
         draws.push(("generate.search.method".into(), "uniform".into()));
     }
-    match scenario {
-        Scenario::Flight(flight) => draws.push(("generate.score".into(), flight.generate.score_of_legs().into())),
-        Scenario::Drive(drive) => {
-            draws.push(("generate.search.score".into(), drive.generate.search.score_of_legs().into()));
-        }
-        Scenario::Arm(_) => {}
-    }
-    if let Scenario::Flight(flight) = scenario {
-        // As a key that is there, which can be turned.
-        draws.push(("generate.timing".into(), serde_json::json!(flight.generate.timing_in_force())));
-    }
-    super::vary::apply(scenario, &draws)
+    draws.extend(knobs.settled);
+    super::vary::apply(&setup.scenario, &draws)
 }

@@ -5,7 +5,7 @@ use crate::campaign::Case;
 use crate::campaign::scenario::{DeviationFrom, EstimatedAttitude, EstimatedVelocity, ReachName, Timing};
 
 /// What stands behind the legs.
-pub(in crate::campaign) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>) {
+pub(super) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     said.push(match generate.reach {
         ReachName::None => "Reach `none`: every waypoint counts as reachable; nothing is claimed.".into(),
@@ -56,13 +56,13 @@ pub(in crate::campaign) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut
 }
 
 /// Who flew them.
-pub(in crate::campaign) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
+pub(super) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
     if let (Some(command), None) = (&execute.command, execute.controller_in_force()) {
         said.push(format!("Executed by `{command}`; legs are those that it reported."));
         return;
     }
-    let who = match (setup.controller, execute.controller_in_force()) {
+    let who = match (&setup.controller, execute.controller_in_force()) {
         (Some(own), _) => format!("`{}`, the caller's own, on hairpin's inner loops", own.name()),
         (None, Some(ours)) => format!("`{}` with hairpin's own gains, fixed by step responses", ours.word()),
         (None, None) => return,
@@ -75,7 +75,7 @@ pub(in crate::campaign) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
 }
 
 /// What deviation is.
-pub(in crate::campaign) fn verdict(setup: &FlightSetup, said: &mut Vec<String>) {
+pub(super) fn verdict(setup: &FlightSetup, said: &mut Vec<String>) {
     match setup.scenario.spec.deviation {
         Some(deviation) => {
             let from = match deviation.from {
@@ -97,7 +97,7 @@ pub(in crate::campaign) fn verdict(setup: &FlightSetup, said: &mut Vec<String>) 
 }
 
 /// What was searched beside the waypoints.
-pub(in crate::campaign) fn searched_beside(setup: &FlightSetup) -> Option<String> {
+pub(super) fn searched_beside(setup: &FlightSetup) -> Option<String> {
     let environment = setup.scenario.generate.environment?;
     let mut searched = Vec::new();
     searched.extend(environment.wind_m_s.map(|wind| format!("a constant wind of up to {wind} m/s")));

@@ -19,7 +19,7 @@ fn step(setup: &FlightSetup) -> f64 {
     setup.scenario.generate.timing_in_force().step_s.unwrap_or(1.0)
 }
 
-impl FlightSetup<'_> {
+impl FlightSetup {
     /// Whether there is a witness of `waypoints` whose legs all take the step, as step-wise sets have it; a certificate
     /// may take other times.
     ///

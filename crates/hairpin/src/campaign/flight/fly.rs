@@ -1,51 +1,55 @@
-//! Flies a mission in our own simulator.
+//! Flies missions in our own simulator.
 
 use nalgebra::{Point3, Vector3};
 
 use super::FlightSetup;
+use super::place::place;
+use crate::campaign::Case;
+use crate::campaign::kind::{Act, LegByLeg, Order, Same};
+use crate::campaign::placement::Placement;
 use crate::simulation::{
     self, Airborne, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError,
     Sortie,
 };
-use crate::trajectory::{Flight, Profile};
+use crate::trajectory::{Flight, Profile, Track};
 
-/// What is to be flown.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::campaign) struct Order<'a> {
-    /// Both ends included, m.
-    pub(in crate::campaign) waypoints: &'a [Point3<f64>],
-    /// The planned motion through them.
-    pub(in crate::campaign) profile: Option<&'a Profile>,
-    /// A waypoint counts as reached inside this radius, m.
-    pub(in crate::campaign) accept: f64,
-    /// s.
-    pub(in crate::campaign) time_limit: f64,
-    /// The run's seed.
-    pub(in crate::campaign) seed: u64,
-}
+impl Act for FlightSetup {
+    fn run(&self, _: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
+        let sortie = sortie(self, order, case.profile());
+        let (conditions, settings) = (conditions(self), settings(self, order));
+        match &self.controller {
+            Some(own) => simulation::fly_with(&sortie, own, &conditions, &settings, order.seed),
+            None => simulation::fly(&sortie, &controller(self), &conditions, &settings, order.seed),
+        }
+    }
 
-/// Carries out `order`; `setup` is the run's own.
-pub(in crate::campaign) fn fly(setup: &FlightSetup, order: &Order) -> Result<Flight, SimulationError> {
-    let (sortie, conditions, settings) = (sortie(setup, order), conditions(setup), settings(setup, order));
-    match setup.controller {
-        Some(own) => simulation::fly_with(&sortie, own, &conditions, &settings, order.seed),
-        None => simulation::fly(&sortie, &controller(setup), &conditions, &settings, order.seed),
+    /// Of a stranger's controller nobody knows how far it looks ahead.
+    fn leg_by_leg(&self) -> Option<&dyn LegByLeg> {
+        (self.controller.is_none() && !controller(self).kind.plans_ahead()).then_some(self)
+    }
+
+    fn place(&self, case: &Case, track: &Track) -> Option<Placement> {
+        place(self, case, track, &self.scenario.generate.environment?.obstacles?)
     }
 }
 
-/// Ready to be flown leg by leg from the first waypoint of `order`; its controller must be one that [`goes_on`].
-pub(in crate::campaign) fn at_start(setup: &FlightSetup, order: &Order) -> Result<Airborne, SimulationError> {
-    let (sortie, settings) = (sortie(setup, order), settings(setup, order));
-    Airborne::at_start(&sortie, &controller(setup), &conditions(setup), &settings, order.seed)
+impl LegByLeg for FlightSetup {
+    fn at_start(&self, order: &Order) -> Result<Airborne, SimulationError> {
+        let (sortie, settings) = (sortie(self, order, None), settings(self, order));
+        Airborne::at_start(&sortie, &controller(self), &conditions(self), &settings, order.seed)
+    }
+
+    fn fly_to(&self, airborne: &mut Airborne, waypoint: Point3<f64>) -> Result<(), SimulationError> {
+        airborne.fly_to(&self.world, waypoint)
+    }
+
+    fn finish(&self, airborne: &mut Airborne) -> Result<(), SimulationError> {
+        airborne.finish(&self.world)
+    }
 }
 
-/// Whether the controller can be flown leg by leg: of a stranger nobody knows how far it looks ahead.
-pub(in crate::campaign) fn goes_on(setup: &FlightSetup) -> bool {
-    setup.controller.is_none() && !controller(setup).kind.plans_ahead()
-}
-
-fn sortie<'a>(setup: &FlightSetup<'a>, order: &Order<'a>) -> Sortie<'a> {
-    Sortie { robot: setup.robot, world: setup.world, waypoints: order.waypoints, profile: order.profile }
+fn sortie<'a>(setup: &'a FlightSetup, order: &Order<'a>, profile: Option<&'a Profile>) -> Sortie<'a> {
+    Sortie { robot: &setup.robot, world: &setup.world, waypoints: order.waypoints, profile }
 }
 
 fn controller(setup: &FlightSetup) -> ControllerSettings {

@@ -14,7 +14,7 @@ pub(super) fn sample(setup: &FlightSetup, graph: u64) -> Result<Vec<Point3<f64>>
     let search = &setup.scenario.generate.search;
     let seed = named_seed(setup.scenario.seed, "graph", graph);
     let clearance = setup.robot.clearance_radius;
-    let free = world::sample_free(setup.world, search.waypoints as usize, clearance, search.sampling, seed)?;
+    let free = world::sample_free(&setup.world, search.waypoints as usize, clearance, search.sampling, seed)?;
     let mut points = Vec::with_capacity(free.len() + 2);
     points.push(Point3::from(setup.scenario.task.start_m));
     points.extend(free);

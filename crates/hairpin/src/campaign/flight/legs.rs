@@ -18,11 +18,11 @@ pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
         max_speed: given.max_speed_m_s.unwrap_or(f64::INFINITY),
         max_tilt: given.max_tilt_deg.map_or(Limits::default().max_tilt, f64::to_radians),
     };
-    LegJudge::new(setup.robot, setup.world, limits, ProofSettings::default()).map_err(|error| error.to_string())
+    LegJudge::new(&setup.robot, &setup.world, limits, ProofSettings::default()).map_err(|error| error.to_string())
 }
 
 /// The score for graph number `graph`, the scenario's or the first model of a round; `top_speed` (m/s) scores 1.
-pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64, looped: &Looped<'a>) -> AnyScore<'a> {
+pub(super) fn score<'a>(setup: &'a FlightSetup, graph: u64, top_speed: f64, looped: &Looped<'a>) -> AnyScore<'a> {
     let generate = &setup.scenario.generate;
     if let Wanted::Optima([name, ..]) = looped.wanted {
         return named(setup, name, graph, top_speed);
@@ -38,12 +38,7 @@ pub(super) fn score<'a>(setup: &FlightSetup<'a>, graph: u64, top_speed: f64, loo
 
 /// The scores beside it: a round's other models, the others whose optima are wanted, or those by hand that a search in
 /// the loop starts from.
-pub(super) fn beside<'a>(
-    setup: &FlightSetup<'a>,
-    graph: u64,
-    top_speed: f64,
-    looped: &Looped<'a>,
-) -> Vec<AnyScore<'a>> {
+pub(super) fn beside<'a>(setup: &'a FlightSetup, graph: u64, top_speed: f64, looped: &Looped<'a>) -> Vec<AnyScore<'a>> {
     let named = |name: &&str| named(setup, name, graph, top_speed);
     match looped.wanted {
         Wanted::Round(round) => {
@@ -58,7 +53,7 @@ pub(super) fn beside<'a>(
     }
 }
 
-fn named<'a>(setup: &FlightSetup<'a>, name: &str, graph: u64, top_speed: f64) -> AnyScore<'a> {
+fn named<'a>(setup: &'a FlightSetup, name: &str, graph: u64, top_speed: f64) -> AnyScore<'a> {
     let seed = named_seed(setup.scenario.seed, "score", graph);
     // The name was checked with the scenario, and top speeds are > 0 with the robot.
     AnyScore::Named(Score::named(name, seed, top_speed).unwrap_or(Score::Random { seed }))

@@ -18,12 +18,7 @@ const GAPS: [f64; 2] = [0.001, 0.05];
 
 /// Up to `asked.count` obstacles of the shape asked for in the way of `track`, the flight of `case` without them.
 /// `None` where there is no room for any.
-pub(in crate::campaign) fn place(
-    setup: &FlightSetup,
-    case: &Case,
-    track: &Track,
-    asked: &PlacedSection,
-) -> Option<Placement> {
+pub(super) fn place(setup: &FlightSetup, case: &Case, track: &Track, asked: &PlacedSection) -> Option<Placement> {
     let placing = Placing {
         way: &way(case),
         count: asked.count as usize,
@@ -31,7 +26,7 @@ pub(in crate::campaign) fn place(
         gaps: &GAPS,
         shape: &|center| shape(asked, center),
         directions,
-        stands: &|_, shape| inside(setup.world, shape) && leaves_clear(setup, case, shape),
+        stands: &|_, shape| inside(&setup.world, shape) && leaves_clear(setup, case, shape),
     };
     let places: Vec<Point3<f64>> = (0..track.len()).map(|index| track.position(index)).collect();
     let Placed { centers, clearance, leg } = placing.in_the_way_of(track, &places)?;

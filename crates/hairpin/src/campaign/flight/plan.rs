@@ -44,7 +44,7 @@ fn sample(case: &Case, t: f64) -> (usize, Timed) {
 }
 
 /// The timed reference of a mission at `rate` (Hz).
-pub(in crate::campaign) fn timed(case: &Case, rate: f64) -> Vec<Timed> {
+pub(super) fn timed(case: &Case, rate: f64) -> Vec<Timed> {
     stamps(case.leg_times.iter().sum(), rate).into_iter().map(|t| sample(case, t).1).collect()
 }
 
@@ -54,7 +54,7 @@ pub(in crate::campaign) fn timed(case: &Case, rate: f64) -> Vec<Timed> {
 ///
 /// # Errors
 /// A case whose numbers are no track, as a folder that was edited may hold.
-pub(in crate::campaign) fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
+pub(super) fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
     let untimed = case.leg_times.is_empty();
     let case = &if untimed { paced(case) } else { case.clone() };
     let times = stamps(case.leg_times.iter().sum(), RATE);

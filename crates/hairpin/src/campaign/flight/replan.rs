@@ -13,7 +13,7 @@ use crate::feasibility::certify::Certificate;
 /// `case` with `points` in the place of its waypoints, if they are feasible as its own were: witnessed where it was, by
 /// the same reach set where that was all. Of waypoints made elsewhere nothing was claimed but what every waypoint is
 /// held to, that it is in the world and clear of obstacles, if they were. `None`: they are not, or nothing shows it.
-pub(in crate::campaign) fn replan(setup: &FlightSetup, case: &Case, points: &[Point3<f64>]) -> Option<Case> {
+pub(super) fn replan(setup: &FlightSetup, case: &Case, points: &[Point3<f64>]) -> Option<Case> {
     let generate = &setup.scenario.generate;
     let made_elsewhere = case.leg_times.is_empty();
     let whole_legs = case.evidence != Evidence::Witnessed;
@@ -33,7 +33,7 @@ pub(in crate::campaign) fn replan(setup: &FlightSetup, case: &Case, points: &[Po
     match case.evidence {
         Evidence::Witnessed => {
             let answer = match generate.reach {
-                ReachName::Witness => Witness::new(*setup).ok()?.through(points),
+                ReachName::Witness => Witness::new(setup).ok()?.through(points),
                 _ => Certifier::new(setup).ok()?.answer(points),
             };
             let Certificate::Yes(profile) = answer else { return None };
@@ -42,7 +42,7 @@ pub(in crate::campaign) fn replan(setup: &FlightSetup, case: &Case, points: &[Po
         }
         _ if made_elsewhere => unwitnessed(Vec::new()),
         _ => {
-            let set = Stepwise::new(*setup).ok()?;
+            let set = Stepwise::new(setup).ok()?;
             let legs = points.len() - 1;
             let longest = generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
             let feasible = legs as f64 * set.step() <= longest && set.follows(points).is_some();

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use crate::campaign::attachments::Attachments;
+use crate::campaign::kind::Kind;
+use crate::campaign::own_controller::AnyController;
 use crate::campaign::scenario::{FlightScenario, Mistake, ObstacleSection, RobotSource, WorldSection};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription};
@@ -12,47 +14,47 @@ use crate::simulation::OwnController;
 use crate::world::{Obstacle, Shape, World, WorldError};
 
 /// A resolved scenario of flights and what it describes.
-#[derive(Debug, Clone, Copy)]
-pub struct FlightSetup<'a> {
+#[derive(Debug, Clone)]
+pub struct FlightSetup {
     /// Every key, the robot's table inline.
-    pub scenario: &'a FlightScenario,
+    pub scenario: Arc<FlightScenario>,
     /// What its files hold.
-    pub attachments: &'a Attachments,
+    pub attachments: Arc<Attachments>,
     /// The robot of the claim.
-    pub robot: &'a Quadrotor,
+    pub robot: Arc<Quadrotor>,
     /// The space.
-    pub world: &'a World,
+    pub world: Arc<World>,
     /// A controller of the caller's own in the place of the scenario's.
-    pub controller: Option<&'a OwnController<Quadrotor>>,
+    pub controller: Option<OwnController<Quadrotor>>,
     /// Version of the kernels that generate and fly.
     pub simd: Simd,
 }
 
-/// A robot that flies, and the space around it.
-#[derive(Debug, Clone)]
-pub(in crate::campaign) struct Flyer {
-    /// The robot of the claim.
-    pub(in crate::campaign) robot: Arc<Quadrotor>,
-    /// The space.
-    pub(in crate::campaign) world: Arc<World>,
-}
-
-impl Flyer {
-    pub(super) fn robot(
-        keys: &FlightScenario,
-        known: Option<(&FlightScenario, &Self)>,
-    ) -> Result<Arc<Quadrotor>, Mistake> {
+impl FlightSetup {
+    /// The robot of `keys`: that of `known`, if it is described alike.
+    pub(super) fn robot(keys: &FlightScenario, known: Option<&Self>) -> Result<Arc<Quadrotor>, Mistake> {
         match known {
-            Some((old, known)) if old.robot == keys.robot => Ok(known.robot.clone()),
+            Some(known) if known.scenario.robot == keys.robot => Ok(known.robot.clone()),
             _ => robot_of(&keys.robot).map(Arc::new),
         }
     }
 
-    pub(super) fn world(keys: &FlightScenario, known: Option<(&FlightScenario, &Self)>) -> Result<Arc<World>, Mistake> {
+    /// The space of `keys`, likewise.
+    pub(super) fn world(keys: &FlightScenario, known: Option<&Self>) -> Result<Arc<World>, Mistake> {
         match known {
-            Some((old, known)) if same_space(&old.world, &keys.world) => Ok(known.world.clone()),
+            Some(known) if same_space(&known.scenario.world, &keys.world) => Ok(known.world.clone()),
             _ => world_of(&keys.world).map(Arc::new),
         }
+    }
+}
+
+impl Kind for FlightSetup {
+    fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>> {
+        let controller = match controller {
+            Some(own) => Some(own.of::<Quadrotor>()?.clone()),
+            None => None,
+        };
+        Some(Arc::new(Self { simd, controller, ..self.clone() }))
     }
 }
 

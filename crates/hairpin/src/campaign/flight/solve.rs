@@ -6,13 +6,15 @@ use super::certificates::Certifier;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
 use super::{FlightSetup, graph, surround};
+use crate::campaign::Stop;
 use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Surroundings, Wanted};
+use crate::campaign::kind::Solver;
 use crate::campaign::scenario::ReachName;
 use crate::feasibility::certify::Certificate;
 
 /// The part of a search that is the same for every graph.
-pub(in crate::campaign) struct Solver<'a> {
-    setup: FlightSetup<'a>,
+pub(super) struct FlightSolver<'a> {
+    setup: &'a FlightSetup,
     set: Set<'a>,
     certifier: Option<Certifier>,
 }
@@ -22,12 +24,12 @@ enum Set<'a> {
     Witness(Box<Witness<'a>>),
 }
 
-impl<'a> Solver<'a> {
+impl<'a> FlightSolver<'a> {
     /// Builds the reach set that the scenario asks for.
     ///
     /// # Errors
     /// Why there is none, in a sentence's part; also where the planned duration alone is beyond its limit.
-    pub(in crate::campaign) fn new(setup: FlightSetup<'a>) -> Result<Self, String> {
+    pub(super) fn new(setup: &'a FlightSetup) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let set = match generate.reach {
             ReachName::Witness => Set::Witness(Box::new(Witness::new(setup)?)),
@@ -42,38 +44,8 @@ impl<'a> Solver<'a> {
             return Err(format!("{legs} legs of at least {shortest} s take longer than max_flight_time_s = {limit}"));
         }
         let wanted = generate.certify && generate.reach != ReachName::Witness;
-        let certifier = if wanted { Some(Certifier::new(&setup)?) } else { None };
+        let certifier = if wanted { Some(Certifier::new(setup)?) } else { None };
         Ok(Self { setup, set, certifier })
-    }
-
-    /// Searches graph number `graph`; `executions` are for searches in the loop, `round` for adaptive campaigns.
-    pub(in crate::campaign) fn solve(&self, graph: u64, executions: Executions, wanted: Wanted) -> Outcome {
-        let points = match graph::sample(&self.setup, graph) {
-            Ok(points) => points,
-            Err(error) => return Outcome { graphs: 1, reason: Some(error.to_string()), ..Outcome::default() },
-        };
-        let asked = self.setup.scenario.generate.environment;
-        let bound = |place: &mut [f64]| asked.iter().for_each(|asked| surround::bound(asked, place));
-        let put = |plan: &Plan, place: &[f64], duration: f64| match &asked {
-            Some(asked) => surround::put(asked, plan, place, duration),
-            None => plan.clone(),
-        };
-        let surroundings = asked.map(|asked| Surroundings {
-            coordinates: surround::coordinates(&asked),
-            bound: &bound,
-            put: &put,
-            obstacles: asked.obstacles.is_some(),
-        });
-        // A witness leaves its straight legs: obstacles are placed beside what the case will claim.
-        let furnish = |plan: &Plan| (executions.furnish)(&self.certified(plan.clone()));
-        let executions = Executions { furnish: &furnish, ..executions };
-        let looped = Looped { executions, surroundings, moved: &|plan, points| self.moved(plan, points), wanted };
-        let mut outcome = match &self.set {
-            Set::Stepwise(set) => set.solve(graph, &points, looped),
-            Set::Witness(set) => set.solve(graph, &points, looped),
-        };
-        outcome.plans = outcome.plans.into_iter().map(|(graph, plan)| (graph, self.certified(plan))).collect();
-        outcome
     }
 
     /// `plan` with a certificate, if one is asked for and it has none yet.
@@ -108,5 +80,40 @@ impl<'a> Solver<'a> {
                 Some(Plan { leg_times, seen: Vec::new(), witness: Some(profile.into()), ..plan })
             }
         }
+    }
+}
+
+impl Solver for FlightSolver<'_> {
+    fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, _: &Stop) -> Outcome {
+        let points = match graph::sample(self.setup, graph) {
+            Ok(points) => points,
+            Err(error) => return Outcome { graphs: 1, reason: Some(error.to_string()), ..Outcome::default() },
+        };
+        let asked = self.setup.scenario.generate.environment;
+        let bound = |place: &mut [f64]| asked.iter().for_each(|asked| surround::bound(asked, place));
+        let put = |plan: &Plan, place: &[f64], duration: f64| match &asked {
+            Some(asked) => surround::put(asked, plan, place, duration),
+            None => plan.clone(),
+        };
+        let surroundings = asked.map(|asked| Surroundings {
+            coordinates: surround::coordinates(&asked),
+            bound: &bound,
+            put: &put,
+            obstacles: asked.obstacles.is_some(),
+        });
+        // A witness leaves its straight legs: obstacles are placed beside what the case will claim.
+        let furnish = |plan: &Plan| (executions.furnish)(&self.certified(plan.clone()));
+        let executions = Executions { furnish: &furnish, ..executions };
+        let looped = Looped { executions, surroundings, moved: &|plan, points| self.moved(plan, points), wanted };
+        let mut outcome = match &self.set {
+            Set::Stepwise(set) => set.solve(graph, &points, looped),
+            Set::Witness(set) => set.solve(graph, &points, looped),
+        };
+        outcome.plans = outcome.plans.into_iter().map(|(graph, plan)| (graph, self.certified(plan))).collect();
+        outcome
+    }
+
+    fn takes_scores(&self) -> bool {
+        true
     }
 }

@@ -45,7 +45,7 @@ fn set_near(set: &Sphere, points: &[Point3<f64>], node: &StepNode, steps: usize)
 
 /// A step-wise reach set and what it assumes.
 pub(super) struct Stepwise<'a> {
-    setup: FlightSetup<'a>,
+    setup: &'a FlightSetup,
     set: Set,
     settings: StepSettings,
 }
@@ -53,10 +53,10 @@ pub(super) struct Stepwise<'a> {
 impl<'a> Stepwise<'a> {
     /// # Errors
     /// Why there is no such set, in a sentence's part.
-    pub(super) fn new(setup: FlightSetup<'a>) -> Result<Self, String> {
+    pub(super) fn new(setup: &'a FlightSetup) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let step = generate.timing_in_force().step_s.ok_or("`timing.step_s` is missing")?;
-        let robot = setup.robot;
+        let robot = &setup.robot;
         let hull = HullSettings { resolution: generate.resolution as usize, step, simd: setup.simd };
         let settings = StepSettings {
             step,
@@ -168,7 +168,7 @@ impl<'a> Stepwise<'a> {
             let limit = || (Stage::Limits, "generate.limits.max_speed_m_s".to_owned());
             ((points[b] - points[a]).norm() > longest).then(limit)
         };
-        let (world, radius) = (self.setup.world, self.setup.robot.clearance_radius);
+        let (world, radius) = (&self.setup.world, self.setup.robot.clearance_radius);
         let blocked = |a: usize, b: usize| blocking(world, radius, &points[a], &points[b]);
         Explored { points, reach, start, length, ends: true, name }.count(place, fast, blocked, may_arrive, counter);
     }
@@ -197,7 +197,7 @@ impl<'a> Stepwise<'a> {
         place: impl Fn(&N) -> u32,
         may_arrive: impl Fn(&N, usize) -> bool,
     ) -> Outcome {
-        let (world, points) = (self.setup.world, asked.points);
+        let (world, points) = (&self.setup.world, asked.points);
         if world.obstacles().is_empty() {
             return self.ask(asked, &reach, start, may_arrive);
         }
@@ -230,12 +230,12 @@ impl<'a> Stepwise<'a> {
             points,
             reach,
             start,
-            score: score(&self.setup, graph, self.top_speed(), &looped),
+            score: score(self.setup, graph, self.top_speed(), &looped),
             seed: named_seed(self.setup.scenario.seed, "uniform", graph),
             lookahead: LOOKAHEAD,
             plan: &|found: Found<N>| Some(Plan::new(&found, points, evidence)),
             free_end: false,
-            also: beside(&self.setup, graph, self.top_speed(), &looped),
+            also: beside(self.setup, graph, self.top_speed(), &looped),
             looped,
         };
         Outcome::of(graph, search(&question, may_arrive))

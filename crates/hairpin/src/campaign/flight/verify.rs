@@ -12,7 +12,7 @@ use super::FlightSetup;
 
 /// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances: the
 /// proof, and the end error of the whole flight with rotor lag. `None` for a case that claims no witness.
-pub(in crate::campaign) fn verify(robot: &Quadrotor, case: &Case) -> Option<(Proof, Option<EndError>)> {
+pub(super) fn verify(robot: &Quadrotor, case: &Case) -> Option<(Proof, Option<EndError>)> {
     let profile = case.profile()?;
     let body = body_of(robot);
     let waypoints: Vec<[f64; 3]> = case.waypoints.iter().map(|p| [p.x, p.y, p.z]).collect();
@@ -42,11 +42,7 @@ fn body_of(robot: &Quadrotor) -> Body {
 /// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere,
 /// they are in the world, no more and no larger than was `asked` for, and wind and gust are no faster. Where nothing
 /// was asked for, as with missions from elsewhere, any is as good as another. Nothing for a case without one.
-pub(in crate::campaign) fn verify_environment(
-    setup: &FlightSetup,
-    asked: Option<EnvironmentSection>,
-    case: &Case,
-) -> Vec<Finding> {
+pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentSection>, case: &Case) -> Vec<Finding> {
     let Some(environment) = &case.environment else { return Vec::new() };
     let mut findings = Vec::new();
     let solids: Vec<ClearSolid> = environment

@@ -15,7 +15,7 @@ use crate::search::Found;
 
 /// What judges legs, and how long they may take.
 pub(super) struct Witness<'a> {
-    setup: FlightSetup<'a>,
+    setup: &'a FlightSetup,
     judge: LegJudge,
     timing: LegTiming,
     /// Of the graphs that rounds come back to.
@@ -25,13 +25,13 @@ pub(super) struct Witness<'a> {
 impl<'a> Witness<'a> {
     /// # Errors
     /// As [`judge`].
-    pub(super) fn new(setup: FlightSetup<'a>) -> Result<Self, String> {
+    pub(super) fn new(setup: &'a FlightSetup) -> Result<Self, String> {
         let timing = match setup.scenario.generate.timing_in_force() {
             Timing { step_s: Some(step), .. } => LegTiming::Step(step),
             Timing { leg_time_s: Some([shortest, longest]), .. } => LegTiming::ladder(shortest, longest),
             Timing { .. } => return Err("`timing` names neither leg_time_s nor step_s".into()),
         };
-        Ok(Self { setup, judge: judge(&setup)?, timing, remembered: Remembered::default() })
+        Ok(Self { setup, judge: judge(setup)?, timing, remembered: Remembered::default() })
     }
 
     /// The shortest leg time tried, s.
@@ -47,7 +47,7 @@ impl<'a> Witness<'a> {
 
     /// The states of graph number `graph` over `points`.
     pub(super) fn roadmap(&self, graph: u64, points: &[Point3<f64>]) -> Roadmap<'_> {
-        let scenario = self.setup.scenario;
+        let scenario = &self.setup.scenario;
         let settings = RoadmapSettings {
             velocities: scenario.generate.velocities as usize,
             timing: self.timing,
@@ -58,7 +58,7 @@ impl<'a> Witness<'a> {
 
     /// Searches graph number `graph` over `points`.
     pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
-        let scenario = self.setup.scenario;
+        let scenario = &self.setup.scenario;
         let again = matches!(looped.wanted, Wanted::Round(_));
         let mut roadmap = self.roadmap(graph, points);
         if let Some(legs) = self.remembered.take(graph) {
@@ -77,13 +77,13 @@ impl<'a> Witness<'a> {
             points,
             reach: &roadmap,
             start: roadmap.start(),
-            score: score(&self.setup, graph, top_speed, &looped),
+            score: score(self.setup, graph, top_speed, &looped),
             seed: named_seed(scenario.seed, "uniform", graph),
             // The roadmap's own test is exact one step from the end, and legs are dear.
             lookahead: 0,
             plan: &plan,
             free_end: false,
-            also: beside(&self.setup, graph, top_speed, &looped),
+            also: beside(self.setup, graph, top_speed, &looped),
             looped,
         };
         let outcome = Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)));

@@ -10,8 +10,9 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
+use super::graphs::{GRAPHS_PER_CASE, Graphs};
+use super::known::Known;
 use super::shares::{dealt, every_second};
-use super::{GRAPHS_PER_CASE, Known, Solver};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Outcome, Plan, Round, Wanted, fingerprint};
 use crate::campaign::learn::{LegSample, ScoreModel};
@@ -57,7 +58,7 @@ enum Origin {
 
 struct Campaign<'a> {
     setup: &'a Setup,
-    solver: &'a Solver<'a>,
+    sampled: &'a Graphs<'a>,
     stop: &'a Stop<'a>,
     search: SearchSection,
     begun: f64,
@@ -70,8 +71,7 @@ struct Campaign<'a> {
 /// Executes `generate.search.executions` trajectories in rounds and gives the most stressful ones to `sink`, at the
 /// end. Of `known` all rounds or none are.
 pub(super) fn generate(
-    setup: &Setup,
-    solver: &Solver<'_>,
+    sampled: &Graphs<'_>,
     known: &Known,
     stop: &Stop,
     sink: &mut dyn FnMut(&[Case], &Tally),
@@ -80,10 +80,11 @@ pub(super) fn generate(
         sink(&[], &known.tally);
         return known.tally.clone();
     }
+    let setup = sampled.setup;
     let search = setup.scenario.search();
     let begun = (stop.clock)();
     let (graphs, samples, tally) = (Vec::new(), Vec::new(), Tally::default());
-    let mut campaign = Campaign { setup, solver, stop, search, begun, graphs, samples, executed: 0, tally };
+    let mut campaign = Campaign { setup, sampled, stop, search, begun, graphs, samples, executed: 0, tally };
     for round in 0..campaign.search.adaptive_rounds() {
         let done = campaign.graphs.is_empty() || !campaign.in_time(campaign.search.adaptive_rounds() as f64);
         if round > 0 && done || (stop.cancelled)() {
@@ -202,7 +203,7 @@ impl Campaign<'_> {
             let (first, last) = (self.tally.units, units.min(self.tally.units + batch));
             let outcomes: Vec<Outcome> = (first..last)
                 .into_par_iter()
-                .map(|graph| self.solver.solve(self.setup, graph, Wanted::Round(&round), self.stop))
+                .map(|graph| self.sampled.solve(graph, Wanted::Round(&round), self.stop))
                 .collect();
             for (outcome, number) in outcomes.into_iter().zip(first..) {
                 if self.graphs.len() == wanted {
@@ -256,8 +257,7 @@ impl Campaign<'_> {
                     models,
                     known: &graph.known,
                 };
-                self.begins(number, part)
-                    .then(|| self.solver.solve(self.setup, graph.number, Wanted::Round(&round), self.stop))
+                self.begins(number, part).then(|| self.sampled.solve(graph.number, Wanted::Round(&round), self.stop))
             })
             .collect();
         let mut todo = Vec::new();

@@ -5,6 +5,8 @@
 //! `task` and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
 
 mod adaptive;
+mod graphs;
+mod known;
 mod optima;
 mod shares;
 
@@ -13,32 +15,19 @@ use std::collections::HashSet;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::graph::{Executions, Outcome, Partials, Plan, Wanted, fingerprint};
-use super::scenario::{EXECUTED, SearchMethod};
-use super::setup::Kind;
-use super::{Case, CaseNumber, Scenario, Setup, Stop, Tally, Witness, arm, drive, flight, trial, vary};
+use self::graphs::{GRAPHS_PER_CASE, Graphs};
+use super::graph::{Outcome, Wanted, fingerprint};
+use super::scenario::SearchMethod;
+use super::{Case, CaseNumber, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
-use crate::simulation::Airborne;
 use crate::trajectory::program::{Motion, Program};
+pub use known::Known;
 pub use optima::{Optimum, optima};
-
-/// Graphs sampled per case asked for, where the scenario sets no limit.
-const GRAPHS_PER_CASE: u64 = 20;
-
-/// What an earlier, interrupted generation left.
-#[derive(Debug, Clone, Default)]
-pub struct Known {
-    /// Its cases.
-    pub cases: Vec<Case>,
-    /// Its tally, as of the last unit whose cases are known.
-    pub tally: Tally,
-}
 
 /// `known` without the cases that its tally does not count, as a kill between the writing of both may leave them.
 pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
-    if scenario.search().method == SearchMethod::Adaptive || matches!(scenario, Scenario::Arm(_)) {
-        // What a round chooses depends on all before it, and an arm's graph is one search: there is no place to go on
-        // from.
+    if scenario.search().method == SearchMethod::Adaptive || scenario.head().one_search {
+        // What a round chooses depends on all before it, and one search is one: there is no place to go on from.
         let done = !known.tally.stopped && known.tally.units > 0;
         return if done { known } else { Known::default() };
     }
@@ -62,8 +51,8 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
     let wanted = search.cases;
     let mut collector = Collector::new(setup, known);
     let searchable = setup.scenario.check_search().map_err(|mistake| mistake.to_string());
-    let solver = match searchable.and_then(|()| Solver::new(setup)) {
-        Ok(solver) => solver,
+    let graphs = match searchable.and_then(|()| Graphs::of(setup)) {
+        Ok(graphs) => graphs,
         Err(reason) => {
             collector.tally.nothing = Some(reason);
             sink(&[], &collector.tally);
@@ -71,7 +60,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
         }
     };
     if search.method == SearchMethod::Adaptive {
-        return adaptive::generate(setup, &solver, known, stop, sink);
+        return adaptive::generate(&graphs, known, stop, sink);
     }
     let varied = varies(&setup.scenario);
     let units = match search.graphs {
@@ -90,7 +79,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
             .map(|unit| {
                 let begins = !(stop.cancelled)();
                 let outcome = begins.then(|| {
-                    if varied { drawn_case(setup, unit, stop) } else { solver.solve(setup, unit, Wanted::Cases, stop) }
+                    if varied { drawn_case(setup, unit, stop) } else { graphs.solve(unit, Wanted::Cases, stop) }
                 });
                 // Where executions or the user's scores were denied, a graph was searched in part, and is searched
                 // again by whoever goes on.
@@ -110,8 +99,8 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
                 break;
             }
         }
-        // An arm's search gives its best so far where it is stopped.
-        collector.tally.stopped |= matches!(solver, Solver::Arm(_)) && (stop.cancelled)();
+        // One search gives its best so far where it is stopped.
+        collector.tally.stopped |= setup.scenario.head().one_search && (stop.cancelled)();
         (stop.progress)(collector.cases, wanted as usize);
     }
     collector.finish(wanted);
@@ -124,14 +113,13 @@ fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
     let seed = case_seed(setup.scenario.seed(), case);
     let draws = vary::draw_for_case(&setup.scenario, seed, CaseNumber(case as usize));
     let drawn = setup.drawn(&draws).map_err(|mistake| mistake.to_string());
-    let (drawn, solver) = match drawn.as_ref().map_err(Clone::clone).and_then(|drawn| Ok((drawn, Solver::new(drawn)?)))
-    {
-        Ok(both) => both,
+    let graphs = match drawn.as_ref().map_err(Clone::clone).and_then(Graphs::of) {
+        Ok(graphs) => graphs,
         Err(reason) => return Outcome { reason: Some(reason), ..Outcome::default() },
     };
     let mut total = Outcome::default();
     for attempt in 0..GRAPHS_PER_CASE {
-        let outcome = solver.solve(drawn, case * GRAPHS_PER_CASE + attempt, Wanted::Cases, stop);
+        let outcome = graphs.solve(case * GRAPHS_PER_CASE + attempt, Wanted::Cases, stop);
         let done = !outcome.plans.is_empty();
         total.add(outcome);
         if done {
@@ -139,45 +127,6 @@ fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
         }
     }
     total
-}
-
-/// The part of a search that is the same for every graph.
-enum Solver<'a> {
-    Flight(Box<flight::Solver<'a>>),
-    Drive(Box<drive::Solver<'a>>),
-    Arm(Box<arm::Solver<'a>>),
-}
-
-impl<'a> Solver<'a> {
-    /// # Errors
-    /// Why nothing can be searched, in a sentence's part.
-    fn new(setup: &'a Setup) -> Result<Self, String> {
-        Ok(match setup.kind() {
-            Kind::Flight(setup) => Self::Flight(Box::new(flight::Solver::new(setup)?)),
-            Kind::Drive(setup) => Self::Drive(Box::new(drive::Solver::new(setup)?)),
-            Kind::Arm(setup) => Self::Arm(Box::new(arm::Solver::new(setup))),
-        })
-    }
-
-    /// Searches graph number `graph` of `setup`, which this was made for, for what is `wanted`; `stop` ends what has no
-    /// bound in counts.
-    fn solve(&self, setup: &Setup, graph: u64, wanted: Wanted, stop: &Stop) -> Outcome {
-        let goes_on = || (!(stop.cancelled)()).then_some(());
-        let execute = |plan: &Plan, least| goes_on().and_then(|()| trial::execute(setup, graph, plan, least));
-        let duration = |plan: &Plan| goes_on().and_then(|()| trial::duration(setup, graph, plan));
-        let furnish = |plan: &Plan| goes_on().and_then(|()| trial::furnish(setup, graph, plan));
-        let part = |plan: &Plan, before: Option<&Airborne>, whole| {
-            goes_on().ok_or(0u64).and_then(|()| trial::execute_partial(setup, graph, plan, before, whole))
-        };
-        let executed = setup.scenario.score() == EXECUTED;
-        let partial = executed.then(|| Partials { execute: &part, resumes: trial::resumes(setup) });
-        let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish, partial };
-        match self {
-            Self::Flight(solver) => solver.solve(graph, executions, wanted),
-            Self::Drive(solver) => solver.solve(graph, executions, wanted),
-            Self::Arm(solver) => solver.solve(stop),
-        }
-    }
 }
 
 /// What tells one case from another: its waypoints, and the points that the arcs of its program pass between them.

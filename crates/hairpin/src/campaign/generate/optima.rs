@@ -2,9 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::{GRAPHS_PER_CASE, Solver};
+use super::graphs::{GRAPHS_PER_CASE, Graphs};
 use crate::campaign::graph::{AGGREGATES, Wanted};
-use crate::campaign::setup::Kind;
 use crate::campaign::{Case, Setup, Stop};
 use crate::search::{Aggregate, Score};
 
@@ -28,12 +27,12 @@ pub struct Optimum {
 pub fn optima(setup: &Setup, names: &[&str], stop: &Stop) -> Result<Vec<Optimum>, String> {
     for name in names {
         Score::named(name, 0, 1.0).map_err(|mistake| mistake.to_string())?;
-        if !matches!(setup.kind(), Kind::Flight(_)) {
-            return Err(format!("`{name}` is a score of flights"));
-        }
     }
     setup.scenario.check_search().map_err(|mistake| mistake.to_string())?;
-    let solver = Solver::new(setup)?;
+    let all = Graphs::of(setup)?;
+    if let Some(name) = names.first().filter(|_| !all.solver.takes_scores()) {
+        return Err(format!("`{name}` is a score of flights"));
+    }
     let search = setup.scenario.search();
     let wanted = search.cases as usize;
     let graphs = search.graphs.unwrap_or(search.cases.saturating_mul(GRAPHS_PER_CASE));
@@ -44,10 +43,8 @@ pub fn optima(setup: &Setup, names: &[&str], stop: &Stop) -> Result<Vec<Optimum>
     let mut first = 0;
     while first < graphs && optima[0].cases.len() < wanted && !(stop.cancelled)() {
         let last = graphs.min(first + batch).min(first + (wanted - optima[0].cases.len()) as u64);
-        let outcomes: Vec<_> = (first..last)
-            .into_par_iter()
-            .map(|graph| solver.solve(setup, graph, Wanted::Optima(names), stop))
-            .collect();
+        let outcomes: Vec<_> =
+            (first..last).into_par_iter().map(|graph| all.solve(graph, Wanted::Optima(names), stop)).collect();
         for outcome in outcomes {
             for (optimum, (graph, plan)) in optima.iter_mut().zip(outcome.plans) {
                 let number = optimum.cases.len();

@@ -1,7 +1,6 @@
 //! From the pieces of a judged campaign to its report.
 
 use super::data::{Pieces, ReportData, Shown, worst_first};
-use super::drawing::drawing;
 use super::facts::{facts, key_numbers, metrics};
 
 /// Puts the pieces of a report together.
@@ -17,7 +16,7 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         verdict: pieces.verdict.clone(),
         key_numbers: key_numbers(&pieces),
         facts: facts(&pieces),
-        drawing: drawing(pieces.setup, shown.iter().flat_map(Shown::places)),
+        drawing: pieces.setup.kind().drawing(&shown.iter().flat_map(Shown::places).collect::<Vec<_>>()),
         deviation_limit: pieces.setup.scenario.deviation_limit(),
         results: worst_first(pieces.results).into_iter().cloned().collect(),
         metrics: metrics(&pieces),

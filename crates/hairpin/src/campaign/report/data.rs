@@ -4,11 +4,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point3;
 
-use super::drawing::{Drawing, keep_out};
-use super::solid::{Surface, surface};
 use super::text::attitude;
+use crate::campaign::kind::{Drawing, Surface};
 use crate::campaign::scenario::{DeviationFrom, Terms};
-use crate::campaign::setup::Kind;
 use crate::campaign::{
     Case, CaseNumber, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
 };
@@ -191,9 +189,8 @@ pub fn shown(
         result: result.clone(),
         waypoints: case.waypoints.clone(),
         claim: case.claim(),
-        // A tool has no nose and no left side.
         attitude: (flown.as_ref().zip(result.measures.as_ref()))
-            .filter(|_| setup.arm().is_none())
+            .filter(|_| setup.kind().robot_words().has_sides)
             .map(|(track, measures)| worst_attitude(track, measures)),
         score: case.score,
         environment: case.environment.as_ref().map_or_else(Vec::new, Environment::words),
@@ -208,16 +205,9 @@ pub fn shown(
 
 /// The obstacles and keep-outs that only `case` has.
 fn own_obstacles(setup: &Setup, case: &Case) -> Vec<Surface> {
-    let Ok(around) = setup.around(case) else { return Vec::new() };
-    match (setup.kind(), around.kind()) {
-        (Kind::Flight(common), Kind::Flight(own)) => {
-            own.world.obstacles().iter().skip(common.world.obstacles().len()).map(surface).collect()
-        }
-        (Kind::Drive(common), Kind::Drive(own)) => {
-            own.keep_out.list().iter().skip(common.keep_out.list().len()).map(|place| keep_out(&own, place)).collect()
-        }
-        _ => Vec::new(),
-    }
+    let (Some(_), Ok(around)) = (&case.environment, setup.around(case)) else { return Vec::new() };
+    let of = |setup: &Setup| setup.kind().drawing(&case.waypoints).obstacles;
+    of(&around).split_off(of(setup).len())
 }
 
 /// The attitude at the stamp nearest to the worst moment, in words.

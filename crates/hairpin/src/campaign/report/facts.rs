@@ -1,14 +1,9 @@
 //! What a report says in words and numbers beside its pictures.
 
-use serde::Serialize;
-
 use super::data::{Metric, Pieces};
 use super::text::{cells, leg};
-use crate::campaign::arm::ArmSetup;
 use crate::campaign::digits::number;
-use crate::campaign::drive::DriveSetup;
-use crate::campaign::flight::FlightSetup;
-use crate::campaign::setup::Kind;
+use crate::campaign::kind::{Facts, word};
 use crate::campaign::{CaseResult, Status};
 use crate::judgement::{Measures, share};
 
@@ -54,15 +49,9 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
         (None, Some(command)) => format!("`{command}`"),
         (None, None) => setup.recordings().map_or("none".into(), |logs| format!("logs `{logs}`, hardware")),
     };
-    let (world, task) = match setup.kind() {
-        Kind::Flight(setup) => (cage(&setup), flight_task(&setup)),
-        Kind::Drive(setup) => (ground(&setup), drive_task(&setup)),
-        Kind::Arm(setup) => (cell(&setup), arm_task(&setup)),
-    };
-    let search = scenario.search();
-    let search = if let Some(arm) = setup.arm() {
-        format!("heaviest path through {} points, cost {}", arm.asked_points(), scenario.score())
-    } else {
+    let Facts { world, task, search, proven, .. } = setup.kind().facts();
+    let search = search.unwrap_or_else(|| {
+        let search = scenario.search();
         format!(
             "{}, width {}, {} waypoints per graph, score {}",
             word(&search.method),
@@ -70,77 +59,18 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
             search.waypoints,
             scenario.score()
         )
-    };
+    });
     let fact = |label: &str, value: String| [label.to_owned(), value];
     vec![
         fact("robot", format!("{}{caveat}", setup.robot_name())),
         fact("world", world),
         fact("task", task),
-        fact(if setup.arm().is_some() { "proven clear" } else { "reach set" }, scenario.reach().into()),
+        fact(proven, scenario.reach().into()),
         fact("search", search),
         fact("executor", executor),
         fact("runs", format!("{} per case, the worst counts", scenario.executor().repeat)),
         fact("root seed", scenario.seed().to_string()),
     ]
-}
-
-fn cage(setup: &FlightSetup) -> String {
-    let size = setup.world.size();
-    format!("{} × {} × {} m, {} obstacles", size.x, size.y, size.z, setup.scenario.world.obstacles.len())
-}
-
-fn flight_task(setup: &FlightSetup) -> String {
-    let point = |p: [f64; 3]| format!("({}, {}, {})", p[0], p[1], p[2]);
-    let task = &setup.scenario.task;
-    format!("{} waypoints from {} to {} m", task.length, point(task.start_m), point(task.end_m))
-}
-
-fn ground(setup: &DriveSetup) -> String {
-    let (low, high) = setup.map.extent();
-    let cell = setup.map.grid().cell;
-    let terrain = &setup.scenario.world.terrain;
-    let name = terrain.file.clone().or_else(|| terrain.generator.map(|name| format!("generator {}", word(&name))));
-    format!(
-        "{}: {:.1} × {:.1} m in cells of {:.3} m, {} keep-outs",
-        name.unwrap_or_default(),
-        high[0] - low[0],
-        high[1] - low[1],
-        cell[0],
-        setup.keep_out.list().len()
-    )
-}
-
-fn drive_task(setup: &DriveSetup) -> String {
-    let task = &setup.scenario.task;
-    let end = task.end_m.map_or("anywhere".into(), |[x, y]| format!("({x}, {y}) m"));
-    let [low, high] = task.leg_m;
-    let start = &task.start;
-    format!("{} waypoints from ({}, {}) m to {end}, legs of {low} … {high} m", task.length, start.x_m, start.y_m)
-}
-
-fn cell(setup: &ArmSetup) -> String {
-    let tool = &setup.station.tool;
-    format!(
-        "{} obstacles and keep-outs, tool `{}` of radius {} mm",
-        setup.station.cell.parts.len(),
-        tool.name,
-        number(Some(1e3 * tool.radius))
-    )
-}
-
-fn arm_task(setup: &ArmSetup) -> String {
-    let moves = &setup.scenario.generate.moves;
-    format!(
-        "{} points, speeds {}, zones {}",
-        setup.station.points.len(),
-        moves.speeds.join(", "),
-        moves.zones.join(", ")
-    )
-}
-
-/// A key's word, as it stands in scenario files.
-fn word(value: &impl Serialize) -> String {
-    serde_json::to_value(value).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
 }
 
 pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {

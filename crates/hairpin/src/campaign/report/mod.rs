@@ -2,13 +2,9 @@
 
 mod assemble;
 mod data;
-mod drawing;
 mod facts;
-mod solid;
 mod text;
 
 pub use assemble::assemble;
 pub use data::{Metric, Pieces, ReportData, Shown, shown, worst_first};
-pub use drawing::{Drawing, Relief, Rotor};
-pub use solid::{Surface, surface};
 pub use text::{COLUMNS, attitude, cells, leg, violation};

@@ -1,5 +1,6 @@
 //! What jobs ask of every scenario, whatever moves in it: each kind answers once, in a file of its own.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 
 use serde_json::Value;
@@ -21,6 +22,28 @@ pub struct Executor<'a> {
     pub accept: f64,
     /// Further runs of every violation, with other noise.
     pub reruns: u64,
+    /// When a run is given up.
+    pub patience: Patience,
+}
+
+/// When a run is given up: after a time that is given, else after what it may be expected to take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patience {
+    /// `execute.time_limit_s`.
+    pub given: Option<f64>,
+    /// s for each waypoint.
+    pub per_waypoint: f64,
+    /// Multiple of the planned duration.
+    pub of_plan: f64,
+    /// s beside these.
+    pub spare: f64,
+}
+
+impl Patience {
+    /// Time limit (s) of a run over so many waypoints that is planned to take `planned` s.
+    pub fn time_limit(&self, waypoints: usize, planned: f64) -> f64 {
+        self.given.unwrap_or(self.per_waypoint * waypoints as f64 + self.of_plan * planned + self.spare)
+    }
 }
 
 /// What scenarios of all kinds say, under one name each.
@@ -36,6 +59,8 @@ pub struct Head<'a> {
     pub score: &'a str,
     /// The key that says it.
     pub score_key: &'static str,
+    /// The key that says how many cases are asked for.
+    pub cases_key: &'static str,
     /// The word of the reach set, or of what is proven clear.
     pub reach: &'static str,
     /// Who executes, and how often.
@@ -54,10 +79,12 @@ pub struct Head<'a> {
     pub terms: Terms,
     /// Keys of an environment that act on what moves.
     pub surroundings: &'static [&'static str],
+    /// Whether all cases come from one search, which begins anew where it was stopped.
+    pub one_search: bool,
 }
 
 /// The keys of one kind of robot's scenarios.
-pub trait Keys {
+pub trait Keys: Any {
     /// What it has in common with all others.
     fn head(&self) -> Head<'_>;
 
@@ -69,6 +96,10 @@ pub trait Keys {
 
     /// Executes with the noise of the robot's own densities; where a simulator always has noise, nothing changes.
     fn set_noisy(&mut self);
+
+    /// Takes over who executes and what is within spec from a scenario of its kind; noise and force, which no
+    /// controller chooses, stay. `None`: it is of another kind.
+    fn adopt(&mut self, now: &dyn Keys) -> Option<()>;
 
     /// Puts what was searched beside the waypoints into the world, and leaves nothing to be searched for there.
     fn surround(&mut self, environment: &Environment);

@@ -1,7 +1,9 @@
 //! The kinds of scenarios: two lines each.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -30,26 +32,20 @@ impl RobotKind {
     }
 }
 
-/// A scenario file; the robot's `kind` tells which.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Scenario {
-    /// Of what flies.
-    Flight(Box<FlightScenario>),
-    /// Of what drives.
-    Drive(Box<DriveScenario>),
-    /// Of an arm.
-    Arm(Box<ArmScenario>),
-}
-
-/// Of each kind the words of `robot.kind` and a method that gives its own keys. Robots that do not say their kind are
-/// of the first.
+/// Of each kind a variant of [`Scenario`] with its keys, and the words of `robot.kind`. Robots that do not say their
+/// kind are of the first.
 macro_rules! kinds {
-    ($($Kind:ident($Keys:ty) of $words:expr, $own:ident;)+) => {
+    ($($(#[$what:meta])+ $Kind:ident($Keys:ty) of $words:expr;)+) => {
+        /// A scenario file; the robot's `kind` tells which.
+        #[derive(Debug, Clone, PartialEq)]
+        pub enum Scenario {
+            $($(#[$what])+ $Kind(Arc<$Keys>),)+
+        }
+
         /// Readers are not generic, so that those of all sections are compiled once, with this crate.
         const KINDS: &[RobotKind] = &[$(RobotKind {
             words: $words,
-            read: |value| serde_json::from_value(value).map(Scenario::$Kind),
+            read: |value| serde_json::from_value(value).map(Arc::new).map(Scenario::$Kind),
             schema: || schemars::schema_for!($Keys).to_value(),
         }),+];
 
@@ -63,29 +59,38 @@ macro_rules! kinds {
 
         impl DerefMut for Scenario {
             fn deref_mut(&mut self) -> &mut (dyn Keys + 'static) {
-                match self { $(Self::$Kind(keys) => &mut **keys,)+ }
+                match self { $(Self::$Kind(keys) => Arc::<$Keys>::make_mut(keys),)+ }
             }
         }
 
-        impl Scenario {
-            $(/// Its keys, if it is of this kind.
-            pub fn $own(&self) -> Option<&$Keys> {
-                match self {
-                    Self::$Kind(keys) => Some(keys),
-                    _ => None,
-                }
-            })+
+        impl Serialize for Scenario {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                match self { $(Self::$Kind(keys) => keys.as_ref().serialize(serializer),)+ }
+            }
         }
     };
 }
 
 kinds! {
-    Flight(FlightScenario) of &["quadrotor"], flight;
-    Drive(DriveScenario) of GroundDescription::KINDS, drive;
-    Arm(ArmScenario) of &["arm"], arm;
+    /// Of what flies.
+    Flight(FlightScenario) of &["quadrotor"];
+    /// Of what drives.
+    Drive(DriveScenario) of GroundDescription::KINDS;
+    /// Of an arm.
+    Arm(ArmScenario) of &["arm"];
 }
 
 impl Scenario {
+    /// Its keys, if they are a `K`.
+    pub fn own<K: Keys>(&self) -> Option<&K> {
+        (&**self as &dyn Any).downcast_ref()
+    }
+
+    /// The same, for changes.
+    pub fn own_mut<K: Keys>(&mut self) -> Option<&mut K> {
+        (&mut **self as &mut dyn Any).downcast_mut()
+    }
+
     /// The same scenario with these distributions.
     pub fn with_vary(mut self, vary: BTreeMap<String, Distribution>) -> Self {
         *self.vary_mut() = vary;

@@ -28,7 +28,7 @@ pub use drive::*;
 pub use environment::Environment;
 pub use flaky::FlakySection;
 pub use flight::*;
-pub use head::{Executor, Head, Keys};
+pub use head::{Executor, Head, Keys, Patience};
 pub(super) use kinds::SECTIONS;
 pub use kinds::{RobotKind, Scenario};
 pub use named::{Named, NamedMesh};

@@ -40,10 +40,7 @@ fn drawn(setup: &Setup, key: &str, value: Value) -> Setup {
 #[test]
 fn a_draw_builds_what_it_changes_and_shares_the_rest() {
     let nominal = flights();
-    let flyer = |setup: &Setup| match &setup.machine {
-        Machine::Flyer(flyer) => flyer.clone(),
-        _ => panic!("it flies"),
-    };
+    let flyer = |setup: &Setup| setup.own::<FlightSetup>().expect("it flies").clone();
     for (key, value, robot, world) in [
         ("execute.noise", json!(true), true, true),
         ("world.wind_m_s", json!([1.0, 0.0, 0.0]), true, true),
@@ -55,13 +52,13 @@ fn a_draw_builds_what_it_changes_and_shares_the_rest() {
         assert_eq!(shared, (robot, world), "{key}");
     }
     let heavier = drawn(&nominal, "robot.mass_kg", json!(1.1));
-    assert_eq!(heavier.flight().expect("it flies").robot.mass, 1.1);
+    assert_eq!(heavier.own::<FlightSetup>().expect("it flies").robot.mass, 1.1);
 }
 
 #[test]
 fn generated_ground_is_made_once() {
     let nominal = drives();
-    let map = |setup: &Setup| setup.drive().expect("it drives").map.clone();
+    let map = |setup: &Setup| setup.own::<DriveSetup>().expect("it drives").map.clone();
     for (key, value, shared) in [
         ("execute.latency_s", json!(0.1), true),
         ("generate.kinematics", json!("exact"), true),

@@ -12,7 +12,7 @@ use super::vary;
 use super::{Case, CaseResult, Distribution, Mistake, Scenario, Setup};
 use crate::search::ddmin;
 
-use route::{Replanner, Route};
+use route::{Planner, Route};
 
 /// Passes over waypoints, conditions and lengths: each may make room for the others.
 const PASSES: usize = 3;
@@ -78,9 +78,9 @@ pub fn shrink(
     let scenario = pinned(&setup.scenario, case, result)?;
     let setup = setup.of_draw(scenario.clone())?;
     let best = Shrunk { scenario, case: case.clone(), result: result.clone(), simplified: Vec::new(), finished: false };
-    let replanner = Replanner::new(&setup, case).map_err(ShrinkError::Plan)?;
+    let planner = Planner::new(&setup, case).map_err(ShrinkError::Plan)?;
     let route = Route::of(case);
-    let mut job = Job { what: violation.what.clone(), setup, replanner, route, best, run, stopped: false };
+    let mut job = Job { what: violation.what.clone(), setup, planner, route, best, run, stopped: false };
     match (job.run)(&job.setup, case) {
         None => return Ok(job.best),
         Some(again) if job.violates(&again) => job.best.result = again,
@@ -117,7 +117,7 @@ struct Job<'a> {
     what: String,
     /// That of the smallest case.
     setup: Setup,
-    replanner: Replanner,
+    planner: Planner,
     /// That of the smallest case.
     route: Route,
     best: Shrunk,
@@ -134,7 +134,7 @@ impl Job<'_> {
     /// stopped.
     fn holds(&mut self, setup: Option<&Setup>, route: &Route) -> Option<bool> {
         let own = setup.unwrap_or(&self.setup);
-        let Some(case) = self.replanner.plan(own, &self.best.case, route) else { return Some(false) };
+        let Some(case) = self.planner.plan(own, &self.best.case, route) else { return Some(false) };
         let Some(result) = (self.run)(own, &case) else {
             self.stopped = true;
             return None;

@@ -2,8 +2,8 @@
 
 use nalgebra::Point3;
 
-use crate::campaign::setup::Kind;
-use crate::campaign::{Case, Setup, arm, drive, flight};
+use crate::campaign::kind::Replanner;
+use crate::campaign::{Case, Setup};
 
 /// One waypoint of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,21 +61,13 @@ impl Route {
 }
 
 /// Plans candidates by the claim that the case stands on.
-pub(super) enum Replanner {
-    Flight(Case),
-    Drive(Case),
-    Arm(Box<arm::Replanner>),
-}
+pub(super) struct Planner(Box<dyn Replanner>);
 
-impl Replanner {
+impl Planner {
     /// # Errors
     /// Why nothing can be planned, in a sentence's part.
     pub(super) fn new(setup: &Setup, case: &Case) -> Result<Self, String> {
-        Ok(match setup.kind() {
-            Kind::Flight(_) => Self::Flight(case.clone()),
-            Kind::Drive(_) => Self::Drive(case.clone()),
-            Kind::Arm(setup) => Self::Arm(Box::new(arm::Replanner::new(&setup, case)?)),
-        })
+        setup.kind().replanner(case).map(Self)
     }
 
     /// The case along `route`, if that is feasible; `last` is the smallest so far, which needs no plan of its own.
@@ -86,11 +78,6 @@ impl Replanner {
             return Some(last.clone());
         }
         let indices: Vec<usize> = route.stops.iter().map(|stop| stop.index).collect();
-        match (self, setup.kind()) {
-            (Self::Flight(case), Kind::Flight(setup)) => flight::replan(&setup, case, &points),
-            (Self::Drive(case), Kind::Drive(setup)) => drive::replan(&setup, case, &indices, &points),
-            (Self::Arm(replanner), Kind::Arm(setup)) => replanner.plan(&setup, &indices),
-            _ => unreachable!("shrinking changes no robot's kind"),
-        }
+        self.0.plan(setup.kind().same(), &indices, &points)
     }
 }

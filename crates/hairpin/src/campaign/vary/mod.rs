@@ -111,6 +111,7 @@ fn put(scenario: &mut Scenario, draws: &[(String, Value)]) -> Result<(), Mistake
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::scenario::FlightScenario;
     use serde_json::json;
 
     fn scenario() -> Scenario {
@@ -147,8 +148,8 @@ mod tests {
         // The plan is as it was drawn; what is drawn for its runs is the same as before.
         let settled = settle(&scenario, &[of_case.clone(), draw(&scenario, 7, 1)].concat()).unwrap();
         assert_eq!(
-            (settled.length().map(Value::from), &settled.flight().unwrap().robot),
-            (Some(of_case[0].1.clone()), &scenario.flight().unwrap().robot)
+            (settled.length().map(Value::from), &settled.own::<FlightScenario>().unwrap().robot),
+            (Some(of_case[0].1.clone()), &scenario.own::<FlightScenario>().unwrap().robot)
         );
         assert_eq!(
             (draw(&settled, 7, 1), draw_for_case(&settled, 7, CaseNumber(3))),
@@ -164,7 +165,7 @@ mod tests {
             let planned = apply(&scenario, &draw_for_case(&scenario, seed, CaseNumber(1))).unwrap();
             lengths.push(planned.length().unwrap());
             let drawn = apply(&scenario, &draw(&scenario, seed, 1)).unwrap();
-            let drawn = drawn.flight().unwrap();
+            let drawn = drawn.own::<FlightScenario>().unwrap();
             let crate::campaign::scenario::RobotSource::Inline(robot) = &drawn.robot else { panic!("robot lost") };
             masses.push(robot.mass_kg);
             winds.push(drawn.world.wind_m_s.unwrap());

@@ -40,6 +40,7 @@ pub struct DriveCommand {
 }
 
 impl Controlled for Rover {
+    const DOES: &'static str = "it drives";
     type State = DriveState;
     /// Poses in time with the channel `leg`.
     type Plan = Track;

@@ -2,48 +2,45 @@
 
 mod environment;
 
-use super::Driver;
+use std::sync::Arc;
+
+use super::DriveSetup;
 use crate::campaign::attachments::Attachments;
-use crate::campaign::build::Build;
 use crate::campaign::check::{Findings, check_executed, check_search};
+use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{
     ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, DriveTask, EXECUTED, GroundReach,
     GroundSection, Keys, Manoeuvre, Mistake, ProfileName, SearchMethod, SpeedSection,
 };
 use crate::feasibility::reach::drive::GroundScore;
+use crate::math::simd::Simd;
 use crate::robot::rover::{Rover, Steering};
-use crate::world::terrain::{ElevationMap, Terrain};
+use crate::world::terrain::{ElevationMap, KeepOuts, Terrain};
 
 /// Longer trajectories take days to drive.
 const LONGEST: u64 = 1_000;
 /// Nodes of the roadmap, waypoints × headings: legs are pairs of them, each a boundary-value problem.
 const MOST_NODES: u64 = 5_000;
 
-impl Build for Driver {
+impl Build for DriveSetup {
     type Keys = DriveScenario;
 
-    fn build(
-        keys: &DriveScenario,
-        files: &Attachments,
-        known: Option<(&DriveScenario, &Self)>,
-    ) -> Result<Self, Mistake> {
-        let [rover, planner] = Self::rovers(keys, known)?;
-        Ok(Self { rover, planner, map: Self::map(keys, files, known)?, keep_out: Self::keep_out(keys, known)? })
+    fn build(given: Given<'_, Self>) -> Result<Self, Mistake> {
+        let Given { keys, files, known } = given;
+        let (rovers, map) = (Self::rovers(keys, known)?, Self::map(keys, files, known)?);
+        Ok(Self::of(given, rovers, map, Self::keep_out(keys, known)?))
     }
 
-    fn check(
-        keys: &DriveScenario,
-        files: &Attachments,
-        known: Option<(&DriveScenario, &Self)>,
-    ) -> Result<Self, Vec<Mistake>> {
+    fn check(given: Given<'_, Self>) -> Result<Self, Vec<Mistake>> {
+        let Given { keys, files, known } = given;
         let mut found = Findings::default();
         found.head(keys.hairpin, keys.seed);
-        let rovers = found.take(Driver::rovers(keys, known));
+        let rovers = found.take(Self::rovers(keys, known));
         let rover = rovers.as_ref().map(|[rover, _]| &**rover);
         check_ground(&keys.world, &mut found);
-        let keep_out = found.take(Driver::keep_out(keys, known));
+        let keep_out = found.take(Self::keep_out(keys, known));
         check_task(&keys.task, rover, &mut found);
-        let map = Driver::map(keys, files, known);
+        let map = Self::map(keys, files, known);
         let map = match found.0.is_empty() {
             true => found.take(map).inspect(|map| check_places(&keys.task, map, &mut found)),
             // What is wrong with the ground is told once all before it is right.
@@ -55,11 +52,27 @@ impl Build for Driver {
         check_execute(&keys.execute, rover, &mut found);
         check_spec(&keys.spec, &mut found);
         match (rovers, map, keep_out) {
-            (Some([rover, planner]), Some(map), Some(keep_out)) if found.0.is_empty() => {
-                Ok(Driver { rover, planner, map, keep_out })
+            (Some(rovers), Some(map), Some(keep_out)) if found.0.is_empty() => {
+                Ok(Self::of(given, rovers, map, keep_out))
             }
             _ => Err(found.0),
         }
+    }
+}
+
+impl DriveSetup {
+    /// Kernels and controller stay those of the setup that is known.
+    fn of(
+        given: Given<'_, Self>,
+        [rover, planner]: [Arc<Rover>; 2],
+        map: Arc<ElevationMap>,
+        keep_out: Arc<KeepOuts>,
+    ) -> Self {
+        let Given { keys, files, known } = given;
+        let controller = known.and_then(|known| known.controller.clone());
+        let simd = known.map_or_else(Simd::default, |known| known.simd);
+        let (scenario, attachments) = (keys.clone(), files.clone());
+        Self { scenario, attachments, rover, planner, map, keep_out, controller, simd }
     }
 }
 

@@ -1,11 +1,13 @@
 //! What scenarios of arms have in common with all others.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource};
 use crate::campaign::scenario::kinds::sections;
 use crate::campaign::scenario::{
-    ARM_MOVES, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Subject, Terms,
+    ARM_MOVES, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject,
+    Terms,
 };
 use crate::judgement::Limits;
 
@@ -22,6 +24,7 @@ impl Keys for ArmScenario {
             search: self.generate.search.section(self.task.count(0)),
             score: self.generate.cost.word(),
             score_key: "generate.cost",
+            cases_key: "generate.search.programs",
             reach: self.generate.mode.word(),
             executor: Executor {
                 command: None,
@@ -30,6 +33,8 @@ impl Keys for ArmScenario {
                 workers: None,
                 accept: ARRIVED,
                 reruns: execute.flaky.map_or(0, |flaky| flaky.reruns),
+                // The virtual controller's runs end with their program.
+                patience: Patience { given: None, per_waypoint: f64::INFINITY, of_plan: 0.0, spare: 0.0 },
             },
             controller: execute.logs.is_none().then_some("virtual controller"),
             origin: None,
@@ -47,6 +52,7 @@ impl Keys for ArmScenario {
                 },
             },
             surroundings: &[],
+            one_search: true,
         }
     }
 
@@ -58,6 +64,12 @@ impl Keys for ArmScenario {
 
     fn vary_mut(&mut self) -> &mut BTreeMap<String, Distribution> {
         &mut self.vary
+    }
+
+    fn adopt(&mut self, now: &dyn Keys) -> Option<()> {
+        let now: &Self = (now as &dyn Any).downcast_ref()?;
+        (self.robot, self.execute, self.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
+        Some(())
     }
 
     fn set_noisy(&mut self) {}

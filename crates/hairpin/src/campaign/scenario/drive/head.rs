@@ -1,17 +1,23 @@
 //! What scenarios of drives have in common with all others.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{DriveExecute, DriveScenario, GroundReach};
 use crate::campaign::scenario::kinds::sections;
 use crate::campaign::scenario::{
-    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Subject, Terms,
+    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms,
 };
 use crate::judgement::Limits;
 
+/// A drive is given up after this multiple of its planned duration …
+const SLOWNESS: f64 = 2.0;
+/// … and this time, s.
+const SPARE_SECONDS: f64 = 60.0;
+
 impl Keys for DriveScenario {
     fn head(&self) -> Head<'_> {
-        let DriveExecute { command, repeat, timeout_s, workers, accept_m, flaky, .. } = &self.execute;
+        let DriveExecute { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
         let limits = &self.spec.limits;
         Head {
             seed: self.seed,
@@ -19,6 +25,7 @@ impl Keys for DriveScenario {
             search: self.generate.search.section(),
             score: &self.generate.search.score,
             score_key: "generate.search.score",
+            cases_key: "generate.search.cases",
             reach: self.generate.reach.word(),
             executor: Executor {
                 command: command.as_deref(),
@@ -27,6 +34,7 @@ impl Keys for DriveScenario {
                 workers: *workers,
                 accept: *accept_m,
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
+                patience: Patience { given: *time_limit_s, per_waypoint: 0.0, of_plan: SLOWNESS, spare: SPARE_SECONDS },
             },
             controller: self.execute.controller_in_force().map(|controller| controller.word()),
             origin: self.world.origin,
@@ -46,6 +54,7 @@ impl Keys for DriveScenario {
                 },
             },
             surroundings: &["keep_out", "external_force_n"],
+            one_search: false,
         }
     }
 
@@ -57,6 +66,14 @@ impl Keys for DriveScenario {
 
     fn vary_mut(&mut self) -> &mut BTreeMap<String, Distribution> {
         &mut self.vary
+    }
+
+    fn adopt(&mut self, now: &dyn Keys) -> Option<()> {
+        let now: &Self = (now as &dyn Any).downcast_ref()?;
+        let (noise, force) = (self.execute.noise, self.execute.external_force_n);
+        (self.robot, self.execute, self.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
+        (self.execute.noise, self.execute.external_force_n) = (noise, force);
+        Some(())
     }
 
     fn set_noisy(&mut self) {

@@ -1,21 +1,28 @@
 //! What scenarios of flights have in common with all others.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{DeviationFrom, ExecuteSection, FlightScenario, ReachName};
 use crate::campaign::scenario::kinds::sections;
-use crate::campaign::scenario::{Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Subject, Terms};
+use crate::campaign::scenario::{
+    Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms,
+};
 use crate::judgement::Limits;
+
+/// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
+const SECONDS_PER_WAYPOINT: f64 = 9.0;
 
 impl Keys for FlightScenario {
     fn head(&self) -> Head<'_> {
-        let ExecuteSection { command, repeat, timeout_s, workers, accept_m, flaky, .. } = &self.execute;
+        let ExecuteSection { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
         Head {
             seed: self.seed,
             length: Some(self.task.length),
             search: self.generate.search,
             score: &self.generate.score,
             score_key: "generate.score",
+            cases_key: "generate.search.cases",
             reach: self.generate.reach.word(),
             executor: Executor {
                 command: command.as_deref(),
@@ -24,6 +31,12 @@ impl Keys for FlightScenario {
                 workers: *workers,
                 accept: *accept_m,
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
+                patience: Patience {
+                    given: *time_limit_s,
+                    per_waypoint: SECONDS_PER_WAYPOINT,
+                    of_plan: 0.0,
+                    spare: 0.0,
+                },
             },
             controller: self.execute.controller_in_force().map(|controller| controller.word()),
             origin: self.world.origin,
@@ -32,6 +45,7 @@ impl Keys for FlightScenario {
             confidence: self.spec.confidence,
             terms: self.terms(),
             surroundings: &["wind_m_s", "discrete_gust", "obstacles"],
+            one_search: false,
         }
     }
 
@@ -43,6 +57,14 @@ impl Keys for FlightScenario {
 
     fn vary_mut(&mut self) -> &mut BTreeMap<String, Distribution> {
         &mut self.vary
+    }
+
+    fn adopt(&mut self, now: &dyn Keys) -> Option<()> {
+        let now: &Self = (now as &dyn Any).downcast_ref()?;
+        let noise = self.execute.noise;
+        (self.robot, self.execute, self.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
+        self.execute.noise = noise;
+        Some(())
     }
 
     fn set_noisy(&mut self) {

@@ -1,0 +1,161 @@
+//! What is said of an arm in its cell.
+
+use nalgebra::{Point3, Vector3};
+use serde_json::json;
+
+use super::{ArmSetup, assumptions};
+use crate::campaign::digits::number;
+use crate::campaign::kind::{
+    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, Programs, RobotWords, Say, surface,
+};
+use crate::campaign::{Case, Tally};
+use crate::judgement::Clearance;
+use crate::robot::arm::AXES;
+use crate::trajectory::Track;
+use crate::world::cell::Region;
+use crate::world::{Obstacle, Shape};
+
+/// Below this share of its fastest a joint stands.
+const STANDS: f64 = 0.01;
+
+impl Say for ArmSetup {
+    /// A tool has no nose and no left side.
+    fn robot_words(&self) -> RobotWords<'_> {
+        let arm = &self.station.arm;
+        RobotWords { name: &arm.name, caveat: &arm.caveat, estimated: arm.estimated.clone(), has_sides: false }
+    }
+
+    fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions {
+        let (mut said, mut search) = (Assumptions::default(), Vec::new());
+        assumptions::claim(self, &mut said.claim);
+        assumptions::search(self, cases, tally, &mut search);
+        assumptions::act(self, &mut said.act);
+        assumptions::verdict(self, &mut said.verdict);
+        Assumptions { search: Some(search), ..said }
+    }
+
+    fn facts(&self) -> Facts {
+        let (tool, moves) = (&self.station.tool, &self.scenario.generate.moves);
+        Facts {
+            world: format!(
+                "{} obstacles and keep-outs, tool `{}` of radius {} mm",
+                self.station.cell.parts.len(),
+                tool.name,
+                number(Some(1e3 * tool.radius))
+            ),
+            task: format!(
+                "{} points, speeds {}, zones {}",
+                self.station.points.len(),
+                moves.speeds.join(", "),
+                moves.zones.join(", ")
+            ),
+            search: Some(format!(
+                "heaviest path through {} points, cost {}",
+                self.asked_points(),
+                self.scenario.generate.cost.word()
+            )),
+            proven: "proven clear",
+            nothing: "no program from home to home".into(),
+        }
+    }
+
+    /// Arms stand where they stand: their scenarios have no place on Earth.
+    fn handed(&self) -> Handed {
+        Handed {
+            robot: json!(self.scenario.robot),
+            world: json!(self.scenario.world),
+            external_force: None,
+            frame: FrameWords {
+                relative_to: "arm's base",
+                world: "cell",
+                axes: "",
+                nowhere: Some("the arm's base: z up, m; programs are in their work object, mm"),
+            },
+            start: Point3::origin(),
+        }
+    }
+
+    fn is_outside(&self, _: &Point3<f64>) -> bool {
+        false
+    }
+
+    /// The cell around what is drawn: half-spaces, keep-outs in words and what has no surface of its own are left to
+    /// the words.
+    fn drawing(&self, places: &[Point3<f64>]) -> Drawing {
+        let (mut low, mut high) = (Point3::origin(), Point3::origin());
+        for place in places {
+            (low, high) = (low.inf(place), high.sup(place));
+        }
+        let mut obstacles = Vec::new();
+        for part in &self.station.cell.parts {
+            if let Some(bounds) = part.region.bounds() {
+                (low, high) = (low.inf(&bounds.min), high.sup(&bounds.max));
+            }
+            let shape = match &part.region {
+                Region::Shape(shape) => Some(shape.clone()),
+                // Drawn as the capsule around it: a picture, not a proof.
+                Region::Cylinder { a, b, radius } => Some(Shape::Capsule { a: *a, b: *b, radius: *radius }),
+                Region::HalfSpace { .. } | Region::Beyond { .. } | Region::Words(_) => None,
+            };
+            obstacles.extend(shape.map(|shape| surface(&Obstacle { name: part.name.clone(), shape })));
+        }
+        let margin = Vector3::repeat(0.1);
+        Drawing {
+            low: low - margin,
+            size: high - low + 2.0 * margin,
+            obstacles,
+            rotors: Vec::new(),
+            wheels: Vec::new(),
+            radius: self.station.tool.radius,
+            relief: None,
+        }
+    }
+
+    /// Joint × place in its range × speed × direction of every sample, reversals with the speed that they came from.
+    fn motion(&self) -> Motion<'_> {
+        Motion {
+            axes: vec![
+                Axis::worded("joint", &["1", "2", "3", "4", "5", "6"]),
+                Axis::even("place in range", "%", 0.0, 100.0, 8),
+                Axis::even("speed", "% of limit", 0.0, 100.0, 4),
+                Axis::worded("direction", &["rising", "falling", "reversing"]),
+            ],
+            meet: Box::new(|_, flight, meet| joints_met(self, &flight.track, meet)),
+        }
+    }
+
+    /// What is proven clear of an arm's plan is not measured again along its recordings.
+    fn clearance(&self) -> Option<Box<Clearance<'_>>> {
+        None
+    }
+
+    fn programs(&self) -> Option<&dyn Programs> {
+        Some(self)
+    }
+}
+
+/// Every sample of every joint that moves, and where it turns back the fastest that it was on the way there.
+fn joints_met(setup: &ArmSetup, track: &Track, meet: &mut dyn FnMut(&[f64])) {
+    let times = track.times();
+    for joint in 0..AXES {
+        let Some(angles) = track.channel(&format!("q{}_rad", joint + 1)) else { continue };
+        let limit = &setup.station.arm.limits[joint];
+        let place = |angle: f64| 100.0 * (angle - limit.lower) / (limit.upper - limit.lower);
+        // The direction of the stroke, +1 or −1, and the largest share of the joint's fastest in it.
+        let (mut direction, mut fastest) = (0.0, 0.0_f64);
+        for i in 1..times.len().min(angles.len()) {
+            let rate = (angles[i] - angles[i - 1]) / (times[i] - times[i - 1]);
+            let speed = rate.abs() / limit.speed;
+            if speed < STANDS {
+                continue;
+            }
+            let (at, joint) = (place(angles[i]), joint as f64 + 0.5);
+            if direction * rate < 0.0 {
+                meet(&[joint, at, 100.0 * fastest, 2.5]);
+                fastest = 0.0;
+            }
+            (direction, fastest) = (rate.signum(), fastest.max(speed));
+            meet(&[joint, at, 100.0 * speed, if rate > 0.0 { 0.5 } else { 1.5 }]);
+        }
+    }
+}

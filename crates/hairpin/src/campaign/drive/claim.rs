@@ -1,0 +1,59 @@
+//! What of drives is claimed, and by whom.
+
+use nalgebra::Point3;
+
+use super::solve::DriveSolver;
+use super::{DriveSetup, knobs, losses, plan, replan, verify};
+use crate::campaign::graph::Losses;
+use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::scenario::DriveScenario;
+use crate::campaign::{Case, Scenario, Timed};
+use crate::trajectory::Track;
+use crate::verification::{EndError, Proof};
+
+/// Rate of the timed reference that executors get, Hz: drives are slow.
+const REFERENCE_RATE: f64 = 2.0;
+
+impl Claim for DriveSetup {
+    fn solver(&self) -> Result<Box<dyn Solver + '_>, String> {
+        Ok(Box::new(DriveSolver::new(self)?))
+    }
+
+    fn lost(&self, graphs: u64) -> Losses {
+        losses::losses(self, graphs)
+    }
+
+    fn replanner(&self, case: &Case) -> Result<Box<dyn Replanner>, String> {
+        Ok(Box::new(Replanned(case.clone())))
+    }
+
+    fn planned(&self, case: &Case) -> Result<Track, PlanError> {
+        plan::track(self, case)
+    }
+
+    fn timed(&self, case: &Case) -> Vec<Timed> {
+        plan::timed(self, case, REFERENCE_RATE)
+    }
+
+    fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>) {
+        let mut proof = verify::verify(self, case);
+        if case.environment.is_some() {
+            let asked = drawn.own::<DriveScenario>().and_then(|drawn| drawn.generate.environment);
+            proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));
+        }
+        (proof, None)
+    }
+
+    fn knobs(&self) -> Knobs {
+        knobs::knobs(self)
+    }
+}
+
+/// The case that others are planned after.
+struct Replanned(Case);
+
+impl Replanner for Replanned {
+    fn plan(&self, setup: Same, indices: &[usize], points: &[Point3<f64>]) -> Option<Case> {
+        replan::replan(setup.setup(), &self.0, indices, points)
+    }
+}

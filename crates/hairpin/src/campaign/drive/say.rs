@@ -1,0 +1,105 @@
+//! What is said of drives and their ground, and what they are measured against.
+
+use nalgebra::{Point3, Vector3};
+use serde_json::json;
+
+use super::{DriveSetup, assumptions, drawing};
+use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say, word};
+use crate::campaign::{Case, Tally};
+use crate::judgement::Clearance;
+use crate::trajectory::Track;
+use crate::world::terrain::Terrain;
+
+impl Say for DriveSetup {
+    fn robot_words(&self) -> RobotWords<'_> {
+        let rover = &self.rover;
+        RobotWords { name: &rover.name, caveat: &rover.caveat, estimated: rover.estimated.clone(), has_sides: true }
+    }
+
+    fn assumptions(&self, _: &[Case], _: &Tally) -> Assumptions {
+        let mut said = Assumptions { beside: assumptions::searched_beside(self), ..Assumptions::default() };
+        assumptions::claim(self, &mut said.claim);
+        assumptions::act(self, &mut said.act);
+        said.verdict.push(format!("A waypoint counts as reached within {} m.", self.scenario.execute.accept_m));
+        assumptions::verdict(self, &mut said.verdict);
+        said
+    }
+
+    fn facts(&self) -> Facts {
+        let (low, high) = self.map.extent();
+        let cell = self.map.grid().cell;
+        let (terrain, task) = (&self.scenario.world.terrain, &self.scenario.task);
+        let name = terrain.file.clone().or_else(|| terrain.generator.map(|name| format!("generator {}", word(&name))));
+        let ([shortest, longest], start) = (task.leg_m, &task.start);
+        let end = task.end_m.map_or("anywhere".into(), |[x, y]| format!("({x}, {y}) m"));
+        let ends = if task.end_m.is_none() { "from the start" } else { "from start to end" };
+        Facts {
+            world: format!(
+                "{}: {:.1} × {:.1} m in cells of {:.3} m, {} keep-outs",
+                name.unwrap_or_default(),
+                high[0] - low[0],
+                high[1] - low[1],
+                cell[0],
+                self.keep_out.list().len()
+            ),
+            task: format!(
+                "{} waypoints from ({}, {}) m to {end}, legs of {shortest} … {longest} m",
+                task.length, start.x_m, start.y_m
+            ),
+            search: None,
+            proven: "reach set",
+            nothing: format!("no chain of {} waypoints {ends}", task.length),
+        }
+    }
+
+    /// A robot that drives has its file's numbers, and its map is the campaign folder's.
+    fn handed(&self) -> Handed {
+        let start = &self.scenario.task.start;
+        let height = self.map.patch(start.x_m, start.y_m).map_or(0.0, |patch| patch.height);
+        Handed {
+            robot: json!(self.scenario.robot),
+            world: json!(self.scenario.world),
+            external_force: self.scenario.execute.external_force_n,
+            frame: FrameWords { relative_to: "map origin", world: "map", axes: "x east, y north", nowhere: None },
+            start: Point3::new(start.x_m, start.y_m, height),
+        }
+    }
+
+    fn is_outside(&self, place: &Point3<f64>) -> bool {
+        self.map.patch(place.x, place.y).is_err()
+    }
+
+    fn drawing(&self, places: &[Point3<f64>]) -> Drawing {
+        drawing::ground(self, places)
+    }
+
+    /// Slope × curvature × slip of every sample.
+    fn motion(&self) -> Motion<'_> {
+        let most = self.bounds().most;
+        Motion {
+            axes: vec![
+                Axis::even("slope", "°", 0.0, self.tilt().to_degrees().min(45.0), 5),
+                Axis::even("curvature", "1/m", -most, most, 5),
+                Axis::of("slip", "", &[0.0, 0.05, 0.1, 0.2, 0.4, 1.0]),
+            ],
+            meet: Box::new(|_, flight, meet| samples_met(&flight.track, meet)),
+        }
+    }
+
+    fn clearance(&self) -> Option<Box<Clearance<'_>>> {
+        let (places, radius) = (&self.keep_out, self.radius());
+        (!self.scenario.world.keep_out.is_empty())
+            .then(|| Box::new(move |p: &Point3<f64>| places.distance(p.x, p.y) - radius) as Box<Clearance<'_>>)
+    }
+}
+
+/// Every sample: the tilt of the body, the curvature of its way, the slip of its wheels.
+fn samples_met(track: &Track, meet: &mut dyn FnMut(&[f64])) {
+    let column = |name| track.channel(name).unwrap_or_default();
+    let (curvature, slip) = (column("curvature_1_m"), column("slip"));
+    for (i, pose) in track.poses().iter().enumerate() {
+        let up = (pose.rotation * Vector3::z()).z.clamp(-1.0, 1.0);
+        let of = |values: &[f64]| values.get(i).copied().unwrap_or(0.0);
+        meet(&[libm::acos(up).to_degrees(), of(curvature), of(slip).abs()]);
+    }
+}

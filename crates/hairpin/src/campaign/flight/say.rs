@@ -1,0 +1,137 @@
+//! What is said of flights and their cage, and what they are measured against.
+
+use nalgebra::{Point3, Vector3};
+use serde_json::json;
+
+use super::{FlightSetup, assumptions};
+use crate::campaign::kind::{
+    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Rotor, Say, surface,
+};
+use crate::campaign::{Case, Tally};
+use crate::judgement::Clearance;
+use crate::math::rotation::angle_between;
+use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
+use crate::trajectory::Flight;
+
+impl Say for FlightSetup {
+    fn robot_words(&self) -> RobotWords<'_> {
+        let Quadrotor { name, caveat, estimated, .. } = &*self.robot;
+        let estimated = estimated.iter().map(String::as_str).collect();
+        RobotWords { name, caveat, estimated, has_sides: true }
+    }
+
+    fn assumptions(&self, cases: &[Case], _: &Tally) -> Assumptions {
+        let mut said = Assumptions { beside: assumptions::searched_beside(self), ..Assumptions::default() };
+        assumptions::claim(self, cases, &mut said.claim);
+        assumptions::act(self, &mut said.act);
+        said.verdict.push(format!("A waypoint counts as reached within {} m.", self.scenario.execute.accept_m));
+        assumptions::verdict(self, &mut said.verdict);
+        said
+    }
+
+    fn facts(&self) -> Facts {
+        let (size, task) = (self.world.size(), &self.scenario.task);
+        let point = |p: [f64; 3]| format!("({}, {}, {})", p[0], p[1], p[2]);
+        Facts {
+            world: format!("{} × {} × {} m, {} obstacles", size.x, size.y, size.z, self.scenario.world.obstacles.len()),
+            task: format!("{} waypoints from {} to {} m", task.length, point(task.start_m), point(task.end_m)),
+            search: None,
+            proven: "reach set",
+            nothing: format!("no chain of {} waypoints from start to end", task.length),
+        }
+    }
+
+    /// A robot that flies has all its numbers, derived ones too.
+    fn handed(&self) -> Handed {
+        Handed {
+            robot: json!(description(&self.robot)),
+            world: json!(self.scenario.world),
+            external_force: None,
+            frame: FrameWords {
+                relative_to: "cage origin",
+                world: "cage",
+                axes: "x and y along its edges",
+                nowhere: None,
+            },
+            start: Point3::from(self.scenario.task.start_m),
+        }
+    }
+
+    fn is_outside(&self, place: &Point3<f64>) -> bool {
+        self.world.wall_distance(place) < 0.0
+    }
+
+    fn drawing(&self, _: &[Point3<f64>]) -> Drawing {
+        Drawing {
+            low: Point3::origin(),
+            size: self.world.size(),
+            obstacles: self.world.obstacles().iter().map(surface).collect(),
+            rotors: self.robot.rotors.iter().map(|r| Rotor { x: r.x, y: r.y, clockwise: r.spin > 0.0 }).collect(),
+            wheels: Vec::new(),
+            radius: self.robot.clearance_radius,
+            relief: None,
+        }
+    }
+
+    /// Speed × turn × climb of every leg flown.
+    fn motion(&self) -> Motion<'_> {
+        let limit = self.scenario.generate.limits.max_speed_m_s.unwrap_or(f64::INFINITY);
+        Motion {
+            axes: vec![
+                Axis::even("speed", "m/s", 0.0, limit.min(self.robot.max_speed), 5),
+                Axis::even("turn", "°", 0.0, 180.0, 4),
+                Axis::of("climb", "°", &[-90.0, -45.0, -15.0, 15.0, 45.0, 90.0]),
+            ],
+            meet: Box::new(legs_met),
+        }
+    }
+
+    fn clearance(&self) -> Option<Box<Clearance<'_>>> {
+        let (world, radius) = (&self.world, self.robot.clearance_radius);
+        (!world.obstacles().is_empty())
+            .then(|| Box::new(move |p: &Point3<f64>| world.obstacle_distance(p) - radius) as Box<Clearance<'_>>)
+    }
+}
+
+/// Every leg that was flown: its mean speed, the turn from the leg before, and how steep it is.
+fn legs_met(waypoints: &[Point3<f64>], flight: &Flight, meet: &mut dyn FnMut(&[f64])) {
+    let mut before = Vector3::zeros();
+    for (leg, pair) in waypoints.windows(2).enumerate() {
+        let way = pair[1] - pair[0];
+        let times = flight.reached.get(leg).copied().flatten().zip(flight.reached.get(leg + 1).copied().flatten());
+        if let Some((from, to)) = times.filter(|(from, to)| to > from) {
+            let turn = if leg == 0 { 0.0 } else { angle_between(&before, &way).to_degrees() };
+            let climb = libm::atan2(way.z, libm::hypot(way.x, way.y)).to_degrees();
+            meet(&[way.norm() / (to - from), turn, climb]);
+        }
+        before = way;
+    }
+}
+
+/// All numbers of a robot.
+fn description(robot: &Quadrotor) -> QuadrotorDescription {
+    let rotor =
+        |rotor: &crate::robot::quadrotor::Rotor| RotorDescription { x_m: rotor.x, y_m: rotor.y, spin: rotor.spin };
+    QuadrotorDescription {
+        kind: QuadrotorKind::Quadrotor,
+        name: robot.name.clone(),
+        source: String::new(),
+        caveat: robot.caveat.clone(),
+        mass_kg: robot.mass,
+        rotors: robot.rotors.iter().map(rotor).collect(),
+        inertia_kg_m2: Some(robot.inertia.into()),
+        thrust_coefficient_n_s2: Some(robot.thrust_coefficient),
+        moment_coefficient_n_m_s2: Some(robot.moment_coefficient),
+        rotor_speed_rad_s: Some([robot.rotor_speed.0, robot.rotor_speed.1]),
+        thrust_to_weight: None,
+        rotor_time_constant_s: Some(robot.rotor_time_constant),
+        drag_linear_n_s_m: Some(robot.drag_linear),
+        drag_quadratic_n_s2_m2: Some(robot.drag_quadratic),
+        aerodynamic_moment_n_m_s2: Some(robot.aerodynamic_moment),
+        force_noise_n2_s: Some(robot.force_noise),
+        moment_noise_n2_m2_s: Some(robot.moment_noise),
+        max_speed_m_s: Some(robot.max_speed),
+        clearance_radius_m: Some(robot.clearance_radius),
+        gravity_m_s2: Some(robot.gravity),
+    }
+}

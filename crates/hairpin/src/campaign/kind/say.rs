@@ -1,0 +1,130 @@
+//! What is said of a robot, its world and its runs, and what runs are measured against.
+
+use nalgebra::Point3;
+use serde::Serialize;
+use serde_json::Value;
+
+use super::{Axis, Drawing, Programs};
+use crate::campaign::{Case, Tally};
+use crate::judgement::Clearance;
+use crate::trajectory::Flight;
+
+/// The robot in words.
+#[derive(Debug, Clone)]
+pub(in crate::campaign) struct RobotWords<'a> {
+    /// Its name.
+    pub(in crate::campaign) name: &'a str,
+    /// What must be said wherever it is named; empty if nothing.
+    pub(in crate::campaign) caveat: &'a str,
+    /// Names of its numbers that were derived, not given.
+    pub(in crate::campaign) estimated: Vec<&'a str>,
+    /// Whether its attitude has a front and a left side that people know.
+    pub(in crate::campaign) has_sides: bool,
+}
+
+/// "Assumptions and limits of this run", by what they are about.
+#[derive(Debug, Clone, Default)]
+pub(in crate::campaign) struct Assumptions {
+    /// What stands behind the plans.
+    pub(in crate::campaign) claim: Vec<String>,
+    /// How they were found, where that is not how graphs are usually searched.
+    pub(in crate::campaign) search: Option<Vec<String>>,
+    /// What was searched beside the waypoints.
+    pub(in crate::campaign) beside: Option<String>,
+    /// Who carried them out.
+    pub(in crate::campaign) act: Vec<String>,
+    /// What deviation is.
+    pub(in crate::campaign) verdict: Vec<String>,
+}
+
+/// How a campaign was set up, in the words of its report.
+#[derive(Debug, Clone)]
+pub(in crate::campaign) struct Facts {
+    /// The world.
+    pub(in crate::campaign) world: String,
+    /// The task.
+    pub(in crate::campaign) task: String,
+    /// The search, where it is not one of graphs by a method.
+    pub(in crate::campaign) search: Option<String>,
+    /// What the word of the reach set is the answer to.
+    pub(in crate::campaign) proven: &'static str,
+    /// What is not there where nothing is feasible: `no chain of 10 waypoints from start to end`.
+    pub(in crate::campaign) nothing: String,
+}
+
+/// What places are relative to, in words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FrameWords {
+    /// What positions and z are relative to: `cage origin`, `map origin`, `arm's base`.
+    pub relative_to: &'static str,
+    /// What has that origin: `cage`, `map`.
+    pub world: &'static str,
+    /// Where its axes point if it is not placed on Earth.
+    pub axes: &'static str,
+    /// All that there is to say, where it cannot be placed on Earth.
+    pub nowhere: Option<&'static str>,
+}
+
+/// What an executor of the user's is handed, and how its answer is read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Handed {
+    /// The robot's numbers: a table of the scenario.
+    pub robot: Value,
+    /// Its world: a table of the scenario.
+    pub world: Value,
+    /// Steady force on it, east, north, up, N, where there is one.
+    pub external_force: Option<[f64; 3]>,
+    /// What places are relative to.
+    pub frame: FrameWords,
+    /// The first waypoint, world frame, m.
+    pub start: Point3<f64>,
+}
+
+/// Calls its last argument with the values, one an axis, of whatever a run over waypoints met.
+pub(in crate::campaign) type Meet<'a> = Box<dyn Fn(&[Point3<f64>], &Flight, &mut dyn FnMut(&[f64])) + 'a>;
+
+/// How motion is counted.
+pub(in crate::campaign) struct Motion<'a> {
+    /// Axes of a grid.
+    pub(in crate::campaign) axes: Vec<Axis>,
+    /// What of them is met.
+    pub(in crate::campaign) meet: Meet<'a>,
+}
+
+/// What is told, and what is measured.
+pub(in crate::campaign) trait Say {
+    /// The robot.
+    fn robot_words(&self) -> RobotWords<'_>;
+
+    /// What claim, execution and limits rest on.
+    fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions;
+
+    /// How the campaign was set up.
+    fn facts(&self) -> Facts;
+
+    /// What executors are handed.
+    fn handed(&self) -> Handed;
+
+    /// Whether a place lies where the robot cannot be: outside of its world.
+    fn is_outside(&self, place: &Point3<f64>) -> bool;
+
+    /// What stands around `places`; what only a case's environment has is last of its obstacles.
+    fn drawing(&self, places: &[Point3<f64>]) -> Drawing;
+
+    /// How its motion is counted.
+    fn motion(&self) -> Motion<'_>;
+
+    /// Distance (m) of the robot, a ball or a disc about its origin, from what it must not meet; `None` where there is
+    /// nothing.
+    fn clearance(&self) -> Option<Box<Clearance<'_>>>;
+
+    /// What it has where its motion is a program.
+    fn programs(&self) -> Option<&dyn Programs> {
+        None
+    }
+}
+
+/// A key's word, as it stands in scenario files.
+pub(in crate::campaign) fn word(value: &impl Serialize) -> String {
+    serde_json::to_value(value).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
+}
