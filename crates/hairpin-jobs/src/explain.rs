@@ -61,6 +61,6 @@ mod tests {
         let settings = ExplainSettings { scenario: "demo-quadrotor".into(), graphs: 1, ..ExplainSettings::default() };
         let (found, verdict) = explain(&settings, &Unwatched).unwrap();
         assert_eq!(verdict.exit_code, 0, "{verdict:?}");
-        assert!(found.deaths.left > 0 && found.deaths.asked >= found.deaths.left);
+        assert!(found.losses.left > 0 && found.losses.asked >= found.losses.left);
     }
 }

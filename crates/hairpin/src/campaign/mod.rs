@@ -50,7 +50,7 @@ pub use coverage::{Coverage, Grid};
 pub use curve::Curve;
 pub use execute::{execute, execute_again, execute_run};
 pub use generate::{Known, Optimum, generate, optima};
-pub use graph::{Deaths, Lost, Stage};
+pub use graph::{Losses, Lost, Stage};
 pub use influence::{Influence, RunDeviation, influences};
 pub use judge::{judge, judge_runs};
 pub use kind::{PlanError, Verified};

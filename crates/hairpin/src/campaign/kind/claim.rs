@@ -4,7 +4,7 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use super::{Knobs, Same};
-use crate::campaign::graph::{Deaths, Executions, Outcome, Wanted};
+use crate::campaign::graph::{Executions, Losses, Outcome, Wanted};
 use crate::campaign::{Case, CaseNumber, Scenario, Stop, Timed};
 use crate::simulation::SimulationError;
 use crate::trajectory::{Track, TrackError};
@@ -41,7 +41,7 @@ pub(in crate::campaign) trait Claim {
     fn solver(&self) -> Result<Box<dyn Solver + '_>, String>;
 
     /// What becomes of the candidates for legs, in `graphs` graphs at most.
-    fn lost(&self, graphs: u64) -> Deaths;
+    fn lost(&self, graphs: u64) -> Losses;
 
     /// What plans `case` over other waypoints.
     ///
