@@ -156,7 +156,6 @@ fn results_that_do_not_get_to_stdout_are_told() {
         &["max-load", "--graph", "costs.csv"],
         &["judge", "calm"],
         &["judge", "calm", "--json"],
-        &["show", "quadrotor"],
         &["completions", "bash"],
     ] {
         let (code, error) = poured(folder.path(), "/dev/full", arguments);
