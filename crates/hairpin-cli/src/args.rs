@@ -50,8 +50,8 @@ pub(crate) struct Arguments {
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 within spec, 1 violation or finding, 2 wrong input, 3 nothing feasible, 4 executor failed, \
-5 inconclusive; and beside verdicts 70 a mistake of hairpin's own, 74 a result that could
-not be written, 130 interrupted (--resume goes on)";
+5 inconclusive; and beside verdicts 70 a mistake of hairpin's own, 74 a result that could not be \
+written, 130 interrupted (--resume goes on)";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
