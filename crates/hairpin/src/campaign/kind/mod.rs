@@ -1,15 +1,15 @@
 //! The one seam between jobs and kinds of robots: what a kind answers, and nothing else that tells kinds apart.
 //!
-//! A job (generate, execute, judge, verify, shrink, explain, the report) asks a [`Kind`] and never which one it is. A
+//! A job (generate, execute, judge, verify, shrink, explain, the report) asks a `Kind` and never which one it is. A
 //! kind answers in a room of its own (`flight`, `drive`, `arm`), and is chosen once, where a resolved scenario becomes
 //! a [`Setup`](super::Setup). Its questions come in three groups, so that what is proven, what is carried out and what
 //! is told stay apart:
 //!
 //! | trait | asks |
 //! | --- | --- |
-//! | [`Claim`] | what is searched, planned and proven; what was lost, and what would help |
-//! | [`Act`] | who carries a mission out, for how long, and what may stand in its way |
-//! | [`Say`] | names, words and pictures, and what a run is measured against |
+//! | `Claim` | what is searched, planned and proven; what was lost, and what would help |
+//! | `Act` | who carries a mission out, for how long, and what may stand in its way |
+//! | `Say` | names, words and pictures, and what a run is measured against |
 //!
 //! What one kind alone has (an arm's graph, a quadrotor's rotors) is asked of its own setup, by the verbs that are
 //! about nothing else: [`Setup::own`](super::Setup::own).
