@@ -50,7 +50,8 @@ pub(crate) struct Arguments {
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 within spec, 1 violation or finding, 2 wrong input, 3 nothing feasible, 4 executor failed, \
-5 inconclusive; and beside verdicts 70 a mistake of hairpin's own, 130 interrupted (--resume goes on)";
+5 inconclusive; and beside verdicts 70 a mistake of hairpin's own, 74 a result that could not be \
+written, 130 interrupted (--resume goes on)";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -142,7 +143,7 @@ impl Command {
 
 /// Kinds of robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Kind {
+pub(crate) enum RobotKind {
     Quadrotor,
     Arm,
     Rover,
@@ -153,8 +154,8 @@ pub(crate) enum Kind {
 #[derive(Debug, Args)]
 pub(crate) struct Demo {
     /// The robot to show
-    #[arg(value_enum, default_value_t = Kind::Quadrotor)]
-    pub(crate) kind: Kind,
+    #[arg(value_enum, default_value_t = RobotKind::Quadrotor)]
+    pub(crate) kind: RobotKind,
     /// Campaign folder
     #[arg(long, value_name = "DIR", default_value = "hairpin-demo")]
     pub(crate) out: PathBuf,
@@ -174,7 +175,7 @@ pub(crate) struct Demo {
 pub(crate) struct New {
     /// The robot's kind
     #[arg(value_enum)]
-    pub(crate) kind: Kind,
+    pub(crate) kind: RobotKind,
     /// Overwrite the file
     #[arg(long)]
     pub(crate) force: bool,

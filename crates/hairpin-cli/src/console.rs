@@ -1,23 +1,57 @@
 //! The terminal: results on stdout, everything else on stderr, colour and progress only where somebody looks.
 
+use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
+use std::sync::OnceLock;
 
+use hairpin_formats::atomic::is_lost;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tracing_subscriber::filter::LevelFilter;
 
+/// Why results did not get to stdout.
+static LOST: OnceLock<String> = OnceLock::new();
+
 /// A line of results. A reader that has gone away (`| head`) is no mistake: what is left to say is not said.
 pub(crate) fn say(line: &str) {
-    let _ = writeln!(io::stdout().lock(), "{line}");
+    say_text(&format!("{}\n", plain(line)));
 }
 
 /// Text as it is, for pipes.
 pub(crate) fn say_text(text: &str) {
-    let _ = io::stdout().lock().write_all(text.as_bytes());
+    let mut stdout = io::stdout().lock();
+    if let Err(cause) = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush())
+        && is_lost(&cause)
+    {
+        LOST.get_or_init(|| cause.to_string());
+    }
+}
+
+/// Why results did not get to stdout, where some did not: no space is left, or the device failed.
+pub(crate) fn lost() -> Option<&'static str> {
+    LOST.get().map(String::as_str)
 }
 
 /// A line beside the results.
 pub(crate) fn warn(line: &str) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    let _ = writeln!(io::stderr().lock(), "{}", plain(line));
+}
+
+/// Lines that have colours of their own, where somebody sees them.
+pub(crate) fn warn_in_colour(lines: &str) {
+    let _ = writeln!(io::stderr().lock(), "{lines}");
+}
+
+/// `text` with what would command the terminal written out: names come from files, and from whoever made these.
+fn plain(text: &str) -> Cow<'_, str> {
+    let commands = |c: char| c.is_control() && c != '\n' && c != '\t';
+    if !text.contains(commands) {
+        return text.into();
+    }
+    let mut out = String::with_capacity(text.len() + 8);
+    for c in text.chars() {
+        if commands(c) { out.extend(c.escape_default()) } else { out.push(c) }
+    }
+    out.into()
 }
 
 /// Whether `NO_COLOR` (no-color.org) allows colour on stderr and somebody sees it.

@@ -30,11 +30,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     let json = parsed.command.json();
     // A panic has told its sentence already; it must not look like a verdict.
-    match catch_unwind(|| command(parsed)) {
+    exit::all_said(match catch_unwind(|| command(parsed)) {
         Ok(Ok(code)) => code,
         Ok(Err(problem)) => exit::tell(&problem, json),
         Err(_) => OUR_MISTAKE,
-    }
+    })
 }
 
 /// Help and version on stdout with 0, wrong usage on stderr with 2, as clap has it; machines get the latter as an

@@ -51,7 +51,7 @@ fn a_full_disk_is_told_and_costs_no_file_that_was_whole() {
         &[&SMALL[..], &["--out", "elsewhere"]].concat(),
     ] {
         let (code, error) = cramped(folder.path(), 0, arguments);
-        assert_eq!(code, Some(2), "{arguments:?}: {error}");
+        assert_eq!(code, Some(74), "{arguments:?}: {error}");
         assert!(error.contains("cannot write ") && error.contains("File too large"), "{arguments:?}: {error}");
     }
     assert!(!folder.path().join("quadrotor.toml").exists());
@@ -68,7 +68,7 @@ fn a_disk_that_fills_up_leaves_a_campaign_that_goes_on() {
     for blocks in [4, 400, 2000] {
         let arguments = [&SMALL[..], &["--out", "full", "--resume"]].concat();
         let (code, error) = cramped(folder.path(), blocks, &arguments);
-        assert_eq!(code, Some(2), "{blocks} blocks: {error}");
+        assert_eq!(code, Some(74), "{blocks} blocks: {error}");
         assert!(error.contains("cannot write full/") && error.contains("File too large"), "{blocks} blocks: {error}");
         kept.push(error);
     }
@@ -106,7 +106,8 @@ fn what_is_no_file_is_written_to_and_never_replaced() {
     assert_eq!(fs::read(folder.path().join("far/target.csv")).unwrap(), expected);
 
     if cfg!(target_os = "linux") {
-        refused(folder.path(), &[&simulate[..], &["/dev/full"]].concat(), &["cannot write /dev/full: No space left"]);
+        let (code, _, error) = run(folder.path(), &[&simulate[..], &["/dev/full"]].concat());
+        assert!(code == 74 && error.contains("cannot write /dev/full: No space left"), "{code:?}: {error}");
         assert!(fs::metadata("/dev/full").unwrap().file_type().is_char_device());
     }
 }
@@ -131,4 +132,35 @@ fn a_folder_in_the_place_of_a_file_is_told() {
         fs::remove_dir_all(broken).unwrap();
     }
     assert_eq!(json(folder.path(), &["verify", "calm"])["checked"], 4);
+}
+
+/// Runs with stdout at `place`; the exit code and stderr.
+fn poured(folder: &Path, place: &str, arguments: &[&str]) -> (Option<i32>, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
+    let stdout = fs::OpenOptions::new().write(true).open(place).unwrap();
+    let output = command.current_dir(folder).args(arguments).stdout(stdout).output().unwrap();
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn results_that_do_not_get_to_stdout_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("queries.csv"), "id,x,y,yaw,k0,kf\n0,4,1,0.5,0,0\n1,5,0,0,0,0\n").unwrap();
+    fs::write(folder.path().join("costs.csv"), "0,1,2\n1,0,3\n2,3,0\n").unwrap();
+    run(folder.path(), &[&SMALL[..], &["--out", "calm"]].concat());
+    for arguments in [
+        &["schema", "scenario"][..],
+        &["steer", "generic", "--queries", "queries.csv"],
+        &["steer", "generic", "--to", "4,1,0.5"],
+        &["max-load", "--graph", "costs.csv"],
+        &["judge", "calm"],
+        &["judge", "calm", "--json"],
+        &["completions", "bash"],
+    ] {
+        let (code, error) = poured(folder.path(), "/dev/full", arguments);
+        assert!(code == Some(74) && error.contains("stdout: No space left"), "{arguments:?}: {code:?}: {error}");
+    }
+    // Nobody listens, and nothing is lost.
+    assert_eq!(poured(folder.path(), "/dev/null", &["schema", "scenario"]).0, Some(0));
 }

@@ -264,3 +264,24 @@ fn a_stopped_search_of_an_arms_graph_is_done_again() {
     run(here, &[&asked[..], &["--out", "killed", "--resume"]].concat());
     assert_same(&here.join("calm"), &here.join("killed"));
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn what_it_was_started_to_ignore_it_ignores() {
+    let folder = tempfile::tempdir().unwrap();
+    let calm = run(folder.path(), &[&SMALL[..], &["--out", "calm"]].concat()).0;
+    // As `nohup` starts it, and shells start what runs in the background.
+    for signal in ["HUP", "INT"] {
+        let mut shell = Command::new("sh");
+        let script = format!("trap '' {signal}; exec \"$@\"");
+        shell.current_dir(folder.path()).args(["-c", &script, "sh", env!("CARGO_BIN_EXE_hairpin")]);
+        shell.args([&SMALL[..], &["--out", signal]].concat()).stdout(Stdio::null()).stderr(Stdio::piped());
+        let child = shell.spawn().unwrap();
+        let begun = folder.path().join(signal);
+        wait_until("the first file", || files_in(&begun) > 0);
+        Command::new("kill").args([&format!("-{signal}"), &child.id().to_string()]).status().unwrap();
+        let (code, error) = end(child);
+        assert!(code == Some(calm) && !error.contains("stopping"), "{signal}: {code:?}: {error}");
+        assert_same(&folder.path().join("calm"), &begun);
+    }
+}

@@ -192,3 +192,42 @@ fn repro_files_that_mean_nothing() {
     fs::write(folder.path().join("edited.json"), sound.to_string()).unwrap();
     assert_eq!(run(folder.path(), &["replay", "edited.json"]).0, 1);
 }
+
+#[test]
+fn names_begin_no_lines_and_command_no_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = "robot.name=\"anafi\\nPASS 9/9\\u001b[2J\"";
+    let (_, said, error) = run(folder.path(), &[&SMALL[..], &["--set", name, "--out", "named"]].concat());
+    for text in [said, error, run(folder.path(), &["judge", "named"]).1, run(folder.path(), &["verify", "named"]).1] {
+        assert!(!text.contains('\u{1b}') && !text.lines().any(|line| line.starts_with("PASS 9/9")), "{text}");
+    }
+}
+
+#[test]
+fn rows_of_which_none_is_a_query_are_wrong_input() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("wrong.csv"), "id,x,y,yaw,k0,kf\n0,abc,1,0,0,0\n1,1,,2,0,0\n").unwrap();
+    let steer = ["steer", "generic", "--queries", "wrong.csv"];
+    let (code, _, error) = run(folder.path(), &steer);
+    assert!(code == 2 && error.contains("wrong.csv, line 2"), "{code}: {error}");
+    let (code, said, _) = run(folder.path(), &[&steer[..], &["--json"]].concat());
+    assert!(code == 2 && said.contains("\"exit_code\":2"), "{code}: {said}");
+    fs::write(folder.path().join("some.csv"), "id,x,y,yaw,k0,kf\n0,abc,1,0,0,0\n1,4,1,0.5,0,0\n").unwrap();
+    assert_eq!(run(folder.path(), &["steer", "generic", "--queries", "some.csv"]).0, 0);
+}
+
+#[test]
+fn names_that_mean_two_things_and_folders_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "hairpin = 1\nrobot = \"anafi\"\n[world]\nsize_m = [30, 30, 30]\n[task]\nstart_m = [10, 10, 10]\n\
+                end_m = [20, 20, 20]\nlength = 3\n[generate.search]\ncases = 1\nwaypoints = 5\n";
+    fs::write(folder.path().join("quadrotor"), text).unwrap();
+    let (_, _, error) = run(folder.path(), &["generate", "quadrotor", "--out", "own"]);
+    assert!(error.contains("`quadrotor` is a file here and a shipped name: the file is taken"), "{error}");
+    assert!(fs::read_to_string(folder.path().join("own/scenario.toml")).unwrap().contains("length = 3"));
+    refused(folder.path(), &["stress", "own"], &["`own` is a folder", "hairpin execute own", "own/scenario.toml"]);
+    fs::create_dir(folder.path().join("empty")).unwrap();
+    refused(folder.path(), &["stress", "empty"], &["`empty` is a folder", "no scenario.toml"]);
+    fs::write(folder.path().join("x.ulg"), b"ULog\x01\x12\x35\x01").unwrap();
+    refused(folder.path(), &["import", "x.ulg"], &["x.ulg", "import reads RAPID modules"]);
+}

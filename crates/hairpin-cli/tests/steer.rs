@@ -187,7 +187,7 @@ fn every_status_and_the_start_value() {
     assert_eq!(statuses(&["--time-limit-ms", "0"]), ["time_limit", "invalid", "invalid", "infeasible", "invalid"]);
     let start = batch("id,x,y,yaw,k0,kf\nq,4,2,0.5,0,0\n", &["--time-limit-ms", "0"]);
     assert!(start[0]["kind"] == "arc" && number(&start[0], "length_m") > 0.0, "{start:?}");
-    let invalid = batch("id,x,y,yaw,k0,kf\nq,4,nan,0.5,0,0\n", &[]);
+    let invalid = batch("id,x,y,yaw,k0,kf\nq,4,nan,0.5,0,0\nr,4,2,0.5,0,0\n", &[]);
     assert_eq!((invalid[0]["limit"].as_str(), invalid[0]["length_m"].as_str()), ("y", ""));
 }
 

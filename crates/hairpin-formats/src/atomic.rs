@@ -2,7 +2,7 @@
 //! (a pipe, a device) is written to where it stands.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -19,6 +19,21 @@ pub struct WriteError {
     pub path: PathBuf,
     /// The system's answer: a full disk, a folder that is not writable, ….
     pub cause: io::Error,
+}
+
+impl WriteError {
+    /// Whether the place was there and did not take the bytes, as [`is_lost`] has it.
+    pub fn is_lost(&self) -> bool {
+        is_lost(&self.cause)
+    }
+}
+
+/// Whether a write failed although its place was there: no space (ENOSPC, EDQUOT), a file too large (EFBIG), or the
+/// device failed (EIO). What cannot even be opened is the user's to mend, and a reader that has gone away no mistake.
+pub fn is_lost(cause: &io::Error) -> bool {
+    const EIO: i32 = 5;
+    let full = matches!(cause.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge);
+    full || (cfg!(unix) && cause.raw_os_error() == Some(EIO))
 }
 
 /// Writes `bytes` to `path`.

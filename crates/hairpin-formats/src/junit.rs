@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::Duration;
 
-use hairpin::campaign::{CaseResult, Status, report};
+use hairpin::campaign::{CaseNumber, CaseResult, Status, report};
 use quick_junit::{NonSuccessKind, Property, Report, TestCase, TestCaseStatus, TestSuite};
 
 use crate::atomic::{self, WriteError};
@@ -25,7 +25,7 @@ pub struct Suite {
     /// Name and value.
     pub properties: Vec<(String, String)>,
     /// What is worse than a baseline, in sentences, by case: a failure even within spec.
-    pub regressions: BTreeMap<usize, Vec<String>>,
+    pub regressions: BTreeMap<CaseNumber, Vec<String>>,
     /// Saved cases that were run before: name and result of each. They make a suite of their own, where there are any.
     pub saved: Vec<(String, CaseResult)>,
 }
@@ -42,12 +42,13 @@ pub fn text(suite: &Suite, results: &[CaseResult]) -> String {
     let mut ordered: Vec<&CaseResult> = results.iter().collect();
     ordered.sort_by_key(|result| result.case);
     for result in &ordered {
-        tests.add_test_case(test_case(suite, id(result.case), result));
+        tests.add_test_case(test_case(suite, result.case.to_string(), result));
     }
-    let judged: BTreeSet<usize> = results.iter().map(|result| result.case).collect();
-    let missing = (0..).filter(|number| !judged.contains(number)).take(suite.asked.saturating_sub(results.len()));
+    let judged: BTreeSet<CaseNumber> = results.iter().map(|result| result.case).collect();
+    let missing =
+        (0..).map(CaseNumber).filter(|number| !judged.contains(number)).take(suite.asked.saturating_sub(results.len()));
     for number in missing {
-        tests.add_test_case(named(suite, id(number), not_found(suite, results.is_empty())));
+        tests.add_test_case(named(suite, number.to_string(), not_found(suite, results.is_empty())));
     }
     let mut report = Report::new("hairpin");
     report.add_test_suite(tests);
@@ -126,10 +127,6 @@ fn not_passed(kind: NonSuccessKind, ty: &str, message: &str, more: &[String]) ->
         status.set_description(clean(&more.join("\n")));
     }
     status
-}
-
-fn id(number: usize) -> String {
-    format!("{number:04}")
 }
 
 fn named(suite: &Suite, name: String, status: TestCaseStatus) -> TestCase {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use hairpin::campaign::arm::ArmSetup;
-use hairpin::campaign::{Case, Run};
+use hairpin::campaign::{Case, CaseNumber, Run};
 use thiserror::Error;
 
 use crate::controller_log::{self, ControllerLog, ControllerLogError};
@@ -117,7 +117,7 @@ pub fn find(
     pattern: &str,
     cases: &[Case],
     repeat: usize,
-) -> Result<BTreeMap<(usize, usize), PathBuf>, Vec<RecordingError>> {
+) -> Result<BTreeMap<(CaseNumber, usize), PathBuf>, Vec<RecordingError>> {
     let path = folder.join(pattern);
     let parent = path.parent().unwrap_or(folder).to_owned();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -129,7 +129,7 @@ pub fn find(
     };
     files.sort_unstable();
     let mut wrong = Vec::new();
-    let mut numbered: BTreeMap<usize, BTreeMap<u64, PathBuf>> =
+    let mut numbered: BTreeMap<CaseNumber, BTreeMap<u64, PathBuf>> =
         cases.iter().map(|case| (case.number, BTreeMap::new())).collect();
     for file in files {
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -137,7 +137,7 @@ pub fn find(
         let Some(stem) = stem.filter(|_| name.len() >= before.len() + after.len()) else { continue };
         let found = run_of(stem).and_then(|(case, run)| match numbered.get_mut(&case) {
             Some(runs) => Ok((runs, run)),
-            None => Err(format!("there is no case {case:04}")),
+            None => Err(format!("there is no case {case}")),
         });
         match found {
             Err(why) => wrong.push(RecordingError::Name { path: file, stem: stem.into(), why }),
@@ -151,7 +151,7 @@ pub fn find(
     for (case, runs) in &numbered {
         if runs.len() != repeat {
             let count = RecordingError::Count {
-                case: format!("{case:04}"),
+                case: case.to_string(),
                 found: runs.len(),
                 expected: repeat,
                 pattern: path.display().to_string(),
@@ -169,7 +169,7 @@ pub fn find(
 }
 
 /// `0003-1` as case 3, run 1; `0003` as its run 0.
-fn run_of(stem: &str) -> Result<(usize, u64), String> {
+fn run_of(stem: &str) -> Result<(CaseNumber, u64), String> {
     const RULE: &str = "`*` must stand for CASE-RUN or CASE, such as 0003-1";
     let digits = |text: &str, least: usize| text.len() >= least && text.bytes().all(|byte| byte.is_ascii_digit());
     let (case, run) = stem.split_once('-').unwrap_or((stem, "0"));
@@ -207,7 +207,8 @@ mod tests {
 
     #[test]
     fn names_are_runs() {
-        assert_eq!((run_of("0003-1"), run_of("0003"), run_of("10000-12")), (Ok((3, 1)), Ok((3, 0)), Ok((10_000, 12))));
+        let run = |case, run| Ok((CaseNumber(case), run));
+        assert_eq!((run_of("0003-1"), run_of("0003"), run_of("10000-12")), (run(3, 1), run(3, 0), run(10_000, 12)));
         for stem in ["", "3", "003-1", "0003-", "0003-a", "x0003", "0003-1-2", "0003-99999999999999999999"] {
             assert!(run_of(stem).is_err(), "{stem}");
         }

@@ -5,7 +5,7 @@ mod out_campaign;
 use std::fs;
 use std::path::Path;
 
-use hairpin::campaign::Witness;
+use hairpin::campaign::{CaseNumber, Witness};
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
 use hairpin_formats::parquet::runs::RunFacts;
 use out_campaign::{campaign, planned};
@@ -72,17 +72,17 @@ fn the_same_campaign_is_the_same_bytes() {
 fn a_run_is_valid_only_if_it_is_whole_and_the_one_named() {
     let place = tempfile::tempdir().unwrap();
     let folder = written(place.path());
-    assert!(folder.has_valid_run(0, 1));
-    assert!(folder.has_valid_run(1, 0), "a failed executor is an answer as well");
-    assert!(!folder.has_valid_run(0, 9));
-    let bytes = fs::read(folder.run_path(0, 1)).unwrap();
-    fs::write(folder.run_path(0, 1), &bytes[..bytes.len() / 2]).unwrap();
-    assert!(!folder.has_valid_run(0, 1));
-    fs::copy(folder.run_path(0, 0), folder.run_path(0, 1)).unwrap();
-    assert!(!folder.has_valid_run(0, 1), "run 0 under the name of run 1");
+    assert!(folder.has_valid_run(CaseNumber(0), 1));
+    assert!(folder.has_valid_run(CaseNumber(1), 0), "a failed executor is an answer as well");
+    assert!(!folder.has_valid_run(CaseNumber(0), 9));
+    let bytes = fs::read(folder.run_path(CaseNumber(0), 1)).unwrap();
+    fs::write(folder.run_path(CaseNumber(0), 1), &bytes[..bytes.len() / 2]).unwrap();
+    assert!(!folder.has_valid_run(CaseNumber(0), 1));
+    fs::copy(folder.run_path(CaseNumber(0), 0), folder.run_path(CaseNumber(0), 1)).unwrap();
+    assert!(!folder.has_valid_run(CaseNumber(0), 1), "run 0 under the name of run 1");
     assert!(matches!(
-        folder.read_runs(0, &folder.read_runs_table().unwrap()),
-        Err(FolderError::Contradiction { case: 0, .. })
+        folder.read_runs(CaseNumber(0), &folder.read_runs_table().unwrap()),
+        Err(FolderError::Contradiction { case: CaseNumber(0), .. })
     ));
 }
 
@@ -159,7 +159,11 @@ fn a_new_campaign_takes_nothing_over_and_keeps_missions() {
     drop(CampaignFolder::create(place.path(), Existing::Resume).unwrap());
     assert!(place.path().join("executions/0000-0.parquet").exists());
     let folder = CampaignFolder::create(place.path(), Existing::Replace).unwrap();
-    assert!(!folder.has_cases() && !folder.run_path(0, 0).exists() && !folder.profile_path(0).exists());
+    assert!(
+        !folder.has_cases()
+            && !folder.run_path(CaseNumber(0), 0).exists()
+            && !folder.profile_path(CaseNumber(0)).exists()
+    );
     assert!(place.path().join("missions/0000.plan").exists());
 }
 

@@ -6,7 +6,7 @@ use hairpin::campaign::Stop;
 use hairpin::campaign::explain::{self, Explanation};
 use hairpin::judgement::Verdict;
 use hairpin::math::simd::Simd;
-use hairpin_formats::scenario::setup_for;
+use hairpin_formats::scenario::{setup_for, shadowed};
 
 use crate::sets::Set;
 use crate::{Deadline, Problem, Watch};
@@ -39,6 +39,7 @@ impl Default for ExplainSettings {
 /// # Errors
 /// A scenario with mistakes; it was asked to stop.
 pub fn explain(settings: &ExplainSettings, watch: &dyn Watch) -> Result<(Explanation, Verdict), Problem> {
+    shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
     let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
     let (began, deadline) = (Instant::now(), Deadline::after(settings.time_limit_s));
     let clock = || began.elapsed().as_secs_f64();
@@ -61,6 +62,6 @@ mod tests {
         let settings = ExplainSettings { scenario: "demo-quadrotor".into(), graphs: 1, ..ExplainSettings::default() };
         let (found, verdict) = explain(&settings, &Unwatched).unwrap();
         assert_eq!(verdict.exit_code, 0, "{verdict:?}");
-        assert!(found.deaths.left > 0 && found.deaths.asked >= found.deaths.left);
+        assert!(found.losses.left > 0 && found.losses.asked >= found.losses.left);
     }
 }

@@ -1,7 +1,7 @@
 //! A program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking module.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::feasibility::program::{Checked, Surroundings, check};
@@ -89,10 +89,22 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
         return clocked(settings, &bytes);
     }
     let options = Options { procedure: settings.procedure.as_deref(), ..Options::default() };
-    let module = rapid::read(&bytes, &options).map_err(|error| Problem::of_file(&settings.file, error))?;
+    let module = rapid::read(&bytes, &options).map_err(|error| match is_rapid_by_name(&settings.file) {
+        true => Problem::of_file(&settings.file, error),
+        false => Problem::of_file(&settings.file, format!("{error}; {READS}")),
+    })?;
     let followed = settings.check.as_ref().map(|follower| follow(follower, &module)).transpose()?;
     let findings = findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))
+}
+
+/// What `import` reads, for whoever brings something else.
+const READS: &str = "import reads RAPID modules (.mod, .sys, .prg) and logs that arc_clock.mod wrote";
+
+/// Whether a file is called as RAPID's are.
+fn is_rapid_by_name(file: &Path) -> bool {
+    let ending = file.extension().unwrap_or_default().to_ascii_lowercase();
+    ["mod", "sys", "prg"].iter().any(|rapid| ending == *rapid)
 }
 
 /// Makes the table of costs of what a clocking module logged.
@@ -168,7 +180,7 @@ fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFinding> {
             from: finding.from.clone(),
             to: finding.to.clone(),
             reason: finding.reason(parts),
-            sentence: finding.told(parts),
+            sentence: finding.in_words(parts),
         };
         found.push((finding.index, new));
     }

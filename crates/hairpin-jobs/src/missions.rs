@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, Tally};
+use hairpin::campaign::{Case, CaseNumber, Tally};
 use hairpin_formats::waypoints::{Mission, environment_path};
 
 use crate::generate::keep_cases;
@@ -28,8 +28,8 @@ pub(crate) fn adopt(work: &Work, missions: &[Mission], watch: &dyn Watch) -> Res
         let seed = hairpin::math::random::case_seed(work.setup.scenario.seed(), number as u64);
         let same = known.iter().find(|case| case.waypoints == *waypoints);
         let mut case = match same {
-            Some(case) => Case { number, seed, ..case.clone() },
-            None => Case::bare(number, seed, waypoints.clone()),
+            Some(case) => Case { number: CaseNumber(number), seed, ..case.clone() },
+            None => Case::bare(CaseNumber(number), seed, waypoints.clone()),
         };
         if let Some(environment) = environment {
             let file = environment_path(Path::new(""), name);

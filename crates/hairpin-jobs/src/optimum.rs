@@ -8,7 +8,7 @@
 use std::fs;
 
 use hairpin::campaign::arm::{ArmGraph, ArmSetup};
-use hairpin::campaign::{Case, Stop};
+use hairpin::campaign::{Case, CaseNumber, Stop};
 use hairpin_formats::folder::{ARCS, GRAPH, OPTIMUM, graph_decimals};
 use hairpin_formats::{arcs, atomic, costs};
 use serde::Serialize;
@@ -53,7 +53,7 @@ pub(crate) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case]
 /// Where the first case claims to be optimal and there is none, that is a finding.
 pub(crate) fn verify(work: &Work, arm: &ArmSetup, cases: &[Case]) -> Option<Optimum> {
     // A choice of cases may have left it out.
-    let first = cases.first().filter(|case| case.number == 0)?;
+    let first = cases.first().filter(|case| case.number == CaseNumber(0))?;
     let claimed = first.gap().is_some_and(|gap| gap <= 1e-9);
     let path = work.folder.file(OPTIMUM);
     if !path.is_file() {

@@ -18,6 +18,9 @@ pub enum Problem {
     /// Anything else that the user gave, or the machine refused.
     #[error("{0}")]
     Input(String),
+    /// A result could not be written: no space is left, or the device failed.
+    #[error("{0}")]
+    Lost(String),
     /// A program of the user's that was to execute something failed.
     #[error("{0}")]
     Executor(String),
@@ -52,12 +55,12 @@ impl From<Mistake> for Problem {
 
 impl From<FolderError> for Problem {
     fn from(error: FolderError) -> Self {
-        Self::input(error)
+        if error.is_lost() { Self::Lost(error.to_string()) } else { Self::input(error) }
     }
 }
 
 impl From<WriteError> for Problem {
     fn from(error: WriteError) -> Self {
-        Self::input(error)
+        if error.is_lost() { Self::Lost(error.to_string()) } else { Self::input(error) }
     }
 }

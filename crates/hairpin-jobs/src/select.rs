@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
-use hairpin::campaign::{Case, CaseResult, Grid, Tally, vary};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Grid, Tally, vary};
 use rayon::prelude::*;
 
 use crate::judge::judge_cases;
@@ -131,12 +131,16 @@ fn same_place(a: &Path, b: &Path) -> bool {
 }
 
 /// The results that have measures, by case.
-fn measured(results: &[CaseResult]) -> HashMap<usize, &CaseResult> {
+fn measured(results: &[CaseResult]) -> HashMap<CaseNumber, &CaseResult> {
     results.iter().filter(|result| result.measures.is_some()).map(|result| (result.case, result)).collect()
 }
 
 /// Every case with its result and the cells that its runs met, where it has them.
-fn candidates(work: &Work, cases: &[Case], measured: &HashMap<usize, &CaseResult>) -> Result<Vec<Candidate>, Problem> {
+fn candidates(
+    work: &Work,
+    cases: &[Case],
+    measured: &HashMap<CaseNumber, &CaseResult>,
+) -> Result<Vec<Candidate>, Problem> {
     let table = work.folder.read_runs_table()?;
     let grid = Grid::of(&work.setup);
     cases
@@ -168,7 +172,7 @@ fn write(
     let setup = work.setup.changed(scenario.with_vary(varied))?;
     let new = make(&settings.out, setup, settings.if_there)?;
     let (old, there) = (&work.folder, &new.folder);
-    let numbers: BTreeSet<usize> = chosen.iter().map(|case| case.number).collect();
+    let numbers: BTreeSet<CaseNumber> = chosen.iter().map(|case| case.number).collect();
     old.copy_cases(&numbers.iter().copied().collect::<Vec<_>>(), there)?;
     let table = old.read_runs_table()?;
     there.write_new_cases(chosen, 0)?;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::arm::{GraphAgain, graph_of};
-use hairpin::campaign::{self, Case, Evidence};
+use hairpin::campaign::{self, Case, CaseNumber, Evidence};
 use hairpin::verification::Finding;
 use rayon::prelude::*;
 
@@ -33,7 +33,7 @@ pub enum Answer {
     /// It was checked.
     Checked {
         /// Number of the case.
-        case: usize,
+        case: CaseNumber,
         /// Whether it has a witness.
         witness: bool,
         /// The largest end error over its legs, m.

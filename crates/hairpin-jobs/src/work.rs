@@ -6,7 +6,7 @@ use hairpin::campaign::{Scenario, Setup, vary};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::{CampaignFolder, Existing};
 use hairpin_formats::recordings;
-use hairpin_formats::scenario::{read_setup, setup_for};
+use hairpin_formats::scenario::{read_setup, setup_for, shadowed};
 
 use crate::differences::differences;
 use crate::sets::Set;
@@ -65,6 +65,7 @@ pub struct Planned {
 /// A scenario with mistakes; a folder that holds something else; a score of the user's that does not load.
 pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, Problem> {
     let path = settings.out.clone().unwrap_or_else(|| default_folder(&settings.scenario));
+    shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
     let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
     let setup = with_logs_from(setup, &path, Path::new(&settings.scenario))?;
     setup.scenario.check_search()?;

@@ -73,7 +73,7 @@ impl Answer<'_> {
         let runs = cases.flat_map(|case| case.runs.iter().map(move |run| (case, run)));
         runs.map(|(case, run)| {
             json!({
-                "case": format!("{:04}", case.case), "run": run.run, "offset_s": run.offset_s,
+                "case": case.case.to_string(), "run": run.run, "offset_s": run.offset_s,
                 "spread_s": run.offset_spread_s, "removed": run.offset_removed,
             })
         })
@@ -191,7 +191,7 @@ pub(super) fn point_to_explain(work: &Work, exit_code: u8) {
 fn worst(result: &CaseResult) -> Value {
     let measures = result.measures.as_ref();
     json!({
-        "case": format!("{:04}", result.case),
+        "case": result.case.to_string(),
         "run": result.run,
         "status": result.status.word(),
         "max_deviation_m": measures.map(|m| m.max_deviation),

@@ -8,21 +8,21 @@ use hairpin_jobs::work::make;
 use hairpin_jobs::{Deadline, Problem, Watch};
 
 use super::{new, stress};
-use crate::args::{Demo, Kind};
+use crate::args::{Demo, RobotKind};
 use crate::settings;
 
 /// Runs the command.
 pub(crate) fn run(demo: &Demo, watch: &dyn Watch) -> Result<u8, Problem> {
     let scenario = match demo.kind {
-        Kind::Quadrotor => "demo-quadrotor",
-        Kind::Rover => "demo-rover",
-        Kind::Car | Kind::DifferentialDrive => {
+        RobotKind::Quadrotor => "demo-quadrotor",
+        RobotKind::Rover => "demo-rover",
+        RobotKind::Car | RobotKind::DifferentialDrive => {
             return Err(Problem::input(format!(
                 "{0} has no demo of its own: hairpin stress {0}",
                 new::word(demo.kind)
             )));
         }
-        Kind::Arm => "demo-arm",
+        RobotKind::Arm => "demo-arm",
     };
     settings::take_threads(&demo.threads);
     let setup = setup_for(scenario, &[])?.with_simd(settings::simd(&demo.kernels));

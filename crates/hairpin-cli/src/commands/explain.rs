@@ -1,6 +1,6 @@
 //! `hairpin explain`: why nothing, or little, is feasible.
 
-use hairpin::campaign::Deaths;
+use hairpin::campaign::Losses;
 use hairpin_jobs::explain::{ExplainSettings, explain};
 use hairpin_jobs::{Problem, Watch, sets};
 use serde_json::json;
@@ -27,20 +27,20 @@ pub(crate) fn run(asked: &Explain, watch: &dyn Watch) -> Result<u8, Problem> {
         object["exit_code"] = json!(verdict.exit_code);
         console::say(&object.to_string());
     } else {
-        tell(&found.deaths);
+        tell(&found.losses);
         console::say(&verdict.sentence);
     }
     Ok(verdict.exit_code)
 }
 
-fn tell(deaths: &Deaths) {
-    let share = |count: u64| format!("{:.1} %", 100.0 * count as f64 / deaths.asked.max(1) as f64);
+fn tell(losses: &Losses) {
+    let share = |count: u64| format!("{:.1} %", 100.0 * count as f64 / losses.asked.max(1) as f64);
     let header = ["lost at", "limit", "candidates", "share"].map(str::to_owned).to_vec();
-    let rows = deaths
+    let rows = losses
         .lost
         .iter()
         .map(|lost| vec![lost.stage.word().to_owned(), lost.limit.clone(), lost.count.to_string(), share(lost.count)]);
-    let left = vec!["–".into(), "feasible, with a way on".into(), deaths.left.to_string(), share(deaths.left)];
+    let left = vec!["–".into(), "feasible, with a way on".into(), losses.left.to_string(), share(losses.left)];
     console::say(&console::table(&std::iter::once(header).chain(rows).chain([left]).collect::<Vec<_>>()));
-    console::say(&format!("of {} {}\n", deaths.asked, deaths.of));
+    console::say(&format!("of {} {}\n", losses.asked, losses.of));
 }

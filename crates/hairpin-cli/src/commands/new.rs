@@ -6,7 +6,7 @@ use hairpin_formats::{atomic, template};
 use hairpin_jobs::Problem;
 use serde_json::json;
 
-use crate::args::{Kind, New};
+use crate::args::{New, RobotKind};
 use crate::console;
 use crate::exit::DONE;
 
@@ -29,12 +29,12 @@ pub(crate) fn run(new: &New) -> Result<u8, Problem> {
 }
 
 /// The kind's name in files.
-pub(crate) fn word(kind: Kind) -> &'static str {
+pub(crate) fn word(kind: RobotKind) -> &'static str {
     match kind {
-        Kind::Quadrotor => "quadrotor",
-        Kind::Arm => "arm",
-        Kind::Rover => "rover",
-        Kind::Car => "car",
-        Kind::DifferentialDrive => "differential-drive",
+        RobotKind::Quadrotor => "quadrotor",
+        RobotKind::Arm => "arm",
+        RobotKind::Rover => "rover",
+        RobotKind::Car => "car",
+        RobotKind::DifferentialDrive => "differential-drive",
     }
 }

@@ -1,5 +1,6 @@
 //! `hairpin shrink`: a violating case reduced to the shortest feasible one that still violates.
 
+use hairpin::campaign::CaseNumber;
 use hairpin::campaign::report::violation;
 use hairpin::judgement::Violation;
 use hairpin_jobs::shrink::{ShrinkSettings, Shrinking, ShrunkCase};
@@ -14,7 +15,7 @@ use crate::{console, settings};
 pub(crate) fn run(asked: &Shrink, watch: &dyn Watch) -> Result<u8, Problem> {
     let shrinking = Shrinking::open(ShrinkSettings {
         folder: asked.folder.clone(),
-        case: asked.case,
+        case: CaseNumber(asked.case),
         budget: asked.budget,
         time_limit_s: asked.time_limit,
         out: asked.out.clone(),

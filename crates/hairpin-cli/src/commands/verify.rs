@@ -38,7 +38,7 @@ fn of_case(answer: &Answer) -> Value {
         Answer::NothingClaimed => Value::Null,
         Answer::Checked { case, position_m, findings, .. } => {
             let position = (*position_m < f64::MAX).then_some(*position_m);
-            json!({ "case": format!("{case:04}"), "end_error_m": position, "findings": findings })
+            json!({ "case": case.to_string(), "end_error_m": position, "findings": findings })
         }
     }
 }
@@ -46,7 +46,7 @@ fn of_case(answer: &Answer) -> Value {
 fn in_words(verified: &Verified) {
     for answer in verified.failed() {
         if let Answer::Checked { case, findings, .. } = answer {
-            console::say(&format!("case {case:04}: {}", findings.join("; ")));
+            console::say(&format!("case {case}: {}", findings.join("; ")));
         }
     }
     let (all, checked) = (verified.answers.len(), verified.checked());

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use hairpin::campaign::{Mission, Scenario, Setup};
+use hairpin::campaign::{CaseNumber, Mission, Scenario, Setup};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Ended, Flight};
 use nalgebra::Point3;
 use serde_json::json;
@@ -26,7 +26,7 @@ fn mission(number: usize) -> Mission {
     }))
     .unwrap();
     Mission {
-        case: format!("{number:04}"),
+        case: CaseNumber(number).to_string(),
         run: 0,
         seed: u64::MAX - number as u64,
         setup: Setup::new(scenario).unwrap(),

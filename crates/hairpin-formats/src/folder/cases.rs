@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{Case, Witness};
+use hairpin::campaign::{Case, CaseNumber, Witness};
 use hairpin::trajectory::Track;
 use hairpin::trajectory::program::Program;
 
@@ -125,28 +125,28 @@ impl CampaignFolder {
         Ok(rapid::write(&path, &text)?)
     }
 
-    fn read_program(&self, path: &Path, case: usize) -> Result<Program, FolderError> {
+    fn read_program(&self, path: &Path, case: CaseNumber) -> Result<Program, FolderError> {
         let refuse = |what: String| FolderError::Program { path: path.into(), what };
         let bytes = std::fs::read(path).map_err(|cause| FolderError::Unreadable { path: path.into(), cause })?;
         let module = rapid::read(&bytes, &rapid::Options::default()).map_err(|error| refuse(error.to_string()))?;
         let unclear = module.unclear_line.map(|line| format!("line {line} is not understood"));
         let mistake = module.mistakes.first().map(|found| format!("line {}: {}", found.at.line, found.what));
         match unclear.or(mistake) {
-            Some(what) => Err(refuse(format!("case {case:04}: {what}"))),
+            Some(what) => Err(refuse(format!("case {case}: {what}"))),
             None => module.program.checked().map_err(|error| refuse(error.to_string())),
         }
     }
 
     /// `programs/CASE.mod`.
-    pub fn program_path(&self, case: usize) -> PathBuf {
-        self.path.join("programs").join(format!("{case:04}.mod"))
+    pub fn program_path(&self, case: CaseNumber) -> PathBuf {
+        self.path.join("programs").join(format!("{case}.mod"))
     }
 
     /// Writes the planned motion of a case, sampled.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn write_planned(&self, case: usize, planned: &Track) -> Result<(), FolderError> {
+    pub fn write_planned(&self, case: CaseNumber, planned: &Track) -> Result<(), FolderError> {
         Ok(track::write(&self.trajectory_path(case), planned)?)
     }
 
@@ -154,22 +154,22 @@ impl CampaignFolder {
     ///
     /// # Errors
     /// The file is missing or broken.
-    pub fn read_planned(&self, case: usize) -> Result<Track, FolderError> {
+    pub fn read_planned(&self, case: CaseNumber) -> Result<Track, FolderError> {
         Ok(track::read(&self.trajectory_path(case))?)
     }
 
     /// `profiles/CASE.parquet`.
-    pub fn profile_path(&self, case: usize) -> PathBuf {
-        self.path.join("profiles").join(format!("{case:04}.parquet"))
+    pub fn profile_path(&self, case: CaseNumber) -> PathBuf {
+        self.path.join("profiles").join(format!("{case}.parquet"))
     }
 
     /// `trajectories/CASE.parquet`.
-    pub fn trajectory_path(&self, case: usize) -> PathBuf {
-        self.path.join("trajectories").join(format!("{case:04}.parquet"))
+    pub fn trajectory_path(&self, case: CaseNumber) -> PathBuf {
+        self.path.join("trajectories").join(format!("{case}.parquet"))
     }
 
     /// `CASE.planned.csv`: the planned motion as text, exported.
-    pub fn planned_csv_path(&self, case: usize) -> PathBuf {
-        self.path.join(format!("{case:04}.planned.csv"))
+    pub fn planned_csv_path(&self, case: CaseNumber) -> PathBuf {
+        self.path.join(format!("{case}.planned.csv"))
     }
 }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use hairpin::campaign::CaseNumber;
 use hairpin::campaign::learn::NAME;
 
 use super::{ARCS, BEST_SO_FAR, CampaignFolder, FolderError, GRAPH, OPTIMUM, REASONS};
@@ -13,7 +14,7 @@ impl CampaignFolder {
     ///
     /// # Errors
     /// A file cannot be read or written.
-    pub fn copy_cases(&self, cases: &[usize], there: &Self) -> Result<(), FolderError> {
+    pub fn copy_cases(&self, cases: &[CaseNumber], there: &Self) -> Result<(), FolderError> {
         for &case in cases {
             copy(&self.trajectory_path(case), &there.trajectory_path(case))?;
             for run in (0..).take_while(|run| self.run_path(case, *run).exists()) {
@@ -24,7 +25,7 @@ impl CampaignFolder {
             }
         }
         // What is proven of the first program is of no use without it.
-        let optimum = cases.contains(&0).then_some(OPTIMUM);
+        let optimum = cases.contains(&CaseNumber(0)).then_some(OPTIMUM);
         for name in [NAME, BEST_SO_FAR, GRAPH, REASONS, ARCS].into_iter().chain(optimum) {
             copy(&self.file(name), &there.file(name))?;
         }

@@ -3,12 +3,24 @@
 use std::io;
 use std::path::PathBuf;
 
+use hairpin::campaign::CaseNumber;
 use thiserror::Error;
 
 use super::names::SCENARIO;
-use crate::atomic::WriteError;
+use crate::atomic::{WriteError, is_lost};
 use crate::parquet::TableError;
 use crate::scenario;
+
+impl FolderError {
+    /// Whether results were lost for want of space, or because the device failed.
+    pub fn is_lost(&self) -> bool {
+        match self {
+            Self::Write(error) => error.is_lost(),
+            Self::Copy { cause, .. } => is_lost(cause),
+            _ => false,
+        }
+    }
+}
 
 /// Why a campaign folder cannot be used.
 #[derive(Debug, Error)]
@@ -67,12 +79,12 @@ pub enum FolderError {
         path: PathBuf,
     },
     /// Files of one folder contradict each other.
-    #[error("{}: case {case:04} {what}", path.display())]
+    #[error("{}: case {case} {what}", path.display())]
     Contradiction {
         /// The file.
         path: PathBuf,
         /// Number of the case.
-        case: usize,
+        case: CaseNumber,
         /// What is wrong with it.
         what: &'static str,
     },

@@ -27,14 +27,15 @@ impl CampaignFolder {
         let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to)));
         for (from, to) in pairs {
             if let Some(refusal) = graph.reachability.refusal(from, to) {
-                let sentence = refusal.told(&names).to_string().replace('"', "\"\"");
+                let sentence = refusal.in_words(&names).to_string().replace('"', "\"\"");
                 writeln!(reasons, "{from},{to},\"{sentence}\"").expect("strings take everything");
             }
         }
         atomic::write(&self.file(GRAPH), table.as_bytes())?;
         atomic::write(&self.file(REASONS), reasons.as_bytes())?;
         let Some(triples) = &graph.arcs else { return Ok(()) };
-        let refused = triples.refused.iter().map(|(points, refusal)| (*points, Err(refusal.told(&names).to_string())));
+        let refused =
+            triples.refused.iter().map(|(points, refusal)| (*points, Err(refusal.in_words(&names).to_string())));
         let mut all: Vec<([usize; 3], Result<i64, String>)> =
             triples.free.iter().map(|(points, cost)| (*points, Ok(*cost))).chain(refused).collect();
         all.sort_by_key(|(points, _)| *points);

@@ -48,8 +48,9 @@ use crate::atomic::{self, WriteError};
 
 pub use error::FolderError;
 pub use graph::graph_decimals;
+pub(crate) use names::SCENARIO;
 pub use names::{ARCS, BASELINE, BEST_SO_FAR, GRAPH, MOVES, OPTIMUM, REASONS};
-use names::{COVERAGE, GENERATION, INFLUENCE, RESULTS, RUNS, SCENARIO, WAYPOINTS};
+use names::{COVERAGE, GENERATION, INFLUENCE, RESULTS, RUNS, WAYPOINTS};
 
 const LOCK: &str = ".lock";
 const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];

@@ -1,6 +1,6 @@
 //! What the files of a campaign folder are called.
 
-pub(super) const SCENARIO: &str = "scenario.toml";
+pub(crate) const SCENARIO: &str = "scenario.toml";
 pub(super) const GENERATION: &str = "generation.json";
 pub(super) const RESULTS: &str = "results.parquet";
 pub(super) const WAYPOINTS: &str = "waypoints.parquet";

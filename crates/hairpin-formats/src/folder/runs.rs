@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use hairpin::campaign::Run;
+use hairpin::campaign::{CaseNumber, Run};
 
 use super::{CampaignFolder, FolderError, RUNS};
 use crate::atomic;
@@ -20,7 +20,7 @@ impl CampaignFolder {
     }
 
     /// Whether this run was executed and can be read: what `--resume` skips.
-    pub fn has_valid_run(&self, case: usize, run: usize) -> bool {
+    pub fn has_valid_run(&self, case: CaseNumber, run: usize) -> bool {
         let found = runs::read_run(&self.run_path(case, run));
         found.is_ok_and(|(_, facts)| facts.is_some_and(|facts| facts.case == case && facts.run == run))
     }
@@ -37,7 +37,7 @@ impl CampaignFolder {
     ///
     /// # Errors
     /// A file is broken.
-    pub fn read_reruns(&self, case: usize) -> Result<Vec<Run>, FolderError> {
+    pub fn read_reruns(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
         let mut all = Vec::new();
         loop {
             let path = self.rerun_path(case, all.len());
@@ -53,18 +53,18 @@ impl CampaignFolder {
     }
 
     /// `reruns/CASE-K.parquet`.
-    pub fn rerun_path(&self, case: usize, again: usize) -> PathBuf {
-        self.path.join("reruns").join(format!("{case:04}-{again}.parquet"))
+    pub fn rerun_path(&self, case: CaseNumber, again: usize) -> PathBuf {
+        self.path.join("reruns").join(format!("{case}-{again}.parquet"))
     }
 
     /// Writes `executor-CASE-RUN.log`: why a program of the user's failed to fly a run, and the end of its stderr.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn write_executor_log(&self, case: usize, run: usize, failed: &Failed) -> Result<(), FolderError> {
+    pub fn write_executor_log(&self, case: CaseNumber, run: usize, failed: &Failed) -> Result<(), FolderError> {
         let Failed { failure, stderr } = failed;
         let text = format!("{failure}\n\n--- the end of its stderr ---\n{stderr}");
-        Ok(atomic::write(&self.file(&format!("executor-{case:04}-{run}.log")), text.as_bytes())?)
+        Ok(atomic::write(&self.file(&format!("executor-{case}-{run}.log")), text.as_bytes())?)
     }
 
     /// Writes `runs.parquet`, once all runs are executed.
@@ -80,7 +80,11 @@ impl CampaignFolder {
     ///
     /// # Errors
     /// As [`Self::read_run`]; a run of the table without its file.
-    pub fn read_runs(&self, case: usize, table: &BTreeMap<(usize, usize), RunFacts>) -> Result<Vec<Run>, FolderError> {
+    pub fn read_runs(
+        &self,
+        case: CaseNumber,
+        table: &BTreeMap<(CaseNumber, usize), RunFacts>,
+    ) -> Result<Vec<Run>, FolderError> {
         let mut all = Vec::new();
         while let Some(run) = self.read_run(case, all.len(), table)? {
             all.push(run);
@@ -98,9 +102,9 @@ impl CampaignFolder {
     /// The file is broken; nothing is known about the run; it says that it is another one.
     pub fn read_run(
         &self,
-        case: usize,
+        case: CaseNumber,
         run: usize,
-        table: &BTreeMap<(usize, usize), RunFacts>,
+        table: &BTreeMap<(CaseNumber, usize), RunFacts>,
     ) -> Result<Option<Run>, FolderError> {
         let path = self.run_path(case, run);
         if !path.exists() {
@@ -120,7 +124,7 @@ impl CampaignFolder {
     ///
     /// # Errors
     /// The file is broken.
-    pub fn read_runs_table(&self) -> Result<BTreeMap<(usize, usize), RunFacts>, FolderError> {
+    pub fn read_runs_table(&self) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>, FolderError> {
         let path = self.file(RUNS);
         if !path.exists() {
             return Ok(BTreeMap::new());
@@ -129,12 +133,12 @@ impl CampaignFolder {
     }
 
     /// `executions/CASE-RUN.parquet`.
-    pub fn run_path(&self, case: usize, run: usize) -> PathBuf {
-        self.path.join("executions").join(format!("{case:04}-{run}.parquet"))
+    pub fn run_path(&self, case: CaseNumber, run: usize) -> PathBuf {
+        self.path.join("executions").join(format!("{case}-{run}.parquet"))
     }
 
     /// `CASE-RUN.csv`: the flight as text, exported.
-    pub fn run_csv_path(&self, case: usize, run: usize) -> PathBuf {
-        self.path.join(format!("{case:04}-{run}.csv"))
+    pub fn run_csv_path(&self, case: CaseNumber, run: usize) -> PathBuf {
+        self.path.join(format!("{case}-{run}.csv"))
     }
 }

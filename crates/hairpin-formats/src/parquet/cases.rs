@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow::array::{Float64Array, Int64Array, StringArray};
-use hairpin::campaign::{Case, SeenLeg};
+use hairpin::campaign::{Case, CaseNumber, SeenLeg};
 use nalgebra::Point3;
 
 use super::table::{Columns, Table, TableError};
@@ -49,7 +49,7 @@ pub fn write(path: &Path, cases: &[Case]) -> Result<(), WriteError> {
 ///
 /// # Errors
 /// Missing columns, values that are not finite, a waypoint that is missing or twice there.
-pub fn read(path: &Path) -> Result<BTreeMap<usize, Route>, TableError> {
+pub fn read(path: &Path) -> Result<BTreeMap<CaseNumber, Route>, TableError> {
     let table = Table::read(path)?;
     let cases = table.cases()?;
     let numbers = table.counts("waypoint")?;
@@ -59,7 +59,7 @@ pub fn read(path: &Path) -> Result<BTreeMap<usize, Route>, TableError> {
     let saw = saw.iter().map(|name| table.numbers_or_none(name)).collect::<Result<Vec<_>, _>>()?;
     let mut order: Vec<usize> = (0..table.rows()).collect();
     order.sort_by_key(|&row| (cases[row], numbers[row]));
-    let mut routes: BTreeMap<usize, Route> = BTreeMap::new();
+    let mut routes: BTreeMap<CaseNumber, Route> = BTreeMap::new();
     for row in order {
         let route = routes.entry(cases[row]).or_default();
         let next = route.waypoints.len();

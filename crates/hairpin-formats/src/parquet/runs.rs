@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow::array::{Float64Array, Float64Builder, Int64Array, ListArray, ListBuilder, StringArray};
-use hairpin::campaign::Run;
+use hairpin::campaign::{CaseNumber, Run};
 use hairpin::trajectory::{Ended, Flight, Track};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -23,7 +23,7 @@ pub const EXECUTOR_FAILED: &str = "executor-failed";
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunFacts {
     /// Number of the case.
-    pub case: usize,
+    pub case: CaseNumber,
     /// 0: nominal.
     pub run: usize,
     /// Why it ended, in the words of [`Ended::word`], or [`EXECUTOR_FAILED`].
@@ -93,7 +93,7 @@ pub fn read_run(path: &Path) -> Result<(Track, Option<RunFacts>), TableError> {
 /// The file cannot be written.
 pub fn write_facts(path: &Path, runs: &[RunFacts]) -> Result<(), WriteError> {
     let mut columns = Columns::default();
-    let ids = runs.iter().map(|run| Some(format!("{:04}", run.case)));
+    let ids = runs.iter().map(|run| Some(run.case.to_string()));
     columns.push("case", Arc::new(ids.collect::<StringArray>()));
     columns.push("run", Arc::new(runs.iter().map(|run| run.run as i64).collect::<Int64Array>()));
     columns.push("ended", Arc::new(runs.iter().map(|run| Some(run.ended.as_str())).collect::<StringArray>()));

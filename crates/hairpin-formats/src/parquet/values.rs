@@ -3,6 +3,7 @@
 use arrow::array::{Array, ArrayRef, AsArray};
 use arrow::compute::cast;
 use arrow::datatypes::{DataType, Float64Type, Int64Type, UInt64Type};
+use hairpin::campaign::CaseNumber;
 
 use super::table::{Table, TableError};
 
@@ -98,9 +99,9 @@ impl Table {
     }
 
     /// Case ids as numbers: `0007`, or 7 where a data frame has turned the column into integers.
-    pub(crate) fn cases(&self) -> Result<Vec<usize>, TableError> {
+    pub(crate) fn cases(&self) -> Result<Vec<CaseNumber>, TableError> {
         if self.column("case")?.data_type().is_numeric() {
-            return self.counts("case");
+            return Ok(self.counts("case")?.into_iter().map(CaseNumber).collect());
         }
         let texts = self.texts("case")?;
         let number = |(row, text): (usize, &String)| {

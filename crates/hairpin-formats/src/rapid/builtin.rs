@@ -4,7 +4,7 @@ use hairpin::math::rotation::{euler_from_quaternion, quaternion_from_euler};
 use hairpin::trajectory::program::unit_quaternion;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use super::kinds::Kind;
+use super::kinds::DataKind;
 use super::value::{Value, pose};
 
 /// Evaluated arguments of a function.
@@ -33,7 +33,7 @@ impl Arguments {
         self.named(name).map_or(Some(0.0), Value::number)
     }
 
-    fn record(&self, place: usize, kind: Kind) -> Option<Value> {
+    fn record(&self, place: usize, kind: DataKind) -> Option<Value> {
         self.placed.get(place)?.clone().into_kind(kind).ok().filter(|value| *value != Value::Unknown)
     }
 }
@@ -79,12 +79,12 @@ pub(super) fn call(name: &str, arguments: &Arguments) -> Value {
         "reltool" => rel_tool(arguments),
         "orientzyx" => arguments.numbers::<3>(0).map(|[z, y, x]| {
             let [x, y, z] = [x, y, z].map(f64::to_radians);
-            Value::numbers(Kind::Orient, &quaternion_from_euler(x, y, z))
+            Value::numbers(DataKind::Orient, &quaternion_from_euler(x, y, z))
         }),
         "eulerzyx" => euler_zyx(arguments),
-        "norient" => arguments.record(0, Kind::Orient).and_then(|value| {
+        "norient" => arguments.record(0, DataKind::Orient).and_then(|value| {
             let turn = UnitQuaternion::try_new(quaternion(&value)?, 1e-9)?;
-            Some(Value::numbers(Kind::Orient, &[turn.w, turn.i, turn.j, turn.k]))
+            Some(Value::numbers(DataKind::Orient, &[turn.w, turn.i, turn.j, turn.k]))
         }),
         "posemult" | "poseinv" | "posevect" => poses(name, arguments),
         "dotprod" | "distance" | "vectmagn" => vectors(name, arguments),
@@ -123,7 +123,7 @@ fn scalar(name: &str, arguments: &Arguments) -> Option<f64> {
 
 /// `Offs(p, x, y, z)`: moved in the work object.
 fn offs(arguments: &Arguments) -> Option<Value> {
-    let mut target = arguments.record(0, Kind::RobTarget)?;
+    let mut target = arguments.record(0, DataKind::RobTarget)?;
     let by = arguments.numbers::<3>(1)?;
     shift(&mut target, &Vector3::from(by))?;
     Some(target)
@@ -131,7 +131,7 @@ fn offs(arguments: &Arguments) -> Option<Value> {
 
 /// `RelTool(p, x, y, z \Rx \Ry \Rz)`: moved in the tool, then turned about its x, its new y and its new z.
 fn rel_tool(arguments: &Arguments) -> Option<Value> {
-    let mut target = arguments.record(0, Kind::RobTarget)?;
+    let mut target = arguments.record(0, DataKind::RobTarget)?;
     let by = Vector3::from(arguments.numbers::<3>(1)?);
     let turn = quaternion(target.component("rot")?)?;
     let turn = unit_quaternion([turn.w, turn.i, turn.j, turn.k]).ok()?;
@@ -141,7 +141,7 @@ fn rel_tool(arguments: &Arguments) -> Option<Value> {
         let (sin, cos) = libm::sincos(0.5 * arguments.optional(name)?.to_radians());
         turned *= Quaternion::from_parts(cos, axis * sin);
     }
-    *target.component("rot")? = Value::numbers(Kind::Orient, &[turned.w, turned.i, turned.j, turned.k]);
+    *target.component("rot")? = Value::numbers(DataKind::Orient, &[turned.w, turned.i, turned.j, turned.k]);
     Some(target)
 }
 
@@ -162,7 +162,7 @@ fn quaternion(orient: &Value) -> Option<Quaternion<f64>> {
 }
 
 fn euler_zyx(arguments: &Arguments) -> Option<Value> {
-    let turn = quaternion(&arguments.record(0, Kind::Orient)?)?;
+    let turn = quaternion(&arguments.record(0, DataKind::Orient)?)?;
     let turn = unit_quaternion([turn.w, turn.i, turn.j, turn.k]).ok()?;
     let [x, y, z] = euler_from_quaternion(&[turn.w, turn.i, turn.j, turn.k]);
     let asked = ["x", "y", "z"].into_iter().zip([x, y, z]).find(|(name, _)| arguments.named(name).is_some());
@@ -170,19 +170,20 @@ fn euler_zyx(arguments: &Arguments) -> Option<Value> {
 }
 
 fn poses(name: &str, arguments: &Arguments) -> Option<Value> {
-    let first = pose(&arguments.record(0, Kind::Pose)?).ok()?;
+    let first = pose(&arguments.record(0, DataKind::Pose)?).ok()?;
     let result = match name {
         "poseinv" => first.inverse(),
-        "posemult" => first * pose(&arguments.record(1, Kind::Pose)?).ok()?,
+        "posemult" => first * pose(&arguments.record(1, DataKind::Pose)?).ok()?,
         _ => {
-            let point = vector(&arguments.record(1, Kind::Pos)?)? / 1000.0;
+            let point = vector(&arguments.record(1, DataKind::Pos)?)? / 1000.0;
             let moved = first.transform_point(&point.into()) * 1000.0;
-            return Some(Value::numbers(Kind::Pos, moved.coords.as_slice()));
+            return Some(Value::numbers(DataKind::Pos, moved.coords.as_slice()));
         }
     };
     let (p, q) = (result.translation.vector * 1000.0, result.rotation);
-    let parts = vec![Value::numbers(Kind::Pos, p.as_slice()), Value::numbers(Kind::Orient, &[q.w, q.i, q.j, q.k])];
-    Some(Value::Record { kind: Some(Kind::Pose), parts })
+    let parts =
+        vec![Value::numbers(DataKind::Pos, p.as_slice()), Value::numbers(DataKind::Orient, &[q.w, q.i, q.j, q.k])];
+    Some(Value::Record { kind: Some(DataKind::Pose), parts })
 }
 
 fn vector(pos: &Value) -> Option<Vector3<f64>> {
@@ -191,11 +192,11 @@ fn vector(pos: &Value) -> Option<Vector3<f64>> {
 }
 
 fn vectors(name: &str, arguments: &Arguments) -> Option<Value> {
-    let first = vector(&arguments.record(0, Kind::Pos)?)?;
+    let first = vector(&arguments.record(0, DataKind::Pos)?)?;
     if name == "vectmagn" {
         return Some(Value::Num(first.norm()));
     }
-    let second = vector(&arguments.record(1, Kind::Pos)?)?;
+    let second = vector(&arguments.record(1, DataKind::Pos)?)?;
     Some(Value::Num(if name == "dotprod" { first.dot(&second) } else { (first - second).norm() }))
 }
 

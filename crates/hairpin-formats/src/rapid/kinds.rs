@@ -2,7 +2,7 @@
 
 /// A kind of data that is understood.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum DataKind {
     Num,
     Bool,
     Text,
@@ -21,15 +21,15 @@ pub(super) enum Kind {
     ZoneData,
 }
 
-use Kind::{
+use DataKind::{
     Bool, ConfData, ExtJoint, JointTarget, LoadData, Num, Orient, Pos, Pose, RobJoint, RobTarget, SpeedData, Text,
     ToolData, WobjData, ZoneData,
 };
 
 /// Name of a component and its kind.
-type Component = (&'static str, Kind);
+type Component = (&'static str, DataKind);
 
-const NAMES: [(&str, Kind); 17] = [
+const NAMES: [(&str, DataKind); 17] = [
     ("num", Num),
     ("dnum", Num),
     ("bool", Bool),
@@ -49,7 +49,7 @@ const NAMES: [(&str, Kind); 17] = [
     ("zonedata", ZoneData),
 ];
 
-impl Kind {
+impl DataKind {
     /// The kind of a name in lower case.
     pub(super) fn of(name: &str) -> Option<Self> {
         NAMES.iter().find(|(known, _)| *known == name).map(|(_, kind)| *kind)

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::builtin;
 use super::instructions;
-use super::kinds::Kind;
+use super::kinds::DataKind;
 
 /// Longest name.
 pub const LONGEST_NAME: usize = 32;
@@ -115,7 +115,7 @@ pub fn check_name(name: &str) -> Result<(), NameError> {
     let taken = RESERVED.iter().chain(&TAKEN).any(|word| name.eq_ignore_ascii_case(word))
         || Speed::predefined(name).is_some()
         || Zone::predefined(name).is_some()
-        || Kind::of(&name.to_ascii_lowercase()).is_some()
+        || DataKind::of(&name.to_ascii_lowercase()).is_some()
         || instructions::is_known(&name.to_ascii_lowercase())
         || builtin::is_known(&name.to_ascii_lowercase());
     if taken { Err(NameError::Reserved { name: name.into() }) } else { Ok(()) }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use hairpin::trajectory::program::{PoseTarget, Program, Tool, WorkObject};
 use thiserror::Error;
 
-use super::kinds::Kind;
+use super::kinds::DataKind;
 use super::lex::{At, decode};
 use super::lines::{Class, Line};
 use super::parse::parse;
@@ -207,7 +207,8 @@ fn entry(source: &Source, asked: Option<&str>) -> Result<Option<String>, NoModul
 /// Robtargets as they are declared, arrays element by element.
 fn targets(source: &Source, machine: &Machine<'_>) -> Vec<Declared> {
     let mut found = Vec::new();
-    let robtargets = source.data.iter().filter(|declaration| Kind::of(&declaration.kind) == Some(Kind::RobTarget));
+    let robtargets =
+        source.data.iter().filter(|declaration| DataKind::of(&declaration.kind) == Some(DataKind::RobTarget));
     for declaration in robtargets {
         let Some(variable) = machine.global(&declaration.name) else { continue };
         let mut leaves = Vec::new();

@@ -3,7 +3,7 @@
 use hairpin::trajectory::program::{External, JointTarget, PoseTarget, Speed, Tool, WorkObject, Zone, unit_quaternion};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::kinds::Kind;
+use super::kinds::DataKind;
 
 /// A value; `Unknown` is one that depends on what happens in the cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +14,7 @@ pub(super) enum Value {
     Text(String),
     /// A record, or an aggregate that has no kind yet.
     Record {
-        kind: Option<Kind>,
+        kind: Option<DataKind>,
         parts: Vec<Value>,
     },
     Array(Vec<Value>),
@@ -26,7 +26,7 @@ pub(super) struct Variable {
     /// As it was declared.
     pub(super) name: String,
     /// `None`: a kind that is not followed.
-    pub(super) kind: Option<Kind>,
+    pub(super) kind: Option<DataKind>,
     pub(super) value: Value,
     /// Whether it holds what it was declared with.
     pub(super) untouched: bool,
@@ -40,11 +40,11 @@ const NOT_IN_USE: f64 = 8.9e9;
 
 impl Value {
     /// What a variable of the kind holds before anything is assigned.
-    pub(super) fn initial(kind: Kind) -> Self {
+    pub(super) fn initial(kind: DataKind) -> Self {
         match kind {
-            Kind::Num => Self::Num(0.0),
-            Kind::Bool => Self::Bool(false),
-            Kind::Text => Self::Text(String::new()),
+            DataKind::Num => Self::Num(0.0),
+            DataKind::Bool => Self::Bool(false),
+            DataKind::Text => Self::Text(String::new()),
             record => Self::Record {
                 kind: Some(record),
                 parts: record.components().iter().map(|(_, part)| Self::initial(*part)).collect(),
@@ -53,18 +53,18 @@ impl Value {
     }
 
     /// A record of numbers.
-    pub(super) fn numbers(kind: Kind, numbers: &[f64]) -> Self {
+    pub(super) fn numbers(kind: DataKind, numbers: &[f64]) -> Self {
         Self::Record { kind: Some(kind), parts: numbers.iter().map(|number| Self::Num(*number)).collect() }
     }
 
     /// The same value as one of `kind`: aggregates get it, anything else must have it.
-    pub(super) fn into_kind(self, kind: Kind) -> Result<Self, Unfit> {
+    pub(super) fn into_kind(self, kind: DataKind) -> Result<Self, Unfit> {
         let expected = kind.components();
         match (self, kind) {
             (Self::Unknown, _) => Ok(Self::Unknown),
-            (value @ Self::Num(_), Kind::Num)
-            | (value @ Self::Bool(_), Kind::Bool)
-            | (value @ Self::Text(_), Kind::Text) => Ok(value),
+            (value @ Self::Num(_), DataKind::Num)
+            | (value @ Self::Bool(_), DataKind::Bool)
+            | (value @ Self::Text(_), DataKind::Text) => Ok(value),
             (Self::Record { kind: own, parts }, _) if own == Some(kind) => Ok(Self::Record { kind: own, parts }),
             (Self::Record { kind: None, parts }, _) if !expected.is_empty() && parts.len() == expected.len() => {
                 let parts = parts.into_iter().zip(expected).map(|(part, (_, kind))| part.into_kind(*kind));
@@ -78,7 +78,7 @@ impl Value {
     }
 
     /// The same value for a variable of `kind` with the extents `extents`.
-    pub(super) fn into_declared(self, kind: Kind, extents: &[usize]) -> Result<Self, Unfit> {
+    pub(super) fn into_declared(self, kind: DataKind, extents: &[usize]) -> Result<Self, Unfit> {
         let Some((count, inner)) = extents.split_first() else { return self.into_kind(kind) };
         match self {
             Self::Unknown => Ok(Self::Unknown),

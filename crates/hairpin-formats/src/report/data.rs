@@ -92,7 +92,7 @@ fn case(shown: &Shown) -> Value {
     let measures = shown.result.measures.as_ref();
     let waypoints: Vec<_> = shown.waypoints.iter().map(|p| [round(p.x, 2), round(p.y, 2), round(p.z, 2)]).collect();
     json!({
-        "id": format!("{:04}", shown.result.case),
+        "id": shown.result.case.to_string(),
         "run": shown.result.run,
         "waypoints": waypoints,
         "planned": positions(&shown.planned, &thin(shown.planned.len(), PLANNED, &[])),

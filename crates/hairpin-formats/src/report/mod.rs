@@ -17,7 +17,7 @@ mod worst;
 use std::path::Path;
 
 use hairpin::campaign::report::{self, Pieces, ReportData, shown, worst_first};
-use hairpin::campaign::{Setup, Tally};
+use hairpin::campaign::{CaseNumber, Setup, Tally};
 use hairpin::judgement::{JudgementError, Verdict};
 use thiserror::Error;
 
@@ -37,10 +37,10 @@ pub enum ReportError {
     #[error(transparent)]
     Folder(#[from] FolderError),
     /// A flight in it is none that could be judged.
-    #[error("case {case:04}, run {run}: {cause}")]
+    #[error("case {case}, run {run}: {cause}")]
     Flight {
         /// The case.
-        case: usize,
+        case: CaseNumber,
         /// The run.
         run: usize,
         /// What the judge says.

@@ -17,7 +17,7 @@ pub(super) fn reruns(data: &ReportData) -> String {
             let [value, low, high] = [share.value, share.low, share.high].map(|share| 100.0 * share);
             let (k, n) = (reruns.violated, reruns.of);
             Some(format!(
-                "<tr><th scope=\"row\">{case:04}</th><td>{k} of {n}</td><td>{value:.1} %</td><td>[{low:.1}, {high:.1}]</td></tr>"
+                "<tr><th scope=\"row\">{case}</th><td>{k} of {n}</td><td>{value:.1} %</td><td>[{low:.1}, {high:.1}]</td></tr>"
             ))
         })
         .collect();
@@ -42,7 +42,7 @@ pub(super) fn coverage(data: &ReportData) -> String {
         let bars: String = (0..axis.cells())
             .map(|place| {
                 let met = coverage.cases.keys().filter(|cell| coverage.grid.places(**cell)[number] == place).count();
-                format!("<td>{}: {met} of {cells}</td>", escape(&axis.told(place)))
+                format!("<td>{}: {met} of {cells}</td>", escape(&axis.in_words(place)))
             })
             .collect();
         let unit = if axis.unit.is_empty() { String::new() } else { format!(", {}", axis.unit) };

@@ -20,14 +20,14 @@ pub(super) fn section(data: &ReportData) -> String {
         "<section class=\"panel\" id=\"progress\"><h2>Stress against executions</h2><p class=\"note\">The largest {} executed so far \
          in each of {} graphs, over executions in that graph; one that ended earlier keeps its last. Every rise is in \
          best-so-far.tsv.</p><figure>{drawn}</figure>{}</section>",
-        told(data.stress),
+        in_words(data.stress),
         data.curves.len(),
         rounds(&data.rounds)
     )
 }
 
 /// The stress in words; of a distance, whose least is the worst, with the sign that the numbers have.
-fn told(stress: Stress) -> String {
+fn in_words(stress: Stress) -> String {
     match stress {
         Stress::Clearance => "negative clearance (above 0: so deep in an obstacle)".into(),
         other => other.word().replace('-', " "),
@@ -53,7 +53,7 @@ fn figure(data: &ReportData) -> Option<Figure> {
     Some(Figure {
         title: String::new(),
         x: Axis { label: "executions in a graph".into(), scale: Scale::Linear },
-        y: Axis { label: format!("largest {} so far{unit}", told(data.stress)), scale: Scale::Linear },
+        y: Axis { label: format!("largest {} so far{unit}", in_words(data.stress)), scale: Scale::Linear },
         series: if data.curves.len() > 1 { vec![mean, largest, least] } else { vec![mean] },
     })
 }

@@ -27,7 +27,7 @@ pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
     let height = top.max(side);
     let (full, tall) = (2.0 * width + 2.0 * MARGIN + GAP, height + 2.0 * MARGIN);
     let mut svg = format!(
-        "<svg class=\"views\" viewBox=\"0 0 {full:.0} {tall:.0}\" role=\"img\" aria-label=\"Top and side view of case {:04}\">",
+        "<svg class=\"views\" viewBox=\"0 0 {full:.0} {tall:.0}\" role=\"img\" aria-label=\"Top and side view of case {}\">",
         shown.result.case
     );
     let at = |x0: f64, across: usize, up: usize, span: f64| View {

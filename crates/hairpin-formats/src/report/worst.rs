@@ -13,7 +13,7 @@ pub(super) fn section(data: &ReportData) -> String {
     let Some(worst) = data.shown.first() else { return String::new() };
     let about: String = data.shown.iter().enumerate().map(|(i, shown)| findings(shown, i == 0)).collect();
     let views: String = data.shown.iter().enumerate().map(|(i, shown)| figure(data, shown, i == 0)).collect();
-    let id = format!("{:04}", worst.result.case);
+    let id = worst.result.case.to_string();
     format!(
         "<section class=\"panel\" id=\"flight\"><div class=\"head\"><h2>Case <span id=\"case-id\">{id}</span></h2>\
          <div class=\"pick js\"><button type=\"button\" id=\"before\" aria-label=\"one case less bad\">‹</button>\
@@ -34,7 +34,7 @@ fn option(shown: &Shown, index: usize) -> String {
     let measured = shown.result.measures.as_ref().map(|m| m.max_deviation);
     let deviation = measured.map_or(shown.result.ended.clone(), |d| format!("{} m", number(Some(d))));
     let status = shown.result.status.word();
-    format!("<option value=\"{index}\">{:04} · {deviation} · {status}</option>", shown.result.case)
+    format!("<option value=\"{index}\">{} · {deviation} · {status}</option>", shown.result.case)
 }
 
 /// What is known of a case in words and numbers. All but the first wait for the script to be selected.
@@ -53,7 +53,7 @@ fn findings(shown: &Shown, first: bool) -> String {
     let drawn = if drawn.is_empty() { "nominal values".to_owned() } else { drawn.join(", ") };
     let list: String = findings.iter().map(|finding| format!("<li>{}</li>", escape(finding))).collect();
     format!(
-        "<div class=\"findings\" data-case=\"{:04}\"{}><ul>{list}</ul>\
+        "<div class=\"findings\" data-case=\"{}\"{}><ul>{list}</ul>\
          <p class=\"note\">run {} ({}), {}, score {}</p>{}</div>",
         shown.result.case,
         if first { "" } else { " hidden" },
@@ -67,7 +67,7 @@ fn findings(shown: &Shown, first: bool) -> String {
 
 fn figure(data: &ReportData, shown: &Shown, first: bool) -> String {
     format!(
-        "<figure class=\"case\" data-case=\"{:04}\"{}>{}\
+        "<figure class=\"case\" data-case=\"{}\"{}>{}\
          <figcaption><span class=\"key flown\"></span>{} <span class=\"key planned\"></span>planned \
          <span class=\"key legs\"></span>straight legs <span class=\"key worst\"></span>worst moment</figcaption></figure>",
         shown.result.case,

@@ -16,22 +16,22 @@ use crate::mesh::read_mesh;
 pub(super) fn read(scenario: &mut Scenario, find: &dyn Fn(&str) -> PathBuf) -> (Attachments, Vec<Wrong>) {
     let mut wrong = Vec::new();
     let Named { map, cloud, costs, meshes, score, baseline } = scenario.named();
-    let map = map.and_then(|keys| told(terrain::read(keys, find), &mut wrong));
-    let cloud = cloud.and_then(|(file, checksum)| told(cell::cloud(file, checksum, find), &mut wrong));
-    let costs = costs.and_then(|table| told(cell::costs(table, find), &mut wrong));
+    let map = map.and_then(|keys| noting(terrain::read(keys, find), &mut wrong));
+    let cloud = cloud.and_then(|(file, checksum)| noting(cell::cloud(file, checksum, find), &mut wrong));
+    let costs = costs.and_then(|table| noting(cell::costs(table, find), &mut wrong));
     for keys in meshes {
-        told(mesh(keys, find), &mut wrong);
+        noting(mesh(keys, find), &mut wrong);
     }
-    let baseline = baseline.and_then(|limit| told(baseline::attach(limit, find), &mut wrong));
+    let baseline = baseline.and_then(|limit| noting(baseline::attach(limit, find), &mut wrong));
     let mut attachments = Attachments { map, cloud, costs, baseline, ..Attachments::default() };
     if let Some((key, score)) = score {
-        attachments.model = told(learned::read(key, score, find), &mut wrong).flatten();
-        attachments.user_score = told(user_score::read(key, score, find), &mut wrong).flatten();
+        attachments.model = noting(learned::read(key, score, find), &mut wrong).flatten();
+        attachments.user_score = noting(user_score::read(key, score, find), &mut wrong).flatten();
     }
     (attachments, wrong)
 }
 
-fn told<T>(read: Result<T, Wrong>, wrong: &mut Vec<Wrong>) -> Option<T> {
+fn noting<T>(read: Result<T, Wrong>, wrong: &mut Vec<Wrong>) -> Option<T> {
     read.map_err(|one| wrong.push(one)).ok()
 }
 

@@ -29,9 +29,10 @@ pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
+use crate::folder::SCENARIO;
 use crate::{library, schema};
 use resolve::{Resolver, is_urdf};
-use tree::{Kind, Node};
+use tree::{Node, NodeKind};
 
 /// Reads a scenario, resolves it, and builds what it describes.
 ///
@@ -51,16 +52,27 @@ pub fn read_setup(text: &str, file: &str, base: &Path, sets: &[(String, String)]
     }
 }
 
-/// The setup of the scenario that `name_or_path` means: a shipped scenario's name, a scenario file, or a robot's name
-/// or file, which is put into the shipped scenario of its kind.
+/// What is to be said where a file and something shipped answer to one name; `None` where they do not.
+pub fn shadowed(name_or_path: &str) -> Option<String> {
+    let shipped = library::scenarios().chain(library::robots()).any(|shipped| shipped.name == name_or_path);
+    let both = shipped && Path::new(name_or_path).is_file();
+    both.then(|| format!("`{name_or_path}` is a file here and a shipped name: the file is taken"))
+}
+
+/// The setup of the scenario that `name_or_path` means: a scenario file, a shipped scenario's name, or a robot's file
+/// or name, which is put into the shipped scenario of its kind. A file goes before what is shipped ([`shadowed`]).
 ///
 /// # Errors
 /// As [`read_setup`]; nothing of that name.
 pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup, Report> {
-    if let Some(shipped) = library::scenarios().find(|shipped| shipped.name == name_or_path) {
+    let path = Path::new(name_or_path);
+    let shipped = library::scenarios().find(|shipped| shipped.name == name_or_path);
+    if let Some(shipped) = shipped.filter(|_| !path.is_file()) {
         return read_setup(shipped.text, shipped.path, Path::new(""), sets);
     }
-    let path = Path::new(name_or_path);
+    if path.is_dir() {
+        return Err(folder(name_or_path));
+    }
     let text = if path.is_file() {
         std::fs::read_to_string(path).map_err(|error| unreadable(name_or_path, &error.to_string()))?
     } else {
@@ -114,6 +126,23 @@ pub fn arm_setup_for(cell: &str, points: &Path, sets: &[(String, String)]) -> Re
     }
     let bare = format!("hairpin = 1\nrobot = {}\n[task]\npoints = \"cloud.csv\"\n", quoted(cell));
     read_setup(&bare, cell, Path::new(""), &sets)
+}
+
+/// What whoever names a folder may have meant.
+fn folder(name: &str) -> Report {
+    let mut report = Report::default();
+    let campaign = Path::new(name).join(SCENARIO);
+    let meant = if campaign.is_file() {
+        format!(
+            "a campaign's: `hairpin execute {name}`, `judge {name}` and `report {name}` go on with it, and {} is the scenario \
+             that it was made of",
+            campaign.display()
+        )
+    } else {
+        format!("no campaign's (no {SCENARIO} in it): a scenario is a file or a shipped name")
+    };
+    report.complain_of_file(name, &format!("`{name}` is a folder, and {meant}"));
+    report
 }
 
 fn unreadable(file: &str, why: &str) -> Report {
@@ -175,7 +204,7 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
 /// The robot's kind, where its table says it.
 fn kind_of(root: &Node) -> Option<&str> {
     match &root.get("robot")?.get("kind")?.kind {
-        Kind::Text(kind) => Some(kind),
+        NodeKind::Text(kind) => Some(kind),
         _ => None,
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::report::{Place, Report};
 use super::shape::nearest;
-use super::tree::{self, Kind, Node};
+use super::tree::{self, Node, NodeKind};
 use crate::library::{self, Shipped};
 use crate::urdf::read_urdf;
 
@@ -20,7 +20,7 @@ impl Resolver<'_> {
     /// Puts the robot's table where its name stands.
     pub(super) fn robot(&mut self, root: &mut Node) {
         let Some(node) = root.entries().and_then(|entries| entries.get_mut("robot")) else { return };
-        let Kind::Text(name) = &node.kind else { return };
+        let NodeKind::Text(name) = &node.kind else { return };
         let Some(table) = self.robot_file(name, &node.place) else { return };
         *node = Node { key: node.key.take(), ..table };
     }
@@ -35,12 +35,12 @@ impl Resolver<'_> {
     pub(super) fn world(&mut self, root: &mut Node) {
         let world = root.entries().and_then(|entries| entries.get_mut("world"));
         let Some(entries) = world.and_then(Node::entries) else { return };
-        let Some(Node { kind: Kind::Text(name), place, .. }) = entries.get("base") else { return };
+        let Some(Node { kind: NodeKind::Text(name), place, .. }) = entries.get("base") else { return };
         let shipped: Vec<Shipped> = library::worlds().collect();
         let table = self.file("world.base", name, place, &shipped);
         // A base that cannot be read has been told; its own base would only be told again.
         entries.remove("base");
-        let Some(Node { kind: Kind::Table(base), .. }) = table else { return };
+        let Some(Node { kind: NodeKind::Table(base), .. }) = table else { return };
         for (key, node) in base {
             entries.entry(key).or_insert(node);
         }

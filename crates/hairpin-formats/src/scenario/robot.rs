@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 
 use super::report::{Place, Report};
 use super::resolve::Resolver;
-use super::tree::{Kind, Node};
+use super::tree::{Node, NodeKind};
 use super::{place_of, shape};
 use crate::library::{self, Shipped};
 
@@ -48,7 +48,7 @@ fn read<D: DeserializeOwned + JsonSchema, R>(
     let source = report.add_source(name_or_path, "");
     let asked = Place { source, span: 0..0 };
     let root = Resolver { base: Path::new(""), report }.robot_file(name_or_path, &asked)?;
-    if let Some(Node { kind: Kind::Text(found), place, .. }) = root.get("kind")
+    if let Some(Node { kind: NodeKind::Text(found), place, .. }) = root.get("kind")
         && found != kind
     {
         let message = format!("`kind` = \"{found}\": this robot is no {kind}");

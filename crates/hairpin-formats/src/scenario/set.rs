@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use hairpin::campaign::scenario::KeyPath;
 
 use super::report::{Place, Report};
-use super::tree::{Kind, Node, parse_value};
+use super::tree::{Node, NodeKind, parse_value};
 
 /// Deeper than any key of a scenario.
 const DEEPEST: usize = 16;
@@ -29,7 +29,7 @@ pub(super) fn parse(key: &str, value: &str, report: &mut Report) -> Option<Overr
     let place = Place { source, span: offset..offset + value.len() };
     let mut node = match parse_value(value.trim(), source, offset, key, report) {
         Some(node) => node,
-        None if is_word(value) => Node { kind: Kind::Text(value.trim().into()), place, key: None },
+        None if is_word(value) => Node { kind: NodeKind::Text(value.trim().into()), place, key: None },
         None => {
             let bound = "must be a TOML value: 5, 0.5, true, [1, 2], { step_s = 1.0 }, \"text\", or a bare word";
             report.complain(&place, key, value, bound, format!("--set {key}={value}: the value is no TOML"));
@@ -55,12 +55,12 @@ impl Override {
             let upto = KeyPath::of(&segments[..depth].iter().map(String::as_str).collect::<Vec<_>>());
             let found = at.describe();
             at = match &mut at.kind {
-                Kind::Table(entries) => entries.entry(segment.clone()).or_insert_with(|| Node {
-                    kind: Kind::Table(BTreeMap::new()),
+                NodeKind::Table(entries) => entries.entry(segment.clone()).or_insert_with(|| Node {
+                    kind: NodeKind::Table(BTreeMap::new()),
                     place: place.clone(),
                     key: Some(place.clone()),
                 }),
-                Kind::Array(items) => {
+                NodeKind::Array(items) => {
                     let count = items.len();
                     match segment.parse::<usize>().ok().and_then(|index| items.get_mut(index)) {
                         Some(item) => item,

@@ -6,7 +6,7 @@ mod vary;
 use serde_json::Value;
 
 use super::report::Report;
-use super::tree::{Kind, Node, below};
+use super::tree::{Node, NodeKind, below};
 
 pub(super) use vary::unknown_in_vary;
 
@@ -22,7 +22,7 @@ struct Shape<'s> {
 
 impl<'s> Shape<'s> {
     fn check(&mut self, schema: &'s Value, node: &Node, path: &str) {
-        if matches!(node.kind, Kind::Refused) {
+        if matches!(node.kind, NodeKind::Refused) {
             return;
         }
         let alternatives = self.alternatives(schema);
@@ -32,13 +32,13 @@ impl<'s> Shape<'s> {
         let words: Vec<&str> = alternatives.iter().flat_map(|schema| words(schema)).collect();
         let fits = |schema: &&&Value| is_of_type(type_of(schema), node);
         // What may be a word may be a table, too, such as a cost.
-        let is_table = matches!(node.kind, Kind::Table(_)) && alternatives.iter().any(|schema| fits(&schema));
+        let is_table = matches!(node.kind, NodeKind::Table(_)) && alternatives.iter().any(|schema| fits(&schema));
         // So may what only begins like one, such as a model's file.
         let is_begun = |text: &str| {
             let mut starts = alternatives.iter().filter_map(|schema| schema["pattern"].as_str()?.strip_prefix('^'));
             starts.any(|start| text.starts_with(start))
         };
-        if matches!(&node.kind, Kind::Text(text) if is_begun(text)) {
+        if matches!(&node.kind, NodeKind::Text(text) if is_begun(text)) {
             return;
         }
         if !words.is_empty() && !is_table {
@@ -49,14 +49,14 @@ impl<'s> Shape<'s> {
             return self.complain(node, path, &format!("expected {}", expected.join(" or ")));
         };
         match &node.kind {
-            Kind::Table(_) => {
+            NodeKind::Table(_) => {
                 let tables: Vec<&'s Value> = alternatives.iter().copied().filter(|schema| fits(&schema)).collect();
                 match self.tag(&tables) {
                     Some(tag) if tables.len() > 1 => self.check_tagged(tag, &tables, node, path),
                     _ => self.check_table(most_alike(&tables, node).unwrap_or(schema), node, path),
                 }
             }
-            Kind::Array(items) => {
+            NodeKind::Array(items) => {
                 let count = items.len() as u64;
                 let least = schema["minItems"].as_u64().unwrap_or(0);
                 if count < least || count > schema["maxItems"].as_u64().unwrap_or(u64::MAX) {
@@ -66,7 +66,7 @@ impl<'s> Shape<'s> {
                     self.check(&schema["items"], item, &format!("{path}[{index}]"));
                 }
             }
-            Kind::Integer(n) => self.check_integer(schema, *n, node, path),
+            NodeKind::Integer(n) => self.check_integer(schema, *n, node, path),
             _ => {}
         }
     }
@@ -87,7 +87,7 @@ impl<'s> Shape<'s> {
 
     fn check_word(&mut self, words: &[&str], node: &Node, path: &str) {
         let list = words.join(", ");
-        let Kind::Text(word) = &node.kind else {
+        let NodeKind::Text(word) = &node.kind else {
             return self.complain(node, path, &format!("expected one of {list}"));
         };
         if words.contains(&word.as_str()) {
@@ -124,7 +124,7 @@ impl<'s> Shape<'s> {
             return self.report.complain(place, &key, "", &bound, format!("`{key}` is missing"));
         };
         let chosen = match &said.kind {
-            Kind::Text(word) => alternatives.iter().find(|schema| self.word_of(schema, tag) == Some(word)),
+            NodeKind::Text(word) => alternatives.iter().find(|schema| self.word_of(schema, tag) == Some(word)),
             _ => None,
         };
         match chosen {
@@ -134,7 +134,7 @@ impl<'s> Shape<'s> {
     }
 
     fn check_table(&mut self, schema: &'s Value, node: &Node, path: &str) {
-        let Kind::Table(entries) = &node.kind else { return };
+        let NodeKind::Table(entries) = &node.kind else { return };
         let properties = schema["properties"].as_object();
         for (name, child) in entries {
             let child_path = below(path, name);
@@ -248,19 +248,19 @@ fn type_of(schema: &Value) -> &str {
 
 fn is_of_type(wanted: &str, node: &Node) -> bool {
     match node.kind {
-        Kind::Table(_) => wanted == "object",
-        Kind::Array(_) => wanted == "array",
-        Kind::Text(_) => wanted == "string",
-        Kind::Integer(_) => wanted == "integer" || wanted == "number",
-        Kind::Float(_) => wanted == "number",
-        Kind::Bool(_) => wanted == "boolean",
-        Kind::Date | Kind::Refused => false,
+        NodeKind::Table(_) => wanted == "object",
+        NodeKind::Array(_) => wanted == "array",
+        NodeKind::Text(_) => wanted == "string",
+        NodeKind::Integer(_) => wanted == "integer" || wanted == "number",
+        NodeKind::Float(_) => wanted == "number",
+        NodeKind::Bool(_) => wanted == "boolean",
+        NodeKind::Date | NodeKind::Refused => false,
     }
 }
 
 /// Of tables that nothing tells apart the first that knows most of the keys.
 fn most_alike<'s>(tables: &[&'s Value], node: &Node) -> Option<&'s Value> {
-    let Kind::Table(entries) = &node.kind else { return None };
+    let NodeKind::Table(entries) = &node.kind else { return None };
     let known =
         |schema: &Value| entries.iter().filter(|(name, _)| schema["properties"].get(name.as_str()).is_some()).count();
     tables.iter().copied().rev().max_by_key(|schema| known(schema))

@@ -11,14 +11,14 @@ use super::report::{Place, Report};
 /// A value and where it stands.
 #[derive(Debug, Clone)]
 pub(super) struct Node {
-    pub(super) kind: Kind,
+    pub(super) kind: NodeKind,
     pub(super) place: Place,
     /// Where its key stands.
     pub(super) key: Option<Place>,
 }
 
 #[derive(Debug, Clone)]
-pub(super) enum Kind {
+pub(super) enum NodeKind {
     Table(BTreeMap<String, Node>),
     Array(Vec<Node>),
     Text(String),
@@ -64,7 +64,7 @@ impl Reader<'_> {
         Place { source: self.source, span: span.start + self.offset..span.end + self.offset }
     }
 
-    fn table(&mut self, table: &DeTable<'_>, path: &str) -> Kind {
+    fn table(&mut self, table: &DeTable<'_>, path: &str) -> NodeKind {
         let mut entries = BTreeMap::new();
         for (key, value) in table {
             let name = key.get_ref().to_string();
@@ -73,24 +73,24 @@ impl Reader<'_> {
             node.key = Some(place);
             entries.insert(name, node);
         }
-        Kind::Table(entries)
+        NodeKind::Table(entries)
     }
 
     fn value(&mut self, value: &Spanned<DeValue<'_>>, path: &str) -> Node {
         let place = self.place(value);
         let kind = match value.get_ref() {
-            DeValue::String(text) => Kind::Text(text.to_string()),
+            DeValue::String(text) => NodeKind::Text(text.to_string()),
             DeValue::Integer(n) => match i128::from_str_radix(n.as_str(), n.radix()) {
-                Ok(n) => Kind::Integer(n),
+                Ok(n) => NodeKind::Integer(n),
                 Err(_) => self.refuse(&place, path, n.as_str(), "a whole number of at most 64 bits"),
             },
             DeValue::Float(x) => match x.as_str().parse::<f64>() {
-                Ok(x) if x.is_finite() => Kind::Float(x),
+                Ok(x) if x.is_finite() => NodeKind::Float(x),
                 _ => self.refuse(&place, path, x.as_str(), "a finite number"),
             },
-            DeValue::Boolean(b) => Kind::Bool(*b),
-            DeValue::Datetime(_) => Kind::Date,
-            DeValue::Array(items) => Kind::Array(
+            DeValue::Boolean(b) => NodeKind::Bool(*b),
+            DeValue::Datetime(_) => NodeKind::Date,
+            DeValue::Array(items) => NodeKind::Array(
                 items.iter().enumerate().map(|(i, item)| self.value(item, &format!("{path}[{i}]"))).collect(),
             ),
             DeValue::Table(table) => self.table(table, path),
@@ -98,10 +98,10 @@ impl Reader<'_> {
         Node { kind, place, key: None }
     }
 
-    fn refuse(&mut self, place: &Place, path: &str, value: &str, bound: &str) -> Kind {
+    fn refuse(&mut self, place: &Place, path: &str, value: &str, bound: &str) -> NodeKind {
         let message = format!("`{path}` = {value}: must be {bound}");
         self.report.complain(place, path, value, &format!("must be {bound}"), message);
-        Kind::Refused
+        NodeKind::Refused
     }
 }
 
@@ -110,8 +110,8 @@ impl Node {
     pub(super) fn nearest(&self, segments: &[String]) -> (&Node, bool) {
         let Some((first, rest)) = segments.split_first() else { return (self, true) };
         let child = match &self.kind {
-            Kind::Table(entries) => entries.get(first),
-            Kind::Array(items) => first.parse::<usize>().ok().and_then(|index| items.get(index)),
+            NodeKind::Table(entries) => entries.get(first),
+            NodeKind::Array(items) => first.parse::<usize>().ok().and_then(|index| items.get(index)),
             _ => None,
         };
         child.map_or((self, false), |child| child.nearest(rest))
@@ -120,7 +120,7 @@ impl Node {
     /// The entry `key` of a table.
     pub(super) fn get(&self, key: &str) -> Option<&Node> {
         match &self.kind {
-            Kind::Table(entries) => entries.get(key),
+            NodeKind::Table(entries) => entries.get(key),
             _ => None,
         }
     }
@@ -128,7 +128,7 @@ impl Node {
     /// The same for changes.
     pub(super) fn entries(&mut self) -> Option<&mut BTreeMap<String, Node>> {
         match &mut self.kind {
-            Kind::Table(entries) => Some(entries),
+            NodeKind::Table(entries) => Some(entries),
             _ => None,
         }
     }
@@ -136,29 +136,29 @@ impl Node {
     /// What stands there, in words.
     pub(super) fn describe(&self) -> String {
         match &self.kind {
-            Kind::Table(_) => "a table".into(),
-            Kind::Array(items) => format!("an array of {}", items.len()),
-            Kind::Text(text) => format!("the text {text:?}"),
-            Kind::Integer(n) => n.to_string(),
-            Kind::Float(x) => format!("{x:?}"),
-            Kind::Bool(b) => b.to_string(),
-            Kind::Date => "a date".into(),
-            Kind::Refused => "a number that is refused".into(),
+            NodeKind::Table(_) => "a table".into(),
+            NodeKind::Array(items) => format!("an array of {}", items.len()),
+            NodeKind::Text(text) => format!("the text {text:?}"),
+            NodeKind::Integer(n) => n.to_string(),
+            NodeKind::Float(x) => format!("{x:?}"),
+            NodeKind::Bool(b) => b.to_string(),
+            NodeKind::Date => "a date".into(),
+            NodeKind::Refused => "a number that is refused".into(),
         }
     }
 
     /// Without places. Dates and refused numbers, which no scenario has, become nothing.
     pub(super) fn to_value(&self) -> Value {
         match &self.kind {
-            Kind::Table(entries) => {
+            NodeKind::Table(entries) => {
                 Value::Object(entries.iter().map(|(key, node)| (key.clone(), node.to_value())).collect::<Map<_, _>>())
             }
-            Kind::Array(items) => Value::Array(items.iter().map(Node::to_value).collect()),
-            Kind::Text(text) => Value::String(text.clone()),
-            Kind::Integer(n) => Number::from_i128(*n).map_or_else(|| Value::from(*n as f64), Value::Number),
-            Kind::Float(x) => Number::from_f64(*x).map_or(Value::Null, Value::Number),
-            Kind::Bool(b) => Value::Bool(*b),
-            Kind::Date | Kind::Refused => Value::Null,
+            NodeKind::Array(items) => Value::Array(items.iter().map(Node::to_value).collect()),
+            NodeKind::Text(text) => Value::String(text.clone()),
+            NodeKind::Integer(n) => Number::from_i128(*n).map_or_else(|| Value::from(*n as f64), Value::Number),
+            NodeKind::Float(x) => Number::from_f64(*x).map_or(Value::Null, Value::Number),
+            NodeKind::Bool(b) => Value::Bool(*b),
+            NodeKind::Date | NodeKind::Refused => Value::Null,
         }
     }
 }

@@ -98,7 +98,7 @@ impl PythonScore {
         Ok(answer)
     }
 
-    fn told(&self, why: &str) -> String {
+    fn complaint(&self, why: &str) -> String {
         format!("{}: {why}", self.given)
     }
 }
@@ -179,7 +179,7 @@ fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl LegScorer for PythonScore {
-    fn parts(&self, legs: &[LegFacts]) -> Vec<[f64; 2]> {
+    fn own_and_left(&self, legs: &[LegFacts]) -> Vec<[f64; 2]> {
         if held(&self.trouble).is_some() {
             return vec![[f64::NAN; 2]; legs.len()];
         }
@@ -202,7 +202,7 @@ impl LegScorer for PythonScore {
                     }
                 }
                 Err(Unanswered::Failed(why)) => {
-                    held(&self.trouble).get_or_insert(self.told(&why));
+                    held(&self.trouble).get_or_insert(self.complaint(&why));
                 }
                 Err(Unanswered::Stopped) => {}
             }
@@ -220,8 +220,8 @@ impl LegScorer for PythonScore {
                 held(&self.idle).push(worker);
                 Ok(())
             }
-            Err(Unanswered::Failed(why)) => Err(self.told(&why)),
-            Err(Unanswered::Stopped) => Err(self.told("was not loaded in time")),
+            Err(Unanswered::Failed(why)) => Err(self.complaint(&why)),
+            Err(Unanswered::Stopped) => Err(self.complaint("was not loaded in time")),
         }
     }
 

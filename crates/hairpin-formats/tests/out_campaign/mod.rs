@@ -3,7 +3,7 @@
 
 pub(crate) mod stress;
 
-use hairpin::campaign::{Case, CaseResult, Evidence, Reruns, Run, Status, Tally};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Evidence, Reruns, Run, Status, Tally};
 use hairpin::judgement::Violation;
 use hairpin::judgement::{LegMeasures, Measures};
 use hairpin::trajectory::{Channel, Ended, Flight, Profile, ProfileLeg, Track};
@@ -22,10 +22,15 @@ pub(crate) fn campaign() -> Campaign {
     let mut runs = Vec::new();
     for run in 0..3 {
         let drawn = if run == 0 { vec![] } else { drawn(run) };
-        runs.push(Run { case: 0, run, drawn, outcome: Ok(flight(&cases[0], 0.1 * run as f64)) });
+        runs.push(Run { case: CaseNumber(0), run, drawn, outcome: Ok(flight(&cases[0], 0.1 * run as f64)) });
     }
-    runs.push(Run { case: 1, run: 0, drawn: vec![], outcome: Err("timed out after 60 s\nlog line".into()) });
-    runs.push(Run { case: 2, run: 0, drawn: vec![], outcome: Ok(flight(&cases[2], 0.05)) });
+    runs.push(Run {
+        case: CaseNumber(1),
+        run: 0,
+        drawn: vec![],
+        outcome: Err("timed out after 60 s\nlog line".into()),
+    });
+    runs.push(Run { case: CaseNumber(2), run: 0, drawn: vec![], outcome: Ok(flight(&cases[2], 0.05)) });
     let results = vec![failed(), executor_failed(), passed()];
     let tally = Tally { graphs: 7, solved: 3, expansions: 12345, complete: false, ..Tally::default() };
     Campaign { cases, runs, results, tally }
@@ -65,7 +70,7 @@ fn case(number: usize, evidence: Evidence) -> Case {
         evidence,
         certified: (number == 1).then_some("unknown"),
         witness: profile.map(Into::into),
-        ..Case::bare(number, 0xFEDC_BA98_7654_3210 - number as u64, waypoints)
+        ..Case::bare(CaseNumber(number), 0xFEDC_BA98_7654_3210 - number as u64, waypoints)
     }
 }
 
@@ -149,7 +154,7 @@ pub(crate) fn failed() -> CaseResult {
         Violation { what: "deviation".into(), value: 0.65, limit: 0.5, unit: "m".into(), at: 12.34, leg: 2 };
     let left = Violation { what: "left-world".into(), value: 8.5, limit: 0.0, unit: "s".into(), at: 8.5, leg: 2 };
     CaseResult {
-        case: 0,
+        case: CaseNumber(0),
         status: Status::Fail,
         run: 2,
         measures: Some(measures(0.65)),
@@ -165,7 +170,7 @@ pub(crate) fn failed() -> CaseResult {
 
 pub(crate) fn executor_failed() -> CaseResult {
     CaseResult {
-        case: 1,
+        case: CaseNumber(1),
         status: Status::ExecutorFailed,
         run: 0,
         measures: None,
@@ -180,7 +185,7 @@ pub(crate) fn executor_failed() -> CaseResult {
 
 pub(crate) fn passed() -> CaseResult {
     CaseResult {
-        case: 2,
+        case: CaseNumber(2),
         status: Status::Pass,
         run: 0,
         measures: Some(measures(0.21)),

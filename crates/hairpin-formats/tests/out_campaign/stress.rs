@@ -1,7 +1,7 @@
 //! A campaign that looks like one: flights that overshoot their waypoints in a cage with a mast, judged for real.
 
 use hairpin::campaign::flight::FlightSetup;
-use hairpin::campaign::{Case, CaseResult, Evidence, Run, Scenario, Setup, Status, Tally};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Evidence, Run, Scenario, Setup, Status, Tally};
 use hairpin::judgement::{Claim, Judged, Limits, Settings, Verdict, Worst, measure, violations};
 use hairpin::math::random::case_seed;
 use hairpin::trajectory::{Channel, Ended, Flight, Track};
@@ -41,7 +41,7 @@ pub(crate) fn scenario() -> Scenario {
 pub(crate) fn verdict(results: &[CaseResult]) -> Verdict {
     let count = |status| results.iter().filter(|result| result.status == status).count();
     let worst = hairpin::campaign::report::worst_first(results)[0];
-    let case = format!("{:04}", worst.case);
+    let case = worst.case.to_string();
     hairpin::judgement::verdict(&Judged {
         how: &["simulated", "anafi stand-in", "minimum-snap"],
         cases: results.len(),
@@ -81,7 +81,7 @@ fn case(number: usize) -> Case {
         leg_times,
         score: 5.0 + unit(number, 99),
         evidence: Evidence::Witnessed,
-        ..Case::bare(number, case_seed(10, number as u64), waypoints)
+        ..Case::bare(CaseNumber(number), case_seed(10, number as u64), waypoints)
     }
 }
 
@@ -121,7 +121,7 @@ fn fly(setup: &Setup, case: &Case) -> (Result<Flight, String>, CaseResult) {
         message,
         reruns: None,
     };
-    if case.number == 5 {
+    if case.number == CaseNumber(5) {
         let why = "time-out 60 s\nSegmentation fault <core dumped>".to_owned();
         return (Err(why.clone()), nobody("executor-failed".into(), None, Some(why)));
     }
@@ -141,7 +141,7 @@ fn fly(setup: &Setup, case: &Case) -> (Result<Flight, String>, CaseResult) {
 }
 
 fn flight(case: &Case) -> Flight {
-    let (damping, step) = (0.45 + 0.5 * unit(case.number, 77), 0.002);
+    let (damping, step) = (0.45 + 0.5 * unit(case.number.0, 77), 0.002);
     let duration = case.leg_times.iter().sum::<f64>() + 2.0;
     let (mut p, mut v) = (case.waypoints[0], Vector3::zeros());
     let (mut times, mut poses) = (vec![], vec![]);

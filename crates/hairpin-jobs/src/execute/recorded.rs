@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use hairpin::campaign::arm::ArmSetup;
-use hairpin::campaign::{Case, Run};
+use hairpin::campaign::{Case, CaseNumber, Run};
 use hairpin_formats::recordings::{self, RecordingError};
 use rayon::prelude::*;
 
@@ -35,8 +35,8 @@ pub(super) fn take_in(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]
 fn read(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<Vec<Run>, Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
     let files = recordings::find(work.folder.path(), pattern, cases, repeat).map_err(|wrong| refuse(&wrong))?;
-    let jobs: Vec<((usize, usize), PathBuf)> = files.into_iter().collect();
-    let read = |((number, run), path): &((usize, usize), PathBuf)| {
+    let jobs: Vec<((CaseNumber, usize), PathBuf)> = files.into_iter().collect();
+    let read = |((number, run), path): &((CaseNumber, usize), PathBuf)| {
         let case = cases.iter().find(|case| case.number == *number);
         case.map(|case| recordings::read(path, arm, case, *run))
     };

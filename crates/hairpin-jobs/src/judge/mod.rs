@@ -8,7 +8,9 @@ use std::path::Path;
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::report::worst_first;
-use hairpin::campaign::{self, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Status, Tally, vary};
+use hairpin::campaign::{
+    self, Case, CaseNumber, CaseResult, Grid, Influence, Reruns, RunDeviation, Status, Tally, vary,
+};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
 use hairpin_formats::junit;
@@ -120,7 +122,7 @@ fn judge_case(
     work: &Work,
     case: &Case,
     tally: &Tally,
-    (grid, table): (&Grid, &BTreeMap<(usize, usize), RunFacts>),
+    (grid, table): (&Grid, &BTreeMap<(CaseNumber, usize), RunFacts>),
 ) -> Result<JudgedCase, Problem> {
     let runs = work.folder.read_runs(case.number, table)?;
     if runs.is_empty() {

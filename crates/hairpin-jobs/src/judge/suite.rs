@@ -25,7 +25,7 @@ pub(super) fn suite(
         let worse = one.comparison.compared.iter().filter(|one| one.outcome == Outcome::Worse);
         let lost =
             one.comparison.lost.iter().map(|index| format!("move {index} no longer completed, against {against}"));
-        (result.case, worse.map(|one| format!("{} against {against}", one.told())).chain(lost).collect())
+        (result.case, worse.map(|one| format!("{} against {against}", one.in_words())).chain(lost).collect())
     });
     let scenario = &work.setup.scenario;
     let by_a_case = results.iter().any(|result| result.status == Status::Inconclusive);
@@ -55,5 +55,5 @@ fn rerun_property(result: &CaseResult) -> Option<(String, String)> {
     let share = reruns.share(CONFIDENCE)?;
     let (violated, of) = (reruns.violated, reruns.of);
     let value = format!("{violated} of {of} violate, share {:.2} [{:.2}, {:.2}]", share.value, share.low, share.high);
-    Some((format!("reruns {:04}", result.case), value))
+    Some((format!("reruns {}", result.case), value))
 }

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use hairpin::campaign::{self, Case, CaseResult, Setup, Shrunk, Status};
+use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Setup, Shrunk, Status};
 use hairpin::judgement::{Measures, Violation};
 use hairpin_formats::atomic;
 use hairpin_formats::checksum::sha256;
@@ -157,7 +157,7 @@ impl Answer {
     }
 
     /// As much of the result as shrinking and repro files ask for.
-    fn result(&self, case: usize, run: usize) -> CaseResult {
+    fn result(&self, case: CaseNumber, run: usize) -> CaseResult {
         let violation = |v: &Violated| Violation {
             what: v.what.clone(),
             value: v.value,

@@ -91,7 +91,7 @@ fn violating(work: &Work, settings: &ShrinkSettings) -> Result<(Case, CaseResult
     let cases = work.folder.read_cases()?;
     let there = all_named(&cases);
     let case = cases.into_iter().find(|case| case.number == settings.case);
-    let case = case.ok_or_else(|| Problem::input(format!("--case {}: {folder} has {there}", settings.case)))?;
+    let case = case.ok_or_else(|| Problem::input(format!("--case {}: {folder} has {there}", settings.case.0)))?;
     let result = work.folder.read_results()?.into_iter().find(|result| result.case == case.number);
     let result = result.ok_or_else(|| Problem::input(format!("not judged yet: hairpin judge {folder}")))?;
     if result.violations.is_empty() {
@@ -113,6 +113,8 @@ fn all_named(cases: &[Case]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use hairpin::campaign::CaseNumber;
+
     use super::*;
     use crate::Unwatched;
     use crate::testing::violating;
@@ -128,7 +130,8 @@ mod tests {
         let again = shrinking.search(&Unwatched).unwrap();
         assert!(again.runs >= found.runs && again.runs == found.runs + again.fresh);
         drop(shrinking);
-        let refused = Shrinking::open(ShrinkSettings { case: 7, ..settings }).map(|_| ()).unwrap_err().to_string();
+        let refused =
+            Shrinking::open(ShrinkSettings { case: CaseNumber(7), ..settings }).map(|_| ()).unwrap_err().to_string();
         assert!(refused.ends_with("has the cases 0000, 0001"), "{refused}");
     }
 }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use hairpin::campaign::CaseNumber;
 use hairpin::math::simd::Simd;
 
 /// What is shrunk, and how long.
@@ -10,7 +11,7 @@ pub struct ShrinkSettings {
     /// Judged campaign folder.
     pub folder: PathBuf,
     /// Number of the violating case.
-    pub case: usize,
+    pub case: CaseNumber,
     /// Executions at most.
     pub budget: u64,
     /// Seconds after which it stops with the smallest so far.

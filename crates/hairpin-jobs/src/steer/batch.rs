@@ -61,6 +61,12 @@ impl Vehicle {
 }
 
 impl Batch {
+    /// Whether there are rows and none of them is a query.
+    pub fn nothing_asked(&self) -> bool {
+        let rows = &self.queries.rows;
+        !rows.is_empty() && rows.iter().all(|row| row.asked.is_err())
+    }
+
     /// The answers as a table.
     ///
     /// # Errors

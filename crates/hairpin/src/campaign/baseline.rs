@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::CaseNumber;
 use crate::judgement::moves::Offset;
 
 /// Every run of a campaign, move by move.
@@ -19,7 +20,7 @@ pub struct Moves {
 #[serde(deny_unknown_fields)]
 pub struct CaseMoves {
     /// Number of the case.
-    pub case: usize,
+    pub case: CaseNumber,
     /// Digest of what the controller is told: programs of equal digest move alike.
     pub program: String,
     /// Names of the moves.
@@ -68,12 +69,12 @@ pub struct ReleaseMoves {
 
 /// Why numbers are no baseline.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("release `{release}`, case {case:04}: {what}")]
+#[error("release `{release}`, case {case}: {what}")]
 pub struct BaselineError {
     /// Which release.
     pub release: String,
     /// Which case.
-    pub case: usize,
+    pub case: CaseNumber,
     /// What is wrong with it.
     pub what: String,
 }
@@ -102,9 +103,9 @@ impl Baseline {
     /// numbers that are no times and distances.
     pub fn checked(self) -> Result<Self, BaselineError> {
         let refuse = |release: &str, case, what| Err(BaselineError { release: release.into(), case, what });
-        let Some(last) = self.releases.last() else { return refuse("", 0, "there is no release".into()) };
+        let Some(last) = self.releases.last() else { return refuse("", CaseNumber(0), "there is no release".into()) };
         if last.cases.is_empty() {
-            return refuse(&last.name, 0, "there is none: a baseline needs programs that were run".into());
+            return refuse(&last.name, CaseNumber(0), "there is none: a baseline needs programs that were run".into());
         }
         for one in &last.cases {
             if one.runs.len() < LEAST_RUNS {

@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::Environment;
 use super::digits::percent_digits;
+use super::{CaseNumber, Environment};
 use crate::feasibility::reach::LegFeatures;
 use crate::judgement::{Measures, Share, Violation, share};
 use crate::trajectory::Drive;
@@ -137,7 +137,7 @@ impl Witness {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
     /// 0, 1, 2 …; in files `0000`, `0001`, ….
-    pub number: usize,
+    pub number: CaseNumber,
     /// The case's seed: [`crate::math::random::case_seed`].
     pub seed: u64,
     /// Number of the sampled graph it was found in.
@@ -164,7 +164,7 @@ pub struct Case {
 
 impl Case {
     /// A case of which nothing is known but its waypoints.
-    pub fn bare(number: usize, seed: u64, waypoints: Vec<Point3<f64>>) -> Self {
+    pub fn bare(number: CaseNumber, seed: u64, waypoints: Vec<Point3<f64>>) -> Self {
         Self {
             number,
             seed,
@@ -196,9 +196,9 @@ impl Case {
         self.witness.as_ref()?.program()
     }
 
-    /// The name in files: at least four digits.
+    /// The name in files.
     pub fn id(&self) -> String {
-        format!("{:04}", self.number)
+        self.number.to_string()
     }
 
     /// How far below the proven bound the score lies, as a share of the score's size: 0 for the best there is. `None`
@@ -237,7 +237,7 @@ pub struct Timed {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// Number of the case.
-    pub case: usize,
+    pub case: CaseNumber,
     /// 0: nominal.
     pub run: usize,
     /// Values drawn for `[vary]`, by key.
@@ -298,7 +298,7 @@ impl Reruns {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseResult {
     /// Number of the case.
-    pub case: usize,
+    pub case: CaseNumber,
     /// Verdict over all runs of the case.
     pub status: Status,
     /// The worst run.
@@ -327,7 +327,7 @@ mod tests {
     fn a_bound_makes_a_claim_stronger() {
         let case = |score, bound| {
             let evidence = Evidence::HullFeasible;
-            Case { score, bound, evidence, ..Case::bare(7, 0, Vec::new()) }
+            Case { score, bound, evidence, ..Case::bare(CaseNumber(7), 0, Vec::new()) }
         };
         assert_eq!(case(2.0, None).claim(), "hull-feasible");
         assert_eq!(case(2.0, Some(2.0)).claim(), "hull-feasible, optimal");

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{Case, CaseResult, Status};
+use super::{Case, CaseNumber, CaseResult, Status};
 use crate::judgement::{Measures, Violation, holm, median, signed_rank};
 
 /// Confidence of the intervals.
@@ -116,13 +116,13 @@ impl Comparison {
 /// the same environment. Two runs that both pass or both fail are told apart by whether they crashed, then by their
 /// largest deviation, of which `tolerance` (m) is no difference.
 pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f64) -> Comparison {
-    let by_number = |side: &[(Case, CaseResult)]| -> BTreeMap<usize, usize> {
+    let by_number = |side: &[(Case, CaseResult)]| -> BTreeMap<CaseNumber, usize> {
         side.iter().enumerate().map(|(index, (case, _))| (case.number, index)).collect()
     };
     let (in_a, in_b) = (by_number(a), by_number(b));
     let mut found = Comparison::default();
     let mut pairs = Vec::new();
-    let numbers: std::collections::BTreeSet<usize> = in_a.keys().chain(in_b.keys()).copied().collect();
+    let numbers: std::collections::BTreeSet<CaseNumber> = in_a.keys().chain(in_b.keys()).copied().collect();
     for number in numbers {
         let why = match (in_a.get(&number), in_b.get(&number)) {
             (Some(&i), Some(&k)) => match (&a[i].0, &b[k].0) {
@@ -137,7 +137,7 @@ pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f6
             (Some(_), None) => "only in A",
             _ => "only in B",
         };
-        found.unpaired.push(Unpaired { case: format!("{number:04}"), why });
+        found.unpaired.push(Unpaired { case: number.to_string(), why });
     }
     found.pairs = pairs.len();
     pairs.retain(|(a, b)| found.take(a, b, tolerance));
@@ -148,7 +148,7 @@ pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f6
 impl Comparison {
     /// Counts one pair; whether it can be compared.
     fn take(&mut self, a: &CaseResult, b: &CaseResult, tolerance: f64) -> bool {
-        let name = format!("{:04}", a.case);
+        let name = a.case.to_string();
         match (a.status, b.status) {
             (Status::Pass, Status::Fail) => self.newly_failing.push(name),
             (Status::Fail, Status::Pass) => self.newly_passing.push(name),
@@ -237,9 +237,9 @@ mod tests {
             let violation =
                 Violation { what: "deviation".into(), value: deviation, limit, unit: "m".into(), at: 1.0, leg: 0 };
             let ways = vec![Point3::origin(), Point3::new(number as f64, 0.0, 0.0)];
-            let case = Case::bare(number, number as u64, ways);
+            let case = Case::bare(CaseNumber(number), number as u64, ways);
             let result = CaseResult {
-                case: number,
+                case: CaseNumber(number),
                 status: if fails { Status::Fail } else { Status::Pass },
                 run: 0,
                 measures: Some(Measures { max_deviation: deviation, ..Measures::default() }),

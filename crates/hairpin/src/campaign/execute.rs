@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::kind::Order;
-use super::{Case, Mission, Mistake, Run, Setup, Stop, mission, mission_again};
+use super::{Case, CaseNumber, Mission, Mistake, Run, Setup, Stop, mission, mission_again};
 use crate::simulation::SimulationError;
 use crate::trajectory::Flight;
 
@@ -14,7 +14,7 @@ use crate::trajectory::Flight;
 pub fn execute(
     setup: &Setup,
     cases: &[Case],
-    wanted: &(dyn Fn(usize, usize) -> bool + Sync),
+    wanted: &(dyn Fn(CaseNumber, usize) -> bool + Sync),
     stop: &Stop,
     sink: &(dyn Fn(Run) + Sync),
 ) {

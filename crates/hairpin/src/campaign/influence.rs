@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::CaseNumber;
 use super::scenario::{KeyPath, Scenario};
 use super::vary;
 use crate::judgement::moves::Measured;
@@ -12,7 +13,7 @@ use crate::judgement::rank_correlation;
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunDeviation {
     /// Number of the case.
-    pub case: usize,
+    pub case: CaseNumber,
     /// 0: nominal.
     pub run: usize,
     /// Largest deviation, m.
@@ -104,7 +105,7 @@ mod tests {
             ];
             let drawn = drawn.map(|(key, value)| (key.to_owned(), value)).to_vec();
             RunDeviation {
-                case: 0,
+                case: CaseNumber(0),
                 run,
                 max_deviation: (run * run) as f64,
                 drawn: if run == 0 { vec![] } else { drawn },

@@ -24,7 +24,7 @@ pub(super) fn samples_of(case: &Case, measures: &Measures, stress: Stress) -> Ve
     let before = std::iter::once(None).chain(case.seen.iter().copied().map(Some));
     for ((seen, before), leg) in case.seen.iter().zip(before).zip(&measures.legs) {
         let stress = stress.of_leg(leg).filter(|value| value.is_finite() && leg.time > 0.0);
-        samples.extend(stress.map(|stress| LegSample { trajectory: case.number, seen: *seen, before, stress }));
+        samples.extend(stress.map(|stress| LegSample { trajectory: case.number.0, seen: *seen, before, stress }));
     }
     samples
 }
@@ -47,7 +47,7 @@ pub fn move_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) ->
         let pairs = features.iter().zip(&measures.legs);
         let sample = |(features, leg): (&Option<MoveFeatures>, &LegMeasures)| {
             let stress = stress.of_leg(leg).filter(|value| value.is_finite() && leg.time > 0.0)?;
-            Some(MoveSample { program: case.number, features: (*features)?, stress })
+            Some(MoveSample { program: case.number.0, features: (*features)?, stress })
         };
         pairs.filter_map(sample).collect()
     };

@@ -7,7 +7,7 @@ use super::learn::LegSample;
 use super::mission::run_seed;
 use super::placement::Placement;
 use super::samples::samples_of;
-use super::{Case, Environment, Run, Setup, execute_again, execute_run};
+use super::{Case, CaseNumber, Environment, Run, Setup, execute_again, execute_run};
 use crate::judgement::{Measures, Stress};
 use crate::search::in_loop::{Ran, Trial};
 use crate::simulation::Airborne;
@@ -112,7 +112,7 @@ pub(super) fn execute_partial(
     if whole {
         flying.finish(&mut airborne).map_err(|_| flown)?;
     }
-    let run = Run { case: 0, run: 0, drawn: Vec::new(), outcome: Ok(airborne.so_far()) };
+    let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(airborne.so_far()) };
     let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
     Ok(Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
 }

@@ -65,7 +65,7 @@ impl LegFacts {
 pub trait LegScorer: Send + Sync {
     /// Of every leg what it scores whatever was flown before it, and what it adds to the score of the leg after it; NaN
     /// where there is [trouble](Self::trouble).
-    fn parts(&self, legs: &[LegFacts]) -> Vec<[f64; 2]>;
+    fn own_and_left(&self, legs: &[LegFacts]) -> Vec<[f64; 2]>;
 
     /// Why legs have no score, if that has happened.
     fn trouble(&self) -> Option<String>;

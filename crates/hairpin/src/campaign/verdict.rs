@@ -65,7 +65,7 @@ fn rerun_words(results: &[CaseResult], confidence: f64) -> Option<String> {
     if let Some(interval) = least.share(confidence).filter(|_| least.violated < least.of) {
         let (low, high) = (100.0 * interval.low, 100.0 * interval.high);
         let (k, n) = (least.violated, least.of);
-        words += &format!(", least often {:04}, {k}/{n} [{low:.1}, {high:.1}] %", result.case);
+        words += &format!(", least often {}, {k}/{n} [{low:.1}, {high:.1}] %", result.case);
     }
     // A limit that became tighter since makes violations of what was not one.
     if failed > again.len() {
@@ -122,7 +122,7 @@ fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation,
     };
     let value = result.violations.first().cloned().or_else(|| nearest().map(told))?;
     let saturation = measures.legs.get(value.leg).and_then(|leg| leg.saturation_share).or(measures.saturation_share);
-    Some((format!("{:04}", result.case), value, saturation))
+    Some((result.case.to_string(), value, saturation))
 }
 
 /// The verdict of exit 5 on a search that a time limit ended too soon: that nothing is feasible was not found out.

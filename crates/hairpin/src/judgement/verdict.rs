@@ -21,6 +21,15 @@ pub struct Verdict {
     pub exit_code: u8,
 }
 
+impl Verdict {
+    /// A sentence is one line, whatever the names in it are: what would begin another, or command a terminal, is
+    /// written out (`\n`, `\u{1b}`).
+    pub fn of(sentence: &str, exit_code: u8) -> Self {
+        let plain = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+        Self { sentence: sentence.chars().map(plain).collect(), exit_code }
+    }
+}
+
 /// How many cases stand on which evidence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Claim<'a> {
@@ -128,7 +137,7 @@ pub fn verdict(judged: &Judged) -> Verdict {
         let trouble = if judged.trouble.is_empty() { String::new() } else { format!(" ({})", judged.trouble) };
         let start = format!("EXECUTOR FAILED {}/{n}{trouble}: not counted as pass or fail", judged.executor_failed);
         if counted == 0 {
-            return Verdict { sentence: start, exit_code: 4 };
+            return Verdict::of(&start, 4);
         }
         (format!("{start}; {counted} judged {}", how(judged)), 4)
     } else if judged.inconclusive > 0 || open || counted == 0 {
@@ -136,24 +145,24 @@ pub fn verdict(judged: &Judged) -> Verdict {
     } else {
         (format!("PASS {}/{n} {}", n - k, how(judged)), 0)
     };
-    Verdict { sentence: format!("{start}: {}", findings(judged, counted, limit).join("; ")), exit_code }
+    Verdict::of(&format!("{start}: {}", findings(judged, counted, limit).join("; ")), exit_code)
 }
 
 /// `NOTHING FEASIBLE (proof, hull): no chain of 10 waypoints from start to end; smallest change: …`; exit 3.
 /// `how` says what the answer rests on, such as `["proof", "hull"]` or `["2000 graphs searched", "witness"]`.
 pub fn nothing_feasible(how: &[&str], what: &str, smallest_change: Option<&str>) -> Verdict {
     let change = smallest_change.map_or(String::new(), |change| format!("; smallest change: {change}"));
-    Verdict { sentence: format!("NOTHING FEASIBLE ({}): {what}{change}", how.join(", ")), exit_code: 3 }
+    Verdict::of(&format!("NOTHING FEASIBLE ({}): {what}{change}", how.join(", ")), 3)
 }
 
 /// `INVALID 0118 (flown, log_25.ulg): position reset of 1.2 m at t = 8.1 s; …`; exit 5.
 pub fn invalid(case: &str, how: &[&str], reason: &str) -> Verdict {
-    Verdict { sentence: format!("INVALID {case} ({}): {reason}", how.join(", ")), exit_code: 5 }
+    Verdict::of(&format!("INVALID {case} ({}): {reason}", how.join(", ")), 5)
 }
 
 /// `INCONCLUSIVE 0117 (flown, log_24.ulg, EKF2 estimate): 0.65 m > 0.50 m, but …`; exit 5.
 pub fn inconclusive(case: &str, how: &[&str], reason: &str) -> Verdict {
-    Verdict { sentence: format!("INCONCLUSIVE {case} ({}): {reason}", how.join(", ")), exit_code: 5 }
+    Verdict::of(&format!("INCONCLUSIVE {case} ({}): {reason}", how.join(", ")), 5)
 }
 
 fn how(judged: &Judged) -> String {

@@ -71,7 +71,7 @@ pub trait Additive: Objective {
     ///
     /// One pair \[own, left\] a leg, in their order; to be overridden by scores that are quicker about many, as those
     /// of another program are.
-    fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+    fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         legs.iter().map(|leg| [self.own(leg), self.left(leg)]).collect()
     }
 

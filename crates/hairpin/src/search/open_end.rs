@@ -143,11 +143,11 @@ impl<O: Additive> Additive for OpenScore<'_, O> {
         if leg.to == self.sink { 0.0 } else { self.objective.left(&self.inner(leg)) }
     }
 
-    fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+    fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         let to_sink = [self.aggregate.neutral(), 0.0];
         let inner: Vec<LegView<'_>> =
             legs.iter().filter(|leg| leg.to != self.sink).map(|leg| self.inner(leg)).collect();
-        let mut parts = self.objective.parts(&inner).into_iter();
+        let mut parts = self.objective.own_and_left(&inner).into_iter();
         let part = |leg: &LegView<'_>| if leg.to == self.sink { None } else { parts.next() };
         legs.iter().map(part).map(|part| part.unwrap_or(to_sink)).collect()
     }

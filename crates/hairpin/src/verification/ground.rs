@@ -212,7 +212,7 @@ pub(super) fn follow_ground<T: Terrain>(
         for i in 0..count {
             let begun = length * i as f64 / count as f64;
             let stopped = |no| stopped(driven + metres * begun, no);
-            let parts = vehicle.parts(claim.pace(driven - wait + begun, h) * h);
+            let parts = vehicle.substeps(claim.pace(driven - wait + begun, h) * h);
             let h = h / parts as f64;
             for part in 0..parts {
                 let s = begun + h * part as f64;
@@ -356,7 +356,7 @@ impl GroundVehicle {
 
     /// Parts of a step that takes `time` seconds: near rest steps are long, and the lag of each must stay small. Of n
     /// equal lengths from rest the first takes the share 1/√n.
-    fn parts(&self, time: f64) -> usize {
+    fn substeps(&self, time: f64) -> usize {
         if self.steering_time_constant_s <= 0.0 {
             return 1;
         }

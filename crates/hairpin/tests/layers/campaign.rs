@@ -10,7 +10,7 @@ use super::house::House;
 /// each other.
 pub(crate) const ROOMS: &[&[&str]] = &[
     // What was typed, and values that know nothing else.
-    &["digits", "stop", "curve"],
+    &["digits", "stop", "curve", "case_number"],
     &["scenario"],
     &["vary", "user_score", "baseline"],
     // What a case and its runs are.

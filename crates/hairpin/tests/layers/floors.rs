@@ -80,7 +80,7 @@ pub(crate) const FOREIGN: &[(&str, &[&str])] = &[
     ("hairpin", TERMINAL),
     ("hairpin_formats", TERMINAL),
     ("hairpin_jobs", TERMINAL),
-    ("hairpin_lab", &["clap", "clap_complete", "ctrlc"]),
+    ("hairpin_lab", &["clap", "clap_complete", "ctrlc", "signal_hook"]),
 ];
 
 /// Who speaks to a person: the command line alone.
@@ -89,6 +89,7 @@ const TERMINAL: &[&str] = &[
     "clap_complete",
     "indicatif",
     "ctrlc",
+    "signal_hook",
     "println!",
     "print!",
     "eprintln!",

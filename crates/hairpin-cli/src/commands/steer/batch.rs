@@ -10,7 +10,7 @@ use serde_json::json;
 
 use crate::args::Steer;
 use crate::console;
-use crate::exit::DONE;
+use crate::exit::{DONE, WRONG_INPUT};
 
 /// Wrong rows that are told one by one.
 const MOST_TOLD: usize = 10;
@@ -27,12 +27,13 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, path: &Path, watch: &dyn Wat
     if let Some(plot) = &steer.plot {
         batch.draw(plot, watch)?;
     }
-    tell(steer, path, &batch);
-    Ok(DONE)
+    let code = if batch.nothing_asked() { WRONG_INPUT } else { DONE };
+    tell(steer, path, &batch, code);
+    Ok(code)
 }
 
 /// Counts on stdout if the table is in a file; wrong rows on stderr.
-fn tell(steer: &Steer, path: &Path, batch: &Batch) {
+fn tell(steer: &Steer, path: &Path, batch: &Batch, code: u8) {
     let rows = batch.queries.rows.iter();
     let wrong: Vec<String> = rows
         .filter_map(|row| Some(format!("{}, line {}: {}", path.display(), row.line, row.asked.as_ref().err()?)))
@@ -44,7 +45,7 @@ fn tell(steer: &Steer, path: &Path, batch: &Batch) {
     let all = [Status::Ok, Status::Infeasible, Status::NotConverged, Status::TimeLimit, Status::Invalid];
     let ([mean, worst], queries) = (batch.solving_us(), batch.answers.len());
     if steer.json {
-        let mut object = json!({ "queries": queries, "mean_time_us": mean, "max_time_us": worst, "exit_code": DONE });
+        let mut object = json!({ "queries": queries, "mean_time_us": mean, "max_time_us": worst, "exit_code": code });
         for status in all {
             object[status.to_string()] = batch.count(status).into();
         }

@@ -39,7 +39,7 @@ fn read_cases(table: &Table) -> Result<Vec<Case>, TableError> {
     (0..table.rows())
         .map(|row| {
             if !seen.insert(numbers[row]) {
-                return Err(table.refuse("case", row, format!("{:04}", numbers[row]), "there once"));
+                return Err(table.refuse("case", row, numbers[row].to_string(), "there once"));
             }
             let word = |column: &str, text: &str, bound: &str| table.refuse(column, row, format!("`{text}`"), bound);
             let known = |text: &String| {

@@ -1,7 +1,7 @@
 //! Calls of the file's own routines.
 
 use super::{DEEPEST, Flow, Frame, Machine};
-use crate::rapid::kinds::Kind;
+use crate::rapid::kinds::DataKind;
 use crate::rapid::lex::At;
 use crate::rapid::lines::Class;
 use crate::rapid::syntax::{Argument, Expression, Path, Routine};
@@ -79,7 +79,7 @@ impl<'a> Machine<'a> {
                 let value = placed.next();
                 Some(Some(value.ok_or_else(|| format!("`{}` needs `{}`", routine.name, parameter.name))?))
             };
-            let kind = Kind::of(&parameter.kind);
+            let kind = DataKind::of(&parameter.kind);
             let mut known = Value::Unknown;
             if let Some(given) = value {
                 bound.frame.given.insert(parameter.name.clone());

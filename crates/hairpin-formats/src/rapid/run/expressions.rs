@@ -135,7 +135,7 @@ fn numbers(sign: &str, a: f64, b: f64) -> Value {
 }
 
 /// pos + pos, pos − pos, and comparisons of records without unknown parts.
-fn records(sign: &str, equal: bool, kind: Option<crate::rapid::kinds::Kind>, a: &[Value], b: &[Value]) -> Value {
+fn records(sign: &str, equal: bool, kind: Option<crate::rapid::kinds::DataKind>, a: &[Value], b: &[Value]) -> Value {
     let unknown = |value: &Value| *value == Value::Unknown;
     match sign {
         "+" | "-" if a.len() == 3 => {

@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use hairpin::trajectory::program::{Move, Tool, WorkObject};
 
-use super::kinds::Kind;
+use super::kinds::DataKind;
 use super::lex::At;
 use super::lines::{Class, Line};
 use super::syntax::{Routine, RoutineKind, Source, each};
@@ -101,7 +101,7 @@ impl<'a> Machine<'a> {
         // Every controller has them; what they hold is anyone's.
         for name in ["reg1", "reg2", "reg3", "reg4", "reg5"] {
             let variable =
-                Variable { name: name.into(), kind: Some(Kind::Num), value: Value::Unknown, untouched: false };
+                Variable { name: name.into(), kind: Some(DataKind::Num), value: Value::Unknown, untouched: false };
             machine.globals.insert(name.into(), variable);
         }
         // Data may refer to data that is declared below it.

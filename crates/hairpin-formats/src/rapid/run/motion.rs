@@ -6,7 +6,7 @@ use hairpin::trajectory::program::{Motion, Move, Speed, Tool, WorkObject, Zone};
 
 use super::Machine;
 use crate::rapid::instructions::MoveKind;
-use crate::rapid::kinds::Kind;
+use crate::rapid::kinds::DataKind;
 use crate::rapid::lex::At;
 use crate::rapid::lines::Class;
 use crate::rapid::syntax::{Argument, Expression, Path};
@@ -63,7 +63,7 @@ impl Machine<'_> {
         let to = placed[circular];
         let motion = match kind {
             MoveKind::AbsoluteJoint => {
-                let (value, name) = self.data(to, Kind::JointTarget, at)?;
+                let (value, name) = self.data(to, DataKind::JointTarget, at)?;
                 Motion::AbsoluteJoint(
                     value::joint_target(&value, name.as_deref()).map_err(|what| self.about(to, what))?,
                 )
@@ -105,7 +105,7 @@ impl Machine<'_> {
     }
 
     /// A value of the kind, with its name if it is data of the modules as it was declared.
-    fn data(&mut self, expression: &Expression, kind: Kind, at: At) -> Result<(Value, Option<String>), Unfit> {
+    fn data(&mut self, expression: &Expression, kind: DataKind, at: At) -> Result<(Value, Option<String>), Unfit> {
         let name = match expression {
             Expression::Path(path) if path.steps.is_empty() => {
                 if self.find(&path.name).is_none() {
@@ -135,7 +135,7 @@ impl Machine<'_> {
         expression: &Expression,
         at: At,
     ) -> Result<hairpin::trajectory::program::PoseTarget, Unfit> {
-        let (value, name) = self.data(expression, Kind::RobTarget, at)?;
+        let (value, name) = self.data(expression, DataKind::RobTarget, at)?;
         value::pose_target(&value, name.as_deref()).map_err(|what| self.about(expression, what))
     }
 
@@ -149,7 +149,7 @@ impl Machine<'_> {
         let mut speed = match predefined {
             Some(speed) => speed,
             None => {
-                let (value, name) = self.data(expression, Kind::SpeedData, at)?;
+                let (value, name) = self.data(expression, DataKind::SpeedData, at)?;
                 value::speed(&value, name.as_deref()).map_err(|what| self.about(expression, what))?
             }
         };
@@ -164,7 +164,7 @@ impl Machine<'_> {
         let mut zone = match predefined {
             Some(zone) => zone,
             None => {
-                let (value, name) = self.data(expression, Kind::ZoneData, at)?;
+                let (value, name) = self.data(expression, DataKind::ZoneData, at)?;
                 value::zone(&value, name.as_deref()).map_err(|what| self.about(expression, what))?
             }
         };
@@ -194,7 +194,7 @@ impl Machine<'_> {
                 }
             });
         }
-        let (value, name) = self.data(expression, Kind::ToolData, at)?;
+        let (value, name) = self.data(expression, DataKind::ToolData, at)?;
         let name = name.unwrap_or_else(|| "tChanged".into());
         let tool = value::tool(&value, &name).map_err(|what| self.about(expression, what))?;
         if !tool.held {
@@ -221,7 +221,7 @@ impl Machine<'_> {
                 }
             });
         }
-        let (value, name) = self.data(expression, Kind::WobjData, at)?;
+        let (value, name) = self.data(expression, DataKind::WobjData, at)?;
         let name = name.unwrap_or_else(|| "wChanged".into());
         let object = value::work_object(&value, &name).map_err(|what| self.about(expression, what))?;
         if object.held || object.moved_by.is_some() {

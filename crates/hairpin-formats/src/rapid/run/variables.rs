@@ -1,7 +1,7 @@
 //! Data while a program is executed.
 
 use super::Machine;
-use crate::rapid::kinds::Kind;
+use crate::rapid::kinds::DataKind;
 use crate::rapid::lex::At;
 use crate::rapid::lines::Class;
 use crate::rapid::syntax::{Declaration, Path, Step};
@@ -33,7 +33,7 @@ impl Machine<'_> {
 
     /// Declares into the innermost routine, or into the modules where there is none.
     pub(super) fn declare(&mut self, declaration: &Declaration) {
-        let kind = Kind::of(&declaration.kind);
+        let kind = DataKind::of(&declaration.kind);
         let value = match kind {
             Some(kind) => self.declared_value(declaration, kind),
             None => Ok(Value::Unknown),
@@ -58,7 +58,7 @@ impl Machine<'_> {
         };
     }
 
-    fn declared_value(&mut self, declaration: &Declaration, kind: Kind) -> Result<Value, String> {
+    fn declared_value(&mut self, declaration: &Declaration, kind: DataKind) -> Result<Value, String> {
         let mut extents = Vec::new();
         for extent in &declaration.extents {
             let count = self.evaluate(extent, declaration.at).number().filter(|n| (1.0..=1e6).contains(n));
@@ -144,7 +144,7 @@ impl Machine<'_> {
     /// Sets the counter of a loop.
     pub(super) fn hold(&mut self, name: &str, value: f64) {
         let variable =
-            Variable { name: name.into(), kind: Some(Kind::Num), value: Value::Num(value), untouched: false };
+            Variable { name: name.into(), kind: Some(DataKind::Num), value: Value::Num(value), untouched: false };
         if let Some(frame) = self.frames.last_mut() {
             frame.variables.insert(name.to_ascii_lowercase(), variable);
         }

@@ -3,7 +3,7 @@
 use hairpin::campaign::scenario::KeyPath;
 use serde_json::Value;
 
-use super::{Kind, Node, Shape, most_alike, type_of};
+use super::{Node, NodeKind, Shape, most_alike, type_of};
 use crate::scenario::report::Report;
 
 /// What the key that `[vary]` draws under `mistaken`, such as `vary."robot.mass_kg"`, must be, where `schema` has no
@@ -22,7 +22,7 @@ impl<'s> Shape<'s> {
     fn unknown(&self, schema: &'s Value, node: Option<&Node>, segments: &[String], path: &str) -> Option<String> {
         let (first, rest) = segments.split_first()?;
         let alternatives = self.alternatives(schema);
-        if let Some(Kind::Array(items)) = node.map(|node| &node.kind) {
+        if let Some(NodeKind::Array(items)) = node.map(|node| &node.kind) {
             let array = alternatives.into_iter().find(|schema| type_of(schema) == "array")?;
             let item = items.get(first.parse::<usize>().ok()?)?;
             return self.unknown(&array["items"], Some(item), rest, &format!("{path}[{first}]"));
@@ -46,7 +46,7 @@ impl<'s> Shape<'s> {
     fn chosen(&self, tables: &[&'s Value], node: Option<&Node>) -> Option<&'s Value> {
         let Some(node) = node else { return tables.first().copied() };
         let tagged = self.tag(tables).and_then(|tag| {
-            let Kind::Text(word) = &node.get(tag)?.kind else { return None };
+            let NodeKind::Text(word) = &node.get(tag)?.kind else { return None };
             tables.iter().copied().find(|schema| self.word_of(schema, tag) == Some(word))
         });
         tagged.or_else(|| most_alike(tables, node)).or(tables.first().copied())

@@ -165,7 +165,7 @@ fn flown(name: String, sets: &[Set], ways: &[Vec<Case>], watch: &dyn Watch) -> R
         let runs = fly_each(&setup, cases, 0, watch)?;
         let failed = |run: &Run| Some((run.case, run.outcome.as_ref().err()?.to_string()));
         if let Some((case, why)) = runs.iter().find_map(failed) {
-            return Err(Problem::Executor(format!("{name}, case {case:04}: {why}")));
+            return Err(Problem::Executor(format!("{name}, case {case}: {why}")));
         }
         let runs: Vec<Vec<Run>> = runs.into_iter().map(|run| vec![run]).collect();
         let [own] = Flown::by_runs(&setup, cases, runs, [Stress::MaxDeviation]);

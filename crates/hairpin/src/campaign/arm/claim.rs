@@ -2,7 +2,7 @@
 
 use super::solve::ArmSolver;
 use super::{ArmSetup, knobs, losses, plan, replan, verify};
-use crate::campaign::graph::Deaths;
+use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Solver};
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
@@ -14,7 +14,7 @@ impl Claim for ArmSetup {
     }
 
     /// There is one graph, whose moves are all looked at.
-    fn lost(&self, _: u64) -> Deaths {
+    fn lost(&self, _: u64) -> Losses {
         losses::losses(self)
     }
 

@@ -127,9 +127,9 @@ impl ArmSetup {
         let names = self.part_names();
         let postures = graph.postures.iter().flatten().enumerate();
         let mut refused = postures.filter_map(|(row, posture)| posture.as_ref().err().map(|refusal| (row, refusal)));
-        refused
-            .next()
-            .map_or_else(String::new, |(row, refusal)| format!("{}: {}", self.point_name(row), refusal.told(&names)))
+        refused.next().map_or_else(String::new, |(row, refusal)| {
+            format!("{}: {}", self.point_name(row), refusal.in_words(&names))
+        })
     }
 }
 

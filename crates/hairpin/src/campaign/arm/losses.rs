@@ -2,11 +2,11 @@
 
 use super::ArmSetup;
 use super::graph::whole_graph;
-use crate::campaign::graph::{Counter, Deaths, Stage};
+use crate::campaign::graph::{Counter, Losses, Stage};
 use crate::feasibility::reachability::Refusal;
 
 /// Counts the moves between all ordered pairs of points, and the arcs through a third, by what became of them.
-pub(super) fn losses(setup: &ArmSetup) -> Deaths {
+pub(super) fn losses(setup: &ArmSetup) -> Losses {
     let mut counter = Counter::default();
     if let Ok(graph) = whole_graph(setup) {
         let (n, names) = (graph.points(), setup.part_names());
@@ -14,7 +14,7 @@ pub(super) fn losses(setup: &ArmSetup) -> Deaths {
         for (from, to) in pairs {
             match graph.reachability.refusal(from, to) {
                 Some(refusal) => {
-                    let (stage, limit) = told(refusal, &names);
+                    let (stage, limit) = stage_of(refusal, &names);
                     counter.lose(stage, &limit);
                 }
                 None if graph.costs[from * n + to].is_none() => counter.lose(Stage::Limits, "the table of costs"),
@@ -24,7 +24,7 @@ pub(super) fn losses(setup: &ArmSetup) -> Deaths {
         if let Some(arcs) = &graph.arcs {
             counter.keep_many(arcs.free.len() as u64);
             for (_, refusal) in &arcs.refused {
-                let (stage, limit) = told(refusal, &names);
+                let (stage, limit) = stage_of(refusal, &names);
                 counter.lose(stage, &limit);
             }
         }
@@ -34,14 +34,14 @@ pub(super) fn losses(setup: &ArmSetup) -> Deaths {
             counter.keep_many(n as u64 - refused);
         }
     }
-    counter.deaths(if setup.scenario.generate.moves.arcs {
+    counter.losses(if setup.scenario.generate.moves.arcs {
         "moves and arcs between points, from home and back"
     } else {
         "moves between points, from home and back"
     })
 }
 
-fn told(refusal: &Refusal, names: &[String]) -> (Stage, String) {
+fn stage_of(refusal: &Refusal, names: &[String]) -> (Stage, String) {
     let part = |index: usize| names.get(index).cloned().unwrap_or_else(|| "a part of the cell".into());
     match *refusal {
         Refusal::ToolMeets { part: index, .. } | Refusal::Collides { part: index, .. } => {

@@ -4,6 +4,7 @@
 use nalgebra::Isometry3;
 
 use super::ArmSetup;
+use crate::campaign::CaseNumber;
 use crate::campaign::scenario::MoveName;
 use crate::math::random::{named_seed, stream, unit};
 use crate::robot::arm::Configuration;
@@ -85,7 +86,7 @@ impl ArmSetup {
         let (tool, object) = self.frames();
         let object_from_base = object.base_from_object().inverse();
         let procedure = &self.scenario.generate.moves.procedure;
-        let mut program = Program::new(&format!("hairpin_{number:04}"), procedure, tool, object);
+        let mut program = Program::new(&format!("hairpin_{}", CaseNumber(number)), procedure, tool, object);
         let moves = &self.scenario.generate.moves;
         let mut random = stream(named_seed(self.scenario.seed, "moves", number as u64));
         let mut pick = |names: &[String]| names[(unit(&mut random) * names.len() as f64) as usize].clone();

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::ArmSetup;
 use crate::campaign::baseline::{CaseMoves, Moves};
-use crate::campaign::{Case, RunDeviation};
+use crate::campaign::{Case, CaseNumber, RunDeviation};
 use crate::judgement::Verdict;
 use crate::judgement::moves::{Band, MovesError, ProgramComparison, Regression, Release, compare, offset_told, trend};
 
@@ -12,18 +12,18 @@ use crate::judgement::moves::{Band, MovesError, ProgramComparison, Regression, R
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RegressionError {
     /// The two have other programs.
-    #[error("case {case:04} {what}")]
+    #[error("case {case} {what}")]
     Programs {
         /// Which.
-        case: usize,
+        case: CaseNumber,
         /// In words, from `is` or `has` on.
         what: String,
     },
     /// What the oracle refuses.
-    #[error("case {case:04}: {cause}")]
+    #[error("case {case}: {cause}")]
     Moves {
         /// Which.
-        case: usize,
+        case: CaseNumber,
         /// Why.
         cause: MovesError,
     },
@@ -69,7 +69,7 @@ impl ArmSetup {
             let mut releases: Vec<Release> = like.iter().map(|(name, runs)| Release { name, runs }).collect();
             releases.extend([before, now]);
             let trends = if releases.len() < 3 { Vec::new() } else { trend(&releases).map_err(refuse)? };
-            programs.push(ProgramComparison { program: format!("{:04}", new.case), comparison, trends });
+            programs.push(ProgramComparison { program: new.case.to_string(), comparison, trends });
         }
         let names = baseline.releases.iter().map(|release| release.name.clone());
         Ok(Some(Regression { releases: names.chain([name.to_owned()]).collect(), programs }))
@@ -153,7 +153,7 @@ fn same_programs(release: &str, old: &[CaseMoves], new: &[CaseMoves]) -> Result<
 }
 
 fn numbers(cases: &[CaseMoves]) -> String {
-    let names: Vec<String> = cases.iter().map(|one| format!("{:04}", one.case)).collect();
+    let names: Vec<String> = cases.iter().map(|one| one.case.to_string()).collect();
     names.join(", ")
 }
 
@@ -173,7 +173,7 @@ mod tests {
             deviation_m: moves.iter().map(|_| Some(1e-4)).collect(),
         };
         let moves = moves.iter().map(|name| (*name).to_owned()).collect();
-        CaseMoves { case: number, program: "a".into(), moves, runs: (0..runs).map(run).collect() }
+        CaseMoves { case: CaseNumber(number), program: "a".into(), moves, runs: (0..runs).map(run).collect() }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::solve::DriveSolver;
 use super::{DriveSetup, knobs, losses, plan, replan, verify};
-use crate::campaign::graph::Deaths;
+use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
 use crate::campaign::scenario::DriveScenario;
 use crate::campaign::{Case, Scenario, Timed};
@@ -19,7 +19,7 @@ impl Claim for DriveSetup {
         Ok(Box::new(DriveSolver::new(self)?))
     }
 
-    fn lost(&self, graphs: u64) -> Deaths {
+    fn lost(&self, graphs: u64) -> Losses {
         losses::losses(self, graphs)
     }
 

@@ -8,7 +8,7 @@ use super::solve::settings;
 use crate::campaign::placement::{Placed, Placement, Placing, name};
 use crate::campaign::scenario::{CircleSection, KeepOutSection, PlacedDiscsSection};
 use crate::campaign::{Case, Environment};
-use crate::feasibility::reach::drive::{DriveLooks, DriveSite};
+use crate::feasibility::reach::drive::{ClearanceSamples, DriveSite};
 use crate::trajectory::Track;
 use crate::world::Shape;
 use crate::world::terrain::{KeepOut, KeepOutShape, KeepOuts};
@@ -22,7 +22,7 @@ const GAPS: [f64; 2] = [0.002, 0.05];
 /// What keep-outs have to be clear of.
 enum Claimed<'a> {
     /// The predicted motion of a drive.
-    Drive(DriveLooks),
+    Drive(ClearanceSamples),
     /// The straight legs between waypoints, where that is all.
     Straight(&'a [Point3<f64>]),
 }
@@ -62,7 +62,7 @@ impl<'a> Claimed<'a> {
     fn by(setup: &DriveSetup, case: &'a Case) -> Option<Self> {
         let Some(drive) = case.commands() else { return Some(Self::Straight(&case.waypoints)) };
         let site = DriveSite::new(&setup.planner, &setup.map, &setup.keep_out);
-        DriveLooks::along(&site, &settings(setup).ok()?, drive).map(Self::Drive)
+        ClearanceSamples::along(&site, &settings(setup).ok()?, drive).map(Self::Drive)
     }
 
     /// The plan as a chain of segments at height 0.

@@ -5,7 +5,7 @@ mod changes;
 use serde::Serialize;
 
 use self::changes::{searched, smallest};
-use super::graph::Deaths;
+use super::graph::Losses;
 use super::{Mistake, Scenario, Setup, Stop, Tally, verdict};
 use crate::judgement::Verdict;
 
@@ -21,7 +21,8 @@ pub struct Explanation {
     /// What became of the candidates for legs.
     ///
     /// Candidates near the starts of a few graphs, by the stage that refused them.
-    pub deaths: Deaths,
+    #[serde(rename = "deaths")]
+    pub losses: Losses,
     /// Single changes with which something is feasible, the smallest first; none are looked for where something is.
     pub changes: Vec<Change>,
     /// Whether the search for changes was stopped before it came to an end.
@@ -49,12 +50,12 @@ pub fn explain(
 ) -> Result<Explanation, Mistake> {
     let setup = first_of(setup, graphs).and_then(|scenario| setup.of_draw(scenario))?;
     let tally = searched(&setup, true, stop);
-    let deaths = setup.kind().lost(graphs);
+    let losses = setup.kind().lost(graphs);
     let cancelled = || (stop.cancelled)() || enough();
     let looking = Stop { cancelled: &cancelled, ..*stop };
     let changes = if tally.solved > 0 { Vec::new() } else { smallest(&setup, &looking) };
     let stopped = tally.solved == 0 && cancelled();
-    Ok(Explanation { graphs: tally.graphs, solved: tally.solved, deaths, changes, stopped, tally })
+    Ok(Explanation { graphs: tally.graphs, solved: tally.solved, losses, changes, stopped, tally })
 }
 
 impl Explanation {

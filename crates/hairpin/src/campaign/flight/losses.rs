@@ -7,7 +7,7 @@ use super::blocking::obstacle;
 use super::graph;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
-use crate::campaign::graph::{Counter, Deaths, GRAPHS, Stage};
+use crate::campaign::graph::{Counter, GRAPHS, Losses, Stage};
 use crate::campaign::scenario::ReachName;
 use crate::feasibility::reach::Roadmap;
 use crate::feasibility::{Infeasible, Limit};
@@ -17,7 +17,7 @@ use crate::world::World;
 const NODES: usize = 8;
 
 /// Counts the candidates of the first `graphs` graphs, a few at most.
-pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Deaths {
+pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Losses {
     let mut counter = Counter::default();
     let sampled = (0..graphs.min(GRAPHS)).filter_map(|number| Some((number, graph::sample(setup, number).ok()?)));
     if setup.scenario.generate.reach == ReachName::Witness {
@@ -26,14 +26,14 @@ pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Deaths {
                 count(setup, &set.roadmap(number, &points), points.len() - 1, &mut counter);
             }
         }
-        return counter.deaths("pairs of waypoint states near the start");
+        return counter.losses("pairs of waypoint states near the start");
     }
     if let Ok(set) = Stepwise::new(setup) {
         for (_, points) in sampled {
             set.count(&points, &mut counter);
         }
     }
-    counter.deaths("pairs of waypoints near the start")
+    counter.losses("pairs of waypoints near the start")
 }
 
 /// Breadth first from the start, over the first 8 nodes and all of their candidates: a sample, not the whole graph.
@@ -51,7 +51,7 @@ fn count(setup: &FlightSetup, roadmap: &Roadmap, end: usize, counter: &mut Count
             match fate {
                 Err(None) => counter.lose(Stage::Limits, "max_speed_m_s times the longest leg time"),
                 Err(Some(why)) => {
-                    let (stage, limit) = told(&why, &setup.world);
+                    let (stage, limit) = stage_of(&why, &setup.world);
                     counter.lose(stage, &limit);
                 }
                 Ok(next) => {
@@ -72,7 +72,7 @@ fn count(setup: &FlightSetup, roadmap: &Roadmap, end: usize, counter: &mut Count
 }
 
 /// The stage, and the scenario's key or the obstacle's name; of thrust and rotor speeds the limit's own.
-fn told(why: &Infeasible, world: &World) -> (Stage, String) {
+fn stage_of(why: &Infeasible, world: &World) -> (Stage, String) {
     let (Infeasible::Violates { limit, part, .. } | Infeasible::Unproven { limit, part, .. }) = *why;
     let (stage, name) = match limit {
         Limit::Speed => (Stage::Limits, "generate.limits.max_speed_m_s"),

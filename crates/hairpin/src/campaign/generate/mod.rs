@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use self::graphs::{GRAPHS_PER_CASE, Graphs};
 use super::graph::{Outcome, Wanted, fingerprint};
 use super::scenario::SearchMethod;
-use super::{Case, Scenario, Setup, Stop, Tally, Witness, vary};
+use super::{Case, CaseNumber, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
 use crate::trajectory::program::{Motion, Program};
 pub use known::Known;
@@ -33,7 +33,7 @@ pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
     }
     let varied = varies(scenario);
     let units = known.tally.units;
-    known.cases.retain(|case| if varied { (case.number as u64) < units } else { case.graph < units });
+    known.cases.retain(|case| if varied { (case.number.0 as u64) < units } else { case.graph < units });
     known
 }
 
@@ -111,7 +111,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
 /// Case number `case` of a scenario whose plan varies: its own scenario, its own graphs.
 fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
     let seed = case_seed(setup.scenario.seed(), case);
-    let draws = vary::draw_for_case(&setup.scenario, seed, case as usize);
+    let draws = vary::draw_for_case(&setup.scenario, seed, CaseNumber(case as usize));
     let drawn = setup.drawn(&draws).map_err(|mistake| mistake.to_string());
     let graphs = match drawn.as_ref().map_err(Clone::clone).and_then(Graphs::of) {
         Ok(graphs) => graphs,

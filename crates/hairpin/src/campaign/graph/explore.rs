@@ -5,7 +5,7 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
-use super::deaths::{Counter, Stage};
+use super::losses::{Counter, Stage};
 use crate::feasibility::reach::{Leg, Reach};
 
 /// Nodes of a graph whose candidates are counted, the nearest to the start first.

@@ -1,11 +1,11 @@
 //! One sampled graph: what is asked of it, and what it gives.
 
 mod answer;
-mod deaths;
 mod executions;
 mod explore;
 mod in_loop;
 mod in_order;
+mod losses;
 mod optima;
 mod outcome;
 mod partial;
@@ -15,11 +15,11 @@ mod remembered;
 mod rounds;
 mod search;
 
-pub(super) use deaths::Counter;
-pub use deaths::{Deaths, Lost, Stage};
 pub(super) use executions::{Executions, Partials, Surroundings, into_unit_ball};
 pub(super) use explore::{Explored, GRAPHS};
 pub(super) use in_order::in_order;
+pub(super) use losses::Counter;
+pub use losses::{Losses, Lost, Stage};
 pub(super) use optima::AGGREGATES;
 pub(super) use outcome::Outcome;
 pub(super) use plan::{Plan, fingerprint};

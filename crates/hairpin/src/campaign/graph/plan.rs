@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use crate::campaign::{Case, Environment, Evidence, SeenLeg, Witness};
+use crate::campaign::{Case, CaseNumber, Environment, Evidence, SeenLeg, Witness};
 use crate::math::random::case_seed;
 use crate::search::Found;
 
@@ -46,7 +46,7 @@ impl Plan {
     /// Case `number` of a campaign under the root seed, found in graph number `graph`.
     pub(in crate::campaign) fn case(self, root: u64, graph: u64, number: usize) -> Case {
         Case {
-            number,
+            number: CaseNumber(number),
             seed: case_seed(root, number as u64),
             graph,
             waypoints: self.waypoints,

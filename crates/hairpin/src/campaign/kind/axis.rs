@@ -35,7 +35,7 @@ impl Axis {
     }
 
     /// `1.2 … 2.4`, or the word of cell number `place`.
-    pub fn told(&self, place: usize) -> String {
+    pub fn in_words(&self, place: usize) -> String {
         match self.words.get(place) {
             Some(word) => word.clone(),
             None => format!("{} … {}", rounded(self.edges[place]), rounded(self.edges[place + 1])),

@@ -4,8 +4,8 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use super::{Knobs, Same};
-use crate::campaign::graph::{Deaths, Executions, Outcome, Wanted};
-use crate::campaign::{Case, Scenario, Stop, Timed};
+use crate::campaign::graph::{Executions, Losses, Outcome, Wanted};
+use crate::campaign::{Case, CaseNumber, Scenario, Stop, Timed};
 use crate::simulation::SimulationError;
 use crate::trajectory::{Track, TrackError};
 use crate::verification::{EndError, Proof};
@@ -25,7 +25,7 @@ pub enum PlanError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verified {
     /// Number of the case.
-    pub case: usize,
+    pub case: CaseNumber,
     /// The proof, and what was found of its environment; `None` for a case that claims no witness and has none.
     pub proof: Option<Proof>,
     /// End error of a whole flight, open loop, with rotor lag: what the claim leaves out.
@@ -41,7 +41,7 @@ pub(in crate::campaign) trait Claim {
     fn solver(&self) -> Result<Box<dyn Solver + '_>, String>;
 
     /// What becomes of the candidates for legs, in `graphs` graphs at most.
-    fn lost(&self, graphs: u64) -> Deaths;
+    fn lost(&self, graphs: u64) -> Losses;
 
     /// What plans `case` over other waypoints.
     ///

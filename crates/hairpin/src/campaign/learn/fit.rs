@@ -1,8 +1,8 @@
 //! From executed legs and moves to a model: what is chosen, what it is fitted to, and what it is tested on.
 
+use super::leg_stress::{LegStress, Pairs};
 use super::legs::{self, LegSample};
 use super::moves::{MoveFeatures, MoveSample};
-use super::parts::{Pairs, Parts};
 use super::{Feature, HeldOut, ScoreModel};
 use crate::campaign::case::SeenLeg;
 use crate::campaign::scenario::Subject;
@@ -52,9 +52,9 @@ impl ScoreModel {
             return Err(NoFit::Groups { groups: trajectories.len(), needed: LEAST_TRAJECTORIES });
         }
         let (seen, unseen) = all.split(HELD_OUT, HELD_OUT - 1);
-        let (tested, _) = Parts::choose(&seen)?;
+        let (tested, _) = LegStress::choose(&seen)?;
         let held_out = held_out(&tested, &unseen);
-        let (Parts { own, before }, validation) = Parts::choose(all)?;
+        let (LegStress { own, before }, validation) = LegStress::choose(all)?;
         Ok(Self {
             score_model: 1,
             stress,
@@ -85,7 +85,7 @@ pub(super) fn pairs(samples: &[LegSample]) -> Pairs {
 
 /// r² = 1 − Σ (y − ŷ)² / Σ (y − ȳ)² over the legs, 0 where all y are equal; the rank correlation is of the
 /// trajectories' largest y and ŷ, which need not be of the same leg.
-fn held_out(fitted: &Parts, unseen: &Pairs) -> HeldOut {
+fn held_out(fitted: &LegStress, unseen: &Pairs) -> HeldOut {
     let Pairs { rows: unseen, before } = unseen;
     let n = unseen.values.len().max(1) as f64;
     let mean = unseen.values.iter().sum::<f64>() / n;

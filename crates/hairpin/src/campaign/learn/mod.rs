@@ -2,10 +2,10 @@
 
 mod feature;
 mod fit;
+mod leg_stress;
 mod legs;
 mod model;
 mod moves;
-mod parts;
 mod resample;
 mod score;
 

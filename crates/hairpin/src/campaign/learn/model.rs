@@ -189,7 +189,10 @@ impl ScoreModel {
     /// [`Self::own`] and [`Self::left`] of many legs with their durations.
     ///
     /// [own, left] of each, to the last bit as one by one.
-    pub(in crate::campaign) fn parts<'l>(&self, legs: impl Iterator<Item = (&'l LegFeatures, f64)>) -> Vec<[f64; 2]> {
+    pub(in crate::campaign) fn own_and_left<'l>(
+        &self,
+        legs: impl Iterator<Item = (&'l LegFeatures, f64)>,
+    ) -> Vec<[f64; 2]> {
         let inputs: Vec<_> = legs.map(|(leg, duration)| legs::inputs(leg, duration)).collect();
         let mut parts = Vec::with_capacity(inputs.len());
         for some in inputs.chunks(LANES) {

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use rand::RngExt;
 
 use super::fit::pairs;
-use super::parts::Parts;
+use super::leg_stress::LegStress;
 use super::{LegSample, ScoreModel};
 use crate::math::random::stream;
 use crate::math::ridge::NoFit;
@@ -34,8 +34,8 @@ impl ScoreModel {
         let mut random = stream(seed);
         let draws = (0..trajectories.len()).map(|_| trajectories[random.random_range(0..trajectories.len())]);
         let drawn: Vec<LegSample> = draws.flatten().copied().collect();
-        let like = Parts { own: self.polynomial.clone(), before: self.before.clone() };
-        let Parts { own, before } = like.refitted(&pairs(&drawn))?;
+        let like = LegStress { own: self.polynomial.clone(), before: self.before.clone() };
+        let LegStress { own, before } = like.refitted(&pairs(&drawn))?;
         Ok(Self { polynomial: own, before, ..self.clone() })
     }
 }

@@ -23,7 +23,7 @@ impl AnyScore<'_> {
         match self {
             Self::Named(score) => [score.own(leg), score.left(leg)],
             Self::Learned(model) => [model.own(&leg.features, leg.duration), model.left(&leg.features, leg.duration)],
-            Self::User(user) => user.parts(&[LegFacts::of(leg)])[0],
+            Self::User(user) => user.own_and_left(&[LegFacts::of(leg)])[0],
         }
     }
 }
@@ -51,11 +51,11 @@ impl Additive for AnyScore<'_> {
         self.both(leg)[1]
     }
 
-    fn parts(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+    fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         match self {
-            Self::Named(score) => score.parts(legs),
-            Self::Learned(model) => model.parts(legs.iter().map(|leg| (&leg.features, leg.duration))),
-            Self::User(user) => user.parts(&legs.iter().map(LegFacts::of).collect::<Vec<_>>()),
+            Self::Named(score) => score.own_and_left(legs),
+            Self::Learned(model) => model.own_and_left(legs.iter().map(|leg| (&leg.features, leg.duration))),
+            Self::User(user) => user.own_and_left(&legs.iter().map(LegFacts::of).collect::<Vec<_>>()),
         }
     }
 }

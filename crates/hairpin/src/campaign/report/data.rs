@@ -8,7 +8,7 @@ use super::text::attitude;
 use crate::campaign::kind::{Drawing, Surface};
 use crate::campaign::scenario::{DeviationFrom, Terms};
 use crate::campaign::{
-    Case, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
+    Case, CaseNumber, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
 };
 use crate::judgement::moves::Regression;
 use crate::judgement::{
@@ -102,7 +102,7 @@ pub struct ReportData {
     /// Label and value: frames, altitudes and what is counted, before anything is judged.
     pub frame: Vec<[String; 2]>,
     /// [`Case::claim`] of every case, by number.
-    pub claims: BTreeMap<usize, String>,
+    pub claims: BTreeMap<CaseNumber, String>,
     /// Which parameter did it.
     pub influences: Vec<Influence>,
     /// Of arms with a baseline: its moves against this campaign's.

@@ -62,7 +62,7 @@ pub const COLUMNS: [&str; 11] = [
 pub fn cells(result: &CaseResult) -> [String; 11] {
     let of = |value: fn(&crate::judgement::Measures) -> f64| number(result.measures.as_ref().map(value));
     [
-        format!("{:04}", result.case),
+        result.case.to_string(),
         result.status.word().into(),
         of(|m| m.max_deviation),
         of(|m| m.t_worst),

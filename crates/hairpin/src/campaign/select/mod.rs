@@ -11,7 +11,7 @@ use nalgebra::Point3;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{Case, CaseResult};
+use super::{Case, CaseNumber, CaseResult};
 use crate::judgement::Measures;
 
 /// Points at which two ways are compared, evenly along each.
@@ -49,7 +49,7 @@ impl By {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
     /// Its number.
-    pub case: usize,
+    pub case: CaseNumber,
     /// Its largest deviation, m, or where it was not executed its score.
     ///
     /// Executed cases without measures count by their score as well.
@@ -252,7 +252,7 @@ mod tests {
     fn candidate(case: usize, stress: f64, x: f64, cells: &[usize]) -> Candidate {
         let way = [Point3::origin(), Point3::new(x, 1.0, 0.0), Point3::new(2.0 * x, 0.0, 0.0)];
         Candidate {
-            case,
+            case: CaseNumber(case),
             stress,
             route: evenly(&way),
             behaviour: vec![stress, x],

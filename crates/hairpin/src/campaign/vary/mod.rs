@@ -7,6 +7,7 @@ mod tree;
 
 use serde_json::Value;
 
+use super::CaseNumber;
 use super::scenario::{Distribution, KeyPath, Mistake, Scenario, zip};
 use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 
@@ -24,8 +25,8 @@ pub fn draw(scenario: &Scenario, case_seed: u64, run: usize) -> Vec<(String, Val
 }
 
 /// The values of `task` and `generate` for case number `case`; none for case 0. Keys in alphabetical order.
-pub fn draw_for_case(scenario: &Scenario, case_seed: u64, case: usize) -> Vec<(String, Value)> {
-    if case == 0 { Vec::new() } else { draw_keys(scenario, case_seed, 0, shapes_the_plan) }
+pub fn draw_for_case(scenario: &Scenario, case_seed: u64, case: CaseNumber) -> Vec<(String, Value)> {
+    if case.0 == 0 { Vec::new() } else { draw_keys(scenario, case_seed, 0, shapes_the_plan) }
 }
 
 /// The scenario with the drawn values in place of the nominal ones, and nothing left to vary.
@@ -141,7 +142,7 @@ mod tests {
     #[test]
     fn nominal_first_then_every_key_where_it_belongs() {
         let scenario = scenario();
-        assert!(draw(&scenario, 7, 0).is_empty() && draw_for_case(&scenario, 7, 0).is_empty());
+        assert!(draw(&scenario, 7, 0).is_empty() && draw_for_case(&scenario, 7, CaseNumber(0)).is_empty());
         assert_eq!(apply(&scenario, &[]).unwrap(), {
             let mut constant = scenario.clone();
             constant.vary_mut().clear();
@@ -150,7 +151,7 @@ mod tests {
         let keys: Vec<_> = draw(&scenario, 7, 1).into_iter().map(|(key, _)| key).collect();
         let per_run = ["execute.controller", "robot.mass_kg", "world.obstacles[0].box.center_m", "world.wind_m_s"];
         assert_eq!(keys, per_run);
-        let of_case = draw_for_case(&scenario, 7, 3);
+        let of_case = draw_for_case(&scenario, 7, CaseNumber(3));
         assert_eq!(of_case[0].0, "task.length");
         // The plan is as it was drawn; what is drawn for its runs is the same as before.
         let settled = settle(&scenario, &[of_case.clone(), draw(&scenario, 7, 1)].concat()).unwrap();
@@ -158,7 +159,10 @@ mod tests {
             (settled.length().map(Value::from), &settled.own::<FlightScenario>().unwrap().robot),
             (Some(of_case[0].1.clone()), &scenario.own::<FlightScenario>().unwrap().robot)
         );
-        assert_eq!((draw(&settled, 7, 1), draw_for_case(&settled, 7, 3)), (draw(&scenario, 7, 1), Vec::new()));
+        assert_eq!(
+            (draw(&settled, 7, 1), draw_for_case(&settled, 7, CaseNumber(3))),
+            (draw(&scenario, 7, 1), Vec::new())
+        );
     }
 
     #[test]
@@ -166,7 +170,7 @@ mod tests {
         let scenario = scenario();
         let (mut lengths, mut masses, mut winds) = (Vec::new(), Vec::new(), Vec::new());
         for seed in 0..2000 {
-            let planned = apply(&scenario, &draw_for_case(&scenario, seed, 1)).unwrap();
+            let planned = apply(&scenario, &draw_for_case(&scenario, seed, CaseNumber(1))).unwrap();
             lengths.push(planned.length().unwrap());
             let drawn = apply(&scenario, &draw(&scenario, seed, 1)).unwrap();
             let drawn = drawn.own::<FlightScenario>().unwrap();

@@ -37,7 +37,7 @@ pub struct Finding {
 impl Finding {
     /// The reason and what would help, without line and names; `parts` are the names of the cell's.
     pub fn reason(&self, parts: &[String]) -> String {
-        let why = self.refusal.told(parts);
+        let why = self.refusal.in_words(parts);
         let Some(fit) = self.fit else { return why.to_string() };
         let names = ["cf1", "cf4", "cf6", "cfx"];
         let other = |index: &usize| self.tried.is_none_or(|tried| tried[*index] != fit.configuration[*index]);
@@ -52,7 +52,7 @@ impl Finding {
     }
 
     /// `line 8: UNREACHABLE p10→p20: …`, of what meets something `line 8: COLLISION …`.
-    pub fn told(&self, parts: &[String]) -> String {
+    pub fn in_words(&self, parts: &[String]) -> String {
         let line = self.line.map_or(String::new(), |line| format!("line {line}: "));
         let named = |name: &Option<String>, nameless: &str| name.clone().unwrap_or_else(|| nameless.into());
         let (from, to) = (named(&self.from, "(before)"), named(&self.to, "(in place)"));

@@ -97,7 +97,7 @@ fn limits_are_found_with_their_numbers_and_a_way_out() {
         external: NO_EXTERNAL,
     })]);
     let checked = check(&arm, &beyond, 2, &Surroundings::default(), &settings());
-    let told: Vec<String> = checked.findings.iter().map(|finding| finding.told(&[])).collect();
+    let told: Vec<String> = checked.findings.iter().map(|finding| finding.in_words(&[])).collect();
     assert_eq!(told, ["line 11: UNREACHABLE home→far: axis 4 at 163.1° > 160.0° at 100 % of the move"]);
     // Axis 4 would be at 170°; with the wrist flipped it is at −10°.
     let flipped = at(&arm, [10.0, 5.0, 10.0, 170.0, 50.0, -30.0], "p1");
@@ -109,7 +109,7 @@ fn limits_are_found_with_their_numbers_and_a_way_out() {
     let fit = finding.fit.unwrap();
     assert_eq!((fit.configuration[1], fit.configuration[3]), (-1, 1));
     assert!(
-        finding.told(&[]).contains("home→p1: axis 4 at 170.0° > 160.0° at 100 % of the move; with cf4 = −1"),
+        finding.in_words(&[]).contains("home→p1: axis 4 at 170.0° > 160.0° at 100 % of the move; with cf4 = −1"),
         "{finding:?}"
     );
 }
@@ -189,7 +189,7 @@ fn obstacles_are_met_where_they_stand() {
     let Refusal::Collides { link: 7, part: 0, at, .. } = finding.refusal else { panic!("{finding:?}") };
     let first = 0.6 - 0.012 / way.norm();
     assert!((at - first).abs() < 0.02, "{at} {first}");
-    let told = finding.told(&["rod".into()]);
+    let told = finding.in_words(&["rod".into()]);
     assert!(told.starts_with("line 12: COLLISION a→a: the tool meets rod at "), "{told}");
     // Moves in joints are followed too: the arm that swings through a post is told so.
     let post = Shape::capsule([0.3, 0.3, 0.0], [0.3, 0.3, 1.0], 0.05).unwrap();

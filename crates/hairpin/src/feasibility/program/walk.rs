@@ -146,7 +146,7 @@ impl Walk<'_> {
         };
         let tried = m.motion.end().and_then(|to| to.configuration);
         if let Some(refusal) = refusal {
-            self.told(index, m, refusal, tried, None);
+            self.record(index, m, refusal, tried, None);
         }
         self.at = Some(end);
     }
@@ -190,14 +190,14 @@ impl Walk<'_> {
     }
 
     /// Writes a finding down.
-    fn told(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
+    fn record(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
         let to = m.motion.name().map(Into::into);
         self.checked.findings.push(Finding { index, line: m.line, from: self.from.clone(), to, refusal, tried, fit });
     }
 
     /// Writes a finding down and moves on to the target, in its configuration if there is such a posture.
     fn refuse(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
-        self.told(index, m, refusal, tried, fit);
+        self.record(index, m, refusal, tried, fit);
         self.at = m.motion.end().and_then(|to| {
             let flange = self.flange(m, to);
             let asked = posture::choose(self.arm, &flange, to.configuration, &self.near());

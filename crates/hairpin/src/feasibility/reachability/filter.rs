@@ -32,7 +32,7 @@ pub(super) const HIT: u64 = 2;
 
 /// The points relative to a region, one coordinate after the other.
 pub(super) struct Filter {
-    kind: Kind,
+    kind: RegionKind,
     coordinates: [Vec<f64>; 3],
     scale: Scale,
 }
@@ -47,7 +47,7 @@ struct Scale {
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Kind {
+enum RegionKind {
     /// Radius, grown.
     Ball(f64),
     /// Half extents, and by how much they grow.
@@ -73,31 +73,31 @@ impl Filter {
         }
         let no_turn = Matrix3::identity();
         let (centre, turn, kind) = match region {
-            Region::Shape(Shape::Sphere { center, radius: own }) => (*center, no_turn, Kind::Ball(own + radius)),
+            Region::Shape(Shape::Sphere { center, radius: own }) => (*center, no_turn, RegionKind::Ball(own + radius)),
             Region::Shape(Shape::Box { center, half_extents }) => {
-                (*center, no_turn, Kind::Box((*half_extents).into(), radius))
+                (*center, no_turn, RegionKind::Box((*half_extents).into(), radius))
             }
-            Region::Beyond { center, radius: own } => (*center, no_turn, Kind::Beyond(own - radius)),
+            Region::Beyond { center, radius: own } => (*center, no_turn, RegionKind::Beyond(own - radius)),
             Region::Cylinder { a, b, radius: own } => {
                 let axis = b - a;
-                (nalgebra::center(a, b), upright(&axis), Kind::Cylinder(*own, 0.5 * axis.norm(), radius))
+                (nalgebra::center(a, b), upright(&axis), RegionKind::Cylinder(*own, 0.5 * axis.norm(), radius))
             }
             region => {
                 let bounds = region.bounds()?;
                 // Outward by far more than its rounding.
                 let half = (bounds.max - bounds.min) * (0.5 * (1.0 + 1e-12));
                 let grown = half.map(|h| (h + radius) * (1.0 + 1e-12) + 1e-12);
-                (nalgebra::center(&bounds.min, &bounds.max), no_turn, Kind::Around(grown.into()))
+                (nalgebra::center(&bounds.min, &bounds.max), no_turn, RegionKind::Around(grown.into()))
             }
         };
         let turned = turn != no_turn;
         let relative: Vec<Vector3<f64>> = points.iter().map(|p| turn * (p - centre)).collect();
         let sizes = match kind {
-            Kind::Ball(r) | Kind::Beyond(r) => r,
-            Kind::Box(h, r) => h.into_iter().fold(0.0, f64::max) + r,
-            Kind::Cylinder(own, half, r) => own.max(half) + r,
-            Kind::Around(h) => h.into_iter().fold(0.0, f64::max),
-            Kind::Heights => 0.0,
+            RegionKind::Ball(r) | RegionKind::Beyond(r) => r,
+            RegionKind::Box(h, r) => h.into_iter().fold(0.0, f64::max) + r,
+            RegionKind::Cylinder(own, half, r) => own.max(half) + r,
+            RegionKind::Around(h) => h.into_iter().fold(0.0, f64::max),
+            RegionKind::Heights => 0.0,
         };
         let centred = centre.coords.amax();
         let m = relative.iter().map(|v| v.amax()).fold(sizes, f64::max).max(f64::MIN_POSITIVE) * (1.0 + 1e-12);
@@ -121,11 +121,11 @@ impl Filter {
         let points = [&xs[i + 1..], &ys[i + 1..], &zs[i + 1..]];
         let scale = self.scale;
         match self.kind {
-            Kind::Ball(r) => ball(simd, from, r, scale, points, out),
-            Kind::Beyond(r) => beyond(simd, from, r, scale, points, out),
-            Kind::Box(half, r) => cuboid(simd, from, half, r, scale, points, out),
-            Kind::Cylinder(own, half, r) => cylinder(simd, from, [own, half, r], scale, points, out),
-            Kind::Heights => {
+            RegionKind::Ball(r) => ball(simd, from, r, scale, points, out),
+            RegionKind::Beyond(r) => beyond(simd, from, r, scale, points, out),
+            RegionKind::Box(half, r) => cuboid(simd, from, half, r, scale, points, out),
+            RegionKind::Cylinder(own, half, r) => cylinder(simd, from, [own, half, r], scale, points, out),
+            RegionKind::Heights => {
                 let [low, high, _] = points;
                 for ((low, high), out) in low.iter().zip(high).zip(out) {
                     // Heights are linear along the segment.
@@ -133,7 +133,7 @@ impl Filter {
                     *out = u64::from(clear) | (u64::from((from[1] <= 0.0) | (*high <= 0.0)) << 1);
                 }
             }
-            Kind::Around(half) => around(simd, from, half, scale, points, out),
+            RegionKind::Around(half) => around(simd, from, half, scale, points, out),
         }
     }
 }
@@ -143,7 +143,7 @@ fn heights(region: &Region, points: &[Point3<f64>], radius: f64) -> Option<Filte
     let height = |p: &Point3<f64>| region.formula([p.x, p.y, p.z].map(Interval::point), radius);
     let all: Vec<Interval> = points.iter().map(height).collect::<Option<_>>()?;
     let coordinates = [all.iter().map(|h| h.low).collect(), all.iter().map(|h| h.high).collect(), vec![0.0; all.len()]];
-    Some(Filter { kind: Kind::Heights, coordinates, scale: Scale { m: 0.0, eta: 0.0 } })
+    Some(Filter { kind: RegionKind::Heights, coordinates, scale: Scale { m: 0.0, eta: 0.0 } })
 }
 
 /// A rotation that turns `axis` into z; along a coordinate axis without rounding.

@@ -21,6 +21,6 @@ mod tests;
 
 pub use cartesian::{CartesianSettings, Level, cartesian, micrometres};
 pub use graph::ReachabilityGraph;
-pub use refusal::{Refusal, Told};
+pub use refusal::{InWords, Refusal};
 pub use segment::Obstacle;
 pub use verdict::Verdict;

@@ -153,13 +153,13 @@ impl Refusal {
     /// The sentence, with the names of the parts of the cell.
     ///
     /// `parts` in the cell's order; one that is missing is `?`.
-    pub fn told<'r>(&'r self, parts: &'r [String]) -> Told<'r> {
-        Told { refusal: self, parts }
+    pub fn in_words<'r>(&'r self, parts: &'r [String]) -> InWords<'r> {
+        InWords { refusal: self, parts }
     }
 }
 
 /// A refusal in words.
-pub struct Told<'r> {
+pub struct InWords<'r> {
     refusal: &'r Refusal,
     parts: &'r [String],
 }
@@ -181,7 +181,7 @@ fn body(link: usize) -> String {
     }
 }
 
-impl fmt::Display for Told<'_> {
+impl fmt::Display for InWords<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let part = |index: usize| self.parts.get(index).map_or("?", String::as_str);
         let percent = |at: f64| format!("at {:.0} % of the move", 100.0 * at);

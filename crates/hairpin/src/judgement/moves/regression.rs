@@ -59,7 +59,7 @@ impl Regression {
         }
         let worst = self.programs.iter().filter_map(|one| Some((one, one.comparison.worst()?)));
         match worst.max_by(|a, b| beyond(a.1).total_cmp(&beyond(b.1))) {
-            Some((one, worst)) => format!("{count}, worst {}{}", worst.told(), of(one)),
+            Some((one, worst)) => format!("{count}, worst {}{}", worst.in_words(), of(one)),
             None => count,
         }
     }
@@ -80,24 +80,24 @@ impl Regression {
         let Verdict { sentence, exit_code } = verdict;
         if worse == 0 {
             let said = format!("against {baseline}: no move outside the baseline's band{better}");
-            return Verdict { sentence: format!("{sentence}; {said}"), exit_code };
+            return Verdict::of(&format!("{sentence}; {said}"), exit_code);
         }
         if exit_code == 1 {
             let said = format!("against {baseline}: {}{better}", self.outside());
-            return Verdict { sentence: format!("{sentence}; {said}"), exit_code };
+            return Verdict::of(&format!("{sentence}; {said}"), exit_code);
         }
         let spec = match (exit_code, limited) {
             (0, true) => "all still within spec".to_owned(),
             (0, false) => "no spec was given".to_owned(),
             _ => sentence,
         };
-        Verdict { sentence: format!("{}: {}{better}; {spec}", self.head(), self.outside()), exit_code: 1 }
+        Verdict::of(&format!("{}: {}{better}; {spec}", self.head(), self.outside()), 1)
     }
 }
 
 impl MoveComparison {
     /// `p17→p09 +41 ms (band ±6 ms)`, with as many decimals as it takes.
-    pub fn told(&self) -> String {
+    pub fn in_words(&self) -> String {
         let (difference, band, unit) = match self.metric {
             Metric::Duration => (1e3 * self.difference(), 1e3 * self.band, "ms"),
             Metric::Deviation => (1e3 * self.difference(), 1e3 * self.band, "mm"),

@@ -43,7 +43,7 @@ pub fn moves_verdict(judged: &JudgedMoves) -> Verdict {
     let worst = worst.map(|(run, violation)| worst_and_where(judged, run, &violation));
     let nothing = || "nothing to judge by: neither a limit nor a baseline".to_owned();
     let said = worst.unwrap_or_else(|| if exit_code == 5 { nothing() } else { "nothing is limited".into() });
-    let mut verdict = Verdict { sentence: format!("{word} moves {}: {said}", how(judged)), exit_code };
+    let mut verdict = Verdict::of(&format!("{word} moves {}: {said}", how(judged)), exit_code);
     if let Some(comparison) = judged.comparison {
         let program = ProgramComparison { program: String::new(), comparison: comparison.clone(), trends: Vec::new() };
         let releases = vec![comparison.baseline.clone(), comparison.new.clone()];

@@ -91,7 +91,7 @@ impl<N: Copy> LegGraph<'_, N> {
         for node in 0..self.nodes() as u32 {
             views.clear();
             views.extend(self.legs_from(node).map(|leg| self.view(node, leg)));
-            for [of_leg, to_next] in objective.parts(&views) {
+            for [of_leg, to_next] in objective.own_and_left(&views) {
                 own.push(of_leg);
                 left.push(to_next);
             }

@@ -229,7 +229,7 @@ fn ways_out(net: &Net, points: &[usize]) -> Vec<Arrow> {
 }
 
 /// The parts that arcs make of the nodes they touch: for each node the least node of its part.
-fn parts(nodes: usize, used: &[Arrow]) -> Vec<usize> {
+fn components(nodes: usize, used: &[Arrow]) -> Vec<usize> {
     let mut part: Vec<usize> = (0..nodes).collect();
     let root = |part: &[usize], mut at: usize| {
         while part[at] != at {
@@ -248,7 +248,7 @@ fn parts(nodes: usize, used: &[Arrow]) -> Vec<usize> {
 ///
 /// `None` where all arcs hang together with the dummy: the circulation is a path.
 fn apart(net: &Net, used: &[Arrow]) -> Option<Vec<usize>> {
-    let part = parts(net.nodes, used);
+    let part = components(net.nodes, used);
     let of = |root: usize| (0..net.nodes).filter(|node| part[*node] == root).collect::<Vec<_>>();
     let others: Vec<usize> =
         used.iter().map(|(from, _)| part[*from]).filter(|root| *root != part[net.dummy()]).collect();
@@ -263,7 +263,7 @@ fn apart(net: &Net, used: &[Arrow]) -> Option<Vec<usize>> {
 fn joined(net: &Net, used: &[Arrow]) -> Option<(i64, Vec<usize>)> {
     let mut used = used.to_vec();
     loop {
-        let part = parts(net.nodes, &used);
+        let part = components(net.nodes, &used);
         let own = part[net.dummy()];
         let (main, rest): (Vec<_>, Vec<_>) = used.iter().copied().partition(|(from, _)| part[*from] == own);
         if rest.is_empty() {

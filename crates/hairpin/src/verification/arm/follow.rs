@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use super::course::{Course, apart};
-use super::look::Asked;
+use super::posture::Asked;
 use super::{Arm, Wrong};
 
 /// Samples of a straight move are this near, m and rad; of a joint move this, rad.

@@ -4,7 +4,7 @@ use nalgebra::Isometry3;
 
 use super::claim::{ArmClaim, ArmMoveFinding};
 use super::course::{Course, ToolCourse, apart};
-use super::look::Asked;
+use super::posture::Asked;
 use super::{Arm, NO_ARC, ROUNDING, Wrong};
 
 /// A move arrives within this of the angles that the next one begins at, rad.

@@ -7,8 +7,8 @@ use super::claim::{ArmClaim, ArmMotion, ArmMoveFinding, ArmProgramClaim, ArmProg
 use super::corner::corner;
 use super::course::{Course, ToolCourse, apart};
 use super::follow::Leg;
-use super::look::Asked;
 use super::path::{ArmPath, ArmPiece};
+use super::posture::Asked;
 use super::solids::to_all_sides;
 use super::{Arm, NO_ARC, ROUNDING, Wrong};
 

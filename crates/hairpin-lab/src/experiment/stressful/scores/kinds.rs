@@ -5,7 +5,7 @@ use serde::Deserialize;
 /// What ways are told apart by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum Kind {
+pub(super) enum WayKind {
     #[serde(skip)]
     Baseline,
     ByHand,
@@ -16,7 +16,7 @@ pub(super) enum Kind {
     MovedLearned,
 }
 
-impl Kind {
+impl WayKind {
     /// Whether what is found depends on who will fly it.
     pub(super) fn knows_controller(self) -> bool {
         !matches!(self, Self::Baseline | Self::ByHand)
@@ -24,11 +24,11 @@ impl Kind {
 }
 
 /// The kinds beside the baselines, as they are named.
-pub(super) const KINDS: [(Kind, &str); 6] = [
-    (Kind::ByHand, "best by hand"),
-    (Kind::Learned, "learned"),
-    (Kind::InLoop, "in the loop"),
-    (Kind::InLoopLearned, "in the loop, from the learned"),
-    (Kind::Moved, "in the loop, waypoints moved"),
-    (Kind::MovedLearned, "in the loop, waypoints moved, from the learned"),
+pub(super) const KINDS: [(WayKind, &str); 6] = [
+    (WayKind::ByHand, "best by hand"),
+    (WayKind::Learned, "learned"),
+    (WayKind::InLoop, "in the loop"),
+    (WayKind::InLoopLearned, "in the loop, from the learned"),
+    (WayKind::Moved, "in the loop, waypoints moved"),
+    (WayKind::MovedLearned, "in the loop, waypoints moved, from the learned"),
 ];

@@ -3,7 +3,7 @@
 use hairpin_formats::figure::{Axis, Cell, Figure, Marks, Point, Scale, Series, Table};
 
 use super::super::lift::Lift;
-use super::kinds::{KINDS, Kind};
+use super::kinds::{KINDS, WayKind};
 use super::size::{Graphs, Printed, Size};
 use super::tables::{OF_GRAPHS, of_graphs};
 
@@ -11,13 +11,13 @@ use super::tables::{OF_GRAPHS, of_graphs};
 pub(super) struct Measured {
     pub(super) graphs: Graphs,
     /// By controller: ways with their lift over uniform trajectories.
-    pub(super) controllers: Vec<(String, Vec<(Kind, Lift)>)>,
+    pub(super) controllers: Vec<(String, Vec<(WayKind, Lift)>)>,
 }
 
 impl Measured {
     /// The best lift of a kind per controller, and their mean.
-    fn best(&self, kind: Kind) -> (Vec<Option<Lift>>, f64) {
-        let best = |ways: &Vec<(Kind, Lift)>| {
+    fn best(&self, kind: WayKind) -> (Vec<Option<Lift>>, f64) {
+        let best = |ways: &Vec<(WayKind, Lift)>| {
             let own = ways.iter().filter(|(other, _)| *other == kind).map(|(_, lift)| *lift);
             own.reduce(|best, lift| if lift.value > best.value { lift } else { best })
         };
@@ -50,8 +50,8 @@ pub(super) fn summary(size: &Size, printed: &Printed, measured: &[Measured]) -> 
             row.extend(best.iter().map(|lift| Cell::from(lift.map(|lift| 100.0 * lift.value))));
             row.push((100.0 * mean).into());
             row.push(match kind {
-                Kind::ByHand => by_hand.into(),
-                Kind::Learned => printed.learned_mean_percent.into(),
+                WayKind::ByHand => by_hand.into(),
+                WayKind::Learned => printed.learned_mean_percent.into(),
                 _ => Cell::Empty,
             });
             table.push(row);

@@ -10,7 +10,7 @@ use hairpin_jobs::{Problem, Watch};
 
 use super::super::cell::{self, FLIGHT_GOGGLES, Set, text, with};
 use super::super::lift::Flown;
-use super::kinds::Kind;
+use super::kinds::WayKind;
 use super::lifts::Measured;
 use super::size::{Graphs, Size};
 use super::tables::Tables;
@@ -43,7 +43,7 @@ impl Controlled {
             }
             false => None,
         };
-        let optima = match size.kinds.contains(&Kind::Learned) {
+        let optima = match size.kinds.contains(&WayKind::Learned) {
             true => optima(&base, graphs, &[], model.as_ref(), watch)?,
             false => Vec::new(),
         };
@@ -69,7 +69,7 @@ pub(super) fn measure(
     let mut controllers = Vec::new();
     // Cases by way, of the ways that find the same for every controller.
     let mut shared: HashMap<&str, Vec<Case>> = HashMap::new();
-    let by_hand = match size.controllers.first().filter(|_| size.kinds.contains(&Kind::ByHand)) {
+    let by_hand = match size.controllers.first().filter(|_| size.kinds.contains(&WayKind::ByHand)) {
         Some(any) => optima(&base(size, &graphs, any), &graphs, &by_hand(), None, watch)?,
         None => Vec::new(),
     };

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::kinds::Kind;
+use super::kinds::WayKind;
 
 /// Size of the experiment.
 #[derive(Debug, Deserialize)]
@@ -31,7 +31,7 @@ pub(super) struct Size {
     reach: Vec<Asked>,
     pub(super) controllers: Vec<String>,
     /// What is measured beside the baselines.
-    pub(super) kinds: Vec<Kind>,
+    pub(super) kinds: Vec<WayKind>,
     /// What deviations are measured from: leg | nearest-leg.
     pub(super) from: String,
 }

@@ -5,7 +5,7 @@ use hairpin::math::random::named_seed;
 use hairpin_formats::figure::{Cell, Table};
 
 use super::super::lift::{Flown, Lift, lift};
-use super::kinds::Kind;
+use super::kinds::WayKind;
 use super::size::{Graphs, Size};
 use super::ways::Way;
 
@@ -69,7 +69,7 @@ impl Tables {
         controller: &str,
         flown: &[(&Way, Flown)],
         ceiling: Option<f64>,
-    ) -> Vec<(Kind, Lift)> {
+    ) -> Vec<(WayKind, Lift)> {
         let [uniform, beam] = [0, 1].map(|baseline: usize| &*flown[baseline].1.stresses);
         let mut lifts = Vec::new();
         for (number, (way, came_to)) in flown.iter().enumerate() {

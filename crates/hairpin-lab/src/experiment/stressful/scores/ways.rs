@@ -3,13 +3,13 @@
 use hairpin::search::{Aggregate, Score};
 
 use super::super::cell::{self, Set, text};
-use super::kinds::Kind;
+use super::kinds::WayKind;
 use super::size::{Graphs, Size};
 
 /// A way to generate: its name, the kind that it counts among, and what finds its cases.
 pub(super) struct Way {
     pub(super) name: String,
-    pub(super) kind: Kind,
+    pub(super) kind: WayKind,
     pub(super) finds: Finds,
     pub(super) learned: bool,
 }
@@ -32,39 +32,39 @@ pub(super) fn ways(size: &Size, graphs: &Graphs) -> Vec<Way> {
     let way = |name: &str, kind, method: &str, sets: &[Set]| {
         let mut all = vec![("generate.search.method", text(method))];
         all.extend_from_slice(sets);
-        if kind != Kind::Baseline {
+        if kind != WayKind::Baseline {
             all.push(sampling(graphs));
         }
-        let learned = matches!(kind, Kind::InLoopLearned | Kind::MovedLearned);
+        let learned = matches!(kind, WayKind::InLoopLearned | WayKind::MovedLearned);
         Way { name: name.to_owned(), kind, finds: Finds::Keys(all), learned }
     };
     let mut ways = vec![
-        way("uniform", Kind::Baseline, "uniform", &[]),
-        way("random beam", Kind::Baseline, "beam", &[("generate.score", text("random"))]),
+        way("uniform", WayKind::Baseline, "uniform", &[]),
+        way("random beam", WayKind::Baseline, "beam", &[("generate.score", text("random"))]),
     ];
     for (word, aggregate) in [("sum", Aggregate::Sum), ("max", Aggregate::Max)] {
         let optimum = |name: &str, kind, score| {
             let finds = Finds::Optimum { score, aggregate };
-            Way { name: format!("{name}, {word}"), kind, finds, learned: kind == Kind::Learned }
+            Way { name: format!("{name}, {word}"), kind, finds, learned: kind == WayKind::Learned }
         };
         let by_hand = by_hand().into_iter().enumerate();
-        ways.extend(by_hand.map(|(score, name)| optimum(name, Kind::ByHand, score)));
-        ways.push(optimum("learned", Kind::Learned, 0));
+        ways.extend(by_hand.map(|(score, name)| optimum(name, WayKind::ByHand, score)));
+        ways.push(optimum("learned", WayKind::Learned, 0));
     }
-    let in_loop = |name: &str, executions: u64, kinds: [Kind; 2], sets: &[Set]| {
+    let in_loop = |name: &str, executions: u64, kinds: [WayKind; 2], sets: &[Set]| {
         let mut all = vec![("generate.search.executions", executions.to_string())];
         all.extend_from_slice(sets);
         let name = format!("{name}, {executions}");
         [way(&name, kinds[0], "in-loop", &all), way(&format!("{name}, from the learned"), kinds[1], "in-loop", &all)]
     };
-    ways.extend(in_loop("in the loop", size.executions, [Kind::InLoop, Kind::InLoopLearned], &[]));
+    ways.extend(in_loop("in the loop", size.executions, [WayKind::InLoop, WayKind::InLoopLearned], &[]));
     let moved = [
         ("generate.search.move_waypoints", "true".into()),
         ("generate.search.confirm", size.confirm_moved.to_string()),
     ];
-    let kinds = [Kind::Moved, Kind::MovedLearned];
+    let kinds = [WayKind::Moved, WayKind::MovedLearned];
     ways.extend(in_loop("in the loop and moved", size.executions_moved, kinds, &moved));
-    ways.retain(|way| way.kind == Kind::Baseline || size.kinds.contains(&way.kind));
+    ways.retain(|way| way.kind == WayKind::Baseline || size.kinds.contains(&way.kind));
     ways
 }
 

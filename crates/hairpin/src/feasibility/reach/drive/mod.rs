@@ -17,8 +17,8 @@
 //! | `stress`, `straight` | scores of legs, and of straight lines where there are no commands |
 //! | `tally` | reasons of refused legs, counted |
 
+mod clearance;
 mod judge;
-mod looks;
 mod pace;
 mod roadmap;
 mod sample;
@@ -29,7 +29,7 @@ mod tally;
 mod watch;
 mod ways;
 
-pub use looks::DriveLooks;
+pub use clearance::ClearanceSamples;
 pub use pace::{Pace, Slopes};
 pub use roadmap::{DriveLegs, DriveNode, DriveRoadmap};
 pub use sample::{GroundSampling, TooFewPlaces, sample_ground};

@@ -32,7 +32,7 @@ pub struct Bodies<'a> {
 }
 
 /// What is known of a piece of a move.
-pub(super) enum Look {
+pub(super) enum Contact {
     /// No body meets anything on the whole piece.
     Clear,
     /// At its middle one does.
@@ -66,7 +66,7 @@ impl<'a> Bodies<'a> {
     ///
     /// Distances at `q` against radius + clearance + displacement, where a body's displacement is at most Σ_k turn_k ·
     /// (its distance from axis k).
-    pub(super) fn look(&self, q: &Joints, turns: &Joints, at: f64, queries: &mut u64) -> Look {
+    pub(super) fn contact(&self, q: &Joints, turns: &Joints, at: f64, queries: &mut u64) -> Contact {
         let frames = self.arm.chain.frames(q);
         let axes = self.arm.chain.axes(&frames);
         let placed: Vec<(usize, Point3<f64>, Point3<f64>, f64)> =
@@ -93,7 +93,7 @@ impl<'a> Bodies<'a> {
                 }
                 let refused = |undecided| Refusal::Collides { link: body, part, at, undecided };
                 if named.region.meets(&a, &b, least) {
-                    return Look::Met(refused(false));
+                    return Contact::Met(refused(false));
                 }
                 unknown = unknown.or(Some(refused(true)));
             }
@@ -109,20 +109,20 @@ impl<'a> Bodies<'a> {
             }
             let refused = |undecided| Refusal::SelfCollides { links: [low, high], at, undecided };
             if distance <= r + s {
-                return Look::Met(refused(false));
+                return Contact::Met(refused(false));
             }
             unknown = unknown.or(Some(refused(true)));
         }
-        unknown.map_or(Look::Clear, Look::Unknown)
+        unknown.map_or(Contact::Clear, Contact::Unknown)
     }
 
     /// Why the arm cannot stand at `q`; `None` where it can. `at` is told.
     ///
     /// What is undecided is refused as well.
     pub fn standing(&self, q: &Joints, at: f64) -> Option<Refusal> {
-        match self.look(q, &[0.0; AXES], at, &mut 0) {
-            Look::Clear => None,
-            Look::Met(refusal) | Look::Unknown(refusal) => Some(refusal),
+        match self.contact(q, &[0.0; AXES], at, &mut 0) {
+            Contact::Clear => None,
+            Contact::Met(refusal) | Contact::Unknown(refusal) => Some(refusal),
         }
     }
 

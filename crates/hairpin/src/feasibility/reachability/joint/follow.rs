@@ -1,7 +1,7 @@
 //! A move followed from its start in one configuration: limits, singularities and collisions on every piece, proven or
 //! halved.
 
-use super::bodies::{Bodies, Look};
+use super::bodies::{Bodies, Contact};
 use super::motion::Motion;
 use crate::feasibility::reachability::Refusal;
 use crate::robot::arm::{AXES, Arm, Branch, Joints, Sweep, Tool};
@@ -165,9 +165,9 @@ impl Walk<'_> {
         let mut last = *near;
         for s in ahead {
             let Some(q) = self.solve(s, &last) else { break };
-            match bodies.map(|bodies| bodies.look(&q, &[0.0; AXES], s, self.queries)) {
-                Some(Look::Met(refusal)) => return refusal,
-                Some(Look::Clear | Look::Unknown(_)) => {}
+            match bodies.map(|bodies| bodies.contact(&q, &[0.0; AXES], s, self.queries)) {
+                Some(Contact::Met(refusal)) => return refusal,
+                Some(Contact::Clear | Contact::Unknown(_)) => {}
                 None => {
                     if let Some((axis, _)) = self.arm.outside_limits(&q) {
                         return self.beyond(axis, &q, s);
@@ -222,10 +222,10 @@ impl Walk<'_> {
                 return Judged::Open(self.beyond(axis, &q, at));
             }
         }
-        match self.bodies.map(|bodies| bodies.look(&q, &turns, at, self.queries)) {
-            None | Some(Look::Clear) => Judged::Holds(q, turns),
-            Some(Look::Met(refusal)) => Judged::Refused(refusal),
-            Some(Look::Unknown(refusal)) => Judged::Open(refusal),
+        match self.bodies.map(|bodies| bodies.contact(&q, &turns, at, self.queries)) {
+            None | Some(Contact::Clear) => Judged::Holds(q, turns),
+            Some(Contact::Met(refusal)) => Judged::Refused(refusal),
+            Some(Contact::Unknown(refusal)) => Judged::Open(refusal),
         }
     }
 }

@@ -237,7 +237,7 @@ fn beyond(arm: &Arm, q: &Joints) -> Refusal {
 
 impl Alternative {
     /// What to write instead of a configuration, and by how much the move then fits: `with cf4 = -1 it fits by 9.4°`.
-    pub fn told(&self, instead_of: &Configuration) -> String {
+    pub fn in_words(&self, instead_of: &Configuration) -> String {
         let names =
             ["cf1", "cf4", "cf6", "cfx"].into_iter().zip(self.configuration.numbers()).zip(instead_of.numbers());
         let changed: Vec<String> =

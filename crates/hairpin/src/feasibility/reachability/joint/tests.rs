@@ -164,7 +164,7 @@ fn refusals_name_axis_value_and_bound() {
     let home: Joints = [0.0, 0.0, 0.0, 0.0, 0.5, 0.0];
     let told = |motion: &Motion, start: &Joints| {
         let refused = follow(&arm, &tool, None, motion, start, &FollowSettings::default(), &mut 0).unwrap_err();
-        refused.told(&[]).to_string()
+        refused.in_words(&[]).to_string()
     };
     let end = [0.0, 0.0, 0.0, 170f64.to_radians(), 0.5, 0.0];
     let sentence = told(&Motion::Joint { start: home, end }, &home);
@@ -242,13 +242,13 @@ fn configurations_are_kept_and_alternatives_told() {
         "{:?}",
         found.graph.refusal(0, 1)
     );
-    let told = found.graph.refusal(0, 1).unwrap().told(&[]).to_string();
+    let told = found.graph.refusal(0, 1).unwrap().in_words(&[]).to_string();
     assert!(told.starts_with("configuration change: axis 6 arrives at -20.0°, not 340.0°"), "{told}");
     let helps = JointGraph::alternative(&arm, &tool, &cell, &all[0], &all[1], &settings).unwrap();
     assert!(helps.margin > 0.5 && helps.configuration.cfx < 8);
     let other =
         Alternative { configuration: Configuration { cf4: -1, ..helps.configuration }, margin: 9.4f64.to_radians() };
-    assert_eq!(other.told(&Configuration { cf4: 0, ..helps.configuration }), "with cf4 = -1 it fits by 9.4°");
+    assert_eq!(other.in_words(&Configuration { cf4: 0, ..helps.configuration }), "with cf4 = -1 it fits by 9.4°");
     let far = Station { pose: down(2.0, 0.0, 0.0), configuration: None };
     let found = joint(&arm, &tool, &cell, &[all[0], far], &settings, &Cost::Distance);
     assert_eq!(found.joints[1], Err(Refusal::OutOfReach { at: 0.0 }));
@@ -404,7 +404,7 @@ fn arcs_that_are_free_are_clear_wherever_they_are_looked_at_and_others_say_why()
             looked[reason] += 1;
             assert!(!matches!(refusal, Refusal::Turned { .. }) || points.contains(&5));
             assert!(
-                refusal.told(&["ball".into()]).to_string().chars().any(char::is_numeric),
+                refusal.in_words(&["ball".into()]).to_string().chars().any(char::is_numeric),
                 "{refusal:?} has no number"
             );
         }

@@ -234,7 +234,7 @@ fn graphs_are_symmetric_and_the_same_at_every_level() {
         }
     }
     let refused = (0..60).find_map(|j| widest.refusal(0, j)).expect("some move from the first point is refused");
-    assert!(refused.told(&names).to_string().starts_with("the tool's sphere "), "{}", refused.told(&names));
+    assert!(refused.in_words(&names).to_string().starts_with("the tool's sphere "), "{}", refused.in_words(&names));
     assert!((0.005..0.9).contains(&widest.density()) && differ < 60, "{} {differ}", widest.density());
     assert!(widest.queries_per_pair() > 1.0 && widest.queries_per_pair() <= 10.0);
 }

@@ -235,7 +235,7 @@ impl Walk {
     fn steered(&mut self, segment: &Segment, s: f64, begun: f64, h: f64) -> f64 {
         let time = self.timing.time_over(begun, h);
         // From rest a step takes long; at one speed all take the same.
-        let parts = if self.timing.is_constant() { 1 } else { self.lag.parts(time) };
+        let parts = if self.timing.is_constant() { 1 } else { self.lag.substeps(time) };
         if parts == 1 {
             return self.lag.follow(|share| segment.curvature_at(s + h * share), time);
         }

@@ -22,7 +22,7 @@ impl SteeringLag {
 
     /// Parts into which a step of `time` seconds is divided, so that the lag of each is short beside its time constant:
     /// from rest the first of n equal lengths takes the share 1/√n of the time.
-    pub(super) fn parts(&self, time: f64) -> u32 {
+    pub(super) fn substeps(&self, time: f64) -> u32 {
         let constant = self.response.steering_time_constant;
         if self.follows_at_once || constant == 0.0 {
             return 1;

@@ -46,7 +46,7 @@ pub struct Lost {
 
 /// What became of candidates for legs: pairs of a state that can be reached and a waypoint, or a state of it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
-pub struct Deaths {
+pub struct Losses {
     /// What a candidate is.
     pub of: &'static str,
     /// Candidates.
@@ -86,13 +86,13 @@ impl Counter {
     }
 
     /// Equally frequent ones are in the order of the steps, then of their names.
-    pub(in crate::campaign) fn deaths(self, of: &'static str) -> Deaths {
+    pub(in crate::campaign) fn losses(self, of: &'static str) -> Losses {
         let mut lost: Vec<Lost> =
             self.lost.into_iter().map(|((stage, limit), count)| Lost { stage, limit, count }).collect();
         // Stable: equals stay in the order of the steps.
         lost.sort_by_key(|lost| std::cmp::Reverse(lost.count));
         let asked = self.left + lost.iter().map(|lost| lost.count).sum::<u64>();
-        Deaths { of, asked, left: self.left, lost }
+        Losses { of, asked, left: self.left, lost }
     }
 }
 
@@ -108,9 +108,9 @@ mod tests {
         counter.lose_many(Stage::Obstacle, "mast", 3);
         counter.lose(Stage::Limits, "max_speed");
         counter.lose_many(Stage::World, "walls", 0);
-        let deaths = counter.deaths("legs");
-        assert_eq!((deaths.asked, deaths.left, deaths.lost.len()), (6, 1, 3));
-        let order: Vec<&str> = deaths.lost.iter().map(|lost| lost.stage.word()).collect();
+        let losses = counter.losses("legs");
+        assert_eq!((losses.asked, losses.left, losses.lost.len()), (6, 1, 3));
+        let order: Vec<&str> = losses.lost.iter().map(|lost| lost.stage.word()).collect();
         assert_eq!(order, ["obstacle", "limits", "reach"]);
     }
 }

@@ -26,13 +26,13 @@ pub(super) struct Pairs {
 /// stress of leg k ≈ own(leg k) + before(leg k − 1)
 /// ```
 #[derive(Debug, Clone)]
-pub(super) struct Parts {
+pub(super) struct LegStress {
     pub(super) own: PolynomialRidge,
     /// `None` where it does not help to tell the stress of trajectories not seen.
     pub(super) before: Option<PolynomialRidge>,
 }
 
-impl Parts {
+impl LegStress {
     /// Fits both parts in turn (backfitting: Friedman and Stuetzle, Journal of the American Statistical Association 76,
     /// 1981): the own part, the part before to what that leaves unexplained, and the own part again. Each has the
     /// degree (1 to 4) and the penalty of the least error in cross-validation; the part before is kept where it lessens
