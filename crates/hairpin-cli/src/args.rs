@@ -17,7 +17,9 @@ mod terrain;
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use hairpin_formats::template::KINDS;
 
 pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::Experiment;
@@ -141,21 +143,11 @@ impl Command {
     }
 }
 
-/// Kinds of robot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum RobotKind {
-    Quadrotor,
-    Arm,
-    Rover,
-    Car,
-    DifferentialDrive,
-}
-
 #[derive(Debug, Args)]
 pub(crate) struct Demo {
     /// The robot to show
-    #[arg(value_enum, default_value_t = RobotKind::Quadrotor)]
-    pub(crate) kind: RobotKind,
+    #[arg(value_parser = PossibleValuesParser::new(KINDS), default_value = KINDS[0])]
+    pub(crate) kind: String,
     /// Campaign folder
     #[arg(long, value_name = "DIR", default_value = "hairpin-demo")]
     pub(crate) out: PathBuf,
@@ -174,8 +166,8 @@ pub(crate) struct Demo {
 #[derive(Debug, Args)]
 pub(crate) struct New {
     /// The robot's kind
-    #[arg(value_enum)]
-    pub(crate) kind: RobotKind,
+    #[arg(value_parser = PossibleValuesParser::new(KINDS))]
+    pub(crate) kind: String,
     /// Overwrite the file
     #[arg(long)]
     pub(crate) force: bool,

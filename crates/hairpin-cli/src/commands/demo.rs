@@ -2,30 +2,24 @@
 
 use std::path::Path;
 
+use hairpin_formats::library;
 use hairpin_formats::scenario::setup_for;
 use hairpin_jobs::stress::stress_begun;
 use hairpin_jobs::work::make;
 use hairpin_jobs::{Deadline, Problem, Watch};
 
-use super::{new, stress};
-use crate::args::{Demo, RobotKind};
+use super::stress;
+use crate::args::Demo;
 use crate::settings;
 
 /// Runs the command.
 pub(crate) fn run(demo: &Demo, watch: &dyn Watch) -> Result<u8, Problem> {
-    let scenario = match demo.kind {
-        RobotKind::Quadrotor => "demo-quadrotor",
-        RobotKind::Rover => "demo-rover",
-        RobotKind::Car | RobotKind::DifferentialDrive => {
-            return Err(Problem::input(format!(
-                "{0} has no demo of its own: hairpin stress {0}",
-                new::word(demo.kind)
-            )));
-        }
-        RobotKind::Arm => "demo-arm",
-    };
+    let scenario = format!("demo-{}", demo.kind);
+    if !library::scenarios().any(|shipped| shipped.name == scenario) {
+        return Err(Problem::input(format!("{0} has no demo of its own: hairpin stress {0}", demo.kind)));
+    }
     settings::take_threads(&demo.threads);
-    let setup = setup_for(scenario, &[])?.with_simd(settings::simd(&demo.kernels));
+    let setup = setup_for(&scenario, &[])?.with_simd(settings::simd(&demo.kernels));
     let replaceable = demo.force || demo.out == Path::new("hairpin-demo");
     let work = make(&demo.out, setup, settings::if_there(false, replaceable))?;
     Ok(stress::say(&stress_begun(work, Deadline::after(None), Vec::new(), watch)?, demo.json))

@@ -6,13 +6,13 @@ use hairpin_formats::{atomic, template};
 use hairpin_jobs::Problem;
 use serde_json::json;
 
-use crate::args::{New, RobotKind};
+use crate::args::New;
 use crate::console;
 use crate::exit::DONE;
 
 /// Runs the command.
 pub(crate) fn run(new: &New) -> Result<u8, Problem> {
-    let name = word(new.kind);
+    let name = &new.kind;
     let text = template::template(name).ok_or_else(|| Problem::input(format!("no scenario of {name} is shipped")))?;
     let file = format!("{name}.toml");
     let path = Path::new(&file);
@@ -26,15 +26,4 @@ pub(crate) fn run(new: &New) -> Result<u8, Problem> {
         console::say(&format!("{file} written; now: hairpin stress {file}"));
     }
     Ok(DONE)
-}
-
-/// The kind's name in files.
-pub(crate) fn word(kind: RobotKind) -> &'static str {
-    match kind {
-        RobotKind::Quadrotor => "quadrotor",
-        RobotKind::Arm => "arm",
-        RobotKind::Rover => "rover",
-        RobotKind::Car => "car",
-        RobotKind::DifferentialDrive => "differential-drive",
-    }
 }

@@ -8,15 +8,12 @@ use std::sync::Arc;
 use nalgebra::Point3;
 use serde_json::Value;
 
-use super::arm::ArmSetup;
 use super::attachments::{Attachments, Resolved};
 use super::case::Case;
 use super::check::check_vary;
-use super::drive::DriveSetup;
-use super::flight::FlightSetup;
 use super::kind::{Build, Given, Handed, Kind, Programs, RobotWords};
 use super::own_controller::AnyController;
-use super::scenario::{Environment, Mistake, Scenario};
+use super::scenario::{Environment, Mistake, Scenario, kinds_of_robots};
 use super::user_score::LegScorer;
 use super::vary;
 use crate::math::simd::Simd;
@@ -43,19 +40,24 @@ enum Look {
     Built,
 }
 
-/// What `scenario` describes; what `known` has alike is shared with it.
-fn built(
-    scenario: &Scenario,
-    files: &Arc<Attachments>,
-    known: Option<&dyn Kind>,
-    look: Look,
-) -> Result<Arc<dyn Kind>, Vec<Mistake>> {
-    match scenario {
-        Scenario::Flight(keys) => made::<FlightSetup>(keys, files, known, look),
-        Scenario::Drive(keys) => made::<DriveSetup>(keys, files, known, look),
-        Scenario::Arm(keys) => made::<ArmSetup>(keys, files, known, look),
-    }
+/// One arm of a `match` for each kind of robots.
+macro_rules! built {
+    ($($Kind:ident($($Keys:ident)::+) of $words:expr, built by $($Setup:ident)::+;)+) => {
+        /// What `scenario` describes; what `known` has alike is shared with it.
+        fn built(
+            scenario: &Scenario,
+            files: &Arc<Attachments>,
+            known: Option<&dyn Kind>,
+            look: Look,
+        ) -> Result<Arc<dyn Kind>, Vec<Mistake>> {
+            match scenario {
+                $(Scenario::$Kind(keys) => made::<crate::campaign::$($Setup)::+>(keys, files, known, look),)+
+            }
+        }
+    };
 }
+
+kinds_of_robots!(built);
 
 fn made<S: Build>(
     keys: &Arc<S::Keys>,
@@ -206,7 +208,8 @@ impl Setup {
         &*self.kind
     }
 
-    /// The setup of its kind, if that is `T`: [`FlightSetup`], [`DriveSetup`], [`ArmSetup`]. For what one kind of robot
+    /// The setup of its kind, if that is `T`: [`FlightSetup`](super::flight::FlightSetup),
+    /// [`DriveSetup`](super::drive::DriveSetup), [`ArmSetup`](super::arm::ArmSetup). For what one kind of robot
     /// alone has.
     pub fn own<T: Any>(&self) -> Option<&T> {
         self.kind().own()

@@ -2,9 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::controller::{Reference, Schedule};
-use crate::robot::quadrotor::Quadrotor;
-use crate::trajectory::{Ended, Profile};
+use super::controller::{Controlled, Reference, Schedule};
+use crate::trajectory::Ended;
 
 /// Progress along waypoints, both ends included.
 ///
@@ -100,7 +99,7 @@ impl Course {
     }
 
     /// Where to go, by `plan` where there is one.
-    pub(crate) fn reference<'a>(&'a self, plan: Option<&'a Profile>) -> Reference<'a, Quadrotor> {
+    pub(crate) fn reference<'a, R: Controlled>(&'a self, plan: Option<&'a R::Plan>) -> Reference<'a, R> {
         Reference { waypoints: &self.waypoints, next: self.next, accept: self.accept, plan }
     }
 

@@ -12,6 +12,8 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     // What was typed, and values that know nothing else.
     &["digits", "stop", "curve", "case_number"],
     &["scenario"],
+    // All keys are one sum: the table of the kinds.
+    &["scenario::kinds"],
     &["vary", "user_score", "baseline"],
     // What a case and its runs are.
     &["case"],

@@ -16,6 +16,9 @@ const DATA: &[&str] = &["hairpin::campaign::case::Witness"];
 /// The sum of all kinds' keys. A macro declares it, which no reader of declarations sees.
 const KEYS: &str = "Scenario";
 
+/// What hands a macro the table of the kinds, of which a `match` may be made, and the room of the table.
+const TABLE: (&str, &str) = ("kinds_of_robots!", "hairpin::campaign::scenario::kinds");
+
 /// What the kinds answer: asking one for its own is asking which it is.
 const CALLS: &[&str] = &[".flight", ".drive", ".arm"];
 
@@ -59,6 +62,8 @@ fn of_file(house: &House, file: &File) -> Vec<Place> {
             if text.closing[mention.at + 1] == mention.at + 2 {
                 ask(mention.at, call, mention.line);
             }
+        } else if mention.path == [TABLE.0] && file.module != TABLE.1 {
+            ask(mention.at, TABLE.0, mention.line);
         } else if names_a_kind(house, file, mention) {
             let equals = |at: usize| text.is(at, '=') && (text.is(at - 1, '=') || text.is(at - 1, '!'));
             match asked[mention.at] {
@@ -145,6 +150,7 @@ fn asking_what_a_robot_is_is_counted() {
         ("use hairpin::campaign::setup::Kind as K; fn f(k: K) { match k { K::Arm => 1, _ => 2 } }", one("match", 1)),
         ("fn f(k: Kind) { use Kind::Arm; match k { Arm => 1, _ => 2 } }", one("match", 1)),
         ("fn f(s: &S) { assert!(s.arm().is_some()) }", one(".arm", 1)),
+        ("kinds_of_robots!(built);", one("kinds_of_robots!", 1)),
         ("fn f(s: Scenario) { match s { Scenario::Flight(keys) => 1, _ => 2 } }", one("match", 1)),
         (
             "enum Solver { Flight(F), Drive(D) } impl Solver { fn f(self) { \

@@ -1,4 +1,4 @@
-//! The kinds of scenarios: two lines each.
+//! The kinds of scenarios: one row each.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{ArmScenario, Distribution, DriveScenario, FlightScenario, GroundDescription, Keys};
+use super::{Distribution, GroundDescription, Keys};
 
 /// What tells one kind of scenarios from others: what `robot.kind` says.
 #[derive(Debug, Clone, Copy)]
@@ -32,21 +32,35 @@ impl RobotKind {
     }
 }
 
-/// Of each kind a variant of [`Scenario`] with its keys, and the words of `robot.kind`. Robots that do not say their
-/// kind are of the first.
+/// Hands the table of the kinds to a macro: of each its variant of [`Scenario`] with its keys, the words of
+/// `robot.kind`, and the setup that is built from them. Robots that do not say their kind are of the first. Paths are
+/// those below `campaign`.
+macro_rules! kinds_of_robots {
+    ($with:ident) => {
+        $with! {
+            Flight(scenario::FlightScenario) of &["quadrotor"], built by flight::FlightSetup;
+            Drive(scenario::DriveScenario) of GroundDescription::KINDS, built by drive::DriveSetup;
+            Arm(scenario::ArmScenario) of &["arm"], built by arm::ArmSetup;
+        }
+    };
+}
+
+pub(in crate::campaign) use kinds_of_robots;
+
+/// The sum of all kinds' keys, and how it is read and written.
 macro_rules! kinds {
-    ($($(#[$what:meta])+ $Kind:ident($Keys:ty) of $words:expr;)+) => {
+    ($($Kind:ident($($Keys:ident)::+) of $words:expr, built by $($Setup:ident)::+;)+) => {
         /// A scenario file; the robot's `kind` tells which.
         #[derive(Debug, Clone, PartialEq)]
         pub enum Scenario {
-            $($(#[$what])+ $Kind(Arc<$Keys>),)+
+            $(#[doc = concat!("The keys of kind `", stringify!($Kind), "`.")] $Kind(Arc<crate::campaign::$($Keys)::+>),)+
         }
 
         /// Readers are not generic, so that those of all sections are compiled once, with this crate.
         const KINDS: &[RobotKind] = &[$(RobotKind {
             words: $words,
             read: |value| serde_json::from_value(value).map(Arc::new).map(Scenario::$Kind),
-            schema: || schemars::schema_for!($Keys).to_value(),
+            schema: || schemars::schema_for!(crate::campaign::$($Keys)::+).to_value(),
         }),+];
 
         impl Deref for Scenario {
@@ -59,7 +73,7 @@ macro_rules! kinds {
 
         impl DerefMut for Scenario {
             fn deref_mut(&mut self) -> &mut (dyn Keys + 'static) {
-                match self { $(Self::$Kind(keys) => Arc::<$Keys>::make_mut(keys),)+ }
+                match self { $(Self::$Kind(keys) => Arc::<crate::campaign::$($Keys)::+>::make_mut(keys),)+ }
             }
         }
 
@@ -71,14 +85,7 @@ macro_rules! kinds {
     };
 }
 
-kinds! {
-    /// Of what flies.
-    Flight(FlightScenario) of &["quadrotor"];
-    /// Of what drives.
-    Drive(DriveScenario) of GroundDescription::KINDS;
-    /// Of an arm.
-    Arm(ArmScenario) of &["arm"];
-}
+kinds_of_robots!(kinds);
 
 impl Scenario {
     /// Its keys, if they are a `K`.
@@ -106,31 +113,3 @@ impl<'de> Deserialize<'de> for Scenario {
         (RobotKind::of_word(kind).read)(value).map_err(D::Error::custom)
     }
 }
-
-/// Of the struct of a kind's keys, [`Keys::section`] and [`Keys::put_section`].
-macro_rules! sections {
-    ($($name:ident),+ $(,)?) => {
-        fn section(&self, name: &str) -> Option<serde_json::Value> {
-            let value = match name {
-                $(stringify!($name) => serde_json::to_value(&self.$name),)+
-                _ => return None,
-            };
-            Some(value.unwrap_or_else(|error| unreachable!("every scenario is a tree of strings and numbers: {error}")))
-        }
-
-        fn put_section(&mut self, name: &str, value: serde_json::Value) -> serde_json::Result<()> {
-            match name {
-                $(stringify!($name) => self.$name = serde_json::from_value(value)?,)+
-                // As the reader of the whole says it.
-                _ => drop(serde_json::from_value::<Self>([(name, value)].into_iter().collect())?),
-            }
-            Ok(())
-        }
-    };
-}
-
-pub(super) use sections;
-
-/// The keys of the whole, in the order of the file.
-pub(in crate::campaign) const SECTIONS: [&str; 9] =
-    ["hairpin", "robot", "seed", "world", "task", "generate", "execute", "vary", "spec"];

@@ -18,6 +18,7 @@ mod named;
 mod path;
 mod robot_source;
 mod search;
+mod sections;
 mod subject;
 mod terms;
 
@@ -29,12 +30,13 @@ pub use environment::Environment;
 pub use flaky::FlakySection;
 pub use flight::*;
 pub use head::{Executor, Head, Keys, Patience};
-pub(super) use kinds::SECTIONS;
+pub(super) use kinds::kinds_of_robots;
 pub use kinds::{RobotKind, Scenario};
 pub use named::{Named, NamedMesh};
 pub use path::KeyPath;
 pub use robot_source::RobotSource;
 pub use search::*;
+pub(super) use sections::{SECTIONS, sections};
 pub use subject::{ARM_MOVES, Subject};
 pub use terms::Terms;
 

@@ -24,7 +24,7 @@ pub const ARM_MOVES: &str = "moves of an arm";
 impl Subject {
     /// Of a robot that is called `name`, whose legs have the speeds that they really have, or else their length over
     /// the step.
-    pub(super) fn of<D: Serialize>(
+    pub(in crate::campaign) fn of<D: Serialize>(
         robot: &RobotSource<D>,
         name: impl Fn(&D) -> &str,
         at_ends: bool,

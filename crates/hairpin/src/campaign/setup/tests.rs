@@ -5,6 +5,8 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::*;
+use crate::campaign::drive::DriveSetup;
+use crate::campaign::flight::FlightSetup;
 
 fn flights() -> Setup {
     let scenario: Scenario = serde_json::from_value(json!({

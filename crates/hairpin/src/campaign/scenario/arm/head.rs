@@ -4,10 +4,9 @@ use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource};
-use crate::campaign::scenario::kinds::sections;
 use crate::campaign::scenario::{
     ARM_MOVES, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject,
-    Terms,
+    Terms, sections,
 };
 use crate::judgement::Limits;
 

@@ -4,9 +4,8 @@ use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{DriveExecute, DriveScenario, GroundReach};
-use crate::campaign::scenario::kinds::sections;
 use crate::campaign::scenario::{
-    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms,
+    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms, sections,
 };
 use crate::judgement::Limits;
 

@@ -4,9 +4,8 @@ use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{DeviationFrom, ExecuteSection, FlightScenario, ReachName};
-use crate::campaign::scenario::kinds::sections;
 use crate::campaign::scenario::{
-    Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms,
+    Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms, sections,
 };
 use crate::judgement::Limits;
 
