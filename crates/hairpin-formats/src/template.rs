@@ -3,7 +3,7 @@
 use crate::library;
 
 /// The kinds there is a commented file for.
-pub const KINDS: &[&str] = &["quadrotor", "arm", "rover", "car", "differential-drive"];
+pub const KINDS: &[&str] = &["quadrotor", "arm", "rover", "car", "differential-drive", "boat"];
 
 /// The text of `KIND.toml`; `None` for a kind that is none of [`KINDS`].
 pub fn template(kind: &str) -> Option<&'static str> {

@@ -5,6 +5,7 @@ pub mod arm;
 pub mod assumptions;
 pub mod attachments;
 pub mod baseline;
+pub mod boat;
 pub mod case;
 pub mod case_number;
 mod check;

@@ -18,6 +18,7 @@
 //! The act (`simulation`) shares the robots' equations with this room and none of its checks; the proof
 //! (`verification`) shares nothing.
 
+pub mod boat;
 pub mod certify;
 pub mod collision;
 pub mod limits;

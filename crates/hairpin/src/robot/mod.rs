@@ -15,6 +15,7 @@
 //! the act share these equations, the proof does not.
 
 pub mod arm;
+pub mod boat;
 pub mod ground;
 pub mod quadrotor;
 pub mod rover;

@@ -16,6 +16,7 @@
 
 mod airborne;
 pub mod arm;
+pub mod boat;
 mod close_loop;
 mod command;
 mod controller;

@@ -22,6 +22,7 @@
 //! so, and an empty list of findings is the proof.
 
 mod arm;
+pub mod boat;
 mod body;
 mod claim;
 mod clear;

@@ -12,6 +12,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     // What was typed, and values that know nothing else.
     &["digits", "stop", "curve", "case_number"],
     &["scenario"],
+    &["boat::keys"],
     // All keys are one sum: the table of the kinds.
     &["scenario::kinds"],
     &["vary", "user_score", "baseline"],
@@ -26,7 +27,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     // What the kinds are asked.
     &["kind"],
     // The kinds.
-    &["flight", "drive", "arm"],
+    &["flight", "drive", "arm", "boat"],
     // A scenario becomes a setup: the one `match`.
     &["setup"],
     &["coverage", "goals", "states"],

@@ -8,7 +8,8 @@ use super::outline::{Mention, What};
 use super::patterns::patterns;
 
 /// What the kinds, and the commands of each, are called where an enum has a variant for each.
-const KINDS: &[&[&str]] = &[&["Flight", "Flyer", "Profile"], &["Drive", "Driver", "Ground"], &["Arm", "Program"]];
+const KINDS: &[&[&str]] =
+    &[&["Flight", "Flyer", "Profile"], &["Drive", "Driver", "Ground"], &["Arm", "Program"], &["Boat"]];
 
 /// Sums of data: the module that declares one of them takes it apart for all others.
 const DATA: &[&str] = &["hairpin::campaign::case::Witness"];
@@ -20,7 +21,7 @@ const KEYS: &str = "Scenario";
 const TABLE: (&str, &str) = ("kinds_of_robots!", "hairpin::campaign::scenario::kinds");
 
 /// What the kinds answer: asking one for its own is asking which it is.
-const CALLS: &[&str] = &[".flight", ".drive", ".arm"];
+const CALLS: &[&str] = &[".flight", ".drive", ".arm", ".boat"];
 
 /// What asks for the setup or the keys of one kind by their type: for verbs that are about that kind alone.
 const OWN: &[&str] = &["own", "own_mut"];
@@ -30,6 +31,7 @@ pub(crate) const ROOMS: &[&str] = &[
     "hairpin::campaign::flight",
     "hairpin::campaign::drive",
     "hairpin::campaign::arm",
+    "hairpin::campaign::boat",
     "hairpin::campaign::kind",
     "hairpin::campaign::scenario::flight",
     "hairpin::campaign::scenario::drive",

@@ -41,6 +41,7 @@ macro_rules! kinds_of_robots {
             Flight(scenario::FlightScenario) of &["quadrotor"], built by flight::FlightSetup;
             Drive(scenario::DriveScenario) of GroundDescription::KINDS, built by drive::DriveSetup;
             Arm(scenario::ArmScenario) of &["arm"], built by arm::ArmSetup;
+            Boat(boat::BoatScenario) of &["boat"], built by boat::BoatSetup;
         }
     };
 }

@@ -1,0 +1,189 @@
+//! The bounds of every key of a boat's scenario.
+
+use super::BoatSetup;
+use super::keys::{ACROSS_CURRENT, BoatExecute, BoatGenerate, BoatScenario, WatersSection};
+use crate::campaign::attachments::Attachments;
+use crate::campaign::check::{Findings, check_executed, check_search};
+use crate::campaign::kind::{Build, Given};
+use crate::campaign::scenario::{EXECUTED, Keys, Mistake, SearchMethod, SpecSection};
+use crate::judgement::Stress;
+use crate::robot::boat::Boat;
+use crate::search::Score;
+use crate::world::Sampling;
+use crate::world::terrain::KeepOuts;
+
+/// Farther than any harbour.
+const LARGEST_M: f64 = 100_000.0;
+/// A trip of so many waypoints takes days.
+const LONGEST: u64 = 10_000;
+/// Nodes of the roadmap, waypoints × velocities: legs are pairs of them, judged once and kept; and of the dynamic
+/// programs, which judge every leg before they start.
+const MOST_NODES: u64 = 50_000;
+const MOST_NODES_IN_PAIRS: u64 = 16_000;
+
+impl Build for BoatSetup {
+    type Keys = BoatScenario;
+
+    fn build(given: Given<'_, Self>) -> Result<Self, Mistake> {
+        let (boat, keep_out) = (Self::boat(given.keys, given.known)?, Self::keep_out(given.keys, given.known)?);
+        Ok(Self::of(given, boat, keep_out))
+    }
+
+    fn check(given: Given<'_, Self>) -> Result<Self, Vec<Mistake>> {
+        let Given { keys, files, known } = given;
+        let mut found = Findings::default();
+        found.head(keys.hairpin, keys.seed);
+        let boat = found.take(Self::boat(keys, known));
+        check_world(&keys.world, &mut found);
+        let keep_out = found.take(Self::keep_out(keys, known));
+        check_task(keys, boat.as_deref(), keep_out.as_deref(), &mut found);
+        check_generate(&keys.generate, &mut found);
+        check_score(keys, files, &mut found);
+        check_execute(&keys.execute, boat.as_deref(), &mut found);
+        check_spec(&keys.spec, &mut found);
+        match (boat, keep_out) {
+            (Some(boat), Some(keep_out)) if found.0.is_empty() => Ok(Self::of(given, boat, keep_out)),
+            _ => Err(found.0),
+        }
+    }
+}
+
+fn check_world(world: &WatersSection, found: &mut Findings) {
+    for (axis, size) in world.size_m.into_iter().enumerate() {
+        found.above(&format!("world.size_m[{axis}]"), size, 0.0, LARGEST_M, " m");
+    }
+    let most = 0.5 * world.size_m[0].min(world.size_m[1]);
+    let (margin, bound) = (world.keep_in_margin_m, format!("≥ 0 and < {most} m, half the smallest side"));
+    found.require(margin >= 0.0 && (margin < most || most <= 0.0), "world.keep_in_margin_m", margin, &bound);
+    for (axis, part) in world.current().into_iter().enumerate() {
+        found.from(&format!("world.current_m_s[{axis}]"), part, -100.0, 100.0, " m/s");
+    }
+    if let Some(origin) = &world.origin {
+        found.from("world.origin.lat_deg", origin.lat_deg, -90.0, 90.0, "°");
+        found.from("world.origin.lon_deg", origin.lon_deg, -180.0, 180.0, "°");
+        found.from("world.origin.alt_amsl_m", origin.alt_amsl_m, -1000.0, 20_000.0, " m");
+        found.from("world.origin.x_axis_heading_deg", origin.x_axis_heading_deg, 0.0, 360.0, "°");
+    }
+}
+
+/// It must be possible to lie at both ends.
+fn check_task(keys: &BoatScenario, boat: Option<&Boat>, keep_out: Option<&KeepOuts>, found: &mut Findings) {
+    let (task, world) = (&keys.task, &keys.world);
+    found.count("task.length", task.length, 2, LONGEST);
+    for (key, place) in [("task.start_m", task.start_m), ("task.end_m", task.end_m)] {
+        for (axis, x) in place.into_iter().enumerate() {
+            let (least, most) = (world.keep_in_margin_m, world.size_m[axis] - world.keep_in_margin_m);
+            let bound = format!("inside the waters: {least} … {most} m");
+            found.require(x >= least && x <= most, &format!("{key}[{axis}]"), x, &bound);
+        }
+        let (Some(boat), Some(keep_out)) = (boat, keep_out) else { continue };
+        if let Some(near) = keep_out.nearest(place[0], place[1]).filter(|near| near.distance < boat.radius) {
+            let bound = format!("at least {:.3} m, the hull's radius, from `{}`", boat.radius, near.keep_out.name);
+            found.require(false, key, format!("{place:?}"), &bound);
+        }
+    }
+}
+
+fn check_generate(generate: &BoatGenerate, found: &mut Findings) {
+    let [shortest, longest] = generate.leg_time_s;
+    found.above("generate.leg_time_s[0]", shortest, 0.0, 1e5, " s");
+    found.above("generate.leg_time_s[1]", longest, 0.0, 1e5, " s");
+    let key = "generate.leg_time_s";
+    found.require(shortest < longest, key, format!("[{shortest}, {longest}]"), "rising: [shortest, longest]");
+    found.count("generate.velocities", generate.velocities, 1, 64);
+    let search = &generate.search;
+    let in_pairs = search.method != SearchMethod::Beam;
+    let most = if in_pairs { MOST_NODES_IN_PAIRS } else { MOST_NODES };
+    found.count("generate.search.waypoints", search.waypoints, 1, most / generate.velocities.clamp(1, 64));
+    let bound = "\"uniform\": waypoints of boats are drawn no other way";
+    found.require(search.sampling == Sampling::Uniform, "generate.search.sampling", "another", bound);
+    check_search(search, found);
+    let limits = &generate.limits;
+    if let Some(speed) = limits.max_speed_m_s {
+        found.above("generate.limits.max_speed_m_s", speed, 0.0, 1000.0, " m/s; leave it out for no cap");
+    }
+    if let Some(share) = limits.thrust_share {
+        found.above("generate.limits.thrust_share", share, 0.0, 1.0, "");
+    }
+    if let Some(time) = limits.max_time_s {
+        found.above("generate.limits.max_time_s", time, 0.0, 1e7, " s");
+    }
+}
+
+fn check_score(keys: &BoatScenario, files: &Attachments, found: &mut Findings) {
+    let (generate, key) = (&keys.generate, "generate.score");
+    let (search, score) = (&generate.search, generate.score.as_str());
+    let named = files.model(score).map_or(score, |model| &model.given);
+    found.rounds(search.method, (key, named), keys.vary.keys());
+    if search.executes(score) {
+        let measured = !matches!(search.stress, Stress::JointEffort | Stress::Tilt | Stress::Saturation);
+        found.stress(search.stress, measured, "trip");
+        let near = search.stress != Stress::Clearance || !keys.world.keep_out.is_empty();
+        let bound = "another one, or world.keep_out given: there is nothing to be near to";
+        found.require(near, "generate.search.stress", "\"clearance\"", bound);
+    }
+    if found.score_of_file(key, score, files, || keys.subject()) {
+        return;
+    }
+    if score == EXECUTED {
+        return check_executed(search, key, found);
+    }
+    let names = Score::NAMES.join(", ");
+    let bound = format!("one of {ACROSS_CURRENT}, {names}, {EXECUTED}, learned:MODEL, or python:FILE");
+    let known = score == ACROSS_CURRENT || Score::NAMES.contains(&score);
+    found.require(known, key, format!("\"{score}\""), &bound);
+}
+
+fn check_execute(execute: &BoatExecute, boat: Option<&Boat>, found: &mut Findings) {
+    let both = execute.controller.is_some() && execute.command.is_some();
+    let given = execute.command.as_deref().unwrap_or_default();
+    let bound = "left out where `controller` is given: one of the two";
+    found.require(!both, "execute.command", format!("\"{given}\""), bound);
+    if let Some(command) = &execute.command {
+        let bound = "a program and its arguments";
+        found.require(!command.trim().is_empty(), "execute.command", format!("\"{command}\""), bound);
+    }
+    found.count("execute.repeat", execute.repeat, 1, 100_000);
+    found.flaky(execute.flaky);
+    found.above("execute.accept_m", execute.accept_m, 0.0, 10_000.0, " m");
+    if let Some(limit) = execute.time_limit_s {
+        found.above("execute.time_limit_s", limit, 0.0, 1e6, " s");
+    }
+    if let Some(speed) = execute.speed_m_s {
+        let most = boat.map_or(100.0, |boat| boat.top_speed);
+        found.above("execute.speed_m_s", speed, 0.0, most, " m/s, the boat's top speed");
+    }
+    for (axis, part) in execute.external_force_n.unwrap_or_default().into_iter().enumerate() {
+        found.from(&format!("execute.external_force_n[{axis}]"), part, -1e6, 1e6, " N");
+    }
+    found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
+    if let Some(workers) = execute.workers {
+        found.count("execute.workers", workers, 1, 1024);
+    }
+}
+
+fn check_spec(spec: &SpecSection, found: &mut Findings) {
+    if let Some(deviation) = &spec.deviation {
+        found.above("spec.deviation.max_m", deviation.max_m, 0.0, 1e6, " m");
+        found.from("spec.deviation.corner_m", deviation.corner_m, 0.0, 1e6, " m");
+    }
+    if let Some(overshoot) = &spec.overshoot {
+        found.from("spec.overshoot.max_m", overshoot.max_m, 0.0, 1e6, " m");
+    }
+    if let Some(clearance) = &spec.clearance {
+        found.from("spec.clearance.min_m", clearance.min_m, 0.0, 1e6, " m");
+    }
+    if let Some(acceleration) = &spec.acceleration {
+        found.above("spec.acceleration.max_m_s2", acceleration.max_m_s2, 0.0, 1e6, " m/s²");
+    }
+    if let Some(time) = &spec.total_time {
+        found.above("spec.total_time.max_s", time.max_s, 0.0, 1e7, " s");
+    }
+    if let Some(share) = spec.violation_share {
+        found.require((0.0..1.0).contains(&share), "spec.violation_share", share, "≥ 0 and < 1");
+    }
+    if let Some(confidence) = spec.confidence {
+        let fine = (0.5..1.0).contains(&confidence);
+        found.require(fine, "spec.confidence", confidence, "≥ 0.5 and < 1, such as 0.95");
+    }
+}

@@ -1,0 +1,50 @@
+//! What of trips is claimed, and by whom.
+
+use nalgebra::Point3;
+
+use super::solve::BoatSolver;
+use super::{BoatSetup, knobs, losses, plan, through, verify};
+use crate::campaign::graph::Losses;
+use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::{Case, Scenario, Timed};
+use crate::trajectory::Track;
+use crate::verification::{EndError, Proof};
+
+impl Claim for BoatSetup {
+    fn solver(&self) -> Result<Box<dyn Solver + '_>, String> {
+        Ok(Box::new(BoatSolver::new(self)?))
+    }
+
+    fn lost(&self, graphs: u64) -> Losses {
+        losses::losses(self, graphs)
+    }
+
+    fn replanner(&self, case: &Case) -> Result<Box<dyn Replanner>, String> {
+        Ok(Box::new(Replanned(case.clone())))
+    }
+
+    fn planned(&self, case: &Case) -> Result<Track, PlanError> {
+        Ok(plan::track(self, case)?)
+    }
+
+    fn timed(&self, case: &Case) -> Vec<Timed> {
+        plan::timed(case)
+    }
+
+    fn verify(&self, case: &Case, _: &Scenario) -> (Option<Proof>, Option<EndError>) {
+        verify::verify(self, case)
+    }
+
+    fn knobs(&self) -> Knobs {
+        knobs::knobs(self)
+    }
+}
+
+/// The case that others are planned after.
+struct Replanned(Case);
+
+impl Replanner for Replanned {
+    fn plan(&self, setup: Same, indices: &[usize], points: &[Point3<f64>]) -> Option<Case> {
+        through::replan(setup.setup(), &self.0, indices, points)
+    }
+}

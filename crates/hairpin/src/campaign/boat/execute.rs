@@ -1,0 +1,48 @@
+//! Sails missions in our own simulator.
+
+use super::BoatSetup;
+use crate::campaign::Case;
+use crate::campaign::kind::{Act, Order, Same};
+use crate::campaign::placement::Placement;
+use crate::simulation::SimulationError;
+use crate::simulation::boat::{
+    BoatConditions, BoatController, BoatControllerKind, BoatSortie, SailSettings, sail, sail_with,
+};
+use crate::trajectory::{Flight, Track};
+
+impl Act for BoatSetup {
+    fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
+        let nominal: &Self = nominal.setup();
+        let execute = &self.scenario.execute;
+        let sortie = BoatSortie {
+            boat: &self.boat,
+            nominal: &nominal.boat,
+            size: self.scenario.world.size_m,
+            keep_outs: &self.keep_out,
+            waypoints: order.waypoints,
+            profile: case.profile(),
+        };
+        let conditions = BoatConditions {
+            current: self.scenario.world.current(),
+            external_force: execute.external_force_n.unwrap_or_default(),
+            noise: execute.noise,
+        };
+        let settings = SailSettings {
+            accept: order.accept,
+            time_limit: order.time_limit,
+            walls: execute.walls,
+            ..SailSettings::default()
+        };
+        if let Some(own) = &self.controller {
+            return sail_with(&sortie, own, &conditions, &settings, order.seed);
+        }
+        let kind = execute.controller_in_force().unwrap_or(BoatControllerKind::LineOfSight);
+        let controller = BoatController { kind, speed: execute.speed_m_s };
+        sail(&sortie, &controller, &conditions, &settings, order.seed)
+    }
+
+    /// Nothing is placed in the way of boats.
+    fn place(&self, _: &Case, _: &Track) -> Option<Placement> {
+        None
+    }
+}

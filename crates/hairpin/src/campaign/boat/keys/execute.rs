@@ -1,0 +1,73 @@
+//! `[execute]`: who sails the trajectories, and how often.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::campaign::scenario::FlakySection;
+use crate::simulation::boat::BoatControllerKind;
+
+/// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BoatExecute {
+    /// line-of-sight | tracking.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub controller: Option<BoatControllerKind>,
+    /// A program that speaks the executor protocol, as a shell would split it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub command: Option<String>,
+    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others.
+    pub repeat: u64,
+    /// A waypoint counts as reached inside this radius.
+    pub accept_m: f64,
+    /// Time limit of a run; twice the planned time and a minute if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_limit_s: Option<f64>,
+    /// Speed of `line-of-sight`; the boat's own if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_m_s: Option<f64>,
+    /// Steady force at the body's origin, east and north, that the plan does not know: wind, a tow.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub external_force_n: Option<[f64; 2]>,
+    /// Whether controllers see noisy numbers: 1 cm and 0.2°, 5 mm/s and 0.2°/s.
+    pub noise: bool,
+    /// Whether leaving the waters is a crash.
+    pub walls: bool,
+    /// Wall-clock limit per mission of `command`.
+    pub timeout_s: f64,
+    /// Workers of `command`; as many as threads if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub workers: Option<u64>,
+    /// Every violation is run again so often with other noise: how often does it come again?
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flaky: Option<FlakySection>,
+}
+
+impl Default for BoatExecute {
+    fn default() -> Self {
+        Self {
+            controller: None,
+            command: None,
+            repeat: 1,
+            accept_m: 1.0,
+            time_limit_s: None,
+            speed_m_s: None,
+            external_force_n: None,
+            noise: false,
+            walls: false,
+            timeout_s: 60.0,
+            workers: None,
+            flaky: None,
+        }
+    }
+}
+
+impl BoatExecute {
+    /// Who sails: the controller as given, `line-of-sight` where nothing is, `None` where a command does.
+    pub(in crate::campaign::boat) fn controller_in_force(&self) -> Option<BoatControllerKind> {
+        match (self.controller, &self.command) {
+            (None, Some(_)) => None,
+            (controller, _) => Some(controller.unwrap_or(BoatControllerKind::LineOfSight)),
+        }
+    }
+}

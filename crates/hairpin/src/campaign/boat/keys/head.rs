@@ -1,0 +1,99 @@
+//! What scenarios of boats have in common with all others.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+
+use super::{BoatExecute, BoatScenario};
+use crate::campaign::scenario::{
+    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms, sections,
+};
+use crate::judgement::Limits;
+
+/// A trip is given up after this multiple of its planned duration …
+const SLOWNESS: f64 = 2.0;
+/// … and this time, s.
+const SPARE_SECONDS: f64 = 60.0;
+
+impl Keys for BoatScenario {
+    fn head(&self) -> Head<'_> {
+        let BoatExecute { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
+        Head {
+            seed: self.seed,
+            length: Some(self.task.length),
+            search: self.generate.search,
+            score: &self.generate.score,
+            score_key: "generate.score",
+            cases_key: "generate.search.cases",
+            reach: "witness",
+            executor: Executor {
+                command: command.as_deref(),
+                repeat: *repeat,
+                timeout: *timeout_s,
+                workers: *workers,
+                accept: *accept_m,
+                reruns: flaky.map_or(0, |flaky| flaky.reruns),
+                patience: Patience { given: *time_limit_s, per_waypoint: 0.0, of_plan: SLOWNESS, spare: SPARE_SECONDS },
+            },
+            controller: self.execute.controller_in_force().map(|controller| controller.word()),
+            origin: self.world.origin,
+            vary: &self.vary,
+            violation_share: self.spec.violation_share,
+            confidence: self.spec.confidence,
+            terms: self.terms(),
+            surroundings: &[],
+            one_search: false,
+        }
+    }
+
+    fn subject(&self) -> Subject {
+        let controller = self.execute.controller_in_force().map(|controller| controller.word());
+        Subject::of(&self.robot, |robot| &robot.name, true, controller)
+    }
+
+    fn vary_mut(&mut self) -> &mut BTreeMap<String, Distribution> {
+        &mut self.vary
+    }
+
+    fn adopt(&mut self, now: &dyn Keys) -> Option<()> {
+        let now: &Self = (now as &dyn Any).downcast_ref()?;
+        let (noise, force) = (self.execute.noise, self.execute.external_force_n);
+        (self.robot, self.execute, self.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
+        (self.execute.noise, self.execute.external_force_n) = (noise, force);
+        Some(())
+    }
+
+    fn set_noisy(&mut self) {
+        self.execute.noise = true;
+    }
+
+    /// Nothing is searched beside the waypoints of boats.
+    fn surround(&mut self, _: &Environment) {}
+
+    fn write_defaults(&mut self) {
+        self.execute.controller = self.execute.controller_in_force();
+    }
+
+    fn named(&mut self) -> Named<'_> {
+        Named { score: Some(("generate.score", &mut self.generate.score)), ..Named::default() }
+    }
+
+    sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);
+}
+
+impl BoatScenario {
+    fn terms(&self) -> Terms {
+        let spec = &self.spec;
+        Terms {
+            from: spec.deviation.map_or(DeviationFrom::Leg, |deviation| deviation.from),
+            corner: spec.deviation.map_or(0.0, |deviation| deviation.corner_m),
+            limits: Limits {
+                deviation: spec.deviation.map(|limit| limit.max_m),
+                overshoot: spec.overshoot.map(|limit| limit.max_m),
+                clearance: spec.clearance.map(|limit| limit.min_m),
+                acceleration: spec.acceleration.map(|limit| limit.max_m_s2),
+                total_time: spec.total_time.map(|limit| limit.max_s),
+                ..Limits::default()
+            },
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! The planned motion of a case as a track: the witness where there is one, straight legs at constant speed otherwise.
+
+use nalgebra::{Isometry3, Point3, Translation3, Vector3};
+
+use super::BoatSetup;
+use crate::campaign::{Case, Timed};
+use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
+use crate::trajectory::{Channel, Track, TrackError};
+
+/// Rate of planned tracks, and of the timed reference that executors get, Hz: boats are slow.
+const RATE: f64 = 5.0;
+const REFERENCE_RATE: f64 = 2.0;
+
+/// Place, heading and velocity at a moment.
+struct Sample {
+    leg: usize,
+    position: Point3<f64>,
+    heading: f64,
+    velocity: Vector3<f64>,
+}
+
+/// The timed reference of a mission; empty for a case without leg times.
+pub(super) fn timed(case: &Case) -> Vec<Timed> {
+    if case.leg_times.is_empty() {
+        return Vec::new();
+    }
+    let at = |t: f64| {
+        let Sample { position, velocity, .. } = sample(case, t);
+        Timed { t, position, velocity }
+    };
+    stamps(case.leg_times.iter().sum(), REFERENCE_RATE).into_iter().map(at).collect()
+}
+
+/// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. A case without leg times is drawn at the
+/// boat's default speed.
+///
+/// # Errors
+/// A case whose numbers are no track.
+pub(super) fn track(setup: &BoatSetup, case: &Case) -> Result<Track, TrackError> {
+    let paced;
+    let case = if case.leg_times.is_empty() {
+        let time = |leg: &[Point3<f64>]| ((leg[1] - leg[0]).norm() / setup.boat.default_speed).max(1.0 / RATE);
+        paced = Case { leg_times: case.waypoints.windows(2).map(time).collect(), witness: None, ..case.clone() };
+        &paced
+    } else {
+        case
+    };
+    let times = stamps(case.leg_times.iter().sum(), RATE);
+    let samples: Vec<Sample> = times.iter().map(|t| sample(case, *t)).collect();
+    let pose = |sample: &Sample| {
+        let attitude = unit_quaternion(&quaternion_from_euler(0.0, 0.0, sample.heading));
+        Isometry3::from_parts(Translation3::from(sample.position), attitude)
+    };
+    let column = |name: &str, of: &dyn Fn(&Sample) -> f64| Channel {
+        name: name.into(),
+        values: samples.iter().map(of).collect(),
+    };
+    let channels = vec![
+        column("leg", &|sample| sample.leg as f64),
+        column("vx_m_s", &|sample| sample.velocity.x),
+        column("vy_m_s", &|sample| sample.velocity.y),
+        column("vz_m_s", &|_| 0.0),
+    ];
+    let poses = samples.iter().map(pose).collect();
+    Track::new(times, poses, channels)
+}
+
+/// Stamps from 0 to `duration` at `rate`, the end included.
+fn stamps(duration: f64, rate: f64) -> Vec<f64> {
+    let count = (duration * rate).floor() as usize;
+    let mut times: Vec<f64> = (0..=count).map(|k| k as f64 / rate).collect();
+    if duration - times[count] > 1e-9 {
+        times.push(duration);
+    }
+    times
+}
+
+fn sample(case: &Case, t: f64) -> Sample {
+    let mut start = 0.0;
+    let last = case.leg_times.len() - 1;
+    let mut leg = 0;
+    while leg < last && t >= start + case.leg_times[leg] {
+        start += case.leg_times[leg];
+        leg += 1;
+    }
+    let tau = (t - start).clamp(0.0, case.leg_times[leg]);
+    if let Some(piece) = case.profile().and_then(|profile| profile.legs.get(leg)) {
+        let (at, rate) = (piece.derivative(tau, 0), piece.derivative(tau, 1));
+        let (position, velocity) = (Point3::new(at.x, at.y, 0.0), Vector3::new(rate.x, rate.y, 0.0));
+        return Sample { leg, position, heading: at.z, velocity };
+    }
+    let (a, b) = (case.waypoints[leg], case.waypoints[leg + 1]);
+    let velocity = (b - a) / case.leg_times[leg];
+    Sample { leg, position: a + velocity * tau, heading: libm::atan2(velocity.y, velocity.x), velocity }
+}

@@ -1,0 +1,138 @@
+//! One graph, from its number to its plans: waypoints drawn in free water, their roadmap, the search asked for.
+
+use nalgebra::Point3;
+
+use super::BoatSetup;
+use super::legs::{beside, score};
+use super::through::{is_free, through};
+use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Question, Remembered, Wanted, search};
+use crate::campaign::kind::Solver;
+use crate::campaign::{Evidence, Stop};
+use crate::feasibility::boat::{BoatJudge, BoatLegs, BoatNode, BoatRoadmap, BoatRoadmapSettings};
+use crate::feasibility::steering::LegTiming;
+use crate::math::random::{named_seed, stream, unit};
+use crate::search::Found;
+
+/// Draws for each waypoint, at most.
+const TRIES: u64 = 1000;
+
+/// The part of a search that is the same for every graph.
+pub(super) struct BoatSolver<'a> {
+    setup: &'a BoatSetup,
+    judge: BoatJudge,
+    timing: LegTiming,
+    /// Of the graphs that rounds come back to.
+    remembered: Remembered<BoatLegs>,
+}
+
+impl<'a> BoatSolver<'a> {
+    /// # Errors
+    /// A planned duration that alone is beyond its limit, in a sentence's part.
+    pub(super) fn new(setup: &'a BoatSetup) -> Result<Self, String> {
+        let (timing, legs) = (setup.timing(), setup.scenario.task.length - 1);
+        let shortest = timing.range().0;
+        let longest = setup.longest();
+        if legs as f64 * shortest > longest {
+            return Err(format!("{legs} legs of at least {shortest} s take longer than max_time_s = {longest}"));
+        }
+        Ok(Self { setup, judge: setup.judge(), timing, remembered: Remembered::default() })
+    }
+
+    /// The waypoints of graph number `graph`: index 0 the start, the last the end, free ones between.
+    ///
+    /// # Errors
+    /// Too little free water.
+    pub(super) fn sample(&self, graph: u64) -> Result<Vec<Point3<f64>>, String> {
+        let (task, world) = (&self.setup.scenario.task, &self.setup.scenario.world);
+        let wanted = self.setup.scenario.generate.search.waypoints;
+        let mut random = stream(named_seed(self.setup.scenario.seed, "graph", graph));
+        let [[x0, y0], [x1, y1]] = [task.start_m, task.end_m];
+        let mut points = vec![Point3::new(x0, y0, 0.0)];
+        let drawn = |random: &mut _| {
+            let [x, y] = [0, 1].map(|axis| unit(random) * world.size_m[axis]);
+            Point3::new(x, y, 0.0)
+        };
+        let tries = (0..wanted * TRIES).map(|_| drawn(&mut random));
+        points.extend(tries.filter(|point| is_free(self.setup, point)).take(wanted as usize));
+        if points.len() as u64 <= wanted {
+            let found = points.len() - 1;
+            return Err(format!("only {found} of {wanted} waypoints found room in {TRIES} draws each"));
+        }
+        points.push(Point3::new(x1, y1, 0.0));
+        Ok(points)
+    }
+
+    /// The states of graph number `graph` over `points`.
+    pub(super) fn roadmap(&self, graph: u64, points: &[Point3<f64>]) -> BoatRoadmap<'_> {
+        let scenario = &self.setup.scenario;
+        let settings = BoatRoadmapSettings {
+            velocities: scenario.generate.velocities as usize,
+            timing: self.timing,
+            seed: named_seed(scenario.seed, "roadmap", graph),
+            current: scenario.world.current(),
+        };
+        BoatRoadmap::new(&self.judge, points, &settings)
+    }
+
+    /// `plan` over `points`, as many as its own; `None` where they are not feasible.
+    fn moved(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+        let indices: Vec<usize> = (0..points.len()).collect();
+        let profile = through(&self.judge, &self.timing.rungs(), plan.witness.as_ref()?.profile()?, &indices, points)?;
+        let leg_times = profile.legs.iter().map(|leg| leg.duration).collect();
+        let (waypoints, witness) = (points.to_vec(), Some(profile.into()));
+        // No search saw these legs.
+        Some(Plan { waypoints, leg_times, seen: Vec::new(), bound: None, witness, ..plan.clone() })
+    }
+
+    fn search(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
+        let scenario = &self.setup.scenario;
+        let mut roadmap = self.roadmap(graph, points);
+        if let Some(legs) = self.remembered.take(graph) {
+            roadmap = roadmap.knowing(legs);
+        }
+        let plan = |found: Found<BoatNode>| {
+            let profile = roadmap.profile(&found.nodes).ok()?;
+            let fits = profile.duration() <= self.setup.longest();
+            fits.then(|| Plan { witness: Some(profile.into()), ..Plan::new(&found, points, Evidence::Witnessed) })
+        };
+        let top_speed = self.judge.top_speed();
+        let question = Question {
+            search: &scenario.generate.search,
+            length: scenario.task.length as usize,
+            points,
+            reach: &roadmap,
+            start: roadmap.start(),
+            score: score(self.setup, graph, top_speed, &looped),
+            seed: named_seed(scenario.seed, "uniform", graph),
+            // The roadmap's own test is exact one step from the end, and legs are dear.
+            lookahead: 0,
+            plan: &plan,
+            free_end: false,
+            also: beside(self.setup, graph, top_speed, &looped),
+            looped,
+        };
+        let outcome = Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)));
+        if matches!(looped.wanted, Wanted::Round(_)) {
+            let legs = roadmap.into_legs();
+            let bytes = legs.bytes();
+            self.remembered.keep(graph, legs, bytes);
+        }
+        outcome
+    }
+}
+
+impl Solver for BoatSolver<'_> {
+    fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, _: &Stop) -> Outcome {
+        match self.sample(graph) {
+            Ok(points) => {
+                let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved(plan, points);
+                self.search(graph, &points, Looped { executions, surroundings: None, moved: &moved, wanted })
+            }
+            Err(reason) => Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
+        }
+    }
+
+    fn takes_scores(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,89 @@
+//! A campaign of boats in small: keys and their bounds, cases that are proven, runs that repeat.
+
+use serde_json::{Value, json};
+
+use crate::campaign::scenario::KeyPath;
+use crate::campaign::{Known, Scenario, Setup, Stop, execute_run, generate, judge, verify};
+use crate::trajectory::ProfileLeg;
+
+fn scenario() -> Value {
+    json!({
+        "hairpin": 1,
+        "robot": { "kind": "boat", "name": "test", "mass_kg": 23.8, "yaw_inertia_kg_m2": 1.76,
+            "centre_of_gravity_m": 0.046, "length_m": 1.255, "beam_m": 0.29, "speed_m_s": 0.3,
+            "hydrodynamics": { "x_du_kg": -2.0, "y_dv_kg": -10.0, "n_dr_kg_m2": -1.0, "x_u_kg_s": -0.72,
+                "x_uu_kg_m": -1.33, "x_uuu_kg_s_m2": -5.87, "y_v_kg_s": -0.89, "y_vv_kg_m": -36.5, "n_r_kg_m2_s": -1.9 },
+            "thrust": { "ahead_n": 2.0, "sway_n": 1.5, "yaw_n_m": 1.5, "time_constant_s": 0.3 } },
+        "seed": 4,
+        "world": { "size_m": [24.0, 16.0], "keep_in_margin_m": 1.0, "current_m_s": [0.05, 0.02],
+            "keep_out": [{ "name": "buoy", "circle": { "center_m": [10.0, 8.0], "radius_m": 0.5 } }] },
+        "task": { "start_m": [3.0, 3.0], "end_m": [20.0, 12.0], "length": 5 },
+        "generate": { "search": { "waypoints": 15, "cases": 2, "width": 5 } },
+        "spec": { "deviation": { "max_m": 1.0 } },
+    })
+}
+
+fn changed(changes: &[(&str, Value)]) -> Result<Setup, Vec<String>> {
+    let mut value = scenario();
+    for (key, new) in changes {
+        KeyPath::parse(key).unwrap().put(&mut value, new.clone()).unwrap();
+    }
+    let scenario: Scenario = serde_json::from_value(value).unwrap();
+    Setup::build(scenario.into()).map_err(|mistakes| mistakes.iter().map(ToString::to_string).collect())
+}
+
+#[test]
+fn every_bound_holds() {
+    assert!(changed(&[]).is_ok());
+    for (key, value, words) in [
+        ("hairpin", json!(2), "hairpin = 2: must be 1"),
+        ("robot.beam_m", json!(2.0), "robot.beam_m = 2: must be"),
+        ("world.size_m", json!([24.0, 0.0]), "world.size_m[1] = 0: must be > 0"),
+        ("world.keep_in_margin_m", json!(8.0), "must be ≥ 0 and < 8 m"),
+        ("world.current_m_s", json!([0.0, 200.0]), "world.current_m_s[1] = 200: must be"),
+        ("world.keep_out[0].circle.radius_m", json!(0.0), "world.keep_out[0].circle.radius_m = 0: must be"),
+        ("task.length", json!(1), "task.length = 1: must be 2 …"),
+        ("task.end_m", json!([23.5, 3.0]), "task.end_m[0] = 23.5: must be inside the waters: 1 … 23 m"),
+        ("task.start_m", json!([10.5, 8.0]), "the hull's radius, from `buoy`"),
+        ("generate.leg_time_s", json!([80.0, 10.0]), "must be rising"),
+        ("generate.velocities", json!(0), "generate.velocities = 0: must be 1 … 64"),
+        ("generate.search.sampling", json!("sobol"), "waypoints of boats are drawn no other way"),
+        ("generate.limits.thrust_share", json!(1.5), "thrust_share = 1.5: must be > 0 and ≤ 1"),
+        ("generate.score", json!("swift"), "must be one of across-current, random"),
+        ("execute.command", json!(" "), "must be a program and its arguments"),
+        ("execute.speed_m_s", json!(3.0), "execute.speed_m_s = 3: must be"),
+        ("spec.violation_share", json!(1.0), "must be ≥ 0 and < 1"),
+    ] {
+        let found = changed(&[(key, value)]).err().unwrap_or_default();
+        assert!(found.iter().any(|mistake| mistake.contains(words)), "{key}: {found:?} should say {words:?}");
+    }
+    let still = [("generate.search.method", json!("in-loop")), ("generate.search.stress", json!("tilt"))];
+    assert!(changed(&still).is_err(), "a boat does not tilt");
+}
+
+#[test]
+fn cases_are_proven_sailed_and_judged_and_what_is_tampered_with_is_found() {
+    let setup = changed(&[]).expect("a setup");
+    let (mut cases, stop) = (Vec::new(), Stop::never());
+    generate(&setup, &Known::default(), &stop, &mut |found, _| cases.extend_from_slice(found));
+    assert_eq!(cases.len(), 2);
+    for case in &cases {
+        let verified = verify(&setup, case);
+        let proof = verified.proof.expect("a witness");
+        assert!(proof.ok(), "{:?}", proof.findings);
+        assert!(verified.with_lag.expect("thrusters lag").position > 0.0);
+        let runs = [0, 0].map(|run| execute_run(&setup, case, run));
+        assert_eq!(runs[0], runs[1]);
+        let result = judge(&setup, case, &runs[..1]).expect("a result");
+        assert!(result.measures.expect("measured").max_deviation > 0.0);
+        let mut tampered = case.clone();
+        let profile = tampered.profile().expect("a profile").clone();
+        let bent = |leg: &ProfileLeg| {
+            let mut leg = leg.clone();
+            leg.coefficients[2][5] *= 1.001;
+            leg
+        };
+        tampered.witness = Some(crate::trajectory::Profile { legs: profile.legs.iter().map(bent).collect() }.into());
+        assert!(!verify(&setup, &tampered).proof.expect("a witness").ok());
+    }
+}

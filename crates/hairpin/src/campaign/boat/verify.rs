@@ -1,0 +1,71 @@
+//! Hands the written witnesses to the verification room, as plain numbers.
+
+use super::BoatSetup;
+use crate::campaign::Case;
+use crate::robot::boat::Boat;
+use crate::verification::boat::{BoatClaim, BoatHull, BoatLeg, BoatPlace, boat_with_lag, verify_boat};
+use crate::verification::{Collector, EndError, Proof, Tolerances};
+use crate::world::terrain::KeepOutShape;
+
+/// Error of the integrated state, SI: damping has bends, which no order makes smooth.
+const ACCURACY: f64 = 1e-8;
+
+/// The proof of the witness of `case`, and its end error with thrusters that lag; `None` for a case that claims none.
+/// An environment is found by no search of boats: that it acts, or is clear, is not known.
+pub(super) fn verify(setup: &BoatSetup, case: &Case) -> (Option<Proof>, Option<EndError>) {
+    let (mut proof, with_lag) = witness(setup, case).unzip();
+    if case.environment.is_some() {
+        let findings = &mut proof.get_or_insert_default().findings;
+        Collector::about(findings, "environment").unless(false, "given", 1.0, 0.0, "");
+    }
+    (proof, with_lag.flatten())
+}
+
+fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> {
+    let profile = case.profile()?;
+    let (generate, world) = (&setup.scenario.generate, &setup.scenario.world);
+    let waypoints: Vec<[f64; 2]> = case.waypoints.iter().map(|p| [p.x, p.y]).collect();
+    let legs: Vec<BoatLeg> =
+        profile.legs.iter().map(|leg| BoatLeg { duration: leg.duration, coefficients: leg.coefficients }).collect();
+    let place = |shape: &KeepOutShape| match shape {
+        KeepOutShape::Circle { center_m, radius_m } => BoatPlace::Disc(*center_m, *radius_m),
+        KeepOutShape::Polygon { points_m } => BoatPlace::Polygon(points_m.clone()),
+    };
+    let places: Vec<BoatPlace> = setup.keep_out.list().iter().map(|keep_out| place(&keep_out.shape)).collect();
+    let margin = world.keep_in_margin_m;
+    let claim = BoatClaim {
+        waypoints: &waypoints,
+        legs: &legs,
+        current: world.current(),
+        max_speed: generate.limits.max_speed_m_s.unwrap_or(f64::INFINITY),
+        waters: ([margin; 2], world.size_m.map(|side| side - margin)),
+        places: &places,
+    };
+    let hull = hull_of(&setup.boat, generate.limits.thrust_share.unwrap_or(1.0));
+    let tolerances = Tolerances { accuracy: ACCURACY, ..Tolerances::default() };
+    let mut proof = verify_boat(&hull, &claim, &tolerances);
+    // What others read of the case are its leg times, and its path lies in the plane.
+    for (number, leg) in legs.iter().enumerate() {
+        let told = case.leg_times.get(number).copied().unwrap_or(f64::NAN);
+        let mut found = Collector::on_leg(&mut proof.findings, number, 0.0);
+        found.above("leg_time", (told - leg.duration).abs(), 1e-9 * leg.duration, "s");
+        found.above("height", case.waypoints[number + 1].z.abs(), 0.0, "m");
+    }
+    Some((proof, boat_with_lag(&hull, &claim)))
+}
+
+/// The boat's numbers, its forces to the `share` that plans use.
+fn hull_of(boat: &Boat, share: f64) -> BoatHull {
+    let (m, d) = (&boat.inertia, &boat.damping);
+    BoatHull {
+        mass: [m.surge, m.sway, m.sway_yaw, m.yaw],
+        surge: d.surge,
+        sway_by_sway: d.sway_by_sway,
+        sway_by_yaw: d.sway_by_yaw,
+        yaw_by_sway: d.yaw_by_sway,
+        yaw_by_yaw: d.yaw_by_yaw,
+        forces: boat.thrust.bounds().map(|bounds| bounds.map(|force| share * force)),
+        time_constant: boat.thrust_time_constant,
+        radius: boat.radius,
+    }
+}
