@@ -24,7 +24,7 @@ impl Thrust {
     }
 }
 
-/// A boat's numbers, SI, all checked and finite. Built by [`BoatDescription::build`].
+/// A boat's numbers, SI, all checked and finite. Built by [`BoatDescription::build`](super::BoatDescription::build).
 ///
 /// ```
 /// use hairpin::robot::boat::BoatDescription;

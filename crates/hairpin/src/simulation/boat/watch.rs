@@ -26,7 +26,8 @@ impl<'a> Watch<'a> {
 
     /// Whether the run ends at `t` with the boat at `at`. Chords between looks are held against what it must not meet.
     pub(super) fn note(&mut self, t: f64, at: &Vector2<f64>, course: &Course) -> Option<Ended> {
-        if !(at.norm_squared() < FARTHEST * FARTHEST) {
+        let far = at.norm_squared();
+        if far.is_nan() || far >= FARTHEST * FARTHEST {
             return Some(Ended::OffMap);
         }
         let before = std::mem::replace(&mut self.before, *at);

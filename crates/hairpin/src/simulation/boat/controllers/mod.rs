@@ -18,7 +18,7 @@ pub use kind::{BoatController, BoatControllerKind};
 #[derive(Debug, Clone)]
 pub(in crate::simulation::boat) enum Helmsman {
     LineOfSight(LineOfSight),
-    Tracking(Box<Tracking>),
+    Tracking(Tracking),
 }
 
 impl Helmsman {
@@ -33,7 +33,7 @@ impl Helmsman {
         }
         Ok(match controller.kind {
             BoatControllerKind::LineOfSight => Self::LineOfSight(LineOfSight::new(nominal, speed)),
-            BoatControllerKind::Tracking => Self::Tracking(Box::new(Tracking::new(nominal))),
+            BoatControllerKind::Tracking => Self::Tracking(Tracking::new(nominal)),
         })
     }
 }
