@@ -14,7 +14,7 @@ pub(super) fn knobs(setup: &BoatSetup) -> Knobs {
     Knobs {
         turned: turned(scenario),
         conditions: conditions(scenario),
-        standing: (count > 0).then(|| Standing {
+        standing: (count > 0).then_some(Standing {
             words: "keep-outs",
             key: "world.keep_out",
             count,
