@@ -6,9 +6,10 @@ use std::fs::{self, File};
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow::array::{ArrayRef, AsArray, Float64Array, RecordBatch};
-use arrow::compute::cast;
-use arrow::datatypes::{DataType, Field, Schema};
+use arrow_array::cast::AsArray;
+use arrow_array::{ArrayRef, Float64Array, RecordBatch};
+use arrow_cast::cast;
+use arrow_schema::{DataType, Field, Schema};
 use hairpin::math::random::case_seed;
 use hairpin_formats::parquet::{TableError, profile, results, runs, track};
 use out_campaign::campaign;
@@ -132,7 +133,7 @@ fn a_wrong_value_is_named_with_its_place() {
             let mut values: Vec<f64> = match name == wanted {
                 true => cast(column, &DataType::Float64)
                     .unwrap()
-                    .as_primitive::<arrow::datatypes::Float64Type>()
+                    .as_primitive::<arrow_array::types::Float64Type>()
                     .values()
                     .to_vec(),
                 false => return Some(column.clone()),

@@ -9,7 +9,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow::array::{Float64Array, Int64Array, StringArray};
+use arrow_array::{Float64Array, Int64Array, StringArray};
 use hairpin::trajectory::drive::{Gear, MOST_SEGMENTS, Motion, Planar, Segment};
 use hairpin::trajectory::{Direction, Drive, DriveLeg, SpeedProfile};
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow::array::{Float64Array, Int64Array, StringArray};
+use arrow_array::{Float64Array, Int64Array, StringArray};
 use hairpin::trajectory::{Profile, ProfileLeg};
 
 use super::table::{Columns, Table, TableError};

@@ -4,7 +4,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow::array::{Float64Array, Float64Builder, Int64Array, ListArray, ListBuilder, StringArray};
+use arrow_array::builder::{Float64Builder, ListBuilder};
+use arrow_array::{Float64Array, Int64Array, ListArray, StringArray};
 use hairpin::campaign::{CaseNumber, Run};
 use hairpin::trajectory::{Ended, Flight, Track};
 use serde::{Deserialize, Serialize};

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow::array::{ArrayRef, Float64Array, Int64Array};
+use arrow_array::{ArrayRef, Float64Array, Int64Array};
 use hairpin::trajectory::{Channel, Track};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 

@@ -1,8 +1,10 @@
 //! Typed access to a table's columns: another writer may have changed widths, dictionaries and nulls, not meanings.
 
-use arrow::array::{Array, ArrayRef, AsArray};
-use arrow::compute::cast;
-use arrow::datatypes::{DataType, Float64Type, Int64Type, UInt64Type};
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
+use arrow_array::{Array, ArrayRef};
+use arrow_cast::cast;
+use arrow_schema::DataType;
 use hairpin::campaign::CaseNumber;
 
 use super::table::{Table, TableError};
@@ -32,7 +34,9 @@ impl Table {
     pub(crate) fn optional_numbers(&self, column: &str) -> Result<Vec<Option<f64>>, TableError> {
         let array = self.array(column, &DataType::Float64, "numbers")?;
         let values = array.as_primitive::<Float64Type>();
-        let found: Vec<_> = values.iter().map(|value| value.filter(|v| !v.is_nan())).collect();
+        let there = |row: usize| values.nulls().is_none_or(|nulls| nulls.is_valid(row));
+        let number = |(row, &value): (usize, &f64)| Some(value).filter(|v| !v.is_nan() && there(row));
+        let found: Vec<_> = values.values().iter().enumerate().map(number).collect();
         match found.iter().position(|value| value.is_some_and(f64::is_infinite)) {
             Some(row) => Err(self.refuse(column, row, "infinity", "a finite number")),
             None => Ok(found),
@@ -150,9 +154,13 @@ impl Table {
             if found.data_type() != &DataType::Null && found.null_count() < found.len() {
                 return Err(refuse());
             }
-            return Ok(arrow::array::new_null_array(wanted, found.len()));
+            return Ok(arrow_array::new_null_array(wanted, found.len()));
         }
         let converted = cast(found, wanted).map_err(|_| refuse())?;
+        // Nulls stay nulls: as many of them are the same ones.
+        if converted.null_count() == found.null_count() {
+            return Ok(converted);
+        }
         match (0..found.len()).find(|&row| converted.is_null(row) && !found.is_null(row)) {
             Some(row) => Err(self.refuse(column, row, "a value that does not fit", expected)),
             None => Ok(converted),

@@ -58,3 +58,10 @@ pub struct Found<N> {
     /// Aggregated score.
     pub score: f64,
 }
+
+impl<N> Found<N> {
+    /// Best score first, ties by waypoint index.
+    pub(super) fn sort(found: &mut [Self]) {
+        found.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| a.waypoints.cmp(&b.waypoints)));
+    }
+}

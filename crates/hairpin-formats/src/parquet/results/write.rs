@@ -3,10 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow::array::{
-    ArrayRef, Float64Array, Float64Builder, Int64Array, Int64Builder, ListBuilder, StringArray, StringBuilder,
-    UInt64Array,
-};
+use arrow_array::builder::{Float64Builder, Int64Builder, ListBuilder, StringBuilder};
+use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray, UInt64Array};
 use hairpin::campaign::{Case, CaseResult, Reruns};
 use hairpin::judgement::Violation;
 use hairpin::judgement::{LegMeasures, Measures, Share};

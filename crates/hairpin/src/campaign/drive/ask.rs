@@ -10,7 +10,7 @@ use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{DriveScenario, SearchSection};
 use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
-use crate::search::{Additive, Found, OpenEnd};
+use crate::search::{Found, OpenEnd};
 
 /// One graph, and how it is searched.
 #[derive(Clone, Copy)]
@@ -25,16 +25,14 @@ pub(super) struct Graph<'a> {
 }
 
 /// A graph, and what its legs and scores are.
-///
-/// Nodes `N` of a reach set `R`, legs scored by `O`.
-pub(super) struct Asked<'a, N, R, O> {
+pub(super) struct Asked<'a, N> {
     pub(super) scenario: &'a DriveScenario,
     pub(super) graph: Graph<'a>,
-    pub(super) reach: &'a R,
+    pub(super) reach: &'a dyn Reach<N>,
     pub(super) start: N,
-    pub(super) score: O,
+    pub(super) score: AnyScore<'a>,
     /// Those beside it.
-    pub(super) also: Vec<O>,
+    pub(super) also: Vec<AnyScore<'a>>,
     /// Steps from the end within which the beam asks the reach set itself whether the end can be reached.
     pub(super) lookahead: usize,
 }
@@ -45,15 +43,13 @@ pub(super) struct Asked<'a, N, R, O> {
 ///
 /// Without an end the trajectory has a leg more in the search, which leads from any waypoint to an end that all have in
 /// common and costs nothing; plans come without it.
-pub(super) fn ask<N, R, O>(
-    asked: Asked<'_, N, R, O>,
-    may_arrive: impl Fn(&N, usize) -> bool,
+pub(super) fn ask<N>(
+    asked: Asked<'_, N>,
+    may_arrive: &dyn Fn(&N, usize) -> bool,
     plan: impl Fn(Found<N>) -> Option<Plan>,
 ) -> Outcome
 where
     N: Copy + Eq + Ord + Hash,
-    R: Reach<N>,
-    O: Additive,
 {
     let Asked { scenario, graph, reach, start, score, also, lookahead } = asked;
     let Graph { search: section, graph, points, looped } = graph;
@@ -92,7 +88,7 @@ where
         also: also.iter().map(|score| open.score(score, section.aggregate)).collect(),
         looped,
     };
-    Outcome::of(graph, search(&question, OpenEnd::<&R>::may_arrive))
+    Outcome::of(graph, search(&question, &OpenEnd::<&dyn Reach<N>>::may_arrive))
 }
 
 /// What was learned of legs, by rounds before this one or by the scenario's model, or what the user's own program says

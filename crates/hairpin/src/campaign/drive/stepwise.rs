@@ -6,6 +6,7 @@ use nalgebra::Point3;
 use super::DriveSetup;
 use super::ask::{Asked, Graph, ask, beside, learned};
 use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Stage, in_order};
+use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{GroundReach, Manoeuvre};
 use crate::campaign::{Evidence, SeenLeg};
 use crate::feasibility::reach::drive::{DriveSettings, DriveSite, StraightLegs};
@@ -163,16 +164,17 @@ impl<'a> Stepwise<'a> {
         let (reach, lookahead) = (&filtered, 1);
         if let Some(score) = learned(self.setup, &graph.looped) {
             let also = beside(&graph.looped);
-            return ask(Asked { scenario, graph, reach, start, score, also, lookahead }, |_, _| true, plan);
+            return ask(Asked { scenario, graph, reach, start, score, also, lookahead }, &|_, _| true, plan);
         }
         let site = DriveSite::new(&self.setup.planner, &self.setup.map, &self.setup.keep_out);
         let seed = named_seed(scenario.seed, "score", graph.graph);
         let scored = DriveSettings { seed, ..scored.clone() };
         let straight = StraightLegs::new(site, &scored);
-        let score = |leg: &LegView| {
+        let stress = |leg: &LegView<'_>| {
             let [from, to] = [leg.from, leg.to].map(|index| (index, &points[index as usize]));
             straight.stress(from, to, leg.features.turn)
         };
-        ask(Asked { scenario, graph, reach, start, score, also: Vec::new(), lookahead }, |_, _| true, plan)
+        let score = AnyScore::Own(&stress);
+        ask(Asked { scenario, graph, reach, start, score, also: Vec::new(), lookahead }, &|_, _| true, plan)
     }
 }

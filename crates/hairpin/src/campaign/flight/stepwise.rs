@@ -245,6 +245,6 @@ impl<'a> Stepwise<'a> {
             also: beside(self.setup, graph, self.top_speed(), &looped),
             looped,
         };
-        Outcome::of(graph, search(&question, may_arrive))
+        Outcome::of(graph, search(&question, &may_arrive))
     }
 }

@@ -91,7 +91,7 @@ impl<'a> Witness<'a> {
             also: beside(self.setup, graph, top_speed, &looped),
             looped,
         };
-        let outcome = Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)));
+        let outcome = Outcome::of(graph, search(&question, &|node, steps| roadmap.may_arrive(node, steps)));
         if again {
             let legs = roadmap.into_legs();
             let bytes = legs.bytes();

@@ -10,7 +10,6 @@ use super::executions::Executions;
 use super::optima::optima;
 use super::plan::Plan;
 use super::question::{Looped, Question};
-use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::in_loop::{EvolveSettings, ShiftSettings, Tested, Trial, climb, evolve, shift};
 use crate::search::{Additive, Aggregate, Found, LegGraph, UniformSettings, uniform};
@@ -33,7 +32,7 @@ const LARGEST_STEP: f64 = 0.3;
 /// Of the executions 40 % go to disturbances where these are searched, and of the others a fifth to evolution where
 /// waypoints are moved as well; then the best 6, 2 and 1 are moved on with 40 %, 40 % and all of what is left.
 /// Obstacles come last, two executions for each trajectory that is kept.
-pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
+pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
     let graph = question.leg_graph();
     let first = first(question, &graph);
@@ -74,7 +73,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(que
                 let seed = named_seed(question.seed, "shift", (stage * STAGES[0].0 + place) as u64);
                 go_on(&mut best_so_far, &climber.climb(&question.looped, seed, [each, 1 + search.confirm]));
             }
-            climbers.sort_by(|a, b| b.trial.stress.total_cmp(&a.trial.stress));
+            hardest_first(&mut climbers);
         }
     }
     if let Some(disturbance) = disturbance {
@@ -96,7 +95,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(que
                 *plan = Plan { score: trial.stress, ..(disturbance.put)(plan, &place, time) };
             }
         }
-        climbers.sort_by(|a, b| b.trial.stress.total_cmp(&a.trial.stress));
+        hardest_first(&mut climbers);
     }
     climbers.truncate(search.per_graph as usize);
     let mut plans: Vec<Plan> = climbers.into_iter().map(|climber| climber.plan).collect();
@@ -138,11 +137,13 @@ impl Climber {
     }
 }
 
+/// Beside the searches, which are compiled for each kind of node: a sort is as large as they are.
+fn hardest_first(climbers: &mut [Climber]) {
+    climbers.sort_by(|a, b| b.trial.stress.total_cmp(&a.trial.stress));
+}
+
 /// What evolution starts from: every score's optima under both aggregates, and uniform draws.
-fn first<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
-    question: &Question<N, R, O>,
-    graph: &LegGraph<'_, N>,
-) -> Vec<Found<N>> {
+fn first<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>, graph: &LegGraph<'_, N>) -> Vec<Found<N>> {
     let search = question.search;
     let mut first: Vec<Found<N>> = optima(question, graph).flat_map(|outcome| outcome.found).collect();
     let drawn = UniformSettings {

@@ -4,7 +4,6 @@ use std::hash::Hash;
 
 use super::answer::Answer;
 use super::question::Question;
-use crate::feasibility::reach::Reach;
 use crate::search::{Additive, Aggregate, ExactOutcome, ExactSearch, ExactSettings, LegGraph};
 
 /// How legs add up, in the order of the optima of one score.
@@ -13,8 +12,8 @@ pub(in crate::campaign) const AGGREGATES: [Aggregate; 2] = [Aggregate::Max, Aggr
 /// Of every score of the question, its own first, the optimum under each of [`AGGREGATES`].
 ///
 /// Each at most one trajectory, with its bound.
-pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
-    question: &'q Question<N, R, O>,
+pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, O: Additive>(
+    question: &'q Question<N, O>,
     graph: &'q LegGraph<'_, N>,
 ) -> impl Iterator<Item = ExactOutcome<N>> {
     let settings = ExactSettings {
@@ -30,7 +29,7 @@ pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
 
 /// The plans of [`optima`] in their order; none at all where one is missing, so that no score has graphs that another
 /// has not.
-pub(super) fn by_optima<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
+pub(super) fn by_optima<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let graph = question.leg_graph();
     let mut all = Answer::default();
     for outcome in optima(question, &graph) {

@@ -5,7 +5,6 @@ use std::hash::Hash;
 use super::answer::Answer;
 use super::executions::Partials;
 use super::question::Question;
-use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::in_loop::{Execute, Executed, PartialSettings, Ran};
 use crate::search::{Additive, Found, Task, beam_grown};
@@ -15,12 +14,12 @@ use crate::simulation::Airborne;
 const FRONTIER: usize = 1000;
 
 /// Makes plans of what the beam grows, and has them executed.
-struct Carried<'q, 'a, N, R, O> {
-    question: &'q Question<'a, N, R, O>,
+struct Carried<'q, 'a, N, O> {
+    question: &'q Question<'a, N, O>,
     partials: &'q Partials<'a>,
 }
 
-impl<N: Copy, R, O> Execute<N> for Carried<'_, '_, N, R, O> {
+impl<N: Copy, O> Execute<N> for Carried<'_, '_, N, O> {
     type State = Airborne;
 
     fn execute(
@@ -35,10 +34,10 @@ impl<N: Copy, R, O> Execute<N> for Carried<'_, '_, N, R, O> {
 }
 
 /// The frontier is at most 1000 partial trajectories.
-pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
-    question: &Question<N, R, O>,
+pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, O: Additive>(
+    question: &Question<N, O>,
     partials: &Partials,
-    may_arrive: impl Fn(&N, usize) -> bool,
+    may_arrive: &dyn Fn(&N, usize) -> bool,
 ) -> Answer {
     let search = question.search;
     let settings = PartialSettings {

@@ -16,12 +16,13 @@ use crate::search::beam::Ended;
 use crate::search::{Additive, BeamOutcome, BeamSettings, Found, LegGraph};
 
 /// One graph and what is asked of it.
-pub(in crate::campaign) struct Question<'a, N, R, O> {
+pub(in crate::campaign) struct Question<'a, N, O> {
     pub(in crate::campaign) search: &'a SearchSection,
     /// Waypoints of a trajectory, both ends included.
     pub(in crate::campaign) length: usize,
     pub(in crate::campaign) points: &'a [Point3<f64>],
-    pub(in crate::campaign) reach: &'a R,
+    /// Not a type of its own each: it is asked once an expansion, and the searches are compiled once a kind of node.
+    pub(in crate::campaign) reach: &'a dyn Reach<N>,
     pub(in crate::campaign) start: N,
     pub(in crate::campaign) score: O,
     /// Seed of what the search itself draws.
@@ -90,7 +91,7 @@ impl<'a> Looped<'a> {
     }
 }
 
-impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> Question<'_, N, R, O> {
+impl<N: Copy + Eq + Ord + Hash, O: Additive> Question<'_, N, O> {
     /// The plan of `found`, with what the search saw of its legs.
     pub(super) fn planned(&self, found: Found<N>) -> Option<Plan> {
         let seen = self.seen(&found);

@@ -9,7 +9,6 @@ use super::answer::Answer;
 use super::optima::AGGREGATES;
 use super::plan::{Plan, fingerprint};
 use super::question::{Question, Round};
-use crate::feasibility::reach::Reach;
 use crate::math::random::named_seed;
 use crate::search::{Additive, Aggregate, ExactSearch, ExactSettings, Found, LegGraph, UniformSettings, uniform};
 
@@ -28,10 +27,7 @@ const REDRAWS: u32 = 6;
 ///
 /// Models share the optima wanted evenly, the first ones one more; scores by hand take turns over rounds and graphs,
 /// each under both aggregates.
-pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
-    question: &Question<N, R, O>,
-    round: &Round,
-) -> Answer {
+pub(super) fn by_round<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>, round: &Round) -> Answer {
     let graph = question.leg_graph();
     let settings =
         ExactSettings { length: question.length, revisits: question.search.revisits, ..ExactSettings::default() };
@@ -64,13 +60,13 @@ pub(super) fn by_round<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     Answer { proven_empty: empty, plans: new.plans, chosen, by_hand, reason, ..Answer::default() }
 }
 
-struct New<'q, 'a, N, R, O> {
-    question: &'q Question<'a, N, R, O>,
+struct New<'q, 'a, N, O> {
+    question: &'q Question<'a, N, O>,
     known: HashSet<[u8; 16]>,
     plans: Vec<Plan>,
 }
 
-impl<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive> New<'_, '_, N, R, O> {
+impl<N: Copy + Eq + Ord + Hash, O: Additive> New<'_, '_, N, O> {
     /// Takes up to `wanted` of `found` that are not known; how many there were.
     fn take(&mut self, found: Vec<Found<N>>, wanted: usize) -> usize {
         let before = self.plans.len();

@@ -9,13 +9,12 @@ use super::partial::by_partials;
 use super::question::{Question, Wanted};
 use super::rounds::by_round;
 use crate::campaign::scenario::SearchMethod;
-use crate::feasibility::reach::Reach;
 use crate::search::{Additive, ExactSettings, Task, UniformSettings, beam, exact, uniform};
 
 /// Searches one graph. `may_arrive(node, steps)` is necessary for the end to be reached from `node` in `steps` legs.
-pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
-    question: &Question<N, R, O>,
-    may_arrive: impl Fn(&N, usize) -> bool,
+pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, O: Additive>(
+    question: &Question<N, O>,
+    may_arrive: &dyn Fn(&N, usize) -> bool,
 ) -> Answer {
     match question.looped.wanted {
         Wanted::Cases => by_method(question, may_arrive),
@@ -25,9 +24,9 @@ pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Add
 }
 
 /// Optima of the method `exact` are proven, its bound holds for the graph; the others find what they find.
-fn by_method<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
-    question: &Question<N, R, O>,
-    may_arrive: impl Fn(&N, usize) -> bool,
+fn by_method<N: Copy + Eq + Ord + Hash, O: Additive>(
+    question: &Question<N, O>,
+    may_arrive: &dyn Fn(&N, usize) -> bool,
 ) -> Answer {
     match question.search.method {
         SearchMethod::Beam => match question.looped.executions.partial {
@@ -43,9 +42,9 @@ fn by_method<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
 }
 
 /// Ends with the frontier or the iterations; an empty frontier is a proof only where the beam lost nothing.
-fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
-    question: &Question<N, R, O>,
-    may_arrive: impl Fn(&N, usize) -> bool,
+fn by_beam<N: Copy + Eq + Ord + Hash, O: Additive>(
+    question: &Question<N, O>,
+    may_arrive: &dyn Fn(&N, usize) -> bool,
 ) -> Answer {
     let task = Task { start: question.start, candidates: question.points, reach: question.reach };
     let outcome = beam(&task, &question.score, may_arrive, &question.beam_settings());
@@ -53,7 +52,7 @@ fn by_beam<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(
     question.answer_of(outcome, capped)
 }
 
-fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
+fn by_dynamic_program<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
     let graph = question.leg_graph();
     let settings = ExactSettings {
@@ -74,7 +73,7 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(quest
 }
 
 /// Proven empty where no walk of the length leads from start to end.
-fn by_uniform_draws<N: Copy + Eq + Ord + Hash, R: Reach<N>, O: Additive>(question: &Question<N, R, O>) -> Answer {
+fn by_uniform_draws<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
     let graph = question.leg_graph();
     let settings = UniformSettings {

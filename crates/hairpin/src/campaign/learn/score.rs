@@ -1,11 +1,13 @@
-//! A score by name or by a model.
+//! A score by name, by a model, or by what else knows legs.
 
 use super::ScoreModel;
 use crate::campaign::user_score::{LegFacts, LegScorer};
 use crate::search::{Additive, LegView, Objective, Score};
 
 /// What a scenario scores legs by.
-#[derive(Debug, Clone, Copy)]
+///
+/// One type for all, so that the searches are compiled for each kind of node and not for each score.
+#[derive(Clone, Copy)]
 pub(in crate::campaign) enum AnyScore<'a> {
     /// One of those that have names.
     Named(Score),
@@ -13,6 +15,8 @@ pub(in crate::campaign) enum AnyScore<'a> {
     Learned(&'a ScoreModel),
     /// One of the user's own.
     User(&'a dyn LegScorer),
+    /// What the search's own side knows of a leg; it leaves nothing to the next.
+    Own(&'a dyn Fn(&LegView<'_>) -> f64),
 }
 
 impl AnyScore<'_> {
@@ -24,6 +28,7 @@ impl AnyScore<'_> {
             Self::Named(score) => [score.own(leg), score.left(leg)],
             Self::Learned(model) => [model.own(&leg.features, leg.duration), model.left(&leg.features, leg.duration)],
             Self::User(user) => user.own_and_left(&[LegFacts::of(leg)])[0],
+            Self::Own(stress) => [stress(leg), 0.0],
         }
     }
 }
@@ -56,6 +61,7 @@ impl Additive for AnyScore<'_> {
             Self::Named(score) => score.own_and_left(legs),
             Self::Learned(model) => model.own_and_left(legs.iter().map(|leg| (&leg.features, leg.duration))),
             Self::User(user) => user.own_and_left(&legs.iter().map(LegFacts::of).collect::<Vec<_>>()),
+            Self::Own(_) => legs.iter().map(|leg| self.both(leg)).collect(),
         }
     }
 }

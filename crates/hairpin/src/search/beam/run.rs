@@ -41,8 +41,14 @@ pub struct Snapshot {
 ///
 /// A total order, so that the search does not depend on how a heap arranges equals. O(1) where scores differ, else as
 /// long as the trajectories since they parted.
-fn order<M: Clone>(tree: &Tree<M>, a: &Entry, b: &Entry) -> Ordering {
-    a.score.total_cmp(&b.score).then_with(|| tree.lexicographic(b.id, a.id))
+/// Its type knows nothing of reach sets: heap and sort are compiled once for all of them.
+fn order<M: Clone>(tree: &Tree<M>) -> impl Fn(&Entry, &Entry) -> Ordering {
+    |a, b| a.score.total_cmp(&b.score).then_with(|| tree.lexicographic(b.id, a.id))
+}
+
+fn best_first<M: Clone>(tree: &Tree<M>, entries: &mut [Entry]) {
+    let order = order(tree);
+    entries.sort_by(|a, b| order(b, a));
 }
 
 /// One graph's search in progress; made, run to its end by `finish`, and gone.
@@ -74,7 +80,7 @@ where
         let tree = Tree::new(0, 0, score, memory);
         let mut frontier = IntervalHeap::new();
         if settings.length >= 2 && task.candidates.len() >= 2 {
-            frontier.push(Entry { score, id: 0 }, |a, b| order(&tree, a, b));
+            frontier.push(Entry { score, id: 0 }, order(&tree));
         }
         Self {
             task,
@@ -125,7 +131,7 @@ where
             self.bound();
             if let (Some(observe), Some(selected)) = (observe.as_mut(), shown) {
                 let mut frontier = self.frontier.items().to_vec();
-                frontier.sort_by(|a, b| order(&self.tree, b, a));
+                best_first(&self.tree, &mut frontier);
                 let iteration = self.outcome.iterations;
                 observe(&Snapshot { iteration, selected, frontier: self.show(&frontier) });
             }
@@ -136,7 +142,7 @@ where
             }
         }
         self.outcome.evaluations = self.atlas.evaluations;
-        self.outcome.found.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| a.waypoints.cmp(&b.waypoints)));
+        Found::sort(&mut self.outcome.found);
         self.outcome
     }
 
@@ -144,7 +150,7 @@ where
     fn select(&mut self, selected: &mut Vec<Entry>) {
         selected.clear();
         while selected.len() < self.settings.width.max(1) {
-            let Some(entry) = self.frontier.pop_best(|a, b| order(&self.tree, a, b)) else { break };
+            let Some(entry) = self.frontier.pop_best(order(&self.tree)) else { break };
             let partial = self.tree.get(entry.id);
             let overtaken =
                 |reduction: &Reduction| !reduction.still_admits(partial.node, partial.length, partial.score);
@@ -211,7 +217,7 @@ where
             if G::AT_ONCE && length + 1 == settings.length {
                 whole.push(child);
             } else {
-                self.frontier.push(Entry { score, id: child }, |a, b| order(&self.tree, a, b));
+                self.frontier.push(Entry { score, id: child }, order(&self.tree));
             }
             grown = true;
         }
@@ -250,7 +256,7 @@ where
     /// Every drop is counted and ends all hope of a proof.
     fn bound(&mut self) {
         while self.frontier.len() > self.settings.frontier {
-            let Some(worst) = self.frontier.pop_worst(|a, b| order(&self.tree, a, b)) else { return };
+            let Some(worst) = self.frontier.pop_worst(order(&self.tree)) else { return };
             self.tree.release(worst.id);
             self.outcome.dropped += 1;
         }

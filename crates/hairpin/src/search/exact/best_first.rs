@@ -20,9 +20,13 @@ struct Entry {
 }
 
 /// By bound, then the longer (so that equal bounds are followed to their end), then by waypoint index.
-fn order(tree: &Tree<f64>, a: &Entry, b: &Entry) -> Ordering {
-    let by_bound = a.bound.total_cmp(&b.bound).then(a.length.cmp(&b.length));
-    by_bound.then_with(|| tree.lexicographic(b.id, a.id))
+///
+/// Its type knows nothing of graphs: the heap is compiled once for all of them.
+fn order(tree: &Tree<f64>) -> impl Fn(&Entry, &Entry) -> Ordering {
+    |a, b| {
+        let by_bound = a.bound.total_cmp(&b.bound).then(a.length.cmp(&b.length));
+        by_bound.then_with(|| tree.lexicographic(b.id, a.id))
+    }
 }
 
 /// What the search found, and what it left open.
@@ -55,11 +59,11 @@ pub(super) fn best_first<N: Copy>(
     let mut queue = IntervalHeap::new();
     let mut result = BestFirst { found: Vec::new(), open_bound: None, expansions: 0 };
     if let Some(bound) = values.best((aggregate.neutral(), 0.0), 0, settings.length - 1) {
-        queue.push(Entry { bound, length: 1, id: 0 }, |a, b| order(&tree, a, b));
+        queue.push(Entry { bound, length: 1, id: 0 }, order(&tree));
     }
     let mut known = HashSet::new();
     let mut visited = vec![false; graph.candidates().len()];
-    while let Some(entry) = queue.pop_best(|a, b| order(&tree, a, b)) {
+    while let Some(entry) = queue.pop_best(order(&tree)) {
         let partial = *tree.get(entry.id);
         if entry.length as usize == settings.length {
             if known.insert(tree.waypoints(entry.id)) {
@@ -93,7 +97,7 @@ pub(super) fn best_first<N: Copy>(
             let bound = bound.min(entry.bound);
             let place = (to, graph.waypoint(to));
             let id = tree.grow(entry.id, place, graph.duration(leg), score, left);
-            queue.push(Entry { bound, length: entry.length + 1, id }, |a, b| order(&tree, a, b));
+            queue.push(Entry { bound, length: entry.length + 1, id }, order(&tree));
             grown = true;
         }
         if !settings.revisits {
@@ -103,7 +107,7 @@ pub(super) fn best_first<N: Copy>(
             tree.release(entry.id);
         }
     }
-    result.found.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| a.waypoints.cmp(&b.waypoints)));
+    Found::sort(&mut result.found);
     result
 }
 

@@ -75,23 +75,26 @@ pub(super) fn descent<N: Copy>(
                 }
             }
         }
-        let best = |a: &Label, b: &Label| {
-            b.bound
-                .total_cmp(&a.bound)
-                .then(b.score.total_cmp(&a.score))
-                .then((a.parent, a.leg).cmp(&(b.parent, b.leg)))
-        };
-        if next.len() > width {
-            next.select_nth_unstable_by(width, best);
-            next.truncate(width);
-        }
-        next.sort_unstable_by(best);
+        keep_best(&mut next, width);
         visited = sets(&next, &visited, words, |label| graph.waypoint(label.node));
         layers.push(next);
     }
     let last = layers.len() - 1;
     let all = (0..layers[last].len()).map(|label| trace(graph, &layers, label)).collect();
     (distinct(all), expansions)
+}
+
+/// The best `width` in order, the others gone. Beside the search, which is compiled for each kind of node: a sort is as
+/// large as it is.
+fn keep_best(labels: &mut Vec<Label>, width: usize) {
+    let best = |a: &Label, b: &Label| {
+        b.bound.total_cmp(&a.bound).then(b.score.total_cmp(&a.score)).then((a.parent, a.leg).cmp(&(b.parent, b.leg)))
+    };
+    if labels.len() > width {
+        labels.select_nth_unstable_by(width, best);
+        labels.truncate(width);
+    }
+    labels.sort_unstable_by(best);
 }
 
 /// A random word per waypoint: sets are equal where the words' exclusive or is, up to 2⁻⁶⁴.
@@ -128,7 +131,7 @@ fn trace<N: Copy>(graph: &LegGraph<'_, N>, layers: &[Vec<Label>], label: usize) 
 
 /// Best first, each list of waypoints once.
 fn distinct<N>(mut all: Vec<Found<N>>) -> Vec<Found<N>> {
-    all.sort_by(|a, b| b.score.total_cmp(&a.score).then_with(|| a.waypoints.cmp(&b.waypoints)));
+    Found::sort(&mut all);
     let mut known = std::collections::HashSet::new();
     all.retain(|found| known.insert(found.waypoints.clone()));
     all

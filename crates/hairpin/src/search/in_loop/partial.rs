@@ -295,7 +295,7 @@ where
             // Half are those that the objective puts first, the others are drawn.
             for (by, count) in [(0, share.div_ceil(2)), (1, share / 2)] {
                 let mut order: Vec<usize> = (0..both.len()).filter(|&leg| !self.chosen[leg]).collect();
-                order.sort_by(|&a, &b| both[b][by].total_cmp(&both[a][by]).then(a.cmp(&b)));
+                highest_first(&mut order, &|leg| both[leg][by]);
                 order.iter().take(count).for_each(|&leg| self.chosen[leg] = true);
             }
         }
@@ -331,4 +331,10 @@ where
     fn goes_on(&self, found: usize, wanted: usize) -> bool {
         self.left > 0 && if found < wanted { !self.stuck } else { !self.spent }
     }
+}
+
+/// Ties in the order of the legs. Beside the searches, which are compiled for each kind of node: a sort is as large as
+/// they are.
+fn highest_first(legs: &mut [usize], of: &dyn Fn(usize) -> f64) {
+    legs.sort_by(|&a, &b| of(b).total_cmp(&of(a)).then(a.cmp(&b)));
 }

@@ -92,7 +92,7 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
         if unit(self.rng) < SHORT {
             let place = |node: u32| self.graph.candidates()[self.graph.waypoint(node) as usize];
             let length = |leg: usize| (place(self.graph.target(leg)) - place(node)).norm_squared();
-            legs.sort_by(|&a, &b| length(a).total_cmp(&length(b)));
+            shortest_first(&mut legs, &length);
             let first = self.rng.random_range(0..legs.len().min(SHORTEST));
             legs.swap(0, first);
         } else {
@@ -116,4 +116,9 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
         legs.extend(found.map(|leg| leg as u32));
         found.is_some()
     }
+}
+
+/// Beside the searches, which are compiled for each kind of node: a sort is as large as they are.
+fn shortest_first(legs: &mut [usize], length: &dyn Fn(usize) -> f64) {
+    legs.sort_by(|&a, &b| length(a).total_cmp(&length(b)));
 }
