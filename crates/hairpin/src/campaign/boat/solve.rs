@@ -111,7 +111,7 @@ impl<'a> BoatSolver<'a> {
             also: beside(self.setup, graph, top_speed, &looped),
             looped,
         };
-        let outcome = Outcome::of(graph, search(&question, |node, steps| roadmap.may_arrive(node, steps)));
+        let outcome = Outcome::of(graph, search(&question, &|node, steps| roadmap.may_arrive(node, steps)));
         if matches!(looped.wanted, Wanted::Round(_)) {
             let legs = roadmap.into_legs();
             let bytes = legs.bytes();
