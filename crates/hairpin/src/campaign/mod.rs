@@ -9,6 +9,7 @@ pub mod boat;
 pub mod case;
 pub mod case_number;
 mod check;
+mod clock;
 pub mod compare;
 pub mod coverage;
 pub mod curve;

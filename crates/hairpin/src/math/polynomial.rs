@@ -5,6 +5,8 @@
 //! B_i are ≥ 0 and sum to 1, which makes min b_i ≤ p(τ) ≤ max b_i a bound between samples; each halving takes the gap
 //! to a quarter (Farin, "Curves and Surfaces for CAGD", 5th ed. 2002, ch. 4-5).
 
+use wide::f64x4;
+
 /// Coefficients c_i of Σ c_i τ^i.
 ///
 /// On [0, T], τ in s: c_i has the unit of the value over sⁱ.
@@ -48,6 +50,19 @@ pub fn septic(start: &[f64; 4], end: &[f64; 4], duration: f64) -> Septic {
     let u = 1.0 / t;
     let (u2, u4) = (u * u, u * u * u * u);
     [c0, start[1], 0.5 * start[2], start[3] / 6.0, c4 * u4, c5 * u4 * u, c6 * u4 * u2, c7 * u4 * u2 * u]
+}
+
+/// The derivatives of order 0 … 7 of Σ c_i τ^i at four times, by repeated synthetic division.
+#[inline(always)]
+pub(crate) fn derivatives(c: &Septic, tau: f64x4) -> [f64x4; 8] {
+    const FACTORIAL: [f64; 8] = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0, 720.0, 5040.0];
+    let mut b = c.map(f64x4::splat);
+    for order in 0..7 {
+        for i in (order..7).rev() {
+            b[i] += b[i + 1] * tau;
+        }
+    }
+    std::array::from_fn(|order| b[order] * FACTORIAL[order])
 }
 
 /// Control points b_0…b_7 of the same polynomial on [0, `duration`]: p(τ) = Σ b_i B_i(τ/T) lies in their hull, and

@@ -79,6 +79,22 @@ impl SimulationError {
         Self::Setting { field, value, bound }
     }
 
+    /// Of a run's settings: nothing, if each of `positive` is finite and > 0, and `linger` (s) finite and ≥ 0.
+    ///
+    /// # Errors
+    /// The first that is not.
+    pub(crate) fn unless_timed(positive: &[(&'static str, f64)], linger: f64) -> Result<(), Self> {
+        for (field, value) in positive {
+            if !(value.is_finite() && *value > 0.0) {
+                return Err(Self::new(field, value.to_string(), "finite and > 0"));
+            }
+        }
+        if !(linger.is_finite() && linger >= 0.0) {
+            return Err(Self::new("linger", linger.to_string(), "finite and ≥ 0 s"));
+        }
+        Ok(())
+    }
+
     /// The setting that is out of bounds; `controller` where none is.
     pub fn field(&self) -> &'static str {
         match self {

@@ -18,7 +18,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["vary", "user_score", "baseline"],
     // What a case and its runs are.
     &["case"],
-    &["learn", "influence", "placement", "own_controller"],
+    &["clock", "learn", "influence", "placement", "own_controller"],
     // What files hold beside the keys.
     &["tally", "attachments"],
     // What the kinds have in common.

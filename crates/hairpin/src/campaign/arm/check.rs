@@ -163,11 +163,5 @@ fn check_spec(spec: &ArmSpec, found: &mut Findings) {
     if let Some(regression) = &spec.regression {
         found.above("spec.regression.band_sigma", regression.band_sigma, 0.0, 100.0, "");
     }
-    if let Some(share) = spec.violation_share {
-        found.require((0.0..1.0).contains(&share), "spec.violation_share", share, "≥ 0 and < 1");
-    }
-    if let Some(confidence) = spec.confidence {
-        let fine = (0.5..1.0).contains(&confidence);
-        found.require(fine, "spec.confidence", confidence, "≥ 0.5 and < 1, such as 0.95");
-    }
+    found.share("spec", spec.violation_share, spec.confidence);
 }

@@ -3,9 +3,9 @@
 use super::BoatSetup;
 use super::keys::{ACROSS_CURRENT, BoatExecute, BoatGenerate, BoatScenario, WatersSection};
 use crate::campaign::attachments::Attachments;
-use crate::campaign::check::{Findings, check_executed, check_search};
+use crate::campaign::check::{Findings, check_executed, check_search, check_spec};
 use crate::campaign::kind::{Build, Given};
-use crate::campaign::scenario::{EXECUTED, Keys, Mistake, SearchMethod, SpecSection};
+use crate::campaign::scenario::{EXECUTED, Keys, Mistake, SearchMethod};
 use crate::judgement::Stress;
 use crate::robot::boat::Boat;
 use crate::search::Score;
@@ -16,6 +16,8 @@ use crate::world::terrain::KeepOuts;
 const LARGEST_M: f64 = 100_000.0;
 /// A trip of so many waypoints takes days.
 const LONGEST: u64 = 10_000;
+/// Boats are slow, s.
+const LONGEST_RUN_S: f64 = 1e7;
 /// Nodes of the roadmap, waypoints × velocities: legs are pairs of them, judged once and kept; and of the dynamic
 /// programs, which judge every leg before they start.
 const MOST_NODES: u64 = 50_000;
@@ -40,7 +42,7 @@ impl Build for BoatSetup {
         check_generate(&keys.generate, &mut found);
         check_score(keys, files, &mut found);
         check_execute(&keys.execute, boat.as_deref(), &mut found);
-        check_spec(&keys.spec, &mut found);
+        check_spec(&keys.spec, LONGEST_RUN_S, &mut found);
         match (boat, keep_out) {
             (Some(boat), Some(keep_out)) if found.0.is_empty() => Ok(Self::of(given, boat, keep_out)),
             _ => Err(found.0),
@@ -59,10 +61,7 @@ fn check_world(world: &WatersSection, found: &mut Findings) {
         found.from(&format!("world.current_m_s[{axis}]"), part, -100.0, 100.0, " m/s");
     }
     if let Some(origin) = &world.origin {
-        found.from("world.origin.lat_deg", origin.lat_deg, -90.0, 90.0, "°");
-        found.from("world.origin.lon_deg", origin.lon_deg, -180.0, 180.0, "°");
-        found.from("world.origin.alt_amsl_m", origin.alt_amsl_m, -1000.0, 20_000.0, " m");
-        found.from("world.origin.x_axis_heading_deg", origin.x_axis_heading_deg, 0.0, 360.0, "°");
+        found.origin(origin);
     }
 }
 
@@ -106,7 +105,7 @@ fn check_generate(generate: &BoatGenerate, found: &mut Findings) {
         found.above("generate.limits.thrust_share", share, 0.0, 1.0, "");
     }
     if let Some(time) = limits.max_time_s {
-        found.above("generate.limits.max_time_s", time, 0.0, 1e7, " s");
+        found.above("generate.limits.max_time_s", time, 0.0, LONGEST_RUN_S, " s");
     }
 }
 
@@ -135,14 +134,7 @@ fn check_score(keys: &BoatScenario, files: &Attachments, found: &mut Findings) {
 }
 
 fn check_execute(execute: &BoatExecute, boat: Option<&Boat>, found: &mut Findings) {
-    let both = execute.controller.is_some() && execute.command.is_some();
-    let given = execute.command.as_deref().unwrap_or_default();
-    let bound = "left out where `controller` is given: one of the two";
-    found.require(!both, "execute.command", format!("\"{given}\""), bound);
-    if let Some(command) = &execute.command {
-        let bound = "a program and its arguments";
-        found.require(!command.trim().is_empty(), "execute.command", format!("\"{command}\""), bound);
-    }
+    found.who(execute.controller.is_some(), execute.command.as_deref());
     found.count("execute.repeat", execute.repeat, 1, 100_000);
     found.flaky(execute.flaky);
     found.above("execute.accept_m", execute.accept_m, 0.0, 10_000.0, " m");
@@ -159,31 +151,5 @@ fn check_execute(execute: &BoatExecute, boat: Option<&Boat>, found: &mut Finding
     found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
     if let Some(workers) = execute.workers {
         found.count("execute.workers", workers, 1, 1024);
-    }
-}
-
-fn check_spec(spec: &SpecSection, found: &mut Findings) {
-    if let Some(deviation) = &spec.deviation {
-        found.above("spec.deviation.max_m", deviation.max_m, 0.0, 1e6, " m");
-        found.from("spec.deviation.corner_m", deviation.corner_m, 0.0, 1e6, " m");
-    }
-    if let Some(overshoot) = &spec.overshoot {
-        found.from("spec.overshoot.max_m", overshoot.max_m, 0.0, 1e6, " m");
-    }
-    if let Some(clearance) = &spec.clearance {
-        found.from("spec.clearance.min_m", clearance.min_m, 0.0, 1e6, " m");
-    }
-    if let Some(acceleration) = &spec.acceleration {
-        found.above("spec.acceleration.max_m_s2", acceleration.max_m_s2, 0.0, 1e6, " m/s²");
-    }
-    if let Some(time) = &spec.total_time {
-        found.above("spec.total_time.max_s", time.max_s, 0.0, 1e7, " s");
-    }
-    if let Some(share) = spec.violation_share {
-        found.require((0.0..1.0).contains(&share), "spec.violation_share", share, "≥ 0 and < 1");
-    }
-    if let Some(confidence) = spec.confidence {
-        let fine = (0.5..1.0).contains(&confidence);
-        found.require(fine, "spec.confidence", confidence, "≥ 0.5 and < 1, such as 0.95");
     }
 }

@@ -3,6 +3,7 @@
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
 use super::BoatSetup;
+use crate::campaign::clock::{locate, paced, stamps};
 use crate::campaign::{Case, Timed};
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
 use crate::trajectory::{Channel, Track, TrackError};
@@ -37,14 +38,7 @@ pub(super) fn timed(case: &Case) -> Vec<Timed> {
 /// # Errors
 /// A case whose numbers are no track.
 pub(super) fn track(setup: &BoatSetup, case: &Case) -> Result<Track, TrackError> {
-    let paced;
-    let case = if case.leg_times.is_empty() {
-        let time = |leg: &[Point3<f64>]| ((leg[1] - leg[0]).norm() / setup.boat.default_speed).max(1.0 / RATE);
-        paced = Case { leg_times: case.waypoints.windows(2).map(time).collect(), witness: None, ..case.clone() };
-        &paced
-    } else {
-        case
-    };
+    let case = &*paced(case, setup.boat.default_speed, 1.0 / RATE);
     let times = stamps(case.leg_times.iter().sum(), RATE);
     let samples: Vec<Sample> = times.iter().map(|t| sample(case, *t)).collect();
     let pose = |sample: &Sample| {
@@ -65,25 +59,8 @@ pub(super) fn track(setup: &BoatSetup, case: &Case) -> Result<Track, TrackError>
     Track::new(times, poses, channels)
 }
 
-/// Stamps from 0 to `duration` at `rate`, the end included.
-fn stamps(duration: f64, rate: f64) -> Vec<f64> {
-    let count = (duration * rate).floor() as usize;
-    let mut times: Vec<f64> = (0..=count).map(|k| k as f64 / rate).collect();
-    if duration - times[count] > 1e-9 {
-        times.push(duration);
-    }
-    times
-}
-
 fn sample(case: &Case, t: f64) -> Sample {
-    let mut start = 0.0;
-    let last = case.leg_times.len() - 1;
-    let mut leg = 0;
-    while leg < last && t >= start + case.leg_times[leg] {
-        start += case.leg_times[leg];
-        leg += 1;
-    }
-    let tau = (t - start).clamp(0.0, case.leg_times[leg]);
+    let (leg, tau) = locate(&case.leg_times, t);
     if let Some(piece) = case.profile().and_then(|profile| profile.legs.get(leg)) {
         let (at, rate) = (piece.derivative(tau, 0), piece.derivative(tau, 1));
         let (position, velocity) = (Point3::new(at.x, at.y, 0.0), Vector3::new(rate.x, rate.y, 0.0));

@@ -3,15 +3,15 @@
 use nalgebra::Point3;
 
 use super::BoatSetup;
-use super::legs::{beside, score};
+use super::legs::scores;
 use super::through::{is_free, through};
-use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Question, Remembered, Wanted, search};
+use crate::campaign::Stop;
+use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Remembered, Roads, Wanted, Witnessed};
 use crate::campaign::kind::Solver;
-use crate::campaign::{Evidence, Stop};
-use crate::feasibility::boat::{BoatJudge, BoatLegs, BoatNode, BoatRoadmap, BoatRoadmapSettings};
+use crate::feasibility::boat::{BoatJudge, BoatRoadmap, BoatRoadmapSettings};
+use crate::feasibility::reach::WitnessLegs;
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::{named_seed, stream, unit};
-use crate::search::Found;
 
 /// Draws for each waypoint, at most.
 const TRIES: u64 = 1000;
@@ -22,7 +22,7 @@ pub(super) struct BoatSolver<'a> {
     judge: BoatJudge,
     timing: LegTiming,
     /// Of the graphs that rounds come back to.
-    remembered: Remembered<BoatLegs>,
+    remembered: Remembered<WitnessLegs>,
 }
 
 impl<'a> BoatSolver<'a> {
@@ -90,28 +90,23 @@ impl<'a> BoatSolver<'a> {
         if let Some(legs) = self.remembered.take(graph) {
             roadmap = roadmap.knowing(legs);
         }
-        let plan = |found: Found<BoatNode>| {
-            let profile = roadmap.profile(&found.nodes).ok()?;
-            let fits = profile.duration() <= self.setup.longest();
-            fits.then(|| Plan { witness: Some(profile.into()), ..Plan::new(&found, points, Evidence::Witnessed) })
-        };
-        let top_speed = self.judge.top_speed();
-        let question = Question {
+        let (score, also) = scores(self.setup, graph, self.judge.top_speed(), &looped);
+        let asked = Witnessed {
             search: &scenario.generate.search,
-            length: scenario.task.length as usize,
+            length: scenario.task.length,
+            longest: self.setup.longest(),
+            seed: (scenario.seed, graph),
             points,
-            reach: &roadmap,
-            start: roadmap.start(),
-            score: score(self.setup, graph, top_speed, &looped),
-            seed: named_seed(scenario.seed, "uniform", graph),
-            // The roadmap's own test is exact one step from the end, and legs are dear.
-            lookahead: 0,
-            plan: &plan,
-            free_end: false,
-            also: beside(self.setup, graph, top_speed, &looped),
+            score,
+            also,
             looped,
         };
-        let outcome = Outcome::of(graph, search(&question, &|node, steps| roadmap.may_arrive(node, steps)));
+        let outcome = asked.solve(Roads {
+            reach: &roadmap,
+            start: roadmap.start(),
+            may_arrive: &|node, steps| roadmap.may_arrive(node, steps),
+            profile: &|nodes| roadmap.profile(nodes).ok(),
+        });
         if matches!(looped.wanted, Wanted::Round(_)) {
             let legs = roadmap.into_legs();
             let bytes = legs.bytes();

@@ -1,7 +1,7 @@
 //! What checks of scenarios find, and the few questions that most keys are asked.
 
 use crate::campaign::attachments::Attachments;
-use crate::campaign::scenario::{FlakySection, LEARNED, Mistake, PYTHON, SearchMethod, SearchSection, Subject};
+use crate::campaign::scenario::{FlakySection, LEARNED, Mistake, Origin, PYTHON, SearchMethod, SearchSection, Subject};
 use crate::judgement::Stress;
 
 /// Each is tried against every leg for every execution.
@@ -54,6 +54,34 @@ impl Findings {
     /// `Ok`'s value; what is wrong is one of the mistakes.
     pub(in crate::campaign) fn take<T>(&mut self, built: Result<T, Mistake>) -> Option<T> {
         built.map_err(|mistake| self.add(mistake)).ok()
+    }
+
+    /// `world.origin`: degrees, and metres above mean sea level.
+    pub(in crate::campaign) fn origin(&mut self, origin: &Origin) {
+        self.from("world.origin.lat_deg", origin.lat_deg, -90.0, 90.0, "°");
+        self.from("world.origin.lon_deg", origin.lon_deg, -180.0, 180.0, "°");
+        self.from("world.origin.alt_amsl_m", origin.alt_amsl_m, -1000.0, 20_000.0, " m");
+        self.from("world.origin.x_axis_heading_deg", origin.x_axis_heading_deg, 0.0, 360.0, "°");
+    }
+
+    /// Who executes: hairpin's own controller or `execute.command`, not both.
+    pub(in crate::campaign) fn who(&mut self, controller: bool, command: Option<&str>) {
+        let Some(command) = command else { return };
+        let (key, given) = ("execute.command", format!("\"{command}\""));
+        self.require(!controller, key, &given, "left out where `controller` is given: one of the two");
+        self.require(!command.trim().is_empty(), key, &given, "a program and its arguments");
+    }
+
+    /// The share of violations that `table` allows lies in [0, 1), its confidence in [0.5, 1).
+    pub(in crate::campaign) fn share(&mut self, table: &str, share: Option<f64>, confidence: Option<f64>) {
+        if let Some(share) = share {
+            let key = format!("{table}.violation_share");
+            self.require((0.0..1.0).contains(&share), &key, share, "≥ 0 and < 1");
+        }
+        if let Some(confidence) = confidence {
+            let (key, fine) = (format!("{table}.confidence"), (0.5..1.0).contains(&confidence));
+            self.require(fine, &key, confidence, "≥ 0.5 and < 1, such as 0.95");
+        }
     }
 
     /// `execute.flaky`.

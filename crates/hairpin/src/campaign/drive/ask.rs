@@ -4,7 +4,6 @@ use std::hash::Hash;
 
 use nalgebra::Point3;
 
-use super::DriveSetup;
 use crate::campaign::graph::{Looped, Outcome, Plan, Question, search};
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{DriveScenario, SearchSection};
@@ -89,15 +88,6 @@ where
         looped,
     };
     Outcome::of(graph, search(&question, &OpenEnd::<&dyn Reach<N>>::may_arrive))
-}
-
-/// What was learned of legs, by rounds before this one or by the scenario's model, or what the user's own program says
-/// of them.
-pub(super) fn learned<'a>(setup: &'a DriveSetup, looped: &Looped<'a>) -> Option<AnyScore<'a>> {
-    let score = &setup.scenario.generate.search.score;
-    let model = setup.attachments.model(score).map(|model| &*model.read);
-    let learned = looped.models().first().or(model).map(AnyScore::Learned);
-    learned.or(setup.attachments.user_score(score).map(|user| AnyScore::User(&*user.read)))
 }
 
 /// A round's other models.

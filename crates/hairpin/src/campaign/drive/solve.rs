@@ -5,12 +5,12 @@ use std::f64::consts::PI;
 use nalgebra::Point3;
 
 use super::DriveSetup;
-use super::ask::{Asked, Graph, ask, beside, learned};
+use super::ask::{Asked, Graph, ask, beside};
 use super::legs::count;
 use super::stepwise::Stepwise;
 use super::surround::{coordinates, put};
 use crate::campaign::graph::{
-    Counter, Executions, Looped, Outcome, Plan, Remembered, Surroundings, Wanted, into_unit_ball,
+    Counter, Executions, Looped, Outcome, Plan, Remembered, Surroundings, Wanted, into_unit_ball, learned,
 };
 use crate::campaign::kind::Solver;
 use crate::campaign::learn::AnyScore;
@@ -151,7 +151,8 @@ impl<'a> DriveSolver<'a> {
             let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
             Some(Plan { leg_times, witness: Some(drive.into()), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
-        let score = learned(self.setup, &graph.looped).unwrap_or(AnyScore::Named(Score::Ground));
+        let score = learned(&graph.looped, &self.setup.attachments, &self.setup.scenario.generate.search.score)
+            .unwrap_or(AnyScore::Named(Score::Ground));
         let also = beside(&graph.looped);
         let (reach, start) = (&roadmap, roadmap.start());
         let asked = Asked { scenario: &self.setup.scenario, graph, reach, start, score, also, lookahead: 0 };

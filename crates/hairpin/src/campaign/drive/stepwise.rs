@@ -4,8 +4,8 @@
 use nalgebra::Point3;
 
 use super::DriveSetup;
-use super::ask::{Asked, Graph, ask, beside, learned};
-use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Stage, in_order};
+use super::ask::{Asked, Graph, ask, beside};
+use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Stage, in_order, learned};
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{GroundReach, Manoeuvre};
 use crate::campaign::{Evidence, SeenLeg};
@@ -162,7 +162,8 @@ impl<'a> Stepwise<'a> {
         };
         let plan = |found: Found<N>| Some(Plan::new(&found, points, evidence));
         let (reach, lookahead) = (&filtered, 1);
-        if let Some(score) = learned(self.setup, &graph.looped) {
+        if let Some(score) = learned(&graph.looped, &self.setup.attachments, &self.setup.scenario.generate.search.score)
+        {
             let also = beside(&graph.looped);
             return ask(Asked { scenario, graph, reach, start, score, also, lookahead }, &|_, _| true, plan);
         }

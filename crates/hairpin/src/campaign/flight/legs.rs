@@ -1,7 +1,7 @@
 //! What flights are searched with: the judge of legs, and the score.
 
 use super::FlightSetup;
-use crate::campaign::graph::{Looped, Wanted};
+use crate::campaign::graph::{Looped, Named};
 use crate::campaign::learn::AnyScore;
 use crate::feasibility::Limits;
 use crate::feasibility::steering::{LegJudge, ProofSettings};
@@ -23,44 +23,21 @@ pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
     LegJudge::new(&setup.robot, &setup.world, limits, ProofSettings::default()).map_err(|error| error.to_string())
 }
 
-/// The score for graph number `graph`, the scenario's or the first model of a round; `top_speed` (m/s) scores 1.
+/// The score for graph number `graph`, the scenario's or the first model of a round, and those beside it; `top_speed`
+/// (m/s) scores 1.
 ///
-/// In this order: the score whose optimum is wanted, a round's first model, the scenario's model, the user's own, the
-/// scenario's by name.
-pub(super) fn score<'a>(setup: &'a FlightSetup, graph: u64, top_speed: f64, looped: &Looped<'a>) -> AnyScore<'a> {
-    let generate = &setup.scenario.generate;
-    if let Wanted::Optima([name, ..]) = looped.wanted {
-        return named(setup, name, graph, top_speed);
-    }
-    let (model, user) = (setup.attachments.model(&generate.score), setup.attachments.user_score(&generate.score));
-    match (looped.models(), model, user) {
-        ([model, ..], ..) => AnyScore::Learned(model),
-        ([], Some(model), _) => AnyScore::Learned(&model.read),
-        ([], None, Some(user)) => AnyScore::User(&*user.read),
-        ([], None, None) => named(setup, generate.score_of_legs(), graph, top_speed),
-    }
-}
-
-/// The scores beside it: a round's other models, the others whose optima are wanted, or those by hand that a search in
-/// the loop starts from.
-pub(super) fn beside<'a>(setup: &'a FlightSetup, graph: u64, top_speed: f64, looped: &Looped<'a>) -> Vec<AnyScore<'a>> {
-    let named = |name: &&str| named(setup, name, graph, top_speed);
-    match looped.wanted {
-        Wanted::Round(round) => {
-            let models = round.models.iter().skip(1).map(AnyScore::Learned);
-            models.chain(Score::by_hand().map(|name| named(&name))).collect()
-        }
-        Wanted::Optima(names) => names.iter().skip(1).map(named).collect(),
-        Wanted::Cases => {
-            let own = &setup.scenario.generate.score;
-            Score::by_hand().filter(|name| *name != own).map(|name| named(&name)).collect()
-        }
-    }
-}
-
 /// The random score is seeded by the graph: each has its own.
-fn named<'a>(setup: &'a FlightSetup, name: &str, graph: u64, top_speed: f64) -> AnyScore<'a> {
+pub(super) fn scores<'a>(
+    setup: &'a FlightSetup,
+    graph: u64,
+    top_speed: f64,
+    looped: &Looped<'a>,
+) -> (AnyScore<'a>, Vec<AnyScore<'a>>) {
+    let generate = &setup.scenario.generate;
     let seed = named_seed(setup.scenario.seed, "score", graph);
     // The name was checked with the scenario, and top speeds are > 0 with the robot.
-    AnyScore::Named(Score::named(name, seed, top_speed).unwrap_or(Score::Random { seed }))
+    let score = |name: &str| AnyScore::Named(Score::named(name, seed, top_speed).unwrap_or(Score::Random { seed }));
+    let named = Named { score: &score, by_hand: &|| Score::by_hand().collect() };
+    let own = named.own(looped, &setup.attachments, (&generate.score, generate.score_of_legs()));
+    (own, named.beside(looped, &generate.score))
 }

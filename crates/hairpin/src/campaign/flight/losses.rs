@@ -1,20 +1,15 @@
 //! Where candidates for legs of flights are lost.
 
-use std::collections::{HashSet, VecDeque};
-
 use super::FlightSetup;
 use super::blocking::obstacle;
 use super::graph;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
-use crate::campaign::graph::{Counter, GRAPHS, Losses, Stage};
+use crate::campaign::graph::{Counted, Counter, GRAPHS, Losses, Stage};
 use crate::campaign::scenario::ReachName;
-use crate::feasibility::reach::Roadmap;
+use crate::feasibility::reach::{Roadmap, WitnessNode};
 use crate::feasibility::{Infeasible, Limit};
 use crate::world::World;
-
-/// Nodes of a roadmap whose candidates are judged: each has all states of all waypoints.
-const NODES: usize = 8;
 
 /// Counts the candidates of the first `graphs` graphs, a few at most.
 pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Losses {
@@ -36,39 +31,17 @@ pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Losses {
     counter.losses("pairs of waypoints near the start")
 }
 
-/// Breadth first from the start, over the first 8 nodes and all of their candidates: a sample, not the whole graph.
 fn count(setup: &FlightSetup, roadmap: &Roadmap, end: usize, counter: &mut Counter) {
-    let length = setup.scenario.task.length as usize;
-    let mut open = VecDeque::from([(roadmap.start(), 1)]);
-    let mut seen = HashSet::from([roadmap.start()]);
-    for _ in 0..NODES {
-        let Some((node, passed)) = open.pop_front() else { break };
-        if passed >= length {
-            break;
-        }
-        let left = length - passed - 1;
-        for fate in roadmap.candidates(&node) {
-            match fate {
-                Err(None) => counter.lose(Stage::Limits, "max_speed_m_s times the longest leg time"),
-                Err(Some(why)) => {
-                    let (stage, limit) = stage_of(&why, &setup.world);
-                    counter.lose(stage, &limit);
-                }
-                Ok(next) => {
-                    let arrives =
-                        if left == 0 { next.waypoint as usize == end } else { roadmap.may_arrive(&next, left) };
-                    if !arrives {
-                        counter.lose(Stage::EndPoint, "task.end_m");
-                        continue;
-                    }
-                    counter.keep();
-                    if seen.insert(next) {
-                        open.push_back((next, passed + 1));
-                    }
-                }
-            }
-        }
-    }
+    let arrives = |next: &WitnessNode, left: usize| {
+        if left == 0 { next.waypoint as usize == end } else { roadmap.may_arrive(next, left) }
+    };
+    let told = |why: Option<Infeasible>| match why {
+        None => (Stage::Limits, "max_speed_m_s times the longest leg time".into()),
+        Some(why) => stage_of(&why, &setup.world),
+    };
+    let (start, length) = (roadmap.start(), setup.scenario.task.length as usize);
+    let candidates = |node: &WitnessNode| roadmap.candidates(node);
+    Counted { start, length, candidates: &candidates, arrives: &arrives, told: &told }.count(counter);
 }
 
 /// The stage, and the scenario's key or the obstacle's name; of thrust and rotor speeds the limit's own.

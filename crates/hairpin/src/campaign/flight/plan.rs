@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
+use crate::campaign::clock::{locate, paced, stamps};
 use crate::campaign::{Case, Timed};
 use crate::feasibility::steering::Flatness;
 use crate::robot::quadrotor::Quadrotor;
@@ -9,33 +10,6 @@ use crate::trajectory::{Channel, Track, TrackError};
 
 /// Rate of planned tracks, Hz.
 const RATE: f64 = 100.0;
-
-/// Stamps from 0 to `duration` at `rate`, the end included.
-///
-/// s; the last interval may be shorter than 1 / `rate`, and is left out below 1 ns.
-fn stamps(duration: f64, rate: f64) -> Vec<f64> {
-    let count = (duration * rate).floor() as usize;
-    let mut times: Vec<f64> = (0..=count).map(|k| k as f64 / rate).collect();
-    if duration - times[count] > 1e-9 {
-        times.push(duration);
-    }
-    times
-}
-
-/// The leg at `t` and the time since it began.
-///
-/// 0 ≤ τ ≤ the leg's duration; a stamp at a waypoint belongs to the leg that begins there, beyond the end to the last
-/// one.
-fn locate(leg_times: &[f64], t: f64) -> (usize, f64) {
-    let mut start = 0.0;
-    for (leg, duration) in leg_times.iter().enumerate() {
-        if t < start + duration || leg + 1 == leg_times.len() {
-            return (leg, (t - start).clamp(0.0, *duration));
-        }
-        start += duration;
-    }
-    (0, 0.0)
-}
 
 /// Of a witness p(τ) and p′(τ) of its polynomial; else constant velocity along the straight leg.
 fn sample(case: &Case, t: f64) -> (usize, Timed) {
@@ -63,8 +37,7 @@ pub(super) fn timed(case: &Case, rate: f64) -> Vec<Timed> {
 /// # Errors
 /// A case whose numbers are no track, as a folder that was edited may hold.
 pub(super) fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
-    let untimed = case.leg_times.is_empty();
-    let case = &if untimed { paced(case) } else { case.clone() };
+    let case = &*paced(case, 1.0, 1.0 / RATE);
     let times = stamps(case.leg_times.iter().sum(), RATE);
     let flatness = Flatness::new(robot).ok();
     let mut poses = Vec::with_capacity(times.len());
@@ -85,10 +58,4 @@ pub(super) fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError>
     let names = ["leg", "vx_m_s", "vy_m_s", "vz_m_s"];
     let channels = names.into_iter().zip(columns).map(|(name, values)| Channel { name: name.into(), values });
     Track::new(times, poses, channels.collect())
-}
-
-/// The case at 1 m/s along its legs; those of no length take a stamp's time.
-fn paced(case: &Case) -> Case {
-    let leg_times = case.waypoints.windows(2).map(|leg| (leg[1] - leg[0]).norm().max(1.0 / RATE)).collect();
-    Case { leg_times, witness: None, ..case.clone() }
 }

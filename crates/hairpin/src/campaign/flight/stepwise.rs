@@ -8,7 +8,7 @@ use nalgebra::Point3;
 
 use super::FlightSetup;
 use super::blocking::blocking;
-use super::legs::{beside, score};
+use super::legs::scores;
 use crate::campaign::graph::{Counter, Explored, Looped, Outcome, Plan, Question, Stage, in_order, search};
 use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
 use crate::campaign::{Evidence, SeenLeg};
@@ -231,18 +231,19 @@ impl<'a> Stepwise<'a> {
             Set::Hull(_) | Set::Carried(..) => Evidence::HullFeasible,
             _ => Evidence::Unchecked,
         };
+        let (score, also) = scores(self.setup, graph, self.top_speed(), &looped);
         let question = Question {
             search: &self.setup.scenario.generate.search,
             length: self.setup.scenario.task.length as usize,
             points,
             reach,
             start,
-            score: score(self.setup, graph, self.top_speed(), &looped),
+            score,
             seed: named_seed(self.setup.scenario.seed, "uniform", graph),
             lookahead: LOOKAHEAD,
             plan: &|found: Found<N>| Some(Plan::new(&found, points, evidence)),
             free_end: false,
-            also: beside(self.setup, graph, self.top_speed(), &looped),
+            also,
             looped,
         };
         Outcome::of(graph, search(&question, &may_arrive))

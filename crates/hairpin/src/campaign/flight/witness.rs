@@ -3,15 +3,13 @@
 use nalgebra::Point3;
 
 use super::FlightSetup;
-use super::legs::{beside, judge, score};
-use crate::campaign::Evidence;
-use crate::campaign::graph::{Looped, Outcome, Plan, Question, Remembered, Wanted, search};
+use super::legs::{judge, scores};
+use crate::campaign::graph::{Looped, Outcome, Remembered, Roads, Wanted, Witnessed};
 use crate::campaign::scenario::Timing;
 use crate::feasibility::certify::{Certificate, certify};
-use crate::feasibility::reach::{Roadmap, RoadmapSettings, WitnessLegs, WitnessNode};
+use crate::feasibility::reach::{Roadmap, RoadmapSettings, WitnessLegs};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::math::random::named_seed;
-use crate::search::Found;
 
 /// What judges legs, and how long they may take.
 pub(super) struct Witness<'a> {
@@ -69,29 +67,23 @@ impl<'a> Witness<'a> {
         if let Some(legs) = self.remembered.take(graph) {
             roadmap = roadmap.knowing(legs);
         }
-        let longest = scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
-        let plan = |found: Found<WitnessNode>| {
-            let profile = roadmap.profile(&found.nodes).ok()?;
-            let fits = profile.duration() <= longest;
-            fits.then(|| Plan { witness: Some(profile.into()), ..Plan::new(&found, points, Evidence::Witnessed) })
-        };
-        let top_speed = self.judge.top_speed();
-        let question = Question {
+        let (score, also) = scores(self.setup, graph, self.judge.top_speed(), &looped);
+        let asked = Witnessed {
             search: &scenario.generate.search,
-            length: scenario.task.length as usize,
+            length: scenario.task.length,
+            longest: scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY),
+            seed: (scenario.seed, graph),
             points,
-            reach: &roadmap,
-            start: roadmap.start(),
-            score: score(self.setup, graph, top_speed, &looped),
-            seed: named_seed(scenario.seed, "uniform", graph),
-            // The roadmap's own test is exact one step from the end, and legs are dear.
-            lookahead: 0,
-            plan: &plan,
-            free_end: false,
-            also: beside(self.setup, graph, top_speed, &looped),
+            score,
+            also,
             looped,
         };
-        let outcome = Outcome::of(graph, search(&question, &|node, steps| roadmap.may_arrive(node, steps)));
+        let outcome = asked.solve(Roads {
+            reach: &roadmap,
+            start: roadmap.start(),
+            may_arrive: &|node, steps| roadmap.may_arrive(node, steps),
+            profile: &|nodes| roadmap.profile(nodes).ok(),
+        });
         if again {
             let legs = roadmap.into_legs();
             let bytes = legs.bytes();

@@ -13,7 +13,9 @@ mod plan;
 mod question;
 mod remembered;
 mod rounds;
+mod scores;
 mod search;
+mod witnessed;
 
 pub(super) use executions::{Executions, Partials, Surroundings, into_unit_ball};
 pub(super) use explore::{Explored, GRAPHS};
@@ -25,4 +27,6 @@ pub(super) use outcome::Outcome;
 pub(super) use plan::{Plan, fingerprint};
 pub(super) use question::{Looped, Question, Round, Wanted};
 pub(super) use remembered::Remembered;
+pub(super) use scores::{Named, learned};
 pub(super) use search::search;
+pub(super) use witnessed::{Counted, Roads, Witnessed};

@@ -1,6 +1,6 @@
 //! What a run is judged by: the reference of its deviation, and the limits.
 
-use super::DeviationFrom;
+use super::{DeviationFrom, SpecSection};
 use crate::judgement::Limits;
 
 /// The terms of a scenario's spec.
@@ -12,4 +12,22 @@ pub struct Terms {
     pub corner: f64,
     /// What is within spec.
     pub limits: Limits,
+}
+
+impl Terms {
+    /// Of `[spec]`; deviation from the leg where nothing is said of it.
+    pub(in crate::campaign) fn of(spec: &SpecSection) -> Self {
+        Self {
+            from: spec.deviation.map_or(DeviationFrom::Leg, |deviation| deviation.from),
+            corner: spec.deviation.map_or(0.0, |deviation| deviation.corner_m),
+            limits: Limits {
+                deviation: spec.deviation.map(|limit| limit.max_m),
+                overshoot: spec.overshoot.map(|limit| limit.max_m),
+                clearance: spec.clearance.map(|limit| limit.min_m),
+                acceleration: spec.acceleration.map(|limit| limit.max_m_s2),
+                total_time: spec.total_time.map(|limit| limit.max_s),
+                ..Limits::default()
+            },
+        }
+    }
 }

@@ -5,10 +5,10 @@ use wide::f64x4;
 
 use super::demand::ForceMap;
 use super::limits::{BoatInfeasible, BoatLimit, BoatLimits};
-use super::proof::{ForceLimits, derivatives, motion};
+use super::proof::{ForceLimits, motion};
 use super::space::FreeWaters;
 use super::waters::BoatWaters;
-use crate::math::polynomial::septic;
+use crate::math::polynomial::{derivatives, septic};
 use crate::math::power::square;
 use crate::robot::boat::Boat;
 use crate::trajectory::ProfileLeg;

@@ -28,5 +28,5 @@ pub mod waters;
 pub use demand::{BoatDemand, BoatMotion, ForceMap, Turning};
 pub use leg::{BoatEnd, BoatJudge};
 pub use limits::{BoatInfeasible, BoatLimit, BoatLimits};
-pub use roadmap::{BoatLegs, BoatNode, BoatRoadmap, BoatRoadmapSettings};
+pub use roadmap::{BoatRoadmap, BoatRoadmapSettings};
 pub use waters::BoatWaters;

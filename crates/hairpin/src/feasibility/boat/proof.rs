@@ -9,25 +9,22 @@ use wide::f64x4;
 
 use super::demand::{BoatDemand, BoatMotion, ForceMap, Turning};
 use super::limits::{BoatInfeasible, BoatLimit, BoatLimits};
+use crate::feasibility::steering::ProofSettings;
+use crate::feasibility::steering::halving::prove_by_halving;
 use crate::math::interval::{Enclosure, Smooth};
+use crate::math::polynomial::derivatives;
 use crate::robot::boat::Boat;
 use crate::trajectory::ProfileLeg;
 
 /// Room for rounding, as a share of each limit.
 const ROUNDING: f64 = 1e-9;
-/// Intervals at most that wait for their turn, and that a leg is cut into first.
-const WAITING: usize = 96;
-const FIRST: usize = 8;
-/// An undecided interval shorter than this share of the leg ends the proof, as do so many evaluations.
-const SHORTEST: f64 = 1.0 / 16384.0;
-const BUDGET: usize = 1024;
-
 /// The limits of forces and speed as numbers to compare with.
 #[derive(Debug, Clone)]
 pub(super) struct ForceLimits {
     max_speed: f64,
     /// Least and largest X, Y, N.
     forces: [[f64; 2]; 3],
+    settings: ProofSettings,
 }
 
 /// A signed margin, whose it is, and what rounding may take from it.
@@ -39,6 +36,7 @@ impl ForceLimits {
         Self {
             max_speed: limits.max_speed,
             forces: boat.thrust.bounds().map(|[low, high]| [share * low, share * high]),
+            settings: ProofSettings::default(),
         }
     }
 
@@ -85,36 +83,7 @@ impl ForceLimits {
             let (limit, margin) = self.worst(map, leg, tau);
             Err(BoatInfeasible::at(limit, tau, margin))
         };
-        // Centres and half widths of what is still to be decided.
-        let mut waiting = [(0.0, 0.0); WAITING];
-        let mut count = FIRST;
-        let first = 0.5 * leg.duration / FIRST as f64;
-        for (k, interval) in waiting[..count].iter_mut().enumerate() {
-            *interval = ((2 * k + 1) as f64 * first, first);
-        }
-        let mut evaluated = 0;
-        while count > 0 {
-            let taken = count.min(4);
-            count -= taken;
-            let batch: [(f64, f64); 4] = std::array::from_fn(|lane| waiting[count + lane.min(taken - 1)]);
-            evaluated += taken;
-            let (proven, violated) = self.evaluate(map, leg, &batch);
-            if let Some(lane) = (0..taken).find(|lane| violated & (1 << lane) != 0) {
-                return refuse(batch[lane].0);
-            }
-            for (lane, &(centre, half)) in batch.iter().enumerate().take(taken) {
-                if proven & (1 << lane) != 0 {
-                    continue;
-                }
-                if half < 0.5 * SHORTEST * leg.duration || evaluated >= BUDGET || count + 2 > WAITING {
-                    return refuse(centre);
-                }
-                waiting[count] = (centre - 0.5 * half, 0.5 * half);
-                waiting[count + 1] = (centre + 0.5 * half, 0.5 * half);
-                count += 2;
-            }
-        }
-        Ok(())
+        prove_by_halving(leg.duration, &self.settings, |batch| self.evaluate(map, leg, batch)).or_else(refuse)
     }
 
     /// Bit masks of the intervals on which every limit is proven, and of those whose centre violates one.
@@ -153,17 +122,4 @@ pub(super) fn motion<N: Smooth>(of: impl Fn(usize, usize) -> N) -> BoatMotion<N>
         rate: of(2, 1),
         turning: of(2, 2),
     }
-}
-
-/// The derivatives of order 0 … 7 of Σ c_i τ^i at four times, by repeated synthetic division.
-#[inline(always)]
-pub(super) fn derivatives(c: &[f64; 8], tau: f64x4) -> [f64x4; 8] {
-    const FACTORIAL: [f64; 8] = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0, 720.0, 5040.0];
-    let mut b = c.map(f64x4::splat);
-    for order in 0..7 {
-        for i in (order..7).rev() {
-            b[i] += b[i + 1] * tau;
-        }
-    }
-    std::array::from_fn(|order| b[order] * FACTORIAL[order])
 }

@@ -4,11 +4,12 @@ use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 use wide::f64x4;
 
-use super::proof::{derivatives, motion};
+use super::proof::motion;
 use super::*;
 use crate::feasibility::reach::Reach;
 use crate::feasibility::steering::LegTiming;
 use crate::math::interval::Enclosure;
+use crate::math::polynomial::derivatives;
 use crate::math::random::{Stream, stream};
 use crate::robot::boat::{Boat, cybership};
 use crate::trajectory::ProfileLeg;

@@ -33,6 +33,7 @@ pub mod polytope;
 mod refusal;
 pub mod sampling;
 pub mod sphere;
+pub(in crate::feasibility) mod states;
 pub mod step;
 #[cfg(test)]
 mod tests;
@@ -49,8 +50,9 @@ pub use none::Everywhere;
 pub use planar_runs::PlanarVehicle;
 pub use polytope::{NoPolytope, Polytope};
 pub use sphere::Sphere;
+pub use states::{WitnessLegs, WitnessNode};
 pub use step::{StepReach, StepSet, StepSettings};
-pub use witness::{Roadmap, RoadmapLeg, RoadmapSettings, WitnessLegs, WitnessNode};
+pub use witness::{Roadmap, RoadmapLeg, RoadmapSettings};
 
 /// What a score sees of a leg, from its first waypoint. For step-wise sets speeds are leg ÷ step, for `witness`
 /// those at the leg's ends. On a flyer's first leg `v_in` = 0 and `turn` = 0.

@@ -7,30 +7,17 @@
 #[cfg(test)]
 mod tests;
 
-use std::cell::{OnceCell, RefCell};
-use std::sync::Arc;
+use std::cell::OnceCell;
 
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
-use super::{Leg, LegFeatures, Reach};
+use super::states::{ProveLegs, States, Velocities, WitnessLegs, WitnessNode};
+use super::{Leg, Reach};
 use crate::feasibility::limits::Infeasible;
 use crate::feasibility::steering::{LegEnd, LegJudge, LegTiming};
-use crate::math::random::{named_seed, stream};
-use crate::math::rotation::angle_between;
-use crate::trajectory::Profile;
-
-/// A node: a state of a waypoint and the waypoint before it, which the turn angle is seen from. Legs do not depend on
-/// `previous`, and are kept without it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct WitnessNode {
-    /// The waypoint before; equal to `waypoint` at the start.
-    pub previous: u32,
-    /// The current waypoint.
-    pub waypoint: u32,
-    /// Which of the waypoint's velocities; 0 at start and end, which have only rest.
-    pub velocity: u32,
-}
+use crate::math::random::Stream;
+use crate::trajectory::{Profile, ProfileLeg};
 
 /// How a roadmap is drawn.
 ///
@@ -64,25 +51,6 @@ pub struct RoadmapLeg {
     pub duration: f64,
 }
 
-/// A judged leg: the state it leads to, and its rung.
-#[derive(Debug, Clone, Copy)]
-struct Judged {
-    state: u32,
-    rung: u32,
-}
-
-/// The legs of a [`Roadmap`] that were judged so far; they serve every roadmap that is drawn alike.
-#[derive(Debug)]
-pub struct WitnessLegs(Vec<Option<Arc<[Judged]>>>);
-
-impl WitnessLegs {
-    /// Memory that they take, about.
-    pub fn bytes(&self) -> usize {
-        let legs: usize = self.0.iter().flatten().map(|legs| legs.len()).sum();
-        self.0.len() * size_of::<Option<Arc<[Judged]>>>() + legs * size_of::<Judged>()
-    }
-}
-
 /// The waypoint states of one graph and the legs between them, judged when first asked for and kept. One graph is one
 /// task on one thread.
 ///
@@ -91,18 +59,30 @@ impl WitnessLegs {
 /// proves it.
 #[derive(Debug)]
 pub struct Roadmap<'a> {
-    judge: &'a LegJudge,
-    points: Vec<Point3<f64>>,
-    /// States of all waypoints, waypoint by waypoint.
-    states: Vec<LegEnd>,
-    /// First state of every waypoint, and the number of states.
-    first: Vec<u32>,
-    rungs: Vec<f64>,
-    kept: RefCell<Vec<Option<Arc<[Judged]>>>>,
-    /// Which states have a leg to the end.
-    arrivals: OnceCell<Vec<bool>>,
+    states: States<'a, LegJudge>,
     /// Distance of every waypoint to the nearest from which the end is one leg away, m.
     approach: OnceCell<Vec<f64>>,
+}
+
+impl ProveLegs for LegJudge {
+    type End = LegEnd;
+    type Why = Infeasible;
+
+    fn leg(&self, from: &LegEnd, to: &LegEnd, duration: f64) -> Result<ProfileLeg, Infeasible> {
+        self.judge(from, to, duration)
+    }
+
+    fn fastest(&self) -> f64 {
+        self.limits().max_speed
+    }
+
+    fn top_speed(&self) -> f64 {
+        self.top_speed()
+    }
+
+    fn speed(end: &LegEnd) -> f64 {
+        end.velocity.norm()
+    }
 }
 
 impl<'a> Roadmap<'a> {
@@ -115,28 +95,19 @@ impl<'a> Roadmap<'a> {
     /// `points` in m, two or more. Nothing is judged yet. Each waypoint draws from its own stream, so that adding
     /// waypoints behind changes no velocity's speed.
     pub fn new(judge: &'a LegJudge, points: &[Point3<f64>], settings: &RoadmapSettings) -> Self {
-        let rungs = settings.timing.rungs();
+        let velocities = Velocities {
+            many: settings.velocities,
+            seed: (settings.seed, "waypoint velocities"),
+            timing: settings.timing,
+        };
         let longest = settings.timing.range().1;
-        let many = settings.velocities.max(1);
-        let (mut states, mut first) = (Vec::with_capacity(points.len() * many), Vec::with_capacity(points.len() + 1));
-        for (w, point) in points.iter().enumerate() {
-            first.push(states.len() as u32);
-            if w == 0 || w + 1 == points.len() {
-                states.push(judge.end(*point, Vector3::zeros()));
-                continue;
-            }
-            let mut random = stream(named_seed(settings.seed, "waypoint velocities", w as u64));
-            for k in 0..many {
-                let speed = judge.top_speed() * (k as f64 + random.random_range(0.0..1.0)) / many as f64;
-                let towards = target(points, w, speed * longest, random.random_range(0.0..1.0));
-                let direction = (points[towards] - point).try_normalize(1e-9).unwrap_or_else(Vector3::zeros);
-                states.push(judge.end(*point, direction * speed));
-            }
-        }
-        first.push(states.len() as u32);
-        let kept = RefCell::new(vec![None; states.len()]);
-        let (arrivals, approach) = (OnceCell::new(), OnceCell::new());
-        Self { judge, points: points.to_vec(), states, first, rungs, kept, arrivals, approach }
+        let at_rest = |point: &Point3<f64>| judge.end(*point, Vector3::zeros());
+        let moving = |w: usize, speed: f64, random: &mut Stream| {
+            let towards = target(points, w, speed * longest, random.random_range(0.0..1.0));
+            let direction = (points[towards] - points[w]).try_normalize(1e-9).unwrap_or_else(Vector3::zeros);
+            judge.end(points[w], direction * speed)
+        };
+        Self { states: States::new(judge, points, &velocities, at_rest, moving), approach: OnceCell::new() }
     }
 
     /// The same, with `legs` of one that was drawn alike.
@@ -146,44 +117,44 @@ impl<'a> Roadmap<'a> {
     /// # Panics
     /// If it has another number of states.
     pub fn knowing(self, legs: WitnessLegs) -> Self {
-        assert_eq!(legs.0.len(), self.states.len(), "legs of another roadmap");
-        Self { kept: RefCell::new(legs.0), ..self }
+        Self { states: self.states.knowing(legs), ..self }
     }
 
     /// The legs that were judged.
     pub fn into_legs(self) -> WitnessLegs {
-        WitnessLegs(self.kept.into_inner())
+        self.states.into_legs()
     }
 
     /// The node at rest at the start.
     pub fn start(&self) -> WitnessNode {
-        WitnessNode { previous: 0, waypoint: 0, velocity: 0 }
+        self.states.start()
     }
 
     /// Number of waypoint states.
     pub fn states(&self) -> usize {
-        self.states.len()
+        self.states.all().len()
     }
 
     /// Velocity of a node, m/s.
     pub fn velocity(&self, node: &WitnessNode) -> Vector3<f64> {
-        self.states[self.state(node)].velocity
+        self.states.all()[self.states.number(node)].velocity
     }
 
     /// Number of legs between all states; judges every leg that was not asked for yet.
     ///
     /// (n M)² judgements at worst.
     pub fn legs_count(&self) -> usize {
-        (0..self.states.len()).map(|state| self.kept_legs(state).len()).sum()
+        (0..self.states()).map(|state| self.states.kept_legs(state).len()).sum()
     }
 
     /// All legs, ordered by the state they leave and the state they reach.
     pub fn all_legs(&self) -> Vec<RoadmapLeg> {
         let mut out = Vec::with_capacity(self.legs_count());
-        for state in 0..self.states.len() {
-            let from = self.place(state as u32);
-            for leg in self.kept_legs(state).iter() {
-                out.push(RoadmapLeg { from, to: self.place(leg.state), duration: self.rungs[leg.rung as usize] });
+        for state in 0..self.states() {
+            let from = self.states.place(state as u32);
+            for leg in self.states.kept_legs(state).iter() {
+                let (to, duration) = (self.states.place(leg.state), self.states.rungs()[leg.rung as usize]);
+                out.push(RoadmapLeg { from, to, duration });
             }
         }
         out
@@ -195,15 +166,11 @@ impl<'a> Roadmap<'a> {
     /// near the end; more steps must bring the robot, at no more than the speed limit and the longest leg time each, to
     /// a waypoint from which the end is one leg away.
     pub fn may_arrive(&self, node: &WitnessNode, steps: usize) -> bool {
-        match steps {
-            0 => node.waypoint as usize + 1 == self.points.len(),
-            1 => self.arrivals.get_or_init(|| self.find_arrivals())[self.state(node)],
-            _ => {
-                let approach = self.approach.get_or_init(|| self.find_approach());
-                let longest = self.rungs.last().copied().unwrap_or(0.0);
-                approach[node.waypoint as usize] <= (steps - 1) as f64 * longest * self.judge.limits().max_speed
-            }
-        }
+        self.states.may_arrive(node, steps, || {
+            let approach = self.approach.get_or_init(|| self.find_approach());
+            let fastest = self.states.judge().limits().max_speed;
+            approach[node.waypoint as usize] <= (steps - 1) as f64 * self.states.longest() * fastest
+        })
     }
 
     /// What every candidate for a leg from `from` is, a state of another waypoint each: its node, or why it is none;
@@ -213,27 +180,13 @@ impl<'a> Roadmap<'a> {
     ///
     /// For telling why nothing was found: every refused candidate is judged once more.
     pub fn candidates(&self, from: &WitnessNode) -> Vec<Result<WitnessNode, Option<Infeasible>>> {
-        let (left, own) = (self.state(from), from.waypoint as usize);
-        let longest = self.rungs.last().copied().unwrap_or(0.0);
-        let others = (0..self.points.len()).filter(|w| *w != own);
-        let judged = others.flat_map(|w| (self.first[w]..self.first[w + 1]).map(move |state| (w, state)));
-        let fate = |(w, state): (usize, u32)| {
-            let (here, there) = (&self.states[left], &self.states[state as usize]);
-            let fastest = self.fastest(&here.position, &there.position);
-            if fastest > longest {
-                return Err(None);
-            }
-            if self.shortest(left, state as usize, fastest).is_some() {
-                let (waypoint, velocity) = (w as u32, state - self.first[w]);
-                return Ok(WitnessNode { previous: from.waypoint, waypoint, velocity });
-            }
+        self.states.candidates(from, |here, there, least| {
             let speed = 0.5 * (here.velocity.norm() + there.velocity.norm());
             let usual = (there.position - here.position).norm() / speed.max(f64::MIN_POSITIVE);
             let nearest = |a: &&f64, b: &&f64| (**a - usual).abs().total_cmp(&(**b - usual).abs());
-            let time = self.rungs.iter().filter(|rung| **rung >= fastest).min_by(nearest).copied().unwrap_or(longest);
-            Err(self.judge.judge(here, there, time).err())
-        };
-        judged.map(fate).collect()
+            let possible = self.states.rungs().iter().filter(|rung| **rung >= least);
+            possible.min_by(nearest).copied().unwrap_or(self.states.longest())
+        })
     }
 
     /// The trajectory over `nodes` as polynomials, built once for what is returned.
@@ -244,85 +197,18 @@ impl<'a> Roadmap<'a> {
     /// # Errors
     /// Why two successive nodes are no leg: the evidence of the longest leg time.
     pub fn profile(&self, nodes: &[WitnessNode]) -> Result<Profile, Infeasible> {
-        let leg = |pair: &[WitnessNode]| {
-            let (from, to) = (self.state(&pair[0]), self.state(&pair[1]));
-            let judged = |rung: &f64| self.judge.judge(&self.states[from], &self.states[to], *rung);
-            let (last, shorter) = self.rungs.split_last().expect("a timing has at least one rung");
-            shorter.iter().find_map(|rung| judged(rung).ok()).map_or_else(|| judged(last), Ok)
-        };
-        Ok(Profile { legs: nodes.windows(2).map(leg).collect::<Result<_, _>>()? })
-    }
-
-    /// Number of a node's state.
-    fn state(&self, node: &WitnessNode) -> usize {
-        let state = self.first[node.waypoint as usize] + node.velocity;
-        assert!(state < self.first[node.waypoint as usize + 1], "a node of another roadmap: {node:?}");
-        state as usize
-    }
-
-    /// Waypoint and velocity of a state.
-    fn place(&self, state: u32) -> (u32, u32) {
-        let waypoint = self.first.partition_point(|first| *first <= state) - 1;
-        (waypoint as u32, state - self.first[waypoint])
-    }
-
-    /// The shortest feasible rung between two states. The times in which even the straight line is too long at the
-    /// speed limit are skipped.
-    fn shortest(&self, from: usize, to: usize, fastest: f64) -> Option<u32> {
-        let begin = self.rungs.partition_point(|rung| *rung < fastest);
-        (begin..self.rungs.len())
-            .find(|rung| self.judge.judge(&self.states[from], &self.states[to], self.rungs[*rung]).is_ok())
-            .map(|rung| rung as u32)
-    }
-
-    /// Time of the straight line at the speed limit, s.
-    fn fastest(&self, from: &Point3<f64>, to: &Point3<f64>) -> f64 {
-        (to - from).norm() / self.judge.limits().max_speed
-    }
-
-    /// All legs out of a state, judged at the first question and kept. Waypoints farther than the top speed goes in the
-    /// longest rung are not looked at; each leg keeps the shortest rung that holds.
-    fn kept_legs(&self, from: usize) -> Arc<[Judged]> {
-        if let Some(legs) = &self.kept.borrow()[from] {
-            return Arc::clone(legs);
-        }
-        let own = self.place(from as u32).0 as usize;
-        let longest = self.rungs.last().copied().unwrap_or(0.0);
-        let mut legs = Vec::new();
-        for (w, point) in self.points.iter().enumerate() {
-            let fastest = self.fastest(&self.points[own], point);
-            if w == own || fastest > longest {
-                continue;
-            }
-            for state in self.first[w]..self.first[w + 1] {
-                legs.extend(self.shortest(from, state as usize, fastest).map(|rung| Judged { state, rung }));
-            }
-        }
-        let legs: Arc<[Judged]> = legs.into();
-        self.kept.borrow_mut()[from] = Some(Arc::clone(&legs));
-        legs
-    }
-
-    /// One leg to the end judged for each state.
-    fn find_arrivals(&self) -> Vec<bool> {
-        let end = self.states.len() - 1;
-        let goal = self.points[self.points.len() - 1];
-        (0..self.states.len())
-            .map(|state| {
-                state != end && self.shortest(state, end, self.fastest(&self.states[state].position, &goal)).is_some()
-            })
-            .collect()
+        self.states.profile(nodes)
     }
 
     /// Infinite where no waypoint has a leg to the end.
     fn find_approach(&self) -> Vec<f64> {
-        let arrivals = self.arrivals.get_or_init(|| self.find_arrivals());
-        let near: Vec<Point3<f64>> = (0..self.points.len())
-            .filter(|w| (self.first[*w]..self.first[w + 1]).any(|state| arrivals[state as usize]))
-            .map(|w| self.points[w])
+        let (arrivals, points) = (self.states.arrivals(), self.states.points());
+        let near: Vec<Point3<f64>> = (0..points.len())
+            .filter(|w| self.states.of(*w).any(|state| arrivals[state as usize]))
+            .map(|w| points[w])
             .collect();
         let nearest = |p: &Point3<f64>| near.iter().map(|q| (q - p).norm()).fold(f64::INFINITY, f64::min);
-        self.points.iter().map(nearest).collect()
+        points.iter().map(nearest).collect()
     }
 }
 
@@ -339,29 +225,6 @@ fn target(points: &[Point3<f64>], own: usize, radius: f64, draw: f64) -> usize {
 
 impl Reach<WitnessNode> for Roadmap<'_> {
     fn legs(&self, from: &WitnessNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<WitnessNode>>) {
-        assert_eq!(candidates.len(), self.points.len(), "a roadmap serves the graph that it was drawn over");
-        let here = self.points[from.waypoint as usize];
-        let incoming = here - self.points[from.previous as usize];
-        let left = self.state(from);
-        let length_in = incoming.norm();
-        let v_in = self.states[left].velocity.norm();
-        for leg in self.kept_legs(left).iter() {
-            let (waypoint, velocity) = self.place(leg.state);
-            let outgoing = self.points[waypoint as usize] - here;
-            out.push(Leg {
-                to: WitnessNode { previous: from.waypoint, waypoint, velocity },
-                waypoint,
-                duration: self.rungs[leg.rung as usize],
-                features: LegFeatures {
-                    v_in,
-                    v_out: self.states[leg.state as usize].velocity.norm(),
-                    turn: if from.previous == from.waypoint { 0.0 } else { angle_between(&incoming, &outgoing) },
-                    length: outgoing.norm(),
-                    climb: outgoing.z,
-                    slope_in: if length_in > 0.0 { incoming.z / length_in } else { 0.0 },
-                    ground: 0.0,
-                },
-            });
-        }
+        self.states.legs(from, candidates, |_, _| 0.0, out);
     }
 }

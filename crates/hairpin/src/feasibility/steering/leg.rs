@@ -4,7 +4,8 @@ use nalgebra::{Point3, Vector3};
 use wide::f64x4;
 
 use super::flatness::{DependentRotors, Flatness};
-use super::proof::{BodyLimits, ProofSettings};
+use super::halving::ProofSettings;
+use super::proof::BodyLimits;
 use crate::feasibility::collision::FreeSpace;
 use crate::feasibility::limits::{Infeasible, Limit, Limits};
 use crate::math::polynomial::septic;

@@ -9,6 +9,7 @@
 
 pub mod clear;
 pub mod flatness;
+pub mod halving;
 pub mod leg;
 pub mod proof;
 pub mod shooting;
@@ -18,6 +19,6 @@ pub mod timing;
 pub(crate) mod tests;
 
 pub use flatness::{BodyState, Demand, DependentRotors, FlatState, Flatness};
+pub use halving::ProofSettings;
 pub use leg::{LegEnd, LegJudge};
-pub use proof::ProofSettings;
 pub use timing::LegTiming;

@@ -9,8 +9,10 @@
 use wide::f64x4;
 
 use super::flatness::{Demand, FlatState, Flatness, LEAST_VERTICAL_THRUST, flat_state};
+use super::halving::{ProofSettings, prove_by_halving};
 use crate::feasibility::limits::{Infeasible, Limit, Limits};
 use crate::math::interval::{Enclosure, Smooth};
+use crate::math::polynomial::derivatives;
 use crate::math::power::square;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::ProfileLeg;
@@ -18,28 +20,6 @@ use crate::trajectory::ProfileLeg;
 /// Room for rounding, as a share of each limit: every bound must clear its limit by this much. Four orders above
 /// what the formulas lose.
 const ROUNDING: f64 = 1e-9;
-/// Intervals at most that wait for their turn.
-const WAITING: usize = 128;
-
-/// How hard the bound between samples tries.
-///
-/// A larger budget decides more legs near their limits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ProofSettings {
-    /// Equal intervals that a leg is cut into first; 4 … 64.
-    pub first: usize,
-    /// An undecided interval shorter than this share of the leg ends the proof.
-    pub shortest: f64,
-    /// Intervals evaluated per leg at most.
-    pub budget: usize,
-}
-
-impl Default for ProofSettings {
-    /// 8 intervals at first, 1/16384 of the leg, 1024 evaluations.
-    fn default() -> Self {
-        Self { first: 8, shortest: 1.0 / 16384.0, budget: 1024 }
-    }
-}
 
 /// The body's limits as numbers to compare with.
 #[derive(Debug, Clone)]
@@ -154,37 +134,7 @@ impl BodyLimits {
             let (limit, part, margin) = self.worst(flatness, leg, tau);
             Err(Infeasible::at(limit, part, tau, margin))
         };
-        // Centres and half widths of what is still to be decided.
-        let mut waiting = [(0.0, 0.0); WAITING];
-        let mut count = self.settings.first;
-        let first = 0.5 * leg.duration / count as f64;
-        for (k, interval) in waiting[..count].iter_mut().enumerate() {
-            *interval = ((2 * k + 1) as f64 * first, first);
-        }
-        let mut evaluated = 0;
-        while count > 0 {
-            let taken = count.min(4);
-            count -= taken;
-            let batch: [(f64, f64); 4] = std::array::from_fn(|lane| waiting[count + lane.min(taken - 1)]);
-            evaluated += taken;
-            let (proven, violated) = self.evaluate(flatness, leg, &batch);
-            if let Some(lane) = (0..taken).find(|lane| violated & (1 << lane) != 0) {
-                return refuse(batch[lane].0);
-            }
-            for (lane, &(center, half)) in batch.iter().enumerate().take(taken) {
-                if proven & (1 << lane) != 0 {
-                    continue;
-                }
-                let exhausted = half < 0.5 * self.settings.shortest * leg.duration || evaluated >= self.settings.budget;
-                if exhausted || count + 2 > WAITING {
-                    return refuse(center);
-                }
-                waiting[count] = (center - 0.5 * half, 0.5 * half);
-                waiting[count + 1] = (center + 0.5 * half, 0.5 * half);
-                count += 2;
-            }
-        }
-        Ok(())
+        prove_by_halving(leg.duration, &self.settings, |batch| self.evaluate(flatness, leg, batch)).or_else(refuse)
     }
 
     /// Bit masks of the intervals on which every limit is proven, and of those whose centre violates one.
@@ -217,17 +167,4 @@ impl BodyLimits {
 /// Root of |x| with the sign of x: a negative demand stays visible as a negative speed.
 fn signed_root(square: f64) -> f64 {
     square.abs().sqrt().copysign(square)
-}
-
-/// The derivatives of order 0 … 7 of Σ c_i τ^i at four times, by repeated synthetic division.
-#[inline(always)]
-pub(super) fn derivatives(c: &[f64; 8], tau: f64x4) -> [f64x4; 8] {
-    const FACTORIAL: [f64; 8] = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0, 720.0, 5040.0];
-    let mut b = c.map(f64x4::splat);
-    for order in 0..7 {
-        for i in (order..7).rev() {
-            b[i] += b[i + 1] * tau;
-        }
-    }
-    std::array::from_fn(|order| b[order] * FACTORIAL[order])
 }

@@ -87,14 +87,6 @@ impl Default for SailSettings {
 impl SailSettings {
     pub(super) fn check(&self) -> Result<(), SimulationError> {
         let positive = [("log_period", self.log_period), ("accept", self.accept), ("time_limit", self.time_limit)];
-        for (field, value) in positive {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(SimulationError::new(field, value.to_string(), "finite and > 0"));
-            }
-        }
-        if !(self.linger.is_finite() && self.linger >= 0.0) {
-            return Err(SimulationError::new("linger", self.linger.to_string(), "finite and ≥ 0 s"));
-        }
-        Ok(())
+        SimulationError::unless_timed(&positive, self.linger)
     }
 }

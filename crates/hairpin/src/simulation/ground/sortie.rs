@@ -63,14 +63,7 @@ impl DriveSettings {
     /// Radii, limits and patience finite and above 0, `linger` at least 0; errors name the field.
     pub(super) fn check(&self) -> Result<(), SimulationError> {
         let limit = self.time_limit.unwrap_or(1.0);
-        for (field, value) in [("accept", self.accept), ("time_limit", limit), ("patience", self.patience)] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(SimulationError::new(field, value.to_string(), "finite and > 0"));
-            }
-        }
-        if !(self.linger.is_finite() && self.linger >= 0.0) {
-            return Err(SimulationError::new("linger", self.linger.to_string(), "finite and ≥ 0 s"));
-        }
-        Ok(())
+        let positive = [("accept", self.accept), ("time_limit", limit), ("patience", self.patience)];
+        SimulationError::unless_timed(&positive, self.linger)
     }
 }

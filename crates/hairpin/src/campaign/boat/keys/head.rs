@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 
 use super::{BoatExecute, BoatScenario};
 use crate::campaign::scenario::{
-    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms, sections,
+    Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms, sections,
 };
-use crate::judgement::Limits;
 
 /// A trip is given up after this multiple of its planned duration …
 const SLOWNESS: f64 = 2.0;
@@ -39,7 +38,7 @@ impl Keys for BoatScenario {
             vary: &self.vary,
             violation_share: self.spec.violation_share,
             confidence: self.spec.confidence,
-            terms: self.terms(),
+            terms: Terms::of(&self.spec),
             surroundings: &[],
             one_search: false,
         }
@@ -78,22 +77,4 @@ impl Keys for BoatScenario {
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);
-}
-
-impl BoatScenario {
-    fn terms(&self) -> Terms {
-        let spec = &self.spec;
-        Terms {
-            from: spec.deviation.map_or(DeviationFrom::Leg, |deviation| deviation.from),
-            corner: spec.deviation.map_or(0.0, |deviation| deviation.corner_m),
-            limits: Limits {
-                deviation: spec.deviation.map(|limit| limit.max_m),
-                overshoot: spec.overshoot.map(|limit| limit.max_m),
-                clearance: spec.clearance.map(|limit| limit.min_m),
-                acceleration: spec.acceleration.map(|limit| limit.max_m_s2),
-                total_time: spec.total_time.map(|limit| limit.max_s),
-                ..Limits::default()
-            },
-        }
-    }
 }

@@ -249,13 +249,7 @@ fn check_speed(speed: &SpeedSection, rover: Option<&Rover>, found: &mut Findings
 
 /// Hairpin's own controller or a command, not both.
 fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Findings) {
-    let both = execute.controller.is_some() && execute.command.is_some();
-    let given = format!("\"{}\"", execute.command.as_deref().unwrap_or_default());
-    found.require(!both, "execute.command", given, "left out where `controller` is given: one of the two");
-    if let Some(command) = &execute.command {
-        let fine = !command.trim().is_empty();
-        found.require(fine, "execute.command", format!("\"{command}\""), "a program and its arguments");
-    }
+    found.who(execute.controller.is_some(), execute.command.as_deref());
     if let Some(repeat) = execute.repeat {
         found.count("execute.repeat", repeat, 1, 100_000);
     }
@@ -296,11 +290,5 @@ fn check_spec(spec: &DriveSpec, found: &mut Findings) {
     if let Some(most) = limits.total_time_s {
         found.above("spec.limits.total_time_s", most, 0.0, 1e9, " s");
     }
-    if let Some(share) = limits.violation_share {
-        found.require((0.0..1.0).contains(&share), "spec.limits.violation_share", share, "≥ 0 and < 1");
-    }
-    if let Some(confidence) = limits.confidence {
-        let fine = (0.5..1.0).contains(&confidence);
-        found.require(fine, "spec.limits.confidence", confidence, "≥ 0.5 and < 1, such as 0.95");
-    }
+    found.share("spec.limits", limits.violation_share, limits.confidence);
 }

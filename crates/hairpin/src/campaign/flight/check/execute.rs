@@ -29,16 +29,5 @@ fn check_who(execute: &ExecuteSection, found: &mut Findings) {
         found.require(false, "execute.logs", format!("\"{logs}\""), bound);
         return;
     }
-    let both = execute.controller.is_some() && execute.command.is_some();
-    let given = execute.command.as_deref().unwrap_or_default();
-    found.require(
-        !both,
-        "execute.command",
-        format!("\"{given}\""),
-        "left out where `controller` is given: one of the two",
-    );
-    if let Some(command) = &execute.command {
-        let bound = "a program and its arguments";
-        found.require(!command.trim().is_empty(), "execute.command", format!("\"{command}\""), bound);
-    }
+    found.who(execute.controller.is_some(), execute.command.as_deref());
 }

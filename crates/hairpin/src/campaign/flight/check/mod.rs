@@ -5,7 +5,6 @@
 mod environment;
 mod execute;
 mod generate;
-mod spec;
 mod task;
 #[cfg(test)]
 mod tests;
@@ -14,7 +13,7 @@ mod world;
 use std::sync::Arc;
 
 use super::FlightSetup;
-use crate::campaign::check::Findings;
+use crate::campaign::check::{Findings, check_spec};
 use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{FlightScenario, Mistake};
 use crate::math::simd::Simd;
@@ -44,7 +43,7 @@ impl Build for FlightSetup {
         found.rounds(keys.generate.search.method, ("generate.score", named), keys.vary.keys());
         environment::check(keys, &mut found);
         execute::check(&keys.execute, &mut found);
-        spec::check(&keys.spec, &mut found);
+        check_spec(&keys.spec, 1e6, &mut found);
         match (robot, world) {
             (Some(robot), Some(world)) if found.0.is_empty() => Ok(Self::of(given, robot, world)),
             _ => Err(found.0),

@@ -1,7 +1,7 @@
 //! Bounds of `[world]`.
 
 use crate::campaign::check::Findings;
-use crate::campaign::scenario::{ObstacleSection, Origin, WorldSection};
+use crate::campaign::scenario::{ObstacleSection, WorldSection};
 
 /// Farther than any cage or field; also keeps squares of distances far from rounding trouble.
 const LARGEST_M: f64 = 10_000.0;
@@ -26,7 +26,7 @@ pub(super) fn check(world: &WorldSection, found: &mut Findings) {
         found.require(fine, "world.keep_in_margin_m", margin, &bound);
     }
     if let Some(origin) = &world.origin {
-        check_origin(origin, found);
+        found.origin(origin);
     }
     if let Some(wind) = world.wind_m_s {
         vector("world.wind_m_s", wind, found, |v| v.abs() <= 100.0, "between -100 and 100 m/s");
@@ -48,14 +48,6 @@ pub(super) fn check(world: &WorldSection, found: &mut Findings) {
     for (index, obstacle) in world.obstacles.iter().enumerate() {
         check_obstacle(&format!("world.obstacles[{index}]"), obstacle, found);
     }
-}
-
-/// Degrees, and metres above mean sea level.
-fn check_origin(origin: &Origin, found: &mut Findings) {
-    found.from("world.origin.lat_deg", origin.lat_deg, -90.0, 90.0, "°");
-    found.from("world.origin.lon_deg", origin.lon_deg, -180.0, 180.0, "°");
-    found.from("world.origin.alt_amsl_m", origin.alt_amsl_m, -1000.0, 20_000.0, " m");
-    found.from("world.origin.x_axis_heading_deg", origin.x_axis_heading_deg, 0.0, 360.0, "°");
 }
 
 /// Exactly one shape. A mesh has at least 4 triangles of indices that exist; that it is closed is for whoever builds

@@ -3,11 +3,10 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 
-use super::{DeviationFrom, ExecuteSection, FlightScenario, ReachName};
+use super::{ExecuteSection, FlightScenario, ReachName};
 use crate::campaign::scenario::{
     Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms, sections,
 };
-use crate::judgement::Limits;
 
 /// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
 const SECONDS_PER_WAYPOINT: f64 = 9.0;
@@ -42,7 +41,7 @@ impl Keys for FlightScenario {
             vary: &self.vary,
             violation_share: self.spec.violation_share,
             confidence: self.spec.confidence,
-            terms: self.terms(),
+            terms: Terms::of(&self.spec),
             surroundings: &["wind_m_s", "discrete_gust", "obstacles"],
             one_search: false,
         }
@@ -102,22 +101,4 @@ impl Keys for FlightScenario {
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);
-}
-
-impl FlightScenario {
-    fn terms(&self) -> Terms {
-        let spec = &self.spec;
-        Terms {
-            from: spec.deviation.map_or(DeviationFrom::Leg, |deviation| deviation.from),
-            corner: spec.deviation.map_or(0.0, |deviation| deviation.corner_m),
-            limits: Limits {
-                deviation: spec.deviation.map(|limit| limit.max_m),
-                overshoot: spec.overshoot.map(|limit| limit.max_m),
-                clearance: spec.clearance.map(|limit| limit.min_m),
-                acceleration: spec.acceleration.map(|limit| limit.max_m_s2),
-                total_time: spec.total_time.map(|limit| limit.max_s),
-                ..Limits::default()
-            },
-        }
-    }
 }

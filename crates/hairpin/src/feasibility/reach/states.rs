@@ -1,0 +1,333 @@
+//! The states of one graph's waypoints and the legs between them, judged when a search first asks and kept.
+//!
+//! Nodes are (waypoint, velocity): rest at start and end, M velocities elsewhere; n waypoints make up to (n M)² legs.
+//! A leg takes the shortest time of a ladder for which its judge proves it. What a state is, and what proves a leg, is
+//! the robot's.
+
+use std::cell::{OnceCell, RefCell};
+use std::sync::Arc;
+
+use nalgebra::{Point3, Vector3};
+use rand::RngExt;
+
+use super::{Leg, LegFeatures};
+use crate::feasibility::steering::LegTiming;
+use crate::math::random::{Stream, named_seed, stream};
+use crate::math::rotation::angle_between;
+use crate::trajectory::{Profile, ProfileLeg};
+
+/// A node: a state of a waypoint and the waypoint before it, which the turn angle is seen from. Legs do not depend on
+/// `previous`, and are kept without it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct WitnessNode {
+    /// The waypoint before; equal to `waypoint` at the start.
+    pub previous: u32,
+    /// The current waypoint.
+    pub waypoint: u32,
+    /// Which of the waypoint's velocities; 0 at start and end, which have only rest.
+    pub velocity: u32,
+}
+
+/// A judged leg: the state it leads to, and its rung.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::feasibility) struct Judged {
+    pub(in crate::feasibility) state: u32,
+    pub(in crate::feasibility) rung: u32,
+}
+
+/// The legs of a roadmap that were judged so far; they serve every roadmap that is drawn alike.
+#[derive(Debug)]
+pub struct WitnessLegs(Vec<Option<Arc<[Judged]>>>);
+
+impl WitnessLegs {
+    /// Memory that they take, about.
+    pub fn bytes(&self) -> usize {
+        let legs: usize = self.0.iter().flatten().map(|legs| legs.len()).sum();
+        self.0.len() * size_of::<Option<Arc<[Judged]>>>() + legs * size_of::<Judged>()
+    }
+}
+
+/// Proves legs between states of one robot.
+pub(in crate::feasibility) trait ProveLegs {
+    /// A state.
+    type End;
+    /// Why a leg is none.
+    type Why;
+
+    /// The leg from `from` to `to` in `duration` (s), if every limit holds at every instant of it.
+    fn leg(&self, from: &Self::End, to: &Self::End, duration: f64) -> Result<ProfileLeg, Self::Why>;
+
+    /// No leg is faster than this on the mean, m/s.
+    fn fastest(&self) -> f64;
+
+    /// Waypoint velocities are drawn up to here, m/s.
+    fn top_speed(&self) -> f64;
+
+    /// Speed of a state, m/s.
+    fn speed(end: &Self::End) -> f64;
+}
+
+/// How velocities are drawn: each waypoint from a stream of its own.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::feasibility) struct Velocities {
+    /// Per waypoint, M; 0 is taken as 1.
+    pub(in crate::feasibility) many: usize,
+    /// Seed and name of the streams.
+    pub(in crate::feasibility) seed: (u64, &'static str),
+    /// Leg times.
+    pub(in crate::feasibility) timing: LegTiming,
+}
+
+/// The states of one graph and the legs between them. One graph is one task on one thread.
+#[derive(Debug)]
+pub(in crate::feasibility) struct States<'a, J: ProveLegs> {
+    judge: &'a J,
+    points: Vec<Point3<f64>>,
+    /// States of all waypoints, waypoint by waypoint.
+    states: Vec<J::End>,
+    /// First state of every waypoint, and the number of states.
+    first: Vec<u32>,
+    rungs: Vec<f64>,
+    kept: RefCell<Vec<Option<Arc<[Judged]>>>>,
+    /// Which states have a leg to the end.
+    arrivals: OnceCell<Vec<bool>>,
+}
+
+impl<'a, J: ProveLegs> States<'a, J> {
+    /// Over `points`: index 0 the start, the last the end, both `at_rest`; every other waypoint gets M states.
+    ///
+    /// State k of a waypoint has a speed drawn from the k-th of M equal parts of [0, top speed]; `moving` is given the
+    /// waypoint, that speed and its stream.
+    pub(in crate::feasibility) fn new(
+        judge: &'a J,
+        points: &[Point3<f64>],
+        velocities: &Velocities,
+        at_rest: impl Fn(&Point3<f64>) -> J::End,
+        moving: impl Fn(usize, f64, &mut Stream) -> J::End,
+    ) -> Self {
+        let many = velocities.many.max(1);
+        let (mut states, mut first) = (Vec::with_capacity(points.len() * many), Vec::with_capacity(points.len() + 1));
+        for (w, point) in points.iter().enumerate() {
+            first.push(states.len() as u32);
+            if w == 0 || w + 1 == points.len() {
+                states.push(at_rest(point));
+                continue;
+            }
+            let (seed, name) = velocities.seed;
+            let mut random = stream(named_seed(seed, name, w as u64));
+            for k in 0..many {
+                let speed = judge.top_speed() * (k as f64 + random.random_range(0.0..1.0)) / many as f64;
+                states.push(moving(w, speed, &mut random));
+            }
+        }
+        first.push(states.len() as u32);
+        let (kept, arrivals) = (RefCell::new(vec![None; states.len()]), OnceCell::new());
+        Self { judge, points: points.to_vec(), states, first, rungs: velocities.timing.rungs(), kept, arrivals }
+    }
+
+    /// The same, with `legs` of one that was drawn alike.
+    ///
+    /// # Panics
+    /// If it has another number of states.
+    pub(in crate::feasibility) fn knowing(self, legs: WitnessLegs) -> Self {
+        assert_eq!(legs.0.len(), self.states.len(), "legs of another roadmap");
+        Self { kept: RefCell::new(legs.0), ..self }
+    }
+
+    /// The legs that were judged.
+    pub(in crate::feasibility) fn into_legs(self) -> WitnessLegs {
+        WitnessLegs(self.kept.into_inner())
+    }
+
+    /// The node at rest at the start.
+    pub(in crate::feasibility) fn start(&self) -> WitnessNode {
+        WitnessNode { previous: 0, waypoint: 0, velocity: 0 }
+    }
+
+    /// What judges legs.
+    pub(in crate::feasibility) fn judge(&self) -> &'a J {
+        self.judge
+    }
+
+    /// The graph's waypoints.
+    pub(in crate::feasibility) fn points(&self) -> &[Point3<f64>] {
+        &self.points
+    }
+
+    /// All states, waypoint by waypoint.
+    pub(in crate::feasibility) fn all(&self) -> &[J::End] {
+        &self.states
+    }
+
+    /// Numbers of the states of waypoint `w`.
+    pub(in crate::feasibility) fn of(&self, w: usize) -> std::ops::Range<u32> {
+        self.first[w]..self.first[w + 1]
+    }
+
+    /// Leg times, rising, s.
+    pub(in crate::feasibility) fn rungs(&self) -> &[f64] {
+        &self.rungs
+    }
+
+    /// The longest leg time, s.
+    pub(in crate::feasibility) fn longest(&self) -> f64 {
+        self.rungs.last().copied().unwrap_or(0.0)
+    }
+
+    /// A necessary test for searches: false only if no `steps` legs lead from `node` to the end. One step is judged
+    /// exactly; more are asked of `beyond`.
+    pub(in crate::feasibility) fn may_arrive(
+        &self,
+        node: &WitnessNode,
+        steps: usize,
+        beyond: impl FnOnce() -> bool,
+    ) -> bool {
+        match steps {
+            0 => node.waypoint as usize + 1 == self.points.len(),
+            1 => self.arrivals()[self.number(node)],
+            _ => beyond(),
+        }
+    }
+
+    /// What every candidate for a leg from `from` is, a state of another waypoint each: its node, or why it is none;
+    /// `None` where the straight line alone takes longer at the largest speed than the longest leg may.
+    ///
+    /// The evidence is that of the leg time that `told` chooses for two states and their least time.
+    ///
+    /// For telling why nothing was found: every refused candidate is judged once more.
+    pub(in crate::feasibility) fn candidates(
+        &self,
+        from: &WitnessNode,
+        told: impl Fn(&J::End, &J::End, f64) -> f64,
+    ) -> Vec<Result<WitnessNode, Option<J::Why>>> {
+        let (left, own) = (self.number(from), from.waypoint as usize);
+        let others = (0..self.points.len()).filter(|w| *w != own);
+        let judged = others.flat_map(|w| self.of(w).map(move |state| (w, state)));
+        let fate = |(w, state): (usize, u32)| {
+            let least = self.least_time(own, w);
+            if least > self.longest() {
+                return Err(None);
+            }
+            if self.shortest(left, state as usize, least).is_some() {
+                let (waypoint, velocity) = (w as u32, state - self.first[w]);
+                return Ok(WitnessNode { previous: from.waypoint, waypoint, velocity });
+            }
+            let (here, there) = (&self.states[left], &self.states[state as usize]);
+            Err(self.judge.leg(here, there, told(here, there, least)).err())
+        };
+        judged.map(fate).collect()
+    }
+
+    /// The trajectory over `nodes` as polynomials, built once for what is returned: legs are judged again, since only
+    /// their rungs are kept.
+    ///
+    /// # Errors
+    /// Why two successive nodes are no leg: the evidence of the longest leg time.
+    pub(in crate::feasibility) fn profile(&self, nodes: &[WitnessNode]) -> Result<Profile, J::Why> {
+        let leg = |pair: &[WitnessNode]| {
+            let (from, to) = (self.number(&pair[0]), self.number(&pair[1]));
+            let judged = |rung: &f64| self.judge.leg(&self.states[from], &self.states[to], *rung);
+            let (last, shorter) = self.rungs.split_last().expect("a timing has at least one rung");
+            shorter.iter().find_map(|rung| judged(rung).ok()).map_or_else(|| judged(last), Ok)
+        };
+        Ok(Profile { legs: nodes.windows(2).map(leg).collect::<Result<_, _>>()? })
+    }
+
+    /// Number of a node's state.
+    pub(in crate::feasibility) fn number(&self, node: &WitnessNode) -> usize {
+        let state = self.first[node.waypoint as usize] + node.velocity;
+        assert!(state < self.first[node.waypoint as usize + 1], "a node of another roadmap: {node:?}");
+        state as usize
+    }
+
+    /// Waypoint and velocity of a state.
+    pub(in crate::feasibility) fn place(&self, state: u32) -> (u32, u32) {
+        let waypoint = self.first.partition_point(|first| *first <= state) - 1;
+        (waypoint as u32, state - self.first[waypoint])
+    }
+
+    /// The shortest feasible rung between two states, of those that are no shorter than `least`.
+    fn shortest(&self, from: usize, to: usize, least: f64) -> Option<u32> {
+        let begin = self.rungs.partition_point(|rung| *rung < least);
+        (begin..self.rungs.len())
+            .find(|rung| self.judge.leg(&self.states[from], &self.states[to], self.rungs[*rung]).is_ok())
+            .map(|rung| rung as u32)
+    }
+
+    /// Time of the straight line between two waypoints at the largest speed, s.
+    fn least_time(&self, from: usize, to: usize) -> f64 {
+        (self.points[to] - self.points[from]).norm() / self.judge.fastest()
+    }
+
+    /// All legs out of a state, judged at the first question and kept. Waypoints farther than the largest speed goes in
+    /// the longest rung are not looked at; each leg keeps the shortest rung that holds.
+    pub(in crate::feasibility) fn kept_legs(&self, from: usize) -> Arc<[Judged]> {
+        if let Some(legs) = &self.kept.borrow()[from] {
+            return Arc::clone(legs);
+        }
+        let own = self.place(from as u32).0 as usize;
+        let mut legs = Vec::new();
+        for w in (0..self.points.len()).filter(|w| *w != own) {
+            let least = self.least_time(own, w);
+            if least > self.longest() {
+                continue;
+            }
+            for state in self.of(w) {
+                legs.extend(self.shortest(from, state as usize, least).map(|rung| Judged { state, rung }));
+            }
+        }
+        let legs: Arc<[Judged]> = legs.into();
+        self.kept.borrow_mut()[from] = Some(Arc::clone(&legs));
+        legs
+    }
+
+    /// Which states have a leg to the end, one leg judged for each.
+    pub(in crate::feasibility) fn arrivals(&self) -> &[bool] {
+        self.arrivals.get_or_init(|| {
+            let (end, goal) = (self.states.len() - 1, self.points.len() - 1);
+            let arrives = |state: usize| {
+                let own = self.place(state as u32).0 as usize;
+                state != end && self.shortest(state, end, self.least_time(own, goal)).is_some()
+            };
+            (0..self.states.len()).map(arrives).collect()
+        })
+    }
+
+    /// Appends every leg from `from`, in the order of their states; `ground` is what their judge's world adds to what
+    /// scores see, from the straight way.
+    ///
+    /// # Panics
+    /// If `candidates` are not the graph's waypoints.
+    pub(in crate::feasibility) fn legs(
+        &self,
+        from: &WitnessNode,
+        candidates: &[Point3<f64>],
+        ground: impl Fn(&LegFeatures, &Vector3<f64>) -> f64,
+        out: &mut Vec<Leg<WitnessNode>>,
+    ) {
+        assert_eq!(candidates.len(), self.points.len(), "a roadmap serves the graph that it was drawn over");
+        let here = self.points[from.waypoint as usize];
+        let incoming = here - self.points[from.previous as usize];
+        let left = self.number(from);
+        let (v_in, length_in) = (J::speed(&self.states[left]), incoming.norm());
+        for leg in self.kept_legs(left).iter() {
+            let (waypoint, velocity) = self.place(leg.state);
+            let outgoing = self.points[waypoint as usize] - here;
+            let features = LegFeatures {
+                v_in,
+                v_out: J::speed(&self.states[leg.state as usize]),
+                turn: if from.previous == from.waypoint { 0.0 } else { angle_between(&incoming, &outgoing) },
+                length: outgoing.norm(),
+                climb: outgoing.z,
+                slope_in: if length_in > 0.0 { incoming.z / length_in } else { 0.0 },
+                ground: 0.0,
+            };
+            out.push(Leg {
+                to: WitnessNode { previous: from.waypoint, waypoint, velocity },
+                waypoint,
+                duration: self.rungs[leg.rung as usize],
+                features: LegFeatures { ground: ground(&features, &outgoing), ..features },
+            });
+        }
+    }
+}
