@@ -8,7 +8,8 @@ use rand::RngExt;
 
 use super::leg::{BoatEnd, BoatJudge};
 use super::limits::BoatInfeasible;
-use crate::feasibility::reach::states::{ProveLegs, States, Velocities};
+use crate::feasibility::reach::proven_legs::ProveLegs;
+use crate::feasibility::reach::states::{States, Velocities};
 use crate::feasibility::reach::{Leg, LegFeatures, Reach, WitnessLegs, WitnessNode};
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::Stream;

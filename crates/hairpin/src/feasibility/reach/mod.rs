@@ -30,6 +30,7 @@ pub mod hull;
 pub mod none;
 pub mod planar_runs;
 pub mod polytope;
+pub(in crate::feasibility) mod proven_legs;
 mod refusal;
 pub mod sampling;
 pub mod sphere;
@@ -49,8 +50,8 @@ pub use hull::{Hull, HullSettings, NoHull};
 pub use none::Everywhere;
 pub use planar_runs::PlanarVehicle;
 pub use polytope::{NoPolytope, Polytope};
+pub use proven_legs::{WitnessLegs, WitnessNode};
 pub use sphere::Sphere;
-pub use states::{WitnessLegs, WitnessNode};
 pub use step::{StepReach, StepSet, StepSettings};
 pub use witness::{Roadmap, RoadmapLeg, RoadmapSettings};
 

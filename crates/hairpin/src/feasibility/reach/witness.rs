@@ -12,7 +12,8 @@ use std::cell::OnceCell;
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
-use super::states::{ProveLegs, States, Velocities, WitnessLegs, WitnessNode};
+use super::proven_legs::{ProveLegs, WitnessLegs, WitnessNode};
+use super::states::{States, Velocities};
 use super::{Leg, Reach};
 use crate::feasibility::limits::Infeasible;
 use crate::feasibility::steering::{LegEnd, LegJudge, LegTiming};

@@ -1,0 +1,56 @@
+//! Legs between states of waypoints that something proves: their nodes, what proves them, and what is kept of them.
+
+use std::sync::Arc;
+
+use crate::trajectory::ProfileLeg;
+
+/// A node: a state of a waypoint and the waypoint before it, which the turn angle is seen from. Legs do not depend on
+/// `previous`, and are kept without it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct WitnessNode {
+    /// The waypoint before; equal to `waypoint` at the start.
+    pub previous: u32,
+    /// The current waypoint.
+    pub waypoint: u32,
+    /// Which of the waypoint's velocities; 0 at start and end, which have only rest.
+    pub velocity: u32,
+}
+
+/// A judged leg: the state it leads to, and its rung.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::feasibility) struct Judged {
+    pub(in crate::feasibility) state: u32,
+    pub(in crate::feasibility) rung: u32,
+}
+
+/// The legs of a roadmap that were judged so far; they serve every roadmap that is drawn alike.
+#[derive(Debug)]
+pub struct WitnessLegs(pub(in crate::feasibility) Vec<Option<Arc<[Judged]>>>);
+
+impl WitnessLegs {
+    /// Memory that they take, about.
+    pub fn bytes(&self) -> usize {
+        let legs: usize = self.0.iter().flatten().map(|legs| legs.len()).sum();
+        self.0.len() * size_of::<Option<Arc<[Judged]>>>() + legs * size_of::<Judged>()
+    }
+}
+
+/// Proves legs between states of one robot.
+pub(in crate::feasibility) trait ProveLegs {
+    /// A state.
+    type End;
+    /// Why a leg is none.
+    type Why;
+
+    /// The leg from `from` to `to` in `duration` (s), if every limit holds at every instant of it.
+    fn leg(&self, from: &Self::End, to: &Self::End, duration: f64) -> Result<ProfileLeg, Self::Why>;
+
+    /// No leg is faster than this on the mean, m/s.
+    fn fastest(&self) -> f64;
+
+    /// Waypoint velocities are drawn up to here, m/s.
+    fn top_speed(&self) -> f64;
+
+    /// Speed of a state, m/s.
+    fn speed(end: &Self::End) -> f64;
+}
