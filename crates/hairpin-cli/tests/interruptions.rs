@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use commands::{SMALL, assert_same, hairpin, json, refused, run};
+use commands::{SMALL, assert_same, json, refused, run};
 use hairpin::math::random::case_seed;
 
 /// More than anything here takes, even on a busy machine.
@@ -23,8 +23,11 @@ fn wait_until(what: &str, mut holds: impl FnMut() -> bool) {
     }
 }
 
+/// As at a terminal: what runs the tests in the background ignores Ctrl-C, which would be handed on.
 fn begin(folder: &Path, arguments: &[&str]) -> Child {
-    hairpin(folder, arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    let mut at_terminal = Command::new("env");
+    at_terminal.arg("--default-signal=INT").arg(env!("CARGO_BIN_EXE_hairpin"));
+    at_terminal.current_dir(folder).args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
 fn ctrl_c(child: &Child) {
