@@ -1,5 +1,6 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
+mod commands;
 mod compare;
 mod experiment;
 mod explain;
@@ -21,6 +22,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairpin_formats::template::KINDS;
 
+pub(crate) use commands::Commands;
 pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::Experiment;
 pub(crate) use explain::Explain;

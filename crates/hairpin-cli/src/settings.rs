@@ -2,10 +2,11 @@
 
 use hairpin::math::simd::Simd;
 use hairpin_jobs::Problem;
+use hairpin_jobs::consent::Consent;
 use hairpin_jobs::sets::{self, Set};
 use hairpin_jobs::work::{CampaignSettings, IfThere};
 
-use crate::args::{Campaign, Kernels, Threads};
+use crate::args::{Campaign, Commands, Kernels, Threads};
 
 /// Takes the threads that were asked for.
 pub(crate) fn take_threads(threads: &Threads) {
@@ -20,6 +21,11 @@ pub(crate) fn simd(kernels: &Kernels) -> Simd {
     if kernels.portable { Simd::Portable } else { Simd::Widest }
 }
 
+/// What of a folder may run, as this user has it.
+pub(crate) fn consent(commands: &Commands) -> Consent {
+    Consent::of_user(commands.allow_commands, |name| std::env::var_os(name))
+}
+
 /// What a campaign is begun with.
 pub(crate) fn campaign(campaign: &Campaign, executor: Option<&str>) -> Result<CampaignSettings, Problem> {
     let mut all = split(&campaign.sets)?;
@@ -32,6 +38,7 @@ pub(crate) fn campaign(campaign: &Campaign, executor: Option<&str>) -> Result<Ca
         if_there: if_there(campaign.resume, campaign.force),
         time_limit_s: campaign.time_limit,
         simd: simd(&campaign.kernels),
+        consent: consent(&campaign.commands),
     })
 }
 

@@ -9,6 +9,7 @@ use hairpin::campaign::{Case, CaseNumber, Run};
 use thiserror::Error;
 
 use crate::controller_log::{self, ControllerLog, ControllerLogError};
+use crate::folder::inside;
 
 /// Why logs are not the runs of a campaign.
 #[derive(Debug, Error)]
@@ -20,6 +21,14 @@ pub enum RecordingError {
         folder: PathBuf,
         /// The system's answer.
         cause: std::io::Error,
+    },
+    /// A link among what lies in the campaign's own folder.
+    #[error("`execute.logs` = \"{pattern}\": {why}")]
+    Link {
+        /// The pattern.
+        pattern: String,
+        /// What is wrong.
+        why: String,
     },
     /// A file fits the pattern, and its name is no run's.
     #[error("{}: `{stem}` is no run of this campaign: {why}", path.display())]
@@ -92,6 +101,11 @@ pub fn relative_to(folder: &Path, base: &Path, pattern: &str) -> String {
     up.chain(down).collect::<Vec<_>>().join("/")
 }
 
+/// Whether logs that `pattern` names may lie outside the folder that it is relative to.
+pub fn leads_out(pattern: &str) -> bool {
+    Path::new(pattern).components().any(|part| !matches!(part, Component::Normal(_) | Component::CurDir))
+}
+
 /// The parts of a path from the root on, `.` and `..` resolved by name.
 fn plain(path: &Path) -> Vec<std::ffi::OsString> {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
@@ -123,6 +137,15 @@ pub fn find(
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let (before, after) = name.split_once('*').unwrap_or((&name, ""));
     let listed = fs::read_dir(&parent).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+    if !leads_out(pattern) {
+        let parent = Path::new(pattern).parent().unwrap_or(Path::new(""));
+        let names = listed.iter().flatten().map(|entry| parent.join(entry.file_name()));
+        // What lies in a campaign's folder may be a stranger's.
+        let link = names.chain([parent.to_owned()]).find_map(|name| inside(folder, &name.to_string_lossy()).err());
+        if let Some(why) = link {
+            return Err(vec![RecordingError::Link { pattern: pattern.into(), why }]);
+        }
+    }
     let mut files: Vec<PathBuf> = match listed {
         Ok(entries) => entries.into_iter().map(|entry| entry.path()).collect(),
         Err(cause) => return Err(vec![RecordingError::Folder { folder: parent, cause }]),

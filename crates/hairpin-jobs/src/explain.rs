@@ -6,8 +6,9 @@ use hairpin::campaign::Stop;
 use hairpin::campaign::explain::{self, Explanation};
 use hairpin::judgement::Verdict;
 use hairpin::math::simd::Simd;
-use hairpin_formats::scenario::{setup_for, shadowed};
+use hairpin_formats::scenario::{kept_in, setup_for, shadowed};
 
+use crate::consent::{Consent, Wish};
 use crate::sets::Set;
 use crate::{Deadline, Problem, Watch};
 
@@ -24,12 +25,14 @@ pub struct ExplainSettings {
     pub time_limit_s: Option<f64>,
     /// Version of the kernels.
     pub simd: Simd,
+    /// What of a folder may run.
+    pub consent: Consent,
 }
 
 impl Default for ExplainSettings {
     fn default() -> Self {
-        let (scenario, sets, time_limit_s, simd) = Default::default();
-        Self { scenario, sets, graphs: 8, time_limit_s, simd }
+        let (scenario, sets, time_limit_s, simd, consent) = Default::default();
+        Self { scenario, sets, graphs: 8, time_limit_s, simd, consent }
     }
 }
 
@@ -37,10 +40,13 @@ impl Default for ExplainSettings {
 /// verdict on it. Nothing is written.
 ///
 /// # Errors
-/// A scenario with mistakes; it was asked to stop.
+/// A scenario with mistakes; one of a campaign's folder that asks to run what its user has not allowed; it was asked to
+/// stop.
 pub fn explain(settings: &ExplainSettings, watch: &dyn Watch) -> Result<(Explanation, Verdict), Problem> {
     shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
     let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
+    let (kept, wishes) = (kept_in(&settings.scenario), Wish::of_search(&setup));
+    settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
     let (began, deadline) = (Instant::now(), Deadline::after(settings.time_limit_s));
     let clock = || began.elapsed().as_secs_f64();
     let stop = Stop { cancelled: &|| watch.stopped(), progress: &|_, _| {}, clock: &clock };

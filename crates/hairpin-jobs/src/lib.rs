@@ -4,6 +4,7 @@
 
 pub mod certificate;
 pub mod compare;
+pub mod consent;
 pub mod differences;
 pub mod execute;
 pub mod explain;

@@ -1,12 +1,14 @@
 //! A recorded violation, flown again.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{self, CaseResult, Setup, Status};
 use hairpin::math::simd::Simd;
+use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario;
 
+use crate::consent::{Consent, Wish};
 use crate::execute::fly_one;
 use crate::{Problem, Watch};
 
@@ -34,18 +36,28 @@ impl ReplayedRepro {
 /// Flies the run of the repro file `file` again, by the kernels `simd`.
 ///
 /// # Errors
-/// A file that is none; recordings, which cannot be made again; it was asked to stop.
-pub fn replay(file: &Path, simd: Simd, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
+/// A file that is none, or asks to run what its user has not allowed; recordings, which cannot be made again; it was asked to stop.
+pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
     let repro = Repro::read(file).map_err(Problem::input)?;
     let resolved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
     let setup = Setup::new(resolved).map_err(|mistake| Problem::of_file(file, format!("scenario.{mistake}")))?;
     let setup = setup.with_simd(simd);
     let case = repro.case().map_err(|why| Problem::of_file(file, why))?;
+    consent.ask(&campaign_of(file), &Wish::of_execution(&setup))?;
     let flown = fly_one(&setup, &case, repro.run, watch)?;
     let result = campaign::judge(&setup, &case, std::slice::from_ref(&flown))?;
     let deviation = result.measures.as_ref().map(|measures| measures.max_deviation);
     let same = deviation.is_some_and(|deviation| (deviation - repro.expected.max_deviation_m).abs() <= SAME_M);
     Ok(ReplayedRepro { repro, result, same })
+}
+
+/// The campaign's folder that a repro file lies in, or else the file's own.
+fn campaign_of(file: &Path) -> PathBuf {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let above =
+        folder.parent().filter(|_| folder.ends_with("repro")).filter(|above| CampaignFolder::open(above).is_ok());
+    above.map_or_else(|| folder.clone(), Path::to_owned)
 }
 
 #[cfg(test)]
@@ -58,11 +70,11 @@ mod tests {
     fn a_violation_comes_again() {
         let (_place, folder) = violating();
         let file = folder.join("repro/0000.json");
-        let again = replay(&file, Simd::Widest, &Unwatched).unwrap();
+        let again = replay(&file, Simd::Widest, &Consent::default(), &Unwatched).unwrap();
         assert!(again.reproduces(), "{again:?}");
         let other = std::fs::read_to_string(&file).unwrap().replacen("\"hairpin_repro\": 1", "\"hairpin_repro\": 2", 1);
         std::fs::write(&file, other).unwrap();
-        let refused = replay(&file, Simd::Portable, &Unwatched).unwrap_err();
+        let refused = replay(&file, Simd::Portable, &Consent::default(), &Unwatched).unwrap_err();
         assert!(refused.to_string().contains("hairpin_repro = 2"), "{refused}");
     }
 }

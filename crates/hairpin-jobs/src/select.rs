@@ -7,6 +7,7 @@ use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Grid, Tally, vary};
 use rayon::prelude::*;
 
+use crate::consent::{Consent, Wish};
 use crate::judge::judge_cases;
 use crate::names::listed;
 use crate::report::write_report;
@@ -26,6 +27,8 @@ pub struct SelectSettings {
     pub out: PathBuf,
     /// What happens to a campaign that is in it already.
     pub if_there: IfThere,
+    /// Whose marks the new folder gets: what may run in the old one may run there.
+    pub consent: Consent,
 }
 
 /// A choice that was made and written.
@@ -170,7 +173,11 @@ fn write(
     }
     let scenario = vary::apply(&work.setup.scenario, &changes)?;
     let setup = work.setup.changed(scenario.with_vary(varied))?;
+    let wishes = Wish::of_campaign(&work.setup);
     let new = make(&settings.out, setup, settings.if_there)?;
+    if settings.consent.has_marked(&settings.folder, &wishes) {
+        settings.consent.mark(&settings.out, &wishes);
+    }
     let (old, there) = (&work.folder, &new.folder);
     let numbers: BTreeSet<CaseNumber> = chosen.iter().map(|case| case.number).collect();
     old.copy_cases(&numbers.iter().copied().collect::<Vec<_>>(), there)?;
@@ -205,7 +212,14 @@ mod tests {
     fn chosen_cases_are_a_judged_campaign_of_their_own() {
         let (place, folder) = violating();
         let out = place.path().join("few");
-        let settings = SelectSettings { folder, cases: 1, by: By::Stress, out: out.clone(), if_there: IfThere::Refuse };
+        let settings = SelectSettings {
+            folder,
+            cases: 1,
+            by: By::Stress,
+            out: out.clone(),
+            if_there: IfThere::Refuse,
+            consent: Consent::default(),
+        };
         let selected = select(&settings, &Unwatched).unwrap();
         assert_eq!((selected.names.len(), selected.of, selected.stress.unit), (1, 2, "m"));
         assert_eq!(selected.selected, selected.most_stressful);

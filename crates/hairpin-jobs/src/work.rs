@@ -4,10 +4,11 @@ use std::path::{Component, Path, PathBuf};
 
 use hairpin::campaign::{Scenario, Setup, vary};
 use hairpin::math::simd::Simd;
-use hairpin_formats::folder::{CampaignFolder, Existing};
+use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
 use hairpin_formats::recordings;
-use hairpin_formats::scenario::{read_setup, setup_for, shadowed};
+use hairpin_formats::scenario::{kept_in, read_kept, setup_for, shadowed};
 
+use crate::consent::{Consent, Wish};
 use crate::differences::differences;
 use crate::sets::Set;
 use crate::watch::not_waiting_for;
@@ -36,6 +37,8 @@ pub struct CampaignSettings {
     pub time_limit_s: Option<f64>,
     /// Version of the kernels.
     pub simd: Simd,
+    /// What of a folder may run.
+    pub consent: Consent,
 }
 
 /// What beginning a campaign does about one that is in its folder already.
@@ -57,12 +60,14 @@ pub struct Planned {
     /// Its scenario, resolved and ready to run.
     pub setup: Setup,
     if_there: IfThere,
+    consent: Consent,
 }
 
 /// Resolves the scenario, and whether its folder may be made or taken up.
 ///
 /// # Errors
-/// A scenario with mistakes; a folder that holds something else; a score of the user's that does not load.
+/// A scenario with mistakes; one of a campaign's folder that asks to run what its user has not allowed; a folder that
+/// holds something else; a score of the user's that does not load.
 pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, Problem> {
     let path = settings.out.clone().unwrap_or_else(|| default_folder(&settings.scenario));
     shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
@@ -70,6 +75,8 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     let setup = with_logs_from(setup, &path, Path::new(&settings.scenario))?;
     setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
+    let (kept, wishes) = (kept_in(&settings.scenario), Wish::of_campaign(&setup));
+    settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
     may_make(&path, &setup, settings.if_there)?;
     if let Some(user) = setup.user_score() {
         let deadline = Deadline::after(settings.time_limit_s);
@@ -79,16 +86,17 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
             false => Problem::input(format!("`{}` = {why}", setup.scenario.score_key())),
         })?;
     }
-    Ok(Planned { path, setup, if_there: settings.if_there })
+    Ok(Planned { path, setup, if_there: settings.if_there, consent: settings.consent.clone() })
 }
 
 impl Planned {
-    /// Makes or takes up its folder.
+    /// Makes or takes up its folder, and leaves the user's mark on what it may run: it is his.
     ///
     /// # Errors
     /// The folder cannot be made or written to.
     pub fn begin(self) -> Result<Work, Problem> {
         let work = Work { folder: create(&self.path, &self.setup, self.if_there)?, setup: self.setup };
+        self.consent.mark(work.folder.path(), &Wish::of_campaign(&work.setup));
         tracing::info!("campaign folder {}", work.folder.path().display());
         Ok(work)
     }
@@ -123,7 +131,11 @@ fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<(), Problem
         }
         begun.push(part);
     }
-    let Ok(old) = CampaignFolder::open(path) else { return Ok(()) };
+    CampaignFolder::refuse_anothers(path)?;
+    let old = match CampaignFolder::open(path) {
+        Err(FolderError::NoCampaign { .. }) => return Ok(()),
+        old => old?,
+    };
     match if_there {
         IfThere::Refuse => Err(Problem::input(format!(
             "{} holds a campaign already: --resume goes on with it, --force replaces it, --out DIR keeps both",
@@ -219,7 +231,7 @@ pub fn open_to_read(path: &Path) -> Result<Work, Problem> {
 
 fn resolve(folder: &CampaignFolder, sets: &[Set]) -> Result<Setup, Problem> {
     let name = folder.file("scenario.toml");
-    Ok(read_setup(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
+    Ok(read_kept(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
 }
 
 /// The version of the kernels that goes on with a campaign of `level`.

@@ -3,6 +3,7 @@
 use clap::Args;
 use hairpin_jobs::explain::ExplainSettings;
 
+use super::commands::Commands;
 use super::numbers::{LARGEST_SEED, seconds};
 use super::resources::{Kernels, Threads};
 
@@ -32,4 +33,6 @@ pub(crate) struct Explain {
     pub(crate) threads: Threads,
     #[command(flatten)]
     pub(crate) kernels: Kernels,
+    #[command(flatten)]
+    pub(crate) commands: Commands,
 }

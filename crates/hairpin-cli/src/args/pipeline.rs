@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::commands::Commands;
 use super::numbers::{LARGEST_SEED, seconds};
 use super::resources::{Kernels, Threads};
 
@@ -37,6 +38,8 @@ pub(crate) struct Campaign {
     pub(crate) threads: Threads,
     #[command(flatten)]
     pub(crate) kernels: Kernels,
+    #[command(flatten)]
+    pub(crate) commands: Commands,
 }
 
 #[derive(Debug, Args)]
@@ -98,6 +101,8 @@ pub(crate) struct Execute {
     pub(crate) threads: Threads,
     #[command(flatten)]
     pub(crate) kernels: Kernels,
+    #[command(flatten)]
+    pub(crate) commands: Commands,
 }
 
 #[derive(Debug, Args)]
@@ -137,6 +142,8 @@ pub(crate) struct Replay {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) kernels: Kernels,
+    #[command(flatten)]
+    pub(crate) commands: Commands,
 }
 
 #[derive(Debug, Args)]

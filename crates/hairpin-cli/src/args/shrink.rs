@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use hairpin_jobs::shrink::ShrinkSettings;
 
+use super::commands::Commands;
 use super::numbers::seconds;
 use super::resources::Kernels;
 
@@ -33,4 +34,6 @@ pub(crate) struct Shrink {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) kernels: Kernels,
+    #[command(flatten)]
+    pub(crate) commands: Commands,
 }

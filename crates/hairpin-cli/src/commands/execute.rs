@@ -23,6 +23,7 @@ pub(crate) fn run(asked: &Execute, watch: &dyn Watch) -> Result<u8, Problem> {
         repro: asked.saved.repro.clone(),
         resume: asked.resume,
         simd: settings::simd(&asked.kernels),
+        consent: settings::consent(&asked.commands),
     };
     let executed = execute(&settings, watch)?;
     let (cases, Flown { runs, failed, attitude_unknown }) = (executed.cases, executed.flown);

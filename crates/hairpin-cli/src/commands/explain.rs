@@ -19,6 +19,7 @@ pub(crate) fn run(asked: &Explain, watch: &dyn Watch) -> Result<u8, Problem> {
         graphs: asked.graphs,
         time_limit_s: asked.time_limit,
         simd: settings::simd(&asked.kernels),
+        consent: settings::consent(&asked.commands),
     };
     let (found, verdict) = explain(&settings, watch)?;
     if asked.json {

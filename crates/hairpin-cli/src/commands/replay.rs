@@ -12,7 +12,8 @@ use crate::{console, settings};
 
 /// Runs the command: 1 when it violates again, 0 when it does not, 4 when the executor failed.
 pub(crate) fn run(asked: &Replay, watch: &dyn Watch) -> Result<u8, Problem> {
-    let replayed = replay(&asked.file, settings::simd(&asked.kernels), watch)?;
+    let consent = settings::consent(&asked.commands);
+    let replayed = replay(&asked.file, settings::simd(&asked.kernels), &consent, watch)?;
     let (repro, result) = (&replayed.repro, &replayed.result);
     let again: Vec<String> = result.violations.iter().map(violation).collect();
     let message = result.message.as_deref().unwrap_or_default();

@@ -6,7 +6,7 @@ use hairpin_jobs::select::{SelectSettings, Selected, StressUnit, select};
 use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
-use crate::args::{Select, SelectBy};
+use crate::args::{Commands, Select, SelectBy};
 use crate::exit::DONE;
 use crate::{console, settings};
 
@@ -24,6 +24,7 @@ pub(crate) fn run(asked: &Select, watch: &dyn Watch) -> Result<u8, Problem> {
         by,
         out: asked.out.clone(),
         if_there: settings::if_there(false, asked.force),
+        consent: settings::consent(&Commands { allow_commands: false }),
     };
     let selected = select(&settings, watch)?;
     let sentence = sentence(&selected);

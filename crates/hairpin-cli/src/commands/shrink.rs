@@ -20,6 +20,7 @@ pub(crate) fn run(asked: &Shrink, watch: &dyn Watch) -> Result<u8, Problem> {
         time_limit_s: asked.time_limit,
         out: asked.out.clone(),
         simd: settings::simd(&asked.kernels),
+        consent: settings::consent(&asked.commands),
     })?;
     let (case, violated) = (&shrinking.case, &shrinking.result.violations[0]);
     let before = case.waypoints.len();

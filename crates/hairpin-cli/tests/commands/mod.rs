@@ -38,13 +38,19 @@ deviation = {{ max_m = 0.5, from = "nearest-leg" }}
 
 pub(crate) fn hairpin(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
-    command.current_dir(folder).args(arguments);
+    // Marks of what a user has run himself belong to this test's user.
+    command.current_dir(folder).args(arguments).env("XDG_STATE_HOME", folder.join(".state"));
     command
 }
 
 /// Exit code, stdout, stderr.
 pub(crate) fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = hairpin(folder, arguments).output().unwrap();
+    told(&mut hairpin(folder, arguments))
+}
+
+/// The same of a command that is ready to run.
+pub(crate) fn told(command: &mut Command) -> (i32, String, String) {
+    let output = command.output().unwrap();
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
 }

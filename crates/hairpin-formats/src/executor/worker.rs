@@ -38,6 +38,13 @@ pub enum CommandError {
     Quotes,
 }
 
+impl Command {
+    /// The program and its arguments.
+    pub fn words(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(&self.program).chain(&self.arguments).map(String::as_str)
+    }
+}
+
 impl std::str::FromStr for Command {
     type Err = CommandError;
 

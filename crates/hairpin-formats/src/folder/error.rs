@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use hairpin::campaign::CaseNumber;
 use thiserror::Error;
 
-use super::names::SCENARIO;
+use super::names::{LIST, SCENARIO};
 use crate::atomic::{WriteError, is_lost};
 use crate::parquet::TableError;
 use crate::scenario;
@@ -64,6 +64,43 @@ pub enum FolderError {
     #[error("{} is not empty and not a campaign folder (no {SCENARIO} in it): choose another --out", path.display())]
     Foreign {
         /// The folder.
+        path: PathBuf,
+    },
+    /// It has a scenario, and nothing says that hairpin made the folder.
+    #[error(
+        "{} has a {SCENARIO} and no {LIST}, hairpin's list of what is its own there: it is somebody else's folder, and nothing \
+         in it is replaced; choose another --out", path.display()
+    )]
+    Unlisted {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Something stands where a file of hairpin's would.
+    #[error("{} is not hairpin's (no such name in {LIST}) and would be replaced: move it, or choose another --out", path.display())]
+    NotOurs {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A list of names that leads out of its folder.
+    #[error("{}, line {line}: `{}` is no name below the folder: no absolute name, no `..`", path.display(), name.escape_default())]
+    Listed {
+        /// The list.
+        path: PathBuf,
+        /// Counted from 1.
+        line: usize,
+        /// What it says.
+        name: String,
+    },
+    /// A link, which could lead anywhere.
+    #[error("{} is a link: links in a campaign folder are not followed; put the file itself there", path.display())]
+    Link {
+        /// The link.
+        path: PathBuf,
+    },
+    /// A pipe, a device.
+    #[error("{} is neither a file nor a folder", path.display())]
+    Special {
+        /// What is there.
         path: PathBuf,
     },
     /// No campaign stands here.

@@ -2,13 +2,12 @@
 
 use std::fs;
 use std::io;
-use std::path::PathBuf;
 
 use hairpin::campaign::learn::NAME;
 
 use super::{
-    ARCS, BEST_SO_FAR, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, MOVES, OPTIMUM, RESULTS,
-    RUNS, WAYPOINTS, entries,
+    ARCS, BEST_SO_FAR, COVERAGE, CampaignFolder, EXPORTS, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List,
+    MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, stands_for,
 };
 use crate::atomic::{self, WriteError};
 
@@ -58,68 +57,33 @@ impl CampaignFolder {
         self.remove(&[NAME], &[])
     }
 
-    /// Removes `names`, the tables in `folders`, what was exported, and the executors' logs, which are of runs that go.
+    /// Removes `names`, the tables in `folders`, what was exported, and the executors' logs, which are of runs that go:
+    /// of all these, what the folder's list has.
     fn remove(&self, names: &[&str], folders: &[&str]) -> Result<(), FolderError> {
-        let remove = |path: PathBuf| match fs::remove_file(&path) {
-            Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }),
-            _ => Ok(()),
+        let ours = List::read(&self.path)?.unwrap_or_default();
+        let remove = |name: &str| {
+            let path = self.file(name);
+            match if ours.names(name) { fs::remove_file(&path) } else { Ok(()) } {
+                Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }),
+                _ => Ok(()),
+            }
         };
         for name in names {
-            remove(self.file(name))?;
+            remove(name)?;
         }
-        let made_of_runs = |path: &PathBuf| {
+        for path in entries(&self.path)? {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            is_export(&name) || (name.starts_with("executor-") && name.ends_with(".log"))
-        };
-        for path in entries(&self.path)?.into_iter().filter(made_of_runs) {
-            remove(path)?;
+            if EXPORTS.iter().chain([&LOG]).any(|pattern| stands_for(pattern, &name)) {
+                remove(&name)?;
+            }
         }
-        for name in folders {
-            for path in entries(&self.path.join(name))? {
+        for folder in folders {
+            for path in entries(&self.path.join(folder))? {
                 if path.extension().is_some_and(|extension| extension == "parquet" || extension == "mod") {
-                    remove(path)?;
+                    remove(&format!("{folder}/{}", path.file_name().unwrap_or_default().to_string_lossy()))?;
                 }
             }
         }
         Ok(())
-    }
-}
-
-/// Whether a file's name is one that [`CampaignFolder::planned_csv_path`], [`CampaignFolder::run_csv_path`] or
-/// [`crate::tum::write_pair`] gives: other people's files beside them stay.
-fn is_export(name: &str) -> bool {
-    let number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    let case = |text: &str| text.len() >= 4 && number(text);
-    match name.split_once('.') {
-        Some((
-            stem,
-            "ref.tum" | "exec.tum" | "planned.csv" | "joint_trajectory.json" | "pgf" | "script" | "src" | "dat",
-        )) => case(stem),
-        Some((stem, "mod")) => case(stem.strip_suffix("_slow").unwrap_or(stem)),
-        Some((stem, "csv")) => stem.split_once('-').is_some_and(|(name, run)| case(name) && number(run)),
-        _ => false,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_export;
-
-    #[test]
-    fn only_our_own_exports_go() {
-        for name in [
-            "0000.ref.tum",
-            "0012.exec.tum",
-            "10000.planned.csv",
-            "0000-0.csv",
-            "0117-12.csv",
-            "0003.mod",
-            "0003_slow.mod",
-        ] {
-            assert!(is_export(name), "{name}");
-        }
-        for name in ["mine.csv", "0000.csv", "000-0.csv", "0000-.csv", "0000-a.csv", "a0000.ref.tum", "0000.tum", ""] {
-            assert!(!is_export(name), "{name}");
-        }
     }
 }

@@ -22,18 +22,23 @@
 //! | `graph.csv`, `reasons.csv`, `arcs.csv` | of arms: the graph, why moves are not in it, its arcs where it has any |
 //! | `baseline.json` | of arms with `spec.regression`: the same of earlier releases |
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
+//! | `.hairpin` | the names in the folder that are hairpin's own: nothing else in it is replaced or removed |
 //! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
 //!
 //! Files are written one by one and each at once, in an order in which each says no more than those before it: the
 //! cases' own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
+//!
+//! A folder may come from a stranger. Nothing in it is followed out of it: it is refused if it holds a link.
 
 mod cases;
 mod copy;
 mod error;
 mod forget;
 mod graph;
+mod inside;
 mod json;
 mod judged;
+mod list;
 mod names;
 mod runs;
 mod scenario;
@@ -48,9 +53,12 @@ use crate::atomic::{self, WriteError};
 
 pub use error::FolderError;
 pub use graph::graph_decimals;
-pub(crate) use names::SCENARIO;
+pub use inside::inside;
+use inside::refuse_links;
+use list::{List, all, is_of_an_earlier_version};
 pub use names::{ARCS, BASELINE, BEST_SO_FAR, GRAPH, MOVES, OPTIMUM, REASONS};
-use names::{COVERAGE, GENERATION, INFLUENCE, RESULTS, RUNS, WAYPOINTS};
+use names::{COVERAGE, EXPORTS, GENERATION, INFLUENCE, LOG, RESULTS, RUNS, WAYPOINTS, stands_for};
+pub(crate) use names::{LIST, SCENARIO};
 
 const LOCK: &str = ".lock";
 const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];
@@ -75,13 +83,21 @@ impl CampaignFolder {
     /// Makes `path` a campaign folder to write to, and clears what a killed process left half-written.
     ///
     /// # Errors
-    /// A folder with other things in it, one that another process writes to, one that cannot be made.
+    /// A folder with other things in it, or that hairpin has not made; one that another process writes to; one that
+    /// cannot be made.
     pub fn create(path: &Path, existing: Existing) -> Result<Self, FolderError> {
         atomic::make_folder(path)?;
         if !is_campaign(path) && !is_vacant(path)? {
             return Err(FolderError::Foreign { path: path.into() });
         }
+        refuse_links(path, &FOLDERS)?;
+        Self::refuse_anothers(path)?;
+        let list = List::read(path)?;
         let folder = Self { path: path.into(), _lock: lock(path)? };
+        match list {
+            None if is_campaign(path) => List::adopt(path)?,
+            list => list.unwrap_or_default().take_in(path, &all().collect::<Vec<_>>())?,
+        }
         for name in FOLDERS {
             atomic::make_folder(&path.join(name))?;
         }
@@ -93,14 +109,27 @@ impl CampaignFolder {
         Ok(folder)
     }
 
+    /// Refuses a folder that has a scenario and was not made by hairpin: whatever is in it is the user's.
+    ///
+    /// # Errors
+    /// It is one.
+    pub fn refuse_anothers(path: &Path) -> Result<(), FolderError> {
+        if is_campaign(path) && !path.join(LIST).exists() && !is_of_an_earlier_version(path, LOCK) {
+            return Err(FolderError::Unlisted { path: path.into() });
+        }
+        Ok(())
+    }
+
     /// Opens a campaign to read it.
     ///
     /// # Errors
-    /// `path` holds no campaign.
+    /// `path` holds no campaign, or one with links in it.
     pub fn open(path: &Path) -> Result<Self, FolderError> {
         if !is_campaign(path) {
             return Err(FolderError::NoCampaign { path: path.into() });
         }
+        refuse_links(path, &FOLDERS)?;
+        List::read(path)?;
         Ok(Self { path: path.into(), _lock: None })
     }
 
@@ -202,7 +231,7 @@ fn is_vacant(path: &Path) -> Result<bool, FolderError> {
     let ours = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let empty = || entries(path).is_ok_and(|inside| inside.is_empty());
-        name == LOCK || atomic::is_temporary(&name) || (FOLDERS.contains(&name.as_str()) && empty())
+        name == LOCK || name == LIST || atomic::is_temporary(&name) || (FOLDERS.contains(&name.as_str()) && empty())
     };
     Ok(entries(path)?.iter().all(ours))
 }

@@ -21,3 +21,98 @@ pub const BASELINE: &str = "baseline.json";
 /// How the largest stress of a search that executes rose.
 pub const BEST_SO_FAR: &str = "best-so-far.tsv";
 pub(super) const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
+
+/// Why a program of the user's gave no flight.
+pub(super) const LOG: &str = "executor-CASE-RUN.log";
+/// What hairpin has made of a folder: the names that are its own.
+pub(crate) const LIST: &str = ".hairpin";
+
+/// Every name that a campaign's folder gives, `CASE` and `RUN` standing for numbers. The files that a scenario names
+/// come in addition, by the names of their copies.
+pub(super) const OURS: &[&str] = &[
+    SCENARIO,
+    GENERATION,
+    RESULTS,
+    WAYPOINTS,
+    RUNS,
+    INFLUENCE,
+    OPTIMUM,
+    GRAPH,
+    REASONS,
+    ARCS,
+    MOVES,
+    BEST_SO_FAR,
+    COVERAGE[0],
+    COVERAGE[1],
+    hairpin::campaign::learn::NAME,
+    "junit.xml",
+    "report.html",
+    LOG,
+    "trajectories/CASE.parquet",
+    "profiles/CASE.parquet",
+    "programs/CASE.mod",
+    "executions/CASE-RUN.parquet",
+    "reruns/CASE-RUN.parquet",
+    "missions/CASE.csv",
+    "missions/CASE.geodetic.csv",
+    "missions/CASE.environment.json",
+    "repro/CASE.json",
+    "repro/CASE-shrunk.json",
+    "repro/CASE-shrink.state",
+    "arc_clock.mod",
+];
+
+/// What is exported into the folder itself.
+pub(super) const EXPORTS: &[&str] = &[
+    "CASE.planned.csv",
+    "CASE-RUN.csv",
+    "CASE.ref.tum",
+    "CASE.exec.tum",
+    "CASE.mod",
+    "CASE_slow.mod",
+    "CASE.pgf",
+    "CASE.script",
+    "CASE.src",
+    "CASE.dat",
+    "CASE.joint_trajectory.json",
+];
+
+/// Whether `name` is one that `pattern` stands for: `CASE` is a number of four digits or more, `RUN` one of any.
+pub(super) fn stands_for(pattern: &str, name: &str) -> bool {
+    for (word, least) in [("CASE", 4), ("RUN", 1)] {
+        if let Some(rest) = pattern.strip_prefix(word) {
+            let digits = name.bytes().take_while(u8::is_ascii_digit).count();
+            return digits >= least && stands_for(rest, &name[digits..]);
+        }
+    }
+    let (mut pattern, mut name) = (pattern.chars(), name.chars());
+    match (pattern.next(), name.next()) {
+        (None, None) => true,
+        (Some(expected), Some(found)) => expected == found && stands_for(pattern.as_str(), name.as_str()),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_our_own_exports_go() {
+        let is_export = |name: &str| EXPORTS.iter().any(|pattern| stands_for(pattern, name));
+        for name in [
+            "0000.ref.tum",
+            "0012.exec.tum",
+            "10000.planned.csv",
+            "0000-0.csv",
+            "0117-12.csv",
+            "0003.mod",
+            "0003_slow.mod",
+        ] {
+            assert!(is_export(name), "{name}");
+        }
+        for name in ["mine.csv", "0000.csv", "000-0.csv", "0000-.csv", "0000-a.csv", "a0000.ref.tum", "0000.tum", ""] {
+            assert!(!is_export(name), "{name}");
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 use hairpin::campaign::Setup;
 
+use super::list::List;
 use super::{CampaignFolder, FolderError};
 use crate::atomic;
 use crate::scenario::{MadeBy, read_made_by, to_toml};
@@ -16,8 +17,11 @@ impl CampaignFolder {
         let root_seed = setup.scenario.seed();
         let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed, simd: simd.into() };
         let text = to_toml(&setup.scenario, Some(&made_by))?;
+        let files = setup.attachments.files();
+        let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+        List::read(self.path())?.unwrap_or_default().take_in(self.path(), &names)?;
         // First the files, then what says that there are such.
-        for (file, bytes) in setup.attachments.files() {
+        for (file, bytes) in files {
             atomic::write(&self.file(file), bytes)?;
         }
         self.write_scenario(&text)

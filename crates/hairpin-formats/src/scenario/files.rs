@@ -7,14 +7,24 @@ use hairpin::campaign::scenario::{Named, NamedMesh};
 use hairpin::campaign::{Attachments, Resolved, Scenario};
 
 use super::attached::Wrong;
+use super::guest::Guest;
 use super::report::Report;
 use super::resolve::read_file;
 use super::{baseline, cell, learned, terrain, user_score};
+use crate::folder::inside;
 use crate::mesh::read_mesh;
 
-/// Reads all files of `scenario`, each from where `find` says it lies, and all that is wrong with them.
-pub(super) fn read(scenario: &mut Scenario, find: &dyn Fn(&str) -> PathBuf) -> (Attachments, Vec<Wrong>) {
-    let mut wrong = Vec::new();
+/// Reads all files of `scenario`, each from where `find` says it lies, and all that is wrong with them. Those of a
+/// `guest` must lie in its folder, and its Python stands alone there.
+pub(super) fn read(
+    scenario: &mut Scenario,
+    find: &dyn Fn(&str) -> PathBuf,
+    guest: Option<Guest<'_>>,
+) -> (Attachments, Vec<Wrong>) {
+    let mut wrong = guest.map_or_else(Vec::new, |guest| guest.wrong(&scenario.named()));
+    if !wrong.is_empty() {
+        return (Attachments::default(), wrong);
+    }
     let Named { map, cloud, costs, meshes, score, baseline } = scenario.named();
     let map = map.and_then(|keys| noting(terrain::read(keys, find), &mut wrong));
     let cloud = cloud.and_then(|(file, checksum)| noting(cell::cloud(file, checksum, find), &mut wrong));
@@ -26,7 +36,7 @@ pub(super) fn read(scenario: &mut Scenario, find: &dyn Fn(&str) -> PathBuf) -> (
     let mut attachments = Attachments { map, cloud, costs, baseline, ..Attachments::default() };
     if let Some((key, score)) = score {
         attachments.model = noting(learned::read(key, score, find), &mut wrong).flatten();
-        attachments.user_score = noting(user_score::read(key, score, find), &mut wrong).flatten();
+        attachments.user_score = noting(user_score::read(key, score, find, guest.is_some()), &mut wrong).flatten();
     }
     (attachments, wrong)
 }
@@ -43,9 +53,10 @@ fn noting<T>(read: Result<T, Wrong>, wrong: &mut Vec<Wrong>) -> Option<T> {
 pub fn attach(mut scenario: Scenario, folder: &Path) -> Result<Resolved, Report> {
     let find = |file: &str| {
         let here = folder.join(file);
-        if here.is_file() { here } else { folder.join("..").join(file) }
+        // A link there is none of the folder's files.
+        if here.is_file() { here } else { inside(&folder.join(".."), file).unwrap_or(here) }
     };
-    let (attachments, wrong) = read(&mut scenario, &find);
+    let (attachments, wrong) = read(&mut scenario, &find, Some(Guest::new(folder, &[])));
     let of_score = wrong.iter().find(|wrong| wrong.key == scenario.score_key());
     match of_score.or(wrong.first()) {
         None => Ok(Resolved { scenario, attachments }),

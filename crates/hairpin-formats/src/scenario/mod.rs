@@ -5,6 +5,7 @@ mod attached;
 mod baseline;
 mod cell;
 mod files;
+mod guest;
 mod learned;
 mod report;
 mod resolve;
@@ -17,7 +18,7 @@ mod tree;
 mod user_score;
 mod write;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::scenario::{KeyPath, RobotKind};
 use hairpin::campaign::{Mistake, Resolved, Scenario, Setup};
@@ -29,8 +30,9 @@ pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
-use crate::folder::SCENARIO;
+use crate::folder::{LIST, SCENARIO};
 use crate::{library, schema};
+use guest::Guest;
 use resolve::{Resolver, is_urdf};
 use tree::{Node, NodeKind};
 
@@ -44,12 +46,36 @@ use tree::{Node, NodeKind};
 /// # Errors
 /// All mistakes of one stage: no TOML, or wrong keys and types, or values out of bounds.
 pub fn read_setup(text: &str, file: &str, base: &Path, sets: &[(String, String)]) -> Result<Setup, Report> {
+    read_from(text, file, (base, None), sets)
+}
+
+/// Reads the scenario that the campaign's folder `folder` keeps. As it may have come from elsewhere, all that it names,
+/// but for what `sets` name, must lie in the folder, and Python there finds no other files beside it.
+///
+/// # Errors
+/// As [`read_setup`]; a name that leads out of the folder.
+pub fn read_kept(text: &str, file: &str, folder: &Path, sets: &[(String, String)]) -> Result<Setup, Report> {
+    read_from(text, file, (folder, Some(Guest::new(folder, sets))), sets)
+}
+
+fn read_from(text: &str, file: &str, whose: Whose<'_>, sets: &[(String, String)]) -> Result<Setup, Report> {
     let mut report = Report::default();
     let source = report.add_source(file, text);
-    match read(source, base, sets, &mut report) {
+    match read(source, whose, sets, &mut report) {
         Some(setup) if report.is_empty() => Ok(setup),
         _ => Err(report),
     }
+}
+
+/// The folder of a campaign whose own scenario `name_or_path` is; `None` where it is anything else.
+pub fn kept_in(name_or_path: &str) -> Option<PathBuf> {
+    let path = Path::new(name_or_path);
+    if path.file_name()? != SCENARIO || !path.is_file() {
+        return None;
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let made = || std::fs::read_to_string(path).is_ok_and(|text| read_made_by(&text).is_some());
+    (folder.join(LIST).exists() || made()).then(|| folder.to_owned())
 }
 
 /// What is to be said where a file and something shipped answer to one name; `None` where they do not.
@@ -81,6 +107,9 @@ pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup,
     };
     let table = text.parse::<Table>().unwrap_or_default();
     let Some(kind) = table.get("kind").and_then(|kind| kind.as_str()).filter(|_| !table.contains_key("hairpin")) else {
+        if let Some(folder) = kept_in(name_or_path) {
+            return read_kept(&text, name_or_path, &folder, sets);
+        }
         return read_setup(&text, name_or_path, path.parent().unwrap_or(Path::new("")), sets);
     };
     // A word that no kind has is told where robots are read.
@@ -161,11 +190,18 @@ fn unknown(name: &str) -> Report {
     report
 }
 
+/// Where files are looked for, and whose names are held to that folder.
+type Whose<'a> = (&'a Path, Option<Guest<'a>>);
+
 /// The stages of [`read_setup`]; `None` after a stage with mistakes.
-fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Report) -> Option<Setup> {
+fn read(source: usize, (base, guest): Whose<'_>, sets: &[(String, String)], report: &mut Report) -> Option<Setup> {
     let mut root = tree::parse(source, report)?;
     if let Some(entries) = root.entries() {
         entries.remove("made_by");
+    }
+    if let Some((key, name, why)) = guest.and_then(|guest| guest.wrong_part(&root)) {
+        report.complain(&place_of(&root, key), key, &name, &why, format!("`{key}` = {name:?}: {why}"));
+        return None;
     }
     let mut resolver = Resolver { base, report };
     apply_sets(&mut root, sets, &mut resolver);
@@ -183,7 +219,7 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
             return None;
         }
     };
-    let (attachments, wrong) = files::read(&mut scenario, &|file| base.join(file));
+    let (attachments, wrong) = files::read(&mut scenario, &|file| base.join(file), guest);
     for one in wrong {
         report.complain(&place_of(&root, &one.key), &one.key, &one.value, &one.bound, one.message());
     }

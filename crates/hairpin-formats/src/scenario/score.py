@@ -1,8 +1,12 @@
 # Scores legs with the functions of a file: a line when they are there, then for every line of JSON with legs a line with their scores.
+import sys
+
+# Whatever lies where hairpin was started is none of its modules.
+sys.path[:] = [place for place in sys.path if place]
+
 import json
 import math
 import os
-import sys
 import traceback
 
 
@@ -17,13 +21,14 @@ def number(value, leg):
     return float(value)
 
 
-def main(path):
+def main(path, alone):
     questions, answers = os.fdopen(os.dup(0), encoding="utf-8"), os.fdopen(os.dup(1), "w", encoding="utf-8")
     # What the file prints is its log, and it has nothing to read.
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     os.dup2(2, 1)
     sys.stdin, sys.stdout = open(0, encoding="utf-8", closefd=False), sys.stderr
-    sys.path.insert(0, os.path.dirname(os.path.abspath(path)))
+    if not alone:
+        sys.path.insert(0, os.path.dirname(os.path.abspath(path)))
     with open(path, encoding="utf-8-sig") as file:
         space = {"__name__": "hairpin_score", "__file__": path}
         exec(compile(file.read(), path, "exec"), space)
@@ -38,7 +43,7 @@ def main(path):
 
 if __name__ == "__main__":
     try:
-        main(sys.argv[1])
+        main(sys.argv[1], sys.argv[2] == "alone")
     except BaseException:
         lines = traceback.format_exc().strip().splitlines()
         # The place in the user's file, and what is wrong there.

@@ -32,17 +32,18 @@ const AFTERMATH: Duration = Duration::from_millis(300);
 const LOOK: Duration = Duration::from_millis(20);
 
 /// Reads the score of the user's own that `score` names, if it does; `key` is its key. A resolved scenario's is
-/// [`NAME`].
+/// [`NAME`]. One that stands `alone` finds no other Python files beside it.
 pub(super) fn read(
     key: &str,
     score: &mut String,
     find: &dyn Fn(&str) -> PathBuf,
+    alone: bool,
 ) -> Result<Option<Attached<dyn LegScorer>>, Wrong> {
     let Some(file) = score.strip_prefix(PYTHON) else { return Ok(None) };
     let path = find(file);
     let wrong = |bound: String| Wrong { key: key.to_owned(), value: score.clone(), bound };
     let bytes = read_file(&path).map_err(|why| wrong(format!("`{file}` cannot be read: {why}")))?;
-    let user = attached(Arc::new(PythonScore::new(path, score)) as Arc<dyn LegScorer>, bytes, NAME, score);
+    let user = attached(Arc::new(PythonScore::new(path, score, alone)) as Arc<dyn LegScorer>, bytes, NAME, score);
     *score = format!("{PYTHON}{NAME}");
     Ok(Some(user))
 }
@@ -52,6 +53,8 @@ type Key = [u64; 20];
 
 struct PythonScore {
     path: PathBuf,
+    /// Whether what it imports comes from Python's own places alone, not from beside it.
+    alone: bool,
     /// As the scenario names it.
     given: String,
     /// Those that nobody asks just now.
@@ -85,14 +88,14 @@ impl Drop for Worker {
 }
 
 impl PythonScore {
-    fn new(path: PathBuf, given: &str) -> Self {
+    fn new(path: PathBuf, given: &str, alone: bool) -> Self {
         let (idle, known, trouble) = (Mutex::default(), Mutex::default(), Mutex::default());
-        Self { path, given: given.to_owned(), idle, known, trouble, stopped: AtomicBool::new(false) }
+        Self { path, alone, given: given.to_owned(), idle, known, trouble, stopped: AtomicBool::new(false) }
     }
 
     fn ask(&self, legs: &[&LegFacts]) -> Result<Vec<[f64; 2]>, Unanswered> {
         let idle = held(&self.idle).pop();
-        let mut worker = idle.map_or_else(|| Worker::start(&self.path, &self.stopped), Ok)?;
+        let mut worker = idle.map_or_else(|| Worker::start(&self.path, self.alone, &self.stopped), Ok)?;
         let answer = worker.ask(legs, &self.stopped)?;
         held(&self.idle).push(worker);
         Ok(answer)
@@ -105,9 +108,10 @@ impl PythonScore {
 
 impl Worker {
     /// When its functions are there.
-    fn start(path: &Path, stopped: &AtomicBool) -> Result<Self, Unanswered> {
+    fn start(path: &Path, alone: bool, stopped: &AtomicBool) -> Result<Self, Unanswered> {
         let mut python = Command::new("python3");
-        python.args(["-c", DRIVER]).arg(path).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        python.args(["-c", DRIVER]).arg(path).arg(if alone { "alone" } else { "beside" });
+        python.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = executor::start(&mut python)
             .map_err(|error| Unanswered::Failed(format!("python3 cannot be started: {error}")))?;
         let (Some(asked), Some(answers), Some(log)) = (child.stdin.take(), child.stdout.take(), child.stderr.take())
@@ -215,7 +219,7 @@ impl LegScorer for PythonScore {
     }
 
     fn try_out(&self) -> Result<(), String> {
-        match Worker::start(&self.path, &self.stopped) {
+        match Worker::start(&self.path, self.alone, &self.stopped) {
             Ok(worker) => {
                 held(&self.idle).push(worker);
                 Ok(())

@@ -9,6 +9,7 @@ use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::waypoints;
 
+use crate::consent::{Consent, Wish};
 use crate::missions::adopt;
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
@@ -32,6 +33,8 @@ pub struct ExecuteSettings {
     pub resume: bool,
     /// Version of the kernels.
     pub simd: Simd,
+    /// What of the folder may run.
+    pub consent: Consent,
 }
 
 /// An executed campaign.
@@ -52,7 +55,7 @@ pub struct Executed {
 /// Executes a campaign; runs that fail are told in numbers.
 ///
 /// # Errors
-/// Settings that do not fit the folder; missions, recordings or saved cases that cannot be used; a file that cannot be
+/// Settings that do not fit the folder, or a folder that asks to run what its user has not allowed; missions, recordings or saved cases that cannot be used; a file that cannot be
 /// written; it was asked to stop.
 pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed, Problem> {
     let ExecuteSettings { folder: path, sets, .. } = settings;
@@ -61,6 +64,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
         unchanged(path, sets)?;
     }
     let work = open_to_change(path, sets, &["execute", "vary", "spec"], Some(settings.simd))?;
+    let wishes = Wish::of_execution(&work.setup);
+    settings.consent.ask_of_scenario((&path.to_string_lossy(), Some(path)), &wishes, sets, watch)?;
     if missions.is_none() && !work.folder.has_cases() {
         let path = path.display();
         return Err(Problem::input(format!("{path} has no cases yet: hairpin generate, or --missions DIR")));
@@ -71,6 +76,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     recorded::check(&work, kept.as_deref().unwrap_or_default())?;
     if !sets.is_empty() {
         keep_changes(&work)?;
+        let typed: Vec<Wish> = wishes.into_iter().filter(|wish| wish.is_typed(sets)).collect();
+        settings.consent.mark(path, &typed);
     }
     let cases = match (&missions, kept) {
         (None, Some(cases)) => cases,

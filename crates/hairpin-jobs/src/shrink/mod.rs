@@ -10,6 +10,7 @@ use hairpin::campaign::report::violation;
 use hairpin::campaign::{Case, CaseResult, Shrunk};
 use hairpin_formats::repro::{Repro, ShrunkFrom};
 
+use crate::consent::Wish;
 use crate::work::{Work, open_to_change};
 use crate::{Problem, Watch};
 use answers::Answers;
@@ -49,9 +50,11 @@ impl Shrinking {
     /// The case that is asked for.
     ///
     /// # Errors
-    /// No such case, or one that does not violate or is not judged; a folder that is no campaign's.
+    /// No such case, or one that does not violate or is not judged; a folder that is no campaign's, or that asks to run
+    /// what its user has not allowed.
     pub fn open(settings: ShrinkSettings) -> Result<Self, Problem> {
         let work = open_to_change(&settings.folder, &[], &[], Some(settings.simd))?;
+        settings.consent.ask(&settings.folder, &Wish::of_campaign(&work.setup))?;
         let (case, result) = violating(&work, &settings)?;
         Ok(Self { work, settings, began: Instant::now(), case, result })
     }

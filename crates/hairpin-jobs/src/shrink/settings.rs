@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use hairpin::campaign::CaseNumber;
 use hairpin::math::simd::Simd;
 
+use crate::consent::Consent;
+
 /// What is shrunk, and how long.
 #[derive(Debug, Clone)]
 pub struct ShrinkSettings {
@@ -20,11 +22,13 @@ pub struct ShrinkSettings {
     pub out: Option<PathBuf>,
     /// Version of the kernels.
     pub simd: Simd,
+    /// What of the folder may run.
+    pub consent: Consent,
 }
 
 impl Default for ShrinkSettings {
     fn default() -> Self {
-        let (folder, case, time_limit_s, out, simd) = Default::default();
-        Self { folder, case, budget: 200, time_limit_s, out, simd }
+        let (folder, case, time_limit_s, out, simd, consent) = Default::default();
+        Self { folder, case, budget: 200, time_limit_s, out, simd, consent }
     }
 }
