@@ -183,7 +183,12 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
             return None;
         }
     };
-    let (attachments, wrong) = files::read(&mut scenario, &|file| base.join(file));
+    let own_coordinates = terrain::in_own_coordinates(&scenario);
+    let (attachments, mut wrong) = files::read(&mut scenario, &|file| base.join(file));
+    terrain::turn(&mut scenario);
+    if own_coordinates && wrong.is_empty() {
+        wrong.extend(terrain::shift(&mut scenario).err());
+    }
     for one in wrong {
         report.complain(&place_of(&root, &one.key), &one.key, &one.value, &one.bound, one.message());
     }
@@ -191,7 +196,6 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
         return None;
     }
     scenario.write_defaults();
-    terrain::turn(&mut scenario);
     let told = |mistake: Mistake| {
         let place = place_of(&root, &mistake.key);
         let bound = shape::unknown_in_vary(&schema, &root, &mistake.key).unwrap_or(mistake.bound);
