@@ -37,7 +37,7 @@ pub(crate) use resources::{Kernels, Threads};
 pub(crate) use select::{Select, SelectBy};
 pub(crate) use shrink::Shrink;
 pub(crate) use steer::{KeepOutFlags, StartTable, Steer, SteerFrame};
-pub(crate) use terrain::{MapFlags, NoData, Show, ShowTerrain, Shown};
+pub(crate) use terrain::{MapFlags, MapUnit, NoData, Show, ShowTerrain, Shown};
 
 /// Finds the trajectories a robot handles worst, and proves that they are ones it could have flown.
 ///

@@ -1,18 +1,22 @@
 //! What stands before a judgement: in which frame, from which origin, what is counted. Nothing here is left to guess.
 
 use hairpin::campaign::kind::{FrameWords, Handed};
-use hairpin::campaign::scenario::Origin;
+use hairpin::campaign::scenario::{Origin, Projected};
 use hairpin::campaign::{CaseResult, Setup};
 use hairpin::judgement::LegSource;
 use serde::Serialize;
 
-use crate::frames::{Cage, Geodetic};
+use crate::frames::Geodetic;
+use crate::placement::Placement;
 
 /// The header of a judgement, in words by [`Header::lines`] and as it stands under `frame` in JSON.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Header {
     /// The cage's origin and heading on Earth; `null` where the scenario does not place it.
     pub origin: Option<Origin>,
+    /// The plane of the Earth that the map lies in, where that places it: EPSG code and what is taken off coordinates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane: Option<PlaneWords>,
     /// Where on Earth the first waypoint is.
     pub start: Option<Geodetic>,
     /// What positions and z are relative to: `cage origin` or `map origin`, never a vehicle's local origin or home.
@@ -28,6 +32,15 @@ pub struct Header {
     pub leg_source: LegSources,
     #[serde(skip)]
     frame: FrameWords,
+}
+
+/// A plane of the Earth.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PlaneWords {
+    /// Its EPSG code.
+    pub epsg: u32,
+    /// Easting and northing of x = y = 0.
+    pub offset_m: [f64; 2],
 }
 
 /// Judged cases by where the leg being flown is known from.
@@ -46,9 +59,13 @@ impl Header {
         let from = |source: LegSource| {
             results.iter().filter(|r| r.measures.as_ref().is_some_and(|m| m.leg_source == source)).count()
         };
+        // A plane that cannot be computed is told where something is to be exported in degrees.
+        let world = Placement::of(scenario).ok().flatten();
+        let plane = scenario.projected().filter(|_| matches!(world, Some(Placement::Plane(_))));
         Self {
             origin: scenario.origin(),
-            start: scenario.origin().map(|origin| Cage::new(&origin).geodetic(&start)),
+            plane: plane.map(|Projected { epsg, offset }| PlaneWords { epsg, offset_m: offset }),
+            start: world.and_then(|world| world.geodetic(&start).ok()),
             relative_to: frame.relative_to,
             frame,
             length: scenario.length(),
@@ -68,8 +85,17 @@ impl Header {
             self.told_for_all(&mut lines);
             return lines;
         }
-        match (&self.origin, &self.start) {
-            (Some(origin), Some(start)) => {
+        let placed = |start: &Geodetic| {
+            line("start", format!("{:.7}°, {:.7}°, {:.2} m AMSL", start.lat_deg, start.lon_deg, start.alt_amsl_m))
+        };
+        match (&self.origin, &self.plane, &self.start) {
+            (None, Some(PlaneWords { epsg, offset_m: [east, north] }), Some(start)) => {
+                lines.push(line("frame", format!("{world}: {axes}, z up, m, in the plane of EPSG:{epsg}")));
+                lines.push(line(self.relative_to, format!("easting {east} m, northing {north} m, height 0")));
+                lines.push(placed(start));
+                lines.push(line("altitude", "z is the map's own height, taken as above mean sea level".into()));
+            }
+            (Some(origin), _, Some(start)) => {
                 lines.push(line(
                     "frame",
                     format!("{world}: x heads {}° by compass, y to its left, z up, m", origin.x_axis_heading_deg),
@@ -78,10 +104,7 @@ impl Header {
                     self.relative_to,
                     format!("{:.7}°, {:.7}° WGS 84, {} m AMSL", origin.lat_deg, origin.lon_deg, origin.alt_amsl_m),
                 ));
-                lines.push(line(
-                    "start",
-                    format!("{:.7}°, {:.7}°, {:.2} m AMSL", start.lat_deg, start.lon_deg, start.alt_amsl_m),
-                ));
+                lines.push(placed(start));
                 lines.push(line(
                     "altitude",
                     format!(

@@ -1,16 +1,20 @@
-//! Waypoints as CSV, one file a case: `x_m,y_m,z_m`, start first. Written for others, and read from others.
+//! Waypoints as CSV, one file a case: `x_m,y_m,z_m`, start first. Written for others, and read from others, who may also
+//! say where on Earth they are: `lat_deg,lon_deg,alt_amsl_m`.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::Environment;
+use hairpin::campaign::{Environment, Scenario};
 use nalgebra::Point3;
 use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
-use crate::delimited::{Cut, Table};
+use crate::bounds::{self, MOST_BYTES};
+use crate::delimited::{Cut, Row, Table};
+use crate::frames::Geodetic;
 use crate::geodetic;
+use crate::placement::Placement;
 
 const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
 /// Farther than any world's obstacles may lie: beyond is another unit or a slip.
@@ -30,7 +34,7 @@ pub enum WaypointsError {
         cause: io::Error,
     },
     /// The header has no such column.
-    #[error("{}, line 1: no column `{column}` in the header `{header}`; needed: x_m,y_m,z_m", path.display())]
+    #[error("{}, line 1: no column `{column}` in the header `{header}`; needed: x_m,y_m,z_m, or lat_deg,lon_deg,alt_amsl_m", path.display())]
     Header {
         /// The file.
         path: PathBuf,
@@ -53,6 +57,28 @@ pub enum WaypointsError {
         column: String,
         /// The text found.
         value: String,
+    },
+    /// A cell is no place on Earth.
+    #[error("{}, line {line}, column `{column}`: `{value}`, must be {bound}", path.display())]
+    Degrees {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// Column.
+        column: &'static str,
+        /// The text found.
+        value: String,
+        /// What it must be.
+        bound: &'static str,
+    },
+    /// The world does not say where on Earth it stands, or the place is not in it.
+    #[error("{}: {why}", path.display())]
+    Placed {
+        /// The file.
+        path: PathBuf,
+        /// Why its places are none of the world's.
+        why: String,
     },
     /// A row is longer or shorter than the header.
     #[error("{}, line {line}: {found} values, the header has {expected}", path.display())]
@@ -119,6 +145,8 @@ pub struct Mission {
     pub name: String,
     /// Start first, m.
     pub waypoints: Vec<Point3<f64>>,
+    /// Whether they were given in degrees, whose last digit is some hundredths of a millimetre.
+    pub rounded: bool,
     /// What it meets beside them, of the file [`environment_path`] where there is one.
     pub environment: Option<Environment>,
 }
@@ -130,7 +158,7 @@ pub fn environment_path(folder: &Path, name: &str) -> PathBuf {
 
 fn read_environment(path: &Path) -> Result<Option<Environment>, WaypointsError> {
     let refuse = |cause| WaypointsError::Unreadable { path: path.into(), cause };
-    match fs::read_to_string(path) {
+    match bounds::read_text(path, MOST_BYTES) {
         Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
         // Read as a list, its values would be taken for keys in their order.
         text => text
@@ -141,45 +169,132 @@ fn read_environment(path: &Path) -> Result<Option<Environment>, WaypointsError> 
     }
 }
 
-/// Reads the `.csv` files of a folder, sorted by name, and the environments beside them. Files in degrees
-/// ([`crate::geodetic`]), which `export` puts beside those in metres, are passed over.
+/// Reads the `.csv` files of a folder, sorted by name, and the environments beside them. A file in degrees is placed by
+/// `scenario`, and passed over where the same waypoints lie beside it in metres, as `export` writes both.
 ///
 /// # Errors
-/// As [`read`]; a folder that cannot be read or has no such file; an environment that is none.
-pub fn read_folder(folder: &Path) -> Result<Vec<Mission>, WaypointsError> {
+/// As [`read`]; a folder that cannot be read or has no such file; an environment that is none; a world that is nowhere on
+/// Earth.
+pub fn read_folder(folder: &Path, scenario: &Scenario) -> Result<Vec<Mission>, WaypointsError> {
     let refuse = |cause| WaypointsError::Unreadable { path: folder.into(), cause };
     let entries = fs::read_dir(folder).map_err(refuse)?;
     let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
     paths.retain(|path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")));
-    paths.retain(|path| !path.to_string_lossy().ends_with(geodetic::ENDING));
-    paths.sort();
-    if paths.is_empty() {
+    let in_metres = |path: &PathBuf| in_metres(path).is_some_and(|twin| paths.contains(&twin));
+    let mut kept: Vec<&PathBuf> = paths.iter().filter(|path| !in_metres(path)).collect();
+    kept.sort();
+    if kept.is_empty() {
         return Err(WaypointsError::Empty { path: folder.into() });
     }
     let one = |path: &PathBuf| {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let name = name.strip_suffix(geodetic::ENDING).unwrap_or(&stem).to_owned();
         let environment = read_environment(&environment_path(folder, &name))?;
-        Ok(Mission { waypoints: read(path)?, name, environment })
+        let (waypoints, rounded) = read(path, scenario)?;
+        Ok(Mission { waypoints, rounded, name, environment })
     };
-    paths.iter().map(one).collect()
+    kept.into_iter().map(one).collect()
 }
 
-/// Reads one file. Columns may stand in any order and others beside them; blank lines count and are skipped.
+/// The file in metres that a file in degrees may have beside it.
+fn in_metres(path: &Path) -> Option<PathBuf> {
+    let name = path.file_name()?.to_str()?;
+    Some(path.with_file_name(format!("{}.csv", name.strip_suffix(geodetic::ENDING)?)))
+}
+
+/// Reads one file, and whether it is in degrees, which `scenario` places. Columns may stand in any order and others
+/// beside them; blank lines count and are skipped.
 ///
 /// # Errors
 /// The first thing wrong, with line, column and value.
-pub fn read(path: &Path) -> Result<Vec<Point3<f64>>, WaypointsError> {
-    let bytes = fs::read(path).map_err(|cause| WaypointsError::Unreadable { path: path.into(), cause })?;
+pub fn read(path: &Path, scenario: &Scenario) -> Result<(Vec<Point3<f64>>, bool), WaypointsError> {
+    let unreadable = |cause| WaypointsError::Unreadable { path: path.into(), cause };
+    let bytes = bounds::read(path, MOST_BYTES).map_err(unreadable)?;
     // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
-    parse(path, &String::from_utf8_lossy(&bytes))
+    let text = String::from_utf8_lossy(&bytes);
+    let header = Table::of(&text, Cut::COMMAS).names;
+    let degrees = header.place(COLUMNS[0]).is_none() && geodetic::PLACE[..2].iter().all(|c| header.place(c).is_some());
+    if !degrees {
+        return Ok((parse(path, &text, COLUMNS, |row, places| metres(path, row, places))?, false));
+    }
+    let placed = |why: String| WaypointsError::Placed { path: path.into(), why };
+    let world = Placement::of(scenario).map_err(placed)?.ok_or_else(|| {
+        placed(
+            "its waypoints are in degrees, and the scenario has no world.origin and no map whose plane is known \
+             (world.terrain.epsg)"
+                .into(),
+        )
+    })?;
+    let waypoints = parse(path, &text, geodetic::PLACE, |row, places| {
+        let place = degrees_of(path, row, places)?;
+        let point = world.from_geodetic(&place).map_err(|why| placed(format!("line {}: {why}", row.line)))?;
+        match (0..3).find(|axis| !(point[*axis].abs() <= FARTHEST_M)) {
+            Some(_) => {
+                let far = (point - Point3::origin()).norm() / 1000.0;
+                let most = FARTHEST_M / 1000.0;
+                Err(placed(format!("line {}: {far:.1} km from the world's origin, {most} at most", row.line)))
+            }
+            None => Ok(point),
+        }
+    })?;
+    Ok((waypoints, true))
 }
 
-fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
+/// A row in metres.
+fn metres(path: &Path, row: &Row, places: [usize; 3]) -> Result<Point3<f64>, WaypointsError> {
+    let mut point = Point3::origin();
+    for (axis, place) in places.into_iter().enumerate() {
+        let value = row.cell(place);
+        let number = value.parse::<f64>().ok().filter(|number| number.abs() <= FARTHEST_M);
+        point[axis] = number.ok_or_else(|| WaypointsError::Value {
+            path: path.into(),
+            line: row.line,
+            column: COLUMNS[axis].into(),
+            value: shortened(value),
+        })?;
+    }
+    Ok(point)
+}
+
+/// A row in degrees.
+fn degrees_of(path: &Path, row: &Row, places: [usize; 3]) -> Result<Geodetic, WaypointsError> {
+    let bounds = [
+        (90.0, "a latitude, from -90 to 90°"),
+        (180.0, "a longitude, from -180 to 180°"),
+        (FARTHEST_M, "an altitude within 20000 m of the sea"),
+    ];
+    let number = |axis: usize| {
+        let (value, (most, bound)) = (row.cell(places[axis]), bounds[axis]);
+        let number = value.parse::<f64>().ok().filter(|number| number.abs() <= most);
+        let (line, column) = (row.line, geodetic::PLACE[axis]);
+        number.ok_or_else(|| WaypointsError::Degrees {
+            path: path.into(),
+            line,
+            column,
+            value: shortened(value),
+            bound,
+        })
+    };
+    Ok(Geodetic { lat_deg: number(0)?, lon_deg: number(1)?, alt_amsl_m: number(2)? })
+}
+
+/// As much of a cell as a message holds.
+fn shortened(cell: &str) -> String {
+    if cell.chars().count() <= 80 { cell.into() } else { cell.chars().take(80).chain(['…']).collect() }
+}
+
+fn parse(
+    path: &Path,
+    text: &str,
+    columns: [&'static str; 3],
+    point_of: impl Fn(&Row, [usize; 3]) -> Result<Point3<f64>, WaypointsError>,
+) -> Result<Vec<Point3<f64>>, WaypointsError> {
     let Table { header, names, rows } = Table::of(text, Cut::COMMAS);
     let mut places = [0; 3];
-    for (place, column) in places.iter_mut().zip(COLUMNS) {
-        let found = names.place(column);
-        *place = found.ok_or_else(|| WaypointsError::Header { path: path.into(), column, header: header.into() })?;
+    for (place, column) in places.iter_mut().zip(columns) {
+        let missing = || WaypointsError::Header { path: path.into(), column, header: shortened(header) };
+        *place = names.place(column).ok_or_else(missing)?;
     }
     let mut waypoints: Vec<Point3<f64>> = Vec::new();
     for row in rows {
@@ -187,17 +302,7 @@ fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
         if row.len() != names.len() {
             return Err(WaypointsError::Width { path: path.into(), line, found: row.len(), expected: names.len() });
         }
-        let mut point = Point3::origin();
-        for (axis, place) in places.into_iter().enumerate() {
-            let value = row.cell(place);
-            let number = value.parse::<f64>().ok().filter(|number| number.abs() <= FARTHEST_M);
-            point[axis] = number.ok_or_else(|| WaypointsError::Value {
-                path: path.into(),
-                line,
-                column: COLUMNS[axis].into(),
-                value: value.into(),
-            })?;
-        }
+        let point = point_of(&row, places)?;
         if waypoints.last() == Some(&point) {
             return Err(WaypointsError::Repeated { path: path.into(), line });
         }

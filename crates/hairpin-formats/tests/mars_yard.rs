@@ -12,7 +12,7 @@ use hairpin::math::random::stream;
 use hairpin::robot::rover::{Response, Rover, RoverDescription, Slip};
 use hairpin::trajectory::drive::{Planar, SegmentList};
 use hairpin::world::terrain::{ElevationMap, Rocks, Terrain, add_rocks};
-use hairpin_formats::terrain::{Georeference, read_terrain};
+use hairpin_formats::terrain::{Georeference, Sidecars, read_terrain};
 
 /// The map, read where it lies beside the project; `None` where it does not.
 fn yard() -> Option<ElevationMap> {
@@ -21,7 +21,7 @@ fn yard() -> Option<ElevationMap> {
         eprintln!("skipped: the Mars Yard's elevation map is not on this machine");
         return None;
     };
-    Some(read_terrain(&bytes, "marsyard.tif", &Georeference::default()).expect("a map"))
+    Some(read_terrain(&bytes, "marsyard.tif", &Sidecars::default(), &Georeference::default()).expect("a map").map)
 }
 
 /// The map with rocks on it as they lie where the first Viking landed (k = 0.07), from two cells upwards, and their

@@ -4,8 +4,10 @@ mod out_campaign;
 
 use std::fs;
 
+use hairpin_formats::placement::Placement;
+use hairpin_formats::scenario::setup_for;
 use hairpin_formats::waypoints::Mission;
-use hairpin_formats::{csv, junit, tum, waypoints};
+use hairpin_formats::{csv, geodetic, junit, tum, waypoints};
 use nalgebra::Point3;
 use out_campaign::{campaign, executor_failed, failed, passed, planned};
 
@@ -84,16 +86,18 @@ fn waypoints_come_back_and_mistakes_are_placed() {
     let place = tempfile::tempdir().unwrap();
     let path = place.path().join("0000.csv");
     let case = &campaign().cases[0];
+    let scenario = &setup_for("demo-quadrotor", &[]).unwrap().scenario;
     waypoints::write(&path, &case.waypoints).unwrap();
-    assert_eq!(waypoints::read(&path).unwrap(), case.waypoints);
+    assert_eq!(waypoints::read(&path, scenario).unwrap(), (case.waypoints.clone(), false));
     assert_eq!(
-        waypoints::read_folder(place.path()).unwrap(),
-        [Mission { name: "0000".into(), waypoints: case.waypoints.clone(), environment: None }]
+        waypoints::read_folder(place.path(), scenario).unwrap(),
+        [Mission { name: "0000".into(), waypoints: case.waypoints.clone(), rounded: false, environment: None }]
     );
 
     let read = |text: &str| {
         fs::write(&path, text).unwrap();
-        waypoints::read(&path).map_err(|error| error.to_string().replace(&place.path().display().to_string(), ""))
+        let read = waypoints::read(&path, scenario).map(|(waypoints, _)| waypoints);
+        read.map_err(|error| error.to_string().replace(&place.path().display().to_string(), ""))
     };
     let points = vec![Point3::new(1.0, 2.0, 3.0), Point3::new(4.0, 5.0, 6.5)];
     assert_eq!(read("\u{feff}z_m, x_m,note,y_m\r\n3,1,a,2\r\n\r\n6.5,4,b,5\r\n").unwrap(), points);
@@ -107,13 +111,66 @@ fn waypoints_come_back_and_mistakes_are_placed() {
             "/0000.csv, line 3, column `y_m`: `nan`, must be a finite number in m, 20000 at most either way",
         ),
         ("x_m,y_m,z_m\n1,2,3\n4,5\n", "/0000.csv, line 3: 2 values, the header has 3"),
-        ("x,y,z\n1,2,3\n", "/0000.csv, line 1: no column `x_m` in the header `x,y,z`; needed: x_m,y_m,z_m"),
-        ("", "/0000.csv, line 1: no column `x_m` in the header ``; needed: x_m,y_m,z_m"),
+        (
+            "x,y,z\n1,2,3\n",
+            "/0000.csv, line 1: no column `x_m` in the header `x,y,z`; needed: x_m,y_m,z_m, or lat_deg,lon_deg,alt_amsl_m",
+        ),
+        ("", "/0000.csv, line 1: no column `x_m` in the header ``; needed: x_m,y_m,z_m, or lat_deg,lon_deg,alt_amsl_m"),
         ("x_m,y_m,z_m\n1,2,3\n", "/0000.csv: 1 waypoints, must be at least 2"),
         ("x_m,y_m,z_m\n1,2,3\n1,2,3\n", "/0000.csv, line 3: the waypoint of line 2 again"),
     ] {
         assert_eq!(read(text).unwrap_err(), message);
     }
     fs::remove_file(&path).unwrap();
-    assert!(waypoints::read_folder(place.path()).unwrap_err().to_string().ends_with("no .csv file in it"));
+    assert!(waypoints::read_folder(place.path(), scenario).unwrap_err().to_string().ends_with("no .csv file in it"));
+}
+
+#[test]
+fn waypoints_in_degrees_come_back_within_their_rounding() {
+    let place = tempfile::tempdir().unwrap();
+    let case = &campaign().cases[0];
+    let placed = |origin: &str| {
+        let sets = [("world.origin".to_owned(), origin.to_owned())];
+        setup_for("demo-quadrotor", &sets).unwrap().scenario.clone()
+    };
+    let scenario = placed("{ lat_deg = -47.3977, lon_deg = 179.9999, alt_amsl_m = 488.0, x_axis_heading_deg = 73.5 }");
+    let world = Placement::of(&scenario).unwrap().unwrap();
+    let text = geodetic::text(&world, &case.waypoints).unwrap();
+    geodetic::write(&place.path().join("0000.geodetic.csv"), &text).unwrap();
+    let [mission] = &waypoints::read_folder(place.path(), &scenario).unwrap()[..] else { panic!("one mission") };
+    assert_eq!((mission.name.as_str(), mission.rounded, mission.waypoints.len()), ("0000", true, case.waypoints.len()));
+    for (read, written) in mission.waypoints.iter().zip(&case.waypoints) {
+        assert!((read - written).norm() < 2e-5, "{read} {written}");
+    }
+    // The same in metres goes first: nothing of it is rounded.
+    waypoints::write(&place.path().join("0000.csv"), &case.waypoints).unwrap();
+    let [mission] = &waypoints::read_folder(place.path(), &scenario).unwrap()[..] else { panic!("one mission") };
+    assert_eq!((mission.rounded, &mission.waypoints), (false, &case.waypoints));
+    let path = place.path().join("there.csv");
+    let read = |text: &str, scenario: &_| {
+        fs::write(&path, text).unwrap();
+        waypoints::read(&path, scenario).unwrap_err().to_string().replace(&place.path().display().to_string(), "")
+    };
+    for (text, message) in [
+        (
+            "lat_deg,lon_deg,alt_amsl_m\n91,8,400\n",
+            "/there.csv, line 2, column `lat_deg`: `91`, must be a latitude, from -90 to 90°",
+        ),
+        (
+            "lat_deg,lon_deg,alt_amsl_m\n47,8,x\n",
+            "/there.csv, line 2, column `alt_amsl_m`: `x`, must be an altitude within 20000 m of the sea",
+        ),
+        (
+            "lat_deg,lon_deg,alt_m\n47,8,400\n",
+            "/there.csv, line 1: no column `alt_amsl_m` in the header `lat_deg,lon_deg,alt_m`; needed: x_m,y_m,z_m, or lat_deg,lon_deg,alt_amsl_m",
+        ),
+    ] {
+        assert_eq!(read(text, &scenario), message);
+    }
+    let far = read("lat_deg,lon_deg,alt_amsl_m\n47,8,400\n", &scenario);
+    assert!(far.contains("line 2") && far.contains("km from the world's origin, 20 at most"), "{far}");
+    let mut nowhere = scenario.clone();
+    nowhere.put_section("world", serde_json::json!({ "size_m": [20.0, 20.0, 20.0] })).unwrap();
+    let told = read("lat_deg,lon_deg,alt_amsl_m\n47,8,400\n", &nowhere);
+    assert!(told.contains("in degrees") && told.contains("world.origin") && told.contains("epsg"), "{told}");
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use hairpin::campaign::{Case, CaseNumber, Tally};
 use hairpin_formats::waypoints::{Mission, environment_path};
+use nalgebra::Point3;
 
 use crate::generate::keep_cases;
 use crate::work::Work;
@@ -15,7 +16,7 @@ use crate::{Problem, Watch};
 pub(crate) fn adopt(work: &Work, missions: &[Mission], watch: &dyn Watch) -> Result<(), Problem> {
     let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
     let mut cases = Vec::with_capacity(missions.len());
-    for (number, Mission { name, waypoints, environment }) in missions.iter().enumerate() {
+    for (number, Mission { name, waypoints, rounded, environment }) in missions.iter().enumerate() {
         if waypoints.len() < 2 {
             return Err(Problem::input(format!(
                 "{name}.csv: a mission needs at least 2 waypoints, this has {}",
@@ -26,7 +27,10 @@ pub(crate) fn adopt(work: &Work, missions: &[Mission], watch: &dyn Watch) -> Res
             watch.warn(&format!("Warning: {name}.csv: waypoint {outside} lies outside the world"));
         }
         let seed = hairpin::math::random::case_seed(work.setup.scenario.seed(), number as u64);
-        let same = known.iter().find(|case| case.waypoints == *waypoints);
+        let same = known.iter().find(|case| match rounded {
+            true => are_rounded(&case.waypoints, waypoints),
+            false => case.waypoints == *waypoints,
+        });
         let mut case = match same {
             Some(case) => Case { number: CaseNumber(number), seed, ..case.clone() },
             None => Case::bare(CaseNumber(number), seed, waypoints.clone()),
@@ -43,4 +47,12 @@ pub(crate) fn adopt(work: &Work, missions: &[Mission], watch: &dyn Watch) -> Res
     let tally = Tally { complete: true, missions: names.collect(), ..Tally::default() };
     work.folder.forget_cases()?;
     keep_cases(work, &cases, 0, &tally)
+}
+
+/// Waypoints in degrees are read back to within this, m.
+const ROUNDING: f64 = 1e-4;
+
+/// Whether `read` are `waypoints` but for the rounding of degrees.
+fn are_rounded(waypoints: &[Point3<f64>], read: &[Point3<f64>]) -> bool {
+    waypoints.len() == read.len() && waypoints.iter().zip(read).all(|(a, b)| (a - b).norm() <= ROUNDING)
 }

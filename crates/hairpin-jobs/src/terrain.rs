@@ -2,20 +2,21 @@
 
 use std::path::Path;
 
-use hairpin::world::terrain::{ElevationMap, Grid};
-use hairpin_formats::terrain::{Georeference, read_terrain};
-
+use hairpin::world::terrain::Grid;
+use hairpin_formats::bounds::{self, MOST_RASTER_BYTES};
+use hairpin_formats::terrain::{Georeference, Layout, MapFile, Sidecars, Source, Told, Unit, read_terrain};
 use serde::Serialize;
 
 use crate::Problem;
 
-/// The map in the file at `path`.
+/// The map in the file at `path`, with what its file says of it.
 ///
 /// # Errors
 /// The file cannot be read, or is no map.
-pub fn read_map(path: &Path, georeference: &Georeference) -> Result<ElevationMap, Problem> {
-    let bytes = std::fs::read(path).map_err(|error| Problem::of_file(path, error))?;
-    read_terrain(&bytes, &path.to_string_lossy(), georeference).map_err(|error| Problem::of_file(path, error))
+pub fn read_map(path: &Path, georeference: &Georeference) -> Result<MapFile, Problem> {
+    let bytes = bounds::read(path, MOST_RASTER_BYTES).map_err(|error| Problem::of_file(path, error))?;
+    read_terrain(&bytes, &path.to_string_lossy(), &Sidecars::beside(path), georeference)
+        .map_err(|error| Problem::of_file(path, error))
 }
 
 /// What an elevation map says, as it was understood.
@@ -27,7 +28,7 @@ pub struct MapSummary {
     pub rows: usize,
     /// Edges of a cell along x and y.
     pub cell_m: [f64; 2],
-    /// Least and largest x.
+    /// Least and largest x, in the map's own coordinates.
     pub x_m: [f64; 2],
     /// Least and largest y.
     pub y_m: [f64; 2],
@@ -35,8 +36,52 @@ pub struct MapSummary {
     pub height_m: [f32; 2],
     /// Cells without data.
     pub holes: usize,
-    /// The file's first cell.
+    /// The northernmost, westernmost cell.
     pub north_west: Corner,
+    /// EPSG code of the plane, where it is known.
+    pub epsg: Option<u32>,
+    /// What the file calls its plane.
+    pub plane: Option<String>,
+    /// What a campaign takes off the map's coordinates.
+    pub offset_m: [f64; 2],
+    /// Unit of x and y in the file.
+    pub unit: UnitSummary,
+    /// Unit of heights in the file.
+    pub height_unit: UnitSummary,
+    /// A height is the file's value times this …
+    pub scale: f64,
+    /// … plus this, in the file's unit.
+    pub offset: f64,
+    /// The value that means no data, as text: JSON has no NaN.
+    pub no_data: Option<String>,
+    /// Whether the file masks cells beside that.
+    pub masked: bool,
+    /// `north-up` or `south-up`: which row the file begins with.
+    pub orientation: &'static str,
+    /// `centres` or `corners`: what of a cell the file's coordinates name.
+    pub coordinates_of: &'static str,
+}
+
+/// A unit of a file; a map is in metres.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct UnitSummary {
+    /// What it is called.
+    pub name: String,
+    /// One of it.
+    pub metres: f64,
+    /// `file`, `given`, or `taken` where nobody says it.
+    pub from: &'static str,
+}
+
+impl UnitSummary {
+    fn of(unit: &Unit, from: Source) -> Self {
+        let from = match from {
+            Source::File => "file",
+            Source::Given => "given",
+            Source::Taken => "taken",
+        };
+        Self { name: unit.name.clone(), metres: unit.metres, from }
+    }
 }
 
 impl MapSummary {
@@ -62,9 +107,12 @@ pub struct Corner {
 /// # Errors
 /// As of [`read_map`].
 pub fn summarise_map(path: &Path, georeference: &Georeference) -> Result<MapSummary, Problem> {
-    let map = read_map(path, georeference)?;
+    let MapFile { map, told } = read_map(path, georeference)?;
     let Grid { columns, rows, cell, .. } = *map.grid();
+    let Told { unit, unit_from, height_unit, height_unit_from, epsg, name, offset_m, layout, .. } = told;
+    let Layout { scale, offset, no_data, masked, south_up, at_centers } = layout;
     let (low, high) = map.extent();
+    let [low, high] = [low, high].map(|at| [at[0] + offset_m[0], at[1] + offset_m[1]]);
     let known = |height: f32| (!height.is_nan()).then_some(height);
     let heights = (0..rows * columns).filter_map(|i| known(map.cell_height(i / columns, i % columns)));
     let [min, max] = heights.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], h| [low.min(h), high.max(h)]);
@@ -77,6 +125,17 @@ pub fn summarise_map(path: &Path, georeference: &Georeference) -> Result<MapSumm
         height_m: [min, max],
         holes: map.holes(),
         north_west: Corner { x_m: low[0], y_m: high[1], height_m: known(map.cell_height(rows - 1, 0)) },
+        epsg,
+        plane: Some(name).filter(|name| !name.is_empty()),
+        offset_m,
+        unit: UnitSummary::of(&unit, unit_from),
+        height_unit: UnitSummary::of(&height_unit, height_unit_from),
+        scale,
+        offset,
+        no_data: no_data.map(|value| value.to_string()),
+        masked,
+        orientation: if south_up { "south-up" } else { "north-up" },
+        coordinates_of: if at_centers { "centres" } else { "corners" },
     })
 }
 

@@ -42,6 +42,26 @@ pub(crate) struct MapFlags {
     /// Centre of the south-west cell, m, of PNG, raw and NumPy maps
     #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true, requires = "terrain")]
     pub(crate) terrain_origin_m: Option<[f64; 2]>,
+    /// EPSG code of the map's plane, where its file does not say it
+    #[arg(long, value_name = "CODE", requires = "terrain")]
+    pub(crate) terrain_epsg: Option<u32>,
+    /// Unit of the map's x and y, where its file does not say it
+    #[arg(long, value_name = "UNIT", requires = "terrain")]
+    pub(crate) terrain_unit: Option<MapUnit>,
+    /// Unit of the map's heights, where its file does not say it
+    #[arg(long, value_name = "UNIT", requires = "terrain")]
+    pub(crate) terrain_height_unit: Option<MapUnit>,
+}
+
+/// Units of elevation maps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MapUnit {
+    /// Metre
+    M,
+    /// International foot, 0.3048 m
+    Ft,
+    /// US survey foot, 1200/3937 m
+    UsFt,
 }
 
 /// Rules for cells of an elevation map that hold no data.

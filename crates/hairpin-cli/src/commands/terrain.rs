@@ -1,9 +1,9 @@
 //! What is typed of elevation maps' files.
 
 use hairpin::world::terrain::HoleRule;
-use hairpin_formats::terrain::Georeference;
+use hairpin_formats::terrain::{Georeference, GivenUnit};
 
-use crate::args::MapFlags;
+use crate::args::{MapFlags, MapUnit};
 
 /// What is given of a map's file.
 pub(super) fn georeference(flags: &MapFlags, holes: HoleRule) -> Georeference {
@@ -11,7 +11,18 @@ pub(super) fn georeference(flags: &MapFlags, holes: HoleRule) -> Georeference {
         cell_m: flags.terrain_cell_m,
         height_m: flags.terrain_height_m,
         origin_m: flags.terrain_origin_m,
-        columns: None,
+        epsg: flags.terrain_epsg,
+        unit: flags.terrain_unit.map(unit),
+        height_unit: flags.terrain_height_unit.map(unit),
         holes,
+        ..Georeference::default()
+    }
+}
+
+fn unit(unit: MapUnit) -> GivenUnit {
+    match unit {
+        MapUnit::M => GivenUnit::Metre,
+        MapUnit::Ft => GivenUnit::Foot,
+        MapUnit::UsFt => GivenUnit::UsSurveyFoot,
     }
 }

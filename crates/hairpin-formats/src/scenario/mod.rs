@@ -219,7 +219,12 @@ fn read(source: usize, (base, guest): Whose<'_>, sets: &[(String, String)], repo
             return None;
         }
     };
-    let (attachments, wrong) = files::read(&mut scenario, &|file| base.join(file), guest);
+    let own_coordinates = terrain::in_own_coordinates(&scenario);
+    let (attachments, mut wrong) = files::read(&mut scenario, &|file| base.join(file), guest);
+    terrain::turn(&mut scenario);
+    if own_coordinates && wrong.is_empty() {
+        wrong.extend(terrain::shift(&mut scenario).err());
+    }
     for one in wrong {
         report.complain(&place_of(&root, &one.key), &one.key, &one.value, &one.bound, one.message());
     }
@@ -227,7 +232,6 @@ fn read(source: usize, (base, guest): Whose<'_>, sets: &[(String, String)], repo
         return None;
     }
     scenario.write_defaults();
-    terrain::turn(&mut scenario);
     let told = |mistake: Mistake| {
         let place = place_of(&root, &mistake.key);
         let bound = shape::unknown_in_vary(&schema, &root, &mistake.key).unwrap_or(mistake.bound);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use hairpin::campaign::scenario::{DriveScenario, Frame, TerrainSection};
+use hairpin::campaign::scenario::{DriveScenario, Frame, MapUnit, TerrainSection};
 use hairpin::campaign::{Attached, Scenario};
 use hairpin::world::terrain::ElevationMap;
 
@@ -11,7 +11,7 @@ use super::attached::{Wrong, attached, ending};
 use super::resolve::read_file;
 use crate::checksum::sha256;
 use crate::frames::other_yaw;
-use crate::terrain::{Georeference, read_terrain};
+use crate::terrain::{Georeference, GivenUnit, MapFile, Sidecars, Unit, read_terrain};
 
 /// Reads the map as `terrain` says. A resolved scenario's map is `terrain.ENDING`, which a campaign folder holds.
 pub(super) fn read(
@@ -20,15 +20,24 @@ pub(super) fn read(
 ) -> Result<(TerrainSection, Attached<ElevationMap>), Wrong> {
     let file = terrain.file.clone().unwrap_or_default();
     let wrong = |bound: String| Wrong { key: "world.terrain.file".into(), value: file.clone(), bound };
-    let bytes = read_file(&find(&file)).map_err(|why| wrong(format!("cannot be read: {why}")))?;
+    let path = find(&file);
+    let bytes = read_file(&path).map_err(|why| wrong(format!("cannot be read: {why}")))?;
     let georeference = Georeference {
         cell_m: terrain.cell_m,
         height_m: terrain.height_m,
         origin_m: terrain.origin_m,
-        columns: None,
+        epsg: terrain.epsg,
+        unit: terrain.unit.map(given_unit),
+        height_unit: terrain.height_unit.map(given_unit),
+        offset_m: terrain.offset_m,
         holes: terrain.no_data.into(),
+        ..Georeference::default()
     };
-    let map = read_terrain(&bytes, &file, &georeference).map_err(|error| wrong(error.to_string()))?;
+    let beside = Sidecars::beside(&path);
+    let MapFile { map, told } = read_terrain(&bytes, &file, &beside, &georeference).map_err(|error| {
+        let key = error.key().map_or_else(|| "world.terrain.file".into(), |key| format!("world.terrain.{key}"));
+        Wrong { key, value: file.clone(), bound: error.to_string() }
+    })?;
     let checksum = sha256(&bytes);
     if let Some(given) = terrain.checksum.as_ref().filter(|given| **given != checksum) {
         let bound = format!("the checksum of `{file}`, which is {checksum}: it is another map");
@@ -37,8 +46,69 @@ pub(super) fn read(
     let name = format!("terrain.{}", ending(&file));
     let map = attached(Arc::new(map), bytes, &name, &file);
     terrain.file = Some(name);
+    terrain.epsg = told.epsg;
+    if told.beside {
+        // What lies beside the file is not in the copy of a campaign.
+        terrain.unit = terrain.unit.or(unit_of(&told.unit));
+    }
+    terrain.offset_m = terrain.offset_m.or(Some(told.offset_m).filter(|offset| *offset != [0.0, 0.0]));
     terrain.checksum = Some(checksum);
     Ok((terrain.clone(), map))
+}
+
+fn given_unit(unit: MapUnit) -> GivenUnit {
+    match unit {
+        MapUnit::M => GivenUnit::Metre,
+        MapUnit::Ft => GivenUnit::Foot,
+        MapUnit::UsFt => GivenUnit::UsSurveyFoot,
+    }
+}
+
+/// The word for a unit that is not metres.
+fn unit_of(unit: &Unit) -> Option<MapUnit> {
+    let same = |word: &MapUnit| Unit::from(given_unit(*word)).metres == unit.metres;
+    [MapUnit::Ft, MapUnit::UsFt].into_iter().find(same)
+}
+
+/// Whether the poses of `scenario` are in its map's own coordinates, should these turn out to be far from their zero.
+pub(super) fn in_own_coordinates(scenario: &Scenario) -> bool {
+    scenario.own::<DriveScenario>().is_some_and(|drive| drive.world.terrain.offset_m.is_none())
+}
+
+/// Takes the offset that the map was given off the poses of a file in the map's own coordinates.
+///
+/// # Errors
+/// What cannot be told to be in these coordinates: draws of places, and an origin on Earth.
+pub(super) fn shift(scenario: &mut Scenario) -> Result<(), Wrong> {
+    let Some(drive) = scenario.own_mut::<DriveScenario>() else { return Ok(()) };
+    let Some([east, north]) = drive.world.terrain.offset_m else { return Ok(()) };
+    let given = |key: String, what: &str| {
+        let bound = format!(
+            "left out, or world.terrain.offset_m = [{east}, {north}] given beside it: the map lies far from its \
+             plane's zero, and {what} relative to that point"
+        );
+        Err(Wrong { key, value: "given".into(), bound })
+    };
+    if drive.world.origin.is_some() {
+        return given("world.origin".into(), "the origin on Earth is then");
+    }
+    let is_place = |key: &&String| {
+        let place = ["task.start.x_m", "task.start.y_m", "task.end_m"];
+        place.iter().any(|place| key.starts_with(place))
+            || key.starts_with("world.keep_out") && !key.ends_with("radius_m")
+    };
+    if let Some(key) = drive.vary.keys().find(is_place) {
+        return given(format!("vary.\"{key}\""), "places are then drawn");
+    }
+    let place = |p: &mut [f64; 2]| *p = [p[0] - east, p[1] - north];
+    let start = &mut drive.task.start;
+    (start.x_m, start.y_m) = (start.x_m - east, start.y_m - north);
+    drive.task.end_m.iter_mut().for_each(place);
+    for keep_out in &mut drive.world.keep_out {
+        keep_out.circle.iter_mut().for_each(|circle| place(&mut circle.center_m));
+        keep_out.polygon.iter_mut().flat_map(|polygon| &mut polygon.points_m).for_each(place);
+    }
+    Ok(())
 }
 
 /// Turns the poses of a file in another frame into the map's own.

@@ -3,7 +3,9 @@
 use hairpin::world::terrain::Grid;
 
 use super::error::TerrainError;
-use super::raster::{Raster, bounded};
+use super::no_data;
+use super::raster::{Layout, Raster, bounded};
+use super::reference::Reference;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
     let text =
@@ -15,7 +17,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
         let wrong = |what: String| TerrainError::Broken(format!("line {}: {what}", index + 1));
         let mut words = line.split_whitespace().peekable();
         let Some(first) = words.peek() else { continue };
-        if first.starts_with(|c: char| c.is_ascii_alphabetic()) && !first.eq_ignore_ascii_case("nan") {
+        let is_word = first.starts_with(|c: char| c.is_ascii_alphabetic()) && first.parse::<f64>().is_err();
+        if is_word {
             let key = first.to_ascii_lowercase();
             words.next();
             let value = words.next().ok_or_else(|| wrong(format!("{key} has no value")))?;
@@ -30,7 +33,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
             }
         };
         for word in words {
-            let height: f32 = word.parse().map_err(|_| wrong(format!("{word:?} is no height")))?;
+            let height = match word.parse::<f32>() {
+                Ok(height) => height,
+                Err(_) => {
+                    no_data::parse(word).ok_or_else(|| wrong(format!("{:?} is no height", shortened(word))))? as f32
+                }
+            };
             if heights.len() == columns * rows {
                 return Err(wrong(format!("more than {columns} x {rows} heights")));
             }
@@ -39,17 +47,32 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
         }
     }
     let (columns, rows) = cells.ok_or_else(|| TerrainError::Broken("no heights".into()))?;
-    let cell = header.need(header.cell, "cellsize")?;
-    let place = |center: Option<f64>, corner: Option<f64>, key| match (center, corner) {
+    let cell = match (header.cell, header.sides) {
+        (None, [Some(dx), Some(dy)]) => [dx, dy],
+        (cell, [None, None]) => [header.need(cell, "cellsize")?; 2],
+        _ => return Err(TerrainError::Broken("either cellsize or dx and dy are needed".into())),
+    };
+    let place = |center: Option<f64>, corner: Option<f64>, cell: f64, key| match (center, corner) {
         (Some(center), None) => Ok(center),
         (None, Some(corner)) => Ok(corner + 0.5 * cell),
         _ => Err(TerrainError::Broken(format!("{key} is needed once"))),
     };
     let first_center = [
-        place(header.center[0], header.corner[0], "xllcorner or xllcenter")?,
-        place(header.center[1], header.corner[1], "yllcorner or yllcenter")?,
+        place(header.center[0], header.corner[0], cell[0], "xllcorner or xllcenter")?,
+        place(header.center[1], header.corner[1], cell[1], "yllcorner or yllcenter")?,
     ];
-    Ok(Raster { grid: Grid { columns, rows, first_center, cell: [cell, cell] }, heights })
+    let layout = Layout {
+        no_data: Some(header.no_data),
+        at_centers: header.center.iter().any(Option::is_some),
+        ..Layout::default()
+    };
+    let grid = Grid { columns, rows, first_center, cell };
+    Ok(Raster { grid, heights, reference: Reference::default(), layout })
+}
+
+/// As much of a word as a message holds.
+fn shortened(word: &str) -> String {
+    word.chars().take(40).collect()
 }
 
 struct Header {
@@ -58,21 +81,30 @@ struct Header {
     corner: [Option<f64>; 2],
     center: [Option<f64>; 2],
     cell: Option<f64>,
+    /// dx and dy, of cells that are not square.
+    sides: [Option<f64>; 2],
     no_data: f64,
 }
 
 impl Default for Header {
     /// The format's own default of no data is −9999.
     fn default() -> Self {
-        Self { columns: None, rows: None, corner: [None; 2], center: [None; 2], cell: None, no_data: -9999.0 }
+        let (corner, center, sides) = ([None; 2], [None; 2], [None; 2]);
+        Self { columns: None, rows: None, corner, center, cell: None, sides, no_data: -9999.0 }
     }
 }
 
 impl Header {
     fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
-        let number =
-            || value.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or(format!("{key} = {value:?} is no number"));
-        let count = || value.parse::<u64>().map_err(|_| format!("{key} = {value:?} is no number of cells"));
+        let number = || {
+            value
+                .parse::<f64>()
+                .ok()
+                .filter(|v| v.is_finite())
+                .ok_or(format!("{key} = {:?} is no number", shortened(value)))
+        };
+        let count =
+            || value.parse::<u64>().map_err(|_| format!("{key} = {:?} is no number of cells", shortened(value)));
         match key {
             "ncols" => self.columns = Some(count()?),
             "nrows" => self.rows = Some(count()?),
@@ -81,8 +113,13 @@ impl Header {
             "xllcenter" => self.center[0] = Some(number()?),
             "yllcenter" => self.center[1] = Some(number()?),
             "cellsize" => self.cell = Some(number()?),
-            "nodata_value" => self.no_data = number()?,
-            _ => return Err(format!("{key:?} is no word of an ASCII grid's header")),
+            "dx" => self.sides[0] = Some(number()?),
+            "dy" => self.sides[1] = Some(number()?),
+            "nodata_value" | "nodata" => {
+                self.no_data =
+                    no_data::parse(value).ok_or_else(|| format!("{key} = {:?} is no number", shortened(value)))?;
+            }
+            _ => return Err(format!("{:?} is no word of an ASCII grid's header", shortened(key))),
         }
         Ok(())
     }

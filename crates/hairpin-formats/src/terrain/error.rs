@@ -15,6 +15,28 @@ pub enum TerrainError {
     /// The file cannot be understood.
     #[error("{0}")]
     Broken(String),
+    /// What is not read here can be rewritten by GDAL.
+    #[error("{why}: {command}")]
+    Convert {
+        /// What it is.
+        why: String,
+        /// What makes it readable.
+        command: String,
+    },
+    /// Angles are no plane.
+    #[error("geographic: {what}, which are no metres; project it first: {command}")]
+    Geographic {
+        /// What is known of its coordinates.
+        what: String,
+        /// What projects it.
+        command: String,
+    },
+    /// Feet in the plane say nothing of heights.
+    #[error(
+        "height_unit: x and y are not in metres and the file does not say what its heights are in; it must be given: \
+         m, ft or us-ft"
+    )]
+    UnitOfHeights,
     /// More cells than are worth reading at once.
     #[error("{columns} x {rows} cells: at most {MOST_CELLS} in all; crop the map first")]
     TooLarge {
@@ -35,6 +57,16 @@ pub enum TerrainError {
         /// Key of the terrain's table.
         key: &'static str,
     },
+    /// The file says something else.
+    #[error("{key} = {given}: the file says {said}")]
+    Contradicts {
+        /// Key of the terrain's table.
+        key: &'static str,
+        /// Its value.
+        given: String,
+        /// The file's.
+        said: String,
+    },
     /// A number is out of bounds.
     #[error("{key} = {value}: must be {bound}")]
     Wrong {
@@ -48,4 +80,16 @@ pub enum TerrainError {
     /// The cells are no map.
     #[error(transparent)]
     Map(#[from] MapError),
+}
+
+impl TerrainError {
+    /// The key of the terrain's table that it is about.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            Self::UnitOfHeights => Some("height_unit"),
+            Self::Contradicts { key, .. } => Some(key),
+            Self::Wrong { key: "epsg", .. } => Some("epsg"),
+            _ => None,
+        }
+    }
 }

@@ -3,8 +3,9 @@
 use hairpin::world::terrain::{Grid, HoleRule};
 
 use super::error::TerrainError;
+use super::unit::GivenUnit;
 
-/// What a file does not say of itself; what it does say must not be given.
+/// What a file does not say of itself; what it does say must not be given, or be the same.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Georeference {
     /// Edge length of a cell, m: for PNG, raw and NumPy files.
@@ -15,6 +16,16 @@ pub struct Georeference {
     pub origin_m: Option<[f64; 2]>,
     /// Cells along x: for raw files, square if not given.
     pub columns: Option<usize>,
+    /// EPSG code of the plane.
+    pub epsg: Option<u32>,
+    /// Unit of x and y, and of heights where they have no other: for GeoTIFF and ASCII grids.
+    pub unit: Option<GivenUnit>,
+    /// Unit of heights.
+    pub height_unit: Option<GivenUnit>,
+    /// Taken off the coordinates, m; [`super::offset_of`] chooses it if not given.
+    pub offset_m: Option<[f64; 2]>,
+    /// Heights whose unit nobody says are taken in that of x and y, to show the file.
+    pub assume_heights: bool,
     /// What to do with cells without data.
     pub holes: HoleRule,
 }

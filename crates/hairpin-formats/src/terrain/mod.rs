@@ -5,9 +5,16 @@ mod error;
 mod georeference;
 mod geotiff;
 mod keep_out;
+mod no_data;
 mod numpy;
+mod prj;
 mod raster;
+mod reference;
+mod remedy;
+mod sidecar;
 mod sixteen_bit;
+mod told;
+mod unit;
 
 #[cfg(test)]
 mod tests;
@@ -15,34 +22,117 @@ mod tests;
 pub use error::{MOST_CELLS, TerrainError};
 pub use georeference::Georeference;
 pub use keep_out::{KeepOutError, read_keep_outs};
+pub use raster::Layout;
+pub use sidecar::Sidecars;
+pub use told::Told;
+pub use unit::{GivenUnit, Source, Unit};
 
-use hairpin::world::terrain::ElevationMap;
+use hairpin::world::terrain::{ElevationMap, Grid};
+use raster::Raster;
+use reference::{Model, Units};
 
-/// Reads the elevation map `bytes`; the ending of `name` tells the format.
+/// Coordinates beyond (m) are of a plane of the Earth: what lies there gets an origin of its own.
+const FAR: f64 = 20_000.0;
+/// The origin's coordinates are whole multiples of this, m.
+const ROUND: f64 = 1000.0;
+/// No plane of the Earth has coordinates beyond, m.
+const FARTHEST: f64 = 1e8;
+
+/// A map with what its file says of it.
+#[derive(Debug, Clone)]
+pub struct MapFile {
+    /// In metres, from an origin of its own where the file's coordinates are far from theirs.
+    pub map: ElevationMap,
+    /// What its file says beside that.
+    pub told: Told,
+}
+
+/// Reads the elevation map `bytes`; the ending of `name` tells the format. `beside` is what lies beside the file.
 ///
 /// # Errors
 /// [`TerrainError`].
-pub fn read_terrain(bytes: &[u8], name: &str, georeference: &Georeference) -> Result<ElevationMap, TerrainError> {
+pub fn read_terrain(
+    bytes: &[u8],
+    name: &str,
+    beside: &Sidecars,
+    georeference: &Georeference,
+) -> Result<MapFile, TerrainError> {
     let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
-    let says_itself = matches!(ending.as_str(), "tif" | "tiff" | "asc");
-    if says_itself {
-        let given = [
-            ("cell_m", georeference.cell_m.is_some()),
-            ("height_m", georeference.height_m.is_some()),
-            ("origin_m", georeference.origin_m.is_some()),
-            ("columns", georeference.columns.is_some()),
-        ];
-        if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
-            return Err(TerrainError::Unwanted { key });
-        }
-    }
-    let raster = match ending.as_str() {
-        "tif" | "tiff" => geotiff::read(bytes)?,
+    check_given(&ending, georeference)?;
+    let mut raster = match ending.as_str() {
+        "tif" | "tiff" => geotiff::read(bytes, name)?,
         "asc" => ascii::read(bytes)?,
         "png" => sixteen_bit::read_png(bytes, georeference)?,
         "raw" | "bin" => sixteen_bit::read_raw(bytes, georeference)?,
         "npy" => numpy::read(bytes, georeference)?,
         _ => return Err(TerrainError::Format),
     };
-    Ok(ElevationMap::new(raster.grid, &raster.heights, georeference.holes)?)
+    beside.check(name, &raster.layout)?;
+    let by_sidecar = if raster.reference.model == Model::Unsaid { beside.reference(name)? } else { None };
+    let beside = by_sidecar.is_some();
+    raster.reference = by_sidecar.unwrap_or(raster.reference);
+    let Raster { grid, mut heights, reference, layout } = raster;
+    let center = [0, 1].map(|i| {
+        let cells = if i == 0 { grid.columns } else { grid.rows };
+        grid.first_center[i] + 0.5 * cells.saturating_sub(1) as f64 * grid.cell[i]
+    });
+    let Units { plane, plane_from, height, height_from, epsg, name } =
+        reference.units(center, grid.cell, name, georeference)?;
+    if !height.is_metre() {
+        heights.iter_mut().for_each(|value| *value = (f64::from(*value) * height.metres) as f32);
+    }
+    let in_metres = |length: f64| length * plane.metres;
+    let grid = Grid { first_center: grid.first_center.map(in_metres), cell: grid.cell.map(in_metres), ..grid };
+    let offset_m = match georeference.offset_m {
+        Some(given) => given,
+        None => offset_of(&grid),
+    };
+    let first_center = [0, 1].map(|i| grid.first_center[i] - offset_m[i]);
+    check_extent(&grid, first_center)?;
+    let map = ElevationMap::new(Grid { first_center, ..grid }, &heights, georeference.holes)?;
+    let (unit, unit_from, height_unit, height_unit_from) = (plane, plane_from, height, height_from);
+    let told = Told { unit, unit_from, height_unit, height_unit_from, beside, epsg, name, offset_m, layout };
+    Ok(MapFile { map, told })
+}
+
+/// What is taken off the coordinates of a grid, m: nothing where it lies near their zero, else whole kilometres, so
+/// that its south-west corner comes near it.
+pub fn offset_of(grid: &Grid) -> [f64; 2] {
+    let Grid { columns, rows, first_center, cell } = *grid;
+    let last = [(columns, 0), (rows, 1)].map(|(cells, i)| first_center[i] + cells.saturating_sub(1) as f64 * cell[i]);
+    if first_center.iter().chain(&last).all(|coordinate| coordinate.abs() <= FAR) {
+        return [0.0, 0.0];
+    }
+    first_center.map(|low| (low / ROUND).floor() * ROUND)
+}
+
+/// What the file says itself must not be given.
+fn check_given(ending: &str, given: &Georeference) -> Result<(), TerrainError> {
+    let says_itself = matches!(ending, "tif" | "tiff" | "asc");
+    let unwanted = [
+        ("cell_m", says_itself && given.cell_m.is_some()),
+        ("height_m", says_itself && given.height_m.is_some()),
+        ("origin_m", says_itself && given.origin_m.is_some()),
+        ("columns", says_itself && given.columns.is_some()),
+        // Keys in metres place the others, and say what 16 bits mean.
+        ("unit", !says_itself && given.unit.is_some()),
+        ("height_unit", matches!(ending, "png" | "raw" | "bin") && given.height_unit.is_some()),
+    ];
+    match unwanted.iter().find(|(_, unwanted)| *unwanted) {
+        Some((key, _)) => Err(TerrainError::Unwanted { key }),
+        None => Ok(()),
+    }
+}
+
+fn check_extent(grid: &Grid, first_center: [f64; 2]) -> Result<(), TerrainError> {
+    for i in [0, 1] {
+        let cells = if i == 0 { grid.columns } else { grid.rows };
+        let last = grid.first_center[i] + cells as f64 * grid.cell[i];
+        if [grid.first_center[i], last, first_center[i]].iter().any(|at| at.abs() > FARTHEST) {
+            let value = format!("{} … {last}", grid.first_center[i]);
+            let key = if i == 0 { "x" } else { "y" };
+            return Err(TerrainError::Wrong { key, value, bound: "within 1e8 m of the plane's zero" });
+        }
+    }
+    Ok(())
 }

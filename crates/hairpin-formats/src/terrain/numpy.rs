@@ -4,7 +4,8 @@ use npyz::{NpyFile, Order};
 
 use super::error::TerrainError;
 use super::georeference::{Georeference, placed};
-use super::raster::{Raster, bounded};
+use super::raster::{Layout, Raster, bounded};
+use super::reference::Reference;
 
 pub(super) fn read(bytes: &[u8], georeference: &Georeference) -> Result<Raster, TerrainError> {
     let broken = |error: &dyn std::fmt::Display| TerrainError::Broken(format!("no readable NumPy array: {error}"));
@@ -39,5 +40,6 @@ pub(super) fn read(bytes: &[u8], georeference: &Georeference) -> Result<Raster, 
         Order::C => heights,
         Order::Fortran => (0..rows * columns).map(|i| heights[i % columns * rows + i / columns]).collect(),
     };
-    Ok(Raster { grid: placed(columns, rows, georeference)?, heights })
+    let (reference, layout) = (Reference::default(), Layout::default());
+    Ok(Raster { grid: placed(columns, rows, georeference)?, heights, reference, layout })
 }

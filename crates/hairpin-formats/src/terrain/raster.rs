@@ -3,11 +3,37 @@
 use hairpin::world::terrain::Grid;
 
 use super::error::{MOST_CELLS, TerrainError};
+use super::reference::Reference;
 
-/// Heights as a raster has them, rows from the north, NaN where there is no data.
+/// Heights as a raster has them, in the file's own units, rows from the north, NaN where there is no data.
 pub(super) struct Raster {
     pub(super) grid: Grid,
     pub(super) heights: Vec<f32>,
+    pub(super) reference: Reference,
+    pub(super) layout: Layout,
+}
+
+/// How the file lays out and writes what it holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layout {
+    /// A height is the value in the file times this …
+    pub scale: f64,
+    /// … plus this.
+    pub offset: f64,
+    /// The value that means no data.
+    pub no_data: Option<f64>,
+    /// Whether cells are masked beside that.
+    pub masked: bool,
+    /// Whether the file's first row is the south one.
+    pub south_up: bool,
+    /// Whether its coordinates name cells' centres, not their corners.
+    pub at_centers: bool,
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        Self { scale: 1.0, offset: 0.0, no_data: None, masked: false, south_up: false, at_centers: true }
+    }
 }
 
 /// Refuses maps of more than [`MOST_CELLS`] before anything is allocated.

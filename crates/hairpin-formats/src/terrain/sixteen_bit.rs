@@ -2,7 +2,8 @@
 
 use super::error::TerrainError;
 use super::georeference::{Georeference, placed};
-use super::raster::{Raster, bounded};
+use super::raster::{Layout, Raster, bounded};
+use super::reference::Reference;
 
 /// Heights from `values` between the two given heights.
 fn scaled(values: impl Iterator<Item = u16>, georeference: &Georeference) -> Result<Vec<f32>, TerrainError> {
@@ -27,7 +28,8 @@ pub(super) fn read_png(bytes: &[u8], georeference: &Georeference) -> Result<Rast
     let mut pixels = vec![0; 2 * columns * rows];
     reader.next_frame(&mut pixels).map_err(broken)?;
     let values = pixels.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
-    Ok(Raster { grid: placed(columns, rows, georeference)?, heights: scaled(values, georeference)? })
+    let (grid, heights) = (placed(columns, rows, georeference)?, scaled(values, georeference)?);
+    Ok(Raster { grid, heights, reference: Reference::default(), layout: Layout::default() })
 }
 
 pub(super) fn read_raw(bytes: &[u8], georeference: &Georeference) -> Result<Raster, TerrainError> {
@@ -44,5 +46,6 @@ pub(super) fn read_raw(bytes: &[u8], georeference: &Georeference) -> Result<Rast
     }
     let (columns, rows) = bounded(columns as u64, (cells / columns) as u64)?;
     let values = bytes.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
-    Ok(Raster { grid: placed(columns, rows, georeference)?, heights: scaled(values, georeference)? })
+    let (grid, heights) = (placed(columns, rows, georeference)?, scaled(values, georeference)?);
+    Ok(Raster { grid, heights, reference: Reference::default(), layout: Layout::default() })
 }

@@ -59,13 +59,14 @@ pub struct Executed {
 /// written; it was asked to stop.
 pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed, Problem> {
     let ExecuteSettings { folder: path, sets, .. } = settings;
-    let missions = settings.missions.as_deref().map(waypoints::read_folder).transpose().map_err(Problem::input)?;
     if settings.resume && !sets.is_empty() {
         unchanged(path, sets)?;
     }
     let work = open_to_change(path, sets, &["execute", "vary", "spec"], Some(settings.simd))?;
     let wishes = Wish::of_execution(&work.setup);
     settings.consent.ask_of_scenario((&path.to_string_lossy(), Some(path)), &wishes, sets, watch)?;
+    let read = |missions: &Path| waypoints::read_folder(missions, &work.setup.scenario);
+    let missions = settings.missions.as_deref().map(read).transpose().map_err(Problem::input)?;
     if missions.is_none() && !work.folder.has_cases() {
         let path = path.display();
         return Err(Problem::input(format!("{path} has no cases yet: hairpin generate, or --missions DIR")));
@@ -111,7 +112,9 @@ fn unchanged(folder: &Path, sets: &[Set]) -> Result<(), Problem> {
 mod tests {
     use super::*;
     use crate::Unwatched;
+    use crate::export::{Export, Format};
     use crate::testing::generated;
+    use crate::work::open_to_read;
 
     #[test]
     fn runs_are_flown_once_and_resumed() {
@@ -122,6 +125,25 @@ mod tests {
         let other = ExecuteSettings { sets: vec![("execute.repeat".into(), "3".into())], resume: true, ..settings };
         let refused = execute(&other, &Unwatched).map(|_| ()).unwrap_err().to_string();
         assert!(refused.starts_with("--resume: `execute.repeat`"), "{refused}");
+    }
+
+    /// What `export` writes in degrees is the same cases again, with their plans and evidence.
+    #[test]
+    fn missions_in_degrees_are_the_cases_that_they_were_written_from() {
+        let (place, folder) = generated();
+        let export = Export::open(&folder).unwrap();
+        let written = export.write(Format::Geodetic).unwrap().files;
+        let missions = place.path().join("degrees");
+        std::fs::create_dir(&missions).unwrap();
+        for file in &written {
+            std::fs::rename(file, missions.join(file.file_name().unwrap())).unwrap();
+        }
+        let before = open_to_read(&folder).unwrap().folder.read_cases().unwrap();
+        let settings =
+            ExecuteSettings { folder: folder.clone(), missions: Some(missions), ..ExecuteSettings::default() };
+        let executed = execute(&settings, &Unwatched).unwrap();
+        assert_eq!((executed.cases, executed.missions), (2, vec!["0000".to_owned(), "0001".to_owned()]));
+        assert_eq!(open_to_read(&folder).unwrap().folder.read_cases().unwrap(), before);
     }
 
     #[test]

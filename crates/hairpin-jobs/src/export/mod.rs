@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::{Case, Evidence};
 use hairpin::math::rotation::between;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
-use hairpin_formats::frames::Cage;
+use hairpin_formats::placement::Placement;
 use hairpin_formats::{atomic, csv, geodetic, tum, waypoints};
 use nalgebra::Isometry3;
 
@@ -23,7 +23,7 @@ pub use written::Written;
 pub enum Format {
     /// missions/CASE.csv: x_m,y_m,z_m.
     Waypoints,
-    /// missions/CASE.geodetic.csv, by the scenario's world.origin.
+    /// missions/CASE.geodetic.csv, by the scenario's world.origin or its map's EPSG code.
     Geodetic,
     /// CASE.planned.csv and CASE-RUN.csv: poses in time.
     Csv,
@@ -89,18 +89,23 @@ fn write_waypoints(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
 
 /// `missions/CASE.geodetic.csv`.
 fn write_geodetic(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
-    let Some(origin) = &work.setup.scenario.origin() else {
-        return Err(Problem::input(
-            "--to geodetic: the scenario has no `world.origin`, such as \
-             origin = { lat_deg = 47.3977, lon_deg = 8.5456, alt_amsl_m = 488.0, x_axis_heading_deg = 73.5 }",
+    let refuse = |why: String| Problem::input(format!("--to geodetic: {why}"));
+    let Some(world) = Placement::of(&work.setup.scenario).map_err(refuse)? else {
+        return Err(refuse(
+            "the scenario has no `world.origin`, such as \
+             origin = { lat_deg = 47.3977, lon_deg = 8.5456, alt_amsl_m = 488.0, x_axis_heading_deg = 73.5 }, and no map \
+             whose file or `world.terrain.epsg` says in which plane it lies"
+                .into(),
         ));
     };
-    let cage = Cage::new(origin);
     let place = work.folder.file("missions");
     atomic::make_folder(&place)?;
-    let one = |case: &Case| {
+    let one = |case: &Case| -> Result<PathBuf, Problem> {
         let path = place.join(format!("{}{}", case.id(), geodetic::ENDING));
-        geodetic::write(&path, &cage, &case.waypoints).map(|()| path)
+        let text =
+            geodetic::text(&world, &case.waypoints).map_err(|why| refuse(format!("case {}: {why}", case.id())))?;
+        geodetic::write(&path, &text)?;
+        Ok(path)
     };
     Ok(Written::all(cases.iter().map(one).collect::<Result<_, _>>()?))
 }

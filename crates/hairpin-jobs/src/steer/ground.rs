@@ -16,7 +16,7 @@ use hairpin::trajectory::drive::{Planar, SegmentList};
 use hairpin::verification::{DriveReplay, GroundReplay, replay_drive};
 use hairpin::world::terrain::{ElevationMap, NoGround};
 use hairpin_formats::steering::{Asked, Status};
-use hairpin_formats::terrain::Georeference;
+use hairpin_formats::terrain::{Georeference, MapFile};
 
 use super::answered::{Answered, Near, broken, claim, pieces};
 use super::pace::{direction, start};
@@ -34,16 +34,16 @@ pub(super) fn map(
     georeference: &Georeference,
     rover: &Rover,
     watch: &dyn Watch,
-) -> Result<ElevationMap, Problem> {
-    let map = read_map(path, georeference)?;
-    let cell = map.grid().cell[0].max(map.grid().cell[1]);
+) -> Result<MapFile, Problem> {
+    let file = read_map(path, georeference)?;
+    let cell = file.map.grid().cell[0].max(file.map.grid().cell[1]);
     if rover.suspension.wheelbase().is_some_and(|base| cell > 0.5 * base) {
         watch.warn(&format!(
             "Warning: {}: cells of {cell} m are coarser than half the wheel base: attitudes are optimistic",
             path.display()
         ));
     }
-    Ok(map)
+    Ok(file)
 }
 
 /// Answers `asked` on `map`.

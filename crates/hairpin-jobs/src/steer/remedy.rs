@@ -49,6 +49,7 @@ impl Vehicle {
     /// What would help with `asked`, which was `answered`.
     pub fn remedies(&self, asked: &Asked, answered: &Answered) -> Remedies {
         let mut remedies = Remedies::default();
+        let asked = &self.near(asked);
         let bounds = self.bounds(asked);
         let kept = Asked { kf: asked.kf.clamp(-bounds.most, bounds.most), ..*asked };
         let Ok(query) = query(&kept, &bounds) else { return remedies };
@@ -80,6 +81,7 @@ impl Vehicle {
         }
         let way = self.way(asked, answered);
         remedies.standstill = way.last().copied();
+        remedies.standstill.iter_mut().for_each(|(_, at)| self.move_back(at));
         remedies.on_the_way = self.on_the_way(asked, &way);
         remedies
     }

@@ -86,10 +86,15 @@ fn cost(settings: &SteerSettings) -> Result<GroundCost, Problem> {
     Ok(cost)
 }
 
-/// The places of the file, then the others.
-pub(super) fn places(settings: &SteerSettings) -> Result<KeepOuts, Problem> {
+/// The places of the file, then the others, on a map whose x and y are relative to `offset`.
+pub(super) fn places(settings: &SteerSettings, offset: [f64; 2]) -> Result<KeepOuts, Problem> {
     let mut sections = settings.keep_out.as_deref().map_or(Ok(Vec::new()), file)?;
     sections.extend_from_slice(&settings.places);
+    let place = |p: &mut [f64; 2]| *p = [p[0] - offset[0], p[1] - offset[1]];
+    for section in &mut sections {
+        section.circle.iter_mut().for_each(|circle| place(&mut circle.center_m));
+        section.polygon.iter_mut().flat_map(|polygon| &mut polygon.points_m).for_each(place);
+    }
     keep_outs(&sections).map_err(|mistake| Problem::input(mistake.to_string()))
 }
 

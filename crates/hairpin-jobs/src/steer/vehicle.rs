@@ -9,10 +9,12 @@ use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query, Refusal};
 use hairpin::robot::rover::{Rover, Twist};
 use hairpin::trajectory::SpeedProfile;
+use hairpin::trajectory::drive::Planar;
 use hairpin::trajectory::start_table::StartTable;
 use hairpin::world::terrain::{ElevationMap, KeepOuts};
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{Asked, Status};
+use hairpin_formats::terrain::MapFile;
 
 use super::answered::Answered;
 use super::pace::{Pace, Rows, direction, start, wheels_broken};
@@ -27,6 +29,8 @@ pub struct Vehicle {
     pub rover: Rover,
     /// What it drives on; the plane without one.
     pub(super) map: Option<ElevationMap>,
+    /// What the map's coordinates are relative to, m: easting and northing of its x = y = 0.
+    pub(super) offset: [f64; 2],
     /// What it keeps out of.
     pub(super) keep_outs: KeepOuts,
     solver: Solver<'static>,
@@ -52,20 +56,24 @@ impl Vehicle {
         }
         let solver = Solver::new(settings)?;
         let table = settings.effort.start_table.as_deref().map(|path| start_table::load(path, &rover)).transpose()?;
-        let keep_outs = places(settings)?;
         let map = settings.terrain.as_ref().map(|(path, georeference)| ground::map(path, georeference, &rover, watch));
-        Ok(Self { map: map.transpose()?, rover, keep_outs, solver, table, pace: settings.pace })
+        let (map, offset) = match map.transpose()? {
+            Some(MapFile { map, told }) => (Some(map), told.offset_m),
+            None => (None, [0.0, 0.0]),
+        };
+        let keep_outs = places(settings, offset)?;
+        Ok(Self { map, offset, rover, keep_outs, solver, table, pace: settings.pace })
     }
 
     /// `rover` on `map`, forward arcs, with `time_limit` for each question: what requirements are checked with.
     pub fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
         let (keep_outs, solver) = (KeepOuts::default(), Solver::plain(time_limit));
-        Self { rover, map, keep_outs, solver, table: None, pace: Pace::default() }
+        Self { rover, map, offset: [0.0, 0.0], keep_outs, solver, table: None, pace: Pace::default() }
     }
 
     /// Answers a question: solved under the clock, then replayed without it.
     pub fn answer(&self, asked: &Asked) -> Answered {
-        self.answer_by(asked, &self.solver())
+        self.answer_by(&self.near(asked), &self.solver())
     }
 
     /// The solver, with its table.
@@ -82,7 +90,16 @@ impl Vehicle {
         Curvatures { most, most_rate: limits.curvature_rate }
     }
 
-    /// Answers a question by other solver.
+    /// A question in the map's own coordinates as it is asked of the map, which lies near its zero.
+    pub(super) fn near(&self, asked: &Asked) -> Asked {
+        if self.offset == [0.0, 0.0] {
+            return *asked;
+        }
+        let ([x, y, yaw], [east, north]) = (asked.start.unwrap_or([0.0; 3]), self.offset);
+        Asked { start: Some([x - east, y - north, yaw]), ..*asked }
+    }
+
+    /// Answers a question that is asked of the map ([`Self::near`]) by another solver.
     pub(super) fn answer_by(&self, asked: &Asked, solver: &Solver<'_>) -> Answered {
         let (limits, bounds) = (&self.rover.limits, self.bounds(asked));
         let most = bounds.most;
@@ -167,7 +184,7 @@ impl Vehicle {
             limit = pace.steering_excess(&self.rover, profile, segments).map(|excess| ("steering_rate", Some(excess)));
         }
         if limit.is_none() && self.rover.wheels.bounded() {
-            let states = self.follow(asked, &answered, Rows::Few);
+            let states = self.states(asked, &answered, Rows::Few);
             limit = states.and_then(|states| wheels_broken(&self.rover, &states));
         }
         if limit.is_some() {
@@ -180,6 +197,17 @@ impl Vehicle {
     /// The states of an answer's drive, on the ground or in the plane; `None` without a drive, and where the ground
     /// ends.
     pub fn follow(&self, asked: &Asked, answered: &Answered, rows: Rows) -> Option<States> {
+        let mut states = self.states(&self.near(asked), answered, rows)?;
+        states.states.iter_mut().for_each(|state| self.move_back(&mut state.at));
+        Some(states)
+    }
+
+    /// Gives a place of the map the coordinates of the map's own file.
+    pub(super) fn move_back(&self, at: &mut Planar) {
+        (at.x, at.y) = (at.x + self.offset[0], at.y + self.offset[1]);
+    }
+
+    fn states(&self, asked: &Asked, answered: &Answered, rows: Rows) -> Option<States> {
         let (solution, _) = answered.drive.as_ref()?;
         let (profile, start) = (answered.profile?, start(asked));
         let followed = self.pace.followed(&self.rover, profile, direction(asked), &solution.segments, rows);

@@ -64,7 +64,7 @@ impl Subject {
         let rocky8 = rover_for("rocky8")?;
         let (ground, ground_name) = match &settings.terrain {
             Some(TerrainSettings { file, georeference, rocks }) => {
-                let (map, name) = (read_map(file, georeference)?, file.display().to_string());
+                let (map, name) = (read_map(file, georeference)?.map, file.display().to_string());
                 match *rocks {
                     Some(cover) => rocky(&map, &name, cover)?,
                     None => (map, name),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::{Distribution, Environment, Mistake, Named, Origin, SearchSection, Subject, Terms};
+use super::{Distribution, Environment, Mistake, Named, Origin, Projected, SearchSection, Subject, Terms};
 
 /// Who executes a campaign's trajectories, and how often.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -162,6 +162,11 @@ pub trait Keys: Any {
     /// Where on Earth the world stands.
     fn origin(&self) -> Option<Origin> {
         self.head().origin
+    }
+
+    /// The plane of the Earth that its map lies in, where it has one.
+    fn projected(&self) -> Option<Projected> {
+        None
     }
 
     /// Distributions, by key.

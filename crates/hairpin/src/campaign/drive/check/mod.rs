@@ -93,6 +93,9 @@ fn check_score(keys: &DriveScenario, files: &Attachments, found: &mut Findings) 
     found.rounds(search.method, (key, given), keys.vary.keys());
 }
 
+/// No plane of the Earth has coordinates beyond, m.
+const MOST_OFFSET: f64 = 1e8;
+
 /// A file or a generator; the generator's keys only with one.
 fn check_ground(world: &GroundSection, found: &mut Findings) {
     let terrain = &world.terrain;
@@ -106,6 +109,18 @@ fn check_ground(world: &GroundSection, found: &mut Findings) {
     ] {
         let fine = !given || terrain.generator.is_some();
         found.require(fine, &format!("world.terrain.{key}"), "given", "left out: it is for generated ground");
+    }
+    for (key, given) in [
+        ("epsg", terrain.epsg.is_some()),
+        ("unit", terrain.unit.is_some()),
+        ("height_unit", terrain.height_unit.is_some()),
+        ("offset_m", terrain.offset_m.is_some()),
+    ] {
+        let fine = !given || terrain.file.is_some();
+        found.require(fine, &format!("world.terrain.{key}"), "given", "left out: it is for a map's file");
+    }
+    for (axis, part) in terrain.offset_m.iter().flatten().enumerate() {
+        found.from(&format!("world.terrain.offset_m[{axis}]"), *part, -MOST_OFFSET, MOST_OFFSET, " m");
     }
 }
 

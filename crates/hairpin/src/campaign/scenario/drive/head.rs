@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 
 use super::{DriveExecute, DriveScenario, GroundReach};
 use crate::campaign::scenario::{
-    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms, sections,
+    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Subject, Terms,
+    sections,
 };
 use crate::judgement::Limits;
 
@@ -55,6 +56,10 @@ impl Keys for DriveScenario {
             surroundings: &["keep_out", "external_force_n"],
             one_search: false,
         }
+    }
+
+    fn projected(&self) -> Option<Projected> {
+        self.world.terrain.projected()
     }
 
     fn subject(&self) -> Subject {

@@ -79,9 +79,51 @@ pub struct TerrainSection {
     /// Share of the generated ground that is covered by rocks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rock_cover: Option<f64>,
+    /// EPSG code of the plane that the file's coordinates are in, where the file does not say it: places it on Earth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub epsg: Option<u32>,
+    /// Unit of the file's x and y, where it does not say it: m | ft | us-ft.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<MapUnit>,
+    /// Unit of the file's heights, where it does not say it: m | ft | us-ft.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_unit: Option<MapUnit>,
+    /// Taken off the file's coordinates: what x and y are relative to in all that is written. Where it is left out and
+    /// the map lies farther than 20 km from its plane's zero, whole kilometres are, and poses of this file are in the
+    /// map's own coordinates; resolved scenarios say it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub offset_m: Option<[f64; 2]>,
     /// SHA-256 of the file's bytes, as resolved scenarios have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checksum: Option<String>,
+}
+
+/// Units of maps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MapUnit {
+    /// Metre.
+    M,
+    /// International foot, 0.3048 m.
+    Ft,
+    /// US survey foot, 1200/3937 m.
+    UsFt,
+}
+
+/// The plane of a map and what is taken off its coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projected {
+    /// EPSG code of the plane.
+    pub epsg: u32,
+    /// Easting and northing of x = y = 0, m.
+    pub offset: [f64; 2],
+}
+
+impl TerrainSection {
+    /// The plane that the map lies in, where it is known.
+    pub fn projected(&self) -> Option<Projected> {
+        self.epsg.map(|epsg| Projected { epsg, offset: self.offset_m.unwrap_or([0.0, 0.0]) })
+    }
 }
 
 /// Rules for cells that hold no data.

@@ -1,0 +1,118 @@
+//! What is read from files, and how much of it at most: the one place where a reader's file is opened.
+//!
+//! A file that somebody else made is data: how large it is, is asked before room is taken for it, and what is no plain
+//! file (a device that never ends, a pipe that nobody writes to, a folder) is refused, not waited for.
+
+use std::fs::{self, File, FileType};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Bytes of a file at most, where its kind has no bound of its own: a mesh of this size has two million triangles.
+pub const MOST_BYTES: u64 = 100_000_000;
+/// Bytes of a raster or an array: 10⁸ cells of eight bytes.
+pub const MOST_RASTER_BYTES: u64 = 1_000_000_000;
+/// Bytes of what stands beside a file and says how it is to be read.
+pub const MOST_SIDECAR_BYTES: u64 = 1_000_000;
+
+/// The bytes of the file at `path`, of which it may have `most`.
+///
+/// # Errors
+/// It cannot be read; it is no plain file; it is larger.
+pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    refuse_special(fs::metadata(path)?.file_type())?;
+    let file = File::open(path)?;
+    // What is open is what is asked: the name may lead to another file by now.
+    let metadata = file.metadata()?;
+    refuse_special(metadata.file_type())?;
+    refuse_larger(metadata.len(), most)?;
+    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    file.take(most + 1).read_to_end(&mut bytes)?;
+    refuse_larger(bytes.len() as u64, most)?;
+    Ok(bytes)
+}
+
+/// The text of the file at `path`, of which it may have `most` bytes.
+///
+/// # Errors
+/// As of [`read`]; it is no UTF-8.
+pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
+    String::from_utf8(read(path, most)?).map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is no UTF-8 text"))
+}
+
+/// An open file that other libraries read piece by piece.
+///
+/// # Errors
+/// As of [`read`].
+pub fn open(path: &Path, most: u64) -> io::Result<File> {
+    refuse_special(fs::metadata(path)?.file_type())?;
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
+    refuse_special(metadata.file_type())?;
+    refuse_larger(metadata.len(), most)?;
+    Ok(file)
+}
+
+fn refuse_larger(bytes: u64, most: u64) -> io::Result<()> {
+    if bytes <= most {
+        return Ok(());
+    }
+    let what = format!("{bytes} bytes are more than {} MB", most / 1_000_000);
+    Err(io::Error::new(io::ErrorKind::FileTooLarge, what))
+}
+
+fn refuse_special(kind: FileType) -> io::Result<()> {
+    if kind.is_file() {
+        return Ok(());
+    }
+    let what = if kind.is_dir() { "a folder" } else { special(kind) };
+    Err(io::Error::new(io::ErrorKind::InvalidInput, format!("{what}, where a file is needed")))
+}
+
+#[cfg(unix)]
+fn special(kind: FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt;
+    if kind.is_fifo() {
+        "a pipe"
+    } else if kind.is_socket() {
+        "a socket"
+    } else {
+        "a device"
+    }
+}
+
+#[cfg(not(unix))]
+fn special(_: FileType) -> &'static str {
+    "a device"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_read_up_to_their_bound() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        fs::write(&path, "12345").unwrap();
+        assert_eq!(read(&path, 5).unwrap(), b"12345");
+        assert_eq!(read(&path, 4).unwrap_err().kind(), io::ErrorKind::FileTooLarge);
+        fs::write(&path, [0xff, 0xfe]).unwrap();
+        assert!(read_text(&path, 5).unwrap_err().to_string().contains("no UTF-8"));
+        assert!(read(folder.path(), 5).unwrap_err().to_string().contains("a folder"));
+        assert_eq!(read(&folder.path().join("none"), 5).unwrap_err().kind(), io::ErrorKind::NotFound);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_never_ends_is_refused() {
+        for (path, what) in [("/dev/zero", "a device"), ("/dev/null", "a device")] {
+            assert!(read(Path::new(path), MOST_BYTES).unwrap_err().to_string().contains(what), "{path}");
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let (pipe, socket) = (folder.path().join("pipe"), folder.path().join("socket"));
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        assert!(read(&pipe, 1).unwrap_err().to_string().contains("a pipe"));
+        assert!(open(&socket, 1).unwrap_err().to_string().contains("a socket"));
+    }
+}

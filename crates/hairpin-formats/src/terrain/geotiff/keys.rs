@@ -1,0 +1,110 @@
+//! The GeoKeys: what the coordinates are. Numbers of keys and their values: OGC 19-008r4, annex B.
+
+use tiff::tags::Tag;
+
+use super::Tiff;
+use crate::terrain::reference::{Model, Reference};
+use crate::terrain::unit::Unit;
+
+const MODEL_TYPE: u16 = 1024;
+const RASTER_TYPE: u16 = 1025;
+const CITATION: u16 = 1026;
+const GEODETIC: u16 = 2048;
+const GEODETIC_CITATION: u16 = 2049;
+const ANGULAR_UNIT: u16 = 2054;
+const ANGULAR_UNIT_SIZE: u16 = 2055;
+const SEMI_MAJOR_AXIS: u16 = 2057;
+const PROJECTED: u16 = 3072;
+const PROJECTED_CITATION: u16 = 3073;
+const LINEAR_UNIT: u16 = 3076;
+const LINEAR_UNIT_SIZE: u16 = 3077;
+const VERTICAL: u16 = 4096;
+const VERTICAL_UNIT: u16 = 4099;
+
+const PIXEL_IS_POINT: u16 = 2;
+/// "User-defined": what follows says it.
+const OWN: u16 = 32767;
+
+pub(super) struct Keys {
+    pub(super) reference: Reference,
+    /// Whether a tie point names a cell's centre, not its corner.
+    pub(super) at_centers: bool,
+}
+
+/// The keys of a file; one without any says nothing.
+pub(super) fn read(tiff: &mut Tiff<'_>) -> Keys {
+    let directory = tiff.get_tag_u16_vec(Tag::GeoKeyDirectoryTag).unwrap_or_default();
+    let numbers = tiff.get_tag_f64_vec(Tag::GeoDoubleParamsTag).unwrap_or_default();
+    let texts = tiff.get_tag_ascii_string(Tag::GeoAsciiParamsTag).unwrap_or_default();
+    let table = Table { directory: &directory, numbers: &numbers, texts: &texts };
+    let projected = table.code(PROJECTED);
+    let model = match table.short(MODEL_TYPE) {
+        Some(1) => Model::Projected,
+        Some(2) => Model::Geographic,
+        Some(3) => Model::Geocentric,
+        _ if projected.is_some() => Model::Projected,
+        _ if table.code(GEODETIC).is_some() => Model::Geographic,
+        _ => Model::Unsaid,
+    };
+    let epsg = if model == Model::Projected { projected } else { table.code(GEODETIC) };
+    let citations = if model == Model::Projected { PROJECTED_CITATION } else { GEODETIC_CITATION };
+    let name = table.text(citations).or_else(|| table.text(CITATION)).unwrap_or_default();
+    let unit = match table.short(LINEAR_UNIT) {
+        Some(OWN) => table.number(LINEAR_UNIT_SIZE).and_then(Unit::of_length),
+        Some(code) => Unit::of_code(code),
+        None => None,
+    };
+    let degrees = match table.short(ANGULAR_UNIT) {
+        Some(9101) => 1f64.to_degrees(),
+        Some(9105 | 9106) => 0.9,
+        Some(OWN) => table.number(ANGULAR_UNIT_SIZE).map_or(1.0, f64::to_degrees),
+        _ => 1.0,
+    };
+    let height_unit = table.short(VERTICAL_UNIT).and_then(Unit::of_code).or_else(|| match table.short(VERTICAL) {
+        // NAVD 88 in feet; other heights of the registry that files have are in metres.
+        Some(6360) => Unit::of_code(9003),
+        Some(8228) => Unit::of_code(9002),
+        Some(3855 | 5701..=5799 | 7837 | 5605..=5623) => Some(Unit::metre()),
+        _ => None,
+    });
+    let radius = table.number(SEMI_MAJOR_AXIS);
+    let reference = Reference { model, epsg: epsg.map(u32::from), unit, height_unit, name, degrees, radius };
+    Keys { reference, at_centers: table.short(RASTER_TYPE) == Some(PIXEL_IS_POINT) }
+}
+
+/// A header of four numbers, then (key, tag of the value, count, value or place) each.
+struct Table<'t> {
+    directory: &'t [u16],
+    numbers: &'t [f64],
+    texts: &'t str,
+}
+
+impl Table<'_> {
+    fn entry(&self, key: u16, tag: Tag) -> Option<(usize, usize)> {
+        let tag = if tag == Tag::GeoKeyDirectoryTag { 0 } else { tag.to_u16() };
+        let entry = self.directory.chunks_exact(4).skip(1).find(|entry| entry[0] == key && entry[1] == tag)?;
+        Some((usize::from(entry[2]), usize::from(entry[3])))
+    }
+
+    fn short(&self, key: u16) -> Option<u16> {
+        self.entry(key, Tag::GeoKeyDirectoryTag).map(|(_, value)| value as u16)
+    }
+
+    /// A code of the registry.
+    fn code(&self, key: u16) -> Option<u16> {
+        self.short(key).filter(|code| !matches!(*code, 0 | OWN))
+    }
+
+    fn number(&self, key: u16) -> Option<f64> {
+        let (_, at) = self.entry(key, Tag::GeoDoubleParamsTag)?;
+        self.numbers.get(at).copied()
+    }
+
+    fn text(&self, key: u16) -> Option<String> {
+        let (count, at) = self.entry(key, Tag::GeoAsciiParamsTag)?;
+        let text = self.texts.get(at..at + count).or_else(|| self.texts.get(at..))?;
+        // Texts end at a bar; a line break in one would break the line that tells it.
+        let text: String = text.trim_end_matches(['|', '\0']).chars().filter(|c| !c.is_control()).take(200).collect();
+        Some(text).filter(|text| !text.is_empty())
+    }
+}

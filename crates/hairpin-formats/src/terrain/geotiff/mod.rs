@@ -1,0 +1,118 @@
+//! GeoTIFF: one band of heights with pixel scale and tie point, or a transformation without rotation.
+//!
+//! Sources: OGC GeoTIFF 1.1 (19-008r4); GDAL's tags GDAL_METADATA (scale, offset, unit of a band), GDAL_NODATA and its
+//! masks within the file.
+
+mod keys;
+mod mask;
+mod metadata;
+mod place;
+
+use std::io::Cursor;
+
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+
+use super::error::{MOST_CELLS, TerrainError};
+use super::raster::{Layout, Raster, bounded};
+use super::remedy::Remedy;
+use metadata::Band;
+
+type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
+
+/// A compressed cell takes some bits: deflate comes to a thousandth of what it packs, Zstandard to less.
+const MOST_PACKED: usize = 1 << 16;
+
+pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
+    let broken = |error: tiff::TiffError| {
+        let why = format!("no readable GeoTIFF ({error}); if GDAL reads it");
+        TerrainError::Convert { why, command: Remedy::rewrite(file, "-co COMPRESS=DEFLATE ") }
+    };
+    let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(broken)?.with_limits(limits());
+    let (columns, rows) = tiff.dimensions().map_err(broken)?;
+    let (columns, rows) = bounded(columns.into(), rows.into())?;
+    // A header can promise gigabytes that the file does not hold.
+    if columns * rows / MOST_PACKED > bytes.len() {
+        let said = format!("the header says {columns} x {rows} cells, the file has {} bytes", bytes.len());
+        return Err(TerrainError::Broken(said));
+    }
+    let convert = |why: String, options: &str| TerrainError::Convert { why, command: Remedy::rewrite(file, options) };
+    let number = |tiff: &mut Tiff<'_>, tag| tiff.find_tag_unsigned::<u16>(tag).map_err(broken);
+    let samples = number(&mut tiff, Tag::SamplesPerPixel)?.unwrap_or(1);
+    if samples != 1 {
+        return Err(convert(format!("{samples} bands: one band of heights is needed"), "-b 1 "));
+    }
+    if let Some(packed) = number(&mut tiff, Tag::Compression)?.and_then(unread) {
+        return Err(convert(format!("compressed by {packed}, which is not read here"), "-co COMPRESS=DEFLATE "));
+    }
+    if let Some(orientation) = number(&mut tiff, Tag::Orientation)?.filter(|orientation| *orientation != 1) {
+        return Err(convert(format!("its Orientation is {orientation}: rows from the top are needed"), ""));
+    }
+    let keys = keys::read(&mut tiff);
+    let placed = place::read(&mut tiff, columns, rows, keys.at_centers, file)?;
+    let band = metadata::read(&mut tiff)?;
+    let values = tiff.read_image().map_err(broken)?;
+    let mut heights = scaled(values, &band)?;
+    let masked = mask::apply(bytes, &mut tiff, (columns, rows), &mut heights).map_err(broken)?;
+    if placed.south_up {
+        turn_over(&mut heights, columns);
+    }
+    let mut reference = keys.reference;
+    reference.height_unit = reference.height_unit.or(band.unit);
+    let Band { scale, offset, no_data, .. } = band;
+    let layout = Layout { scale, offset, no_data, masked, south_up: placed.south_up, at_centers: keys.at_centers };
+    Ok(Raster { grid: placed.grid, heights, reference, layout })
+}
+
+fn limits() -> Limits {
+    let mut limits = Limits::default();
+    // Eight bytes a cell at most; the image's own strips cannot be larger.
+    limits.decoding_buffer_size = 8 * MOST_CELLS as usize;
+    limits.intermediate_buffer_size = limits.decoding_buffer_size;
+    limits
+}
+
+/// What a compression is called that is not read here.
+fn unread(compression: u16) -> Option<String> {
+    Some(match compression {
+        1 | 5 | 8 | 32773 | 32946 | 50000 => return None,
+        6 | 7 => "JPEG, which loses heights".into(),
+        34887 => "LERC".into(),
+        34925 => "LZMA".into(),
+        50001 => "WebP".into(),
+        50002 => "JPEG XL".into(),
+        other => format!("method {other}"),
+    })
+}
+
+/// Heights below this are the −3.4e38 of tools that forget to say so.
+const LOWEST: f64 = -1e30;
+
+fn scaled(values: DecodingResult, band: &Band) -> Result<Vec<f32>, TerrainError> {
+    // Floats are written as text of another precision; whole numbers are what they are.
+    let float = |value: f64| -> f32 {
+        let none = band.no_data.is_some_and(|no_data| value == no_data || value as f32 == no_data as f32);
+        if none || !value.is_finite() || value < LOWEST { f32::NAN } else { band.height(value) }
+    };
+    let whole = |value: f64| -> f32 { if band.no_data == Some(value) { f32::NAN } else { band.height(value) } };
+    Ok(match values {
+        DecodingResult::F32(v) => v.into_iter().map(|value| float(value.into())).collect(),
+        DecodingResult::F64(v) => v.into_iter().map(float).collect(),
+        DecodingResult::U8(v) => v.into_iter().map(|value| whole(value.into())).collect(),
+        DecodingResult::I8(v) => v.into_iter().map(|value| whole(value.into())).collect(),
+        DecodingResult::U16(v) => v.into_iter().map(|value| whole(value.into())).collect(),
+        DecodingResult::I16(v) => v.into_iter().map(|value| whole(value.into())).collect(),
+        DecodingResult::U32(v) => v.into_iter().map(|value| whole(value.into())).collect(),
+        DecodingResult::I32(v) => v.into_iter().map(|value| whole(value.into())).collect(),
+        _ => return Err(TerrainError::Broken("samples of this type are no heights".into())),
+    })
+}
+
+/// The rows in the opposite order.
+fn turn_over(heights: &mut [f32], columns: usize) {
+    let rows = heights.len() / columns;
+    for row in 0..rows / 2 {
+        let (above, below) = heights.split_at_mut((rows - 1 - row) * columns);
+        above[row * columns..][..columns].swap_with_slice(&mut below[..columns]);
+    }
+}

@@ -1,0 +1,173 @@
+//! The `.prj` beside a raster: well-known text of a coordinate system, as ESRI or OGC write it (OGC 01-009, and 18-010
+//! for its newer words).
+
+use super::error::TerrainError;
+use super::reference::{Model, Reference};
+use super::unit::Unit;
+
+/// Brackets within brackets, at most: coordinate systems have six.
+const DEEPEST: usize = 32;
+
+/// One `WORD["name", …]`.
+struct Node<'t> {
+    word: &'t str,
+    /// The texts and numbers in it, quotes taken off.
+    values: Vec<&'t str>,
+    nodes: Vec<Self>,
+}
+
+/// What a text says of the plane.
+pub(super) fn read(text: &str) -> Result<Reference, TerrainError> {
+    let broken = || TerrainError::Broken("its .prj is no well-known text of a coordinate system".into());
+    let mut rest = text.trim_start_matches('\u{feff}').trim();
+    let root = node(&mut rest, 0).ok_or_else(broken)?;
+    of(&root).ok_or_else(broken)
+}
+
+fn of(root: &Node<'_>) -> Option<Reference> {
+    let name = root.values.first().copied().unwrap_or_default().to_owned();
+    let spheroid = root.find(&["SPHEROID", "ELLIPSOID"]);
+    let radius = spheroid.and_then(|spheroid| spheroid.values.get(1)?.parse().ok());
+    let said = Reference { epsg: root.epsg(), name, radius, ..Reference::default() };
+    match root.word.to_ascii_uppercase().as_str() {
+        "GEOGCS" | "GEOGCRS" | "GEODCRS" => {
+            let unit = root.nodes.iter().rev().find(|node| node.is(&["UNIT", "ANGLEUNIT"]));
+            let radians = unit.and_then(|unit| unit.values.get(1)?.parse::<f64>().ok()).unwrap_or(1f64.to_radians());
+            Some(Reference { model: Model::Geographic, degrees: radians.to_degrees(), ..said })
+        }
+        "GEOCCS" => Some(Reference { model: Model::Geocentric, ..said }),
+        "PROJCS" | "PROJCRS" => {
+            let unit = root.nodes.iter().rev().find(|node| node.is(&["UNIT", "LENGTHUNIT"]));
+            // Newer text has the unit in its axes where they share one.
+            let unit = unit.or_else(|| root.find(&["LENGTHUNIT"]));
+            let metres = unit.and_then(|unit| unit.values.get(1)?.parse().ok());
+            let epsg = said.epsg.or_else(|| code_of_name(&said.name));
+            Some(Reference { model: Model::Projected, unit: metres.and_then(Unit::of_length), epsg, ..said })
+        }
+        // A yard's own plane.
+        "LOCAL_CS" | "ENGCRS" | "ENGINEERINGCRS" => {
+            let metres = root.find(&["UNIT", "LENGTHUNIT"]).and_then(|unit| unit.values.get(1)?.parse().ok());
+            Some(Reference { model: Model::Projected, unit: metres.and_then(Unit::of_length), epsg: None, ..said })
+        }
+        // A plane with heights: what it says of the plane comes first.
+        "COMPD_CS" | "COMPOUNDCRS" => {
+            let plane = root.nodes.iter().find_map(of)?;
+            let vertical = root.nodes.iter().find(|node| node.is(&["VERT_CS", "VERTCRS"]));
+            let unit = vertical.and_then(|vertical| vertical.find(&["UNIT", "LENGTHUNIT"]));
+            let metres = unit.and_then(|unit| unit.values.get(1)?.parse().ok());
+            Some(Reference { height_unit: metres.and_then(Unit::of_length), ..plane })
+        }
+        _ => None,
+    }
+}
+
+/// ESRI's texts have no codes, but names.
+fn code_of_name(name: &str) -> Option<u32> {
+    let name = name.replace(' ', "_").to_ascii_lowercase();
+    match name.as_str() {
+        "wgs_1984_web_mercator_auxiliary_sphere" => return Some(3857),
+        "etrs_1989_laea" => return Some(3035),
+        _ => {}
+    }
+    let (datum, zone) = name.split_once("_utm_zone_")?;
+    let (number, hemisphere) = zone.split_at_checked(zone.len().checked_sub(1)?)?;
+    let number: u32 = number.parse().ok().filter(|zone| (1..=60).contains(zone))?;
+    match (datum, hemisphere) {
+        ("wgs_1984", "n") => Some(32600 + number),
+        ("wgs_1984", "s") => Some(32700 + number),
+        ("etrs_1989", "n") if (28..=38).contains(&number) => Some(25800 + number),
+        ("nad_1983", "n") if (1..=23).contains(&number) => Some(26900 + number),
+        _ => None,
+    }
+}
+
+impl<'t> Node<'t> {
+    fn is(&self, words: &[&str]) -> bool {
+        words.iter().any(|word| self.word.eq_ignore_ascii_case(word))
+    }
+
+    fn find(&self, words: &[&str]) -> Option<&Node<'t>> {
+        self.nodes.iter().find_map(|node| if node.is(words) { Some(node) } else { node.find(words) })
+    }
+
+    fn epsg(&self) -> Option<u32> {
+        let authority = self.nodes.iter().rev().find(|node| node.is(&["AUTHORITY", "ID"]))?;
+        let [name, code, ..] = authority.values[..] else { return None };
+        code.parse().ok().filter(|_| name.eq_ignore_ascii_case("EPSG"))
+    }
+}
+
+fn node<'t>(rest: &mut &'t str, depth: usize) -> Option<Node<'t>> {
+    if depth > DEEPEST {
+        return None;
+    }
+    let open = rest.find(['[', '('])?;
+    let word = rest[..open].trim();
+    if word.is_empty() || !word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        return None;
+    }
+    *rest = &rest[open + 1..];
+    let mut node_of = Node { word, values: Vec::new(), nodes: Vec::new() };
+    loop {
+        *rest = rest.trim_start_matches(|c: char| c.is_whitespace() || c == ',');
+        match rest.chars().next()? {
+            ']' | ')' => {
+                *rest = &rest[1..];
+                return Some(node_of);
+            }
+            '"' => {
+                let end = rest[1..].find('"')? + 1;
+                node_of.values.push(&rest[1..end]);
+                *rest = &rest[end + 1..];
+            }
+            _ => {
+                let end = rest.find([',', '[', '(', ']', ')'])?;
+                if rest[end..].starts_with(['[', '(']) {
+                    node_of.nodes.push(node(rest, depth + 1)?);
+                } else {
+                    node_of.values.push(rest[..end].trim());
+                    *rest = &rest[end..];
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DEGREES: &str = r#"GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]]"#;
+
+    #[test]
+    fn planes_and_degrees_are_told_apart() {
+        let utm = format!(
+            r#"PROJCS["WGS_1984_UTM_Zone_32N",{DEGREES},PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],UNIT["Meter",1.0]]"#
+        );
+        let read_utm = read(&utm).unwrap();
+        assert_eq!((read_utm.model, read_utm.epsg), (Model::Projected, Some(32632)));
+        assert!(read_utm.unit.unwrap().is_metre());
+        let feet =
+            utm.replace(r#"UNIT["Meter",1.0]"#, r#"UNIT["Foot_US",0.3048006096012192],AUTHORITY["EPSG","2263"]"#);
+        let feet = read(&feet).unwrap();
+        assert_eq!((feet.epsg, feet.unit.unwrap().name.as_str()), (Some(2263), "US survey ft"));
+        let degrees = read(DEGREES).unwrap();
+        assert_eq!((degrees.model, degrees.radius), (Model::Geographic, Some(6_378_137.0)));
+        assert!((degrees.degrees - 1.0).abs() < 1e-12);
+        let both = format!(r#"COMPD_CS["both",{utm},VERT_CS["heights",VERT_DATUM["d",2005],UNIT["foot",0.3048]]]"#);
+        let both = read(&both).unwrap();
+        assert_eq!((both.epsg, both.height_unit.unwrap().name.as_str()), (Some(32632), "ft"));
+        let yard = read(r#"LOCAL_CS["yard",UNIT["foot",0.3048]]"#).unwrap();
+        assert_eq!((yard.epsg, yard.unit.unwrap().name.as_str()), (None, "ft"));
+        let newer = r#"PROJCRS["WGS 84 / UTM zone 19S",CS[Cartesian,2],AXIS["(E)",east,LENGTHUNIT["metre",1]],ID["EPSG",32719]]"#;
+        assert_eq!(read(newer).unwrap().epsg, Some(32719));
+    }
+
+    #[test]
+    fn other_texts_are_refused() {
+        let deep = "A[".repeat(100_000);
+        for text in ["", "[", "GEOGCS[", "hello", "Projection UTM\nZone 32", "VERT_CS[\"x\"]", deep.as_str()] {
+            assert!(read(text).is_err(), "{:?}", text.get(..20));
+        }
+    }
+}

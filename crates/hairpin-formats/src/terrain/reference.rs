@@ -1,0 +1,133 @@
+//! What a map's coordinates are: a plane's, and in which unit, or degrees; and the EPSG code of it.
+
+use super::error::TerrainError;
+use super::georeference::Georeference;
+use super::remedy::Remedy;
+use super::unit::{Source, Unit};
+use crate::epsg::{System, system};
+
+/// What the coordinates of a file are, as far as it says.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Reference {
+    pub(super) model: Model,
+    pub(super) epsg: Option<u32>,
+    /// Of x and y.
+    pub(super) unit: Option<Unit>,
+    pub(super) height_unit: Option<Unit>,
+    /// What it is called.
+    pub(super) name: String,
+    /// Degrees in one unit of angle.
+    pub(super) degrees: f64,
+    /// Semi-major axis of the body, m, where it is said.
+    pub(super) radius: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Model {
+    /// Nothing is said.
+    #[default]
+    Unsaid,
+    /// A plane.
+    Projected,
+    /// Longitude and latitude.
+    Geographic,
+    /// Earth-centred.
+    Geocentric,
+}
+
+/// What one coordinate and one height are in metres, and what is known of the plane.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Units {
+    pub(super) plane: Unit,
+    /// Where the unit of the plane is known from.
+    pub(super) plane_from: Source,
+    pub(super) height: Unit,
+    pub(super) height_from: Source,
+    pub(super) epsg: Option<u32>,
+    pub(super) name: String,
+}
+
+/// Cells of less (m) on coordinates that could be degrees are of a map in degrees: 5 seconds of arc are 0.0014.
+const FINEST: f64 = 0.002;
+
+impl Reference {
+    /// Units and code, of what the file says and what is given; `center` and `cell` are in the file's own unit.
+    pub(super) fn units(
+        &self,
+        center: [f64; 2],
+        cell: [f64; 2],
+        file: &str,
+        given: &Georeference,
+    ) -> Result<Units, TerrainError> {
+        let as_degrees = if self.degrees > 0.0 { self.degrees } else { 1.0 };
+        let geographic = |what: String| {
+            let center = center.map(|angle| angle * as_degrees);
+            TerrainError::Geographic { what, command: Remedy::project(file, center, self.radius) }
+        };
+        match self.model {
+            Model::Geographic => return Err(geographic(self.called("longitude and latitude"))),
+            Model::Geocentric => return Err(geographic(self.called("Earth-centred coordinates"))),
+            Model::Unsaid | Model::Projected => {}
+        }
+        let epsg = same("epsg", self.epsg, given.epsg)?;
+        let by_code = match epsg.map(|code| (code, system(code))) {
+            Some((_, System::Plane { metres })) => Unit::of_length(metres),
+            Some((code, System::Angles)) => return Err(geographic(format!("EPSG:{code}"))),
+            Some((code, System::Unknown)) if self.epsg.is_none() => {
+                let (value, bound) = (code.to_string(), "the EPSG code of a plane, such as 32632 of UTM zone 32 north");
+                return Err(TerrainError::Wrong { key: "epsg", value, bound });
+            }
+            Some((_, System::Unknown)) | None => None,
+        };
+        let said = self.unit.clone().or(by_code);
+        if said.is_none() && given.unit.is_none() && looks_like_degrees(center, cell) {
+            return Err(geographic(format!(
+                "cells of {} on coordinates like degrees, and no unit said (unit = \"m\" says that they are metres)",
+                cell[0]
+            )));
+        }
+        let (plane, plane_from) = told("unit", said, given.unit.map(Unit::from), || Some(Unit::metre()))?;
+        let taken = || (plane.is_metre() || given.assume_heights).then(|| plane.clone());
+        let given_height = given.height_unit.map(Unit::from);
+        let (height, height_from) = told("height_unit", self.height_unit.clone(), given_height, taken)?;
+        Ok(Units { plane, plane_from, height, height_from, epsg, name: self.name.clone() })
+    }
+
+    fn called(&self, what: &str) -> String {
+        let code = self.epsg.map(|code| format!(" (EPSG:{code})"));
+        let name = if self.name.is_empty() { String::new() } else { format!(" ({})", self.name) };
+        format!("{what}{}", code.unwrap_or(name))
+    }
+}
+
+fn looks_like_degrees([x, y]: [f64; 2], cell: [f64; 2]) -> bool {
+    let largest = cell[0].max(cell[1]);
+    largest > 0.0 && largest < FINEST && x.abs() <= 360.0 && y.abs() <= 90.0
+}
+
+/// What the file and a key say of one thing.
+fn same(key: &'static str, said: Option<u32>, given: Option<u32>) -> Result<Option<u32>, TerrainError> {
+    match (said, given) {
+        (Some(said), Some(given)) if said != given => {
+            Err(TerrainError::Contradicts { key, given: given.to_string(), said: said.to_string() })
+        }
+        _ => Ok(said.or(given)),
+    }
+}
+
+/// The unit that the file says, or that is given, or that is taken.
+fn told(
+    key: &'static str,
+    said: Option<Unit>,
+    given: Option<Unit>,
+    taken: impl FnOnce() -> Option<Unit>,
+) -> Result<(Unit, Source), TerrainError> {
+    match (said, given) {
+        (Some(said), Some(given)) if said.metres != given.metres => {
+            Err(TerrainError::Contradicts { key, given: given.name, said: said.name })
+        }
+        (Some(said), _) => Ok((said, Source::File)),
+        (None, Some(given)) => Ok((given, Source::Given)),
+        (None, None) => taken().map(|unit| (unit, Source::Taken)).ok_or(TerrainError::UnitOfHeights),
+    }
+}

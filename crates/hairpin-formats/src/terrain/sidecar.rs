@@ -1,0 +1,99 @@
+//! What other programs put beside a raster: `.prj`, what GDAL notes in `.aux.xml`, masks.
+
+use std::path::{Path, PathBuf};
+
+use roxmltree::{Document, Node};
+
+use super::error::TerrainError;
+use super::no_data;
+use super::prj;
+use super::raster::Layout;
+use super::reference::Reference;
+use super::remedy::Remedy;
+use crate::bounds::{self, MOST_SIDECAR_BYTES};
+
+/// The texts beside a raster's file.
+#[derive(Debug, Clone, Default)]
+pub struct Sidecars {
+    prj: Option<String>,
+    aux: Option<String>,
+    masked: bool,
+}
+
+impl Sidecars {
+    /// What lies beside the file at `path`.
+    pub fn beside(path: &Path) -> Self {
+        let prj = ["prj", "PRJ"].iter().find_map(|ending| text(&path.with_extension(ending)));
+        Self { prj, aux: text(&with(path, ".aux.xml")), masked: with(path, ".msk").is_file() }
+    }
+
+    /// What they say of the plane, where the file itself says nothing.
+    pub(super) fn reference(&self, file: &str) -> Result<Option<Reference>, TerrainError> {
+        let of_aux = self.notes(|notes| Some(notes.child("SRS")?.text()?.to_owned()));
+        let Some(text) = self.prj.as_deref().or(of_aux.as_deref()).map(str::trim).filter(|text| !text.is_empty())
+        else {
+            return Ok(None);
+        };
+        match prj::read(text) {
+            Ok(reference) => Ok(Some(reference)),
+            // Older ones are lists of words, which GDAL understands.
+            Err(error) => Err(TerrainError::Convert { why: error.to_string(), command: Remedy::rewrite(file, "") }),
+        }
+    }
+
+    /// Refuses what is said of the heights beside the file and not in it.
+    pub(super) fn check(&self, file: &str, layout: &Layout) -> Result<(), TerrainError> {
+        let convert = |what: &str| {
+            let why = format!("{what} beside the file, not in it; this puts it there");
+            Err(TerrainError::Convert { why, command: Remedy::rewrite(file, "") })
+        };
+        if self.masked {
+            return convert("cells are masked by a .msk");
+        }
+        let said = |name: &str| {
+            self.notes(|notes| {
+                let band = notes.children().find(|node| node.has_tag_name("PAMRasterBand"))?;
+                Some(band.child(name)?.text()?.trim().to_owned())
+            })
+        };
+        let number = |name: &str| said(name).and_then(|text| no_data::parse(&text));
+        if number("Scale").is_some_and(|scale| scale != layout.scale)
+            || number("Offset").is_some_and(|offset| offset != layout.offset)
+        {
+            return convert("a scale or an offset of heights is said by an .aux.xml");
+        }
+        let same = |value: f64| layout.no_data.is_some_and(|known| known == value || known.is_nan() && value.is_nan());
+        if number("NoDataValue").is_some_and(|value| !same(value)) {
+            return convert("a value for no data is said by an .aux.xml");
+        }
+        if said("UnitType").is_some_and(|unit| !matches!(unit.as_str(), "" | "m" | "metre" | "meter")) {
+            return convert("a unit of heights is said by an .aux.xml");
+        }
+        Ok(())
+    }
+
+    fn notes<T>(&self, ask: impl FnOnce(Node<'_, '_>) -> Option<T>) -> Option<T> {
+        let document = Document::parse(self.aux.as_deref()?).ok()?;
+        ask(document.root_element())
+    }
+}
+
+trait Child<'a, 'i> {
+    fn child(&self, name: &str) -> Option<Node<'a, 'i>>;
+}
+
+impl<'a, 'i> Child<'a, 'i> for Node<'a, 'i> {
+    fn child(&self, name: &str) -> Option<Node<'a, 'i>> {
+        self.children().find(|node| node.has_tag_name(name))
+    }
+}
+
+fn text(path: &Path) -> Option<String> {
+    bounds::read_text(path, MOST_SIDECAR_BYTES).ok()
+}
+
+fn with(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    PathBuf::from(name)
+}

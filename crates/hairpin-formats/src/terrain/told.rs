@@ -1,0 +1,28 @@
+//! What a map's file says of itself, as it was understood.
+
+use super::raster::Layout;
+use super::unit::{Source, Unit};
+
+/// What a file says beside its heights.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Told {
+    /// Unit of x and y in the file; the map is in metres.
+    pub unit: Unit,
+    /// Where that is known from.
+    pub unit_from: Source,
+    /// Unit of heights in the file.
+    pub height_unit: Unit,
+    /// Where that is known from.
+    pub height_unit_from: Source,
+    /// Whether the plane is told beside the file, not in it.
+    pub beside: bool,
+    /// EPSG code of the plane.
+    pub epsg: Option<u32>,
+    /// What the plane is called.
+    pub name: String,
+    /// Taken off the file's coordinates, m: the map's x is the easting less the first, its y the northing less the
+    /// second.
+    pub offset_m: [f64; 2],
+    /// How the heights are laid out and written.
+    pub layout: Layout,
+}

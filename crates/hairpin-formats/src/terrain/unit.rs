@@ -1,0 +1,139 @@
+//! Units of length as maps name them: EPSG codes of units, words, and factors of a projection.
+
+/// A unit of length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unit {
+    /// What it is called.
+    pub name: String,
+    /// One of it, m.
+    pub metres: f64,
+}
+
+/// What a key says where a file does not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GivenUnit {
+    /// Metre.
+    Metre,
+    /// International foot.
+    Foot,
+    /// US survey foot.
+    UsSurveyFoot,
+}
+
+const FOOT: f64 = 0.3048;
+const US_SURVEY_FOOT: f64 = 1200.0 / 3937.0;
+
+/// Where a unit is known from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// The file, or what lies beside it.
+    File,
+    /// A key.
+    Given,
+    /// Nobody says it: it is taken so.
+    Taken,
+}
+
+/// Code, name and metres of the EPSG registry's units of length that maps have.
+const KNOWN: &[(u16, &str, f64)] = &[
+    (9001, "m", 1.0),
+    (9002, "ft", FOOT),
+    (9003, "US survey ft", US_SURVEY_FOOT),
+    (9005, "Clarke's ft", 0.304_797_265_4),
+    (9014, "fathom", 1.8288),
+    (9030, "nautical mile", 1852.0),
+    (9031, "German legal m", 1.000_013_596_5),
+    (9036, "km", 1000.0),
+    (9041, "Sears' ft", 0.304_799_471_538),
+    (9080, "Indian ft", 0.304_799_510_248),
+    (9093, "mile", 1609.344),
+    (9094, "Gold Coast ft", 0.304_799_710_181),
+    (9095, "British ft (1936)", 0.304_800_749_1),
+    (9096, "yd", 0.9144),
+    (1025, "mm", 0.001),
+    (1033, "cm", 0.01),
+];
+
+/// Factors that differ by less than this share are of one unit; US survey and international feet differ by 2e-6.
+const SAME: f64 = 1e-8;
+
+impl Unit {
+    /// The metre.
+    pub fn metre() -> Self {
+        Self { name: "m".into(), metres: 1.0 }
+    }
+
+    /// Whether lengths in it stay as they are.
+    pub fn is_metre(&self) -> bool {
+        self.metres == 1.0
+    }
+
+    /// By its number in the EPSG registry.
+    pub(super) fn of_code(code: u16) -> Option<Self> {
+        let (_, name, metres) = KNOWN.iter().find(|(known, ..)| *known == code)?;
+        Some(Self { name: (*name).into(), metres: *metres })
+    }
+
+    /// By its length; `None` for what is none.
+    pub(super) fn of_length(metres: f64) -> Option<Self> {
+        if !(metres.is_finite() && metres > 0.0) {
+            return None;
+        }
+        let known = KNOWN.iter().find(|(.., known)| (known / metres - 1.0).abs() < SAME);
+        Some(match known {
+            Some((_, name, metres)) => Self { name: (*name).into(), metres: *metres },
+            None => Self { name: format!("unit of {metres} m"), metres },
+        })
+    }
+
+    /// By a word that writers of rasters have for it.
+    pub(super) fn of_word(word: &str) -> Option<Self> {
+        let word = word.trim().to_ascii_lowercase().replace(['_', '-'], " ");
+        let code = match word.as_str() {
+            "m" | "metre" | "metres" | "meter" | "meters" => 9001,
+            "ft" | "foot" | "feet" | "international foot" | "international feet" => 9002,
+            "us ft" | "ftus" | "us survey foot" | "us survey feet" | "foot us" | "sft" | "usft" => 9003,
+            "mm" | "millimetre" | "millimeter" => 1025,
+            "cm" | "centimetre" | "centimeter" => 1033,
+            "km" | "kilometre" | "kilometer" => 9036,
+            "yd" | "yard" => 9096,
+            _ => return None,
+        };
+        Self::of_code(code)
+    }
+}
+
+impl From<GivenUnit> for Unit {
+    fn from(given: GivenUnit) -> Self {
+        let (name, metres) = match given {
+            GivenUnit::Metre => ("m", 1.0),
+            GivenUnit::Foot => ("ft", FOOT),
+            GivenUnit::UsSurveyFoot => ("US survey ft", US_SURVEY_FOOT),
+        };
+        Self { name: name.into(), metres }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_feet_are_told_apart() {
+        for (unit, name) in [
+            (Unit::of_code(9002), "ft"),
+            (Unit::of_code(9003), "US survey ft"),
+            (Unit::of_length(0.3048), "ft"),
+            (Unit::of_length(0.304_800_609_601_219), "US survey ft"),
+            (Unit::of_word("US_survey_foot"), "US survey ft"),
+            (Unit::of_word("Foot"), "ft"),
+            (Unit::of_word("metre"), "m"),
+            (Unit::of_length(0.5), "unit of 0.5 m"),
+        ] {
+            assert_eq!(unit.unwrap().name, name);
+        }
+        assert_eq!(Unit::of_word("cubit").or(Unit::of_code(9999)).or(Unit::of_length(-1.0)), None);
+        // Over the 300 km of a state's false easting they differ by 60 cm.
+        assert!((984_250.0 * (US_SURVEY_FOOT - FOOT) - 0.6).abs() < 1e-3);
+    }
+}
