@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::Environment;
+use hairpin::campaign::bounds::{FARTHEST_M, MOST_WAYPOINTS};
 use nalgebra::Point3;
 use thiserror::Error;
 
@@ -13,10 +14,6 @@ use crate::delimited::{Cut, Table};
 use crate::geodetic;
 
 const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
-/// Farther than any world's obstacles may lie: beyond is another unit or a slip.
-const FARTHEST_M: f64 = 20_000.0;
-/// As `task.length`.
-const MOST: usize = 10_000;
 
 /// Why a file is no list of waypoints.
 #[derive(Debug, Error)]
@@ -41,7 +38,7 @@ pub enum WaypointsError {
     },
     /// A cell is not a number, not finite, or too far away.
     #[error(
-        "{}, line {line}, column `{column}`: `{value}`, must be a finite number in m, {FARTHEST_M} at most either way",
+        "{}, line {line}, column `{column}`: `{value}`, must be a finite number in m, {farthest} at most either way",
         path.display()
     )]
     Value {
@@ -53,6 +50,8 @@ pub enum WaypointsError {
         column: String,
         /// The text found.
         value: String,
+        /// Farthest from the origin, m.
+        farthest: f64,
     },
     /// A row is longer or shorter than the header.
     #[error("{}, line {line}: {found} values, the header has {expected}", path.display())]
@@ -75,7 +74,7 @@ pub enum WaypointsError {
         found: usize,
     },
     /// More than can be flown.
-    #[error("{}, line {line}: more than {MOST} waypoints", path.display())]
+    #[error("{}, line {line}: more than {MOST_WAYPOINTS} waypoints", path.display())]
     TooMany {
         /// The file.
         path: PathBuf,
@@ -147,6 +146,14 @@ fn read_environment(path: &Path) -> Result<Option<Environment>, WaypointsError> 
 /// # Errors
 /// As [`read`]; a folder that cannot be read or has no such file; an environment that is none.
 pub fn read_folder(folder: &Path) -> Result<Vec<Mission>, WaypointsError> {
+    read_folder_within(folder, FARTHEST_M)
+}
+
+/// The same of a world whose coordinates lie within `farthest` m of its origin.
+///
+/// # Errors
+/// As [`read_folder`].
+pub fn read_folder_within(folder: &Path, farthest: f64) -> Result<Vec<Mission>, WaypointsError> {
     let refuse = |cause| WaypointsError::Unreadable { path: folder.into(), cause };
     let entries = fs::read_dir(folder).map_err(refuse)?;
     let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
@@ -159,7 +166,7 @@ pub fn read_folder(folder: &Path) -> Result<Vec<Mission>, WaypointsError> {
     let one = |path: &PathBuf| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let environment = read_environment(&environment_path(folder, &name))?;
-        Ok(Mission { waypoints: read(path)?, name, environment })
+        Ok(Mission { waypoints: read_within(path, farthest)?, name, environment })
     };
     paths.iter().map(one).collect()
 }
@@ -169,12 +176,16 @@ pub fn read_folder(folder: &Path) -> Result<Vec<Mission>, WaypointsError> {
 /// # Errors
 /// The first thing wrong, with line, column and value.
 pub fn read(path: &Path) -> Result<Vec<Point3<f64>>, WaypointsError> {
-    let bytes = fs::read(path).map_err(|cause| WaypointsError::Unreadable { path: path.into(), cause })?;
-    // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
-    parse(path, &String::from_utf8_lossy(&bytes))
+    read_within(path, FARTHEST_M)
 }
 
-fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
+fn read_within(path: &Path, farthest: f64) -> Result<Vec<Point3<f64>>, WaypointsError> {
+    let bytes = fs::read(path).map_err(|cause| WaypointsError::Unreadable { path: path.into(), cause })?;
+    // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
+    parse(path, &String::from_utf8_lossy(&bytes), farthest)
+}
+
+fn parse(path: &Path, text: &str, farthest: f64) -> Result<Vec<Point3<f64>>, WaypointsError> {
     let Table { header, names, rows } = Table::of(text, Cut::COMMAS);
     let mut places = [0; 3];
     for (place, column) in places.iter_mut().zip(COLUMNS) {
@@ -190,18 +201,19 @@ fn parse(path: &Path, text: &str) -> Result<Vec<Point3<f64>>, WaypointsError> {
         let mut point = Point3::origin();
         for (axis, place) in places.into_iter().enumerate() {
             let value = row.cell(place);
-            let number = value.parse::<f64>().ok().filter(|number| number.abs() <= FARTHEST_M);
+            let number = value.parse::<f64>().ok().filter(|number| number.abs() <= farthest);
             point[axis] = number.ok_or_else(|| WaypointsError::Value {
                 path: path.into(),
                 line,
                 column: COLUMNS[axis].into(),
                 value: value.into(),
+                farthest,
             })?;
         }
         if waypoints.last() == Some(&point) {
             return Err(WaypointsError::Repeated { path: path.into(), line });
         }
-        if waypoints.len() == MOST {
+        if waypoints.len() == MOST_WAYPOINTS {
             return Err(WaypointsError::TooMany { path: path.into(), line });
         }
         waypoints.push(point);

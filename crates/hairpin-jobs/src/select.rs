@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::judge::judge_cases;
 use crate::names::listed;
 use crate::report::write_report;
-use crate::work::{IfThere, Work, make, open_to_read};
+use crate::work::{IfThere, Work, make, open_to_read, saying_what_is_asked};
 use crate::{Problem, Watch};
 
 /// What is chosen, and where it goes.
@@ -169,7 +169,7 @@ fn write(
         changes.push(("spec.regression".into(), serde_json::Value::Null));
     }
     let scenario = vary::apply(&work.setup.scenario, &changes)?;
-    let setup = work.setup.changed(scenario.with_vary(varied))?;
+    let setup = saying_what_is_asked(work.setup.changed(scenario.with_vary(varied))?)?;
     let new = make(&settings.out, setup, settings.if_there)?;
     let (old, there) = (&work.folder, &new.folder);
     let numbers: BTreeSet<CaseNumber> = chosen.iter().map(|case| case.number).collect();

@@ -229,6 +229,11 @@ impl Setup {
         self.kind.is_outside(place)
     }
 
+    /// How far, m, from the origin its coordinates may be: beyond is another unit or a slip.
+    pub fn farthest(&self) -> f64 {
+        self.kind.farthest()
+    }
+
     /// Whether its motion is programs, which are measured move by move.
     pub fn has_programs(&self) -> bool {
         self.programs().is_some()

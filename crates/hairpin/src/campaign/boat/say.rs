@@ -4,6 +4,7 @@ use nalgebra::Point3;
 use serde_json::json;
 
 use super::{BoatSetup, assumptions, drawing};
+use crate::campaign::bounds::LARGEST_WATERS_M;
 use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
@@ -66,6 +67,10 @@ impl Say for BoatSetup {
             ],
             meet: Box::new(|_, flight, meet| samples_met(&flight.track, meet)),
         }
+    }
+
+    fn farthest(&self) -> f64 {
+        LARGEST_WATERS_M
     }
 
     fn clearance(&self) -> Option<Box<Clearance<'_>>> {

@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
 use super::{DriveSetup, assumptions, drawing};
+use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say, word};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
@@ -84,6 +85,13 @@ impl Say for DriveSetup {
             ],
             meet: Box::new(|_, flight, meet| samples_met(&flight.track, meet)),
         }
+    }
+
+    /// Maps of the Earth have coordinates of thousands of kilometres.
+    fn farthest(&self) -> f64 {
+        let (low, high) = self.map.extent();
+        let edge = low.iter().chain(&high).fold(0.0_f64, |most, x| most.max(x.abs()));
+        if edge <= FARTHEST_M { FARTHEST_M } else { edge + FARTHEST_M }
     }
 
     fn clearance(&self) -> Option<Box<Clearance<'_>>> {

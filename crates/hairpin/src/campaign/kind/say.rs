@@ -5,6 +5,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{Axis, Drawing, Programs};
+use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::trajectory::Flight;
@@ -107,6 +108,11 @@ pub(in crate::campaign) trait Say {
 
     /// Whether a place lies where the robot cannot be: outside of its world.
     fn is_outside(&self, place: &Point3<f64>) -> bool;
+
+    /// How far, m, from the origin its coordinates may be: beyond is another unit or a slip.
+    fn farthest(&self) -> f64 {
+        FARTHEST_M
+    }
 
     /// What stands around `places`; what only a case's environment has is last of its obstacles.
     fn drawing(&self, places: &[Point3<f64>]) -> Drawing;
