@@ -5,15 +5,23 @@ use std::io::{self, IsTerminal, Write};
 use std::sync::OnceLock;
 
 use hairpin_formats::atomic::is_lost;
+use hairpin_formats::quote::shortened;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tracing_subscriber::filter::LevelFilter;
 
 /// Why results did not get to stdout.
 static LOST: OnceLock<String> = OnceLock::new();
 
-/// A line of results. A reader that has gone away (`| head`) is no mistake: what is left to say is not said.
+/// A line of results, whatever the names in it are: what would begin another is written out, but for blank lines after
+/// it. A reader that has gone away (`| head`) is no mistake: what is left to say is not said.
 pub(crate) fn say(line: &str) {
-    say_text(&format!("{}\n", plain(line)));
+    let own = line.trim_end_matches('\n');
+    say_text(&format!("{}{}\n", written_out(own, char::is_control), &line[own.len()..]));
+}
+
+/// Lines of results, made of cells that begin none.
+pub(crate) fn say_lines(lines: &str) {
+    say_text(&format!("{}\n", plain(lines)));
 }
 
 /// Text as it is, for pipes.
@@ -31,9 +39,9 @@ pub(crate) fn lost() -> Option<&'static str> {
     LOST.get().map(String::as_str)
 }
 
-/// A line beside the results.
+/// A line beside the results; if it is several, the others stand in, as nothing does that hairpin says.
 pub(crate) fn warn(line: &str) {
-    let _ = writeln!(io::stderr().lock(), "{}", plain(line));
+    let _ = writeln!(io::stderr().lock(), "{}", shortened(&plain(line)).replace('\n', "\n    "));
 }
 
 /// Lines that have colours of their own, where somebody sees them.
@@ -43,8 +51,12 @@ pub(crate) fn warn_in_colour(lines: &str) {
 
 /// `text` with what would command the terminal written out: names come from files, and from whoever made these.
 fn plain(text: &str) -> Cow<'_, str> {
-    let commands = |c: char| c.is_control() && c != '\n' && c != '\t';
-    if !text.contains(commands) {
+    written_out(text, |c| c.is_control() && c != '\n' && c != '\t')
+}
+
+/// `text` with what `commands` picks written out: `\n`, `\u{1b}`.
+fn written_out(text: &str, commands: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.contains(&commands) {
         return text.into();
     }
     let mut out = String::with_capacity(text.len() + 8);
@@ -81,8 +93,10 @@ pub(crate) fn progress(what: &'static str, of: usize) -> ProgressBar {
     ProgressBar::with_draw_target(Some(of as u64), target).with_style(style).with_message(what)
 }
 
-/// Rows under headers, columns as wide as they need; the first row is the header.
+/// Rows under headers, columns as wide as they need; the first row is the header. No cell begins a line.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
+    let cell = |cell: &String| written_out(cell, char::is_control).into_owned();
+    let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(cell).collect()).collect();
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max();
     let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();

@@ -13,6 +13,7 @@
 //! | 74 | a result could not be written: no space, I/O error |
 //! | 130 | interrupted; `--resume` goes on |
 
+use hairpin_formats::quote::shortened;
 use hairpin_jobs::Problem;
 use serde_json::{Value, json};
 
@@ -71,7 +72,7 @@ pub(crate) fn object(problem: &Problem) -> Value {
         | Problem::Lost(sentence)
         | Problem::Executor(sentence)
         | Problem::Interrupted(sentence) => {
-            json!({ "exit_code": code, "error": sentence })
+            json!({ "exit_code": code, "error": shortened(sentence) })
         }
     }
 }

@@ -16,6 +16,7 @@ use clap::Parser;
 
 use args::{Arguments, Command};
 use exit::{DONE, OUR_MISTAKE, WRONG_INPUT};
+use hairpin_formats::foreign;
 use hairpin_jobs::Problem;
 use terminal::Terminal;
 
@@ -89,6 +90,10 @@ fn command(arguments: Arguments) -> Result<u8, Problem> {
 
 fn apologise_when_panicking() {
     std::panic::set_hook(Box::new(|panic| {
+        // A decoder's, of a broken file: told as wrong input by whoever reads that.
+        if foreign::is_called() {
+            return;
+        }
         let place = panic.location().map_or(String::new(), |at| format!(" ({}:{})", at.file(), at.line()));
         let payload = panic.payload();
         let text = payload.downcast_ref::<String>().map(String::as_str);

@@ -102,7 +102,7 @@ fn a_map_is_kept_with_the_campaign_and_a_changed_one_refused() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     fs::write(at.join("yard.asc"), map(40, 0.5)).unwrap();
-    let scenario = "hairpin = 1\nrobot = \"rocky8\"\nseed = 3\n[world]\nterrain = { file = \"yard.asc\" }\nframe = \"ned\"\n\
+    let scenario = "hairpin = 1\nrobot = \"rocky8\"\nseed = 3\nspec = \"none\"\n[world]\nterrain = { file = \"yard.asc\" }\nframe = \"ned\"\n\
                     keep_out = [{ name = \"rock\", circle = { center_m = [12.0, 8.0], radius_m = 0.5 } }]\n\
                     [task]\nstart = { x_m = 10.0, y_m = 9.0, yaw_deg = 90 }\nlength = 3\nleg_m = [2, 5]\n\
                     [generate]\nsearch = { waypoints = 16, cases = 1 }\n[execute]\ncontroller = \"stanley\"\n";

@@ -234,6 +234,7 @@ const CAR: &str = r#"
 hairpin = 1
 robot = "car"
 seed = 7
+spec = "none"
 [world]
 terrain = { generator = "flat", size_m = 30, cell_m = 0.5 }
 [task]

@@ -219,7 +219,7 @@ fn rows_of_which_none_is_a_query_are_wrong_input() {
 #[test]
 fn names_that_mean_two_things_and_folders_are_told() {
     let folder = tempfile::tempdir().unwrap();
-    let text = "hairpin = 1\nrobot = \"anafi\"\n[world]\nsize_m = [30, 30, 30]\n[task]\nstart_m = [10, 10, 10]\n\
+    let text = "hairpin = 1\nrobot = \"anafi\"\nspec = \"none\"\n[world]\nsize_m = [30, 30, 30]\n[task]\nstart_m = [10, 10, 10]\n\
                 end_m = [20, 20, 20]\nlength = 3\n[generate.search]\ncases = 1\nwaypoints = 5\n";
     fs::write(folder.path().join("quadrotor"), text).unwrap();
     let (_, _, error) = run(folder.path(), &["generate", "quadrotor", "--out", "own"]);

@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use assert_cmd::Command;
+use serde_json::Value;
 
 /// Runs in `folder`; exit code, stdout, stderr.
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
@@ -400,4 +401,60 @@ fn start_tables_are_made_kept_and_refused_where_they_do_not_fit() {
         let (code, _, error) = run(folder.path(), &["steer", rover, "--to", "4,1,0", "--start-table", file]);
         assert!(code == 2 && error.contains(told), "{file}: {code} {error}");
     }
+}
+
+#[test]
+fn tolerances_hold_at_both_ends_in_every_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let lax = ["--tolerance-m", "0.1", "--tolerance-yaw-rad", "0.1"];
+    for (to, more, most) in [("0,0,0.005", &[][..], 0.0), ("0,0,0", &[], 0.0), ("0.05,0,0.001", &lax, 0.05)] {
+        let asked = [&["steer", "generic", "--to", to, "--json"][..], more].concat();
+        let (code, out, error) = run(path, &asked);
+        let object: Value = serde_json::from_str(&out).unwrap_or_else(|why| panic!("{why}: {out}{error}"));
+        assert!(code == 0 && object["length_m"].as_f64().unwrap() <= most, "{to}: {object}");
+        assert_eq!((&object["segments"][0]["kind"], object["segments"].as_array().unwrap().len()), (&"arc".into(), 1));
+        let (code, out, _) = run(path, &asked[..asked.len() - more.len() - 1]);
+        assert!(code == 0 && out.contains("ok (generic"), "{out}");
+    }
+    // The same in a file: one row, segment 0, arc, length 0.
+    fs::write(
+        path.join("q.csv"),
+        "id,x,y,yaw,k0,kf\nthere,0,0,0.005,0,0\nzero,0,0,0,0.2,0.2\nnear,0.3,0.005,0.01,0,0\n",
+    )
+    .unwrap();
+    let (code, _, error) = run(path, &["steer", "generic", "--queries", "q.csv", "--out", "r.csv"]);
+    assert_eq!(code, 0, "{error}");
+    let answers = fs::read_to_string(path.join("r.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = answers.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    for (id, a0) in [("there", "0"), ("zero", "0.2")] {
+        let own: Vec<_> = rows.iter().filter(|row| row[0] == id).collect();
+        assert_eq!(own.len(), 1, "{answers}");
+        assert_eq!((&own[0][1..5], own[0][7], own[0][9]), (&["0", "arc", "1", "ok"][..], "0", a0), "{answers}");
+    }
+    let near: f64 = rows.iter().filter(|row| row[0] == "near").map(|row| row[7].parse::<f64>().unwrap()).sum();
+    assert!(near < 0.31, "{answers}");
+}
+
+#[test]
+fn cars_and_differential_drives_are_steered() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, out, error) = run(folder.path(), &["steer", "car", "--to", "4,1,0.5", "--json"]);
+    let object: Value = serde_json::from_str(&out).unwrap_or_else(|why| panic!("{why}: {out}{error}"));
+    assert!(code == 0 && object["robot"] == "car", "{object}");
+    let length = object["length_m"].as_f64().unwrap();
+    assert!(length > 4.1 && length < 4.6, "{object}");
+    // |κ| ≤ tan 24° / 0.3302 m.
+    assert!(object["max_curvature_1_m"].as_f64().unwrap() <= 1.3485, "{object}");
+    let (code, out, error) = run(folder.path(), &["steer", "differential-drive", "--to", "1,1,1.5", "--turns"]);
+    assert_eq!(code, 0, "{out}{error}");
+    let (code, _, error) = run(folder.path(), &["steer", "car", "--to", "1,1,1.5", "--turns"]);
+    assert!(code == 2 && error.contains("cannot turn in place"), "{error}");
+    // A file of that name goes first, and stderr says so.
+    fs::write(folder.path().join("car"), "kind = \"rover\"\nname = \"mine\"\n").unwrap();
+    let (code, out, error) = run(folder.path(), &["steer", "car", "--to", "4,1,0.5"]);
+    assert!(
+        code == 0 && out.contains("ok (mine") && error.contains("`car` is a file here and a shipped name"),
+        "{out}{error}"
+    );
 }

@@ -10,6 +10,7 @@ use hairpin::campaign::{CaseNumber, CaseResult, Status, report};
 use quick_junit::{NonSuccessKind, Property, Report, TestCase, TestCaseStatus, TestSuite};
 
 use crate::atomic::{self, WriteError};
+use crate::quote::on_one_line;
 
 /// What a suite says beside its cases.
 #[derive(Debug, Clone, Default)]
@@ -35,7 +36,7 @@ const SAVED: &str = "saved cases";
 
 /// The file's text: one test case per case asked for, in the order of their numbers.
 pub fn text(suite: &Suite, results: &[CaseResult]) -> String {
-    let mut tests = TestSuite::new(clean(&suite.name));
+    let mut tests = TestSuite::new(clean(&on_one_line(&suite.name)));
     for (name, value) in &suite.properties {
         tests.add_property(Property::new(clean(name), clean(value)));
     }
@@ -84,6 +85,7 @@ fn test_case(suite: &Suite, name: String, result: &CaseResult) -> TestCase {
             None => TestCaseStatus::success(),
             Some(why) => not_passed(NonSuccessKind::Error, "Inconclusive", why, &[]),
         },
+        Status::Unjudged => skipped("spec = \"none\": nothing was asked for"),
         Status::Fail => {
             let gravest = violations.first().map_or("violates the specification", String::as_str);
             not_passed(NonSuccessKind::Failure, "SpecViolation", gravest, violations.get(1..).unwrap_or_default())
@@ -112,12 +114,14 @@ fn test_case(suite: &Suite, name: String, result: &CaseResult) -> TestCase {
 fn not_found(suite: &Suite, none_at_all: bool) -> TestCaseStatus {
     match suite.inconclusive.as_ref().filter(|_| none_at_all) {
         Some(why) => not_passed(NonSuccessKind::Error, "Inconclusive", why, &[]),
-        None => {
-            let mut status = TestCaseStatus::skipped();
-            status.set_message(clean(&suite.missing));
-            status
-        }
+        None => skipped(&suite.missing),
     }
+}
+
+fn skipped(why: &str) -> TestCaseStatus {
+    let mut status = TestCaseStatus::skipped();
+    status.set_message(clean(why));
+    status
 }
 
 fn not_passed(kind: NonSuccessKind, ty: &str, message: &str, more: &[String]) -> TestCaseStatus {
@@ -130,8 +134,8 @@ fn not_passed(kind: NonSuccessKind, ty: &str, message: &str, more: &[String]) ->
 }
 
 fn named(suite: &Suite, name: String, status: TestCaseStatus) -> TestCase {
-    let mut case = TestCase::new(clean(&name), status);
-    case.set_classname(clean(&suite.name));
+    let mut case = TestCase::new(clean(&on_one_line(&name)), status);
+    case.set_classname(clean(&on_one_line(&suite.name)));
     case
 }
 

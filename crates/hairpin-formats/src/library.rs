@@ -29,6 +29,11 @@ pub fn rovers() -> impl Iterator<Item = Shipped> {
     robots().filter(|robot| robot.path.starts_with("robots/rover/"))
 }
 
+/// The shipped vehicles that `steer` drives, sorted by path.
+pub fn ground() -> impl Iterator<Item = Shipped> {
+    robots().filter(|robot| ["robots/ground/", "robots/rover/"].iter().any(|folder| robot.path.starts_with(folder)))
+}
+
 /// The shipped arms, sorted by path.
 pub fn arms() -> impl Iterator<Item = Shipped> {
     robots().filter(|robot| robot.path.starts_with("robots/arm/"))

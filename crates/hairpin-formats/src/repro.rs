@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::bounds::{FARTHEST_ON_EARTH_M, MOST_TURN_RATE, MOST_WAYPOINTS};
 use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup, Witness, vary};
+use hairpin::robot::rover::MOST_SPEED;
 use hairpin::trajectory::Drive;
 use hairpin::trajectory::drive::MOST_SEGMENTS;
 use hairpin::trajectory::{Profile, ProfileLeg};
@@ -12,15 +14,6 @@ use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
 use crate::rapid;
-
-/// As `task.length`.
-const MOST_WAYPOINTS: usize = 10_000;
-/// Farther than any world's obstacles may lie.
-const FARTHEST_M: f64 = 20_000.0;
-/// Ten times the longest leg that a scenario can ask for.
-const LONGEST_LEG_S: f64 = 600.0;
-/// Ten kilometres at the least speed that a scenario can ask for.
-const LONGEST_DRIVE_S: f64 = 1e7;
 
 /// A file that is no repro file.
 #[derive(Debug, Error)]
@@ -169,14 +162,17 @@ impl Repro {
         if !(2..=MOST_WAYPOINTS).contains(&waypoints) {
             return Err(format!("waypoints_m has {waypoints} waypoints: must be 2 … {MOST_WAYPOINTS}"));
         }
-        if let Some(i) = self.waypoints_m.iter().position(|p| !p.iter().all(|x| x.abs() <= FARTHEST_M)) {
-            return Err(format!("waypoints_m[{i}] = {:?}: must be m, {FARTHEST_M} at most", self.waypoints_m[i]));
+        if let Some(i) = self.waypoints_m.iter().position(|p| !p.iter().all(|x| x.abs() <= FARTHEST_ON_EARTH_M)) {
+            return Err(format!(
+                "waypoints_m[{i}] = {:?}: must be m, {FARTHEST_ON_EARTH_M} at most",
+                self.waypoints_m[i]
+            ));
         }
         let legs = waypoints - 1;
         if ![0, legs].contains(&self.leg_times_s.len()) {
             return Err(format!("leg_times_s has {} values: must be {legs}", self.leg_times_s.len()));
         }
-        let longest = if self.drive.is_some() { LONGEST_DRIVE_S } else { LONGEST_LEG_S };
+        let longest = self.scenario.head().longest_leg;
         let is_time = |time: f64| time > 0.0 && time <= longest;
         if let Some(i) = self.leg_times_s.iter().position(|time| !is_time(*time)) {
             let time = self.leg_times_s[i];
@@ -190,9 +186,11 @@ impl Repro {
                 let segments = drive.legs[leg].segments.len();
                 return Err(format!("drive.legs[{leg}] has {segments} segments: must be {MOST_SEGMENTS} at most"));
             }
-            for (key, value) in [("speed", drive.speed), ("turn_rate", drive.turn_rate)] {
-                if !(value > 0.0 && value <= 100.0) {
-                    return Err(format!("drive.{key} = {value}: must be > 0 and ≤ 100"));
+            for (key, value, most) in
+                [("speed", drive.speed, MOST_SPEED), ("turn_rate", drive.turn_rate, MOST_TURN_RATE)]
+            {
+                if !(value > 0.0 && value <= most) {
+                    return Err(format!("drive.{key} = {value}: must be > 0 and ≤ {most}"));
                 }
             }
         }
@@ -203,7 +201,7 @@ impl Repro {
         match profile.iter().position(|leg| !is_time(leg.duration_s)) {
             Some(i) => {
                 let time = profile[i].duration_s;
-                Err(format!("profile[{i}].duration_s = {time}: must be > 0 and ≤ {LONGEST_LEG_S} s"))
+                Err(format!("profile[{i}].duration_s = {time}: must be > 0 and ≤ {longest} s"))
             }
             None => Ok(()),
         }

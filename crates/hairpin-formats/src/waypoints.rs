@@ -5,6 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::bounds::{FARTHEST_M, MOST_WAYPOINTS};
 use hairpin::campaign::{Environment, Scenario};
 use nalgebra::Point3;
 use thiserror::Error;
@@ -17,10 +18,6 @@ use crate::geodetic;
 use crate::placement::Placement;
 
 const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
-/// Farther than any world's obstacles may lie: beyond is another unit or a slip.
-const FARTHEST_M: f64 = 20_000.0;
-/// As `task.length`.
-const MOST: usize = 10_000;
 
 /// Why a file is no list of waypoints.
 #[derive(Debug, Error)]
@@ -45,7 +42,7 @@ pub enum WaypointsError {
     },
     /// A cell is not a number, not finite, or too far away.
     #[error(
-        "{}, line {line}, column `{column}`: `{value}`, must be a finite number in m, {FARTHEST_M} at most either way",
+        "{}, line {line}, column `{column}`: `{value}`, must be a finite number in m, {farthest} at most either way",
         path.display()
     )]
     Value {
@@ -57,6 +54,8 @@ pub enum WaypointsError {
         column: String,
         /// The text found.
         value: String,
+        /// Farthest from the origin, m.
+        farthest: f64,
     },
     /// A cell is no place on Earth.
     #[error("{}, line {line}, column `{column}`: `{value}`, must be {bound}", path.display())]
@@ -101,7 +100,7 @@ pub enum WaypointsError {
         found: usize,
     },
     /// More than can be flown.
-    #[error("{}, line {line}: more than {MOST} waypoints", path.display())]
+    #[error("{}, line {line}: more than {MOST_WAYPOINTS} waypoints", path.display())]
     TooMany {
         /// The file.
         path: PathBuf,
@@ -175,7 +174,7 @@ fn read_environment(path: &Path) -> Result<Option<Environment>, WaypointsError> 
 /// # Errors
 /// As [`read`]; a folder that cannot be read or has no such file; an environment that is none; a world that is nowhere on
 /// Earth.
-pub fn read_folder(folder: &Path, scenario: &Scenario) -> Result<Vec<Mission>, WaypointsError> {
+pub fn read_folder(folder: &Path, scenario: &Scenario, farthest: f64) -> Result<Vec<Mission>, WaypointsError> {
     let refuse = |cause| WaypointsError::Unreadable { path: folder.into(), cause };
     let entries = fs::read_dir(folder).map_err(refuse)?;
     let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
@@ -191,7 +190,7 @@ pub fn read_folder(folder: &Path, scenario: &Scenario) -> Result<Vec<Mission>, W
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let name = name.strip_suffix(geodetic::ENDING).unwrap_or(&stem).to_owned();
         let environment = read_environment(&environment_path(folder, &name))?;
-        let (waypoints, rounded) = read(path, scenario)?;
+        let (waypoints, rounded) = read(path, scenario, farthest)?;
         Ok(Mission { waypoints, rounded, name, environment })
     };
     kept.into_iter().map(one).collect()
@@ -208,7 +207,7 @@ fn in_metres(path: &Path) -> Option<PathBuf> {
 ///
 /// # Errors
 /// The first thing wrong, with line, column and value.
-pub fn read(path: &Path, scenario: &Scenario) -> Result<(Vec<Point3<f64>>, bool), WaypointsError> {
+pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<(Vec<Point3<f64>>, bool), WaypointsError> {
     let unreadable = |cause| WaypointsError::Unreadable { path: path.into(), cause };
     let bytes = bounds::read(path, MOST_BYTES).map_err(unreadable)?;
     // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
@@ -216,7 +215,7 @@ pub fn read(path: &Path, scenario: &Scenario) -> Result<(Vec<Point3<f64>>, bool)
     let header = Table::of(&text, Cut::COMMAS).names;
     let degrees = header.place(COLUMNS[0]).is_none() && geodetic::PLACE[..2].iter().all(|c| header.place(c).is_some());
     if !degrees {
-        return Ok((parse(path, &text, COLUMNS, |row, places| metres(path, row, places))?, false));
+        return Ok((parse(path, &text, COLUMNS, |row, places| metres(path, row, places, farthest))?, false));
     }
     let placed = |why: String| WaypointsError::Placed { path: path.into(), why };
     let world = Placement::of(scenario).map_err(placed)?.ok_or_else(|| {
@@ -229,10 +228,10 @@ pub fn read(path: &Path, scenario: &Scenario) -> Result<(Vec<Point3<f64>>, bool)
     let waypoints = parse(path, &text, geodetic::PLACE, |row, places| {
         let place = degrees_of(path, row, places)?;
         let point = world.from_geodetic(&place).map_err(|why| placed(format!("line {}: {why}", row.line)))?;
-        match (0..3).find(|axis| !(point[*axis].abs() <= FARTHEST_M)) {
+        match (0..3).find(|axis| !(point[*axis].abs() <= farthest)) {
             Some(_) => {
                 let far = (point - Point3::origin()).norm() / 1000.0;
-                let most = FARTHEST_M / 1000.0;
+                let most = farthest / 1000.0;
                 Err(placed(format!("line {}: {far:.1} km from the world's origin, {most} at most", row.line)))
             }
             None => Ok(point),
@@ -242,16 +241,17 @@ pub fn read(path: &Path, scenario: &Scenario) -> Result<(Vec<Point3<f64>>, bool)
 }
 
 /// A row in metres.
-fn metres(path: &Path, row: &Row, places: [usize; 3]) -> Result<Point3<f64>, WaypointsError> {
+fn metres(path: &Path, row: &Row, places: [usize; 3], farthest: f64) -> Result<Point3<f64>, WaypointsError> {
     let mut point = Point3::origin();
     for (axis, place) in places.into_iter().enumerate() {
         let value = row.cell(place);
-        let number = value.parse::<f64>().ok().filter(|number| number.abs() <= FARTHEST_M);
+        let number = value.parse::<f64>().ok().filter(|number| number.abs() <= farthest);
         point[axis] = number.ok_or_else(|| WaypointsError::Value {
             path: path.into(),
             line: row.line,
             column: COLUMNS[axis].into(),
-            value: shortened(value),
+            value: value.into(),
+            farthest,
         })?;
     }
     Ok(point)
@@ -268,20 +268,9 @@ fn degrees_of(path: &Path, row: &Row, places: [usize; 3]) -> Result<Geodetic, Wa
         let (value, (most, bound)) = (row.cell(places[axis]), bounds[axis]);
         let number = value.parse::<f64>().ok().filter(|number| number.abs() <= most);
         let (line, column) = (row.line, geodetic::PLACE[axis]);
-        number.ok_or_else(|| WaypointsError::Degrees {
-            path: path.into(),
-            line,
-            column,
-            value: shortened(value),
-            bound,
-        })
+        number.ok_or_else(|| WaypointsError::Degrees { path: path.into(), line, column, value: value.into(), bound })
     };
     Ok(Geodetic { lat_deg: number(0)?, lon_deg: number(1)?, alt_amsl_m: number(2)? })
-}
-
-/// As much of a cell as a message holds.
-fn shortened(cell: &str) -> String {
-    if cell.chars().count() <= 80 { cell.into() } else { cell.chars().take(80).chain(['…']).collect() }
 }
 
 fn parse(
@@ -293,7 +282,7 @@ fn parse(
     let Table { header, names, rows } = Table::of(text, Cut::COMMAS);
     let mut places = [0; 3];
     for (place, column) in places.iter_mut().zip(columns) {
-        let missing = || WaypointsError::Header { path: path.into(), column, header: shortened(header) };
+        let missing = || WaypointsError::Header { path: path.into(), column, header: header.into() };
         *place = names.place(column).ok_or_else(missing)?;
     }
     let mut waypoints: Vec<Point3<f64>> = Vec::new();
@@ -306,7 +295,7 @@ fn parse(
         if waypoints.last() == Some(&point) {
             return Err(WaypointsError::Repeated { path: path.into(), line });
         }
-        if waypoints.len() == MOST {
+        if waypoints.len() == MOST_WAYPOINTS {
             return Err(WaypointsError::TooMany { path: path.into(), line });
         }
         waypoints.push(point);

@@ -4,6 +4,7 @@ mod out_campaign;
 
 use std::fs;
 
+use hairpin::campaign::bounds::FARTHEST_M;
 use hairpin_formats::placement::Placement;
 use hairpin_formats::scenario::setup_for;
 use hairpin_formats::waypoints::Mission;
@@ -88,15 +89,15 @@ fn waypoints_come_back_and_mistakes_are_placed() {
     let case = &campaign().cases[0];
     let scenario = &setup_for("demo-quadrotor", &[]).unwrap().scenario;
     waypoints::write(&path, &case.waypoints).unwrap();
-    assert_eq!(waypoints::read(&path, scenario).unwrap(), (case.waypoints.clone(), false));
+    assert_eq!(waypoints::read(&path, scenario, FARTHEST_M).unwrap(), (case.waypoints.clone(), false));
     assert_eq!(
-        waypoints::read_folder(place.path(), scenario).unwrap(),
+        waypoints::read_folder(place.path(), scenario, FARTHEST_M).unwrap(),
         [Mission { name: "0000".into(), waypoints: case.waypoints.clone(), rounded: false, environment: None }]
     );
 
     let read = |text: &str| {
         fs::write(&path, text).unwrap();
-        let read = waypoints::read(&path, scenario).map(|(waypoints, _)| waypoints);
+        let read = waypoints::read(&path, scenario, FARTHEST_M).map(|(waypoints, _)| waypoints);
         read.map_err(|error| error.to_string().replace(&place.path().display().to_string(), ""))
     };
     let points = vec![Point3::new(1.0, 2.0, 3.0), Point3::new(4.0, 5.0, 6.5)];
@@ -122,7 +123,12 @@ fn waypoints_come_back_and_mistakes_are_placed() {
         assert_eq!(read(text).unwrap_err(), message);
     }
     fs::remove_file(&path).unwrap();
-    assert!(waypoints::read_folder(place.path(), scenario).unwrap_err().to_string().ends_with("no .csv file in it"));
+    assert!(
+        waypoints::read_folder(place.path(), scenario, FARTHEST_M)
+            .unwrap_err()
+            .to_string()
+            .ends_with("no .csv file in it")
+    );
 }
 
 #[test]
@@ -137,19 +143,26 @@ fn waypoints_in_degrees_come_back_within_their_rounding() {
     let world = Placement::of(&scenario).unwrap().unwrap();
     let text = geodetic::text(&world, &case.waypoints).unwrap();
     geodetic::write(&place.path().join("0000.geodetic.csv"), &text).unwrap();
-    let [mission] = &waypoints::read_folder(place.path(), &scenario).unwrap()[..] else { panic!("one mission") };
+    let [mission] = &waypoints::read_folder(place.path(), &scenario, FARTHEST_M).unwrap()[..] else {
+        panic!("one mission")
+    };
     assert_eq!((mission.name.as_str(), mission.rounded, mission.waypoints.len()), ("0000", true, case.waypoints.len()));
     for (read, written) in mission.waypoints.iter().zip(&case.waypoints) {
         assert!((read - written).norm() < 2e-5, "{read} {written}");
     }
     // The same in metres goes first: nothing of it is rounded.
     waypoints::write(&place.path().join("0000.csv"), &case.waypoints).unwrap();
-    let [mission] = &waypoints::read_folder(place.path(), &scenario).unwrap()[..] else { panic!("one mission") };
+    let [mission] = &waypoints::read_folder(place.path(), &scenario, FARTHEST_M).unwrap()[..] else {
+        panic!("one mission")
+    };
     assert_eq!((mission.rounded, &mission.waypoints), (false, &case.waypoints));
     let path = place.path().join("there.csv");
     let read = |text: &str, scenario: &_| {
         fs::write(&path, text).unwrap();
-        waypoints::read(&path, scenario).unwrap_err().to_string().replace(&place.path().display().to_string(), "")
+        waypoints::read(&path, scenario, FARTHEST_M)
+            .unwrap_err()
+            .to_string()
+            .replace(&place.path().display().to_string(), "")
     };
     for (text, message) in [
         (

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{self, Case, CaseResult, Setup, Status};
 use hairpin::judgement::Verdict;
+use hairpin_formats::quote::on_one_line;
 use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario;
 use rayon::prelude::*;
@@ -148,9 +149,9 @@ fn tell(replayed: &[Replayed], watch: &dyn Watch) {
     for one in replayed {
         let what = match one.result.status {
             Status::Fail => one.result.violations.first().map(campaign::report::violation).unwrap_or_default(),
-            Status::Pass => continue,
+            Status::Pass | Status::Unjudged => continue,
             _ => one.result.message.clone().unwrap_or_default(),
         };
-        watch.warn(&format!("  {}: {what}", one.file.display()));
+        watch.warn(&on_one_line(&format!("  {}: {what}", one.file.display())));
     }
 }

@@ -11,7 +11,7 @@ use crate::consent::{Consent, Wish};
 use crate::judge::judge_cases;
 use crate::names::listed;
 use crate::report::write_report;
-use crate::work::{IfThere, Work, make, open_to_read};
+use crate::work::{IfThere, Work, make, open_to_read, saying_what_is_asked};
 use crate::{Problem, Watch};
 
 /// What is chosen, and where it goes.
@@ -172,8 +172,8 @@ fn write(
         changes.push(("spec.regression".into(), serde_json::Value::Null));
     }
     let scenario = vary::apply(&work.setup.scenario, &changes)?;
-    let setup = work.setup.changed(scenario.with_vary(varied))?;
     let wishes = Wish::of_campaign(&work.setup);
+    let setup = saying_what_is_asked(work.setup.changed(scenario.with_vary(varied))?)?;
     let new = make(&settings.out, setup, settings.if_there)?;
     if settings.consent.has_marked(&settings.folder, &wishes) {
         settings.consent.mark(&settings.out, &wishes);

@@ -5,7 +5,7 @@ use std::path::Path;
 use hairpin::campaign::flight::FlightSetup;
 use hairpin::robot::quadrotor::Quadrotor;
 use hairpin::simulation::{Motion, Plant, PlantState, Stepper};
-use hairpin::trajectory::{Channel, Track};
+use hairpin::trajectory::{Channel, Track, TrackError};
 use hairpin_formats::rotor_speeds::{self, RotorSpeeds};
 use hairpin_formats::scenario::setup_for;
 use nalgebra::{Vector3, Vector4};
@@ -25,11 +25,12 @@ pub fn simulate(robot: &str, sets: &[Set], rotor_speeds: &Path) -> Result<Track,
     let Some(FlightSetup { robot, .. }) = setup.own::<FlightSetup>() else {
         return Err(Problem::input(format!("`{}` has no rotors: simulate flies quadrotors", setup.robot_name())));
     };
-    fly(robot, &read(rotor_speeds, robot)?)
+    let track = fly(robot, &read(rotor_speeds, robot)?);
+    track.map_err(|why| Problem::of_file(rotor_speeds, format!("its speeds lead nowhere: {why}")))
 }
 
 /// From level and rest at the origin, rotors at the first row's speeds; one pose per row.
-fn fly(robot: &Quadrotor, rows: &[RotorSpeeds]) -> Result<Track, Problem> {
+fn fly(robot: &Quadrotor, rows: &[RotorSpeeds]) -> Result<Track, TrackError> {
     let plant = Plant::new(robot);
     let start = Plant::at_rest(&Vector3::zeros(), &rows[0].speeds.into());
     let (mut states, mut motion) = (vec![start], Motion::new(&plant, &start));
@@ -46,7 +47,7 @@ fn fly(robot: &Quadrotor, rows: &[RotorSpeeds]) -> Result<Track, Problem> {
     let names = Plant::CHANNELS.iter().zip(7..);
     let channels = names.map(|(name, i)| Channel { name: (*name).into(), values: column(i) });
     let poses = states.iter().map(Plant::pose).collect();
-    Track::new(rows.iter().map(|row| row.t).collect(), poses, channels.collect()).map_err(Problem::input)
+    Track::new(rows.iter().map(|row| row.t).collect(), poses, channels.collect())
 }
 
 fn read(path: &Path, robot: &Quadrotor) -> Result<Vec<RotorSpeeds>, Problem> {

@@ -2,17 +2,22 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use hairpin::campaign::scenario::Asked;
 use hairpin::campaign::{Scenario, Setup, vary};
+use hairpin::judgement::cases_needed;
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
 use hairpin_formats::recordings;
-use hairpin_formats::scenario::{kept_in, read_kept, setup_for, shadowed};
+use hairpin_formats::scenario::{check_asked, kept_in, read_kept, setup_for, shadowed};
 
 use crate::consent::{Consent, Wish};
 use crate::differences::differences;
 use crate::sets::Set;
 use crate::watch::not_waiting_for;
 use crate::{Deadline, Problem, Watch};
+
+/// Confidence of intervals where the spec names none.
+const CONFIDENCE: f64 = 0.95;
 
 /// A campaign being worked on.
 pub struct Work {
@@ -73,10 +78,12 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
     let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
     let setup = with_logs_from(setup, &path, Path::new(&settings.scenario))?;
+    check_asked(&setup.scenario, Path::new(&settings.scenario))?;
     setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
     let (kept, wishes) = (kept_in(&settings.scenario), Wish::of_campaign(&setup));
     settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
+    tell_share(&setup.scenario, setup.scenario.search().cases, watch);
     may_make(&path, &setup, settings.if_there)?;
     if let Some(user) = setup.user_score() {
         let deadline = Deadline::after(settings.time_limit_s);
@@ -119,6 +126,17 @@ fn with_logs_from(setup: Setup, folder: &Path, file: &Path) -> Result<Setup, Pro
 pub fn make(path: &Path, setup: Setup, if_there: IfThere) -> Result<Work, Problem> {
     may_make(path, &setup, if_there)?;
     Ok(Work { folder: create(path, &setup, if_there)?, setup })
+}
+
+/// `setup`, whose scenario says in so many words that nothing is asked of its runs where it has no limit: what is written
+/// for other commands to read asks for something, or says that it does not.
+pub(crate) fn saying_what_is_asked(setup: Setup) -> Result<Setup, Problem> {
+    if setup.scenario.asked() != Asked::Unsaid {
+        return Ok(setup);
+    }
+    let varied = setup.scenario.vary().clone();
+    let scenario = vary::apply(&setup.scenario, &[("spec".into(), "none".into())])?;
+    Ok(setup.changed(scenario.with_vary(varied))?)
 }
 
 /// Whether `path` can become the folder of a campaign, or be taken up again.
@@ -188,6 +206,7 @@ pub(crate) fn open_to_change(
     let folder = CampaignFolder::open_to_write(path)?;
     let level = folder.simd_level()?;
     let setup = resolve(&folder, sets)?.with_simd(simd_of(level.as_deref()));
+    check_asked(&setup.scenario, &folder.file("scenario.toml"))?;
     check_command(&setup.scenario)?;
     let plans = |scenario: &Scenario| {
         let of_plans = scenario.vary().iter().filter(|(key, _)| vary::shapes_the_plan(key));
@@ -254,6 +273,20 @@ fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
         })),
         _ => Ok(()),
     }
+}
+
+/// Tells whoever waits for `cases` cases that they are too few for the share of violations that `scenario` allows.
+pub(crate) fn tell_share(scenario: &Scenario, cases: u64, watch: &dyn Watch) {
+    let head = scenario.head();
+    let Some(share) = head.violation_share else { return };
+    let confidence = head.confidence.unwrap_or(CONFIDENCE);
+    let Some(needed) = cases_needed(share, confidence).filter(|needed| *needed as u64 > cases) else { return };
+    let key = if head.limits.iter().any(|key| key.starts_with("spec.limits.")) { "spec.limits" } else { "spec" };
+    watch.warn(&format!(
+        "`{key}.violation_share` = {share}: of {cases} cases none can show so small a share at {} % confidence; it takes {needed} \
+         without a violation. The verdict can be FAIL or INCONCLUSIVE, not PASS",
+        100.0 * confidence
+    ));
 }
 
 fn check_command(scenario: &Scenario) -> Result<(), Problem> {

@@ -37,7 +37,7 @@ impl Answer<'_> {
             console::say(&self.object().to_string());
         } else {
             if !self.judgement.results.is_empty() {
-                console::say(&self.table());
+                console::say_lines(&self.table());
                 console::say("");
             }
             let header = self.header().lines();
@@ -115,6 +115,7 @@ impl Answer<'_> {
                 "cases": self.cases.len(),
                 "pass": self.count(Status::Pass),
                 "fail": self.count(Status::Fail),
+                "unjudged": self.count(Status::Unjudged),
                 "executor_failed": self.count(Status::ExecutorFailed),
                 "inconclusive": self.count(Status::Inconclusive),
                 "attitude_unknown": self.judgement.attitude_unknown,

@@ -60,7 +60,7 @@ fn in_words(compared: &Comparison, differences: &[String]) {
         ]
     });
     let header = header.map(str::to_owned).to_vec();
-    console::say(&console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
+    console::say_lines(&console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
     let exact = compared.metrics.iter().all(|metric| metric.test == "exact");
     let test = if exact { "exact, ties included" } else { "normal approximation where more than 50 pairs differ" };
     console::say(&format!(

@@ -42,6 +42,6 @@ fn tell(losses: &Losses) {
         .iter()
         .map(|lost| vec![lost.stage.word().to_owned(), lost.limit.clone(), lost.count.to_string(), share(lost.count)]);
     let left = vec!["–".into(), "feasible, with a way on".into(), losses.left.to_string(), share(losses.left)];
-    console::say(&console::table(&std::iter::once(header).chain(rows).chain([left]).collect::<Vec<_>>()));
+    console::say_lines(&console::table(&std::iter::once(header).chain(rows).chain([left]).collect::<Vec<_>>()));
     console::say(&format!("of {} {}\n", losses.asked, losses.of));
 }

@@ -11,8 +11,8 @@ pub(super) fn tell(findings: &Findings, json: bool) -> u8 {
         console::say(&findings.object.to_string());
     } else {
         findings.words.iter().for_each(|words| match words {
-            Words::Text(text) => console::say(text),
-            Words::Table(rows) => console::say(&console::table(rows)),
+            Words::Text(text) => console::say_lines(text),
+            Words::Table(rows) => console::say_lines(&console::table(rows)),
         });
     }
     if findings.met { DONE } else { FINDING }

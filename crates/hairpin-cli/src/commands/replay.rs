@@ -24,6 +24,9 @@ pub(crate) fn run(asked: &Replay, watch: &dyn Watch) -> Result<u8, Problem> {
             (FINDING, format!("FAIL 1/1: violates again, but not equally: {} (was: {was})", again.join("; ")))
         }
         Status::Pass => (DONE, format!("PASS 1/1: does not reproduce: no violation now (was: {was})")),
+        Status::Unjudged => {
+            (DONE, format!("UNJUDGED 1: does not reproduce: no crash now, and no more was asked for (was: {was})"))
+        }
         Status::ExecutorFailed => (EXECUTOR_FAILED, format!("EXECUTOR FAILED 1/1: {message}")),
         Status::Inconclusive => (INCONCLUSIVE, format!("INCONCLUSIVE 1/1: {message}")),
     };

@@ -87,6 +87,6 @@ fn in_words(selected: &Selected, by: By) {
             one.cells.to_string(),
         ]
     });
-    console::say(&console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
+    console::say_lines(&console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
     console::say(&format!("{}; distances are 0 … 1, over waypoints and over behaviour\n", by.guarantee()));
 }

@@ -2,6 +2,8 @@
 //! protocol does not ask for is no reason to refuse a flight: how it was flown is the judge's business.
 
 use hairpin::campaign::Mission;
+// Beyond it a simulation has diverged.
+use hairpin::campaign::bounds::FARTHEST_ON_EARTH_M;
 use hairpin::trajectory::{Channel, Ended, Flight, Track, TrackError};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
@@ -12,8 +14,6 @@ use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
 /// How far from 1 the length of a quaternion may be: what six printed digits leave.
 const QUATERNION_TOLERANCE: f64 = 1e-3;
-/// Beyond this (m) a simulation has diverged.
-const FARTHEST_M: f64 = 1e6;
 /// What is flown after the time limit before hairpin calls it off, s.
 const OVERTIME_S: f64 = 10.0;
 /// Bound of the memory that one mission may take: 10⁶ poses are 100 MB.
@@ -33,7 +33,7 @@ pub enum PoseError {
     #[error("pose {index} (t_s = {time}): q_wxyz has length {length:.6}: must be 1 within {QUATERNION_TOLERANCE}")]
     Quaternion { index: usize, time: f64, length: f64 },
     /// A position at which no robot is.
-    #[error("pose {index} (t_s = {time}): p_m[{axis}] = {value:e}: must be within ±{FARTHEST_M:e} m")]
+    #[error("pose {index} (t_s = {time}): p_m[{axis}] = {value:e}: must be within ±{FARTHEST_ON_EARTH_M:e} m")]
     Far { index: usize, time: f64, axis: usize, value: f64 },
     /// A leg that the mission has not.
     #[error("pose {index} (t_s = {time}): leg = {leg}: must be 0 … {last}")]
@@ -96,7 +96,7 @@ impl<'a> Recording<'a> {
         if time > self.mission.time_limit + OVERTIME_S {
             return Err(PoseError::Overtime { index, time, limit: self.mission.time_limit });
         }
-        if let Some(axis) = (0..3).find(|&axis| pose.p_m[axis].is_nan() || pose.p_m[axis].abs() > FARTHEST_M) {
+        if let Some(axis) = (0..3).find(|&axis| pose.p_m[axis].is_nan() || pose.p_m[axis].abs() > FARTHEST_ON_EARTH_M) {
             return Err(PoseError::Far { index, time, axis, value: pose.p_m[axis] });
         }
         let rotation = attitude(index, pose)?;

@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -18,6 +17,7 @@ use arrow_select::concat::concat_batches;
 use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
+use crate::foreign;
 
 /// Version of our schemas, in the metadata of every file.
 pub const SCHEMA_VERSION: &str = "1";
@@ -155,10 +155,9 @@ impl Table {
         if file.metadata().map_err(unreadable)?.is_dir() {
             return Err(unreadable(io::Error::from(io::ErrorKind::IsADirectory)));
         }
-        // The decoder is someone else's and meets bytes from anywhere: a panic in it is a broken file, not our end.
-        let (batch, metadata) = catch_unwind(AssertUnwindSafe(|| decode(file)))
-            .unwrap_or_else(|_| Err("its bytes contradict each other".into()))
-            .map_err(broken)?;
+        let decoded = foreign::call(|| decode(file));
+        let (batch, metadata) =
+            decoded.unwrap_or_else(|_| Err("its bytes contradict each other".into())).map_err(broken)?;
         Ok(Self { path: path.into(), batch, metadata })
     }
 

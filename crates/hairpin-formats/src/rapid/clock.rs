@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use hairpin::campaign::bounds::MOST_POINTS;
 use hairpin::trajectory::program::{
     JointTarget, Motion, Move, PoseTarget, Program, ProgramError, Speed, Tool, WorkObject, Zone,
 };
@@ -15,8 +16,6 @@ use crate::delimited::{Cut, Table};
 const LOG_FILE: &str = "arc_ms.log";
 /// First word of the log.
 const LOG_MARK: &str = "arc_ms";
-/// Most points of a log: a table of as many squared is made.
-const MOST_POINTS: usize = 10_000;
 
 /// What is clocked.
 #[derive(Debug, Clone)]

@@ -51,7 +51,7 @@ fn hash(script: &str) -> String {
 
 fn body(data: &ReportData) -> String {
     let outcome = match data.verdict.exit_code {
-        0 => ("pass", "✓"),
+        0 if !data.verdict.sentence.starts_with("UNJUDGED") => ("pass", "✓"),
         1 => ("fail", "✕"),
         _ => ("open", "?"),
     };

@@ -12,7 +12,7 @@ use crate::library;
 /// # Errors
 /// Nothing of that name, no TOML or URDF, another kind of robot, wrong keys and types, values out of bounds.
 pub fn arm_for(name_or_path: &str) -> Result<Arm, Report> {
-    robot_for(name_or_path, "arm", library::arms(), |description: &ArmDescription| {
+    robot_for(name_or_path, &["arm"], library::arms(), |description: &ArmDescription| {
         description.build().map_err(|error| Mistake { key: error.field, value: error.value, bound: error.bound })
     })
 }

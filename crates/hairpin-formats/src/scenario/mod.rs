@@ -1,6 +1,7 @@
 //! Scenario files in and out. Reading resolves, and checks by building: what comes out is a setup.
 
 mod arm;
+mod asked;
 mod attached;
 mod baseline;
 mod cell;
@@ -25,6 +26,7 @@ use hairpin::campaign::{Mistake, Resolved, Scenario, Setup};
 use toml::Table;
 
 pub use arm::arm_for;
+pub use asked::check_asked;
 pub use files::attach;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
@@ -34,6 +36,7 @@ use crate::folder::{LIST, SCENARIO};
 use crate::{library, schema};
 use guest::Guest;
 use resolve::{Resolver, is_urdf};
+use robot::as_path;
 use tree::{Node, NodeKind};
 
 /// Reads a scenario, resolves it, and builds what it describes.
@@ -118,7 +121,8 @@ pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup,
     let Some(around) = library::scenarios().find(|shipped| shipped.name == around) else {
         unreachable!("a scenario of every kind is shipped")
     };
-    let robot = ("robot".to_owned(), toml::Value::String(name_or_path.to_owned()).to_string());
+    let robot = if path.is_file() { as_path(name_or_path) } else { name_or_path.into() };
+    let robot = ("robot".to_owned(), toml::Value::String(robot.into_owned()).to_string());
     let sets: Vec<_> = std::iter::once(robot).chain(sets.iter().cloned()).collect();
     read_setup(around.text, around.path, Path::new(""), &sets)
 }
@@ -153,7 +157,8 @@ pub fn arm_setup_for(cell: &str, points: &Path, sets: &[(String, String)]) -> Re
         report.complain_of_file(cell, &message);
         return Err(report);
     }
-    let bare = format!("hairpin = 1\nrobot = {}\n[task]\npoints = \"cloud.csv\"\n", quoted(cell));
+    let robot = if Path::new(cell).is_file() { as_path(cell) } else { cell.into() };
+    let bare = format!("hairpin = 1\nrobot = {}\nspec = \"none\"\n[task]\npoints = \"cloud.csv\"\n", quoted(&robot));
     read_setup(&bare, cell, Path::new(""), &sets)
 }
 
@@ -267,6 +272,12 @@ fn apply_sets(root: &mut Node, sets: &[(String, String)], resolver: &mut Resolve
             [first, second, ..] if first == "world" && second != "base" => resolver.world(root),
             _ => {}
         }
+        // A limit takes the place of the word for none.
+        if matches!(set.path.segments(), [first, _, ..] if first == "spec")
+            && root.get("spec").is_some_and(|spec| matches!(spec.kind, NodeKind::Text(_)))
+        {
+            remove(root, "", &["spec"]);
+        }
         done.push(set.path.to_string());
         set.apply(root, resolver.report);
     }
@@ -297,7 +308,8 @@ fn supersede(root: &mut Node, set: &[String]) {
 }
 
 fn remove(root: &mut Node, table: &str, keys: &[&str]) {
-    let table = table.split('.').try_fold(root, |node, part| node.entries()?.get_mut(part));
+    let mut parts = table.split('.').filter(|part| !part.is_empty());
+    let table = parts.try_fold(root, |node, part| node.entries()?.get_mut(part));
     if let Some(entries) = table.and_then(Node::entries) {
         entries.retain(|key, _| !keys.contains(&key.as_str()));
     }

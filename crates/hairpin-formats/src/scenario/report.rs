@@ -6,6 +6,11 @@ use std::ops::Range;
 use ariadne::{CharSet, Config, IndexType, Label, ReportKind};
 use serde_json::{Value, json};
 
+use crate::quote::shortened;
+
+/// Bytes of a line that is shown, with a caret under it.
+const LONGEST_LINE: usize = 2_000;
+
 /// A text that mistakes are in: the scenario file, a robot file, one `--set`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct SourceText {
@@ -66,6 +71,11 @@ impl Report {
                 continue;
             }
             let span = char_boundaries(text, &complaint.place.span);
+            if is_unreadable(text, &span) {
+                let Complaint { line, column, message, .. } = complaint;
+                out.extend(format!("Error: {message}\n   [ {name}:{line}:{column} ]\n").into_bytes());
+                continue;
+            }
             let config =
                 Config::default().with_color(colour).with_index_type(IndexType::Byte).with_char_set(CharSet::Unicode);
             let label = Label::new((name.clone(), span.clone())).with_message(&complaint.bound);
@@ -117,10 +127,10 @@ impl Report {
             file: source.name.clone(),
             line: before.matches('\n').count() + 1,
             column: before[line_start..].chars().count() + 1,
-            field: field.into(),
-            value: value.into(),
-            bound: bound.into(),
-            message,
+            field: shortened(field).into_owned(),
+            value: shortened(value).into_owned(),
+            bound: shortened(bound).into_owned(),
+            message: shortened(&message).into_owned(),
             place: place.clone(),
         });
     }
@@ -133,6 +143,13 @@ impl fmt::Display for Report {
 }
 
 impl std::error::Error for Report {}
+
+/// Whether the line in which `span` begins, or what it spans, is too long for a caret to stand under.
+fn is_unreadable(text: &str, span: &Range<usize>) -> bool {
+    let start = text[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
+    let end = text[span.start..].find('\n').map_or(text.len(), |length| span.start + length).max(span.end);
+    end - start > LONGEST_LINE
+}
 
 /// The span within the text and on whole characters, at least one character long where there is one.
 fn char_boundaries(text: &str, span: &Range<usize>) -> Range<usize> {

@@ -68,6 +68,16 @@ impl Resolver<'_> {
             read_file(&path).and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no UTF-8 text".into()));
         let text = if urdf { text.and_then(|text| as_robot_file(&text)) } else { text };
         match text {
+            // What is not even called TOML is shown to nobody: a scenario from elsewhere may name any file.
+            Ok(text)
+                if !urdf
+                    && !name.ends_with(".toml")
+                    && let Some(line) = first_that_is_no_toml(&text) =>
+            {
+                let message = format!("`{key}` = \"{name}\": the file is no TOML from its line {line} on");
+                self.report.complain(place, key, name, "must be a TOML file, or a shipped name", message);
+                None
+            }
             Ok(text) => {
                 let source = self.report.add_source(path.display().to_string(), text);
                 tree::parse(source, self.report)
@@ -78,6 +88,16 @@ impl Resolver<'_> {
                 None
             }
         }
+    }
+}
+
+/// The line, from 1, from which on `text` is no TOML; `None` where all of it is.
+fn first_that_is_no_toml(text: &str) -> Option<usize> {
+    let mut report = Report::default();
+    let source = report.add_source("", text);
+    match tree::parse(source, &mut report) {
+        Some(_) => None,
+        None => report.complaints().first().map(|complaint| complaint.line),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Robots of one kind by name or path, outside scenarios.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use hairpin::campaign::Mistake;
@@ -12,18 +13,18 @@ use super::tree::{Node, NodeKind};
 use super::{place_of, shape};
 use crate::library::{self, Shipped};
 
-/// The robot of `kind` that `name_or_path` means, built from its description; `shipped` are those that are told of.
+/// The robot of one of `kinds` that `name_or_path` means, built from its description; `shipped` are those that are told of.
 ///
 /// # Errors
 /// Nothing of that name, no robot's file, another kind of robot, wrong keys and types, values out of bounds.
 pub(super) fn robot_for<D: DeserializeOwned + JsonSchema, R>(
     name_or_path: &str,
-    kind: &str,
+    kinds: &[&str],
     shipped: impl Iterator<Item = Shipped>,
     build: impl Fn(&D) -> Result<R, Mistake>,
 ) -> Result<R, Report> {
     let mut report = Report::default();
-    match read(name_or_path, kind, shipped, build, &mut report) {
+    match read(name_or_path, kinds, shipped, build, &mut report) {
         Some(robot) if report.is_empty() => Ok(robot),
         _ => Err(report),
     }
@@ -31,12 +32,14 @@ pub(super) fn robot_for<D: DeserializeOwned + JsonSchema, R>(
 
 fn read<D: DeserializeOwned + JsonSchema, R>(
     name_or_path: &str,
-    kind: &str,
+    kinds: &[&str],
     shipped: impl Iterator<Item = Shipped>,
     build: impl Fn(&D) -> Result<R, Mistake>,
     report: &mut Report,
 ) -> Option<R> {
-    if !Path::new(name_or_path).is_file() && library::robots().all(|robot| robot.name != name_or_path) {
+    let kind = alternatives(kinds);
+    let own = Path::new(name_or_path).is_file();
+    if !own && library::robots().all(|robot| robot.name != name_or_path) {
         let known: Vec<&str> = shipped.map(|robot| robot.name).collect();
         let near = shape::nearest(name_or_path, known.iter().copied());
         let hint = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
@@ -47,12 +50,14 @@ fn read<D: DeserializeOwned + JsonSchema, R>(
     }
     let source = report.add_source(name_or_path, "");
     let asked = Place { source, span: 0..0 };
-    let root = Resolver { base: Path::new(""), report }.robot_file(name_or_path, &asked)?;
+    // A file goes before what is shipped.
+    let path = if own { as_path(name_or_path) } else { name_or_path.into() };
+    let root = Resolver { base: Path::new(""), report }.robot_file(&path, &asked)?;
     if let Some(Node { kind: NodeKind::Text(found), place, .. }) = root.get("kind")
-        && found != kind
+        && !kinds.contains(&found.as_str())
     {
         let message = format!("`kind` = \"{found}\": this robot is no {kind}");
-        report.complain(place, "kind", found, &format!("must be \"{kind}\""), message);
+        report.complain(place, "kind", found, &format!("must be {kind}"), message);
         return None;
     }
     shape::check(&schemars::schema_for!(D).to_value(), &root, "", report);
@@ -75,4 +80,17 @@ fn read<D: DeserializeOwned + JsonSchema, R>(
             None
         }
     }
+}
+
+/// `rover, car or differential-drive`.
+fn alternatives(kinds: &[&str]) -> String {
+    match kinds {
+        [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => kinds.concat(),
+    }
+}
+
+/// A file's name as a path, which is no shipped robot's name.
+pub(super) fn as_path(file: &str) -> Cow<'_, str> {
+    if file.contains(['/', '\\']) { file.into() } else { format!("./{file}").into() }
 }

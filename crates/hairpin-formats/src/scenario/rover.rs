@@ -1,18 +1,20 @@
-//! Rover files by name or path, with their mistakes told as those of scenarios.
+//! Files of ground vehicles by name or path, with their mistakes told as those of scenarios.
 
 use hairpin::campaign::Mistake;
-use hairpin::robot::rover::{Rover, RoverDescription};
+use hairpin::campaign::scenario::GroundDescription;
+use hairpin::robot::rover::Rover;
 
 use super::report::Report;
 use super::robot::robot_for;
 use crate::library;
 
-/// The rover that `name_or_path` means: a shipped robot's name, or a robot file.
+/// The ground vehicle that `name_or_path` means, a rover, a car or a differential drive: a robot file, or a shipped
+/// robot's name.
 ///
 /// # Errors
 /// Nothing of that name, no TOML, another kind of robot, wrong keys and types, values out of bounds.
 pub fn rover_for(name_or_path: &str) -> Result<Rover, Report> {
-    robot_for(name_or_path, "rover", library::rovers(), |description: &RoverDescription| {
+    robot_for(name_or_path, GroundDescription::KINDS, library::ground(), |description: &GroundDescription| {
         description.build().map_err(|error| Mistake { key: error.field, value: error.value, bound: error.bound })
     })
 }
@@ -30,7 +32,9 @@ mod tests {
         let generic = rover_for("generic").unwrap();
         assert_eq!((generic.limits.curvature, generic.limits.curvature_rate, generic.default_speed), (1.0, 1.0, 1.0));
         assert!(told("genric").contains("did you mean `generic`?"), "{}", told("genric"));
-        assert!(told("anafi").contains("no rover"));
+        assert!(told("anafi").contains("no rover, car or differential-drive"), "{}", told("anafi"));
+        let (car, drive) = (rover_for("car").unwrap(), rover_for("differential-drive").unwrap());
+        assert!(!car.limits.turns_in_place && drive.limits.turns_in_place && car.limits.curvature > 1.0);
         for name in ["rocky7", "rocky8", "open-source-rover", "sojourner-like", "four-wheel"] {
             assert_eq!(rover_for(name).unwrap().name, name);
         }

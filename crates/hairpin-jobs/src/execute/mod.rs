@@ -13,7 +13,7 @@ use crate::consent::{Consent, Wish};
 use crate::missions::adopt;
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
-use crate::work::{changed_by, keep_changes, open_to_change};
+use crate::work::{changed_by, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
 pub use fly::{Flown, fly_each};
 pub(crate) use fly::{attitude_unknown, fly_missing, fly_one};
@@ -65,15 +65,18 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     let work = open_to_change(path, sets, &["execute", "vary", "spec"], Some(settings.simd))?;
     let wishes = Wish::of_execution(&work.setup);
     settings.consent.ask_of_scenario((&path.to_string_lossy(), Some(path)), &wishes, sets, watch)?;
-    let read = |missions: &Path| waypoints::read_folder(missions, &work.setup.scenario);
+    let farthest = work.setup.handed().farthest;
+    let read = |missions: &Path| waypoints::read_folder(missions, &work.setup.scenario, farthest);
     let missions = settings.missions.as_deref().map(read).transpose().map_err(Problem::input)?;
     if missions.is_none() && !work.folder.has_cases() {
         let path = path.display();
         return Err(Problem::input(format!("{path} has no cases yet: hairpin generate, or --missions DIR")));
     }
+    let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
+    let cases = missions.as_ref().map_or(kept.as_ref().map_or(0, Vec::len), Vec::len);
+    tell_share(&work.setup.scenario, cases as u64, watch);
     // Whatever can be refused is refused before anything is lost.
     let replayed = replay_saved(&work.setup, work.folder.path(), settings.repro.as_deref(), watch)?;
-    let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
     recorded::check(&work, kept.as_deref().unwrap_or_default())?;
     if !sets.is_empty() {
         keep_changes(&work)?;

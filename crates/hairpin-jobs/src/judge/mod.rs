@@ -153,7 +153,7 @@ fn reruns(work: &Work, case: &Case) -> Result<Option<Reruns>, Problem> {
     for run in &again {
         match campaign::judge(&work.setup, case, std::slice::from_ref(run))?.status {
             Status::Fail => (counted.violated, counted.of) = (counted.violated + 1, counted.of + 1),
-            Status::Pass => counted.of += 1,
+            Status::Pass | Status::Unjudged => counted.of += 1,
             // What was not flown, or cannot be judged, is no answer.
             Status::ExecutorFailed | Status::Inconclusive => {}
         }

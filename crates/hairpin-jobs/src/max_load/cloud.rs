@@ -7,11 +7,11 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::arm::{ArmGraph, graph_of};
 use hairpin::campaign::{Setup, Stop, Tally};
 use hairpin::search::heaviest::Heaviest;
-use hairpin_formats::scenario::arm_setup_for;
+use hairpin_formats::scenario::{arm_setup_for, shadowed};
 
 use crate::generate::keep_cases;
 use crate::sets::Set;
-use crate::work::{IfThere, make};
+use crate::work::{IfThere, make, saying_what_is_asked};
 use crate::{Deadline, Problem, Watch, optimum};
 
 /// What is searched in a cloud.
@@ -60,6 +60,7 @@ pub enum CloudAnswer {
 /// A cell or a cloud with mistakes; a cell that is no arm's.
 pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<CloudAnswer, Problem> {
     let CloudSettings { cell, points, sets, time_limit_s } = settings;
+    shadowed(cell).iter().for_each(|note| watch.warn(note));
     let setup = arm_setup_for(cell, points, sets)?;
     let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
     let (begun, deadline) = (Instant::now(), Deadline::after(*time_limit_s));
@@ -78,13 +79,20 @@ pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<Cloud
 }
 
 impl CloudSearch {
+    /// Why there is no program, in a sentence's part; `None` where there is one.
+    pub fn why_none(&self) -> Option<String> {
+        let arm = self.setup.own::<ArmSetup>().filter(|_| self.found.paths.is_empty())?;
+        Some(arm.why_none(&self.graph, &self.found))
+    }
+
     /// Writes the programs that were found, as generation would, into the campaign folder `out`.
     ///
     /// # Errors
     /// The folder holds something else; a file cannot be written.
     pub fn keep(&self, out: &Path, if_there: IfThere, watch: &dyn Watch) -> Result<(), Problem> {
         let Some(arm) = self.setup.own::<ArmSetup>() else { unreachable!("clouds are searched of arms alone") };
-        let work = make(out, self.setup.clone(), if_there)?;
+        // Programs were asked for, no judgement.
+        let work = make(out, saying_what_is_asked(self.setup.clone())?, if_there)?;
         let cases = arm.cases(&self.graph, &self.found);
         work.folder.write_graph(arm, &self.graph)?;
         with_stop(watch, self.deadline, self.begun, |stop| optimum::keep(&work, arm, &self.graph, &cases, stop))?;
@@ -105,6 +113,9 @@ fn with_stop<T>(watch: &dyn Watch, deadline: Deadline, begun: Instant, work: imp
 
 #[cfg(test)]
 mod tests {
+    use hairpin::campaign::scenario::Asked;
+    use hairpin::search::heaviest::Outcome;
+
     use super::*;
     use crate::Unwatched;
     use crate::work::open_to_read;
@@ -122,6 +133,16 @@ mod tests {
         searched.keep(&out, IfThere::Refuse, &Unwatched).unwrap();
         let cases = open_to_read(&out).unwrap().folder.read_cases().unwrap();
         assert!(cases.len() == 1 && cases[0].program().is_some());
+        // The folder's next command reads a scenario that says what it is judged by: nothing.
+        let kept = open_to_read(&out).unwrap().setup.scenario;
+        assert_eq!(kept.asked(), Asked::Nothing);
+        // One point that can be met is no program: no move is loaded.
+        std::fs::write(&points, "x_mm,y_mm,z_mm\n300,0,300\n9000,100,300\n9000,0,300\n").unwrap();
+        let CloudAnswer::Searched(searched) = search_cloud(&settings, &Unwatched).unwrap() else {
+            panic!("one point can be met")
+        };
+        assert_eq!((searched.found.outcome, searched.found.paths.len()), (Outcome::Infeasible, 0));
+        assert_eq!(searched.why_none().unwrap(), "no move from one point of the cloud to another is possible");
         std::fs::write(&points, "x_mm,y_mm,z_mm\n9000,0,300\n9000,100,300\n").unwrap();
         assert!(matches!(search_cloud(&settings, &Unwatched).unwrap(), CloudAnswer::Nothing { .. }));
     }

@@ -119,10 +119,11 @@ fn in_file(row: &Row, answered: Option<&Answered>) -> Answer {
         limit: row.asked.as_ref().err().map(|wrong| (wrong.column.clone(), None)),
     };
     let Some(answered) = answered else { return answer };
+    let k0 = row.asked.as_ref().map_or(0.0, |asked| asked.k0);
     let drive = answered.drive.as_ref().map(|(solution, replay)| {
         let [x_m, y_m, yaw_rad] = replay.error;
         let errors = Errors { x_m, y_m, yaw_rad, curvature_1_m: replay.error_curvature };
-        Drive { pieces: pieces(solution), errors, max_curvature_1_m: replay.max_curvature }
+        Drive { pieces: pieces(solution, k0), errors, max_curvature_1_m: replay.max_curvature }
     });
     Answer {
         status: answered.status,

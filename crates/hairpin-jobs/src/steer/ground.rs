@@ -20,7 +20,7 @@ use hairpin_formats::terrain::{Georeference, MapFile};
 
 use super::answered::{Answered, Near, broken, claim, pieces};
 use super::pace::{direction, start};
-use super::plane::Task;
+use super::plane::{STANDING, Task};
 use super::trace::trace_step;
 use crate::terrain::read_map;
 use crate::{Problem, Watch};
@@ -51,14 +51,17 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
     let (solver, bounds) = (task.solver, task.bounds);
     let site = Site { rover: task.rover, map, speed: task.boundary.speed, direction: direction(asked) };
     let start = start(asked);
-    let goal = goal(asked, &start);
+    let (goal, towards) = (goal(asked, &start), goal(task.towards, &start));
     let begun = Instant::now();
     let over = || solver.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
-    let mut found = search(task, &site, &start, &goal, solver.choices, &over);
+    let mut found = match task.there {
+        true => standing(task, asked),
+        false => search(task, &site, &start, &towards, solver.choices, &over),
+    };
     if matches!(found.status, Found::NotConverged { .. }) && task.control == Control::Quintic && !over() {
         // Closed forms change steadily with their goal where arcs do not.
         let choices = Choices { arcs: false, ..solver.choices };
-        let second = search(task, &site, &start, &goal, choices, &over);
+        let second = search(task, &site, &start, &towards, choices, &over);
         if second.status == Found::Ok {
             let iterations = found.solution.iterations + second.solution.iterations;
             found = Searched { solution: Solution { iterations, ..second.solution }, ..second };
@@ -73,7 +76,7 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
     let flat = replay_drive(&pieces(&solution), &claim(asked, &solution.segments, false));
     let replay = site.replay(&start, &goal, &solution.segments);
     let answered = |status, limit, drive: Option<(Solution, DriveReplay)>| Answered {
-        drive: drive.filter(|_| !solution.segments.is_empty()),
+        drive: drive.filter(|_| task.there || !solution.segments.is_empty()),
         ..Answered::new(status, limit, bounds, solving)
     };
     let too_near = |near: Near, drive| Answered {
@@ -123,6 +126,12 @@ struct Searched {
     intrusion: Option<Intrusion>,
 }
 
+/// What a start that is there already needs no search for.
+fn standing(task: &Task<'_>, asked: &Asked) -> Searched {
+    let solution = STANDING.solution;
+    Searched { status: Found::Ok, solution, intrusion: task.hazards(asked).intrusion(&solution.segments) }
+}
+
 fn search(
     task: &Task<'_>,
     site: &Site<'_>,
@@ -134,7 +143,7 @@ fn search(
     let Task { boundary, control, shaping, .. } = *task;
     let precision = Precision { position: FLAT, yaw: FLAT, curvature: FLAT };
     let choices = Choices { flat: flat::Settings { precision, ..choices.flat }, ..choices };
-    let settings = Settings { precision: task.precision, ..task.solver.ground };
+    let settings = Settings { precision: task.aim, ..task.solver.ground };
     let plainly = || generate(boundary, control, &shaping, &choices, over, trace_step).solution;
     if !task.keep_outs.is_empty() {
         let around = Around { keep_outs: task.keep_outs, radius: footprint(task.rover), control, choices };

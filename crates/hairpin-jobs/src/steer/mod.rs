@@ -15,6 +15,7 @@ mod states;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod trace;
 mod vehicle;
 

@@ -6,8 +6,9 @@ use hairpin::feasibility::steering::clear::{self, Hazards};
 use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision};
 use hairpin::feasibility::steering::shooting::solve::{Choices, Method, Outcome, Solution};
-use hairpin::feasibility::steering::shooting::{Control, flat};
+use hairpin::feasibility::steering::shooting::{Control, Generated, flat};
 use hairpin::robot::rover::Rover;
+use hairpin::trajectory::drive::SegmentList;
 use hairpin::verification::{DriveReplay, replay_drive};
 use hairpin::world::terrain::KeepOuts;
 use hairpin_formats::steering::{Asked, Status};
@@ -29,7 +30,14 @@ pub(super) struct Task<'a> {
     pub(super) bounds: Curvatures,
     /// The bounds that drives are shaped with.
     pub(super) shaping: Curvatures,
+    /// How exactly the question is to be met.
     pub(super) precision: Precision,
+    /// The goal that is steered for: the question's, or one within its tolerances.
+    pub(super) towards: &'a Asked,
+    /// How exactly that is to be met.
+    pub(super) aim: Precision,
+    /// Whether the start is there already.
+    pub(super) there: bool,
 }
 
 impl<'a> Task<'a> {
@@ -44,18 +52,34 @@ pub(super) fn hazards<'a>(rover: &Rover, keep_outs: &'a KeepOuts, asked: &Asked)
     Hazards { keep_outs, start: start(asked), direction: asked.direction, radius: clear::footprint(rover) }
 }
 
+/// Where the start is there already.
+pub(super) const STANDING: Generated = Generated {
+    solution: Solution {
+        outcome: Outcome::Solved,
+        segments: SegmentList::EMPTY,
+        method: Method::SingleArc,
+        iterations: 0,
+        arc: None,
+    },
+    parameters: None,
+    fit_error: 0.0,
+};
+
 /// Answers `asked` in the plane.
 pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
-    let Task { solver, control, boundary, bounds, shaping, precision, .. } = *task;
-    let flat = flat::Settings { precision, ..solver.choices.flat };
+    let Task { solver, control, boundary, bounds, shaping, precision, aim, .. } = *task;
+    let flat = flat::Settings { precision: aim, ..solver.choices.flat };
     let mut choices = Choices { flat, ..solver.choices };
     let hazards = task.hazards(asked);
     let begun = Instant::now();
     let stop = || solver.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
-    let (found, mut intrusion) = clear::generate(boundary, control, &shaping, &choices, &hazards, stop, trace_step);
+    let (found, mut intrusion) = match task.there {
+        true => (STANDING, hazards.intrusion(&STANDING.solution.segments)),
+        false => clear::generate(boundary, control, &shaping, &choices, &hazards, stop, trace_step),
+    };
     let (mut solution, mut parameters) = (found.solution, found.parameters);
     let mut solving = begun.elapsed();
-    if tracing::enabled!(tracing::Level::DEBUG) && parameters.is_none() {
+    if tracing::enabled!(tracing::Level::DEBUG) && parameters.is_none() && !task.there {
         retrace(boundary, control, &shaping, &choices, &solution);
     }
     let mut replay = replayed(asked, &solution, boundary.free_end);

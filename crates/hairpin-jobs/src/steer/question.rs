@@ -1,6 +1,6 @@
 //! One question in poses of a map, and drives as the writers take them.
 
-use hairpin::feasibility::steering::shooting::solve::Solution;
+use hairpin::feasibility::steering::shooting::solve::{Outcome, Solution};
 use hairpin::trajectory::drive::{Gear, Motion};
 use hairpin::verification::trace_drive;
 use hairpin_formats::frames::other_yaw;
@@ -90,8 +90,12 @@ pub fn in_frame(frame: Frame, [x, y, yaw]: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// A drive's segments as files have them.
-pub fn pieces(solution: &Solution) -> Vec<Piece> {
+/// A drive's segments as files have them, of a drive that starts with the curvature `k0`: one that is there already is an
+/// arc of no length.
+pub fn pieces(solution: &Solution, k0: f64) -> Vec<Piece> {
+    if solution.segments.is_empty() && solution.outcome == Outcome::Solved {
+        return vec![Piece::Arc { length_m: 0.0, curvature: [k0, 0.0, 0.0, 0.0, 0.0, 0.0], direction: 1 }];
+    }
     let of = |motion: &Motion, gear: Gear| match *motion {
         Motion::Arc { length_m, curvature } => {
             Piece::Arc { length_m, curvature, direction: if gear == Gear::Forward { 1 } else { -1 } }

@@ -49,3 +49,89 @@ fn a_file_is_answered_in_its_order() {
     assert_eq!((batch.count(Status::Ok) >= 1, batch.count(Status::Invalid)), (true, 1));
     assert!(String::from_utf8(batch.table().unwrap()).unwrap().starts_with("id,segment,"));
 }
+
+/// Metres of the answer, and how far its replay ends from the goal: m, rad, 1/m.
+fn driven(vehicle: &Vehicle, asked: &hairpin_formats::steering::Asked) -> (f64, [f64; 3]) {
+    let answered = vehicle.answer(asked);
+    assert_eq!(answered.status, Status::Ok, "{asked:?}");
+    let (_, replay) = answered.drive.as_ref().unwrap();
+    let [x, y, yaw] = replay.error;
+    (replay.length, [x.hypot(y), yaw.abs(), replay.error_curvature.abs()])
+}
+
+#[test]
+fn a_start_that_is_there_already_drives_nothing() {
+    let vehicle = generic();
+    let of = |to: [f64; 4], tolerance_m| Question { to, tolerance_m, ..Question::default() }.asked();
+    for (to, tolerance) in [([0.0; 4], None), ([0.0, 0.0, 0.005, 0.0], None), ([0.05, -0.05, 0.001, 0.0], Some(0.1))] {
+        let asked = of(to, tolerance);
+        let (length, [off, ..]) = driven(&vehicle, &asked);
+        assert!(length == 0.0 && off <= tolerance.unwrap_or(0.01), "{to:?}: {length} {off}");
+        let answered = vehicle.answer(&asked);
+        let (solution, _) = answered.drive.as_ref().unwrap();
+        let arc = hairpin_formats::steering::Piece::Arc { length_m: 0.0, curvature: [0.0; 6], direction: 1 };
+        assert_eq!(pieces(solution, asked.k0), [arc]);
+        assert!(vehicle.follow(&asked, &answered, Rows::Few).is_none_or(|states| states.states.len() < 3), "{to:?}");
+        vehicle.summary(&asked, &answered);
+        let remedies = vehicle.remedies(&asked, &answered);
+        assert!(remedies.with_reversals_m.is_none() && remedies.nearest.is_none(), "{remedies:?}");
+    }
+    // One of its tolerances is not enough.
+    for to in [[0.0, 0.0, 0.2, 0.0], [0.3, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.3]] {
+        assert!(driven(&vehicle, &of(to, None)).0 > 0.1, "{to:?}");
+    }
+    // Nor is a place where it must not stand.
+    let place = hairpin::campaign::scenario::KeepOutSection {
+        name: String::new(),
+        circle: Some(hairpin::campaign::scenario::CircleSection { center_m: [0.0, 0.0], radius_m: 1.0 }),
+        polygon: None,
+    };
+    let settings = SteerSettings { rover: "generic".into(), places: vec![place], ..SteerSettings::default() };
+    let among = Vehicle::new(&settings, &Unwatched).unwrap();
+    assert_eq!(among.answer(&of([0.0; 4], None)).status, Status::Infeasible);
+}
+
+#[test]
+fn a_detour_gives_way_to_a_goal_within_the_tolerances() {
+    let effort = Effort { tolerance_yaw: Some(0.1), ..Effort::default() };
+    let settings = SteerSettings { rover: "generic".into(), effort, ..SteerSettings::default() };
+    let (lax, strict) = (Vehicle::new(&settings, &Unwatched).unwrap(), generic());
+    let exactly = |vehicle: &Vehicle, asked: &_| {
+        let answered = vehicle.answer_by(asked, &vehicle.solver());
+        answered.drive.filter(|_| answered.status == Status::Ok).map(|(solution, replay)| (solution, replay.length))
+    };
+    let mut shorter = 0;
+    for seed in 0..400_u64 {
+        let unit = |i: u64| hairpin::math::random::hashed_unit(seed, &[i]);
+        let near = seed % 2 == 0;
+        let size = if near { 0.6 } else { 6.0 };
+        let to = [size * unit(0), size * (unit(1) - 0.5), 2.0 * (unit(2) - 0.5), 0.4 * (unit(3) - 0.5)];
+        let tolerance_m = Some(if near { 0.1 } else { 0.02 });
+        let asked = Question { to, tolerance_m, ..Question::default() }.asked();
+        let Some((exact, length)) = exactly(&lax, &asked) else { continue };
+        let answered = lax.answer(&asked);
+        let (solution, replay) = answered.drive.as_ref().unwrap();
+        assert!(answered.status == Status::Ok && replay.length <= length, "seed {seed}: {to:?}");
+        let [x, y, yaw] = replay.error;
+        assert!(x.hypot(y) <= tolerance_m.unwrap() && yaw.abs() <= 0.1, "seed {seed}: {to:?}: {replay:?}");
+        if length <= 1.5 * to[0].hypot(to[1]) {
+            assert!(solution.segments == exact.segments || replay.length == 0.0, "seed {seed}: the exact one stays");
+        }
+        shorter += usize::from(replay.length > 0.0 && replay.length < 0.5 * length);
+    }
+    assert!(shorter >= 10, "{shorter}");
+    // The straight way, where the exact one is a loop of metres.
+    for (to, tolerance) in
+        [([0.05, 0.0, 0.001, 0.0], 0.1), ([0.3, 0.01, 0.02, 0.0], 0.02), ([0.5, 0.05, 0.0, 0.0], 0.06)]
+    {
+        let asked = Question { to, tolerance_m: Some(tolerance), ..Question::default() }.asked();
+        let (length, [off, turned, _]) = driven(&lax, &asked);
+        let straight = to[0].hypot(to[1]);
+        assert!(length <= 1.01 * straight && off <= tolerance && turned <= 0.1, "{to:?}: {length} {off} {turned}");
+    }
+    // Without a way within the tolerances the exact one stays as it is.
+    let asked = Question { to: [0.3, 0.5, 0.0, 0.0], ..Question::default() }.asked();
+    let (exact, length) = exactly(&strict, &asked).unwrap();
+    assert!(length > 2.0);
+    assert_eq!(strict.answer(&asked).drive.unwrap().0, exact);
+}

@@ -6,13 +6,13 @@ use hairpin::campaign::states::States;
 use hairpin::feasibility::steering::shooting::Control;
 use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
 use hairpin::feasibility::steering::shooting::flat;
-use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query, Refusal};
+use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Precision, Query, Refusal};
 use hairpin::robot::rover::{Rover, Twist};
 use hairpin::trajectory::SpeedProfile;
 use hairpin::trajectory::drive::Planar;
 use hairpin::trajectory::start_table::StartTable;
 use hairpin::world::terrain::{ElevationMap, KeepOuts};
-use hairpin_formats::scenario::rover_for;
+use hairpin_formats::scenario::{rover_for, shadowed};
 use hairpin_formats::steering::{Asked, Status};
 use hairpin_formats::terrain::MapFile;
 
@@ -46,6 +46,7 @@ impl Vehicle {
     /// # Errors
     /// What cannot be read, does not fit the vehicle, or asks for what nothing can be done with.
     pub fn new(settings: &SteerSettings, watch: &dyn Watch) -> Result<Self, Problem> {
+        shadowed(&settings.rover).iter().for_each(|note| watch.warn(note));
         let mut rover = rover_for(&settings.rover)?;
         rover.kinematics = settings.kinematics;
         if settings.turns && !rover.limits.turns_in_place {
@@ -71,11 +72,6 @@ impl Vehicle {
         Self { rover, map, offset: [0.0, 0.0], keep_outs, solver, table: None, pace: Pace::default() }
     }
 
-    /// Answers a question: solved under the clock, then replayed without it.
-    pub fn answer(&self, asked: &Asked) -> Answered {
-        self.answer_by(&self.near(asked), &self.solver())
-    }
-
     /// The solver, with its table.
     pub(super) fn solver(&self) -> Solver<'_> {
         let mut solver = self.solver;
@@ -99,8 +95,19 @@ impl Vehicle {
         Asked { start: Some([x - east, y - north, yaw]), ..*asked }
     }
 
-    /// Answers a question that is asked of the map ([`Self::near`]) by another solver.
+    /// Answers a question that is asked of the map ([`Self::near`]) exactly, by `solver`.
     pub(super) fn answer_by(&self, asked: &Asked, solver: &Solver<'_>) -> Answered {
+        self.answer_towards(asked, asked, solver.precision(asked), solver)
+    }
+
+    /// Answers a question by a drive to the goal of `towards`, as exact as `aim` has it.
+    pub(super) fn answer_towards(
+        &self,
+        asked: &Asked,
+        towards: &Asked,
+        aim: Precision,
+        solver: &Solver<'_>,
+    ) -> Answered {
         let (limits, bounds) = (&self.rover.limits, self.bounds(asked));
         let most = bounds.most;
         let refused = |status, limit, excess| {
@@ -119,12 +126,15 @@ impl Vehicle {
         if sharpest > most {
             return refused(Status::Infeasible, "curvature_1_m", Some(sharpest - most));
         }
-        let query = match query(asked, &bounds) {
+        let query = match query(towards, &bounds) {
             Ok(query) => query,
             Err(refusal) => return refused(Status::Invalid, refusal.field, None),
         };
+        let precision = solver.precision(asked);
+        let there = self.is_there(asked, &profile, &precision);
         let swing = direction(asked).swing();
-        if self.pace.control == Control::TurnDriveTurn
+        if !there
+            && self.pace.control == Control::TurnDriveTurn
             && let Some(excess) = self.cannot_turn()
         {
             return refused(Status::Infeasible, "steer_angle", excess);
@@ -140,12 +150,18 @@ impl Vehicle {
             boundary: &boundary,
             bounds,
             shaping,
-            precision: solver.precision(asked),
+            precision,
+            towards,
+            aim,
+            there,
         };
         let mut answered = self.found(asked, &task, &shaping);
         if answered.status == Status::NotConverged && shaping != bounds && shaping.most >= sharpest {
             // What steering can follow at every curvature is more than enough: without it the limits themselves decide.
             answered = self.found(asked, &task, &bounds);
+        }
+        if there {
+            return Answered { profile: Some(profile), ..answered };
         }
         self.hold_to_pace(asked, answered, &profile)
     }

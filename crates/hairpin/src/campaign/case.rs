@@ -253,6 +253,8 @@ pub enum Status {
     Pass,
     /// At least one limit violated.
     Fail,
+    /// Nothing was asked for, and nothing crashed or left the world: neither pass nor fail.
+    Unjudged,
     /// The executor failed: neither pass nor fail.
     ExecutorFailed,
     /// The data do not allow a verdict.
@@ -260,11 +262,12 @@ pub enum Status {
 }
 
 impl Status {
-    /// The word in files: `pass`, `fail`, `executor-failed`, `inconclusive`.
+    /// The word in files: `pass`, `fail`, `unjudged`, `executor-failed`, `inconclusive`.
     pub fn word(self) -> &'static str {
         match self {
             Status::Pass => "pass",
             Status::Fail => "fail",
+            Status::Unjudged => "unjudged",
             Status::ExecutorFailed => "executor-failed",
             Status::Inconclusive => "inconclusive",
         }
@@ -272,7 +275,7 @@ impl Status {
 
     /// The status whose word in files is `word`.
     pub fn from_word(word: &str) -> Option<Self> {
-        [Status::Pass, Status::Fail, Status::ExecutorFailed, Status::Inconclusive]
+        [Status::Pass, Status::Fail, Status::Unjudged, Status::ExecutorFailed, Status::Inconclusive]
             .into_iter()
             .find(|s| s.word() == word)
     }

@@ -17,15 +17,15 @@ pub const SIGNIFICANCE: f64 = 0.05;
 pub struct Comparison {
     /// Cases that both have: the same number, seed and waypoints.
     pub pairs: usize,
-    /// Of these, pairs whose run came to a better end in B or deviates less, both passing or both failing.
+    /// Of these, pairs whose run came to a better end in B or deviates less, both passing, both failing or not judged.
     pub better: usize,
     /// … to a worse end, or deviates more.
     pub worse: usize,
     /// … to the same.
     pub unchanged: usize,
-    /// Cases that pass in A and fail in B.
+    /// Cases that pass in A, or were not judged, and fail in B.
     pub newly_failing: Vec<String>,
-    /// Cases that fail in A and pass in B.
+    /// Cases that fail in A and no longer do in B.
     pub newly_passing: Vec<String>,
     /// Cases whose executor failed, or whose data are inconclusive, in A or B: not compared.
     pub undecided: Vec<String>,
@@ -152,7 +152,10 @@ impl Comparison {
         match (a.status, b.status) {
             (Status::Pass, Status::Fail) => self.newly_failing.push(name),
             (Status::Fail, Status::Pass) => self.newly_passing.push(name),
-            (Status::Pass, Status::Pass) | (Status::Fail, Status::Fail) => {
+            // Of what no limit was asked only a bad end is a failure, on either side.
+            (Status::Unjudged, Status::Fail) if ended_badly(b) => self.newly_failing.push(name),
+            (Status::Fail, Status::Unjudged) if ended_badly(a) => self.newly_passing.push(name),
+            (Status::Pass | Status::Unjudged, Status::Pass | Status::Unjudged) | (Status::Fail, Status::Fail) => {
                 let crashed = |result: &CaseResult| result.violations.iter().any(Violation::is_crash);
                 let deviation = |result: &CaseResult| result.measures.as_ref().map_or(0.0, |m| m.max_deviation);
                 let change = deviation(b) - deviation(a);
@@ -172,6 +175,11 @@ impl Comparison {
         }
         true
     }
+}
+
+/// Whether what a run violates is no limit, but how it ended.
+fn ended_badly(result: &CaseResult) -> bool {
+    result.violations.iter().any(|violation| violation.event().is_some())
 }
 
 /// A metric: its column, its value, and whether more of it is worse.
@@ -288,6 +296,14 @@ mod tests {
         );
         assert!(none.sentence().ends_with("; not paired 2"), "{}", none.sentence());
         assert!(!compare(&a, &[], 1e-9).inconclusive(), "without pairs there is nothing to be inconclusive about");
+        // What nothing was asked of fails by how it ends alone.
+        let (mut unjudged, mut crashed) = (side(&[0.1, 0.1, 0.2], 0.5), side(&[0.7, 0.7, 0.2], 0.5));
+        unjudged.iter_mut().for_each(|(_, result)| result.status = Status::Unjudged);
+        crashed[0].1.violations[0].what = "crash".into();
+        let found = compare(&unjudged, &crashed, 1e-9);
+        assert_eq!((&found.newly_failing[..], found.unchanged), (&["0000".to_owned()][..], 1));
+        assert_eq!(found.undecided, ["0001"], "a limit that was not asked for on the other side");
+        assert_eq!(compare(&crashed, &unjudged, 1e-9).newly_passing, ["0000"]);
         // A change within the tolerance is none.
         assert_eq!(compare(&a, &b, 0.15).unchanged, 4);
     }

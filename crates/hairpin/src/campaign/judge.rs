@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 
 use super::influence::RunDeviation;
-use super::scenario::DeviationFrom;
+use super::scenario::{Asked, DeviationFrom};
 use super::{Case, CaseResult, Mistake, Run, Setup, Status};
 use crate::judgement::moves::Measured;
 use crate::judgement::{self, JudgementError, Late, Measures, Reference, Settings, Violation};
@@ -37,6 +37,9 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
         };
         match judge_run(setup, case, &plan, run, flight)? {
             Ok(judged) => {
+                if judged.unmeasured {
+                    failed = failed.or(Some(format!("run {}: nothing that `spec` limits was measured", run.run)));
+                }
                 deviations.push(RunDeviation {
                     case: case.number,
                     run: run.run,
@@ -57,7 +60,8 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
         (false, Some(_), _) => Status::ExecutorFailed,
         (false, None, Some(_)) => Status::Inconclusive,
         (false, None, None) if worst.is_none() => Status::Inconclusive,
-        (false, None, None) => Status::Pass,
+        (false, None, None) if setup.scenario.asked() == Asked::Limits => Status::Pass,
+        (false, None, None) => Status::Unjudged,
     };
     let message = unflown.or(failed);
     let result = match worst {
@@ -99,6 +103,8 @@ pub fn measures_of(setup: &Setup, case: &Case, run: &Run) -> Option<Measures> {
 struct JudgedRun {
     measures: Measures,
     violations: Vec<Violation>,
+    /// Whether limits are of what was not measured alone.
+    unmeasured: bool,
     ended: String,
     left_world: Option<f64>,
     crashed: bool,
@@ -184,6 +190,7 @@ fn judge_run(
             violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
         }
         JudgedRun {
+            unmeasured: terms.limits.miss(&measures),
             violations,
             ended: flight.ended.word().into(),
             left_world: flight.left_world,

@@ -6,6 +6,7 @@ pub mod assumptions;
 pub mod attachments;
 pub mod baseline;
 pub mod boat;
+pub mod bounds;
 pub mod case;
 pub mod case_number;
 mod check;

@@ -2,6 +2,7 @@
 
 use super::case::gap_word;
 use super::judge::Gravity;
+use super::scenario::Asked;
 use super::{Case, CaseResult, Evidence, Reruns, Setup, Status, Tally};
 use crate::judgement::{self, Claim, Judged, Measures, Verdict, Violation, Worst};
 
@@ -35,6 +36,7 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         how: &how,
         runs: setup.scenario.executor().repeat as usize,
         cases: results.len(),
+        limited: setup.scenario.asked() == Asked::Limits,
         asked,
         failed: count(Status::Fail),
         executor_failed: count(Status::ExecutorFailed),

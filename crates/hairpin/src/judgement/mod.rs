@@ -37,6 +37,6 @@ pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures};
 pub use paired::{Median, SignedRank, holm, median, signed_rank};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
-pub use statistics::{Share, Statistics, rank_correlation, rule_of_three, share, skewness};
+pub use statistics::{Share, Statistics, cases_needed, rank_correlation, rule_of_three, share, skewness};
 pub use stress::Stress;
 pub use verdict::{Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};

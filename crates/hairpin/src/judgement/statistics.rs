@@ -140,6 +140,33 @@ pub fn share(k: usize, n: usize, confidence: f64) -> Option<Share> {
     Some(Share { value: successes / n as f64, low, high })
 }
 
+/// The fewest cases of which, where none violates, the interval of the share lies below `limit`: what a spec that allows
+/// so large a share needs at least. `None` for a limit outside (0, 1), or where it takes more than 10⁹.
+///
+/// With no violation in n cases the interval ends at 1 − (α/2)^(1/n), α = 1 − c: n ≥ ln(α/2)/ln(1 − p).
+///
+/// ```
+/// use hairpin::judgement::{cases_needed, share};
+///
+/// let needed = cases_needed(0.01, 0.95).expect("a share");
+/// assert_eq!(needed, 368);
+/// assert!(share(0, needed, 0.95).is_some_and(|share| share.high <= 0.01));
+/// assert!(share(0, needed - 1, 0.95).is_some_and(|share| share.high > 0.01));
+/// ```
+pub fn cases_needed(limit: f64, confidence: f64) -> Option<usize> {
+    if !(limit > 0.0 && limit < 1.0 && confidence > 0.0 && confidence < 1.0) {
+        return None;
+    }
+    let estimate = libm::log(0.5 * (1.0 - confidence)) / libm::log1p(-limit);
+    if estimate > MOST_CASES {
+        return None;
+    }
+    // The quotient is rounded, the interval decides.
+    let decides = |n: usize| share(0, n, confidence).is_some_and(|share| share.high <= limit);
+    let near = (estimate as usize).saturating_sub(1).max(1);
+    (near..near + 4).find(|&n| decides(n))
+}
+
 /// P(B ≤ `k`) of a binomial B(`n`, ½), k < n: I_½(n − k, k + 1).
 pub(super) fn binomial_share_half(n: usize, k: usize) -> f64 {
     beta_share((n - k) as f64, (k + 1) as f64, 0.5)
@@ -206,6 +233,8 @@ fn beta_share(a: f64, b: f64, x: f64) -> f64 {
 
 /// Terms of the fraction; about the root of the larger argument are needed, 10 000 for a hundred million cases.
 const MOST_TERMS: u32 = 100_000;
+/// Beyond these nobody counts cases.
+const MOST_CASES: f64 = 1e9;
 
 #[cfg(test)]
 mod tests {

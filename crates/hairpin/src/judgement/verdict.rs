@@ -15,7 +15,7 @@ use super::statistics::{rule_of_three, share};
 /// One sentence and its exit code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Verdict {
-    /// Starts with PASS, FAIL k/n, INCONCLUSIVE, INVALID, NOTHING FEASIBLE or EXECUTOR FAILED.
+    /// Starts with PASS, FAIL k/n, UNJUDGED n, INCONCLUSIVE, INVALID, NOTHING FEASIBLE or EXECUTOR FAILED.
     pub sentence: String,
     /// 0, 1, 3, 4 or 5.
     pub exit_code: u8,
@@ -61,6 +61,8 @@ pub struct Judged<'a> {
     pub runs: usize,
     /// Cases in all.
     pub cases: usize,
+    /// Whether runs were held against anything; where they were not, crashes and leaving the world alone are counted.
+    pub limited: bool,
     /// Cases asked for, where fewer were found; told, not counted.
     pub asked: usize,
     /// Cases with a violation.
@@ -91,6 +93,7 @@ impl Default for Judged<'_> {
             how: &[],
             runs: 1,
             cases: 0,
+            limited: true,
             asked: 0,
             failed: 0,
             executor_failed: 0,
@@ -110,7 +113,8 @@ impl Default for Judged<'_> {
 ///
 /// Cases that the executor failed to fly or whose data are inconclusive count neither as pass nor as fail: the share
 /// is of the others. Without a share limit one violating case is a FAIL. With one, the Clopper-Pearson interval of
-/// the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it.
+/// the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it. Where nothing was
+/// asked for, what is no FAIL is UNJUDGED.
 ///
 /// ```
 /// use hairpin::judgement::{Judged, verdict};
@@ -139,9 +143,12 @@ pub fn verdict(judged: &Judged) -> Verdict {
         if counted == 0 {
             return Verdict::of(&start, 4);
         }
-        (format!("{start}; {counted} judged {}", how(judged)), 4)
+        let what = if judged.limited { "judged" } else { "unjudged" };
+        (format!("{start}; {counted} {what} {}", how(judged)), 4)
     } else if judged.inconclusive > 0 || open || counted == 0 {
         (format!("INCONCLUSIVE {k}/{n} {}", how(judged)), 5)
+    } else if !judged.limited {
+        (format!("UNJUDGED {n} {}", how(judged)), 0)
     } else {
         (format!("PASS {}/{n} {}", n - k, how(judged)), 0)
     };
@@ -177,7 +184,14 @@ fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> 
     if let Some(worst) = &judged.worst {
         parts.push(worst_and_where(worst));
     }
-    parts.extend(share_sentence(judged, counted, limit));
+    if !judged.limited {
+        let nothing =
+            if judged.failed > 0 { "nothing else was" } else { "nothing crashed or left the world, no more was" };
+        parts.push(format!("{nothing} asked for: spec = \"none\""));
+    }
+    if judged.limited || judged.failed > 0 {
+        parts.extend(share_sentence(judged, counted, limit));
+    }
     parts.extend(judged.reruns.map(str::to_owned));
     if judged.executor_failed > 0 && judged.failed > 0 {
         parts.push(format!("executor failed in {}/{}, not counted", judged.executor_failed, judged.cases));
@@ -410,6 +424,27 @@ mod tests {
         assert_eq!(reset.sentence, "INVALID 0118 (flown, log_25.ulg): position reset of 1.2 m at t = 8.1 s");
         assert_eq!(reset.exit_code, 5);
         assert_eq!(inconclusive("0117", &["flown"], "x").sentence, "INCONCLUSIVE 0117 (flown): x");
+    }
+
+    #[test]
+    fn what_nothing_was_asked_of_does_not_pass() {
+        let value = violation("crash", 12.34, 0.0);
+        let none = Judged { limited: false, worst: None, ..with(0, &value) };
+        let unjudged = verdict(&none);
+        assert_eq!(
+            (unjudged.sentence.as_str(), unjudged.exit_code),
+            (
+                "UNJUDGED 200 (simulated, anafi stand-in, minimum-snap, 5 runs each): nothing crashed or left the world, no \
+                 more was asked for: spec = \"none\"; all 200 witnessed",
+                0
+            )
+        );
+        let crashed = verdict(&Judged { limited: false, ..with(3, &value) });
+        assert!(crashed.exit_code == 1 && crashed.sentence.starts_with("FAIL 3/200 ("), "{}", crashed.sentence);
+        assert!(crashed.sentence.contains("worst crash") && crashed.sentence.contains("nothing else was asked for"));
+        let broken = verdict(&Judged { executor_failed: 4, ..none });
+        assert!(broken.exit_code == 4 && broken.sentence.contains("196 unjudged (simulated"), "{}", broken.sentence);
+        assert_eq!(verdict(&Judged { inconclusive: 1, ..none }).exit_code, 5);
     }
 
     #[test]

@@ -94,7 +94,8 @@ const MOST_STEPS: f64 = 1e6;
 /// assert!(replay.error.iter().all(|e| e.abs() < 1e-9) && replay.steps >= LEAST_STEPS);
 /// ```
 pub fn replay_drive(pieces: &[DrivePiece], claim: &DriveClaim) -> DriveReplay {
-    let total: f64 = pieces.iter().map(DrivePiece::length).sum();
+    // The sum of nothing is −0.
+    let total = pieces.iter().map(DrivePiece::length).sum::<f64>() + 0.0;
     let mut state = [0.0; 3];
     let mut replay = DriveReplay {
         error: [0.0; 3],

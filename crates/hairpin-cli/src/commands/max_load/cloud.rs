@@ -42,7 +42,8 @@ fn sets(asked: &MaxLoad) -> Result<Vec<Set>, Problem> {
     Ok(sets)
 }
 
-fn tell(asked: &MaxLoad, CloudSearch { setup, graph, found, time, .. }: &CloudSearch) {
+fn tell(asked: &MaxLoad, searched: &CloudSearch) {
+    let CloudSearch { setup, graph, found, time, .. } = searched;
     let value = |cost: i64| cost as f64 * graph.unit;
     let best = found.paths.first();
     if asked.json {
@@ -77,15 +78,15 @@ fn tell(asked: &MaxLoad, CloudSearch { setup, graph, found, time, .. }: &CloudSe
         if let Some(out) = asked.out.as_ref().filter(|_| best.is_some()) {
             object["folder"] = json!(out);
         }
+        if let Some(reason) = searched.why_none() {
+            object["reason"] = reason.into();
+        }
         return console::say(&object.to_string());
     }
     let Some((cost, path)) = best else {
-        let why = match found.outcome {
-            Outcome::BelowMinCost => "no program costs as much as was asked for",
-            Outcome::NotFound => "none of the wanted cost was found in time",
-            Outcome::Infeasible | Outcome::Found => "no program leads from home through the points and back",
-        };
-        return console::say(&format!("NOTHING FEASIBLE: {why}"));
+        // What was not found in time is not known to be none.
+        let word = if found.outcome == Outcome::NotFound { "INCONCLUSIVE" } else { "NOTHING FEASIBLE" };
+        return console::say(&format!("{word}: {}", searched.why_none().unwrap_or_default()));
     };
     let evidence = if found.proven {
         format!("optimal: {}", proven_over(asked.visits))

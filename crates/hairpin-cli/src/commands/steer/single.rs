@@ -41,13 +41,13 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, to: &str, watch: &dyn Watch)
     vehicle.write_states(&asked, &answered, [steer.path.as_deref(), steer.wheels.as_deref()], watch)?;
     let remedies = vehicle.remedies(&asked, &answered);
     if steer.json {
-        let mut object = object(vehicle, &answered, asked.frame, code);
+        let mut object = object(vehicle, &answered, &asked, code);
         add(&mut object, json!(vehicle.summary(&asked, &answered)));
         add_remedies(&mut object, &remedies, &asked);
         console::say(&object.to_string());
     } else {
-        words(vehicle, &answered, asked.frame).iter().for_each(|line| console::say(line));
-        in_words(&remedies, &asked).iter().for_each(|line| console::say(line));
+        words(vehicle, &answered, &asked).iter().for_each(|line| console::say_lines(line));
+        in_words(&remedies, &asked).iter().for_each(|line| console::say_lines(line));
     }
     Ok(code)
 }
@@ -154,8 +154,8 @@ fn arc_lacks(solution: &Solution) -> Option<(&'static str, f64)> {
     }
 }
 
-fn words(vehicle: &Vehicle, answered: &Answered, frame: Frame) -> Vec<String> {
-    let left = frame.left();
+fn words(vehicle: &Vehicle, answered: &Answered, asked: &Asked) -> Vec<String> {
+    let left = asked.frame.left();
     let mut lines = Vec::new();
     let status = answered.status;
     let limit = answered.limit.map_or(String::new(), |(limit, excess)| {
@@ -184,7 +184,7 @@ fn words(vehicle: &Vehicle, answered: &Answered, frame: Frame) -> Vec<String> {
     };
     let mut table =
         vec![["segment", "kind", "direction", "length_m", "turn_rad", "curvature"].map(str::to_owned).to_vec()];
-    for (number, piece) in pieces(solution).iter().enumerate() {
+    for (number, piece) in pieces(solution, asked.k0).iter().enumerate() {
         table.push(match piece {
             Piece::Arc { length_m, curvature, direction } => {
                 let most = curvature.iter().rposition(|a| *a != 0.0).unwrap_or(0);
@@ -223,8 +223,8 @@ fn words(vehicle: &Vehicle, answered: &Answered, frame: Frame) -> Vec<String> {
     lines
 }
 
-fn object(vehicle: &Vehicle, answered: &Answered, frame: Frame, code: u8) -> Value {
-    let left = frame.left();
+fn object(vehicle: &Vehicle, answered: &Answered, asked: &Asked, code: u8) -> Value {
+    let left = asked.frame.left();
     let (limit, excess) = answered.limit.map_or((None, None), |(limit, excess)| (Some(limit), excess));
     let mut object = json!({
         "robot": vehicle.rover.name,
@@ -245,7 +245,7 @@ fn object(vehicle: &Vehicle, answered: &Answered, frame: Frame, code: u8) -> Val
         object["nearest"] = json!({ "k0": left * k0, "kf": left * kf });
     }
     let Some((solution, replay)) = &answered.drive else { return object };
-    let segments: Vec<Value> = pieces(solution)
+    let segments: Vec<Value> = pieces(solution, asked.k0)
         .iter()
         .map(|piece| match piece {
             Piece::Arc { length_m, curvature, direction } => {

@@ -3,6 +3,7 @@
 use super::ArmSetup;
 use super::points::count;
 use crate::campaign::attachments::Attachments;
+use crate::campaign::bounds::MOST_POINTS;
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{
     ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, ArmTask, CostName, CostSection, Keys, LogClock, Mistake,
@@ -10,9 +11,6 @@ use crate::campaign::scenario::{
 };
 use crate::search::heaviest::{MOST_TRIPLE_POINTS, MOST_VISITS};
 use crate::trajectory::program::{Speed, Zone};
-
-/// More points take graphs of more than a hundred million arcs.
-const MOST_POINTS: u64 = 10_000;
 
 /// Looks at all keys, and builds what they describe once nothing is wrong with them.
 ///
@@ -45,7 +43,7 @@ fn check_task(task: &ArmTask, points: u64, found: &mut Findings) {
         PointsSource::Drawn(_) => "task.points.count",
         PointsSource::File(_) | PointsSource::List(_) => "task.points",
     };
-    found.count(key, points, 1, MOST_POINTS);
+    found.count(key, points, 1, MOST_POINTS as u64);
     for (axis, angle) in task.home_deg.iter().enumerate() {
         found.from(&format!("task.home_deg[{axis}]"), *angle, -3600.0, 3600.0, "°");
     }

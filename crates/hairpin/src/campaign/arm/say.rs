@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
 use super::{ArmSetup, assumptions};
+use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::digits::number;
 use crate::campaign::kind::{
     Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, Programs, RobotWords, Say, surface,
@@ -72,6 +73,7 @@ impl Say for ArmSetup {
                 nowhere: Some("the arm's base: z up, m; programs are in their work object, mm"),
             },
             start: Point3::origin(),
+            farthest: FARTHEST_M,
         }
     }
 

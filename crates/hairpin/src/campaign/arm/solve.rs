@@ -102,6 +102,14 @@ impl ArmSetup {
         for (_, path) in &mut found.paths {
             path.retain(|row| *row < graph.points());
         }
+        // Home, a point and home again loads no move of the graph: paths of no arc are the heaviest where there is none.
+        let moves: Vec<bool> = found.paths.iter().map(|(_, path)| path.len() > 1).collect();
+        let mut of_path = moves.iter();
+        found.passed.retain(|_| of_path.next().is_none_or(|moves| *moves));
+        found.paths.retain(|(_, path)| path.len() > 1);
+        if found.paths.is_empty() && found.outcome == Found::Found {
+            (found.outcome, found.bound) = (Found::Infeasible, None);
+        }
         Ok(found)
     }
 
@@ -116,7 +124,8 @@ impl ArmSetup {
     ) -> Result<Option<(Question, Heaviest, Option<WalkProof>)>, String> {
         let question = self.question(graph);
         let (found, walk) = self.search(graph, &question, 1, true, stop)?;
-        let proven = found.proven && !found.paths.is_empty();
+        let of_cloud = |path: &[usize]| path.iter().filter(|row| **row < graph.points()).count();
+        let proven = found.proven && found.paths.first().is_some_and(|(_, path)| of_cloud(path) > 1);
         Ok(proven.then_some((question, found, walk)))
     }
 
@@ -154,8 +163,8 @@ impl ArmSetup {
         heaviest(&arcs, &settings, &over).map(|found| (found, None)).map_err(|error| error.to_string())
     }
 
-    /// Why there is no program.
-    fn why_none(&self, graph: &ArmGraph, found: &Heaviest) -> String {
+    /// Why there is no program, in a sentence's part.
+    pub fn why_none(&self, graph: &ArmGraph, found: &Heaviest) -> String {
         match found.outcome {
             Found::BelowMinCost => format!(
                 "none costs {} {}: the bound is {}",
@@ -164,7 +173,12 @@ impl ArmSetup {
                 found.bound.map_or("not known".into(), |bound| (bound as f64 * graph.unit).to_string())
             ),
             Found::NotFound => "none of the wanted cost was found in time".into(),
-            Found::Infeasible | Found::Found => "the end cannot be reached from the start".into(),
+            Found::Infeasible | Found::Found if graph.costs.iter().all(Option::is_none) => {
+                "no move from one point of the cloud to another is possible".into()
+            }
+            Found::Infeasible | Found::Found => {
+                "none leads from home through two points of the cloud or more, and back".into()
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 use super::BoatSetup;
 use super::keys::{ACROSS_CURRENT, BoatExecute, BoatGenerate, BoatScenario, WatersSection};
 use crate::campaign::attachments::Attachments;
+use crate::campaign::bounds::{LARGEST_WATERS_M, LONGEST_PASSAGE_S, LONGEST_TRIP_S, MOST_WAYPOINTS};
 use crate::campaign::check::{Findings, check_executed, check_search, check_spec};
 use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{EXECUTED, Keys, Mistake, SearchMethod};
@@ -12,12 +13,6 @@ use crate::search::Score;
 use crate::world::Sampling;
 use crate::world::terrain::KeepOuts;
 
-/// Farther than any harbour.
-const LARGEST_M: f64 = 100_000.0;
-/// A trip of so many waypoints takes days.
-const LONGEST: u64 = 10_000;
-/// Boats are slow, s.
-const LONGEST_RUN_S: f64 = 1e7;
 /// Nodes of the roadmap, waypoints × velocities: legs are pairs of them, judged once and kept; and of the dynamic
 /// programs, which judge every leg before they start.
 const MOST_NODES: u64 = 50_000;
@@ -42,7 +37,7 @@ impl Build for BoatSetup {
         check_generate(&keys.generate, &mut found);
         check_score(keys, files, &mut found);
         check_execute(&keys.execute, boat.as_deref(), &mut found);
-        check_spec(&keys.spec, LONGEST_RUN_S, &mut found);
+        check_spec(&keys.spec, LONGEST_TRIP_S, &mut found);
         match (boat, keep_out) {
             (Some(boat), Some(keep_out)) if found.0.is_empty() => Ok(Self::of(given, boat, keep_out)),
             _ => Err(found.0),
@@ -52,7 +47,7 @@ impl Build for BoatSetup {
 
 fn check_world(world: &WatersSection, found: &mut Findings) {
     for (axis, size) in world.size_m.into_iter().enumerate() {
-        found.above(&format!("world.size_m[{axis}]"), size, 0.0, LARGEST_M, " m");
+        found.above(&format!("world.size_m[{axis}]"), size, 0.0, LARGEST_WATERS_M, " m");
     }
     let most = 0.5 * world.size_m[0].min(world.size_m[1]);
     let (margin, bound) = (world.keep_in_margin_m, format!("≥ 0 and < {most} m, half the smallest side"));
@@ -68,7 +63,7 @@ fn check_world(world: &WatersSection, found: &mut Findings) {
 /// It must be possible to lie at both ends.
 fn check_task(keys: &BoatScenario, boat: Option<&Boat>, keep_out: Option<&KeepOuts>, found: &mut Findings) {
     let (task, world) = (&keys.task, &keys.world);
-    found.count("task.length", task.length, 2, LONGEST);
+    found.count("task.length", task.length, 2, MOST_WAYPOINTS as u64);
     for (key, place) in [("task.start_m", task.start_m), ("task.end_m", task.end_m)] {
         for (axis, x) in place.into_iter().enumerate() {
             let (least, most) = (world.keep_in_margin_m, world.size_m[axis] - world.keep_in_margin_m);
@@ -85,8 +80,8 @@ fn check_task(keys: &BoatScenario, boat: Option<&Boat>, keep_out: Option<&KeepOu
 
 fn check_generate(generate: &BoatGenerate, found: &mut Findings) {
     let [shortest, longest] = generate.leg_time_s;
-    found.above("generate.leg_time_s[0]", shortest, 0.0, 1e5, " s");
-    found.above("generate.leg_time_s[1]", longest, 0.0, 1e5, " s");
+    found.above("generate.leg_time_s[0]", shortest, 0.0, LONGEST_PASSAGE_S, " s");
+    found.above("generate.leg_time_s[1]", longest, 0.0, LONGEST_PASSAGE_S, " s");
     let key = "generate.leg_time_s";
     found.require(shortest < longest, key, format!("[{shortest}, {longest}]"), "rising: [shortest, longest]");
     found.count("generate.velocities", generate.velocities, 1, 64);
@@ -105,7 +100,7 @@ fn check_generate(generate: &BoatGenerate, found: &mut Findings) {
         found.above("generate.limits.thrust_share", share, 0.0, 1.0, "");
     }
     if let Some(time) = limits.max_time_s {
-        found.above("generate.limits.max_time_s", time, 0.0, LONGEST_RUN_S, " s");
+        found.above("generate.limits.max_time_s", time, 0.0, LONGEST_TRIP_S, " s");
     }
 }
 

@@ -4,6 +4,7 @@ use nalgebra::Point3;
 use serde_json::json;
 
 use super::{BoatSetup, assumptions, drawing};
+use crate::campaign::bounds::LARGEST_WATERS_M;
 use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
@@ -45,6 +46,7 @@ impl Say for BoatSetup {
             external_force: self.scenario.execute.external_force_n.map(|[east, north]| [east, north, 0.0]),
             frame: FrameWords { relative_to: "map origin", world: "map", axes: "x east, y north", nowhere: None },
             start: Point3::new(x, y, 0.0),
+            farthest: LARGEST_WATERS_M,
         }
     }
 

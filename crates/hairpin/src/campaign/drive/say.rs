@@ -4,11 +4,12 @@ use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
 use super::{DriveSetup, assumptions, drawing};
+use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say, word};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::trajectory::Track;
-use crate::world::terrain::Terrain;
+use crate::world::terrain::{ElevationMap, Terrain};
 
 impl Say for DriveSetup {
     fn robot_words(&self) -> RobotWords<'_> {
@@ -62,6 +63,7 @@ impl Say for DriveSetup {
             external_force: self.scenario.execute.external_force_n,
             frame: FrameWords { relative_to: "map origin", world: "map", axes: "x east, y north", nowhere: None },
             start: Point3::new(start.x_m, start.y_m, height),
+            farthest: farthest(&self.map),
         }
     }
 
@@ -104,4 +106,11 @@ fn samples_met(track: &Track, meet: &mut dyn FnMut(&[f64])) {
         let of = |values: &[f64]| values.get(i).copied().unwrap_or(0.0);
         meet(&[libm::acos(up).to_degrees(), of(curvature), of(slip).abs()]);
     }
+}
+
+/// How far from a map's origin a place may be, m: maps of the Earth have coordinates of thousands of kilometres.
+fn farthest(map: &ElevationMap) -> f64 {
+    let (low, high) = map.extent();
+    let edge = low.iter().chain(&high).fold(0.0_f64, |most, x| most.max(x.abs()));
+    if edge <= FARTHEST_M { FARTHEST_M } else { edge + FARTHEST_M }
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::campaign::attachments::Attachments;
+use crate::campaign::bounds::LEAST_RADIUS_M;
 use crate::campaign::kind::Kind;
 use crate::campaign::own_controller::AnyController;
 use crate::campaign::scenario::{
@@ -50,9 +51,9 @@ impl DriveSetup {
 
     /// Commanded rate of turns in place, rad/s: the outermost wheel goes at [`Self::speed`].
     ///
-    /// v / r with r the distance of the outermost wheel from the origin, at least 0.1 m.
+    /// v / r with r the distance of the outermost wheel from the origin, at least [`LEAST_RADIUS_M`].
     pub fn turn_rate(&self) -> f64 {
-        self.speed() / self.rover.suspension.outer_radius().max(0.1)
+        self.speed() / self.rover.suspension.outer_radius().max(LEAST_RADIUS_M)
     }
 
     /// How speeds follow each other along a drive.
@@ -172,16 +173,11 @@ impl Kind for DriveSetup {
 /// # Errors
 /// The robot's key that is out of bounds; a name that was not resolved before.
 fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistake> {
-    let wrong = |field: String, value, bound| Mistake { key: format!("robot.{field}"), value, bound };
-    match source.resolved()? {
-        GroundDescription::Rover(rover) => rover.build().map_err(|e| wrong(e.field, e.value, e.bound)),
-        GroundDescription::Car(car) => {
-            car.build().map(|car| car.vehicle()).map_err(|e| wrong(e.field, e.value, e.bound))
-        }
-        GroundDescription::DifferentialDrive(drive) => {
-            drive.build().map(|drive| drive.vehicle()).map_err(|e| wrong(e.field, e.value, e.bound))
-        }
-    }
+    source.resolved()?.build().map_err(|wrong| Mistake {
+        key: format!("robot.{}", wrong.field),
+        value: wrong.value,
+        bound: wrong.bound,
+    })
 }
 
 /// `rover` as plans have it.

@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
 use super::{FlightSetup, assumptions};
+use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
     Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Rotor, Say, surface,
 };
@@ -54,6 +55,7 @@ impl Say for FlightSetup {
                 nowhere: None,
             },
             start: Point3::from(self.scenario.task.start_m),
+            farthest: FARTHEST_M,
         }
     }
 

@@ -78,6 +78,8 @@ pub struct Handed {
     pub frame: FrameWords,
     /// The first waypoint, world frame, m.
     pub start: Point3<f64>,
+    /// How far from the origin a place may be, m: beyond is another unit or a slip.
+    pub farthest: f64,
 }
 
 /// Calls its last argument with the values, one an axis, of whatever a run over waypoints met.

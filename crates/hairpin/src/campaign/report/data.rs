@@ -150,7 +150,7 @@ pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
     let rank = |result: &CaseResult| match result.status {
         Status::Fail => 0,
         Status::Inconclusive => 1,
-        Status::Pass => 2,
+        Status::Pass | Status::Unjudged => 2,
         Status::ExecutorFailed => 3,
     };
     let crashed = |result: &CaseResult| result.violations.first().is_some_and(Violation::is_crash);

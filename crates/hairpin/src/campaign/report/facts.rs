@@ -4,6 +4,7 @@ use super::data::{Metric, Pieces};
 use super::text::{cells, leg};
 use crate::campaign::digits::number;
 use crate::campaign::kind::{Facts, word};
+use crate::campaign::scenario::Asked;
 use crate::campaign::{CaseResult, Status};
 use crate::judgement::{Measures, share};
 
@@ -11,7 +12,8 @@ use crate::judgement::{Measures, share};
 /// confidence (0.95 if none is given), and the number of cases.
 pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     let of = |a: &str, b: String, c: String| [a.to_owned(), b, c];
-    let judged = pieces.results.iter().filter(|r| matches!(r.status, Status::Pass | Status::Fail)).count();
+    let judged =
+        pieces.results.iter().filter(|r| matches!(r.status, Status::Pass | Status::Fail | Status::Unjudged)).count();
     let failed = pieces.results.iter().filter(|r| r.status == Status::Fail).count();
     let mut numbers = Vec::new();
     if let Some((worst, measures)) = largest_deviation(pieces.results) {
@@ -22,9 +24,13 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
         numbers.push(of("in case", cells(worst)[0].clone(), place));
     }
     let confidence = pieces.setup.scenario.confidence().unwrap_or(0.95);
-    let interval = share(failed, judged, confidence).map_or("none judged".into(), |share| {
-        format!("{:.1} % [{:.1}, {:.1}]", 100.0 * share.value, 100.0 * share.low, 100.0 * share.high)
-    });
+    let interval = match share(failed, judged, confidence) {
+        _ if pieces.setup.scenario.asked() != Asked::Limits => "crashes alone: spec = \"none\"".into(),
+        None => "none judged".into(),
+        Some(share) => {
+            format!("{:.1} % [{:.1}, {:.1}]", 100.0 * share.value, 100.0 * share.low, 100.0 * share.high)
+        }
+    };
     numbers.push(of("violations", format!("{failed} of {judged}"), interval));
     let tally = pieces.tally;
     let asked = pieces.setup.scenario.search().cases;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::{Distribution, Environment, Mistake, Named, Origin, Projected, SearchSection, Subject, Terms};
+use super::{Asked, Distribution, Environment, Mistake, Named, Origin, Projected, SearchSection, Subject, Terms};
 
 /// Who executes a campaign's trajectories, and how often.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,6 +77,12 @@ pub struct Head<'a> {
     pub confidence: Option<f64>,
     /// What a run is judged by.
     pub terms: Terms,
+    /// What is asked of its runs.
+    pub asked: Asked,
+    /// Keys of the limits that there are.
+    pub limits: &'static [&'static str],
+    /// Longest leg that its plans can have, s.
+    pub longest_leg: f64,
     /// Keys of an environment that act on what moves.
     pub surroundings: &'static [&'static str],
     /// Whether all cases come from one search, which begins anew where it was stopped.
@@ -187,6 +193,28 @@ pub trait Keys: Any {
     /// Limit of the deviation, m.
     fn deviation_limit(&self) -> Option<f64> {
         self.head().terms.limits.deviation
+    }
+
+    /// What is asked of its runs.
+    fn asked(&self) -> Asked {
+        self.head().asked
+    }
+
+    /// Whether it says what its runs are judged by, be it nothing.
+    ///
+    /// # Errors
+    /// `spec`, without a limit and without the word for none.
+    fn check_asked(&self) -> Result<(), Mistake> {
+        if self.asked() != Asked::Unsaid {
+            return Ok(());
+        }
+        let value = self.section("spec").map_or("{}".into(), |spec| spec.to_string());
+        let bound = format!(
+            "a table with at least one of {}; or \"none\" (spec = \"none\"), which judges nothing but crashes: what asks for nothing \
+             would pass whatever happens",
+            self.head().limits.join(", ")
+        );
+        Err(Mistake { key: "spec".into(), value, bound })
     }
 
     /// Whether trajectories are executed while they are searched for.

@@ -19,6 +19,7 @@ mod path;
 mod robot_source;
 mod search;
 mod sections;
+mod spec;
 mod subject;
 mod terms;
 
@@ -37,6 +38,7 @@ pub use path::KeyPath;
 pub use robot_source::RobotSource;
 pub use search::*;
 pub(super) use sections::{SECTIONS, sections};
+pub use spec::{Asked, Spec};
 pub use subject::{ARM_MOVES, Subject};
 pub use terms::Terms;
 

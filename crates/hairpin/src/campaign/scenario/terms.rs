@@ -15,6 +15,15 @@ pub struct Terms {
 }
 
 impl Terms {
+    /// Keys of the limits of a [`SpecSection`].
+    pub(in crate::campaign) const KEYS: &'static [&'static str] = &[
+        "spec.deviation.max_m",
+        "spec.overshoot.max_m",
+        "spec.clearance.min_m",
+        "spec.acceleration.max_m_s2",
+        "spec.total_time.max_s",
+    ];
+
     /// Of `[spec]`; deviation from the leg where nothing is said of it.
     pub(in crate::campaign) fn of(spec: &SpecSection) -> Self {
         Self {

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Named, named};
-use crate::robot::rover::{Belly, Limits, Response, Rover, RoverError, within};
+use crate::robot::rover::{Belly, Limits, MOST_SPEED, Response, Rover, RoverError, within};
 
 /// The `kind` of a car's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -116,7 +116,7 @@ impl CarDescription {
     /// The first key whose value is out of bounds, with the bound.
     pub fn build(&self) -> Result<Car, RoverError> {
         let limits = &self.limits;
-        let speed = within("limits.speed_m_s", limits.speed_m_s, 1e-3, 100.0)?;
+        let speed = within("limits.speed_m_s", limits.speed_m_s, 1e-3, MOST_SPEED)?;
         let wheelbase = within("wheelbase_m", self.wheelbase_m, 1e-3, 100.0)?;
         let given = [("speed_m_s", self.speed_m_s), ("length_m", self.length_m), ("width_m", self.width_m)];
         let estimated = given.iter().filter(|(_, value)| value.is_none()).map(|(key, _)| *key).collect();

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Named, named};
 use crate::math::power::square;
-use crate::robot::rover::{Belly, Limits, Response, Rover, RoverError, within};
+use crate::robot::rover::{Belly, Limits, MOST_SPEED, Response, Rover, RoverError, within};
 
 /// The `kind` of a differential drive's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -85,7 +85,7 @@ impl DifferentialDriveDescription {
     /// The first key whose value is out of bounds, with the bound.
     pub fn build(&self) -> Result<DifferentialDrive, RoverError> {
         let limits = &self.limits;
-        let wheel_speed = within("limits.wheel_speed_m_s", limits.wheel_speed_m_s, 1e-3, 100.0)?;
+        let wheel_speed = within("limits.wheel_speed_m_s", limits.wheel_speed_m_s, 1e-3, MOST_SPEED)?;
         let speed = self.speed_m_s.unwrap_or(0.5 * wheel_speed);
         let track = within("track_m", self.track_m, 1e-3, 100.0)?;
         let given = [("speed_m_s", self.speed_m_s), ("radius_m", self.radius_m)];

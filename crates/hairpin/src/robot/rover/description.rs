@@ -12,7 +12,7 @@ use super::error::{RoverError, place, within, wrong};
 use super::four_wheel::FourWheel;
 use super::weight::{ForcesDescription, Weight};
 use super::wheels::{Steering, Wheels, WheelsDescription};
-use super::{Kinematics, Limits, Response, RockerBogie, Rover, Slip, Suspension};
+use super::{Kinematics, Limits, MOST_SPEED, Response, RockerBogie, Rover, Slip, Suspension};
 
 /// The `kind` of a rover's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -182,7 +182,7 @@ impl RoverDescription {
         let limits = self.limits(&mut estimated)?;
         let response = self.response(&suspension, &mut estimated)?;
         let body = Body::build(&suspension, self.centre_of_mass_m.as_ref(), self.belly.as_ref(), &mut estimated)?;
-        let default_speed = within("speed_m_s", self.speed_m_s.unwrap_or(SPEED), 1e-4, limits.speed.min(100.0))?;
+        let default_speed = within("speed_m_s", self.speed_m_s.unwrap_or(SPEED), 1e-4, limits.speed.min(MOST_SPEED))?;
         let wheels = Wheels::build(self.steering, &self.wheels, &suspension)?;
         let (forces, torque) = (self.forces.as_ref(), self.wheels.torque_n_m);
         let weight = Weight::build(forces, torque, self.mass_kg, self.load_kg, &suspension)?;
@@ -240,7 +240,7 @@ impl RoverDescription {
         Ok(Limits {
             curvature: within("limits.curvature_1_m", given.curvature_1_m, 1e-4, 1e3)?,
             curvature_rate: within("limits.curvature_rate_1_m2", rate, 1e-4, 1e6)?,
-            speed: most("limits.speed_m_s", given.speed_m_s, 1e-4, 100.0)?,
+            speed: most("limits.speed_m_s", given.speed_m_s, 1e-4, MOST_SPEED)?,
             acceleration: most("limits.acceleration_m_s2", given.acceleration_m_s2, 1e-4, 1e3)?,
             tilt: most("limits.tilt_deg", given.tilt_deg, 0.0, 90.0)?.to_radians(),
             joint: most("limits.joint_deg", given.joint_deg, 0.0, 180.0)?.to_radians(),

@@ -61,6 +61,9 @@ pub use suspension::Suspension;
 pub use weight::{ForcesDescription, Weight};
 pub use wheels::{Steering, Wheels, WheelsDescription};
 
+/// Largest speed of any ground vehicle, m/s: faster ones are no kinematic ones.
+pub const MOST_SPEED: f64 = 100.0;
+
 /// A rover's numbers, SI, all checked and finite. Built by [`RoverDescription::build`].
 ///
 /// Also what a car or a differential drive is planned as: then [`Suspension::Level`], and no weight.

@@ -4,6 +4,7 @@ use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{BoatExecute, BoatScenario};
+use crate::campaign::bounds;
 use crate::campaign::scenario::{
     Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms, sections,
 };
@@ -39,6 +40,9 @@ impl Keys for BoatScenario {
             violation_share: self.spec.violation_share,
             confidence: self.spec.confidence,
             terms: Terms::of(&self.spec),
+            asked: self.spec.asked(Terms::of(&self.spec).limits.are_given()),
+            limits: Terms::KEYS,
+            longest_leg: bounds::LONGEST_PASSAGE_S,
             surroundings: &[],
             one_search: false,
         }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{Distribution, RobotSource, SpecSection};
+use crate::campaign::scenario::{Distribution, RobotSource, Spec, SpecSection};
 use crate::robot::boat::BoatDescription;
 
 pub use execute::BoatExecute;
@@ -42,7 +42,7 @@ pub struct BoatScenario {
     /// Any scenario key may have a distribution.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub vary: BTreeMap<String, Distribution>,
-    /// What is within spec.
+    /// What is within spec; `"none"`: nothing is judged.
     #[serde(default)]
-    pub spec: SpecSection,
+    pub spec: Spec<SpecSection>,
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::DriveSetup;
 use crate::campaign::attachments::Attachments;
+use crate::campaign::bounds::MOST_OF_A_DRIVE;
 use crate::campaign::check::{Findings, check_executed, check_search};
 use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{
@@ -14,11 +15,9 @@ use crate::campaign::scenario::{
 };
 use crate::feasibility::reach::drive::GroundScore;
 use crate::math::simd::Simd;
-use crate::robot::rover::{Rover, Steering};
+use crate::robot::rover::{MOST_SPEED, Rover, Steering};
 use crate::world::terrain::{ElevationMap, KeepOuts, Terrain};
 
-/// Longer trajectories take days to drive.
-const LONGEST: u64 = 1_000;
 /// Nodes of the roadmap, waypoints × headings: legs are pairs of them, each a boundary-value problem.
 const MOST_NODES: u64 = 5_000;
 
@@ -126,7 +125,7 @@ fn check_ground(world: &GroundSection, found: &mut Findings) {
 
 /// Leg lengths within (0, 1000] m and rising; the start's curvature within the robot's.
 fn check_task(task: &DriveTask, rover: Option<&Rover>, found: &mut Findings) {
-    found.count("task.length", task.length, 2, LONGEST);
+    found.count("task.length", task.length, 2, MOST_OF_A_DRIVE as u64);
     let [low, high] = task.leg_m;
     found.above("task.leg_m[0]", low, 0.0, 1000.0, " m");
     found.above("task.leg_m[1]", high, 0.0, 1000.0, " m");
@@ -183,7 +182,7 @@ fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
     }
     if let Some(speed) = limits.speed_m_s {
         // Beside the robot's own, which holds where this is higher. Slower, and a drive would be days of samples.
-        found.from("generate.limits.speed_m_s", speed, 1e-3, 100.0, " m/s");
+        found.from("generate.limits.speed_m_s", speed, 1e-3, MOST_SPEED, " m/s");
     }
     if let Some(clearance) = limits.belly_clearance_m {
         found.from("generate.limits.belly_clearance_m", clearance, 0.0, 10.0, " m");
@@ -239,8 +238,8 @@ fn check_direction(generate: &DriveGenerate, rover: &Rover, found: &mut Findings
 /// Profiles that change speed need an acceleration, the robot's or the scenario's, which is no larger than the robot's.
 fn check_speed(speed: &SpeedSection, rover: Option<&Rover>, found: &mut Findings) {
     if let Some([low, high]) = speed.waypoint_m_s {
-        found.from("generate.speed.waypoint_m_s[0]", low, 0.0, 100.0, " m/s");
-        found.above("generate.speed.waypoint_m_s[1]", high, 0.0, 100.0, " m/s");
+        found.from("generate.speed.waypoint_m_s[0]", low, 0.0, MOST_SPEED, " m/s");
+        found.above("generate.speed.waypoint_m_s[1]", high, 0.0, MOST_SPEED, " m/s");
         found.require(
             low <= high,
             "generate.speed.waypoint_m_s",

@@ -2,17 +2,15 @@
 
 use nalgebra::Point3;
 
+use crate::campaign::bounds::MOST_WAYPOINTS;
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::TaskSection;
 use crate::robot::quadrotor::Quadrotor;
 use crate::world::World;
 
-/// A trajectory of 10 000 waypoints takes hours to fly; its case file stays below 100 MB.
-const LONGEST: u64 = 10_000;
-
 /// Without world or robot, which are wrong themselves then, what depends on them is not told.
 pub(super) fn check(task: &TaskSection, world: Option<&World>, robot: Option<&Quadrotor>, found: &mut Findings) {
-    found.count("task.length", task.length, 2, LONGEST);
+    found.count("task.length", task.length, 2, MOST_WAYPOINTS as u64);
     for (key, p) in [("task.start_m", task.start_m), ("task.end_m", task.end_m)] {
         if let Some(at) = p.iter().position(|x| !x.is_finite()) {
             found.require(false, &format!("{key}[{at}]"), p[at], "finite");

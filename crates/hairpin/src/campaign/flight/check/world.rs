@@ -1,10 +1,9 @@
 //! Bounds of `[world]`.
 
+use crate::campaign::bounds::{FARTHEST_M, LARGEST_M};
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{ObstacleSection, WorldSection};
 
-/// Farther than any cage or field; also keeps squares of distances far from rounding trouble.
-const LARGEST_M: f64 = 10_000.0;
 /// Every leg is tested against every obstacle.
 const MOST_OBSTACLES: usize = 10_000;
 /// Points of one hull or mesh: a few hundred MB of trees at most.
@@ -110,7 +109,7 @@ fn points(key: &str, points: &[[f64; 3]], found: &mut Findings) {
 
 /// False for NaN.
 fn is_place(x: f64) -> bool {
-    x.abs() <= 2.0 * LARGEST_M
+    x.abs() <= FARTHEST_M
 }
 
 fn place(key: &str, p: [f64; 3], found: &mut Findings) {

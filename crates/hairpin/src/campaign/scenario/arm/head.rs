@@ -4,6 +4,7 @@ use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource};
+use crate::campaign::bounds;
 use crate::campaign::scenario::{
     ARM_MOVES, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject,
     Terms, sections,
@@ -13,9 +14,17 @@ use crate::judgement::Limits;
 /// A point counts as reached within this distance of an arm's tool, m.
 const ARRIVED: f64 = 1e-3;
 
+/// Keys of limits.
+const LIMITS: &[&str] = &["spec.path.max_mm", "spec.arrival.max_late_ms", "spec.regression.baseline"];
+
 impl Keys for ArmScenario {
     fn head(&self) -> Head<'_> {
         let (execute, spec) = (&self.execute, &self.spec);
+        let judged_by = Limits {
+            deviation: spec.path.map(|limit| limit.max_mm * 1e-3),
+            late: spec.arrival.map(|limit| limit.max_late_ms * 1e-3),
+            ..Limits::default()
+        };
         Head {
             seed: self.seed,
             length: None,
@@ -41,15 +50,10 @@ impl Keys for ArmScenario {
             violation_share: spec.violation_share,
             confidence: spec.confidence,
             // Arms are held to the path that was programmed, and to their times at its points.
-            terms: Terms {
-                from: DeviationFrom::Path,
-                corner: 0.0,
-                limits: Limits {
-                    deviation: spec.path.map(|limit| limit.max_mm * 1e-3),
-                    late: spec.arrival.map(|limit| limit.max_late_ms * 1e-3),
-                    ..Limits::default()
-                },
-            },
+            terms: Terms { from: DeviationFrom::Path, corner: 0.0, limits: judged_by },
+            asked: spec.asked(judged_by.are_given() || spec.regression.is_some()),
+            limits: LIMITS,
+            longest_leg: bounds::LONGEST_MOVE_S,
             surroundings: &[],
             one_search: true,
         }

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Distribution, RobotSource};
+use super::{Distribution, RobotSource, Spec};
 use crate::robot::arm::ArmDescription;
 
 pub use execute::*;
@@ -46,7 +46,7 @@ pub struct ArmScenario {
     /// Any scenario key may have a distribution.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub vary: BTreeMap<String, Distribution>,
-    /// What is within spec.
+    /// What is within spec; `"none"`: nothing is judged.
     #[serde(default)]
-    pub spec: ArmSpec,
+    pub spec: Spec<ArmSpec>,
 }

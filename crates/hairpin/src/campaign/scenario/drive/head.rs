@@ -4,6 +4,7 @@ use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{DriveExecute, DriveScenario, GroundReach};
+use crate::campaign::bounds;
 use crate::campaign::scenario::{
     DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Subject, Terms,
     sections,
@@ -15,10 +16,25 @@ const SLOWNESS: f64 = 2.0;
 /// … and this time, s.
 const SPARE_SECONDS: f64 = 60.0;
 
+/// Keys of limits.
+const LIMITS: &[&str] = &[
+    "spec.limits.path_deviation_m",
+    "spec.limits.tip_over_margin_deg",
+    "spec.limits.clearance_m",
+    "spec.limits.total_time_s",
+];
+
 impl Keys for DriveScenario {
     fn head(&self) -> Head<'_> {
         let DriveExecute { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
         let limits = &self.spec.limits;
+        let judged_by = Limits {
+            deviation: limits.path_deviation_m,
+            clearance: limits.clearance_m,
+            tip_over_margin: limits.tip_over_margin_deg,
+            total_time: limits.total_time_s,
+            ..Limits::default()
+        };
         Head {
             seed: self.seed,
             length: Some(self.task.length),
@@ -42,17 +58,10 @@ impl Keys for DriveScenario {
             violation_share: limits.violation_share,
             confidence: limits.confidence,
             // Drives follow a planned path: the way between two waypoints is not the straight one.
-            terms: Terms {
-                from: DeviationFrom::Path,
-                corner: 0.0,
-                limits: Limits {
-                    deviation: limits.path_deviation_m,
-                    clearance: limits.clearance_m,
-                    tip_over_margin: limits.tip_over_margin_deg,
-                    total_time: limits.total_time_s,
-                    ..Limits::default()
-                },
-            },
+            terms: Terms { from: DeviationFrom::Path, corner: 0.0, limits: judged_by },
+            asked: self.spec.asked(judged_by.are_given()),
+            limits: LIMITS,
+            longest_leg: bounds::LONGEST_DRIVE_S,
             surroundings: &["keep_out", "external_force_n"],
             one_search: false,
         }

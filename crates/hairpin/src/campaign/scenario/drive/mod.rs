@@ -16,9 +16,9 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Distribution, RobotSource};
+use super::{Distribution, RobotSource, Spec};
 use crate::robot::ground::{CarDescription, DifferentialDriveDescription};
-use crate::robot::rover::RoverDescription;
+use crate::robot::rover::{Rover, RoverDescription, RoverError};
 
 pub use direction::DirectionDeg;
 pub use environment::*;
@@ -54,9 +54,9 @@ pub struct DriveScenario {
     /// Any scenario key may have a distribution.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub vary: BTreeMap<String, Distribution>,
-    /// What is within spec.
+    /// What is within spec; `"none"`: nothing is judged.
     #[serde(default)]
-    pub spec: DriveSpec,
+    pub spec: Spec<DriveSpec>,
 }
 
 /// A ground vehicle as a file has it, told apart by `kind`.
@@ -81,6 +81,18 @@ impl GroundDescription {
             Self::Rover(robot) => &robot.name,
             Self::Car(robot) => &robot.name,
             Self::DifferentialDrive(robot) => &robot.name,
+        }
+    }
+
+    /// The vehicle that the generator of drives and the plant take it for.
+    ///
+    /// # Errors
+    /// The first key whose value is out of bounds, with the bound.
+    pub fn build(&self) -> Result<Rover, RoverError> {
+        match self {
+            Self::Rover(robot) => robot.build(),
+            Self::Car(robot) => robot.build().map(|car| car.vehicle()),
+            Self::DifferentialDrive(robot) => robot.build().map(|drive| drive.vehicle()),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::any::Any;
 use std::collections::BTreeMap;
 
 use super::{ExecuteSection, FlightScenario, ReachName};
+use crate::campaign::bounds;
 use crate::campaign::scenario::{
     Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms, sections,
 };
@@ -42,6 +43,9 @@ impl Keys for FlightScenario {
             violation_share: self.spec.violation_share,
             confidence: self.spec.confidence,
             terms: Terms::of(&self.spec),
+            asked: self.spec.asked(Terms::of(&self.spec).limits.are_given()),
+            limits: Terms::KEYS,
+            longest_leg: bounds::LONGEST_LEG_S,
             surroundings: &["wind_m_s", "discrete_gust", "obstacles"],
             one_search: false,
         }

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Distribution, RobotSource};
+use super::{Distribution, RobotSource, Spec};
 use crate::robot::quadrotor::QuadrotorDescription;
 
 pub use environment::*;
@@ -45,7 +45,7 @@ pub struct FlightScenario {
     /// Any scenario key may have a distribution.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub vary: BTreeMap<String, Distribution>,
-    /// What is within spec.
+    /// What is within spec; `"none"`: nothing is judged.
     #[serde(default)]
-    pub spec: SpecSection,
+    pub spec: Spec<SpecSection>,
 }
