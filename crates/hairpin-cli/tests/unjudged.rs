@@ -101,6 +101,7 @@ fn crashes_and_broken_executors_count_all_the_same() {
     let minimal = fs::read_to_string(minimal).unwrap();
     for (name, from, to) in [
         ("crash.py", "say(type=\"end\", reason=\"done\")", "say(type=\"end\", reason=\"crash\")"),
+        ("late.py", "say(type=\"end\", reason=\"done\")", "say(type=\"end\", reason=\"time\")"),
         ("away.py", "p_m=points[-1]", "p_m=[90, 90, 90]"),
         ("none.py", "    points, t, i", "    raise SystemExit('rotor 3 is gone')\n    points, t, i"),
     ] {
@@ -110,6 +111,7 @@ fn crashes_and_broken_executors_count_all_the_same() {
     run(here, &["generate", "q.toml", "--out", "a"]);
     for (name, code, start, status) in [
         ("crash.py", 1, "FAIL 2/2 (", "fail"),
+        ("late.py", 0, "UNJUDGED 2 (", "unjudged"),
         ("away.py", 1, "FAIL 2/2 (", "fail"),
         ("none.py", 4, "EXECUTOR FAILED 2/2 (", "executor-failed"),
     ] {

@@ -3,14 +3,14 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{self, Case, CaseResult, Setup, Status};
+use hairpin::campaign::{self, Case, CaseResult, Run, Setup, Status};
 use hairpin::judgement::Verdict;
 use hairpin_formats::quote::on_one_line;
 use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario;
 use rayon::prelude::*;
 
-use crate::execute::fly_one;
+use crate::execute::{fly_one, fly_together};
 use crate::{Problem, Watch};
 
 /// One saved case and what it comes to now.
@@ -63,10 +63,9 @@ pub(crate) fn replay_saved(
         )),
     }
     let run = |saved: &Saved| if watch.stopped() { Ok(None) } else { saved.replay(watch) };
-    // One executor of the user's at a time, as each keeps its own.
     let replayed: Result<Vec<Option<Replayed>>, Problem> = match setup.scenario.executor().command {
         None => ours.par_iter().map(run).collect(),
-        Some(_) => ours.iter().map(run).collect(),
+        Some(_) => replay_together(&ours, watch),
     };
     let replayed: Vec<Replayed> = replayed?.into_iter().flatten().collect();
     if !replayed.is_empty() {
@@ -111,10 +110,23 @@ impl Saved {
 
     fn replay(&self, watch: &dyn Watch) -> Result<Option<Replayed>, Problem> {
         let Some(setup) = &self.setup else { return Ok(None) };
-        let flown = fly_one(setup, &self.case, self.repro.run, watch)?;
-        let result = campaign::judge(setup, &self.case, std::slice::from_ref(&flown))?;
+        self.judge(&fly_one(setup, &self.case, self.repro.run, watch)?)
+    }
+
+    fn judge(&self, flown: &Run) -> Result<Option<Replayed>, Problem> {
+        let Some(setup) = &self.setup else { return Ok(None) };
+        let result = campaign::judge(setup, &self.case, std::slice::from_ref(flown))?;
         Ok(Some(Replayed { file: self.file.clone(), result }))
     }
+}
+
+/// The same of many by a program of the user's, which is as patient with it as with any other missions.
+fn replay_together(all: &[Saved], watch: &dyn Watch) -> Result<Vec<Option<Replayed>>, Problem> {
+    let with_setup = |saved: &'_ &Saved| saved.setup.is_some();
+    let ours: Vec<&Saved> = all.iter().filter(with_setup).collect();
+    let jobs = ours.iter().filter_map(|saved| Some((saved.setup.as_ref()?, &saved.case, saved.repro.run)));
+    let flown = fly_together(&jobs.collect::<Vec<_>>(), watch)?;
+    ours.iter().zip(&flown).map(|(saved, flown)| saved.judge(flown)).collect()
 }
 
 impl Replayed {

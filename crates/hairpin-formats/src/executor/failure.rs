@@ -32,22 +32,63 @@ pub enum Failure {
         cause: String,
     },
     /// The program speaks another version of the protocol.
-    #[error("speaks protocol {found}; this hairpin speaks 1")]
+    #[error("speaks protocol {found}; this hairpin speaks 1 and 2")]
     Version {
         /// Its version.
         found: u64,
     },
+    /// It does not say which.
+    #[error("\"ready\" without \"protocol\"")]
+    NoVersion,
     /// No `ready` in time.
     #[error("no \"ready\" within {seconds} s of \"hello\"")]
     NoReady {
         /// The limit.
         seconds: f64,
     },
-    /// No `end` in time.
-    #[error("time-out: no \"end\" within {seconds} s (execute.timeout_s)")]
+    /// No answer in time.
+    #[error("time-out: no \"{awaited}\" within {seconds} s (execute.timeout_s)")]
     TimeOut {
+        /// The message that was due.
+        awaited: &'static str,
         /// The limit.
         seconds: f64,
+    },
+    /// No answer in time but one to something else.
+    #[error("time-out: no \"end\" within {seconds} s (execute.timeout_s): it answered for case {case}, run {run}")]
+    Astray {
+        /// The limit.
+        seconds: f64,
+        /// The case that it named.
+        case: String,
+        /// Its run.
+        run: String,
+    },
+    /// Not asked for, because the program had left three missions in a row without an answer.
+    #[error("{NOT_ASKED} (execute.timeout_s = {seconds}); --resume flies it")]
+    NotAsked {
+        /// The limit.
+        seconds: f64,
+    },
+    /// It went on after the end.
+    #[error("sent more after its \"end\", where one mission has one answer: `{line}`")]
+    After {
+        /// The first line, its beginning.
+        line: String,
+    },
+    /// Protocol 2: an answer that does not say what it is of.
+    #[error("sent \"{found}\" without the case and the run that it is of, as protocol 2 has it")]
+    Unnamed {
+        /// Its type.
+        found: &'static str,
+    },
+    /// A row of `poses` that is none.
+    #[error("row {row} of \"poses\" {what}")]
+    Row {
+        /// Counted from 0.
+        row: usize,
+        /// What is wrong with it.
+        what: String,
     },
     /// The process ended in the middle.
     #[error("ended without \"{awaited}\" ({status})")]
@@ -101,6 +142,34 @@ pub enum Failure {
     /// The user stopped the campaign: not a result, nothing to record.
     #[error("stopped")]
     Cancelled,
+}
+
+/// What a mission is told with that was not asked for.
+const NOT_ASKED: &str = "not flown: the program had left three missions in a row unanswered";
+
+impl Failure {
+    /// Whether the program was waited for until its time was over.
+    pub(super) fn is_time_out(&self) -> bool {
+        matches!(self, Self::TimeOut { .. } | Self::Astray { .. } | Self::NoReady { .. })
+    }
+
+    /// Whether a process that flew another mission before may have come out of step there: what it says is no answer to
+    /// what it was asked last.
+    pub(super) fn is_out_of_step(&self) -> bool {
+        matches!(
+            self,
+            Self::After { .. }
+                | Self::Unexpected { .. }
+                | Self::Pose(
+                    PoseError::Start { .. } | PoseError::Time { .. } | PoseError::Empty | PoseError::Leg { .. }
+                )
+        )
+    }
+}
+
+/// Whether a run that failed with this sentence was never handed to a program: to go on is to fly it.
+pub(crate) fn was_never_asked(sentence: &str) -> bool {
+    [NOT_ASKED, "cannot start `", "no \"ready\" within "].iter().any(|beginning| sentence.starts_with(beginning))
 }
 
 /// Room for a stranger's words in one line of a table: no control characters, at most `limit` characters.

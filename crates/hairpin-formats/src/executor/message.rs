@@ -11,8 +11,15 @@ use serde_json::Value;
 pub enum ToExecutor {
     /// First line; `hairpin` is the version of the protocol.
     Hello {
-        /// 1.
+        /// 2, or 1.
         hairpin: u64,
+    },
+    /// Protocol 2: what comes next is this mission, and nothing of the one before; answered by `ready`.
+    Reset {
+        /// The case.
+        case: String,
+        /// Its run.
+        run: usize,
     },
     /// Fly this.
     Mission(Box<MissionMessage>),
@@ -72,29 +79,51 @@ pub fn mission_message(mission: &Mission) -> ToExecutor {
     }))
 }
 
-/// What the executor says. Fields that we do not know are ignored.
+/// What the executor says. Fields that we do not know are ignored. From protocol 2 on, answers say by `case` and `run`
+/// what they are of.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 pub enum FromExecutor {
-    /// The answer to `hello`.
+    /// The answer to `hello` and, with case and run, to `reset`.
     Ready {
         /// Version of the protocol it speaks.
-        protocol: u64,
+        protocol: Option<u64>,
         /// What it calls itself.
         #[serde(default)]
         name: String,
+        /// Of which case.
+        case: Option<Value>,
+        /// Of which run.
+        run: Option<Value>,
     },
     /// Where the robot is.
     Pose(PoseMessage),
+    /// The same, many at once: `[t, x, y, z, qw, qx, qy, qz, vx, vy, vz, leg]` each, `null` where it is not known.
+    Poses {
+        /// A row each.
+        poses: Vec<Vec<Option<f64>>>,
+        /// Of which case.
+        case: Option<Value>,
+        /// Of which run.
+        run: Option<Value>,
+    },
     /// The flight is over.
     End {
         /// Why.
         reason: EndReason,
+        /// Of which case.
+        case: Option<Value>,
+        /// Of which run.
+        run: Option<Value>,
     },
     /// The mission could not be flown.
     Error {
         /// Why.
         message: String,
+        /// Of which case.
+        case: Option<Value>,
+        /// Of which run.
+        run: Option<Value>,
     },
 }
 
@@ -104,14 +133,26 @@ impl FromExecutor {
         match self {
             Self::Ready { .. } => "ready",
             Self::Pose(_) => "pose",
+            Self::Poses { .. } => "poses",
             Self::End { .. } => "end",
             Self::Error { .. } => "error",
+        }
+    }
+
+    /// The case and the run that it is of, where it says so.
+    pub fn envelope(&self) -> [Option<&Value>; 2] {
+        match self {
+            Self::Pose(PoseMessage { case, run, .. })
+            | Self::Ready { case, run, .. }
+            | Self::Poses { case, run, .. }
+            | Self::End { case, run, .. }
+            | Self::Error { case, run, .. } => [case.as_ref(), run.as_ref()],
         }
     }
 }
 
 /// One pose in the world frame.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct PoseMessage {
     /// Stamp: 0 at the start, strictly rising.
     pub t_s: f64,
@@ -123,6 +164,33 @@ pub struct PoseMessage {
     pub v_m_s: Option<[f64; 3]>,
     /// The leg being flown, numbered by its first waypoint; assigned along the path unless every pose has it.
     pub leg: Option<u64>,
+    /// Of which case.
+    pub case: Option<Value>,
+    /// Of which run.
+    pub run: Option<Value>,
+}
+
+impl PoseMessage {
+    /// That of a row of `poses`; what is wrong with the row where it is none.
+    ///
+    /// # Errors
+    /// Another number of columns, no time or place, a leg that is no whole number.
+    pub fn of_row(row: &[Option<f64>]) -> Result<Self, String> {
+        let &[t, x, y, z, qw, qx, qy, qz, vx, vy, vz, leg] = row else {
+            return Err(format!("has {} numbers: must be 12", row.len()));
+        };
+        let (Some(t_s), Some(x), Some(y), Some(z)) = (t, x, y, z) else {
+            return Err("has no time or no place".to_owned());
+        };
+        let whole = |leg: f64| match leg {
+            leg if leg >= 0.0 && leg <= 1e9 && leg.fract() == 0.0 => Ok(leg as u64),
+            _ => Err(format!("has leg = {leg}: must be a whole number from 0")),
+        };
+        let q_wxyz = || Some([qw?, qx?, qy?, qz?]);
+        let v_m_s = || Some([vx?, vy?, vz?]);
+        let leg = leg.map(whole).transpose()?;
+        Ok(Self { t_s, p_m: [x, y, z], q_wxyz: q_wxyz(), v_m_s: v_m_s(), leg, case: None, run: None })
+    }
 }
 
 /// Why the flight is over.

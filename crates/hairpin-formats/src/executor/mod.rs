@@ -3,14 +3,22 @@
 //! UTF-8, one JSON object a line; its stderr is its log; one mission at a time per process:
 //!
 //! ```text
-//! > {"type":"hello","hairpin":1}
-//! < {"type":"ready","protocol":1,"name":"my simulator"}
+//! > {"type":"hello","hairpin":2}
+//! < {"type":"ready","protocol":2,"name":"my simulator"}
+//! > {"type":"reset","case":"0117","run":0}
+//! < {"type":"ready","case":"0117","run":0}
 //! > {"type":"mission","case":"0117","run":0,"seed":123,"robot":{…},"world":{…},"waypoints_m":[[x,y,z],…],
 //!    "accept_m":1.0,"time_limit_s":90,"timed":[{"t_s":…,"p_m":[…],"v_m_s":[…]},…]}
-//! < {"type":"pose","t_s":0.01,"p_m":[…],"q_wxyz":[…],"v_m_s":[…],"leg":0}     t from 0, strictly rising, world frame
-//! < {"type":"end","reason":"done|time|crash"}   or   {"type":"error","message":"…"}
+//! < {"type":"pose","case":"0117","run":0,"t_s":0.01,"p_m":[…],"q_wxyz":[…],"v_m_s":[…],"leg":0}
+//! < {"type":"poses","case":"0117","run":0,"poses":[[t,x,y,z,qw,qx,qy,qz,vx,vy,vz,leg],…]}
+//! < {"type":"end","case":"0117","run":0,"reason":"done|time|crash"}   or   {"type":"error","message":"…"}
 //! > {"type":"bye"}
 //! ```
+//!
+//! t is from 0, strictly rising; places are in the world frame. Answers carry the case and the run that they are of, and
+//! count for these alone. In protocol 1 they do not, and there are neither `reset` nor `poses`; a program that answers
+//! `hello` with 1, with an error, or by ending is started again and spoken to in protocol 1. There, what comes after an
+//! `end` is a mistake of the mission that ended.
 //!
 //! `leg`, `v_m_s` and `q_wxyz` may be left out: legs are then assigned along the path, velocities differentiated, and
 //! the attitude counts as unknown (channel [`hairpin::trajectory::ATTITUDE_UNKNOWN`]). The first pose may lie anywhere,
@@ -22,16 +30,25 @@
 //! Whatever the program does wrong fails the mission it was flying and no other: the process is ended with all its
 //! children, the end of its stderr is kept, and a new one is started for the next mission.
 
+mod answer;
+mod command;
+mod envelope;
 mod failure;
 mod lines;
 mod message;
+mod patience;
+mod pilot;
 mod pool;
 mod process;
 mod recording;
 #[cfg(test)]
 mod tests;
+mod watchdog;
 mod worker;
 
+pub use answer::Answer;
+pub use command::{Command, CommandError};
+pub(crate) use failure::was_never_asked;
 pub use failure::{Failed, Failure};
 pub(crate) use lines::Tail;
 pub use message::{EndReason, FromExecutor, PoseMessage, TimedMessage, ToExecutor, mission_message};
@@ -39,4 +56,4 @@ pub use pool::fly_all;
 pub use process::kill_all;
 pub(crate) use process::{end, start};
 pub use recording::{PoseError, Recording};
-pub use worker::{Command, CommandError, Limits, Worker};
+pub use worker::{Limits, Worker};

@@ -6,17 +6,18 @@ use std::thread;
 use hairpin::campaign::Mission;
 use hairpin::trajectory::Flight;
 
+use super::command::Command;
 use super::failure::{Failed, Failure};
-use super::worker::{Command, Limits, Worker};
-
-/// A program that failed this often in a row to say `ready` is not started again.
-const HOPELESS: usize = 3;
+use super::patience::{Heard, Patience};
+use super::pilot::{Pilot, Program};
+use super::worker::Limits;
 
 /// Flies missions `0..count` by `workers` processes of `command`; `mission(i)` makes the i-th (or says why it cannot be
 /// flown), `landed(i, …)` takes its flight, both from any thread and in any order. What was being flown when
 /// `cancelled` became true is not reported.
 ///
-/// A program that cannot even be started fails every mission with the same sentence.
+/// A program that cannot even be started fails every mission with the same sentence. Where three in a row, in their
+/// order, were left without an answer, those that were not asked for yet fail at once.
 pub fn fly_all(
     command: &Command,
     limits: Limits,
@@ -26,61 +27,45 @@ pub fn fly_all(
     landed: &(dyn Fn(usize, Result<Flight, Failed>) + Sync),
     cancelled: &(dyn Fn() -> bool + Sync),
 ) {
-    let next = AtomicUsize::new(0);
+    let (next, patience, program) = (AtomicUsize::new(0), Patience::new(count), Program::new(command, limits));
+    let stop = || cancelled() || patience.is_over();
     thread::scope(|scope| {
         for _ in 0..workers.clamp(1, count.max(1)) {
             scope.spawn(|| {
-                let mut pilot = Pilot { command, limits, worker: None, misses: Vec::new() };
-                while !cancelled() {
+                let mut pilot = Pilot::new(&program, landed);
+                while !stop() {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     if index >= count {
                         break;
                     }
-                    let flown = match mission(index) {
-                        Ok(mission) => pilot.fly(&mission, cancelled),
-                        Err(cause) => Err(Failed { failure: Failure::NoMission { cause }, stderr: String::new() }),
-                    };
-                    match flown {
-                        Err(Failed { failure: Failure::Cancelled, .. }) => break,
-                        result => landed(index, result),
+                    match mission(index) {
+                        Ok(mission) => match pilot.fly(index, &mission, &stop) {
+                            Some(told) => patience.note(index, heard(&told)),
+                            None => break,
+                        },
+                        Err(cause) => {
+                            patience.note(index, Heard::NotAsked);
+                            landed(index, Err(Failed { failure: Failure::NoMission { cause }, stderr: String::new() }));
+                        }
                     }
                 }
-                if let Some(worker) = pilot.worker {
-                    worker.stop();
-                }
+                pilot.stop();
             });
         }
     });
-}
-
-struct Pilot<'a> {
-    command: &'a Command,
-    limits: Limits,
-    worker: Option<Worker>,
-    /// Failed starts since the last good one.
-    misses: Vec<Failed>,
-}
-
-impl Pilot<'_> {
-    fn fly(&mut self, mission: &Mission, cancelled: &dyn Fn() -> bool) -> Result<Flight, Failed> {
-        let worker = match self.worker.take() {
-            Some(worker) => worker,
-            None => self.start(cancelled)?,
-        };
-        let (result, worker) = worker.fly(mission, cancelled);
-        self.worker = worker;
-        result
+    if patience.is_over() && !cancelled() {
+        let failure = Failure::NotAsked { seconds: limits.mission.as_secs_f64() };
+        for index in patience.unheard() {
+            landed(index, Err(Failed { failure: failure.clone(), stderr: String::new() }));
+        }
     }
+}
 
-    fn start(&mut self, cancelled: &dyn Fn() -> bool) -> Result<Worker, Failed> {
-        if self.misses.len() >= HOPELESS {
-            return Err(self.misses[HOPELESS - 1].clone());
-        }
-        let started = Worker::start(self.command, self.limits, cancelled);
-        match &started {
-            Ok(_) => self.misses.clear(),
-            Err(failed) => self.misses.push(failed.clone()),
-        }
-        started
+fn heard(told: &Result<(), Failure>) -> Heard {
+    match told {
+        // A program that never starts is not started again and again in the first place.
+        Err(Failure::NoReady { .. }) => Heard::NotAsked,
+        Err(failure) if failure.is_time_out() => Heard::TimedOut,
+        _ => Heard::Answered,
     }
 }

@@ -1,66 +1,28 @@
-//! One process of the user's program: handshake, mission after mission, a clean end.
+//! One process of the user's program: what it is told and what it says, line by line, from its handshake to a clean end.
 
 use std::io::Write;
 use std::process::{Child, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-use hairpin::campaign::Mission;
-use hairpin::trajectory::Flight;
-use thiserror::Error;
-
+use super::command::Command;
+use super::envelope::Envelope;
 use super::failure::{Failed, Failure, excerpt};
 use super::lines::{LONGEST_LINE, Line, Tail, read_lines};
-use super::message::{FromExecutor, ToExecutor, mission_message};
+use super::message::{FromExecutor, ToExecutor};
 use super::process;
-use super::recording::Recording;
 
 /// Between looks at whether the user wants to stop.
 const LOOK: Duration = Duration::from_millis(50);
 /// How long a process that closed its stdout, or whose children hold stderr, is waited for.
 const AFTERMATH: Duration = Duration::from_millis(300);
 
-/// A command line, split as a shell splits it; nothing is expanded.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Command {
-    program: String,
-    arguments: Vec<String>,
-}
-
-/// Why a text is no command.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum CommandError {
-    /// No word in it.
-    #[error("is empty")]
-    Empty,
-    /// A quote that never ends, or a trailing backslash.
-    #[error("has a quote that never ends")]
-    Quotes,
-}
-
-impl Command {
-    /// The program and its arguments.
-    pub fn words(&self) -> impl Iterator<Item = &str> {
-        std::iter::once(&self.program).chain(&self.arguments).map(String::as_str)
-    }
-}
-
-impl std::str::FromStr for Command {
-    type Err = CommandError;
-
-    fn from_str(text: &str) -> Result<Self, CommandError> {
-        let mut words = shlex::split(text).ok_or(CommandError::Quotes)?.into_iter();
-        let program = words.next().filter(|program| !program.is_empty()).ok_or(CommandError::Empty)?;
-        Ok(Self { program, arguments: words.collect() })
-    }
-}
-
 /// Wall-clock limits of a worker: all that a stranger's program may take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// From the start of the process to `ready`.
+    /// From the start of the process to `ready`: `execute.timeout_s` as well.
     pub handshake: Duration,
-    /// From `mission` to `end`: `execute.timeout_s`.
+    /// From `mission`, in protocol 2 from its `reset`, to `end`: `execute.timeout_s`.
     pub mission: Duration,
     /// From `bye` to the exit, and from the terminate signal to the kill signal.
     pub grace: Duration,
@@ -79,19 +41,43 @@ pub struct Worker {
     outgoing: Option<Sender<Vec<u8>>>,
     lines: Receiver<Line>,
     line_number: u64,
-    stderr: Tail,
+    pub(super) stderr: Tail,
     stderr_closed: Receiver<()>,
-    limits: Limits,
+    pub(super) limits: Limits,
     status: Option<ExitStatus>,
     name: String,
+    /// The protocol that it speaks.
+    pub(super) protocol: u64,
+    /// The mission that it answered last.
+    pub(super) last: Option<Envelope>,
 }
 
 impl Worker {
-    /// Starts the program in the current folder and shakes hands.
+    /// Starts the program in the current folder and shakes hands: in protocol 2 first, unless it is known to speak
+    /// `protocol` 1; one that answers with 1, with an error, or by ending is started again with protocol 1.
     ///
     /// # Errors
     /// It cannot be started, or does not say `ready` as it should; it is gone then.
-    pub fn start(command: &Command, limits: Limits, cancelled: &dyn Fn() -> bool) -> Result<Self, Failed> {
+    pub fn start(
+        command: &Command,
+        limits: Limits,
+        protocol: u64,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<Self, Failed> {
+        match Self::begin(command, limits, protocol, cancelled) {
+            Err(Failed {
+                failure:
+                    Failure::Version { found: 1 }
+                    | Failure::Reported { .. }
+                    | Failure::Exited { .. }
+                    | Failure::Silent { .. },
+                ..
+            }) if protocol > 1 => Self::begin(command, limits, 1, cancelled),
+            begun => begun,
+        }
+    }
+
+    fn begin(command: &Command, limits: Limits, protocol: u64, cancelled: &dyn Fn() -> bool) -> Result<Self, Failed> {
         let mut starter = std::process::Command::new(&command.program);
         starter.args(&command.arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = process::start(&mut starter).map_err(|cause| Failed {
@@ -113,6 +99,8 @@ impl Worker {
             limits,
             status: None,
             name: String::new(),
+            protocol,
+            last: None,
         };
         match worker.shake_hands(cancelled) {
             Ok(()) => Ok(worker),
@@ -126,58 +114,37 @@ impl Worker {
     }
 
     fn shake_hands(&mut self, cancelled: &dyn Fn() -> bool) -> Result<(), Failure> {
-        self.say(&ToExecutor::Hello { hairpin: 1 });
+        self.say(&ToExecutor::Hello { hairpin: self.protocol });
         let limit = self.limits.handshake;
         let late = || Failure::NoReady { seconds: limit.as_secs_f64() };
-        match self.hear("ready", Instant::now() + limit, late, cancelled)? {
-            FromExecutor::Ready { protocol: 1, name } => {
+        let line = self.hear("ready", Instant::now() + limit, late, cancelled)?;
+        match self.understand(&line)? {
+            FromExecutor::Ready { protocol: Some(found), name, .. } if found == self.protocol => {
                 self.name = excerpt(&name, 100);
                 Ok(())
             }
-            FromExecutor::Ready { protocol: found, .. } => Err(Failure::Version { found }),
-            FromExecutor::Error { message } => Err(Failure::Reported { message: excerpt(&message, 500) }),
+            FromExecutor::Ready { protocol: Some(found), .. } => Err(Failure::Version { found }),
+            FromExecutor::Ready { protocol: None, .. } => Err(Failure::NoVersion),
+            FromExecutor::Error { message, .. } => Err(Failure::Reported { message: excerpt(&message, 500) }),
             other => Err(Failure::Unexpected { found: other.kind(), awaited: "ready" }),
         }
     }
 
-    /// Flies one mission. After a failure the worker is usable again only if it is handed back.
-    ///
-    /// # Errors
-    /// What went wrong, with the end of stderr; the worker is gone unless the program itself reported the error.
-    pub fn fly(mut self, mission: &Mission, cancelled: &dyn Fn() -> bool) -> (Result<Flight, Failed>, Option<Self>) {
-        self.stderr.clear();
-        match self.record(mission, cancelled) {
-            Ok(flight) => (Ok(flight), Some(self)),
-            // It is in step with us: the next mission may go better.
-            Err(failure @ Failure::Reported { .. }) => {
-                (Err(Failed { failure, stderr: self.stderr.text() }), Some(self))
-            }
-            Err(failure) => (Err(self.fail(failure)), None),
-        }
-    }
-
-    fn record(&mut self, mission: &Mission, cancelled: &dyn Fn() -> bool) -> Result<Flight, Failure> {
-        self.say(&mission_message(mission));
-        let limit = self.limits.mission;
-        let deadline = Instant::now() + limit;
-        let late = || Failure::TimeOut { seconds: limit.as_secs_f64() };
-        let mut recording = Recording::new(mission);
+    /// What is wrong with a line that it sent within `patience` without having been asked, if it does.
+    pub(super) fn unasked(&mut self, patience: Duration) -> Option<Failure> {
+        let until = Instant::now() + patience;
         loop {
-            match self.hear("end", deadline, late, cancelled)? {
-                FromExecutor::Pose(pose) => recording.push(&pose)?,
-                FromExecutor::End { reason } => return Ok(recording.finish(reason)?),
-                FromExecutor::Error { message } => {
-                    return Err(Failure::Reported { message: excerpt(&message, 500) });
-                }
-                ready @ FromExecutor::Ready { .. } => {
-                    return Err(Failure::Unexpected { found: ready.kind(), awaited: "pose" });
-                }
+            match self.lines.recv_timeout(until.saturating_duration_since(Instant::now())) {
+                Ok(Line::Text(bytes)) if bytes.iter().all(u8::is_ascii_whitespace) => self.line_number += 1,
+                Ok(Line::Text(bytes)) => return Some(after(&bytes)),
+                Ok(Line::TooLong) => return Some(after(b"a line without end")),
+                Err(_) => return None,
             }
         }
     }
 
     /// Hands a line to the thread that writes: a program that never reads must not hold us up.
-    fn say(&mut self, message: &ToExecutor) {
+    pub(super) fn say(&mut self, message: &ToExecutor) {
         let mut line = serde_json::to_vec(message).expect("messages are trees of strings and finite numbers");
         line.push(b'\n');
         if let Some(outgoing) = &self.outgoing {
@@ -186,13 +153,14 @@ impl Worker {
         }
     }
 
-    fn hear(
+    /// Its next line that is not blank.
+    pub(super) fn hear(
         &mut self,
         awaited: &'static str,
         deadline: Instant,
         late: impl Fn() -> Failure,
         cancelled: &dyn Fn() -> bool,
-    ) -> Result<FromExecutor, Failure> {
+    ) -> Result<Vec<u8>, Failure> {
         loop {
             let now = Instant::now();
             if cancelled() {
@@ -209,10 +177,15 @@ impl Worker {
             self.line_number += 1;
             match line {
                 Line::Text(bytes) if bytes.iter().all(u8::is_ascii_whitespace) => {}
-                Line::Text(bytes) => return parse(&bytes, self.line_number),
+                Line::Text(bytes) => return Ok(bytes),
                 Line::TooLong => return Err(Failure::TooLong { number: self.line_number, limit: LONGEST_LINE }),
             }
         }
+    }
+
+    /// The message in the line that was heard last.
+    pub(super) fn understand(&self, line: &[u8]) -> Result<FromExecutor, Failure> {
+        parse(line, self.line_number)
     }
 
     /// Its stdout is closed: has it exited, and how?
@@ -226,17 +199,35 @@ impl Worker {
     }
 
     /// Ends the process and gathers what it said on stderr.
-    fn fail(mut self, failure: Failure) -> Failed {
+    pub(super) fn fail(mut self, failure: Failure) -> Failed {
         self.end(Duration::ZERO);
         // The receiver closes when the stream does; a child in another session may hold it open for ever.
         let _ = self.stderr_closed.recv_timeout(AFTERMATH);
         Failed { failure, stderr: self.stderr.text() }
     }
 
-    /// Says `bye`, waits for the exit as long as the grace is, then ends the process with all its children.
-    pub fn stop(mut self) {
+    /// Says `bye`, waits for the exit as long as the grace is, then ends the process with all its children. Gives what is
+    /// wrong with its last answer, where it went on after that.
+    pub fn stop(mut self) -> Option<Failed> {
         self.say(&ToExecutor::Bye);
-        self.end(self.limits.grace);
+        self.outgoing = None;
+        let until = Instant::now() + self.limits.grace;
+        let mut wrong = None;
+        // Who still talks is heard, so that whoever waits for a reader can exit; words of farewell are no answers.
+        let mut exited = false;
+        loop {
+            match self.lines.recv_timeout(LOOK) {
+                Ok(Line::Text(bytes)) => wrong = wrong.or_else(|| is_an_answer(&bytes).then(|| after(&bytes))),
+                Ok(Line::TooLong) | Err(RecvTimeoutError::Disconnected) => break,
+                Err(RecvTimeoutError::Timeout) if exited => break,
+                Err(RecvTimeoutError::Timeout) => exited = process::exits_within(&mut self.child, Duration::ZERO),
+            }
+            if Instant::now() >= until {
+                break;
+            }
+        }
+        self.end(until.saturating_duration_since(Instant::now()));
+        wrong.map(|failure| Failed { failure, stderr: self.stderr.text() })
     }
 
     fn end(&mut self, patience: Duration) {
@@ -275,4 +266,15 @@ fn parse(bytes: &[u8], number: u64) -> Result<FromExecutor, Failure> {
         let infinite = ["NaN", "Infinity"].into_iter().find(|word| text.contains(word));
         garbage(infinite.map_or_else(|| error.to_string(), |word| format!("{word} is no JSON number: must be finite")))
     })
+}
+
+/// What is wrong with a line after the end.
+pub(super) fn after(line: &[u8]) -> Failure {
+    Failure::After { line: excerpt(&String::from_utf8_lossy(line), 80) }
+}
+
+/// Whether a line answers a mission.
+fn is_an_answer(line: &[u8]) -> bool {
+    let message = serde_json::from_slice::<FromExecutor>(line);
+    message.is_ok_and(|message| !matches!(message, FromExecutor::Ready { .. }))
 }

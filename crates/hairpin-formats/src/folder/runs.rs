@@ -7,7 +7,7 @@ use hairpin::campaign::{CaseNumber, Run};
 
 use super::{CampaignFolder, FolderError, RUNS};
 use crate::atomic;
-use crate::executor::Failed;
+use crate::executor::{Failed, was_never_asked};
 use crate::parquet::runs::{self, RunFacts};
 
 impl CampaignFolder {
@@ -19,10 +19,11 @@ impl CampaignFolder {
         Ok(runs::write_run(&self.run_path(run.case, run.run), run)?)
     }
 
-    /// Whether this run was executed and can be read: what `--resume` skips.
+    /// Whether this run was executed and can be read: what `--resume` skips. One that no program was asked to fly was not.
     pub fn has_valid_run(&self, case: CaseNumber, run: usize) -> bool {
         let found = runs::read_run(&self.run_path(case, run));
-        found.is_ok_and(|(_, facts)| facts.is_some_and(|facts| facts.case == case && facts.run == run))
+        let asked = |facts: &RunFacts| !facts.message.as_deref().is_some_and(was_never_asked);
+        found.is_ok_and(|(_, facts)| facts.is_some_and(|facts| facts.case == case && facts.run == run && asked(&facts)))
     }
 
     /// Writes a run that was flown again, for the time number `again`.

@@ -9,7 +9,7 @@ use hairpin::campaign::{
     self, Case, Mission, Mistake, Run, Setup, Status, execute_again, execute_run, mission, mission_again,
 };
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
-use hairpin_formats::executor::{Command, Failed, Limits, fly_all};
+use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
 use hairpin_formats::folder::{CampaignFolder, FolderError};
 use hairpin_formats::parquet::runs::RunFacts;
 use rayon::prelude::*;
@@ -167,10 +167,11 @@ fn fly_with(
 ) {
     let workers = workers(&work.setup);
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
-    let land = |index: usize, result| {
+    let land = |index: usize, result: Result<_, Failed>| {
         let job = &missing[index];
-        // A log that cannot be written stops nothing.
+        // A log that cannot be written stops nothing; of what was not asked for there is none.
         if let Err(failed) = &result
+            && !matches!(failed.failure, Failure::NotAsked { .. })
             && let Err(error) = work.folder.write_executor_log(job.case.number, job.run, failed)
         {
             watch.warn(&format!("Warning: {error}"));
@@ -202,7 +203,7 @@ fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
     let command = text.parse().map_err(|error| Problem::input(format!("`execute.command` = {text:?} {error}")))?;
     let mission = Duration::try_from_secs_f64(execute.timeout)
         .map_err(|_| Problem::input(format!("`execute.timeout_s` = {}: must be a time", execute.timeout)))?;
-    Ok(Some((command, Limits { mission, ..Limits::default() })))
+    Ok(Some((command, Limits { mission, handshake: mission, ..Limits::default() })))
 }
 
 /// Flies one run, without a folder.
@@ -216,7 +217,14 @@ pub(crate) fn fly_one(setup: &Setup, case: &Case, run: usize, watch: &dyn Watch)
 /// # Errors
 /// Recordings, which cannot be made again; a command that is none; it was asked to stop.
 pub fn fly_each(setup: &Setup, cases: &[Case], run: usize, watch: &dyn Watch) -> Result<Vec<Run>, Problem> {
-    if let (Some(logs), Some(case)) = (setup.recordings(), cases.first()) {
+    fly_together(&cases.iter().map(|case| (setup, case, run)).collect::<Vec<_>>(), watch)
+}
+
+/// Flies the run of each case under its setup, in their order, without a folder: all by the program of the first setup,
+/// where it has one.
+pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -> Result<Vec<Run>, Problem> {
+    let Some((setup, case, _)) = jobs.first() else { return Ok(Vec::new()) };
+    if let Some(logs) = setup.recordings() {
         return Err(Problem::input(format!(
             "`execute.logs` = \"{logs}\": case {} was recorded, and a recording cannot be made again here; leave the key out for the virtual \
              controller",
@@ -224,18 +232,23 @@ pub fn fly_each(setup: &Setup, cases: &[Case], run: usize, watch: &dyn Watch) ->
         )));
     }
     let Some((command, limits)) = command_of(setup)? else {
-        return Ok(cases.par_iter().map(|case| execute_run(setup, case, run)).collect());
+        return Ok(jobs.par_iter().map(|(setup, case, run)| execute_run(setup, case, *run)).collect());
     };
-    let flown = Mutex::new(vec![None; cases.len()]);
-    let make = |index: usize| mission(setup, &cases[index], run).map_err(|mistake| mistake.to_string());
+    let flown = Mutex::new(vec![None; jobs.len()]);
+    let make = |index: usize| {
+        let (setup, case, run) = jobs[index];
+        mission(setup, case, run).map_err(|mistake| mistake.to_string())
+    };
     let landed = |index: usize, result: Result<_, Failed>| {
-        if let Err(failed) = &result {
+        if let Err(failed) = &result
+            && !failed.stderr.trim().is_empty()
+        {
             watch.warn(failed.stderr.trim_end());
         }
-        flown.lock().unwrap_or_else(std::sync::PoisonError::into_inner)[index] =
-            Some(as_run(setup, &cases[index], run, result));
+        let (setup, case, run) = jobs[index];
+        flown.lock().unwrap_or_else(std::sync::PoisonError::into_inner)[index] = Some(as_run(setup, case, run, result));
     };
-    fly_all(&command, limits, workers(setup), cases.len(), &make, &landed, &|| watch.stopped());
+    fly_all(&command, limits, workers(setup), jobs.len(), &make, &landed, &|| watch.stopped());
     let runs = flown.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     runs.into_iter().collect::<Option<_>>().ok_or_else(|| Problem::Interrupted("stopped".into()))
 }

@@ -16,7 +16,7 @@ use crate::sets::Set;
 use crate::work::{changed_by, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
 pub use fly::{Flown, fly_each};
-pub(crate) use fly::{attitude_unknown, fly_missing, fly_one};
+pub(crate) use fly::{attitude_unknown, fly_missing, fly_one, fly_together};
 
 /// What is executed, and how.
 #[derive(Debug, Clone, Default)]

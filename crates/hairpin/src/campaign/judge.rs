@@ -163,7 +163,9 @@ fn judge_run(
         drawn = setup.drawn(&run.drawn)?;
         &drawn
     };
-    let terms = own.scenario.head().terms;
+    let mut terms = own.scenario.head().terms;
+    // Who asks for nothing does not ask for missions that are finished either.
+    terms.limits.unfinished = own.scenario.asked() != Asked::Nothing;
     let path = match terms.from {
         DeviationFrom::Path => plan.reference.get_or_init(|| reference(setup, case)).as_ref(),
         DeviationFrom::Leg | DeviationFrom::NearestLeg => None,

@@ -13,6 +13,8 @@ use serde_json::json;
 
 use super::*;
 
+mod second;
+
 fn mission(number: usize) -> Mission {
     let scenario: Scenario = serde_json::from_value(json!({
         "hairpin": 1,
@@ -294,10 +296,10 @@ fn programs_that_never_start_fail_every_mission_quickly() {
         assert_eq!(failed.unwrap_err().to_string(), "no \"ready\" within 0.2 s of \"hello\"");
     }
     assert!(begun.elapsed() < Duration::from_secs(10), "a hopeless program must not be started for every mission");
-    let old: Command = r#"sh -c 'echo "{\"type\":\"ready\",\"protocol\":2}"; sleep 60'"#.parse().unwrap();
+    let new: Command = r#"sh -c 'echo "{\"type\":\"ready\",\"protocol\":3}"; sleep 60'"#.parse().unwrap();
     assert_eq!(
-        fly(&old, limits, 1, 1)[0].as_ref().unwrap_err().to_string(),
-        "speaks protocol 2; this hairpin speaks 1"
+        fly(&new, limits, 1, 1)[0].as_ref().unwrap_err().to_string(),
+        "speaks protocol 3; this hairpin speaks 1 and 2"
     );
 }
 
@@ -312,8 +314,8 @@ fn a_program_that_never_reads_is_no_trap() {
             20_000
         ];
     let limits = Limits { mission: Duration::from_millis(500), ..limits() };
-    let worker = Worker::start(&deaf, limits, &|| false).unwrap();
-    let (result, worker) = worker.fly(&long, &|| false);
+    let worker = Worker::start(&deaf, limits, 2, &|| false).unwrap();
+    let Answer { result, worker, .. } = worker.fly(&long, &|| false);
     assert!(matches!(result.unwrap_err().failure, Failure::TimeOut { .. }));
     assert!(worker.is_none());
 }

@@ -1,0 +1,151 @@
+//! One mission and the answer to it: what a program says counts for the mission that it is of, or for none.
+
+use std::time::{Duration, Instant};
+
+use hairpin::campaign::Mission;
+use hairpin::trajectory::Flight;
+
+use super::envelope::{Envelope, Whose};
+use super::failure::{Failed, Failure, excerpt};
+use super::message::{FromExecutor, PoseMessage, ToExecutor, mission_message};
+use super::recording::Recording;
+use super::worker::{Worker, after};
+
+/// How long it is listened after an `end` of protocol 1, whose answers do not say what they are of: whoever flies twice
+/// goes on at once.
+const QUIET: Duration = Duration::from_millis(20);
+
+/// What came of one mission.
+#[derive(Debug)]
+pub struct Answer {
+    /// Its flight.
+    pub result: Result<Flight, Failed>,
+    /// What is now known to be wrong with the answer to the mission before: it went on after its `end`.
+    pub before: Option<Failed>,
+    /// The mission was not even begun, for what the process did after the one before: it is to be flown by another.
+    pub not_begun: bool,
+    /// The process, where it can fly on.
+    pub worker: Option<Worker>,
+}
+
+impl Worker {
+    /// Flies one mission. After a failure the worker is usable again only if it is handed back.
+    pub fn fly(mut self, mission: &Mission, cancelled: &dyn Fn() -> bool) -> Answer {
+        let (mut before, asked) = (None, Envelope::of(mission));
+        if self.protocol == 1
+            && self.last.is_some()
+            && let Some(failure) = self.unasked(Duration::ZERO)
+        {
+            let failed = self.fail(failure);
+            return Answer { result: Err(failed.clone()), before: Some(failed), not_begun: true, worker: None };
+        }
+        let deadline = Instant::now() + self.limits.mission;
+        if self.protocol > 1
+            && let Err(failure) = self.reset(&asked, deadline, cancelled, &mut before)
+        {
+            let ended = matches!(failure, Failure::Exited { .. } | Failure::Silent { .. } | Failure::TooLong { .. });
+            let not_begun = self.last.is_some() && ended;
+            return Answer { result: Err(self.fail(failure)), before, not_begun, worker: None };
+        }
+        self.stderr.clear();
+        let result = self.record(mission, (&asked, deadline), cancelled, &mut before);
+        self.last = Some(asked);
+        let (result, worker) = match result {
+            Ok(flight) => (Ok(flight), Some(self)),
+            // It is in step with us: the next mission may go better.
+            Err(failure @ Failure::Reported { .. }) => {
+                (Err(Failed { failure, stderr: self.stderr.text() }), Some(self))
+            }
+            Err(failure) => (Err(self.fail(failure)), None),
+        };
+        Answer { result, before, not_begun: false, worker }
+    }
+
+    /// Protocol 2: asks for an end of all that was before. What still comes is of the mission before.
+    fn reset(
+        &mut self,
+        asked: &Envelope,
+        deadline: Instant,
+        cancelled: &dyn Fn() -> bool,
+        before: &mut Option<Failed>,
+    ) -> Result<(), Failure> {
+        self.say(&ToExecutor::Reset { case: asked.case.clone(), run: asked.run });
+        let seconds = self.limits.mission.as_secs_f64();
+        loop {
+            let line = self.hear("ready", deadline, || Failure::TimeOut { awaited: "ready", seconds }, cancelled)?;
+            match self.understand(&line) {
+                Ok(message @ FromExecutor::Ready { .. }) => match asked.whose(&message) {
+                    Whose::This => return Ok(()),
+                    Whose::Another { .. } => {}
+                    Whose::Nobodys => return Err(Failure::Unnamed { found: message.kind() }),
+                },
+                Ok(FromExecutor::Error { message, .. }) if self.last.is_none() => {
+                    return Err(Failure::Reported { message: excerpt(&message, 500) });
+                }
+                Ok(message) if self.last.is_none() => {
+                    return Err(Failure::Unexpected { found: message.kind(), awaited: "ready" });
+                }
+                Err(failure) if self.last.is_none() => return Err(failure),
+                _ => self.blame(&line, before),
+            }
+        }
+    }
+
+    /// The mission before went on after its end.
+    fn blame(&self, line: &[u8], before: &mut Option<Failed>) {
+        before.get_or_insert_with(|| Failed { failure: after(line), stderr: self.stderr.text() });
+    }
+
+    fn record(
+        &mut self,
+        mission: &Mission,
+        (asked, deadline): (&Envelope, Instant),
+        cancelled: &dyn Fn() -> bool,
+        before: &mut Option<Failed>,
+    ) -> Result<Flight, Failure> {
+        self.say(&mission_message(mission));
+        let seconds = self.limits.mission.as_secs_f64();
+        let mut astray: Option<(String, String)> = None;
+        let mut recording = Recording::new(mission);
+        loop {
+            let late = || match &astray {
+                None => Failure::TimeOut { awaited: "end", seconds },
+                Some((case, run)) => Failure::Astray { seconds, case: case.clone(), run: run.clone() },
+            };
+            let line = self.hear("end", deadline, late, cancelled)?;
+            let message = self.understand(&line)?;
+            if self.protocol > 1 {
+                match asked.whose(&message) {
+                    Whose::This => {}
+                    Whose::Nobodys if matches!(message, FromExecutor::Error { .. }) => {}
+                    Whose::Nobodys => return Err(Failure::Unnamed { found: message.kind() }),
+                    Whose::Another { case, run } => {
+                        if self.last.as_ref().is_some_and(|last| last.is(&case, &run)) {
+                            self.blame(&line, before);
+                        }
+                        astray = Some((case, run));
+                        continue;
+                    }
+                }
+            }
+            match message {
+                FromExecutor::Pose(pose) => recording.push(&pose)?,
+                FromExecutor::Poses { poses, .. } if self.protocol > 1 => {
+                    for (row, numbers) in poses.iter().enumerate() {
+                        let pose = PoseMessage::of_row(numbers).map_err(|what| Failure::Row { row, what })?;
+                        recording.push(&pose)?;
+                    }
+                }
+                FromExecutor::End { reason, .. } => {
+                    let flight = recording.finish(reason)?;
+                    let unasked = if self.protocol == 1 { self.unasked(QUIET) } else { None };
+                    return unasked.map_or(Ok(flight), Err);
+                }
+                FromExecutor::Error { message, .. } => {
+                    return Err(Failure::Reported { message: excerpt(&message, 500) });
+                }
+                other => return Err(Failure::Unexpected { found: other.kind(), awaited: "pose" }),
+            }
+        }
+    }
+}
