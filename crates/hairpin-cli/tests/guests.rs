@@ -1,5 +1,5 @@
-//! A folder that somebody else made is data: nothing in it runs that its user has not allowed, nothing leads out of it, and
-//! nothing of the user's own is replaced.
+//! A folder that somebody else made is data: nothing in it runs that its user has not allowed, nothing leads out of it,
+//! and nothing of the user's own is replaced.
 
 mod commands;
 

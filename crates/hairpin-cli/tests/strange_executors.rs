@@ -1,5 +1,5 @@
-//! Executors that answer twice, late or not at all, and a hairpin that is killed: each mission has its own answer or none,
-//! and nothing stays behind.
+//! Executors that answer twice, late or not at all, and a hairpin that is killed: each mission has its own answer or
+//! none, and nothing stays behind.
 #![cfg(unix)]
 
 mod commands;

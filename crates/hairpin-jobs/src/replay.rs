@@ -36,7 +36,8 @@ impl ReplayedRepro {
 /// Flies the run of the repro file `file` again, by the kernels `simd`.
 ///
 /// # Errors
-/// A file that is none, or asks to run what its user has not allowed; recordings, which cannot be made again; it was asked to stop.
+/// A file that is none, or asks to run what its user has not allowed; recordings, which cannot be made again; it was
+/// asked to stop.
 pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
     let repro = Repro::read(file).map_err(Problem::input)?;
     let resolved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;

@@ -183,7 +183,7 @@ impl PoseMessage {
             return Err("has no time or no place".to_owned());
         };
         let whole = |leg: f64| match leg {
-            leg if leg >= 0.0 && leg <= 1e9 && leg.fract() == 0.0 => Ok(leg as u64),
+            leg if (0.0..=1e9).contains(&leg) && leg.fract() == 0.0 => Ok(leg as u64),
             _ => Err(format!("has leg = {leg}: must be a whole number from 0")),
         };
         let q_wxyz = || Some([qw?, qx?, qy?, qz?]);

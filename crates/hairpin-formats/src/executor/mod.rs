@@ -15,10 +15,10 @@
 //! > {"type":"bye"}
 //! ```
 //!
-//! t is from 0, strictly rising; places are in the world frame. Answers carry the case and the run that they are of, and
-//! count for these alone. In protocol 1 they do not, and there are neither `reset` nor `poses`; a program that answers
-//! `hello` with 1, with an error, or by ending is started again and spoken to in protocol 1. There, what comes after an
-//! `end` is a mistake of the mission that ended.
+//! t is from 0, strictly rising; places are in the world frame. Answers carry the case and the run that they are of,
+//! and count for these alone. In protocol 1 they do not, and there are neither `reset` nor `poses`; a program that
+//! answers `hello` with 1, with an error, or by ending is started again and spoken to in protocol 1. There, what comes
+//! after an `end` is a mistake of the mission that ended.
 //!
 //! `leg`, `v_m_s` and `q_wxyz` may be left out: legs are then assigned along the path, velocities differentiated, and
 //! the attitude counts as unknown (channel [`hairpin::trajectory::ATTITUDE_UNKNOWN`]). The first pose may lie anywhere,

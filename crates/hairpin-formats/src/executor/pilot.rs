@@ -48,7 +48,8 @@ impl<'a> Pilot<'a> {
         Self { program, landed, worker: None, held: None, misses: Vec::new() }
     }
 
-    /// Flies mission number `index`. What comes of it is given back, and lands sooner or later; what is cancelled does not.
+    /// Flies mission number `index`. What comes of it is given back, and lands sooner or later; what is cancelled does
+    /// not.
     pub(super) fn fly(
         &mut self,
         index: usize,
@@ -68,7 +69,7 @@ impl<'a> Pilot<'a> {
         Some(told)
     }
 
-    /// The flight of `mission`; by a fresh process where the one at hand was out of step with us after the mission before.
+    /// The flight of `mission`; by a fresh process where the one at hand was out of step after the mission before.
     fn try_with(&mut self, mission: &Mission, cancelled: &dyn Fn() -> bool) -> Result<Flight, Failed> {
         let first = self.ask(mission, cancelled)?;
         let doubtful = self.held.is_some()

@@ -1,4 +1,4 @@
-//! One process of the user's program: what it is told and what it says, line by line, from its handshake to a clean end.
+//! One process of the user's program: what it is told and what it says, line by line, from handshake to a clean end.
 
 use std::io::Write;
 use std::process::{Child, ExitStatus, Stdio};
@@ -206,8 +206,8 @@ impl Worker {
         Failed { failure, stderr: self.stderr.text() }
     }
 
-    /// Says `bye`, waits for the exit as long as the grace is, then ends the process with all its children. Gives what is
-    /// wrong with its last answer, where it went on after that.
+    /// Says `bye`, waits for the exit as long as the grace is, then ends the process with all its children. Gives what
+    /// is wrong with its last answer, where it went on after that.
     pub fn stop(mut self) -> Option<Failed> {
         self.say(&ToExecutor::Bye);
         self.outgoing = None;

@@ -6,8 +6,8 @@ use std::io;
 use hairpin::campaign::learn::NAME;
 
 use super::{
-    ARCS, BEST_SO_FAR, COVERAGE, CampaignFolder, EXPORTS, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List,
-    MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, stands_for,
+    ARCS, BEST_SO_FAR, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List, MOVES,
+    OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
 };
 use crate::atomic::{self, WriteError};
 
@@ -71,9 +71,10 @@ impl CampaignFolder {
         for name in names {
             remove(name)?;
         }
+        let exports: Vec<String> = exports().collect();
         for path in entries(&self.path)? {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            if EXPORTS.iter().chain([&LOG]).any(|pattern| stands_for(pattern, &name)) {
+            if stands_for(LOG, &name) || exports.iter().any(|pattern| stands_for(pattern, &name)) {
                 remove(&name)?;
             }
         }

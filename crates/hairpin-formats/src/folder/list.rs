@@ -10,7 +10,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::error::FolderError;
-use super::names::{EXPORTS, GENERATION, LIST, OURS, RESULTS, SCENARIO, WAYPOINTS, stands_for};
+use super::names::{GENERATION, LIST, OURS, RESULTS, SCENARIO, WAYPOINTS, exports, stands_for};
 use crate::atomic;
 use crate::scenario::read_made_by;
 
@@ -63,8 +63,8 @@ impl List {
     ///
     /// # Errors
     /// Something stands there already under a name that is new: it is not hairpin's. The list cannot be written.
-    pub(super) fn take_in(&mut self, path: &Path, more: &[&str]) -> Result<(), FolderError> {
-        let new: Vec<&str> = more.iter().copied().filter(|name| !self.0.contains(*name)).collect();
+    pub(super) fn take_in(&mut self, path: &Path, more: &[impl AsRef<str>]) -> Result<(), FolderError> {
+        let new: Vec<&str> = more.iter().map(AsRef::as_ref).filter(|name| !self.0.contains(*name)).collect();
         if new.is_empty() {
             return Ok(());
         }
@@ -80,7 +80,7 @@ impl List {
     /// # Errors
     /// The list cannot be written.
     pub(super) fn adopt(path: &Path) -> Result<(), FolderError> {
-        Self(all().map(str::to_owned).chain(copies(path)).collect()).write(path)
+        Self(all().into_iter().chain(copies(path)).collect()).write(path)
     }
 
     fn write(&self, path: &Path) -> Result<(), FolderError> {
@@ -90,8 +90,8 @@ impl List {
 }
 
 /// Every name that hairpin gives, but for the copies of files that a scenario names.
-pub(super) fn all() -> impl Iterator<Item = &'static str> {
-    OURS.iter().chain(EXPORTS).copied()
+pub(super) fn all() -> Vec<String> {
+    OURS.iter().map(|name| (*name).to_owned()).chain(exports()).collect()
 }
 
 /// Whether a campaign without a list is one that an earlier version made: that left its name and version in the

@@ -57,8 +57,8 @@ pub use inside::inside;
 use inside::refuse_links;
 use list::{List, all, is_of_an_earlier_version};
 pub use names::{ARCS, BASELINE, BEST_SO_FAR, GRAPH, MOVES, OPTIMUM, REASONS};
-use names::{COVERAGE, EXPORTS, GENERATION, INFLUENCE, LOG, RESULTS, RUNS, WAYPOINTS, stands_for};
-pub(crate) use names::{LIST, SCENARIO};
+use names::{COVERAGE, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, exports, stands_for};
+pub(crate) use names::{SCENARIO, is_written_to};
 
 const LOCK: &str = ".lock";
 const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];
@@ -96,7 +96,7 @@ impl CampaignFolder {
         let folder = Self { path: path.into(), _lock: lock(path)? };
         match list {
             None if is_campaign(path) => List::adopt(path)?,
-            list => list.unwrap_or_default().take_in(path, &all().collect::<Vec<_>>())?,
+            list => list.unwrap_or_default().take_in(path, &all())?,
         }
         for name in FOLDERS {
             atomic::make_folder(&path.join(name))?;

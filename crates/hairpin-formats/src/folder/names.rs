@@ -25,7 +25,7 @@ pub(super) const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 /// Why a program of the user's gave no flight.
 pub(super) const LOG: &str = "executor-CASE-RUN.log";
 /// What hairpin has made of a folder: the names that are its own.
-pub(crate) const LIST: &str = ".hairpin";
+pub(super) const LIST: &str = ".hairpin";
 
 /// Every name that a campaign's folder gives, `CASE` and `RUN` standing for numbers. The files that a scenario names
 /// come in addition, by the names of their copies.
@@ -62,20 +62,20 @@ pub(super) const OURS: &[&str] = &[
     "arc_clock.mod",
 ];
 
+/// How the names of exports end that have a case's number before them.
+const ENDINGS: &[&str] =
+    &["planned.csv", "ref.tum", "exec.tum", "joint_trajectory.json", "mod", "pgf", "script", "src", "dat"];
+
 /// What is exported into the folder itself.
-pub(super) const EXPORTS: &[&str] = &[
-    "CASE.planned.csv",
-    "CASE-RUN.csv",
-    "CASE.ref.tum",
-    "CASE.exec.tum",
-    "CASE.mod",
-    "CASE_slow.mod",
-    "CASE.pgf",
-    "CASE.script",
-    "CASE.src",
-    "CASE.dat",
-    "CASE.joint_trajectory.json",
-];
+pub(super) fn exports() -> impl Iterator<Item = String> {
+    let more = ["CASE-RUN.csv", "CASE_slow.mod"].map(str::to_owned);
+    ENDINGS.iter().map(|ending| format!("CASE.{ending}")).chain(more)
+}
+
+/// Whether what hairpin writes into a campaign's folder, and nobody else does, is in this one.
+pub(crate) fn is_written_to(folder: &std::path::Path) -> bool {
+    [LIST, GENERATION, RESULTS].iter().any(|name| folder.join(name).exists())
+}
 
 /// Whether `name` is one that `pattern` stands for: `CASE` is a number of four digits or more, `RUN` one of any.
 pub(super) fn stands_for(pattern: &str, name: &str) -> bool {
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn only_our_own_exports_go() {
-        let is_export = |name: &str| EXPORTS.iter().any(|pattern| stands_for(pattern, name));
+        let is_export = |name: &str| exports().any(|pattern| stands_for(&pattern, name));
         for name in [
             "0000.ref.tum",
             "0012.exec.tum",

@@ -19,7 +19,8 @@ impl CampaignFolder {
         Ok(runs::write_run(&self.run_path(run.case, run.run), run)?)
     }
 
-    /// Whether this run was executed and can be read: what `--resume` skips. One that no program was asked to fly was not.
+    /// Whether this run was executed and can be read: what `--resume` skips. One that no program was asked to fly was
+    /// not.
     pub fn has_valid_run(&self, case: CaseNumber, run: usize) -> bool {
         let found = runs::read_run(&self.run_path(case, run));
         let asked = |facts: &RunFacts| !facts.message.as_deref().is_some_and(was_never_asked);

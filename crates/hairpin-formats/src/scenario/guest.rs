@@ -1,12 +1,13 @@
 //! A scenario that lies in a campaign's folder may have come with it from elsewhere: what it names must lie there too.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::scenario::{LEARNED, Named, PYTHON};
 
 use super::attached::Wrong;
 use super::tree::{Node, NodeKind};
-use crate::folder::inside;
+use super::write::read_made_by;
+use crate::folder::{SCENARIO, inside, is_written_to};
 use crate::library;
 
 /// Whose names are held to their folder.
@@ -52,6 +53,17 @@ impl<'a> Guest<'a> {
         }
         inside(self.folder, name).err()
     }
+}
+
+/// The folder of a campaign whose own scenario `name_or_path` is; `None` where it is anything else.
+pub fn kept_in(name_or_path: &str) -> Option<PathBuf> {
+    let path = Path::new(name_or_path);
+    if path.file_name()? != SCENARIO || !path.is_file() {
+        return None;
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let made = || std::fs::read_to_string(path).is_ok_and(|text| read_made_by(&text).is_some());
+    (is_written_to(folder) || made()).then(|| folder.to_owned())
 }
 
 /// Every file that a scenario names, by its key.

@@ -19,7 +19,7 @@ mod tree;
 mod user_score;
 mod write;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use hairpin::campaign::scenario::{KeyPath, RobotKind};
 use hairpin::campaign::{Mistake, Resolved, Scenario, Setup};
@@ -28,11 +28,12 @@ use toml::Table;
 pub use arm::arm_for;
 pub use asked::check_asked;
 pub use files::attach;
+pub use guest::kept_in;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
-use crate::folder::{LIST, SCENARIO};
+use crate::folder::SCENARIO;
 use crate::{library, schema};
 use guest::Guest;
 use resolve::{Resolver, is_urdf};
@@ -68,17 +69,6 @@ fn read_from(text: &str, file: &str, whose: Whose<'_>, sets: &[(String, String)]
         Some(setup) if report.is_empty() => Ok(setup),
         _ => Err(report),
     }
-}
-
-/// The folder of a campaign whose own scenario `name_or_path` is; `None` where it is anything else.
-pub fn kept_in(name_or_path: &str) -> Option<PathBuf> {
-    let path = Path::new(name_or_path);
-    if path.file_name()? != SCENARIO || !path.is_file() {
-        return None;
-    }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let made = || std::fs::read_to_string(path).is_ok_and(|text| read_made_by(&text).is_some());
-    (folder.join(LIST).exists() || made()).then(|| folder.to_owned())
 }
 
 /// What is to be said where a file and something shipped answer to one name; `None` where they do not.

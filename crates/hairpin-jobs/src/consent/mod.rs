@@ -49,8 +49,8 @@ impl Consent {
         )))
     }
 
-    /// As [`Self::ask`], of what a scenario asks for that `sets` change: what is typed runs; what a file of the user's says
-    /// is told first; what the folder of a campaign says, `kept`, is asked for.
+    /// As [`Self::ask`], of what a scenario asks for that `sets` change: what is typed runs; what a file of the user's
+    /// says is told first; what the folder of a campaign says, `kept`, is asked for.
     pub(crate) fn ask_of_scenario(
         &self,
         (name, kept): (&str, Option<&Path>),
@@ -68,7 +68,8 @@ impl Consent {
         }
     }
 
-    /// Remembers that the user has these wishes of `folder` fulfilled. Where nothing can be remembered, the next call asks.
+    /// Remembers that the user has these wishes of `folder` fulfilled. Where nothing can be remembered, the next call
+    /// asks.
     pub(crate) fn mark(&self, folder: &Path, wishes: &[Wish]) {
         let Some(state) = self.state.as_deref().filter(|_| !wishes.is_empty()) else { return };
         let marked = Marks::make(state).and_then(|marks| wishes.iter().try_for_each(|wish| marks.put(folder, wish)));

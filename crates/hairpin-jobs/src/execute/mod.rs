@@ -55,8 +55,8 @@ pub struct Executed {
 /// Executes a campaign; runs that fail are told in numbers.
 ///
 /// # Errors
-/// Settings that do not fit the folder, or a folder that asks to run what its user has not allowed; missions, recordings or saved cases that cannot be used; a file that cannot be
-/// written; it was asked to stop.
+/// Settings that do not fit the folder, or a folder that asks to run what its user has not allowed; missions,
+/// recordings or saved cases that cannot be used; a file that cannot be written; it was asked to stop.
 pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed, Problem> {
     let ExecuteSettings { folder: path, sets, .. } = settings;
     if settings.resume && !sets.is_empty() {
