@@ -418,7 +418,11 @@ fn tolerances_hold_at_both_ends_in_every_form() {
         assert!(code == 0 && out.contains("ok (generic"), "{out}");
     }
     // The same in a file: one row, segment 0, arc, length 0.
-    fs::write(path.join("q.csv"), "id,x,y,yaw,k0,kf\nthere,0,0,0.005,0,0\nzero,0,0,0,0.2,0.2\nnear,0.3,0.005,0.01,0,0\n").unwrap();
+    fs::write(
+        path.join("q.csv"),
+        "id,x,y,yaw,k0,kf\nthere,0,0,0.005,0,0\nzero,0,0,0,0.2,0.2\nnear,0.3,0.005,0.01,0,0\n",
+    )
+    .unwrap();
     let (code, _, error) = run(path, &["steer", "generic", "--queries", "q.csv", "--out", "r.csv"]);
     assert_eq!(code, 0, "{error}");
     let answers = fs::read_to_string(path.join("r.csv")).unwrap();
@@ -449,5 +453,8 @@ fn cars_and_differential_drives_are_steered() {
     // A file of that name goes first, and stderr says so.
     fs::write(folder.path().join("car"), "kind = \"rover\"\nname = \"mine\"\n").unwrap();
     let (code, out, error) = run(folder.path(), &["steer", "car", "--to", "4,1,0.5"]);
-    assert!(code == 0 && out.contains("ok (mine") && error.contains("`car` is a file here and a shipped name"), "{out}{error}");
+    assert!(
+        code == 0 && out.contains("ok (mine") && error.contains("`car` is a file here and a shipped name"),
+        "{out}{error}"
+    );
 }

@@ -137,13 +137,31 @@ fn a_share_that_the_cases_cannot_show_is_told_before_the_run() {
     let share = ["--set", "spec.violation_share=0.01", "--out", "a"];
     let (code, out, error) = run(here, &[&SMALL[..], &share, &["--set", "spec.deviation.max_m=40"]].concat());
     assert_eq!(code, 5, "{out}{error}");
-    let told = "`spec.violation_share` = 0.01: of 4 cases none can show so small a share at 95 % confidence; it takes 368";
+    let told =
+        "`spec.violation_share` = 0.01: of 4 cases none can show so small a share at 95 % confidence; it takes 368";
     assert!(error.contains(told), "{error}");
     let (_, _, error) = run(here, &["execute", "a"]);
     assert!(error.contains(told), "{error}");
     // Told before: also where nothing is found in no time.
-    let (_, _, error) = run(here, &["generate", "rover", "--set", "spec.limits={ path_deviation_m = 1, violation_share = 0.1, confidence = 0.99 }", "--set", "generate.search.cases=50", "--time-limit", "0", "--out", "b"]);
-    assert!(error.contains("`spec.limits.violation_share` = 0.1: of 50 cases") && error.contains("it takes 51"), "{error}");
+    let (_, _, error) = run(
+        here,
+        &[
+            "generate",
+            "rover",
+            "--set",
+            "spec.limits={ path_deviation_m = 1, violation_share = 0.1, confidence = 0.99 }",
+            "--set",
+            "generate.search.cases=50",
+            "--time-limit",
+            "0",
+            "--out",
+            "b",
+        ],
+    );
+    assert!(
+        error.contains("`spec.limits.violation_share` = 0.1: of 50 cases") && error.contains("it takes 51"),
+        "{error}"
+    );
     // As shipped, scenarios have as many cases as their share takes.
     for kind in ["rover", "car", "differential-drive"] {
         let (_, _, error) = run(here, &["generate", kind, "--time-limit", "0", "--out", kind]);
@@ -167,7 +185,11 @@ fn programs_of_a_cloud_are_read_by_what_comes_after() {
     // One point that can be met is nothing to load an arm with.
     fs::write(here.join("one.csv"), "x_mm,y_mm,z_mm\n300,0,300\n9000,0,300\n9000,100,300\n").unwrap();
     let object = json(here, &["max-load", "--cloud", "one.csv", "irb120"]);
-    assert_eq!((&object["exit_code"], &object["path"], &object["cost"]), (&json!(3), &json!(null), &json!(null)), "{object}");
+    assert_eq!(
+        (&object["exit_code"], &object["path"], &object["cost"]),
+        (&json!(3), &json!(null), &json!(null)),
+        "{object}"
+    );
     let (code, out, _) = run(here, &["max-load", "--cloud", "one.csv", "irb120"]);
     assert!(code == 3 && out.starts_with("NOTHING FEASIBLE: no move from one point of the cloud"), "{out}");
 }

@@ -40,11 +40,13 @@ mod scenario;
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use hairpin::campaign::{Curve, Tally};
 use hairpin::judgement::Stress;
 
 use crate::atomic::{self, WriteError};
+use crate::rapid::Frames;
 
 pub use error::FolderError;
 pub use graph::graph_decimals;
@@ -69,6 +71,8 @@ pub enum Existing {
 pub struct CampaignFolder {
     path: PathBuf,
     _lock: Option<File>,
+    /// What its programs find on the controller, once somebody asked.
+    frames: OnceLock<Frames>,
 }
 
 impl CampaignFolder {
@@ -81,7 +85,7 @@ impl CampaignFolder {
         if !is_campaign(path) && !is_vacant(path)? {
             return Err(FolderError::Foreign { path: path.into() });
         }
-        let folder = Self { path: path.into(), _lock: lock(path)? };
+        let folder = Self { path: path.into(), _lock: lock(path)?, frames: OnceLock::new() };
         for name in FOLDERS {
             atomic::make_folder(&path.join(name))?;
         }
@@ -101,7 +105,7 @@ impl CampaignFolder {
         if !is_campaign(path) {
             return Err(FolderError::NoCampaign { path: path.into() });
         }
-        Ok(Self { path: path.into(), _lock: None })
+        Ok(Self { path: path.into(), _lock: None, frames: OnceLock::new() })
     }
 
     /// Opens a campaign to read it and to add to it.

@@ -29,6 +29,7 @@ pub use asked::check_asked;
 pub use files::attach;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
+pub(crate) use write::MADE_BY;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
 use crate::folder::SCENARIO;

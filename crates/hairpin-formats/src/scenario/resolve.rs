@@ -69,7 +69,11 @@ impl Resolver<'_> {
         let text = if urdf { text.and_then(|text| as_robot_file(&text)) } else { text };
         match text {
             // What is not even called TOML is shown to nobody: a scenario from elsewhere may name any file.
-            Ok(text) if !urdf && !name.ends_with(".toml") && let Some(line) = first_that_is_no_toml(&text) => {
+            Ok(text)
+                if !urdf
+                    && !name.ends_with(".toml")
+                    && let Some(line) = first_that_is_no_toml(&text) =>
+            {
                 let message = format!("`{key}` = \"{name}\": the file is no TOML from its line {line} on");
                 self.report.complain(place, key, name, "must be a TOML file, or a shipped name", message);
                 None

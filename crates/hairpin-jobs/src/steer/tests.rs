@@ -63,9 +63,7 @@ fn driven(vehicle: &Vehicle, asked: &hairpin_formats::steering::Asked) -> (f64, 
 fn a_start_that_is_there_already_drives_nothing() {
     let vehicle = generic();
     let of = |to: [f64; 4], tolerance_m| Question { to, tolerance_m, ..Question::default() }.asked();
-    for (to, tolerance) in
-        [([0.0; 4], None), ([0.0, 0.0, 0.005, 0.0], None), ([0.05, -0.05, 0.001, 0.0], Some(0.1))]
-    {
+    for (to, tolerance) in [([0.0; 4], None), ([0.0, 0.0, 0.005, 0.0], None), ([0.05, -0.05, 0.001, 0.0], Some(0.1))] {
         let asked = of(to, tolerance);
         let (length, [off, ..]) = driven(&vehicle, &asked);
         assert!(length == 0.0 && off <= tolerance.unwrap_or(0.01), "{to:?}: {length} {off}");
@@ -85,7 +83,8 @@ fn a_start_that_is_there_already_drives_nothing() {
     // Nor is a place where it must not stand.
     let place = hairpin::campaign::scenario::KeepOutSection {
         circle: Some(hairpin::campaign::scenario::CircleSection { center_m: [0.0, 0.0], radius_m: 1.0 }),
-        ..Default::default()
+        name: String::new(),
+        polygon: None,
     };
     let settings = SteerSettings { rover: "generic".into(), places: vec![place], ..SteerSettings::default() };
     let among = Vehicle::new(&settings, &Unwatched).unwrap();
@@ -122,7 +121,9 @@ fn a_detour_gives_way_to_a_goal_within_the_tolerances() {
     }
     assert!(shorter >= 10, "{shorter}");
     // The straight way, where the exact one is a loop of metres.
-    for (to, tolerance) in [([0.05, 0.0, 0.001, 0.0], 0.1), ([0.3, 0.01, 0.02, 0.0], 0.02), ([0.5, 0.05, 0.0, 0.0], 0.06)] {
+    for (to, tolerance) in
+        [([0.05, 0.0, 0.001, 0.0], 0.1), ([0.3, 0.01, 0.02, 0.0], 0.02), ([0.5, 0.05, 0.0, 0.0], 0.06)]
+    {
         let asked = Question { to, tolerance_m: Some(tolerance), ..Question::default() }.asked();
         let (length, [off, turned, _]) = driven(&lax, &asked);
         let straight = to[0].hypot(to[1]);

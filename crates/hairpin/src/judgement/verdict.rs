@@ -113,8 +113,8 @@ impl Default for Judged<'_> {
 ///
 /// Cases that the executor failed to fly or whose data are inconclusive count neither as pass nor as fail: the share
 /// is of the others. Without a share limit one violating case is a FAIL. With one, the Clopper-Pearson interval of
-/// the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it. Where nothing was
-/// asked for, what is no FAIL is UNJUDGED.
+/// the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it. Where nothing
+/// was asked for, what is no FAIL is UNJUDGED.
 ///
 /// ```
 /// use hairpin::judgement::{Judged, verdict};
@@ -185,7 +185,8 @@ fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> 
         parts.push(worst_and_where(worst));
     }
     if !judged.limited {
-        let nothing = if judged.failed > 0 { "nothing else was" } else { "nothing crashed or left the world, no more was" };
+        let nothing =
+            if judged.failed > 0 { "nothing else was" } else { "nothing crashed or left the world, no more was" };
         parts.push(format!("{nothing} asked for: spec = \"none\""));
     }
     if judged.limited || judged.failed > 0 {

@@ -2,8 +2,8 @@
 
 use super::ArmSetup;
 use super::points::count;
-use crate::campaign::bounds::MOST_POINTS;
 use crate::campaign::attachments::Attachments;
+use crate::campaign::bounds::MOST_POINTS;
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{
     ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, ArmTask, CostName, CostSection, Keys, LogClock, Mistake,

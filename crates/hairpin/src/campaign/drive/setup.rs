@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::campaign::bounds::LEAST_RADIUS_M;
 use crate::campaign::attachments::Attachments;
+use crate::campaign::bounds::LEAST_RADIUS_M;
 use crate::campaign::kind::Kind;
 use crate::campaign::own_controller::AnyController;
 use crate::campaign::scenario::{

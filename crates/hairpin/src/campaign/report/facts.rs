@@ -12,7 +12,8 @@ use crate::judgement::{Measures, share};
 /// confidence (0.95 if none is given), and the number of cases.
 pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     let of = |a: &str, b: String, c: String| [a.to_owned(), b, c];
-    let judged = pieces.results.iter().filter(|r| matches!(r.status, Status::Pass | Status::Fail | Status::Unjudged)).count();
+    let judged =
+        pieces.results.iter().filter(|r| matches!(r.status, Status::Pass | Status::Fail | Status::Unjudged)).count();
     let failed = pieces.results.iter().filter(|r| r.status == Status::Fail).count();
     let mut numbers = Vec::new();
     if let Some((worst, measures)) = largest_deviation(pieces.results) {

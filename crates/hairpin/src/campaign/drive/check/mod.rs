@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use super::DriveSetup;
 use crate::campaign::attachments::Attachments;
+use crate::campaign::bounds::MOST_OF_A_DRIVE;
 use crate::campaign::check::{Findings, check_executed, check_search};
 use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{
     ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, DriveTask, EXECUTED, GroundReach,
     GroundSection, Keys, Manoeuvre, Mistake, ProfileName, SearchMethod, SpeedSection,
 };
-use crate::campaign::bounds::MOST_OF_A_DRIVE;
 use crate::feasibility::reach::drive::GroundScore;
 use crate::math::simd::Simd;
 use crate::robot::rover::{MOST_SPEED, Rover, Steering};
