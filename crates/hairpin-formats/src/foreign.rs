@@ -1,5 +1,5 @@
-//! Decoders of other people, which meet bytes from anywhere: a panic in one is a broken file, not our end, and no mistake
-//! of ours to be reported.
+//! Decoders of other people, which meet bytes from anywhere: a panic in one is a broken file, not our end, and no
+//! mistake of ours to be reported.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
-use crate::rapid;
+use crate::rapid::{self, Frames};
 
 /// A file that is no repro file.
 #[derive(Debug, Error)]
@@ -218,7 +218,8 @@ impl Repro {
         })?;
         let leg = |leg: &Leg| ProfileLeg { duration: leg.duration_s, coefficients: leg.coefficients };
         let program = self.program.as_ref().map(|text| {
-            let module = rapid::read(text.as_bytes(), &rapid::Options::default()).map_err(|error| error.to_string());
+            let frames = Frames::of(&self.scenario);
+            let module = rapid::read(text.as_bytes(), &frames.options()).map_err(|error| error.to_string());
             module.and_then(|module| module.program.checked().map_err(|error| error.to_string()))
         });
         let program = program.transpose().map_err(|error| format!("program: {error}"))?;

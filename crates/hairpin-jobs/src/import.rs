@@ -3,12 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::Setup;
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::feasibility::program::{Checked, Surroundings, check};
 use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;
 use hairpin_formats::atomic;
-use hairpin_formats::rapid::{self, Module, Options};
+use hairpin_formats::rapid::{self, Frames, Module, Options};
 use hairpin_formats::scenario::{arm_for, setup_for};
 
 use crate::Problem;
@@ -88,12 +89,17 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
     if rapid::is_log(&bytes) {
         return clocked(settings, &bytes);
     }
-    let options = Options { procedure: settings.procedure.as_deref(), ..Options::default() };
+    let cell = match &settings.check {
+        Some(Follower::Cell(cell)) => Some(setup_for(cell, &[])?),
+        _ => None,
+    };
+    let frames = cell.as_ref().map_or_else(Frames::default, |setup| Frames::of_cell(&setup.scenario));
+    let options = Options { procedure: settings.procedure.as_deref(), ..frames.options() };
     let module = rapid::read(&bytes, &options).map_err(|error| match is_rapid_by_name(&settings.file) {
         true => Problem::of_file(&settings.file, error),
         false => Problem::of_file(&settings.file, format!("{error}; {READS}")),
     })?;
-    let followed = settings.check.as_ref().map(|follower| follow(follower, &module)).transpose()?;
+    let followed = settings.check.as_ref().map(|follower| follow(follower, cell.as_ref(), &module)).transpose()?;
     let findings = findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))
 }
@@ -127,7 +133,7 @@ pub struct Follow {
 }
 
 /// Follows the moves that are certain, in the cell if one is given.
-fn follow(follower: &Follower, module: &Module) -> Result<Follow, Problem> {
+fn follow(follower: &Follower, setup: Option<&Setup>, module: &Module) -> Result<Follow, Problem> {
     let settings = FollowSettings { locate: true, ..FollowSettings::default() };
     let cell = match follower {
         Follower::Robot(robot) => {
@@ -137,8 +143,9 @@ fn follow(follower: &Follower, module: &Module) -> Result<Follow, Problem> {
         }
         Follower::Cell(cell) => cell,
     };
-    let setup = setup_for(cell, &[])?;
-    let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("--cell {cell}: is no arm's"))) };
+    let Some(arm) = setup.and_then(|setup| setup.own::<ArmSetup>()) else {
+        return Err(Problem::input(format!("--cell {cell}: is no arm's")));
+    };
     let around = Surroundings {
         cell: Some(&arm.station.cell),
         tool_radius: arm.station.tool.radius,

@@ -128,8 +128,8 @@ pub fn make(path: &Path, setup: Setup, if_there: IfThere) -> Result<Work, Proble
     Ok(Work { folder: create(path, &setup, if_there)?, setup })
 }
 
-/// `setup`, whose scenario says in so many words that nothing is asked of its runs where it has no limit: what is written
-/// for other commands to read asks for something, or says that it does not.
+/// `setup`, whose scenario says in so many words that nothing is asked of its runs where it has no limit: what is
+/// written for other commands to read asks for something, or says that it does not.
 pub(crate) fn saying_what_is_asked(setup: Setup) -> Result<Setup, Problem> {
     if setup.scenario.asked() != Asked::Unsaid {
         return Ok(setup);

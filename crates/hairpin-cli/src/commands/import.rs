@@ -1,6 +1,7 @@
 //! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking
 //! module.
 
+use hairpin_formats::quote::shortened;
 use hairpin_jobs::Problem;
 use hairpin_jobs::import::{Follow, Follower, ImportSettings, Imported, Read, import};
 use serde_json::{Value, json};
@@ -60,13 +61,13 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
     let Read { module, followed, findings } = read;
     let followed = followed.as_ref();
     let findings = findings.iter().map(|finding| {
-        json!({ "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to, "reason": finding.reason })
+        json!({ "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to, "reason": shortened(&finding.reason) })
     });
-    let unclear = module.unclear().map(|(line, why)| json!({ "line": line, "why": why.what }));
+    let unclear = module.unclear().map(|(line, why)| json!({ "line": line, "why": shortened(&why.what) }));
     let mistakes = module
         .mistakes
         .iter()
-        .map(|found| json!({ "line": found.at.line, "column": found.at.column, "what": found.what }));
+        .map(|found| json!({ "line": found.at.line, "column": found.at.column, "what": shortened(&found.what) }));
     let mut object = json!({
         "module": module.program.name,
         "procedure": module.program.procedure,
@@ -86,7 +87,7 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
         let lines = module
             .lines
             .iter()
-            .map(|(line, said)| json!({ "line": line, "class": said.class.words(), "why": said.what }));
+            .map(|(line, said)| json!({ "line": line, "class": said.class.words(), "why": shortened(&said.what) }));
         object["lines"] = lines.collect();
     }
     object
@@ -115,14 +116,14 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
     if import.lines {
         for (line, said) in &module.lines {
             let why = if said.what.is_empty() { String::new() } else { format!(": {}", said.what) };
-            console::say(&format!("line {line}: {}{why}", said.class.words()));
+            console::say(&shortened(&format!("line {line}: {}{why}", said.class.words())));
         }
     }
     for finding in findings {
-        console::say(&finding.sentence);
+        console::say(&shortened(&finding.sentence));
     }
     for (line, why) in module.unclear() {
-        console::say(&format!("line {line}: NOT UNDERSTOOD {}", why.what));
+        console::say(&shortened(&format!("line {line}: NOT UNDERSTOOD {}", why.what)));
     }
     for found in &module.mistakes {
         console::warn(&format!("{}: {}", found.at, found.what));

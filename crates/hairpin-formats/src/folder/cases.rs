@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{Case, CaseNumber, Witness};
+use hairpin::campaign::{Case, CaseNumber, Scenario, Witness};
 use hairpin::trajectory::Track;
 use hairpin::trajectory::program::Program;
 
 use super::{CampaignFolder, FolderError, RESULTS, WAYPOINTS};
 use crate::parquet::results::Row;
 use crate::parquet::{cases, drive, profile, track};
-use crate::rapid;
+use crate::rapid::{self, Frames};
+use crate::scenario::MADE_BY;
 
 impl CampaignFolder {
     /// Writes generated cases; `results.parquet` has them with status `generated`.
@@ -128,13 +129,21 @@ impl CampaignFolder {
     fn read_program(&self, path: &Path, case: CaseNumber) -> Result<Program, FolderError> {
         let refuse = |what: String| FolderError::Program { path: path.into(), what };
         let bytes = std::fs::read(path).map_err(|cause| FolderError::Unreadable { path: path.into(), cause })?;
-        let module = rapid::read(&bytes, &rapid::Options::default()).map_err(|error| refuse(error.to_string()))?;
+        let frames = self.frames.get_or_init(|| self.scenario().as_ref().map_or_else(Frames::default, Frames::of));
+        let module = rapid::read(&bytes, &frames.options()).map_err(|error| refuse(error.to_string()))?;
         let unclear = module.unclear_line.map(|line| format!("line {line} is not understood"));
         let mistake = module.mistakes.first().map(|found| format!("line {}: {}", found.at.line, found.what));
         match unclear.or(mistake) {
             Some(what) => Err(refuse(format!("case {case}: {what}"))),
             None => module.program.checked().map_err(|error| refuse(error.to_string())),
         }
+    }
+
+    /// Its scenario's keys; `None` where they are none.
+    fn scenario(&self) -> Option<Scenario> {
+        let mut table: toml::Table = self.read_scenario().ok()?.parse().ok()?;
+        table.remove(MADE_BY);
+        table.try_into().ok()
     }
 
     /// `programs/CASE.mod`.

@@ -45,11 +45,13 @@ mod scenario;
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use hairpin::campaign::{Curve, Tally};
 use hairpin::judgement::Stress;
 
 use crate::atomic::{self, WriteError};
+use crate::rapid::Frames;
 
 pub use error::FolderError;
 pub use graph::graph_decimals;
@@ -77,6 +79,8 @@ pub enum Existing {
 pub struct CampaignFolder {
     path: PathBuf,
     _lock: Option<File>,
+    /// What its programs find on the controller, once somebody asked.
+    frames: OnceLock<Frames>,
 }
 
 impl CampaignFolder {
@@ -93,7 +97,7 @@ impl CampaignFolder {
         refuse_links(path, &FOLDERS)?;
         Self::refuse_anothers(path)?;
         let list = List::read(path)?;
-        let folder = Self { path: path.into(), _lock: lock(path)? };
+        let folder = Self { path: path.into(), _lock: lock(path)?, frames: OnceLock::new() };
         match list {
             None if is_campaign(path) => List::adopt(path)?,
             list => list.unwrap_or_default().take_in(path, &all())?,
@@ -130,7 +134,7 @@ impl CampaignFolder {
         }
         refuse_links(path, &FOLDERS)?;
         List::read(path)?;
-        Ok(Self { path: path.into(), _lock: None })
+        Ok(Self { path: path.into(), _lock: None, frames: OnceLock::new() })
     }
 
     /// Opens a campaign to read it and to add to it.

@@ -25,5 +25,5 @@ pub use clock::{ArcTimes, Clocked, Clocking, LogError, arc_clock, is_log, read_l
 pub use lex::At;
 pub use lines::{Class, Line};
 pub use names::{LONGEST_NAME, NameError, as_name, check_name};
-pub use read::{Declared, Found, Module, NoModule, Options, Procedure, read};
+pub use read::{Declared, Found, Frames, Module, NoModule, Options, Procedure, read};
 pub use write::{FIRST_RUN, RapidError, module, program_file, slow, write};

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use hairpin::campaign::Scenario;
 use hairpin::trajectory::program::{PoseTarget, Program, Tool, WorkObject};
 use thiserror::Error;
 
@@ -22,6 +23,34 @@ pub struct Options<'a> {
     pub tools: &'a [Tool],
     /// Work objects on the controller beside `wobj0`.
     pub work_objects: &'a [WorkObject],
+}
+
+/// What programs find on a controller: a tool and a work object that they need not declare.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Frames {
+    tools: Vec<Tool>,
+    work_objects: Vec<WorkObject>,
+}
+
+impl Frames {
+    /// Those of a scenario's arm; none of any other robot.
+    pub fn of(scenario: &Scenario) -> Self {
+        let (tools, work_objects) = scenario.frames().into_iter().unzip();
+        Self { tools, work_objects }
+    }
+
+    /// The same for modules from elsewhere, to which `tool0` is the flange and `wobj0` the base whatever a scenario has.
+    pub fn of_cell(scenario: &Scenario) -> Self {
+        let mut frames = Self::of(scenario);
+        frames.tools.retain(|tool| !tool.name.eq_ignore_ascii_case("tool0"));
+        frames.work_objects.retain(|object| !object.name.eq_ignore_ascii_case("wobj0"));
+        frames
+    }
+
+    /// How modules are read that find them.
+    pub fn options(&self) -> Options<'_> {
+        Options { tools: &self.tools, work_objects: &self.work_objects, ..Options::default() }
+    }
 }
 
 /// A file without any module in it, or without the procedure asked for.

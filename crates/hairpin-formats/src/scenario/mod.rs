@@ -31,6 +31,7 @@ pub use files::attach;
 pub use guest::kept_in;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
+pub(crate) use write::MADE_BY;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
 use crate::folder::SCENARIO;

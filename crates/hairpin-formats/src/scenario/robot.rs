@@ -13,7 +13,8 @@ use super::tree::{Node, NodeKind};
 use super::{place_of, shape};
 use crate::library::{self, Shipped};
 
-/// The robot of one of `kinds` that `name_or_path` means, built from its description; `shipped` are those that are told of.
+/// The robot of one of `kinds` that `name_or_path` means, built from its description; `shipped` are those that are told
+/// of.
 ///
 /// # Errors
 /// Nothing of that name, no robot's file, another kind of robot, wrong keys and types, values out of bounds.
@@ -90,7 +91,7 @@ fn alternatives(kinds: &[&str]) -> String {
     }
 }
 
-/// A file's name as a path, which is no shipped robot's name.
+/// The name of a file, told apart from a shipped robot's of the same name.
 pub(super) fn as_path(file: &str) -> Cow<'_, str> {
-    if file.contains(['/', '\\']) { file.into() } else { format!("./{file}").into() }
+    if library::robots().any(|robot| robot.name == file) { format!("./{file}").into() } else { file.into() }
 }

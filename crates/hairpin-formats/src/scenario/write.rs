@@ -4,6 +4,9 @@ use hairpin::campaign::Scenario;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+/// The key of [`MadeBy`].
+pub(crate) const MADE_BY: &str = "made_by";
+
 /// `[made_by]`: what a campaign's results depend on beside the scenario. Readers of scenarios pass over it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MadeBy {

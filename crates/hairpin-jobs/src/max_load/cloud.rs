@@ -35,6 +35,8 @@ pub struct CloudSearch {
     pub graph: ArmGraph,
     /// The heaviest programs.
     pub found: Heaviest,
+    /// Why there is no program, in a sentence's part; `None` where there is one.
+    pub why_none: Option<String>,
     /// What it took.
     pub time: Duration,
     deadline: Deadline,
@@ -67,24 +69,19 @@ pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<Cloud
     let searched = with_stop(watch, deadline, begun, |stop| {
         let graph = graph_of(arm)?;
         let found = arm.heaviest(&graph, stop)?;
-        Ok((graph, found))
+        let why_none = found.paths.is_empty().then(|| arm.why_none(&graph, &found));
+        Ok((graph, found, why_none))
     });
     let time = begun.elapsed();
     Ok(match searched {
-        Ok((graph, found)) => {
-            CloudAnswer::Searched(Box::new(CloudSearch { setup, graph, found, time, deadline, begun }))
+        Ok((graph, found, why_none)) => {
+            CloudAnswer::Searched(Box::new(CloudSearch { setup, graph, found, why_none, time, deadline, begun }))
         }
         Err(reason) => CloudAnswer::Nothing { reason, time },
     })
 }
 
 impl CloudSearch {
-    /// Why there is no program, in a sentence's part; `None` where there is one.
-    pub fn why_none(&self) -> Option<String> {
-        let arm = self.setup.own::<ArmSetup>().filter(|_| self.found.paths.is_empty())?;
-        Some(arm.why_none(&self.graph, &self.found))
-    }
-
     /// Writes the programs that were found, as generation would, into the campaign folder `out`.
     ///
     /// # Errors
@@ -142,7 +139,7 @@ mod tests {
             panic!("one point can be met")
         };
         assert_eq!((searched.found.outcome, searched.found.paths.len()), (Outcome::Infeasible, 0));
-        assert_eq!(searched.why_none().unwrap(), "no move from one point of the cloud to another is possible");
+        assert_eq!(searched.why_none.unwrap(), "no move from one point of the cloud to another is possible");
         std::fs::write(&points, "x_mm,y_mm,z_mm\n9000,0,300\n9000,100,300\n").unwrap();
         assert!(matches!(search_cloud(&settings, &Unwatched).unwrap(), CloudAnswer::Nothing { .. }));
     }

@@ -90,8 +90,8 @@ pub fn in_frame(frame: Frame, [x, y, yaw]: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// A drive's segments as files have them, of a drive that starts with the curvature `k0`: one that is there already is an
-/// arc of no length.
+/// A drive's segments as files have them, of a drive that starts with the curvature `k0`: one that is there already is
+/// an arc of no length.
 pub fn pieces(solution: &Solution, k0: f64) -> Vec<Piece> {
     if solution.segments.is_empty() && solution.outcome == Outcome::Solved {
         return vec![Piece::Arc { length_m: 0.0, curvature: [k0, 0.0, 0.0, 0.0, 0.0, 0.0], direction: 1 }];

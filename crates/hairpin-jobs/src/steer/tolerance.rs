@@ -1,5 +1,5 @@
-//! Tolerances on both sides: a start within them is there already, and where the exact goal takes a long way round a goal
-//! within them may be near. The exact goal goes first; what it is answered with, without a detour, stays.
+//! Tolerances on both sides: a start within them is there already, and where the exact goal takes a long way round a
+//! goal within them may be near. The exact goal goes first; what it is answered with, without a detour, stays.
 
 use std::time::Instant;
 
@@ -31,7 +31,8 @@ const ANSWERED: usize = 2;
 const BENT: f64 = 2.0;
 /// Angles from the straight way, rad, up to which the cubic tells.
 const WIDE: f64 = 1.2;
-/// Bends and their rates that it takes to come out by a metre, a radian or a 1/m elsewhere, in powers of the way's length.
+/// Bends and their rates that it takes to come out by a metre, a radian or a 1/m elsewhere, in powers of the way's
+/// length.
 const BEND: f64 = 6.0;
 const RATE: f64 = 36.0;
 
@@ -136,8 +137,8 @@ fn within_reach(solution: &Solution, chord: f64, precision: &Precision) -> bool 
 }
 
 /// How many times the bounds the drive to the goal of `query` bends whose curvature is a cubic of the way along its
-/// chord: κ = κ₀ + b t + c t² + d t³, t = 0 … 1, with the goal's curvature at its end, the heading ψ as its integral, and
-/// no way aside of the chord, whose direction is θ. For small angles; `None` where they are wide.
+/// chord: κ = κ₀ + b t + c t² + d t³, t = 0 … 1, with the goal's curvature at its end, the heading ψ as its integral,
+/// and no way aside of the chord, whose direction is θ. For small angles; `None` where they are wide.
 fn bent(query: &Query, bounds: &Curvatures) -> Option<f64> {
     let Goal { x, y, yaw, curvature } = query.goal;
     let (length, direction) = (libm::hypot(x, y), libm::atan2(y, x));

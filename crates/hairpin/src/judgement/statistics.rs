@@ -140,8 +140,8 @@ pub fn share(k: usize, n: usize, confidence: f64) -> Option<Share> {
     Some(Share { value: successes / n as f64, low, high })
 }
 
-/// The fewest cases of which, where none violates, the interval of the share lies below `limit`: what a spec that allows
-/// so large a share needs at least. `None` for a limit outside (0, 1), or where it takes more than 10⁹.
+/// The fewest cases of which, where none violates, the interval of the share lies below `limit`: what a spec that
+/// allows so large a share needs at least. `None` for a limit outside (0, 1), or where it takes more than 10⁹.
 ///
 /// With no violation in n cases the interval ends at 1 − (α/2)^(1/n), α = 1 − c: n ≥ ln(α/2)/ln(1 − p).
 ///

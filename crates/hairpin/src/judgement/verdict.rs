@@ -113,8 +113,8 @@ impl Default for Judged<'_> {
 ///
 /// Cases that the executor failed to fly or whose data are inconclusive count neither as pass nor as fail: the share
 /// is of the others. Without a share limit one violating case is a FAIL. With one, the Clopper-Pearson interval of
-/// the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it. Where nothing was
-/// asked for, what is no FAIL is UNJUDGED.
+/// the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it. Where nothing
+/// was asked for, what is no FAIL is UNJUDGED.
 ///
 /// ```
 /// use hairpin::judgement::{Judged, verdict};

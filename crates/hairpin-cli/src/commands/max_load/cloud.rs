@@ -78,15 +78,15 @@ fn tell(asked: &MaxLoad, searched: &CloudSearch) {
         if let Some(out) = asked.out.as_ref().filter(|_| best.is_some()) {
             object["folder"] = json!(out);
         }
-        if let Some(reason) = searched.why_none() {
-            object["reason"] = reason.into();
+        if let Some(reason) = &searched.why_none {
+            object["reason"] = reason.as_str().into();
         }
         return console::say(&object.to_string());
     }
     let Some((cost, path)) = best else {
         // What was not found in time is not known to be none.
         let word = if found.outcome == Outcome::NotFound { "INCONCLUSIVE" } else { "NOTHING FEASIBLE" };
-        return console::say(&format!("{word}: {}", searched.why_none().unwrap_or_default()));
+        return console::say(&format!("{word}: {}", searched.why_none.as_deref().unwrap_or_default()));
     };
     let evidence = if found.proven {
         format!("optimal: {}", proven_over(asked.visits))

@@ -46,8 +46,8 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, to: &str, watch: &dyn Watch)
         add_remedies(&mut object, &remedies, &asked);
         console::say(&object.to_string());
     } else {
-        words(vehicle, &answered, &asked).iter().for_each(|line| console::say_lines(line));
-        in_words(&remedies, &asked).iter().for_each(|line| console::say_lines(line));
+        words(vehicle, &answered, &asked).iter().for_each(|line| console::say(line));
+        in_words(&remedies, &asked).iter().for_each(|line| console::say(line));
     }
     Ok(code)
 }
@@ -204,7 +204,7 @@ fn words(vehicle: &Vehicle, answered: &Answered, asked: &Asked) -> Vec<String> {
             }
         });
     }
-    lines.push(console::table(&table));
+    lines.extend(console::table(&table).lines().map(str::to_owned));
     let DriveReplay { error: [.., yaw], error_curvature, max_curvature, max_curvature_rate, length, reversals, .. } =
         replay;
     lines.push(format!(

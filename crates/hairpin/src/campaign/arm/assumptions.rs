@@ -1,5 +1,7 @@
 //! What an arm's claim, search, execution and limits rest on, said from the run's own settings.
 
+use nalgebra::Isometry3;
+
 use super::ArmSetup;
 use crate::campaign::scenario::{ArmMode, PathFrom};
 use crate::campaign::{Case, Tally};
@@ -32,6 +34,14 @@ pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
         setup.station.tool.name,
         declared(setup.scenario.world.tool.declare)
     ));
+    let tool = &setup.station.tool;
+    if tool.name.eq_ignore_ascii_case("tool0") && tool.tcp != Isometry3::identity() {
+        said.push(
+            "On a controller `tool0` is the flange, and here it has a point of its own: give `world.tool` another name before a \
+             program runs on an arm."
+                .into(),
+        );
+    }
     if let Some(first) = setup.station.points.first() {
         let p = first.pose.translation.vector * 1e3;
         said.push(format!(

@@ -4,15 +4,13 @@ use std::sync::Arc;
 
 use super::cell::cell_of;
 use super::check::check;
-use super::frame::{frame_of, mistake};
 use super::graph::stands;
 use super::points::points_of;
 use super::{ArmSetup, Station};
 use crate::campaign::attachments::Attachments;
 use crate::campaign::kind::{Build, Given};
-use crate::campaign::scenario::{ArmScenario, Mistake, PointsSource};
+use crate::campaign::scenario::{ArmScenario, Mistake, PointsSource, mistake};
 use crate::math::simd::Simd;
-use crate::robot::arm::{Tool, WorkObject};
 
 impl Build for ArmSetup {
     type Keys = ArmScenario;
@@ -49,16 +47,7 @@ fn same_station(a: &ArmScenario, b: &ArmScenario) -> bool {
 /// The key whose value makes no arm, tool, work object, obstacle or point.
 fn station_of(scenario: &ArmScenario, files: &Attachments) -> Result<Station, Mistake> {
     let arm = scenario.robot.resolved()?.build().map_err(|error| mistake("robot", error))?;
-    let tool = &scenario.world.tool;
-    let tool = Tool::new(&tool.name, tool.tcp_mm, tool.q1_q4, tool.radius_mm, tool.mass_kg, tool.cog_mm)
-        .map_err(|error| mistake("world.tool", error))?;
-    let object = &scenario.world.wobj;
-    let object =
-        WorkObject::new(&object.name, (object.uframe_mm, object.uframe_q1_q4), (object.oframe_mm, object.oframe_q1_q4))
-            .map_err(|error| mistake("world.wobj", error))?;
-    // User frames stand in the world; the arm's programs are in its base.
-    let world_from_base = frame_of("world.base_frame", &scenario.world.base_frame)?;
-    let work_object = WorkObject { user: world_from_base.inverse() * object.user, ..object };
+    let (tool, work_object) = (scenario.tool()?, scenario.work_object()?);
     let cell = cell_of(&scenario.world)?;
     let home = scenario.task.home_deg.map(f64::to_radians);
     if let Some((axis, _)) = arm.outside_limits(&home) {

@@ -2,8 +2,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use super::frame::frame_of;
-use crate::campaign::scenario::{CellObstacle, CellSection, FrameSection, Mistake};
+use crate::campaign::scenario::{CellObstacle, CellSection, FrameSection, Mistake, frame_of};
 use crate::world::cell::{Cell, Part, Region, Words};
 use crate::world::{Shape, WorldError};
 

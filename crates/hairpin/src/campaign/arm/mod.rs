@@ -7,7 +7,6 @@ mod check;
 mod claim;
 mod clock;
 mod execute;
-mod frame;
 mod graph;
 mod judge;
 mod knobs;

@@ -4,9 +4,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::frame::frame_of;
 use crate::campaign::attachments::{Attachments, CloudPoint};
-use crate::campaign::scenario::{ArmScenario, ArmTask, DrawnPoints, Mistake, PointsFrame, PointsSource};
+use crate::campaign::scenario::{ArmScenario, ArmTask, DrawnPoints, Mistake, PointsFrame, PointsSource, frame_of};
 use crate::math::random::{Stream, named_seed, stream, unit};
 use crate::robot::arm::{WorkObject, unit_quaternion_of};
 

@@ -37,28 +37,7 @@ impl ArmSetup {
 
     /// Tool and work object of programs.
     pub(super) fn frames(&self) -> (Tool, WorkObject) {
-        let station = &self.station;
-        let tool = Tool {
-            name: station.tool.name.clone(),
-            declare: self.scenario.world.tool.declare,
-            tcp: station.tool.tcp,
-            // A controller refuses a load without mass.
-            mass: if station.tool.mass > 0.0 { station.tool.mass } else { Tool::flange().mass },
-            centre_of_gravity: if station.tool.mass > 0.0 {
-                station.tool.centre_of_mass.coords
-            } else {
-                Tool::flange().centre_of_gravity
-            },
-            ..Tool::flange()
-        };
-        let object = WorkObject {
-            name: station.work_object.name.clone(),
-            declare: self.scenario.world.wobj.declare,
-            user: station.work_object.user,
-            object: station.work_object.object,
-            ..WorkObject::base()
-        };
-        (tool, object)
+        self.scenario.in_programs(&self.station.tool, &self.station.work_object)
     }
 
     /// The posture that programs start and end at.

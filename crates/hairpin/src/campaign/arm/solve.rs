@@ -102,7 +102,8 @@ impl ArmSetup {
         for (_, path) in &mut found.paths {
             path.retain(|row| *row < graph.points());
         }
-        // Home, a point and home again loads no move of the graph: paths of no arc are the heaviest where there is none.
+        // Home, a point and home again loads no move of the graph: paths of no arc are the heaviest where there is
+        // none.
         let moves: Vec<bool> = found.paths.iter().map(|(_, path)| path.len() > 1).collect();
         let mut of_path = moves.iter();
         found.passed.retain(|_| of_path.next().is_none_or(|moves| *moves));

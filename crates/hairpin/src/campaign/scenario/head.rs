@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use super::{Asked, Distribution, Environment, Mistake, Named, Origin, Projected, SearchSection, Subject, Terms};
+use crate::trajectory::program::{Tool, WorkObject};
 
 /// Who executes a campaign's trajectories, and how often.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,6 +116,12 @@ pub trait Keys: Any {
 
     /// The keys that name files.
     fn named(&mut self) -> Named<'_>;
+
+    /// The tool and the work object that programs of its arm find on the controller where they do not declare them;
+    /// `None` where there are no programs.
+    fn frames(&self) -> Option<(Tool, WorkObject)> {
+        None
+    }
 
     /// The value of a key of the whole, such as `world`; `None` where it has no such key.
     fn section(&self, name: &str) -> Option<Value>;

@@ -10,6 +10,7 @@ use crate::campaign::scenario::{
     Terms, sections,
 };
 use crate::judgement::Limits;
+use crate::trajectory::program::{Tool, WorkObject};
 
 /// A point counts as reached within this distance of an arm's tool, m.
 const ARRIVED: f64 = 1e-3;
@@ -108,6 +109,10 @@ impl Keys for ArmScenario {
             PointsSource::List(_) | PointsSource::Drawn(_) => None,
         };
         Named { map: None, cloud, costs, meshes: meshes.collect(), score, baseline: self.spec.regression.as_mut() }
+    }
+
+    fn frames(&self) -> Option<(Tool, WorkObject)> {
+        Some(self.in_programs(&self.tool().ok()?, &self.work_object().ok()?))
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);

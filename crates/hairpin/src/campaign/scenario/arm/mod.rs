@@ -1,6 +1,7 @@
 //! Scenarios of arms: a cell, a cloud of points, and the programs that load the arm most; keys, defaults, bounds.
 
 mod execute;
+mod frames;
 mod generate;
 mod head;
 mod spec;
@@ -16,6 +17,7 @@ use super::{Distribution, RobotSource, Spec};
 use crate::robot::arm::ArmDescription;
 
 pub use execute::*;
+pub(in crate::campaign) use frames::{frame_of, mistake};
 pub use generate::*;
 pub use spec::*;
 pub use task::*;
