@@ -22,7 +22,12 @@ impl Say for ArmSetup {
     /// A tool has no nose and no left side.
     fn robot_words(&self) -> RobotWords<'_> {
         let arm = &self.station.arm;
-        RobotWords { name: &arm.name, caveat: &arm.caveat, estimated: arm.estimated.clone(), has_sides: false }
+        RobotWords {
+            name: &arm.name,
+            caveat: &arm.caveat,
+            estimated: arm.estimated.iter().map(String::as_str).collect(),
+            has_sides: false,
+        }
     }
 
     fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions {
