@@ -9,9 +9,10 @@ use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;
 use hairpin_formats::atomic;
 use hairpin_formats::rapid::{self, Module, Options};
-use hairpin_formats::scenario::{arm_for, setup_for};
+use hairpin_formats::scenario::{arm_with, setup_for};
 
 use crate::Problem;
+use crate::sets::Set;
 
 /// What is read, and what it is held against.
 #[derive(Debug, Clone, Default)]
@@ -22,6 +23,8 @@ pub struct ImportSettings {
     pub check: Option<Follower>,
     /// The procedure to execute; `main` if there is one, else the first that no other calls.
     pub procedure: Option<String>,
+    /// Keys with other values: of a cell the scenario's, of an arm alone `robot.KEY`.
+    pub sets: Vec<Set>,
     /// Of a log: where the table of costs goes; arc_ms.csv beside the log if not given.
     pub out: Option<PathBuf>,
 }
@@ -77,6 +80,10 @@ pub struct MoveFinding {
     pub reason: String,
     /// All of it in words.
     pub sentence: String,
+    /// Whether it rests on bodies that are estimated.
+    pub estimated: bool,
+    /// Whether on nothing else, so that it is no finding but was not found out.
+    pub open: bool,
 }
 
 /// Reads a program or a log, and follows the one or tables the other.
@@ -93,7 +100,7 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
         true => Problem::of_file(&settings.file, error),
         false => Problem::of_file(&settings.file, format!("{error}; {READS}")),
     })?;
-    let followed = settings.check.as_ref().map(|follower| follow(follower, &module)).transpose()?;
+    let followed = settings.check.as_ref().map(|follower| follow(follower, &settings.sets, &module)).transpose()?;
     let findings = findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))
 }
@@ -124,20 +131,23 @@ pub struct Follow {
     pub parts: Option<Vec<String>>,
     /// What it made of the moves that are certain.
     pub checked: Checked,
+    /// Whether bodies of it are estimated: what is clear of them is as well.
+    pub estimated: bool,
 }
 
 /// Follows the moves that are certain, in the cell if one is given.
-fn follow(follower: &Follower, module: &Module) -> Result<Follow, Problem> {
+fn follow(follower: &Follower, sets: &[Set], module: &Module) -> Result<Follow, Problem> {
     let settings = FollowSettings { locate: true, ..FollowSettings::default() };
     let cell = match follower {
         Follower::Robot(robot) => {
-            let arm = arm_for(robot)?;
+            let arm = arm_with(robot, sets)?;
             let checked = check(&arm, &module.program, module.certain, &Surroundings::default(), &settings);
-            return Ok(Follow { arm, parts: None, checked });
+            let estimated = arm.has_stand_ins();
+            return Ok(Follow { arm, parts: None, checked, estimated });
         }
         Follower::Cell(cell) => cell,
     };
-    let setup = setup_for(cell, &[])?;
+    let setup = setup_for(cell, sets)?;
     let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("--cell {cell}: is no arm's"))) };
     let around = Surroundings {
         cell: Some(&arm.station.cell),
@@ -145,7 +155,9 @@ fn follow(follower: &Follower, module: &Module) -> Result<Follow, Problem> {
         clearance: arm.scenario.generate.moves.clearance_mm * 1e-3,
     };
     let checked = check(&arm.station.arm, &module.program, module.certain, &around, &settings);
-    Ok(Follow { arm: arm.station.arm.clone(), parts: Some(arm.part_names()), checked })
+    let (parts, arm) = (Some(arm.part_names()), arm.station.arm.clone());
+    let estimated = arm.has_stand_ins();
+    Ok(Follow { arm, parts, checked, estimated })
 }
 
 /// What a controller would stop at, and what the arm cannot do, of the moves that are certain, in their order.
@@ -164,6 +176,8 @@ fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFinding> {
             to: place.and_then(|place| place.name.clone()),
             reason: problem.to_string(),
             sentence: format!("NOT EXECUTABLE {problem}"),
+            estimated: false,
+            open: false,
         };
         found.push((index, finding));
     }
@@ -181,6 +195,8 @@ fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFinding> {
             to: finding.to.clone(),
             reason: finding.reason(parts),
             sentence: finding.in_words(parts),
+            estimated: finding.estimated.is_some(),
+            open: finding.open,
         };
         found.push((finding.index, new));
     }

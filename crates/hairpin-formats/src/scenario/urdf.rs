@@ -10,12 +10,15 @@ use serde_json::Value;
 use super::report::Place;
 use super::resolve::{Resolver, is_urdf, read_file};
 use super::tree::{Node, NodeKind, below};
-use crate::urdf::{UrdfError, UrdfOptions, read_srdf, read_urdf};
+use crate::mesh::read_mesh;
+use crate::urdf::{NoMesh, Triangles, UrdfError, UrdfOptions, read_srdf, read_urdf};
 
 /// The key of the file.
 pub(super) const URDF: &str = "urdf";
 /// Keys that say how a URDF is read; what stands beside them goes over what is read.
 const KEYS: [&str; 6] = [URDF, "tip", "base", "packages", "srdf", "exclude"];
+/// Kinds of meshes that are read.
+const READ: [&str; 3] = [".stl", ".obj", ".dae"];
 /// Folders above a URDF that a package's folder is looked for in.
 const HIGHEST: usize = 8;
 
@@ -125,7 +128,7 @@ impl Resolver<'_> {
 
     /// The arm's table of a URDF's text.
     pub(super) fn read_urdf(&mut self, path: &Path, text: String, wanted: &Wanted) -> Option<Node> {
-        let read = read_urdf(&text, &wanted.options, &|name| mesh_file(path, &wanted.packages, name));
+        let read = read_urdf(&text, &wanted.options, &|name| mesh_of(path, &wanted.packages, name));
         let source = self.report.add_source(path.display().to_string(), text);
         match read {
             Ok(arm) => {
@@ -232,7 +235,7 @@ fn pair(node: &Node) -> Option<[String; 2]> {
 
 /// The file of a mesh that a URDF names: beside it, or in a package that lies in one of `packages`, or among the folders
 /// that the URDF itself lies in.
-fn mesh_file(urdf: &Path, packages: &[PathBuf], name: &str) -> Result<(String, Vec<u8>), String> {
+fn mesh_of(urdf: &Path, packages: &[PathBuf], name: &str) -> Result<Triangles, NoMesh> {
     let inside = name.strip_prefix("package://").or_else(|| name.strip_prefix("model://"));
     let candidates: Vec<PathBuf> = match inside.map(|inside| inside.split_once('/').unwrap_or((inside, ""))) {
         None => vec![urdf.parent().unwrap_or(Path::new("")).join(name.strip_prefix("file://").unwrap_or(name))],
@@ -247,13 +250,17 @@ fn mesh_file(urdf: &Path, packages: &[PathBuf], name: &str) -> Result<(String, V
             roots.iter().flat_map(of).flatten().collect()
         }
     };
+    let short: String = name.chars().take(120).collect();
     let Some(found) = candidates.iter().find(|file| file.is_file()) else {
-        let short: String = name.chars().take(120).collect();
-        return Err(match inside {
-            Some(_) => format!("{short} is not there; robot.packages = [\"FOLDER\"] says where its package lies"),
-            None => format!("{short} is not there"),
-        });
+        let where_to = "; robot.packages = [\"FOLDER\"] says where its package lies";
+        let hint = if inside.is_some() { where_to } else { "" };
+        return Err(NoMesh::Missing(format!("{short} is not there{hint}")));
     };
     let file = found.display().to_string();
-    read_file(found).map(|bytes| (file.clone(), bytes)).map_err(|why| format!("{file}: {why}"))
+    if !READ.iter().any(|ending| file.to_ascii_lowercase().ends_with(ending)) {
+        return Err(NoMesh::Missing(format!("{short}: meshes are read as {}", READ.join(", "))));
+    }
+    let bytes = read_file(found).map_err(|why| NoMesh::Broken(format!("{file}: {why}")))?;
+    let mesh = read_mesh(&bytes, &file).map_err(|error| NoMesh::Broken(format!("{file}: {error}")))?;
+    Ok((mesh.vertices, mesh.triangles))
 }

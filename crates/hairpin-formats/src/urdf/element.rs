@@ -87,10 +87,10 @@ pub(super) fn number(node: &Node, name: &str) -> Result<f64, UrdfError> {
 /// A number > 0, of a shape.
 pub(super) fn positive(node: &Node, name: &str) -> Result<f64, UrdfError> {
     let value = number(node, name)?;
-    if value > 0.0 && value < 1e3 {
+    if value > 0.0 && value < 50.0 {
         return Ok(value);
     }
-    Err(at_attribute(node, name, &format!("{name} = \"{value}\": must be > 0 and < 1000 m")))
+    Err(at_attribute(node, name, &format!("{name} = \"{value}\": must be > 0 and < 50 m")))
 }
 
 pub(super) fn triple(node: &Node, name: &str, usual: [f64; 3]) -> Result<[f64; 3], UrdfError> {

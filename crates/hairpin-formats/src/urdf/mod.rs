@@ -33,7 +33,7 @@ mod tests;
 
 pub use arm::UrdfArm;
 pub use element::UrdfError;
-pub use shapes::MeshFile;
+pub use shapes::{MeshFile, NoMesh, Triangles};
 pub use srdf::read_srdf;
 
 /// What a URDF does not say itself.
@@ -52,7 +52,7 @@ pub struct UrdfOptions {
 /// Bytes of a text, at most.
 const LARGEST: usize = 32_000_000;
 
-/// Reads the arm of a URDF; `find` gives the files of its meshes.
+/// Reads the arm of a URDF; `find` gives its meshes.
 ///
 /// # Errors
 /// [`UrdfError`]: no XML; no arm of six turning joints, or several; limits, numbers or shapes missing or wrong; a mesh

@@ -6,8 +6,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 use roxmltree::Node;
 
 use super::element::{UrdfError, at, attribute, child, origin, positive, told, triple};
-use super::outline::outline;
-use crate::mesh::read_mesh;
+use super::outline::{Piece, outline};
 
 /// All points within `radius` of the hull of `points`, m, in the frame of the link; and how much larger that may be than
 /// what is described.
@@ -28,8 +27,20 @@ pub(super) struct Shapes {
     pub(super) described: bool,
 }
 
-/// A mesh's file: its name and bytes, or why there is none.
-pub type MeshFile<'f> = dyn Fn(&str) -> Result<(String, Vec<u8>), String> + 'f;
+/// Vertices (m) and triangles of a mesh.
+pub type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
+/// Gives a mesh by the name that a URDF has for it.
+pub type MeshFile<'f> = dyn Fn(&str) -> Result<Triangles, NoMesh> + 'f;
+
+/// Why there is no mesh.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoMesh {
+    /// It is not there, or of a kind that is not read: its link gets a stand-in.
+    Missing(String),
+    /// It is there and no mesh: a mistake.
+    Broken(String),
+}
 
 /// Reads shapes; meshes once each.
 pub(super) struct Reader<'f> {
@@ -40,6 +51,8 @@ pub(super) struct Reader<'f> {
 
 /// Triangles of all meshes together.
 const MOST_TRIANGLES: usize = 10_000_000;
+/// A shape reaches no farther than this, m: what does is in another unit.
+const LARGEST: f64 = 50.0;
 /// Sides of the prism around a cylinder: half a percent of the radius larger.
 const SIDES: usize = 32;
 
@@ -79,8 +92,8 @@ impl<'f> Reader<'f> {
             "box" => {
                 attribute(shape, "size")?;
                 let half = Vector3::from(triple(shape, "size", [0.0; 3])?) * 0.5;
-                if half.min() <= 0.0 || half.max() > 1e3 {
-                    return Err(at(shape, "size must be three numbers > 0, m"));
+                if half.min() <= 0.0 || half.max() > LARGEST {
+                    return Err(at(shape, "size must be three numbers > 0 and < 100, m"));
                 }
                 let side = |c: usize, k: usize| if c >> k & 1 == 1 { half[k] } else { -half[k] };
                 one((0..8).map(|c| Point3::new(side(c, 0), side(c, 1), side(c, 2))).collect(), 0.0, 0.0)
@@ -109,41 +122,32 @@ impl<'f> Reader<'f> {
         if let Some(known) = self.known.get(&key) {
             return Ok(known.clone());
         }
+        let wrong = |why: &str| at(shape, &format!("{}: {why}", told(name)));
         let read = match (self.find)(name) {
-            Err(why) => Err(why),
-            Ok((file, _)) if !is_read(&file) => Err(format!("{}: meshes are read as .stl, .obj and .dae", told(name))),
-            Ok((file, bytes)) => {
-                let wrong = |why: &str| at(shape, &format!("{}: {why}", told(&file)));
-                let mesh = read_mesh(&bytes, &file).map_err(|error| wrong(&error.to_string()))?;
-                self.triangles += mesh.triangles.len();
+            Err(NoMesh::Missing(why)) => Err(why),
+            Err(NoMesh::Broken(why)) => return Err(at(shape, &why)),
+            Ok((vertices, triangles)) => {
+                self.triangles += triangles.len();
                 if self.triangles > MOST_TRIANGLES {
                     return Err(wrong(&format!("all meshes together have more than {MOST_TRIANGLES} triangles")));
                 }
                 let scaled = |v: &[f64; 3]| Point3::new(v[0] * scale[0], v[1] * scale[1], v[2] * scale[2]);
-                let vertices: Vec<Point3<f64>> = mesh.vertices.iter().map(scaled).collect();
-                if vertices.iter().any(|p| p.coords.amax() > 1e3) {
-                    return Err(wrong("is larger than 1000 m: its unit, or scale, is another"));
+                let vertices: Vec<Point3<f64>> = vertices.iter().map(scaled).collect();
+                if vertices.iter().any(|p| p.coords.amax() > LARGEST) {
+                    return Err(wrong("is larger than 50 m: its unit is another, which scale says"));
                 }
-                let pieces = outline(&vertices, &mesh.triangles);
+                let pieces = outline(&vertices, &triangles);
                 if pieces.is_empty() {
                     return Err(wrong("has no points"));
                 }
-                let shape = |piece: super::outline::Piece| Shape {
-                    points: piece.hull.points,
-                    radius: piece.hull.radius,
-                    larger: piece.larger,
-                };
+                let shape =
+                    |piece: Piece| Shape { points: piece.hull.points, radius: piece.hull.radius, larger: piece.larger };
                 Ok(pieces.into_iter().map(shape).collect())
             }
         };
         self.known.insert(key, read.clone());
         Ok(read)
     }
-}
-
-fn is_read(file: &str) -> bool {
-    let name = file.to_ascii_lowercase();
-    [".stl", ".obj", ".dae"].iter().any(|ending| name.ends_with(ending))
 }
 
 impl Shape {

@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use hairpin::math::rotation::from_rotation_vector;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion};
 
 use super::element::{UrdfError, child, number};
@@ -87,7 +88,7 @@ fn alone(joint: &Joint) -> Result<f64, UrdfError> {
 fn displaced(joint: &Joint, value: f64) -> Result<Isometry3<f64>, UrdfError> {
     let along = joint.axis()?.into_inner() * value;
     Ok(match joint.moves {
-        Moves::Turns => Isometry3::rotation(along),
+        Moves::Turns => Isometry3::from_parts(Translation3::identity(), from_rotation_vector(&along)),
         Moves::Slides => Isometry3::from_parts(Translation3::from(along), UnitQuaternion::identity()),
         Moves::Not | Moves::Anyhow => Isometry3::identity(),
     })

@@ -3,8 +3,8 @@ use nalgebra::Point3;
 use super::*;
 use hairpin::robot::arm::{Arm, ArmDescription, Outline};
 
-fn nowhere(_: &str) -> Result<(String, Vec<u8>), String> {
-    Err("no mesh is there".into())
+fn nowhere(_: &str) -> Result<Triangles, NoMesh> {
+    Err(NoMesh::Missing("no mesh is there".into()))
 }
 
 fn read(text: &str) -> Result<UrdfArm, UrdfError> {
@@ -226,12 +226,11 @@ fn meshes_are_read_where_they_are_and_stood_in_for_where_not() {
             ),
         )
     };
-    let tetrahedron = "v 0 0 0\nv 100 0 0\nv 0 200 0\nv 0 0 300\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    let corners = vec![[0.0; 3], [100.0, 0.0, 0.0], [0.0, 200.0, 0.0], [0.0, 0.0, 300.0]];
     let find = |name: &str| match name {
-        "package://a/b.obj" => Ok(("/a/b.obj".to_owned(), tetrahedron.as_bytes().to_vec())),
-        "broken.stl" => Ok(("broken.stl".into(), b"xx".to_vec())),
-        "c.glb" => Ok(("c.glb".into(), Vec::new())),
-        _ => Err(format!("{name} is not there")),
+        "package://a/b.obj" => Ok((corners.clone(), vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])),
+        "broken.stl" => Err(NoMesh::Broken("broken.stl: is no STL file".into())),
+        _ => Err(NoMesh::Missing(format!("{name} is not there"))),
     };
     let read = |text: &str| read_urdf(text, &UrdfOptions::default(), &find);
     let found = read(&mesh("package://a/b.obj", " scale='0.001 0.001 0.001'")).unwrap().description;
@@ -239,16 +238,15 @@ fn meshes_are_read_where_they_are_and_stood_in_for_where_not() {
     assert_eq!((built.links[3].outline, built.links[3].hulls.len()), (Outline::Given, 1));
     let points = &built.links[3].hulls[0].points;
     assert!(points.len() == 4 && points.iter().any(|p| (p - Point3::new(0.0, 0.2, 1.0)).norm() < 1e-12), "{points:?}");
-    for (name, why) in [("gone.stl", "gone.stl is not there"), ("c.glb", "meshes are read as .stl, .obj and .dae")] {
-        let stood = read(&mesh(name, "")).unwrap().description;
-        assert_eq!(stood.build().unwrap().links[3].outline, Outline::StandIn);
-        let said = stood.estimates.iter().find(|said| said.starts_with("link 3 (`link_3`) is a stand-in"));
-        assert!(said.is_some_and(|said| said.contains(why)), "{:?}", stood.estimates);
-    }
+    let stood = read(&mesh("gone.stl", "")).unwrap().description;
+    assert_eq!(stood.build().unwrap().links[3].outline, Outline::StandIn);
+    let said = stood.estimates.iter().find(|said| said.starts_with("link 3 (`link_3`) is a stand-in"));
+    assert!(said.is_some_and(|said| said.contains("gone.stl is not there")), "{:?}", stood.estimates);
     let error = read(&mesh("broken.stl", "")).unwrap_err().to_string();
     assert!(error.starts_with("line 10: broken.stl: is no STL file"), "{error}");
-    let error = read(&mesh("package://a/b.obj", "")).unwrap().description;
-    assert!(error.build().is_ok(), "100 m are much, but no mistake of the file's");
+    // Millimetres taken for metres.
+    let error = read(&mesh("package://a/b.obj", "")).unwrap_err().to_string();
+    assert!(error.contains("its unit is another, which scale says"), "{error}");
 }
 
 #[test]

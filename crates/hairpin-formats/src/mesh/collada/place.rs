@@ -1,5 +1,6 @@
 //! Where a node of a scene stands.
 
+use hairpin::math::rotation::from_rotation_vector;
 use nalgebra::{Matrix4, Vector3};
 use roxmltree::Node;
 
@@ -47,7 +48,7 @@ pub(super) fn place_of(node: &Node) -> Result<Matrix4<f64>, MeshError> {
             "rotate" => {
                 let v = given(4)?;
                 let axis = Vector3::new(v[0], v[1], v[2]).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
-                Matrix4::new_rotation(axis * v[3].to_radians())
+                from_rotation_vector(&(axis * v[3].to_radians())).to_homogeneous()
             }
             name @ ("lookat" | "skew") => {
                 return Err(MeshError::NoCollada(format!("<{name}> places one of its nodes, which is not read")));

@@ -8,6 +8,7 @@ use crate::campaign::digits::number;
 use crate::campaign::kind::{
     Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, Programs, RobotWords, Say, surface,
 };
+use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::robot::arm::AXES;
@@ -28,6 +29,12 @@ impl Say for ArmSetup {
             estimated: arm.estimated.iter().map(String::as_str).collect(),
             has_sides: false,
         }
+    }
+
+    /// In Cartesian mode no link is looked at.
+    fn unknown_shapes(&self) -> Option<&'static str> {
+        let looked_at = self.scenario.generate.mode == ArmMode::Joint && self.station.arm.has_stand_ins();
+        looked_at.then_some("link shapes estimated")
     }
 
     fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions {

@@ -267,7 +267,7 @@ impl ArmDescription {
             link.mass = mass;
         }
         let bare = |link: &Link| link.capsules.is_empty() && link.hulls.is_empty();
-        if links.iter().all(bare) && self.no_body.is_empty() {
+        if links.iter().all(bare) && self.no_body.is_empty() && self.stand_ins.is_empty() {
             estimated.push("capsules".into());
         }
         for (key, named) in [("stand_ins", &self.stand_ins), ("no_body", &self.no_body)] {

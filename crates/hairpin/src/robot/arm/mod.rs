@@ -109,6 +109,11 @@ impl Arm {
         self.chain.forward(q)
     }
 
+    /// Whether the shape of any link is not known: what is clear of its stand-in need not be clear of it.
+    pub fn has_stand_ins(&self) -> bool {
+        self.links.iter().any(|link| link.outline == Outline::StandIn)
+    }
+
     /// Joint angles whose flange is at `flange`, with every angle on the turn nearest to `near`: of arms with a closed
     /// form all solutions in the order of cfx, of others the one that Newton finds from `near`. Limits are not looked
     /// at.
