@@ -21,7 +21,7 @@ pub struct ExplainSettings {
     pub sets: Vec<Set>,
     /// Graphs that are sampled and searched; with every change the same ones.
     pub graphs: u64,
-    /// Seconds after which no further change is tried.
+    /// Seconds after which no further change is tried; what the kind of robot has patience for if not given.
     pub time_limit_s: Option<f64>,
     /// Version of the kernels.
     pub simd: Simd,
@@ -47,7 +47,7 @@ pub fn explain(settings: &ExplainSettings, watch: &dyn Watch) -> Result<(Explana
     let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
     let (kept, wishes) = (kept_in(&settings.scenario), Wish::of_search(&setup));
     settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
-    let (began, deadline) = (Instant::now(), Deadline::after(settings.time_limit_s));
+    let (began, deadline) = (Instant::now(), Deadline::after(settings.time_limit_s.or(setup.patience())));
     let clock = || began.elapsed().as_secs_f64();
     let stop = Stop { cancelled: &|| watch.stopped(), progress: &|_, _| {}, clock: &clock };
     let found = explain::explain(&setup, settings.graphs, &stop, &|| deadline.passed())?;

@@ -10,9 +10,10 @@ use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;
 use hairpin_formats::atomic;
 use hairpin_formats::rapid::{self, Frames, Module, Options};
-use hairpin_formats::scenario::{arm_for, setup_for};
+use hairpin_formats::scenario::{arm_with, setup_for};
 
 use crate::Problem;
+use crate::sets::Set;
 
 /// What is read, and what it is held against.
 #[derive(Debug, Clone, Default)]
@@ -23,6 +24,8 @@ pub struct ImportSettings {
     pub check: Option<Follower>,
     /// The procedure to execute; `main` if there is one, else the first that no other calls.
     pub procedure: Option<String>,
+    /// Keys with other values: of a cell the scenario's, of an arm alone `robot.KEY`.
+    pub sets: Vec<Set>,
     /// Of a log: where the table of costs goes; arc_ms.csv beside the log if not given.
     pub out: Option<PathBuf>,
 }
@@ -78,6 +81,10 @@ pub struct MoveFinding {
     pub reason: String,
     /// All of it in words.
     pub sentence: String,
+    /// Whether it rests on bodies that are estimated.
+    pub estimated: bool,
+    /// Whether on nothing else, so that it is no finding but was not found out.
+    pub open: bool,
 }
 
 /// Reads a program or a log, and follows the one or tables the other.
@@ -90,7 +97,7 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
         return clocked(settings, &bytes);
     }
     let cell = match &settings.check {
-        Some(Follower::Cell(cell)) => Some(setup_for(cell, &[])?),
+        Some(Follower::Cell(cell)) => Some(setup_for(cell, &settings.sets)?),
         _ => None,
     };
     let frames = cell.as_ref().map_or_else(Frames::default, |setup| Frames::of_cell(&setup.scenario));
@@ -99,7 +106,8 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
         true => Problem::of_file(&settings.file, error),
         false => Problem::of_file(&settings.file, format!("{error}; {READS}")),
     })?;
-    let followed = settings.check.as_ref().map(|follower| follow(follower, cell.as_ref(), &module)).transpose()?;
+    let followed =
+        settings.check.as_ref().map(|follower| follow(follower, cell.as_ref(), &settings.sets, &module)).transpose()?;
     let findings = findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))
 }
@@ -130,16 +138,19 @@ pub struct Follow {
     pub parts: Option<Vec<String>>,
     /// What it made of the moves that are certain.
     pub checked: Checked,
+    /// Whether bodies of it are estimated: what is clear of them is as well.
+    pub estimated: bool,
 }
 
 /// Follows the moves that are certain, in the cell if one is given.
-fn follow(follower: &Follower, setup: Option<&Setup>, module: &Module) -> Result<Follow, Problem> {
+fn follow(follower: &Follower, setup: Option<&Setup>, sets: &[Set], module: &Module) -> Result<Follow, Problem> {
     let settings = FollowSettings { locate: true, ..FollowSettings::default() };
     let cell = match follower {
         Follower::Robot(robot) => {
-            let arm = arm_for(robot)?;
+            let arm = arm_with(robot, sets)?;
             let checked = check(&arm, &module.program, module.certain, &Surroundings::default(), &settings);
-            return Ok(Follow { arm, parts: None, checked });
+            let estimated = arm.has_stand_ins();
+            return Ok(Follow { arm, parts: None, checked, estimated });
         }
         Follower::Cell(cell) => cell,
     };
@@ -152,7 +163,9 @@ fn follow(follower: &Follower, setup: Option<&Setup>, module: &Module) -> Result
         clearance: arm.scenario.generate.moves.clearance_mm * 1e-3,
     };
     let checked = check(&arm.station.arm, &module.program, module.certain, &around, &settings);
-    Ok(Follow { arm: arm.station.arm.clone(), parts: Some(arm.part_names()), checked })
+    let (parts, arm) = (Some(arm.part_names()), arm.station.arm.clone());
+    let estimated = arm.has_stand_ins();
+    Ok(Follow { arm, parts, checked, estimated })
 }
 
 /// What a controller would stop at, and what the arm cannot do, of the moves that are certain, in their order.
@@ -171,6 +184,8 @@ fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFinding> {
             to: place.and_then(|place| place.name.clone()),
             reason: problem.to_string(),
             sentence: format!("NOT EXECUTABLE {problem}"),
+            estimated: false,
+            open: false,
         };
         found.push((index, finding));
     }
@@ -188,6 +203,8 @@ fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFinding> {
             to: finding.to.clone(),
             reason: finding.reason(parts),
             sentence: finding.in_words(parts),
+            estimated: finding.estimated.is_some(),
+            open: finding.open,
         };
         found.push((finding.index, new));
     }

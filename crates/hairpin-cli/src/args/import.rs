@@ -18,6 +18,18 @@ pub(crate) struct Import {
     /// radius
     #[arg(long, value_name = "CELL", requires = "check", conflicts_with = "robot")]
     pub(crate) cell: Option<String>,
+    /// Of a URDF: the link that is the flange
+    #[arg(long, value_name = "LINK", requires = "check", conflicts_with = "cell")]
+    pub(crate) tip: Option<String>,
+    /// Of a URDF: a folder in which the packages of its meshes lie (package://NAME/…); repeatable
+    #[arg(long, value_name = "DIR", requires = "check", conflicts_with = "cell")]
+    pub(crate) packages: Vec<String>,
+    /// Of a URDF: the SRDF that says which links are not held against each other
+    #[arg(long, value_name = "FILE", requires = "check", conflicts_with = "cell")]
+    pub(crate) srdf: Option<String>,
+    /// Override one key of the cell's scenario, or of the arm (robot.KEY): dotted key, TOML value; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "check")]
+    pub(crate) sets: Vec<String>,
     /// The procedure to execute; `main` if there is one, else the first that no other calls
     #[arg(long, value_name = "NAME")]
     pub(crate) procedure: Option<String>,

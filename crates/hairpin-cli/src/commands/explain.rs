@@ -28,7 +28,11 @@ pub(crate) fn run(asked: &Explain, watch: &dyn Watch) -> Result<u8, Problem> {
         object["exit_code"] = json!(verdict.exit_code);
         console::say(&object.to_string());
     } else {
-        tell(&found.losses);
+        found.reasons.iter().for_each(|reason| console::say(reason));
+        // Where nothing was asked there is nothing to count.
+        if found.losses.asked > 0 {
+            tell(&found.losses);
+        }
         console::say(&verdict.sentence);
     }
     Ok(verdict.exit_code)

@@ -2,13 +2,15 @@
 //! module.
 
 use hairpin_formats::quote::shortened;
+use hairpin_formats::rapid::Module;
 use hairpin_jobs::Problem;
-use hairpin_jobs::import::{Follow, Follower, ImportSettings, Imported, Read, import};
+use hairpin_jobs::import::{Follow, Follower, ImportSettings, Imported, MoveFinding, Read, import};
+use hairpin_jobs::sets::Set;
 use serde_json::{Value, json};
 
 use crate::args::Import;
-use crate::console;
 use crate::exit::{DONE, FINDING, INCONCLUSIVE};
+use crate::{console, settings};
 
 /// Runs the command: 1 for findings, 5 where not all of the program is understood.
 pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
@@ -17,6 +19,7 @@ pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
         file: asked.file.clone(),
         check: asked.check.then(follower),
         procedure: asked.procedure.clone(),
+        sets: sets(asked)?,
         out: asked.out.clone(),
     })?;
     let read = match imported {
@@ -27,9 +30,11 @@ pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
         }
     };
     // A line that changes motion is not understood: what comes after it is not known.
-    let code = match (read.findings.is_empty(), read.module.unclear_line) {
+    let open = read.findings.iter().any(|finding| finding.open);
+    let code = match (read.findings.iter().all(|finding| finding.open), read.module.unclear_line) {
         (false, _) => FINDING,
         (true, Some(_)) => INCONCLUSIVE,
+        (true, None) if open => INCONCLUSIVE,
         (true, None) => DONE,
     };
     if asked.json {
@@ -38,6 +43,18 @@ pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
         in_words(asked, &read);
     }
     Ok(code)
+}
+
+/// The flags as keys of the arm, and what else is set.
+fn sets(asked: &Import) -> Result<Vec<Set>, Problem> {
+    let mut all = settings::split(&asked.sets)?;
+    let mut set = |key: &str, value: Value| all.push((format!("robot.{key}"), value.to_string()));
+    asked.tip.iter().for_each(|link| set("tip", json!(link)));
+    asked.srdf.iter().for_each(|file| set("srdf", json!(file)));
+    if !asked.packages.is_empty() {
+        set("packages", json!(asked.packages));
+    }
+    Ok(all)
 }
 
 /// Tells of the table of costs that was made of a log.
@@ -61,7 +78,8 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
     let Read { module, followed, findings } = read;
     let followed = followed.as_ref();
     let findings = findings.iter().map(|finding| {
-        json!({ "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to, "reason": shortened(&finding.reason) })
+        json!({ "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to, "reason": shortened(&finding.reason),
+            "estimated": finding.estimated, "open": finding.open })
     });
     let unclear = module.unclear().map(|(line, why)| json!({ "line": line, "why": shortened(&why.what) }));
     let mistakes = module
@@ -78,6 +96,7 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
         "obstacles": followed.and_then(|followed| followed.parts.as_ref()),
         "checked": followed.map(|followed| followed.checked.followed),
         "ends_only": followed.map(|followed| followed.checked.ends_only),
+        "estimated": followed.map(|followed| &followed.arm.estimated),
         "findings": findings.collect::<Vec<_>>(),
         "not_understood": unclear.collect::<Vec<_>>(),
         "mistakes": mistakes.collect::<Vec<_>>(),
@@ -102,7 +121,7 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
         program.name,
         if program.procedure.is_empty() { "none" } else { &program.procedure }
     ));
-    if let Some(Follow { arm, parts, checked }) = followed {
+    if let Some(Follow { arm, parts, checked, .. }) = followed {
         let caveat = if arm.caveat.is_empty() { String::new() } else { format!(" ({})", arm.caveat) };
         let around = match parts {
             Some(parts) => format!("held against {} obstacles and keep-outs", parts.len()),
@@ -112,6 +131,7 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
             "{}{caveat}: {} moves followed, proven between samples, of {} only the end; {around}",
             arm.name, checked.followed, checked.ends_only
         ));
+        arm.estimated.iter().for_each(|what| console::say(&format!("estimated: {what}")));
     }
     if import.lines {
         for (line, said) in &module.lines {
@@ -131,14 +151,37 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
     for procedure in module.procedures.iter().filter(|procedure| !procedure.executed) {
         console::warn(&format!("line {}: procedure {} is not executed", procedure.line, procedure.name));
     }
+    console::say(&verdict(module, followed.as_ref(), findings));
+}
+
+/// The last line: the outcome, and whether it rests on bodies that are estimated.
+fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding]) -> String {
+    let moves = module.program.moves.len();
+    let (open, findings): (Vec<&MoveFinding>, Vec<&MoveFinding>) = all.iter().partition(|finding| finding.open);
     let word = if findings.len() == 1 { "finding" } else { "findings" };
     let what = if followed.is_some() { format!("{} {word}", findings.len()) } else { "read".to_owned() };
-    console::say(&match module.unclear_line {
+    let rests = match followed {
+        // What is found is worth as much as what it rests on, and so is that there is nothing else.
+        Some(_) if !findings.is_empty() => findings.iter().any(|finding| finding.estimated),
+        Some(followed) => followed.estimated,
+        None => false,
+    };
+    let estimated = if rests { ", estimated: not all links' shapes are known" } else { "" };
+    let not_found_out = match open.len() {
+        0 => String::new(),
+        1 => ", 1 meeting of estimated shapes alone not found out".into(),
+        count => format!(", {count} meetings of estimated shapes alone not found out"),
+    };
+    match module.unclear_line {
         Some(line) => {
             let verdict = if findings.is_empty() { "INCONCLUSIVE" } else { "FAIL" };
-            format!("{verdict}: {what} in the {} of {moves} moves before line {line}", module.certain)
+            format!(
+                "{verdict}: {what} in the {} of {moves} moves before line {line}{not_found_out}{estimated}",
+                module.certain
+            )
         }
-        None if findings.is_empty() => format!("PASS: {what} in {moves} moves"),
-        None => format!("FAIL: {} {word} in {moves} moves", findings.len()),
-    });
+        None if findings.is_empty() && open.is_empty() => format!("PASS: {what} in {moves} moves{estimated}"),
+        None if findings.is_empty() => format!("INCONCLUSIVE: {what} in {moves} moves{not_found_out}{estimated}"),
+        None => format!("FAIL: {} {word} in {moves} moves{not_found_out}{estimated}", findings.len()),
+    }
 }

@@ -12,7 +12,16 @@ use crate::library;
 /// # Errors
 /// Nothing of that name, no TOML or URDF, another kind of robot, wrong keys and types, values out of bounds.
 pub fn arm_for(name_or_path: &str) -> Result<Arm, Report> {
-    robot_for(name_or_path, &["arm"], library::arms(), |description: &ArmDescription| {
+    arm_with(name_or_path, &[])
+}
+
+/// The same with other values of its keys: `robot.KEY` and the value as typed, of a URDF also those that say how it is
+/// read (`robot.tip`, `robot.packages`, …).
+///
+/// # Errors
+/// As [`arm_for`].
+pub fn arm_with(name_or_path: &str, sets: &[(String, String)]) -> Result<Arm, Report> {
+    robot_for(name_or_path, &["arm"], sets, library::arms(), |description: &ArmDescription| {
         description.build().map_err(|error| Mistake { key: error.field, value: error.value, bound: error.bound })
     })
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::scenario::{Named, NamedMesh};
 use hairpin::campaign::{Attachments, Resolved, Scenario};
 
-use super::attached::Wrong;
+use super::attached::{Wrong, ending};
 use super::guest::Guest;
 use super::report::Report;
 use super::resolve::read_file;
@@ -77,7 +77,9 @@ fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf) -> Result<(), Wrong
     }
     let bytes = read_file(&find(&file)).map_err(|why| wrong(format!("cannot be read: {why}")))?;
     let read = read_mesh(&bytes, &file).map_err(|error| wrong(error.to_string()))?;
-    let scale = scale.and_then(Option::take).unwrap_or(1.0);
+    // Collada says its unit, and is read in metres; where vertices are in mm a file's scale is per mm.
+    let usual = if scale.is_some() && ending(&file) == "dae" { 1e3 } else { 1.0 };
+    let scale = scale.and_then(Option::take).unwrap_or(usual);
     *vertices = read.vertices.iter().map(|vertex| vertex.map(|part| part * scale)).collect();
     *triangles = read.triangles;
     Ok(())

@@ -16,6 +16,7 @@ mod set;
 mod shape;
 mod terrain;
 mod tree;
+mod urdf;
 mod user_score;
 mod write;
 
@@ -25,7 +26,7 @@ use hairpin::campaign::scenario::{KeyPath, RobotKind};
 use hairpin::campaign::{Mistake, Resolved, Scenario, Setup};
 use toml::Table;
 
-pub use arm::arm_for;
+pub use arm::{arm_for, arm_with};
 pub use asked::check_asked;
 pub use files::attach;
 pub use guest::kept_in;
@@ -100,7 +101,8 @@ pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup,
         shipped.ok_or_else(|| unknown(name_or_path))?.text.to_owned()
     };
     let table = text.parse::<Table>().unwrap_or_default();
-    let Some(kind) = table.get("kind").and_then(|kind| kind.as_str()).filter(|_| !table.contains_key("hairpin")) else {
+    let kind = if is_urdf(name_or_path) { Some("arm") } else { table.get("kind").and_then(|kind| kind.as_str()) };
+    let Some(kind) = kind.filter(|_| !table.contains_key("hairpin")) else {
         if let Some(folder) = kept_in(name_or_path) {
             return read_kept(&text, name_or_path, &folder, sets);
         }
@@ -259,7 +261,11 @@ fn apply_sets(root: &mut Node, sets: &[(String, String)], resolver: &mut Resolve
         let Some(set) = set::parse(key, value, resolver.report) else { continue };
         // A key inside the robot or the base world can only be set where it is: there, and no longer in its file.
         match set.path.segments() {
-            [first, _, ..] if first == "robot" => resolver.robot(root),
+            [first, key, ..] if first == "robot" => {
+                if !urdf::takes(root, key) {
+                    resolver.robot(root);
+                }
+            }
             [first, second, ..] if first == "world" && second != "base" => resolver.world(root),
             _ => {}
         }

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::report::{Place, Report};
 use super::shape::nearest;
 use super::tree::{self, Node, NodeKind};
+use super::urdf::{URDF, Wanted};
 use crate::library::{self, Shipped};
-use crate::urdf::read_urdf;
 
 /// A robot or world file is a page of numbers; a mesh file of 100 MB has two million triangles.
 const LARGEST_FILE: u64 = 100_000_000;
@@ -20,15 +20,25 @@ impl Resolver<'_> {
     /// Puts the robot's table where its name stands.
     pub(super) fn robot(&mut self, root: &mut Node) {
         let Some(node) = root.entries().and_then(|entries| entries.get_mut("robot")) else { return };
-        let NodeKind::Text(name) = &node.kind else { return };
-        let Some(table) = self.robot_file(name, &node.place) else { return };
+        let table = match &node.kind {
+            NodeKind::Text(name) => self.robot_file(name, &node.place),
+            NodeKind::Table(_) if node.get(URDF).is_some() => self.of_urdf(node.clone(), self.base),
+            _ => return,
+        };
+        let Some(table) = table else { return };
         *node = Node { key: node.key.take(), ..table };
     }
 
     /// The tree of the robot of this name or path; `place` is where mistakes in the name are told.
     pub(super) fn robot_file(&mut self, name: &str, place: &Place) -> Option<Node> {
         let shipped: Vec<Shipped> = library::robots().collect();
-        self.file("robot", name, place, &shipped)
+        let node = self.file("robot", name, place, &shipped)?;
+        if node.get(URDF).is_none() {
+            return Some(node);
+        }
+        // What a robot's file names lies beside it.
+        let path = self.base.join(name);
+        self.of_urdf(node, path.parent().unwrap_or(self.base))
     }
 
     /// Fills in the keys of the base world that the scenario's own world has not.
@@ -66,12 +76,11 @@ impl Resolver<'_> {
         }
         let text =
             read_file(&path).and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no UTF-8 text".into()));
-        let text = if urdf { text.and_then(|text| as_robot_file(&text)) } else { text };
         match text {
+            Ok(text) if urdf => self.read_urdf(&path, text, &Wanted::default()),
             // What is not even called TOML is shown to nobody: a scenario from elsewhere may name any file.
             Ok(text)
-                if !urdf
-                    && !name.ends_with(".toml")
+                if !name.ends_with(".toml")
                     && let Some(line) = first_that_is_no_toml(&text) =>
             {
                 let message = format!("`{key}` = \"{name}\": the file is no TOML from its line {line} on");
@@ -107,14 +116,13 @@ pub(super) fn is_urdf(name: &str) -> bool {
     name.ends_with(".urdf") || name.ends_with(".xml")
 }
 
-/// The robot file of an arm that URDF describes.
-fn as_robot_file(urdf: &str) -> Result<String, String> {
-    let description = read_urdf(urdf).map_err(|error| error.to_string())?;
-    toml::to_string(&description).map_err(|error| error.to_string())
-}
-
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
-    let size = std::fs::metadata(path).map_err(|error| error.to_string())?.len();
+    let about = std::fs::metadata(path).map_err(|error| error.to_string())?;
+    let size = about.len();
+    // Devices and pipes have no end.
+    if !about.is_file() && !about.is_dir() {
+        return Err("it is no file".into());
+    }
     if size > LARGEST_FILE {
         return Err(format!("{size} bytes are more than 100 MB"));
     }

@@ -1,6 +1,7 @@
 //! Robots of one kind by name or path, outside scenarios.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use hairpin::campaign::Mistake;
@@ -10,22 +11,23 @@ use serde::de::DeserializeOwned;
 use super::report::{Place, Report};
 use super::resolve::Resolver;
 use super::tree::{Node, NodeKind};
-use super::{place_of, shape};
+use super::{apply_sets, place_of, shape};
 use crate::library::{self, Shipped};
 
-/// The robot of one of `kinds` that `name_or_path` means, built from its description; `shipped` are those that are told
-/// of.
+/// The robot of one of `kinds` that `name_or_path` means, built from its description with `sets` in it (`robot.KEY`,
+/// value); `shipped` are those that are told of.
 ///
 /// # Errors
 /// Nothing of that name, no robot's file, another kind of robot, wrong keys and types, values out of bounds.
 pub(super) fn robot_for<D: DeserializeOwned + JsonSchema, R>(
     name_or_path: &str,
     kinds: &[&str],
+    sets: &[(String, String)],
     shipped: impl Iterator<Item = Shipped>,
     build: impl Fn(&D) -> Result<R, Mistake>,
 ) -> Result<R, Report> {
     let mut report = Report::default();
-    match read(name_or_path, kinds, shipped, build, &mut report) {
+    match read(name_or_path, kinds, sets, shipped, build, &mut report) {
         Some(robot) if report.is_empty() => Ok(robot),
         _ => Err(report),
     }
@@ -34,6 +36,7 @@ pub(super) fn robot_for<D: DeserializeOwned + JsonSchema, R>(
 fn read<D: DeserializeOwned + JsonSchema, R>(
     name_or_path: &str,
     kinds: &[&str],
+    sets: &[(String, String)],
     shipped: impl Iterator<Item = Shipped>,
     build: impl Fn(&D) -> Result<R, Mistake>,
     report: &mut Report,
@@ -53,7 +56,16 @@ fn read<D: DeserializeOwned + JsonSchema, R>(
     let asked = Place { source, span: 0..0 };
     // A file goes before what is shipped.
     let path = if own { as_path(name_or_path) } else { name_or_path.into() };
-    let root = Resolver { base: Path::new(""), report }.robot_file(&path, &asked)?;
+    let named = Node { kind: NodeKind::Text(path.into_owned()), place: asked.clone(), key: None };
+    let robot = BTreeMap::from([("robot".to_owned(), named)]);
+    let mut around = Node { kind: NodeKind::Table(robot), place: asked, key: None };
+    let mut resolver = Resolver { base: Path::new(""), report };
+    apply_sets(&mut around, sets, &mut resolver);
+    resolver.robot(&mut around);
+    let root = around.entries()?.remove("robot")?;
+    if !report.is_empty() {
+        return None;
+    }
     if let Some(Node { kind: NodeKind::Text(found), place, .. }) = root.get("kind")
         && !kinds.contains(&found.as_str())
     {

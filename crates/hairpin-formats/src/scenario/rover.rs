@@ -14,7 +14,7 @@ use crate::library;
 /// # Errors
 /// Nothing of that name, no TOML, another kind of robot, wrong keys and types, values out of bounds.
 pub fn rover_for(name_or_path: &str) -> Result<Rover, Report> {
-    robot_for(name_or_path, GroundDescription::KINDS, library::ground(), |description: &GroundDescription| {
+    robot_for(name_or_path, GroundDescription::KINDS, &[], library::ground(), |description: &GroundDescription| {
         description.build().map_err(|error| Mistake { key: error.field, value: error.value, bound: error.bound })
     })
 }

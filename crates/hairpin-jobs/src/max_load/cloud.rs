@@ -51,6 +51,8 @@ pub enum CloudAnswer {
     Nothing {
         /// Why.
         reason: String,
+        /// Why that is not found out, where it rests on estimates alone.
+        open: Option<String>,
         /// What it took, s.
         time: Duration,
     },
@@ -77,7 +79,7 @@ pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<Cloud
         Ok((graph, found, why_none)) => {
             CloudAnswer::Searched(Box::new(CloudSearch { setup, graph, found, why_none, time, deadline, begun }))
         }
-        Err(reason) => CloudAnswer::Nothing { reason, time },
+        Err(reason) => CloudAnswer::Nothing { reason, open: arm.open_for_estimates(), time },
     })
 }
 

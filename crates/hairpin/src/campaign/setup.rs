@@ -264,6 +264,16 @@ impl Setup {
         self.robot_words().estimated
     }
 
+    /// What of its shape a claim rests on that is not known, in a few words.
+    pub fn unknown_shapes(&self) -> Option<&'static str> {
+        self.kind().unknown_shapes()
+    }
+
+    /// Seconds that explaining takes at most where nobody says.
+    pub fn patience(&self) -> Option<f64> {
+        self.kind().patience()
+    }
+
     fn robot_words(&self) -> RobotWords<'_> {
         self.kind.robot_words()
     }

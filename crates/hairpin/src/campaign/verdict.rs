@@ -47,6 +47,7 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         confidence,
         claims: &claims,
         reruns: reruns.as_deref(),
+        estimated: setup.kind().unknown_shapes(),
         proof: proof.as_deref(),
     })
 }
@@ -134,7 +135,7 @@ fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     judgement::inconclusive(&format!("0/{asked}"), &how, "stopped before the first trajectory was found")
 }
 
-/// The verdict of exit 3, with what it rests on, and the smallest change that helps where that was looked for.
+/// The verdict of exit 3 (5 where it rests on nothing but estimates), with what it rests on, and the smallest change that helps where that was looked for.
 pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str>) -> Verdict {
     let rests_on = match tally.proven_empty {
         proven if proven > 0 && proven == tally.graphs => "proof".into(),
@@ -145,5 +146,8 @@ pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str
         Some(reason) => format!("{chain}: {reason}"),
         None => chain,
     };
+    if let Some(open) = setup.kind().not_found_out() {
+        return judgement::inconclusive("0", &[&rests_on, setup.scenario.reach()], &format!("{what}; {open}"));
+    }
     judgement::nothing_feasible(&[&rests_on, setup.scenario.reach()], &what, change)
 }

@@ -83,6 +83,8 @@ pub struct Judged<'a> {
     pub claims: &'a [Claim<'a>],
     /// How often violations come again, where they were run again.
     pub reruns: Option<&'a str>,
+    /// What the claims rest on that is not known: `link shapes estimated`.
+    pub estimated: Option<&'a str>,
     /// How far from the best the cases' scores can be, where every case has a proof: `optimal`, `gap at most 3.1 %`.
     pub proof: Option<&'a str>,
 }
@@ -104,6 +106,7 @@ impl Default for Judged<'_> {
             confidence: 0.95,
             claims: &[],
             reruns: None,
+            estimated: None,
             proof: None,
         }
     }
@@ -202,6 +205,7 @@ fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> 
     if judged.cases < judged.asked {
         parts.push(format!("{} of {} cases asked for were found", judged.cases, judged.asked));
     }
+    parts.extend(judged.estimated.map(str::to_owned));
     let proof = judged.proof.map_or(String::new(), |proof| format!(", {proof}"));
     match judged.claims {
         [] => {}

@@ -14,6 +14,8 @@
 //! | [`interval`] | degree-1 Taylor models in four lanes | limits between samples |
 //! | [`outward`] | intervals with directed rounding, centred forms | proofs of clearance |
 //! | [`segment`] | nearest points of segments | solids, deviation |
+//! | [`convex`] | min ‖a − b‖ over two convex sets, bounded on both sides | links of arms |
+//! | [`enclosing`] | few points and a radius around many | links of arms |
 //! | [`circular`], [`power`] | sin, cos, xⁿ with the same bits everywhere | hot loops |
 //! | [`ridge`] | polynomial ridge regression, cross-validated | learned scores |
 //! | [`random`] | named streams | everything that draws |
@@ -25,6 +27,8 @@
 //! from machine to machine.
 
 pub mod circular;
+pub mod convex;
+pub mod enclosing;
 pub mod fresnel;
 pub mod integrate;
 pub mod interval;

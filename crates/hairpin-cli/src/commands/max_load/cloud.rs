@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::answer::{code, proven_over};
 use crate::args::MaxLoad;
-use crate::exit::NOTHING_FEASIBLE;
+use crate::exit::{INCONCLUSIVE, NOTHING_FEASIBLE};
 use crate::{console, settings};
 
 /// Runs the command on `points` in `cell`.
@@ -20,7 +20,7 @@ pub(super) fn run(asked: &MaxLoad, points: &Path, cell: &str, watch: &dyn Watch)
         CloudSettings { cell: cell.into(), points: points.into(), sets: sets(asked)?, time_limit_s: asked.time_limit };
     let searched = match search_cloud(&settings, watch)? {
         CloudAnswer::Searched(searched) => searched,
-        CloudAnswer::Nothing { reason, time } => return Ok(nothing(asked, &reason, time)),
+        CloudAnswer::Nothing { reason, open, time } => return Ok(nothing(asked, &reason, open.as_deref(), time)),
     };
     tell(asked, &searched);
     if let Some(out) = &asked.out {
@@ -60,6 +60,7 @@ fn tell(asked: &MaxLoad, searched: &CloudSearch) {
             "density": graph.reachability.density(),
             "queries_per_pair": graph.reachability.queries_per_pair(),
             "mode": setup.scenario.reach(),
+            "estimated": setup.estimated(),
             "exit_code": code(found),
         });
         if let Some(passed) = found.passed.first() {
@@ -98,28 +99,33 @@ fn tell(asked: &MaxLoad, searched: &CloudSearch) {
     let row = |row: &usize| if passed.contains(row) { format!("({row})") } else { row.to_string() };
     let rows: Vec<String> = path.iter().map(row).collect();
     console::say(&format!(
-        "cost {:.3} {}, {evidence}; {:.3} s by {}, {} points, density {:.2} ({} mode)",
+        "cost {:.3} {}, {evidence}; {:.3} s by {}, {} points, density {:.2} ({} mode{})",
         value(*cost),
         graph.unit_name,
         time.as_secs_f64(),
         found.method.name(),
         graph.points(),
         graph.reachability.density(),
-        setup.scenario.reach()
+        setup.scenario.reach(),
+        setup.unknown_shapes().map_or(String::new(), |shapes| format!(", {shapes}"))
     ));
     console::say(&rows.join(" → "));
 }
 
 /// No program, because no point or no move is possible.
-fn nothing(asked: &MaxLoad, reason: &str, time: Duration) -> u8 {
+fn nothing(asked: &MaxLoad, reason: &str, open: Option<&str>, time: Duration) -> u8 {
+    // What rests on estimates alone is not found out.
+    let (code, word) =
+        if open.is_some() { (INCONCLUSIVE, "INCONCLUSIVE") } else { (NOTHING_FEASIBLE, "NOTHING FEASIBLE") };
+    let reason = open.map_or_else(|| reason.to_owned(), |open| format!("{reason}; {open}"));
     if asked.json {
         let object = json!({
-            "path": Value::Null, "cost": Value::Null, "bound": Value::Null, "gap_percent": Value::Null, "proven": true,
-            "time_s": time.as_secs_f64(), "method": "graph", "reason": reason, "exit_code": NOTHING_FEASIBLE,
+            "path": Value::Null, "cost": Value::Null, "bound": Value::Null, "gap_percent": Value::Null, "proven": open.is_none(),
+            "time_s": time.as_secs_f64(), "method": "graph", "reason": reason, "exit_code": code,
         });
         console::say(&object.to_string());
     } else {
-        console::say(&format!("NOTHING FEASIBLE: {reason}"));
+        console::say(&format!("{word}: {reason}"));
     }
-    NOTHING_FEASIBLE
+    code
 }

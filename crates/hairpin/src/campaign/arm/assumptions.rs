@@ -5,6 +5,7 @@ use nalgebra::Isometry3;
 use super::ArmSetup;
 use crate::campaign::scenario::{ArmMode, PathFrom};
 use crate::campaign::{Case, Tally};
+use crate::robot::arm::Outline;
 use crate::search::heaviest::MOST_EXACT_POINTS;
 
 /// What stands behind the moves.
@@ -15,7 +16,8 @@ pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
         ArmMode::Joint => format!(
             "Mode `joint`: `clear: all links` means that along every move, joints within their bounds and away from \
              singularities, no link and no tool comes nearer than {clearance} mm to an obstacle, nor links to each other, between \
-             samples as well; the links are the capsules of the robot's file."
+             samples as well; the links are the capsules and hulls of the robot's file{}.",
+            stand_ins(setup)
         ),
         ArmMode::Cartesian => format!(
             "Mode `cartesian`: `clear: tool sphere` means that a ball of the tool's radius and {clearance} mm more touches nothing \
@@ -51,6 +53,20 @@ pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
             p.y,
             p.z
         ));
+    }
+}
+
+/// Which links are none of these.
+fn stand_ins(setup: &ArmSetup) -> String {
+    let links = setup.station.arm.links.iter().enumerate();
+    let unknown = links.filter(|(_, link)| link.outline == Outline::StandIn).map(|(link, _)| match link {
+        0 => "the base".to_owned(),
+        link => format!("link {link}"),
+    });
+    let unknown: Vec<String> = unknown.collect();
+    match unknown.len() {
+        0 => String::new(),
+        _ => format!(", but {} estimated: stand-ins along the dimensions", unknown.join(", ")),
     }
 }
 

@@ -2,14 +2,17 @@
 
 use std::sync::Arc;
 
+use nalgebra::Isometry3;
+
 use super::cell::cell_of;
 use super::check::check;
-use super::graph::stands;
+use super::graph::{joint_settings, stands};
 use super::points::points_of;
 use super::{ArmSetup, Station};
 use crate::campaign::attachments::Attachments;
 use crate::campaign::kind::{Build, Given};
-use crate::campaign::scenario::{ArmScenario, Mistake, PointsSource, mistake};
+use crate::campaign::scenario::{ArmMode, ArmScenario, Mistake, PointsSource, mistake};
+use crate::feasibility::reachability::joint::Bodies;
 use crate::math::simd::Simd;
 
 impl Build for ArmSetup {
@@ -65,6 +68,12 @@ fn station_of(scenario: &ArmScenario, files: &Attachments) -> Result<Station, Mi
     }
     let mut station = Station { arm, tool, work_object, cell, points: Vec::new(), home };
     let reach = station.reach();
-    station.points = points_of(scenario, files, &station.work_object, reach, |pose| stands(&station, scenario, pose))?;
+    // Where the arm cannot stand at home it comes to no point from there.
+    let at_home = scenario.generate.mode == ArmMode::Cartesian || {
+        let clearance = joint_settings(&station, scenario).clearance;
+        Bodies::new(&station.arm, &station.tool, &station.cell, clearance).standing(&home, 0.0).is_none()
+    };
+    let fits = |pose: &Isometry3<f64>| at_home && stands(&station, scenario, pose);
+    station.points = points_of(scenario, files, &station.work_object, reach, fits)?;
     Ok(station)
 }

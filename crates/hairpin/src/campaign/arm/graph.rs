@@ -92,7 +92,11 @@ pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
     let joined = graph.from_home.contains(&true) && graph.to_home.contains(&true);
     match (met, joined) {
         (false, _) => Err(format!("no point of the cloud can be met: {}", setup.first_reason(&graph))),
-        (true, false) => Err("no move from home to a point of the cloud, or back, is possible".into()),
+        (true, false) => {
+            let home = setup.home_meets().into_iter().next();
+            let home = home.map_or(String::new(), |meets| format!(": at home {meets}"));
+            Err(format!("no move from home to a point of the cloud, or back, is possible{home}"))
+        }
         (true, true) => Ok(graph),
     }
 }
@@ -104,7 +108,7 @@ pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
 pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
     let (station, scenario) = (&setup.station, &setup.scenario);
     if station.points.is_empty() {
-        return Err(nowhere(scenario));
+        return Err(nowhere(setup));
     }
     let cost = cost_of(setup)?;
     let learned = matches!(scenario.generate.cost, CostSection::Learned(_));
@@ -134,13 +138,15 @@ impl ArmSetup {
 }
 
 /// Why no point could be drawn.
-fn nowhere(scenario: &ArmScenario) -> String {
+fn nowhere(setup: &ArmSetup) -> String {
+    let scenario = &setup.scenario;
+    let home = setup.home_meets().into_iter().next().map_or(String::new(), |meets| format!("; at home {meets}"));
     let clearance = scenario.generate.moves.clearance_mm;
     let beside =
         scenario.spec.path.map_or(String::new(), |limit| format!(" and the {} mm of spec.path.max_mm", limit.max_mm));
     format!(
         "no point can be drawn: of {DRAWS} places within reach the arm can stand at none, and come to it from home, with \
-         generate.moves.clearance_mm = {clearance}{beside} kept from all that is in the cell"
+         generate.moves.clearance_mm = {clearance}{beside} kept from all that is in the cell{home}"
     )
 }
 
@@ -194,7 +200,7 @@ fn with_learned(setup: &ArmSetup, graph: JointGraph) -> JointGraph {
     JointGraph { graph: reachability, joints, ..graph }
 }
 
-fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
+pub(super) fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
     let moves = &scenario.generate.moves;
     JointSettings {
         moves: match moves.kind {

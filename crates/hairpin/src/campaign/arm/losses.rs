@@ -41,7 +41,7 @@ pub(super) fn losses(setup: &ArmSetup) -> Losses {
     })
 }
 
-fn stage_of(refusal: &Refusal, names: &[String]) -> (Stage, String) {
+pub(super) fn stage_of(refusal: &Refusal, names: &[String]) -> (Stage, String) {
     let part = |index: usize| names.get(index).cloned().unwrap_or_else(|| "a part of the cell".into());
     match *refusal {
         Refusal::ToolMeets { part: index, .. } | Refusal::Collides { part: index, .. } => {

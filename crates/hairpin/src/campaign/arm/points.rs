@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use crate::campaign::attachments::{Attachments, CloudPoint};
 use crate::campaign::scenario::{ArmScenario, ArmTask, DrawnPoints, Mistake, PointsFrame, PointsSource, frame_of};
 use crate::math::random::{Stream, named_seed, stream, unit};
-use crate::robot::arm::{WorkObject, unit_quaternion_of};
+use crate::robot::arm::{ArmError, WorkObject, unit_quaternion_of};
 
 /// A point of the cloud.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,18 +39,7 @@ pub(super) fn points_of(
     fits: impl Fn(&Isometry3<f64>) -> bool,
 ) -> Result<Vec<CellPoint>, Mistake> {
     let task = &scenario.task;
-    let wrong = |key: &str, error: crate::robot::arm::ArmError| Mistake {
-        key: key.into(),
-        value: error.value,
-        bound: error.bound,
-    };
-    let usual = unit_quaternion_of("q1_q4_default", task.points_in.q1_q4_default)
-        .map_err(|error| wrong("task.points_in.q1_q4_default", error))?;
-    let base_from_points = match task.points_in.frame {
-        PointsFrame::Base => Isometry3::identity(),
-        PointsFrame::Wobj => work_object.base_from_object(),
-        PointsFrame::World => frame_of("world.base_frame", &scenario.world.base_frame)?.inverse(),
-    };
+    let (base_from_points, usual) = frame_of_points(scenario, work_object)?;
     let point = |index: usize, given: &CloudPoint| {
         let key = format!("task.points[{index}]");
         let finite = given.mm.iter().all(|mm| mm.is_finite() && mm.abs() <= FARTHEST_MM);
@@ -73,6 +62,39 @@ pub(super) fn points_of(
         }
         PointsSource::Drawn(drawn) => draw(scenario.seed, drawn, base_from_points.rotation * usual, reach, fits),
     }
+}
+
+fn wrong(key: &str, error: ArmError) -> Mistake {
+    Mistake { key: key.into(), value: error.value, bound: error.bound }
+}
+
+/// The frame that points are given in, and how those are turned that do not say it.
+fn frame_of_points(
+    scenario: &ArmScenario,
+    work_object: &WorkObject,
+) -> Result<(Isometry3<f64>, UnitQuaternion<f64>), Mistake> {
+    let given = &scenario.task.points_in;
+    let usual = unit_quaternion_of("q1_q4_default", given.q1_q4_default)
+        .map_err(|error| wrong("task.points_in.q1_q4_default", error))?;
+    let base_from_points = match given.frame {
+        PointsFrame::Base => Isometry3::identity(),
+        PointsFrame::Wobj => work_object.base_from_object(),
+        PointsFrame::World => frame_of("world.base_frame", &scenario.world.base_frame)?.inverse(),
+    };
+    Ok((base_from_points, usual))
+}
+
+/// `count` of the poses that points are drawn from, whether or not the arm can stand there.
+pub(super) fn places(
+    scenario: &ArmScenario,
+    work_object: &WorkObject,
+    (centre, radius): (Vector3<f64>, f64),
+    count: usize,
+) -> Vec<Isometry3<f64>> {
+    let Ok((base_from_points, usual)) = frame_of_points(scenario, work_object) else { return Vec::new() };
+    let mut random = stream(named_seed(scenario.seed, "places", 0));
+    let turn = base_from_points.rotation * usual;
+    (0..count).map(|_| at(centre + in_ball(&mut random) * radius, turn)).collect()
 }
 
 /// Beyond this no arm reaches, and numbers are likely to be of another unit.

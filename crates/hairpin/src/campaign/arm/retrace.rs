@@ -101,27 +101,18 @@ impl ArmSetup {
         let station = &self.station;
         let chain = &station.arm.chain;
         let joints = joints_of(&station.arm);
-        let links = station.arm.links.iter().enumerate().skip(1);
-        let mut bodies: Vec<ArmBodyClaim> = links
-            .flat_map(|(link, body)| {
-                body.capsules.iter().map(move |capsule| ArmBodyClaim {
-                    link,
-                    name: format!("link {link}"),
-                    tool: false,
-                    axis: [capsule.a, capsule.b],
-                    radius: capsule.radius,
-                })
-            })
-            .collect();
+        let mut bodies: Vec<ArmBodyClaim> = Vec::new();
+        let mut add = |link: usize, points: Vec<Point3<f64>>, radius: f64, tool: bool| {
+            let name = if tool { "the tool".into() } else { format!("link {link}") };
+            bodies.push(ArmBodyClaim { link, name, tool, points, radius });
+        };
+        for (link, body) in station.arm.links.iter().enumerate().skip(1) {
+            body.capsules.iter().for_each(|capsule| add(link, vec![capsule.a, capsule.b], capsule.radius, false));
+            body.hulls.iter().for_each(|hull| add(link, hull.points.clone(), hull.radius, false));
+        }
         let in_link = |p: Point3<f64>| chain.flange * p;
         let tip: Point3<f64> = station.tool.tcp.translation.vector.into();
-        bodies.push(ArmBodyClaim {
-            link: AXES,
-            name: "the tool".into(),
-            tool: true,
-            axis: [in_link(Point3::origin()), in_link(tip)],
-            radius: station.tool.radius,
-        });
+        add(AXES, vec![in_link(Point3::origin()), in_link(tip)], station.tool.radius, true);
         // Words are not grown: they are held against the tool's line itself.
         let words: Vec<Option<Holds>> = station.cell.parts.iter().map(|part| within(&part.region)).collect();
         let parts = station.cell.parts.iter().zip(&words);

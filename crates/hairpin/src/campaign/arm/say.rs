@@ -9,6 +9,7 @@ use crate::campaign::digits::number;
 use crate::campaign::kind::{
     Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, Programs, RobotWords, Say, surface,
 };
+use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::robot::arm::AXES;
@@ -23,7 +24,18 @@ impl Say for ArmSetup {
     /// A tool has no nose and no left side.
     fn robot_words(&self) -> RobotWords<'_> {
         let arm = &self.station.arm;
-        RobotWords { name: &arm.name, caveat: &arm.caveat, estimated: arm.estimated.clone(), has_sides: false }
+        RobotWords {
+            name: &arm.name,
+            caveat: &arm.caveat,
+            estimated: arm.estimated.iter().map(String::as_str).collect(),
+            has_sides: false,
+        }
+    }
+
+    /// In Cartesian mode no link is looked at.
+    fn unknown_shapes(&self) -> Option<&'static str> {
+        let looked_at = self.scenario.generate.mode == ArmMode::Joint && self.station.arm.has_stand_ins();
+        looked_at.then_some("link shapes estimated")
     }
 
     fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions {

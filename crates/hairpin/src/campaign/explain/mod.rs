@@ -23,6 +23,8 @@ pub struct Explanation {
     /// Candidates near the starts of a few graphs, by the stage that refused them.
     #[serde(rename = "deaths")]
     pub losses: Losses,
+    /// What stands in the way, each in a sentence, where more is known than what is counted.
+    pub reasons: Vec<String>,
     /// Single changes with which something is feasible, the smallest first; none are looked for where something is.
     pub changes: Vec<Change>,
     /// Whether the search for changes was stopped before it came to an end.
@@ -51,11 +53,12 @@ pub fn explain(
     let setup = first_of(setup, graphs).and_then(|scenario| setup.of_draw(scenario))?;
     let tally = searched(&setup, true, stop);
     let losses = setup.kind().lost(graphs);
+    let reasons = setup.kind().in_the_way();
     let cancelled = || (stop.cancelled)() || enough();
     let looking = Stop { cancelled: &cancelled, ..*stop };
     let changes = if tally.solved > 0 { Vec::new() } else { smallest(&setup, &looking) };
     let stopped = tally.solved == 0 && cancelled();
-    Ok(Explanation { graphs: tally.graphs, solved: tally.solved, losses, changes, stopped, tally })
+    Ok(Explanation { graphs: tally.graphs, solved: tally.solved, losses, reasons, changes, stopped, tally })
 }
 
 impl Explanation {

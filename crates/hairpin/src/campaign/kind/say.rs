@@ -98,6 +98,11 @@ pub(in crate::campaign) trait Say {
     /// The robot.
     fn robot_words(&self) -> RobotWords<'_>;
 
+    /// What of the robot's shape its claim rests on that is not known, in a few words of the verdict.
+    fn unknown_shapes(&self) -> Option<&'static str> {
+        None
+    }
+
     /// What claim, execution and limits rest on.
     fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions;
 

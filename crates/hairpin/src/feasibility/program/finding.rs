@@ -32,13 +32,18 @@ pub struct Finding {
     pub tried: Option<[i32; 4]>,
     /// A configuration that would do.
     pub fit: Option<Fit>,
+    /// What it rests on that is estimated, in words.
+    pub estimated: Option<String>,
+    /// Whether it rests on nothing but what is estimated, so that it is no finding but not found out.
+    pub open: bool,
 }
 
 impl Finding {
     /// The reason and what would help, without line and names; `parts` are the names of the cell's.
     pub fn reason(&self, parts: &[String]) -> String {
-        let why = self.refusal.in_words(parts);
-        let Some(fit) = self.fit else { return why.to_string() };
+        let estimated = self.estimated.as_ref().map_or(String::new(), |words| format!(" ({words})"));
+        let why = format!("{}{estimated}", self.refusal.in_words(parts));
+        let Some(fit) = self.fit else { return why };
         let names = ["cf1", "cf4", "cf6", "cfx"];
         let other = |index: &usize| self.tried.is_none_or(|tried| tried[*index] != fit.configuration[*index]);
         let change = |index: usize| format!("{} = {}", names[index], fit.configuration[index]).replace('-', "−");
@@ -51,12 +56,17 @@ impl Finding {
         format!("{why}; {with} it fits by {:.1}°", fit.margin.to_degrees())
     }
 
-    /// `line 8: UNREACHABLE p10→p20: …`, of what meets something `line 8: COLLISION …`.
+    /// `line 8: UNREACHABLE p10→p20: …`, of what meets something `line 8: COLLISION …`, of what rests on estimates alone
+    /// `line 8: INCONCLUSIVE …`.
     pub fn in_words(&self, parts: &[String]) -> String {
         let line = self.line.map_or(String::new(), |line| format!("line {line}: "));
         let named = |name: &Option<String>, nameless: &str| name.clone().unwrap_or_else(|| nameless.into());
         let (from, to) = (named(&self.from, "(before)"), named(&self.to, "(in place)"));
-        let word = if self.refusal.kind() == "collision" { "COLLISION" } else { "UNREACHABLE" };
+        let word = match self.refusal.kind() {
+            _ if self.open => "INCONCLUSIVE",
+            "collision" => "COLLISION",
+            _ => "UNREACHABLE",
+        };
         format!("{line}{word} {from}→{to}: {}", self.reason(parts))
     }
 }

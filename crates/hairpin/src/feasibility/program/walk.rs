@@ -5,7 +5,9 @@ use nalgebra::Isometry3;
 use super::finding::{Finding, Fit};
 use super::posture::{self, beyond};
 use crate::feasibility::reachability::Refusal;
-use crate::feasibility::reachability::joint::{Bodies, Circle, FollowSettings, Followed, Motion as Way, follow};
+use crate::feasibility::reachability::joint::{
+    Bodies, Circle, FollowSettings, Followed, Motion as Way, Worth, follow, is_known,
+};
 use crate::robot::arm::{AXES, Arm, Joints, Tool};
 use crate::trajectory::program::{Motion, Move, PoseTarget, Program};
 use crate::world::cell::Cell;
@@ -20,7 +22,7 @@ pub struct Checked {
     pub followed: usize,
     /// Moves of which only the end was looked at, since where they begin is not known.
     pub ends_only: usize,
-    /// What the arm cannot do, in the program's order.
+    /// What the arm cannot do, and what is not found out, in the program's order.
     pub findings: Vec<Finding>,
 }
 
@@ -64,10 +66,11 @@ pub fn check(
     let cell = around.cell.unwrap_or(&nothing);
     let of = |tool: &crate::trajectory::program::Tool| {
         let tool = Tool { name: tool.name.clone(), tcp: tool.tcp, radius: around.tool_radius, ..Tool::flange() };
-        let bodies = Bodies::new(arm, &tool, cell, around.clearance);
-        (tool, bodies)
+        let (bodies, doubtful) =
+            Bodies::new(arm, &tool, cell, around.clearance).parted(|body| is_known(arm, &tool, body));
+        Carried { tool, bodies, doubtful }
     };
-    let tools: Vec<(Tool, Bodies)> = program.tools.iter().map(of).collect();
+    let tools: Vec<Carried> = program.tools.iter().map(of).collect();
     let checked = Checked { followed: 0, ends_only: 0, findings: Vec::new() };
     let mut walk = Walk { arm, program, tools: &tools, settings, at: None, from: None, checked };
     for (index, m) in program.moves.iter().take(count).enumerate() {
@@ -77,11 +80,20 @@ pub fn check(
     walk.checked
 }
 
+/// A tool, and what it and the arm take up.
+struct Carried<'a> {
+    tool: Tool,
+    /// All that a finding may rest on.
+    bodies: Bodies<'a>,
+    /// Pairs of which neither is known, where there are any.
+    doubtful: Option<Bodies<'a>>,
+}
+
 struct Walk<'a> {
     arm: &'a Arm,
     program: &'a Program,
     /// With what each takes up.
-    tools: &'a [(Tool, Bodies<'a>)],
+    tools: &'a [Carried<'a>],
     settings: &'a FollowSettings,
     /// Where the arm stands, if that is known.
     at: Option<Joints>,
@@ -134,19 +146,31 @@ impl Walk<'_> {
 
     /// With the bodies of the move's own tool.
     fn followed(&self, m: &Move, way: &Way, start: &Joints) -> Result<Followed, Refusal> {
-        let (tool, bodies) = &self.tools[m.tool];
+        let Carried { tool, bodies, .. } = &self.tools[m.tool];
         follow(self.arm, tool, Some(bodies), way, start, self.settings, &mut 0)
+    }
+
+    /// Notes where bodies of which neither is known meet on a move that is fine but for them.
+    fn doubt(&mut self, index: usize, m: &Move, way: &Way, start: &Joints) {
+        let Carried { tool, doubtful, .. } = &self.tools[m.tool];
+        let Some(doubtful) = doubtful else { return };
+        let followed = follow(self.arm, tool, Some(doubtful), way, start, self.settings, &mut 0);
+        if let Err(refusal @ Refusal::SelfCollides { .. }) = followed {
+            self.record(index, m, refusal, None, None);
+        }
     }
 
     /// Takes the arm to the posture in joints; where it stands is not known, it only has to stand there.
     fn turn(&mut self, index: usize, m: &Move, end: Joints) {
         let refusal = match self.at {
             Some(start) => self.followed(m, &Way::Joint { start, end }, &start).err(),
-            None => self.tools[m.tool].1.standing(&end, 1.0),
+            None => self.tools[m.tool].bodies.standing(&end, 1.0),
         };
         let tried = m.motion.end().and_then(|to| to.configuration);
-        if let Some(refusal) = refusal {
-            self.record(index, m, refusal, tried, None);
+        match refusal {
+            Some(refusal) => self.record(index, m, refusal, tried, None),
+            // Where it comes from is not known: it only has to stand there.
+            None => self.doubt(index, m, &Way::Joint { start: self.at.unwrap_or(end), end }, &self.at.unwrap_or(end)),
         }
         self.at = Some(end);
     }
@@ -163,6 +187,7 @@ impl Walk<'_> {
     fn follow(&mut self, index: usize, m: &Move, to: &PoseTarget, way: &Way, start: &Joints) {
         match self.followed(m, way, start) {
             Ok(followed) => {
+                self.doubt(index, m, way, start);
                 self.at = Some(followed.end);
                 let demanded = to.configuration.filter(|_| m.configuration_demanded);
                 if let Some(demanded) = demanded.filter(|cf| !posture::has(self.arm, &followed.end, cf)) {
@@ -192,7 +217,10 @@ impl Walk<'_> {
     /// Writes a finding down.
     fn record(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
         let to = m.motion.name().map(Into::into);
-        self.checked.findings.push(Finding { index, line: m.line, from: self.from.clone(), to, refusal, tried, fit });
+        let worth = Worth::of(self.arm, &self.tools[m.tool].tool, &refusal);
+        let (estimated, open) = (worth.in_words(self.arm), matches!(worth, Worth::Undecidable(_)));
+        let (line, from) = (m.line, self.from.clone());
+        self.checked.findings.push(Finding { index, line, from, to, refusal, tried, fit, estimated, open });
     }
 
     /// Writes a finding down and moves on to the target, in its configuration if there is such a posture.

@@ -1,10 +1,11 @@
-//! Links as capsules, and their masses where they are known.
+//! Links as capsules and hulls, how well these are known, and masses where they are.
 
 use nalgebra::{Point3, Vector3};
 
 use super::chain::Chain;
 use super::joints::{AXES, Joints};
 use super::opw::Opw;
+use crate::math::segment::segment_distance;
 
 /// All points within `radius` of the segment a–b, in the link's frame, m.
 ///
@@ -17,6 +18,43 @@ pub struct Capsule {
     pub b: Point3<f64>,
     /// Radius.
     pub radius: f64,
+}
+
+/// All points within `radius` of the convex hull of `points`, in the link's frame, m.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hull {
+    /// Corners, one at least.
+    pub points: Vec<Point3<f64>>,
+    /// What the hull is grown by.
+    pub radius: f64,
+}
+
+/// Where a link's bodies come from: what rests on them is worth as much.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Outline {
+    /// Given, or nearer to what was given than a millimetre.
+    #[default]
+    Given,
+    /// Around what was given, up to so much (m) larger: clear of it is clear, what meets it may not meet the link.
+    Around(f64),
+    /// A stand-in along the dimensions: the link's own shape is not known, or not all of it.
+    StandIn,
+}
+
+impl Outline {
+    /// Whether nothing is certain of what meets it.
+    pub fn is_estimated(&self) -> bool {
+        *self != Self::Given
+    }
+}
+
+/// 0 the base, 1 to 6 the links, 7 the tool, as findings call them.
+pub(super) fn named(body: usize) -> String {
+    match body {
+        0 => "the base".into(),
+        7 => "the tool".into(),
+        link => format!("link {link}"),
+    }
 }
 
 /// Mass of a link in its frame.
@@ -37,9 +75,16 @@ pub struct Mass {
 pub struct Link {
     /// What it takes up.
     pub capsules: Vec<Capsule>,
+    /// What else it takes up.
+    pub hulls: Vec<Hull>,
+    /// How well that is known.
+    pub outline: Outline,
     /// Its mass, where the file gives one.
     pub mass: Option<Mass>,
 }
+
+/// Bodies this many joints apart are held against one another; nearer ones are kept apart by the joints' limits.
+pub const APART: usize = 3;
 
 /// Radii of stand-in capsules as shares of upper arm + forearm: base, shoulder, upper arm, elbow, forearm, wrist,
 /// flange. Measured off the outlines of small arms; a file's own capsules replace them.
@@ -64,15 +109,64 @@ pub(super) fn of_opw(opw: &Opw) -> [Vec<Capsule>; AXES + 1] {
     ]
 }
 
-/// Stand-in capsules from joint to joint, a twelfth of the reach thick at the base and a twenty-fourth at the flange.
+/// Stand-in capsules from joint to joint, a twelfth of the reach thick at the base and a twenty-fourth at the flange;
+/// two that would meet in every posture are as much thinner as it takes for them not to.
 pub(super) fn of_chain(chain: &Chain) -> [Vec<Capsule>; AXES + 1] {
     let reach = chain.reach();
-    std::array::from_fn(|link| {
+    let mut capsules: [Capsule; AXES + 1] = std::array::from_fn(|link| {
         let next = chain.joints.get(link).map_or(&chain.flange, |joint| &joint.origin);
-        let radius = reach / (12.0 + 2.0 * link as f64);
         let end: Point3<f64> = next.translation.vector.into();
-        vec![Capsule { a: Point3::origin(), b: end, radius }]
-    })
+        Capsule { a: Point3::origin(), b: end, radius: reach / (12.0 + 2.0 * link as f64) }
+    });
+    for low in 0..=AXES - APART {
+        for high in low + APART..=AXES {
+            let apart = most_apart(chain, &capsules, [low, high]);
+            let together = capsules[low].radius + capsules[high].radius;
+            // Where even their axes always meet nothing would help.
+            if apart < together && apart > THINNEST * together {
+                let thinner = SPARED * apart / together;
+                capsules[low].radius *= thinner;
+                capsules[high].radius *= thinner;
+            }
+        }
+    }
+    capsules.map(|capsule| vec![capsule])
+}
+
+/// Of this the thinner stand-ins leave a tenth free, and thinner than a third none becomes.
+const SPARED: f64 = 0.9;
+const THINNEST: f64 = 0.33;
+/// Postures of each joint that are looked at.
+const POSTURES: usize = 6;
+
+/// The largest distance of the axes of two links' capsules, over postures of the joints between them, m.
+fn most_apart(chain: &Chain, capsules: &[Capsule; AXES + 1], [low, high]: [usize; 2]) -> f64 {
+    // The first of the joints between turns the higher link about a line through the lower one's end, and the last of
+    // them its own: their angles count as well, of few postures each.
+    let count = POSTURES.pow((high - low) as u32);
+    let posture = |mut number: usize| {
+        let mut q = [0.0; AXES];
+        for angle in &mut q[low..high] {
+            *angle = (number % POSTURES) as f64 * std::f64::consts::TAU / POSTURES as f64;
+            number /= POSTURES;
+        }
+        q
+    };
+    let distance = |q: &Joints| {
+        let frames = chain.frames(q);
+        let [a, b] = [low, high].map(|link| [frames[link] * capsules[link].a, frames[link] * capsules[link].b]);
+        segment_distance(&a[0], &a[1], &b[0], &b[1])
+    };
+    let enough = capsules[low].radius + capsules[high].radius;
+    // One posture in which they are apart is enough.
+    let mut most = 0.0_f64;
+    for number in 0..count {
+        most = most.max(distance(&posture(number)));
+        if most >= enough {
+            break;
+        }
+    }
+    most
 }
 
 impl Chain {

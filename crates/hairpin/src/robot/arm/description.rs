@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::body::{self, Capsule, Link, Mass};
+use super::body::{self, Capsule, Hull, Link, Mass, Outline};
 use super::chain::{Chain, Joint};
 use super::opw::Opw;
 use super::{AXES, Arm, JointLimit, Joints, Kinematics};
@@ -56,9 +56,24 @@ pub struct ArmDescription {
     pub chain: Option<ChainDescription>,
     /// What the joints may do.
     pub joints: JointsDescription,
-    /// What the links take up; capsules along the dimensions if not given.
+    /// What the links take up; a link of which nothing is given gets a capsule along the dimensions, a stand-in.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub capsules: Vec<CapsuleDescription>,
+    /// What they take up beside capsules: convex hulls of points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hulls: Vec<HullDescription>,
+    /// Links of which not all is given, which get their stand-in as well: 0 the base, k what axis k moves.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stand_ins: Vec<usize>,
+    /// Links that take up nothing: they get no stand-in.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub no_body: Vec<usize>,
+    /// Pairs of bodies that are not held against each other: 0 the base, 1 to 6 the links, 7 the tool.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub exclude: Vec<[usize; 2]>,
+    /// What else is estimated, in words.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub estimates: Vec<String>,
     /// Masses of links, of all six that move or of none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub masses: Vec<MassDescription>,
@@ -149,6 +164,29 @@ pub struct CapsuleDescription {
     pub b_mm: [f64; 3],
     /// Radius.
     pub radius_mm: f64,
+    /// How much larger this may be than what it is around; 0 if not given.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub larger_mm: f64,
+}
+
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
+}
+
+/// A part of a link: all points within a radius of a convex hull.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HullDescription {
+    /// 0 for the base, k for the link that axis k moves.
+    pub link: usize,
+    /// Points of the hull in the link's frame.
+    pub points_mm: Vec<[f64; 3]>,
+    /// What the hull is grown by; 0 if not given.
+    #[serde(default)]
+    pub radius_mm: f64,
+    /// How much larger this may be than what it is around; 0 if not given.
+    #[serde(default)]
+    pub larger_mm: f64,
 }
 
 /// Mass of a link.
@@ -167,6 +205,11 @@ pub struct MassDescription {
     #[serde(default)]
     pub inertia_kg_m2: [f64; 3],
 }
+
+/// What is no more than this (m) larger than a shape is taken for it.
+const AS_GIVEN: f64 = 1e-3;
+/// Points of one hull, at most.
+const MOST_POINTS: usize = 256;
 
 /// Time to the largest speed where a file gives no accelerations, s.
 const RISE_TIME: f64 = 0.2;
@@ -196,38 +239,93 @@ impl ArmDescription {
                 return Err(wrong("opw", given, "given, or chain, not both"));
             }
         };
-        let capsules = if self.capsules.is_empty() {
-            estimated.push("capsules");
-            stand_ins
-        } else {
-            self.capsules()?
-        };
-        let mut masses = self.masses()?.into_iter();
-        let links = capsules.map(|capsules| Link { capsules, mass: masses.next().flatten() });
+        let links = self.links(stand_ins, &mut estimated)?;
+        let limits = self.joints.build(&mut estimated)?;
+        estimated.extend(self.estimates.iter().cloned());
         Ok(Arm {
             name: self.name.clone(),
             caveat: self.caveat.clone(),
             source: self.source.clone(),
             chain,
             kinematics,
-            limits: self.joints.build(&mut estimated)?,
+            limits,
             links,
+            excluded: self.excluded()?,
             estimated,
         })
     }
 
-    fn capsules(&self) -> Result<[Vec<Capsule>; AXES + 1], ArmError> {
-        let mut links: [Vec<Capsule>; AXES + 1] = Default::default();
+    /// Each with what is given of it, or its stand-in.
+    fn links(
+        &self,
+        stand_ins: [Vec<Capsule>; AXES + 1],
+        estimated: &mut Vec<String>,
+    ) -> Result<[Link; AXES + 1], ArmError> {
+        let mut links: [Link; AXES + 1] = Default::default();
+        self.given(&mut links)?;
+        for (link, mass) in links.iter_mut().zip(self.masses()?) {
+            link.mass = mass;
+        }
+        let bare = |link: &Link| link.capsules.is_empty() && link.hulls.is_empty();
+        if links.iter().all(bare) && self.no_body.is_empty() && self.stand_ins.is_empty() {
+            estimated.push("capsules".into());
+        }
+        for (key, named) in [("stand_ins", &self.stand_ins), ("no_body", &self.no_body)] {
+            for (i, link) in named.iter().enumerate().filter(|(_, link)| **link > AXES) {
+                return Err(wrong(&format!("{key}[{i}]"), link, "0 to 6"));
+            }
+        }
+        let all_bare = links.iter().all(bare);
+        for (number, (link, stand_in)) in links.iter_mut().zip(stand_ins).enumerate() {
+            let without = bare(link) && !self.no_body.contains(&number);
+            if without || self.stand_ins.contains(&number) {
+                link.capsules.extend(stand_in);
+                link.outline = Outline::StandIn;
+                // Why, is told by whoever has looked for a shape.
+                if !self.stand_ins.contains(&number) && !(all_bare && self.no_body.is_empty()) {
+                    estimated.push(format!("capsules of {}", body::named(number)));
+                }
+            }
+        }
+        Ok(links)
+    }
+
+    /// Adds what is given to links that are bare.
+    fn given(&self, links: &mut [Link; AXES + 1]) -> Result<(), ArmError> {
         for (i, given) in self.capsules.iter().enumerate() {
             let key = |name: &str| format!("capsules[{i}].{name}");
             let link = links.get_mut(given.link).ok_or_else(|| wrong(&key("link"), given.link, "0 to 6"))?;
-            link.push(Capsule {
+            link.capsules.push(Capsule {
                 a: (place(&key("a_mm"), &given.a_mm)? * 1e-3).into(),
                 b: (place(&key("b_mm"), &given.b_mm)? * 1e-3).into(),
                 radius: within(&key("radius_mm"), given.radius_mm, 1e-3, 1e5)? * 1e-3,
             });
+            link.outline = larger(&key("larger_mm"), given.larger_mm, link.outline)?;
         }
-        Ok(links)
+        for (i, given) in self.hulls.iter().enumerate() {
+            let key = |name: &str| format!("hulls[{i}].{name}");
+            let link = links.get_mut(given.link).ok_or_else(|| wrong(&key("link"), given.link, "0 to 6"))?;
+            let count = given.points_mm.len();
+            if !(1..=MOST_POINTS).contains(&count) {
+                return Err(wrong(&key("points_mm"), format!("{count} points"), format!("1 to {MOST_POINTS} points")));
+            }
+            let points = given.points_mm.iter().map(|p| Ok((place(&key("points_mm"), p)? * 1e-3).into()));
+            link.hulls.push(Hull {
+                points: points.collect::<Result<_, ArmError>>()?,
+                radius: within(&key("radius_mm"), given.radius_mm, 0.0, 1e5)? * 1e-3,
+            });
+            link.outline = larger(&key("larger_mm"), given.larger_mm, link.outline)?;
+        }
+        Ok(())
+    }
+
+    fn excluded(&self) -> Result<Vec<[usize; 2]>, ArmError> {
+        for (i, [a, b]) in self.exclude.iter().enumerate() {
+            if a.max(b) > &(AXES + 1) || a == b {
+                return Err(wrong(&format!("exclude[{i}]"), format!("[{a}, {b}]"), "two numbers from 0 to 7"));
+            }
+        }
+        Ok(self.exclude.iter().map(|[a, b]| [*a.min(b), *a.max(b)]).collect())
     }
 
     /// Of the base (none) and the six links.
@@ -307,9 +405,9 @@ impl ChainDescription {
 }
 
 impl JointsDescription {
-    fn build(&self, estimated: &mut Vec<&'static str>) -> Result<[JointLimit; AXES], ArmError> {
+    fn build(&self, estimated: &mut Vec<String>) -> Result<[JointLimit; AXES], ArmError> {
         if self.acceleration_deg_s2.is_none() {
-            estimated.push("joints.acceleration_deg_s2");
+            estimated.push("joints.acceleration_deg_s2".into());
         }
         let mut limits = [JointLimit { lower: 0.0, upper: 0.0, speed: 0.0, acceleration: 0.0 }; AXES];
         for (axis, limit) in limits.iter_mut().enumerate() {
@@ -328,6 +426,17 @@ impl JointsDescription {
         }
         Ok(limits)
     }
+}
+
+/// What a link's outline is with a body more, which may be so much larger than what it is around.
+fn larger(key: &str, mm: f64, before: Outline) -> Result<Outline, ArmError> {
+    let much = within(key, mm, 0.0, 1e5)? * 1e-3;
+    Ok(match before {
+        Outline::Given if much <= AS_GIVEN => Outline::Given,
+        Outline::Given => Outline::Around(much),
+        Outline::Around(most) => Outline::Around(most.max(much)),
+        Outline::StandIn => Outline::StandIn,
+    })
 }
 
 fn frame([at, turned]: [&str; 2], mm: &[f64; 3], rpy_deg: &[f64; 3]) -> Result<Isometry3<f64>, ArmError> {

@@ -13,7 +13,7 @@
 //! | `configuration` | cf1, cf4, cf6, cfx of a controller's robtarget |
 //! | `singularity` | margins without unit |
 //! | `rates` | bounds of joints on a whole piece of a tool move, from one sample |
-//! | `body` | links as capsules, how far a turn moves them |
+//! | `body` | links as capsules and hulls, how far a turn moves them |
 //! | `dynamics` | recursive Newton-Euler |
 //! | `tool` | tools and work objects |
 //!
@@ -34,12 +34,12 @@ mod tool;
 #[cfg(test)]
 mod tests;
 
-pub use body::{Capsule, Link, Mass};
+pub use body::{APART, Capsule, Hull, Link, Mass, Outline};
 pub use chain::{Chain, Frames, Iterated, Joint};
 pub use configuration::{Branch, Configuration};
 pub use description::{
-    ArmDescription, ArmError, ArmKind, CapsuleDescription, ChainDescription, ChainJoint, JointsDescription,
-    MassDescription, OpwDescription,
+    ArmDescription, ArmError, ArmKind, CapsuleDescription, ChainDescription, ChainJoint, HullDescription,
+    JointsDescription, MassDescription, OpwDescription,
 };
 pub use joints::{AXES, JointLimit, Joints};
 pub use opw::{Opw, WristCentre, nearest_turn, nearest_turns};
@@ -97,14 +97,21 @@ pub struct Arm {
     pub limits: [JointLimit; AXES],
     /// Links, the base first.
     pub links: [Link; AXES + 1],
-    /// Keys of the file that were derived and not given.
-    pub estimated: Vec<&'static str>,
+    /// Pairs of bodies that are not held against each other: 0 the base, 1 to 6 the links, 7 the tool.
+    pub excluded: Vec<[usize; 2]>,
+    /// What was derived and not given: keys of the file, or in words.
+    pub estimated: Vec<String>,
 }
 
 impl Arm {
     /// `base_from_flange` at the joint angles `q`, rad.
     pub fn forward(&self, q: &Joints) -> Isometry3<f64> {
         self.chain.forward(q)
+    }
+
+    /// Whether the shape of any link is not known: what is clear of its stand-in need not be clear of it.
+    pub fn has_stand_ins(&self) -> bool {
+        self.links.iter().any(|link| link.outline == Outline::StandIn)
     }
 
     /// Joint angles whose flange is at `flange`, with every angle on the turn nearest to `near`: of arms with a closed

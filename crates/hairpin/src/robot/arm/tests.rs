@@ -347,6 +347,11 @@ fn files_are_held_to_their_bounds() {
             acceleration_deg_s2: None,
         },
         capsules: Vec::new(),
+        hulls: Vec::new(),
+        stand_ins: Vec::new(),
+        no_body: Vec::new(),
+        exclude: Vec::new(),
+        estimates: Vec::new(),
         masses: Vec::new(),
     };
     let built = sound.build().unwrap();
@@ -363,7 +368,7 @@ fn files_are_held_to_their_bounds() {
     assert_eq!(wrong(&|arm| arm.opw.as_mut().unwrap().signs[4] = 0), "opw.signs[4]");
     assert_eq!(wrong(&|arm| arm.joints.upper_deg[2] = -101.0), "joints.upper_deg[2]");
     assert_eq!(wrong(&|arm| arm.joints.speed_deg_s[5] = 0.0), "joints.speed_deg_s[5]");
-    let capsule = CapsuleDescription { link: 7, a_mm: [0.0; 3], b_mm: [0.0; 3], radius_mm: 10.0 };
+    let capsule = CapsuleDescription { link: 7, a_mm: [0.0; 3], b_mm: [0.0; 3], radius_mm: 10.0, larger_mm: 0.0 };
     assert_eq!(wrong(&|arm| arm.capsules = vec![capsule]), "capsules[0].link");
     let mass = MassDescription { link: 1, mass_kg: 3.0, centre_mm: [0.0; 3], inertia_kg_m2: [0.0; 3] };
     assert_eq!(wrong(&|arm| arm.masses = vec![mass]), "masses");

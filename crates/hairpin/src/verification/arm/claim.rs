@@ -21,9 +21,9 @@ pub struct ArmJointClaim {
     pub bounds: [f64; 2],
 }
 
-/// All points within `radius` of a segment, in the frame of a link.
+/// All points within `radius` of the convex hull of some points, in the frame of a link.
 ///
-/// A capsule; with both ends equal a ball.
+/// Two points are a capsule's; equal ones, or one, a ball's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArmBodyClaim {
     /// 1 to 6: what joint k moves; the tool is in 6.
@@ -32,8 +32,8 @@ pub struct ArmBodyClaim {
     pub name: String,
     /// Whether it is the tool.
     pub tool: bool,
-    /// Both ends of the segment, m.
-    pub axis: [Point3<f64>; 2],
+    /// Points whose hull it is, m.
+    pub points: Vec<Point3<f64>>,
     /// m.
     pub radius: f64,
 }

@@ -3,7 +3,7 @@
 //!
 //! Shares nothing with what proved or executes them: links by products of exponentials (`screws`), all postures of a
 //! pose by canonical subproblems (`inverse`), configurations and singularities by where axes lie (`configuration`),
-//! straight moves and arcs by Newton's steps on the geometric Jacobian from sample to sample (`reach`, `follow`),
+//! bodies by points of them (`samples`), straight moves and arcs by Newton's steps on the geometric Jacobian from sample to sample (`reach`, `follow`),
 //! orientations along great arcs of quaternions (`course`), corners that zones cut both as the path about them (`path`)
 //! and by points of their triangles (`corner`), distances of points from solids by formulas of their own (`solids`).
 //! What is proven to keep a distance everywhere keeps it at every sample, so that no true claim is refused; a false one
@@ -33,6 +33,7 @@ mod path;
 mod posture;
 mod program;
 mod reach;
+mod samples;
 mod screws;
 mod solids;
 mod wrist;
@@ -48,6 +49,7 @@ pub use graph::{ArmWay, ArmWayClaim, verify_arm_graph};
 pub use path::{ArmPath, ArmPiece};
 pub use program::{ArmProgramReplay, verify_arm_program};
 
+use samples::Samples;
 use screws::Screws;
 use solids::box_around;
 use wrist::Wrist;
@@ -70,12 +72,21 @@ struct Arm<'a> {
     wrist: Option<Wrist>,
     /// Around solids of triangles.
     boxes: Vec<Option<ArmSolidForm<'static>>>,
+    /// Of every body.
+    samples: Vec<Samples>,
 }
 
 impl<'a> Arm<'a> {
     fn of(claim: &'a ArmClaim<'a>) -> Self {
         let screws = Screws::of(claim.joints);
         let wrist = matches!(claim.build, ArmBuild::SphericalWrist(_)).then(|| Wrist::of(&screws)).flatten();
-        Self { claim, wrist, boxes: claim.solids.iter().map(|solid| box_around(&solid.form)).collect(), screws }
+        let boxes = claim.solids.iter().map(|solid| box_around(&solid.form)).collect();
+        Self {
+            claim,
+            wrist,
+            boxes,
+            samples: claim.bodies.iter().map(|body| Samples::of(body, ALONG)).collect(),
+            screws,
+        }
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::claim::{ArmBodyClaim, ArmSolidClaim, ArmSolidForm};
 use super::solids::{distance, holds_around};
-use super::{ALONG, Arm, ROUNDING};
+use super::{Arm, ROUNDING};
 
 /// What is asked of a posture.
 #[derive(Debug, Clone, Copy)]
@@ -20,9 +20,9 @@ pub(super) struct Asked<'a> {
 impl Arm<'_> {
     /// What is wrong with a posture.
     ///
-    /// Bounds first, then singularities, then the first body that is too near to a solid. A body is points of its axis,
-    /// every [`ALONG`] or nearer, each with the body's radius: an under-estimate of what it fills, so that no true
-    /// claim is refused.
+    /// Bounds first, then singularities, then the first body that is too near to a solid. A body is points of it
+    /// ([`Samples`](super::samples::Samples)), each with the body's radius: an under-estimate of what it fills, so that
+    /// no true claim is refused.
     pub(super) fn wrong_at(&self, asked: &Asked, q: &[f64; 6]) -> Option<String> {
         for (k, joint) in self.claim.joints.iter().enumerate() {
             // No number is within no bounds.
@@ -39,19 +39,32 @@ impl Arm<'_> {
         }
         let clearance = asked.clearance?;
         let carried = self.screws.carried(q);
-        self.claim.bodies.iter().find_map(|body| {
+        self.claim.bodies.iter().zip(&self.samples).find_map(|(body, samples)| {
             let link = carried.link(&self.screws, body.link);
-            let [a, b] = body.axis.map(|end| link * end);
-            let count = ((b - a).norm() / ALONG).ceil().max(1.0);
-            let points: Vec<Point3<f64>> = (0..=count as usize).map(|i| a + (b - a) * (i as f64 / count)).collect();
+            let near = |form: &ArmSolidForm| {
+                let words = matches!(form, ArmSolidForm::Where(_));
+                words || distance(form, &(link * samples.center)) <= samples.reach + body.radius + clearance
+            };
             let solids = self.claim.solids.iter().zip(&self.boxes);
-            let mut solids = solids.filter(|(solid, _)| body.tool || !solid.tool_only);
-            solids.find_map(|(solid, hull)| met(body, &points, (solid, hull.as_ref()), clearance, asked.around))
+            let solids = solids.filter(|(solid, _)| body.tool || !solid.tool_only);
+            // Of a few points all are asked at once; of many those of solids that are near.
+            let few = samples.points.len() <= FEW;
+            let mut solids = solids.filter(|(solid, hull)| few || near(hull.as_ref().unwrap_or(&solid.form)));
+            let mut points = Vec::new();
+            solids.find_map(|(solid, hull)| {
+                if points.is_empty() {
+                    points.extend(samples.points.iter().map(|p| link * p));
+                }
+                met(body, &points, (solid, hull.as_ref()), clearance, asked.around)
+            })
         })
     }
 }
 
-/// Whether `body`, its axis seen at `points`, is nearer to a solid than it may be.
+/// Points of a body that are looked at without asking where all of it is.
+const FEW: usize = 400;
+
+/// Whether `body`, seen at `points`, is nearer to a solid than it may be.
 fn met(
     body: &ArmBodyClaim,
     points: &[Point3<f64>],

@@ -72,7 +72,7 @@ fn check(form: ArmSolidForm, moves: &[ArmMotion]) -> Vec<ArmMoveFinding> {
         link,
         name: name.into(),
         tool,
-        axis: [Point3::origin(), b.into()],
+        points: vec![Point3::origin(), b.into()],
         radius,
     };
     let bodies = [body(5, "link 5", false, [0.0; 3], 0.05), body(6, "the tool", true, [0.1, 0.0, 0.0], 0.02)];
@@ -153,8 +153,8 @@ fn arcs_are_followed_on_their_circle() {
 
 /// A ball of 2 cm at the tool's point.
 fn tip() -> ArmBodyClaim {
-    let axis = [Point3::new(0.1, 0.0, 0.0); 2];
-    ArmBodyClaim { link: 6, name: "the tool".into(), tool: true, axis, radius: 0.02 }
+    let points = vec![Point3::new(0.1, 0.0, 0.0); 2];
+    ArmBodyClaim { link: 6, name: "the tool".into(), tool: true, points, radius: 0.02 }
 }
 
 #[test]

@@ -5,6 +5,7 @@
 //! formula over intervals decides ([`Region::formula`], for proofs), and what plane separates it ([`Region::nearest`],
 //! [`Region::support`]). Numbers here; the proof that a tool's segment is clear is put together from them on floor 5.
 
+mod hulls;
 mod near;
 mod region;
 mod words;
@@ -12,6 +13,7 @@ mod words;
 #[cfg(test)]
 mod tests;
 
+pub use hulls::hulls_gap;
 pub use near::directions;
 pub use region::{Region, Surface};
 pub use words::{Words, WordsError};

@@ -32,6 +32,7 @@ fn arm(b: f64, signs: Joints) -> Arm {
         limits: bounds.map(limit),
         links: Default::default(),
         estimated: Vec::new(),
+        excluded: Vec::new(),
     }
 }
 

@@ -191,11 +191,11 @@ pub struct CellHull {
     pub points_mm: Vec<[f64; 3]>,
 }
 
-/// `mesh = { vertices_mm, triangles }` or `mesh = { file, scale_mm }` (STL or OBJ, resolved into the former when read).
+/// `mesh = { vertices_mm, triangles }` or `mesh = { file, scale_mm }` (STL, OBJ or Collada, resolved into the former when read).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CellMesh {
-    /// An STL or OBJ file, relative to the scenario file.
+    /// An STL, OBJ or Collada file, relative to the scenario file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// How many mm the file's unit is; 1 if not given.

@@ -134,11 +134,11 @@ pub struct HullSection {
     pub points_m: Vec<[f64; 3]>,
 }
 
-/// `mesh = { vertices_m, triangles }` or `mesh = { file }` (STL or OBJ, resolved into the former when read).
+/// `mesh = { vertices_m, triangles }` or `mesh = { file }` (STL, OBJ or Collada, resolved into the former when read).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshSection {
-    /// An STL or OBJ file, relative to the scenario file.
+    /// An STL, OBJ or Collada file, relative to the scenario file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Vertices.

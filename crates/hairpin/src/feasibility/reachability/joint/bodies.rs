@@ -1,18 +1,17 @@
 //! Links and tool against the cell and against one another, at a configuration and within bounds around it.
 
+use std::ops::Range;
+
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::feasibility::reachability::Refusal;
-use crate::math::segment::segment_distance;
-use crate::robot::arm::{AXES, Arm, Capsule, Chain, Frames, Joints, Tool};
+use crate::robot::arm::{APART, AXES, Arm, Chain, Frames, Joints, Tool};
 use crate::world::Bounds;
-use crate::world::cell::{Cell, Region};
+use crate::world::cell::{Cell, Region, hulls_gap};
 
 /// The tool's number among the bodies; 0 is the base, k the link that axis k moves.
 pub const TOOL: usize = AXES + 1;
 
-/// Bodies this many joints apart are held against one another; nearer ones are kept apart by the joints' limits.
-const APART: usize = 3;
 /// Room for the rounding of positions and distances, m.
 const ROUNDING: f64 = 1e-9;
 
@@ -24,11 +23,23 @@ const ROUNDING: f64 = 1e-9;
 pub struct Bodies<'a> {
     arm: &'a Arm,
     cell: &'a Cell,
-    capsules: Vec<(usize, Capsule)>,
+    bodies: Vec<Body>,
+    /// Of all bodies, each in its link's frame.
+    points: Vec<Point3<f64>>,
     bounds: Vec<Option<Bounds>>,
-    /// Pairs of indices into `capsules`.
+    /// Pairs of indices into `bodies`.
     pairs: Vec<(usize, usize)>,
     clearance: f64,
+}
+
+/// All points within a radius of a hull of points, two of a capsule.
+#[derive(Debug)]
+struct Body {
+    /// 0 the base, 1 to 6 a link, 7 the tool.
+    of: usize,
+    /// Its points among those of all.
+    points: Range<usize>,
+    radius: f64,
 }
 
 /// What is known of a piece of a move.
@@ -46,19 +57,43 @@ impl<'a> Bodies<'a> {
     ///
     /// The tool is a capsule from the flange's centre to its point, with its own radius.
     pub fn new(arm: &'a Arm, tool: &Tool, cell: &'a Cell, clearance: f64) -> Self {
-        let links = arm.links.iter().enumerate();
-        let mut capsules: Vec<(usize, Capsule)> =
-            links.flat_map(|(link, body)| body.capsules.iter().map(move |capsule| (link, *capsule))).collect();
+        let (mut bodies, mut points) = (Vec::new(), Vec::new());
+        let mut add = |of: usize, own: &[Point3<f64>], radius: f64| {
+            bodies.push(Body { of, points: points.len()..points.len() + own.len(), radius });
+            points.extend_from_slice(own);
+        };
+        for (link, body) in arm.links.iter().enumerate() {
+            body.capsules.iter().for_each(|capsule| add(link, &[capsule.a, capsule.b], capsule.radius));
+            body.hulls.iter().for_each(|hull| add(link, &hull.points, hull.radius));
+        }
         // Without a tool the flange's centre is one: what users say in words holds for it.
         let in_link = |p: Point3<f64>| arm.chain.flange * p;
         let tip = in_link(tool.tcp.translation.vector.into());
-        capsules.push((TOOL, Capsule { a: in_link(Point3::origin()), b: tip, radius: tool.radius }));
-        let apart = |a: usize, b: usize| b.min(AXES) >= a + APART;
-        let count = capsules.len();
+        add(TOOL, &[in_link(Point3::origin()), tip], tool.radius);
+        let apart = |a: usize, b: usize| b.min(AXES) >= a + APART && !arm.excluded.contains(&[a, b]);
+        let count = bodies.len();
         let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
-        let pairs = pairs.filter(|&(i, j)| apart(capsules[i].0, capsules[j].0)).collect();
+        let pairs = pairs.filter(|&(i, j)| apart(bodies[i].of, bodies[j].of)).collect();
         let bounds = cell.parts.iter().map(|part| part.region.bounds()).collect();
-        Self { arm, cell, capsules, bounds, pairs, clearance }
+        Self { arm, cell, bodies, points, bounds, pairs, clearance }
+    }
+
+    /// Parted by what their findings are worth: without the pairs of bodies of which neither is known, and, where there
+    /// are any, these pairs alone and nothing of the cell.
+    pub fn parted(self, is_known: impl Fn(usize) -> bool) -> (Self, Option<Self>) {
+        let known = |(i, j): &(usize, usize)| is_known(self.bodies[*i].of) || is_known(self.bodies[*j].of);
+        let (sure, doubtful): (Vec<_>, Vec<_>) = self.pairs.iter().copied().partition(known);
+        let nothing = &NOTHING;
+        let alone = (!doubtful.is_empty()).then(|| Self {
+            arm: self.arm,
+            cell: nothing,
+            bodies: self.bodies.iter().map(Body::again).collect(),
+            points: self.points.clone(),
+            bounds: Vec::new(),
+            pairs: doubtful,
+            clearance: 0.0,
+        });
+        (Self { pairs: sure, ..self }, alone)
     }
 
     /// What can be said of all configurations within `turns` (rad a joint) of `q`, `at` the share of the move. Counts
@@ -69,51 +104,62 @@ impl<'a> Bodies<'a> {
     pub(super) fn contact(&self, q: &Joints, turns: &Joints, at: f64, queries: &mut u64) -> Contact {
         let frames = self.arm.chain.frames(q);
         let axes = self.arm.chain.axes(&frames);
-        let placed: Vec<(usize, Point3<f64>, Point3<f64>, f64)> =
-            self.capsules.iter().map(|(body, capsule)| place(*body, capsule, &frames)).collect();
+        let points = self.placed(&frames);
         let mut unknown = None;
-        for &(body, a, b, radius) in &placed {
-            let moved = Chain::displacement(&axes, body.min(AXES), &[a, b], turns);
+        for Body { of: body, points: own, radius } in &self.bodies {
+            let (body, own) = (*body, &points[own.clone()]);
+            let moved = Chain::displacement(&axes, body.min(AXES), own, turns);
             let least = radius + self.clearance;
             let room = least + moved + ROUNDING;
-            let own = Bounds { min: a.inf(&b), max: a.sup(&b) };
+            let Some(around) = Bounds::around(own) else { continue };
             for (part, (named, bounds)) in self.cell.parts.iter().zip(&self.bounds).enumerate() {
                 // The base does not move: where it stands is the user's choice, unless nothing else stands there.
                 // Users' words are about where the tool may be: around the base they would forbid the arm itself.
                 let of_tool = matches!(named.region, Region::Words(_));
                 if body == 0
                     || (of_tool && body != TOOL)
-                    || bounds.is_some_and(|bounds| own.distance_to(&bounds) > room)
+                    || bounds.is_some_and(|bounds| around.distance_to(&bounds) > room)
                 {
                     continue;
                 }
                 *queries += 1;
-                if named.region.is_clear(&a, &b, room) {
-                    continue;
-                }
                 let refused = |undecided| Refusal::Collides { link: body, part, at, undecided };
-                if named.region.meets(&a, &b, least) {
-                    return Contact::Met(refused(false));
+                match held_against(&named.region, own, least, room) {
+                    Held::Clear => {}
+                    Held::Met => return Contact::Met(refused(false)),
+                    Held::Open => unknown = unknown.or(Some(refused(true))),
                 }
-                unknown = unknown.or(Some(refused(true)));
             }
         }
         for &(i, j) in &self.pairs {
-            let ((low, a, b, r), (high, c, d, s)) = (placed[i], placed[j]);
+            let [(low, a, r), (high, b, s)] = [i, j].map(|body| {
+                let Body { of, points: own, radius } = &self.bodies[body];
+                (*of, &points[own.clone()], *radius)
+            });
             *queries += 1;
-            let distance = segment_distance(&a, &b, &c, &d);
             // Seen from the lower body, only the joints between the two move the higher one.
             let between: Joints = std::array::from_fn(|k| if k < low { 0.0 } else { turns[k] });
-            if distance > r + s + Chain::displacement(&axes, high.min(AXES), &[c, d], &between) + ROUNDING {
+            let room = r + s + Chain::displacement(&axes, high.min(AXES), b, &between) + ROUNDING;
+            let gap = hulls_gap(a, b, [r + s, room]);
+            if gap.least > room {
                 continue;
             }
             let refused = |undecided| Refusal::SelfCollides { links: [low, high], at, undecided };
-            if distance <= r + s {
+            if gap.most <= r + s {
                 return Contact::Met(refused(false));
             }
             unknown = unknown.or(Some(refused(true)));
         }
         unknown.map_or(Contact::Clear, Contact::Unknown)
+    }
+
+    /// The points of all bodies in the base, m.
+    fn placed(&self, frames: &Frames) -> Vec<Point3<f64>> {
+        let of_body = |body: &'_ Body| {
+            let frame: Isometry3<f64> = frames[body.of.min(AXES)];
+            self.points[body.points.clone()].iter().map(move |p| frame * p)
+        };
+        self.bodies.iter().flat_map(of_body).collect()
     }
 
     /// Why the arm cannot stand at `q`; `None` where it can. `at` is told.
@@ -164,8 +210,35 @@ fn triangle_clear(region: &Region, corners: &[Vector3<f64>; 3], room: f64, depth
         && triangle_clear(region, &[middle, *b, *c], room, depth + 1)
 }
 
-/// A capsule in the base: number, both ends (m), radius (m).
-fn place(body: usize, capsule: &Capsule, frames: &Frames) -> (usize, Point3<f64>, Point3<f64>, f64) {
-    let frame: &Isometry3<f64> = &frames[body.min(AXES)];
-    (body, frame * capsule.a, frame * capsule.b, capsule.radius)
+impl Body {
+    fn again(&self) -> Self {
+        Self { of: self.of, points: self.points.clone(), radius: self.radius }
+    }
+}
+
+/// No cell.
+static NOTHING: Cell = Cell { parts: Vec::new() };
+
+/// What is known of a hull of points beside a region.
+enum Held {
+    Clear,
+    Met,
+    Open,
+}
+
+/// Whether a hull of points (two of a capsule) is farther from a region than `room`, or as near as `least`.
+fn held_against(region: &Region, points: &[Point3<f64>], least: f64, room: f64) -> Held {
+    if let [a, b] = points {
+        return match region.is_clear(a, b, room) {
+            true => Held::Clear,
+            false if region.meets(a, b, least) => Held::Met,
+            false => Held::Open,
+        };
+    }
+    // Words are about the tool alone, which is a capsule.
+    match region.hull_gap(points, [least, room]) {
+        Some(gap) if gap.least > room => Held::Clear,
+        Some(gap) if gap.most <= least => Held::Met,
+        _ => Held::Open,
+    }
 }

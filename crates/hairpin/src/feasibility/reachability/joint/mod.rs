@@ -18,6 +18,7 @@ mod costs;
 mod follow;
 mod motion;
 mod stations;
+mod worth;
 
 #[cfg(test)]
 mod tests;
@@ -29,3 +30,4 @@ pub use costs::{Cost, Trapezoid, time_law};
 pub use follow::{FollowSettings, Followed, follow};
 pub use motion::Motion;
 pub use stations::{Alternative, JointGraph, JointSettings, MoveKind, Station, joint, moved};
+pub use worth::{Worth, is_known};

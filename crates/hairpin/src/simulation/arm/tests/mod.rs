@@ -49,6 +49,7 @@ fn arm() -> Arm {
         }),
         links: Default::default(),
         estimated: Vec::new(),
+        excluded: Vec::new(),
     }
 }
 

@@ -1,55 +1,14 @@
-//! Triangle meshes in: STL (binary and ASCII) and OBJ, as vertices that triangles share.
+//! Triangle meshes in: STL (binary and ASCII), OBJ and Collada, as vertices that triangles share.
+
+mod collada;
+mod types;
 
 use std::collections::BTreeMap;
 
-use thiserror::Error;
+pub use types::{Mesh, MeshError};
 
-/// Vertices and triangles, m.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Mesh {
-    /// Distinct points in the order of their first use.
-    pub vertices: Vec<[f64; 3]>,
-    /// Indices into `vertices`, from 0, in the file's orientation.
-    pub triangles: Vec<[u32; 3]>,
-}
-
-/// Why bytes are no mesh.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum MeshError {
-    /// The name says no format.
-    #[error("must be named .stl or .obj")]
-    Format,
-    /// Shorter than the header of a binary STL file, and no ASCII one.
-    #[error("is no STL file: {bytes} bytes are fewer than its header of 84")]
-    NoHeader {
-        /// Length of the file.
-        bytes: usize,
-    },
-    /// An STL file ends before its triangles do.
-    #[error("says {said} triangles, but holds {found}")]
-    Truncated {
-        /// Count in the header.
-        said: u32,
-        /// Whole triangles that follow.
-        found: usize,
-    },
-    /// A line that cannot be understood.
-    #[error("line {line}: expected {expected}")]
-    Line {
-        /// Number of the line, from 1.
-        line: usize,
-        /// What should stand there.
-        expected: &'static str,
-    },
-    /// A coordinate is NaN or infinite.
-    #[error("vertex {vertex} is not finite")]
-    NotFinite {
-        /// Number of the vertex in the file, from 0.
-        vertex: usize,
-    },
-}
-
-/// Reads a mesh; the ending of `name` tells OBJ from STL. Coordinates are taken as metres.
+/// Reads a mesh; the ending of `name` tells OBJ, STL and Collada (`.dae`) apart. Coordinates of OBJ and STL are taken as
+/// metres; Collada says its unit.
 ///
 /// # Errors
 /// [`MeshError`].
@@ -57,6 +16,7 @@ pub fn read_mesh(bytes: &[u8], name: &str) -> Result<Mesh, MeshError> {
     let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
     let mesh = match ending.as_str() {
         "obj" => read_obj(&String::from_utf8_lossy(bytes))?,
+        "dae" => collada::read_collada(&String::from_utf8_lossy(bytes))?,
         "stl" if is_ascii_stl(bytes) => read_ascii_stl(&String::from_utf8_lossy(bytes))?,
         "stl" => read_binary_stl(bytes)?,
         _ => return Err(MeshError::Format),

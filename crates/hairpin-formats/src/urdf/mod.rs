@@ -1,0 +1,80 @@
+//! URDF in: the arm of six turning joints from a base to a flange, with limits, masses, and the collision geometry of
+//! all links as convex bodies.
+//!
+//! ```text
+//! text ─ element ─▶ tree of links ─ tip ─▶ base … flange ─ stand ─▶ which of the arm's links carries which
+//!                                                               ─ shapes, outline ─▶ hulls ─ arm ─▶ an arm's file
+//! ```
+//!
+//! | read | as |
+//! | --- | --- |
+//! | `revolute`, `continuous` between base and flange | the six axes; a `continuous` one without `<limit>` turns at an estimated speed |
+//! | `fixed` | part of the link before |
+//! | other joints beside or behind the arm (a gripper's) | held at rest; `mimic` where the master is, or anywhere about the joint where the master is an axis |
+//! | `<collision>`: box, sphere, capsule | exactly |
+//! | cylinder | a prism of 32 sides around it |
+//! | mesh: STL, OBJ, Collada | convex hulls around it, never smaller |
+//! | a link without, or whose mesh is not there | a stand-in, named in `estimates` |
+//! | `<inertial>` | masses, where all six links have them; products of inertia are left out |
+//! | `<visual>`, `<transmission>`, `<gazebo>`, `<safety_controller>`, `<dynamics>`, `effort` | nothing |
+
+mod arm;
+mod element;
+mod outline;
+mod pairs;
+mod shapes;
+mod srdf;
+mod stand;
+mod tip;
+mod tree;
+
+#[cfg(test)]
+mod tests;
+
+pub use arm::UrdfArm;
+pub use element::UrdfError;
+pub use shapes::{MeshFile, NoMesh, Triangles};
+pub use srdf::read_srdf;
+
+/// What a URDF does not say itself.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct UrdfOptions {
+    /// The link that is the flange; found if not given.
+    pub tip: Option<String>,
+    /// The link that the arm stands on; the root if not given.
+    pub base: Option<String>,
+    /// Pairs that are not held against each other, by links' names or as findings call them.
+    pub exclude: Vec<[String; 2]>,
+    /// An SRDF's pairs ([`read_srdf`]).
+    pub disabled: Vec<[String; 2]>,
+}
+
+/// Bytes of a text, at most.
+const LARGEST: usize = 32_000_000;
+
+/// Reads the arm of a URDF; `find` gives its meshes.
+///
+/// # Errors
+/// [`UrdfError`]: no XML; no arm of six turning joints, or several; limits, numbers or shapes missing or wrong; a mesh
+/// that is there and broken.
+pub fn read_urdf(text: &str, options: &UrdfOptions, find: &MeshFile) -> Result<UrdfArm, UrdfError> {
+    if text.len() > LARGEST {
+        return Err(UrdfError::Chain(format!("{} bytes are more than {LARGEST}", text.len())));
+    }
+    let document = element::parse(text)?;
+    let robot = srdf::root_of(&document)?;
+    if let Some(node) =
+        robot.children().find(|node| node.tag_name().namespace().is_some_and(|space| space.contains("xacro")))
+    {
+        return Err(element::at(&node, "is a xacro file: `xacro FILE.xacro > FILE.urdf` makes the URDF of it"));
+    }
+    let tree = tree::Tree::of(&robot)?;
+    let way = tip::arm_of(&tree, options.base.as_deref(), options.tip.as_deref())?;
+    let stands = stand::stands(&tree, &way)?;
+    let mut built = arm::Built::default();
+    let flange = built.chain(&tree, &way)?;
+    built.bodies(&tree, &stands, &mut shapes::Reader::new(find))?;
+    let has_body = |link: &str| tree.links.get(link).is_some_and(|link| element::child(link, "collision").is_some());
+    let exclude = pairs::left_out(&stands, (way.tip, &has_body), &options.disabled, &options.exclude)?;
+    Ok(built.finish(robot.attribute("name").unwrap_or_default(), &flange, exclude))
+}

@@ -1,0 +1,115 @@
+//! Few points and a radius around many points: what a mesh's convex hull is taken for, never smaller.
+
+use nalgebra::{Point3, Vector3};
+
+use super::convex::{farthest, gap};
+
+/// All points within `radius` of the convex hull of `points`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Enclosing {
+    /// Some of those that were given.
+    pub points: Vec<Point3<f64>>,
+    /// How far the others may lie outside the hull of these.
+    pub radius: f64,
+}
+
+/// Points that a hull is made of, at most.
+const MOST_POINTS: usize = 64;
+/// Points this near to the hull so far are not looked at again, as a share of the size.
+const NEAR: f64 = 1e-3;
+
+/// Few of `points`, and the radius with which their hull holds all of them; `None` without points.
+///
+/// Starts with the farthest in 50 directions; then whatever lies farthest outside is taken in, until nothing does by
+/// more than a thousandth of the size or 64 points are taken. The radius is an upper bound of the distance of every
+/// other point from the hull ([`gap`]), so that nothing is left out, whatever the search did.
+pub fn enclose(points: &[Point3<f64>]) -> Option<Enclosing> {
+    let first = points.first()?;
+    let size = points.iter().map(|p| (p - first).norm()).fold(0.0, f64::max);
+    let mut taken: Vec<Point3<f64>> = Vec::new();
+    for direction in directions() {
+        let p = farthest(points, &direction);
+        if !taken.contains(&p) {
+            taken.push(p);
+        }
+    }
+    let near = NEAR * size;
+    let mut radius = 0.0_f64;
+    let outside = |taken: &[Point3<f64>], p: &Point3<f64>| gap(|n| farthest(taken, n), |_| *p, [0.0, near]).most;
+    let mut open: Vec<(f64, Point3<f64>)> = points.iter().map(|p| (f64::INFINITY, *p)).collect();
+    while !open.is_empty() {
+        for (distance, p) in &mut open {
+            *distance = outside(&taken, p);
+        }
+        // What is near stays near while the hull grows.
+        open.retain(|(distance, _)| {
+            if *distance <= near {
+                radius = radius.max(*distance);
+            }
+            *distance > near
+        });
+        let Some((far, p)) = open.iter().max_by(|(a, _), (b, _)| a.total_cmp(b)).copied() else { break };
+        if taken.len() >= MOST_POINTS {
+            radius = radius.max(far);
+            break;
+        }
+        taken.push(p);
+    }
+    // Bounds are of rounded numbers.
+    let radius = if radius > 0.0 { radius + 1e-12 * size } else { 0.0 };
+    Some(Enclosing { points: taken, radius })
+}
+
+/// To the faces, edges and corners of a cube, and between them: 50.
+pub fn directions() -> impl Iterator<Item = Vector3<f64>> {
+    let side = |i: usize| i as f64 - 1.0;
+    let cube = (0..27).map(move |i| Vector3::new(side(i % 3), side(i / 3 % 3), side(i / 9)));
+    let between = (0..24).map(|i| {
+        let (a, b) = (if i & 1 == 0 { 1.0 } else { -1.0 }, if i & 2 == 0 { 2.0 } else { -2.0 });
+        match i / 4 {
+            0 => Vector3::new(a, b, 0.0),
+            1 => Vector3::new(b, a, 0.0),
+            2 => Vector3::new(0.0, a, b),
+            3 => Vector3::new(0.0, b, a),
+            4 => Vector3::new(a, 0.0, b),
+            _ => Vector3::new(b, 0.0, a),
+        }
+    });
+    cube.chain(between).filter(|v| *v != Vector3::zeros())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{stream, unit};
+
+    #[test]
+    fn nothing_is_left_out_and_little_is_added() {
+        let mut random = stream(11);
+        let ball: Vec<Point3<f64>> = (0..3000)
+            .map(|_| {
+                let v = Vector3::new(unit(&mut random) - 0.5, unit(&mut random) - 0.5, unit(&mut random) - 0.5);
+                Point3::from(v.normalize() * 0.2)
+            })
+            .collect();
+        let found = enclose(&ball).unwrap();
+        assert!(found.points.len() <= 64 && found.radius < 0.02, "{} {}", found.points.len(), found.radius);
+        for p in &ball {
+            let far = gap(|n| farthest(&found.points, n), |_| *p, [0.0, f64::INFINITY]);
+            assert!(far.least <= found.radius, "{far:?}");
+        }
+        let cube: Vec<Point3<f64>> = (0..5000)
+            .map(|i| {
+                let mut p = [unit(&mut random), unit(&mut random), unit(&mut random)];
+                if i < 8 {
+                    p = [0, 1, 2].map(|k| f64::from((i >> k & 1) as u8));
+                }
+                p.into()
+            })
+            .collect();
+        let found = enclose(&cube).unwrap();
+        assert!(found.points.len() == 8 && found.radius < 1e-9, "{found:?}");
+        assert!(enclose(&[]).is_none());
+        assert_eq!(enclose(&[Point3::origin()]).unwrap().radius, 0.0);
+    }
+}
