@@ -8,7 +8,7 @@ use hairpin::robot::arm::{
     ArmDescription, ArmKind, CapsuleDescription, ChainDescription, ChainJoint, JointsDescription, MassDescription,
 };
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, ParsingOptions};
 use thiserror::Error;
 
 /// Why a text is no arm in URDF.
@@ -42,6 +42,9 @@ struct Joint<'t> {
     origin: Isometry3<f64>,
 }
 
+/// Elements, attributes and texts of a robot: the largest have some thousand.
+const MOST_NODES: u32 = 100_000;
+
 /// Reads the longest chain of joints from the root link; fixed joints are merged into the links that they join.
 ///
 /// Collision shapes become capsules: cylinders and spheres as they are, boxes as the capsule around them; meshes are
@@ -51,7 +54,8 @@ struct Joint<'t> {
 /// [`UrdfError`]: no XML; no turning joints, or another number than six; a sliding joint; limits or numbers missing or
 /// wrong.
 pub fn read_urdf(text: &str) -> Result<ArmDescription, UrdfError> {
-    let document = Document::parse(text).map_err(|error| UrdfError::Xml(error.to_string()))?;
+    let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|error| UrdfError::Xml(error.to_string()))?;
     let robot = document.root_element();
     if robot.tag_name().name() != "robot" {
         return Err(at(&robot, "the root element must be <robot>"));

@@ -10,7 +10,7 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
-use crate::bounds::{self, MOST_BYTES};
+use crate::bounds::{self, MOST_BYTES, shortened};
 use crate::delimited::{Cut, Row, Table};
 use crate::frames::Geodetic;
 use crate::geodetic;
@@ -210,7 +210,7 @@ fn in_metres(path: &Path) -> Option<PathBuf> {
 /// The first thing wrong, with line, column and value.
 pub fn read(path: &Path, scenario: &Scenario) -> Result<(Vec<Point3<f64>>, bool), WaypointsError> {
     let unreadable = |cause| WaypointsError::Unreadable { path: path.into(), cause };
-    let bytes = bounds::read(path, MOST_BYTES).map_err(unreadable)?;
+    let bytes = bounds::read_table(path).map_err(unreadable)?;
     // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
     let text = String::from_utf8_lossy(&bytes);
     let header = Table::of(&text, Cut::COMMAS).names;
@@ -277,11 +277,6 @@ fn degrees_of(path: &Path, row: &Row, places: [usize; 3]) -> Result<Geodetic, Wa
         })
     };
     Ok(Geodetic { lat_deg: number(0)?, lon_deg: number(1)?, alt_amsl_m: number(2)? })
-}
-
-/// As much of a cell as a message holds.
-fn shortened(cell: &str) -> String {
-    if cell.chars().count() <= 80 { cell.into() } else { cell.chars().take(80).chain(['…']).collect() }
 }
 
 fn parse(

@@ -45,6 +45,7 @@ use hairpin::campaign::{Curve, Tally};
 use hairpin::judgement::Stress;
 
 use crate::atomic::{self, WriteError};
+use crate::bounds::{self, MOST_TEXT_BYTES};
 
 pub use error::FolderError;
 pub use graph::graph_decimals;
@@ -137,7 +138,7 @@ impl CampaignFolder {
     /// The file cannot be read.
     pub fn read_scenario(&self) -> Result<String, FolderError> {
         let path = self.file(SCENARIO);
-        fs::read_to_string(&path).map_err(|cause| FolderError::Unreadable { path, cause })
+        bounds::read_text(&path, MOST_TEXT_BYTES).map_err(|cause| FolderError::Unreadable { path, cause })
     }
 
     /// Writes what the search did.

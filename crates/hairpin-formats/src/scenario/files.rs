@@ -10,6 +10,7 @@ use super::attached::Wrong;
 use super::report::Report;
 use super::resolve::read_file;
 use super::{baseline, cell, learned, terrain, user_score};
+use crate::bounds::MOST_MESH_PARTS;
 use crate::mesh::read_mesh;
 
 /// Reads all files of `scenario`, each from where `find` says it lies, and all that is wrong with them.
@@ -19,8 +20,9 @@ pub(super) fn read(scenario: &mut Scenario, find: &dyn Fn(&str) -> PathBuf) -> (
     let map = map.and_then(|keys| noting(terrain::read(keys, find), &mut wrong));
     let cloud = cloud.and_then(|(file, checksum)| noting(cell::cloud(file, checksum, find), &mut wrong));
     let costs = costs.and_then(|table| noting(cell::costs(table, find), &mut wrong));
+    let mut parts = 0;
     for keys in meshes {
-        noting(mesh(keys, find), &mut wrong);
+        noting(mesh(keys, find, &mut parts), &mut wrong);
     }
     let baseline = baseline.and_then(|limit| noting(baseline::attach(limit, find), &mut wrong));
     let mut attachments = Attachments { map, cloud, costs, baseline, ..Attachments::default() };
@@ -57,7 +59,8 @@ pub fn attach(mut scenario: Scenario, folder: &Path) -> Result<Resolved, Report>
     }
 }
 
-fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf) -> Result<(), Wrong> {
+/// `parts` are the vertices and triangles so far.
+fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf, parts: &mut usize) -> Result<(), Wrong> {
     let NamedMesh { key, file, scale, vertices_key, vertices, triangles } = keys;
     let Some(file) = file.take() else { return Ok(()) };
     let wrong = |bound: String| Wrong { key: key.clone(), value: file.clone(), bound };
@@ -66,6 +69,12 @@ fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf) -> Result<(), Wrong
     }
     let bytes = read_file(&find(&file)).map_err(|why| wrong(format!("cannot be read: {why}")))?;
     let read = read_mesh(&bytes, &file).map_err(|error| wrong(error.to_string()))?;
+    *parts += read.vertices.len() + read.triangles.len();
+    if *parts > MOST_MESH_PARTS {
+        let bound =
+            format!("with the meshes before it {parts} vertices and triangles, at most {MOST_MESH_PARTS}: simplify it");
+        return Err(wrong(bound));
+    }
     let scale = scale.and_then(Option::take).unwrap_or(1.0);
     *vertices = read.vertices.iter().map(|vertex| vertex.map(|part| part * scale)).collect();
     *triangles = read.triangles;

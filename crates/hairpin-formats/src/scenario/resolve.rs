@@ -5,11 +5,9 @@ use std::path::Path;
 use super::report::{Place, Report};
 use super::shape::nearest;
 use super::tree::{self, Node, NodeKind};
+use crate::bounds::{self, MOST_BYTES};
 use crate::library::{self, Shipped};
 use crate::urdf::read_urdf;
-
-/// A robot or world file is a page of numbers; a mesh file of 100 MB has two million triangles.
-const LARGEST_FILE: u64 = 100_000_000;
 
 pub(super) struct Resolver<'r> {
     pub(super) base: &'r Path,
@@ -94,9 +92,5 @@ fn as_robot_file(urdf: &str) -> Result<String, String> {
 }
 
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
-    let size = std::fs::metadata(path).map_err(|error| error.to_string())?.len();
-    if size > LARGEST_FILE {
-        return Err(format!("{size} bytes are more than 100 MB"));
-    }
-    std::fs::read(path).map_err(|error| error.to_string())
+    bounds::read(path, MOST_BYTES).map_err(|error| error.to_string())
 }

@@ -6,6 +6,7 @@ use super::error::TerrainError;
 use super::no_data;
 use super::raster::{Layout, Raster, bounded};
 use super::reference::Reference;
+use crate::bounds::shortened;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
     let text =
@@ -68,11 +69,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
     };
     let grid = Grid { columns, rows, first_center, cell };
     Ok(Raster { grid, heights, reference: Reference::default(), layout })
-}
-
-/// As much of a word as a message holds.
-fn shortened(word: &str) -> String {
-    word.chars().take(40).collect()
 }
 
 struct Header {
