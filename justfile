@@ -12,6 +12,10 @@ check:
     cargo test --workspace
     cargo deny check
 
+# A hundred thousand spoiled inputs for each reader; HAIRPIN_FUZZ_SEED makes them others.
+fuzz:
+    HAIRPIN_FUZZ=100000 cargo test --release -p hairpin-formats --test fuzz -p hairpin-jobs --test fuzz_certificates
+
 demo:
     cargo run --release -p hairpin-cli -- demo
 

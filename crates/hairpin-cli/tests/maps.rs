@@ -1,5 +1,5 @@
-//! Elevation maps of the Earth from the command line: shown with all that they say, driven in their own coordinates, and
-//! placed by their own plane.
+//! Elevation maps of the Earth from the command line: shown with all that they say, driven in their own coordinates,
+//! and placed by their own plane.
 
 mod commands;
 

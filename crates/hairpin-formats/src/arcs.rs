@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::bounds;
 use crate::costs;
+use crate::quote;
 
 const HEADER: [&str; 5] = ["from", "via", "to", "cost", "reason"];
 
@@ -59,15 +61,16 @@ pub fn text<'a>(arcs: impl IntoIterator<Item = ([usize; 3], Result<i64, &'a str>
 /// The first thing wrong, with its place.
 pub fn read(path: &Path, decimals: usize) -> Result<Vec<([usize; 3], i64)>, ArcsError> {
     let broken = |cause: csv::Error| ArcsError::Csv { path: path.into(), cause };
+    let bytes = bounds::read_table(path).map_err(|cause| broken(cause.into()))?;
     let mut free = Vec::new();
-    for record in csv::Reader::from_path(path).map_err(broken)?.into_records() {
+    for record in csv::Reader::from_reader(bytes.as_slice()).into_records() {
         let record = record.map_err(broken)?;
         let cell = |column: usize| record.get(column).unwrap_or_default().trim();
         let wrong = |column: usize, bound: String| ArcsError::Value {
             path: path.into(),
             line: record.position().map_or(0, csv::Position::line),
             column: HEADER[column],
-            value: cell(column).into(),
+            value: quote::cell(cell(column)),
             bound,
         };
         if cell(3).is_empty() {

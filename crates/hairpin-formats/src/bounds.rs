@@ -14,6 +14,72 @@ pub const MOST_RASTER_BYTES: u64 = 1_000_000_000;
 /// Bytes of what stands beside a file and says how it is to be read.
 pub const MOST_SIDECAR_BYTES: u64 = 1_000_000;
 
+/// Bytes of what somebody wrote as text: scenarios, robots, programs, JSON.
+pub const MOST_TEXT_BYTES: u64 = 32_000_000;
+/// Rows of a table of text: two hours of a controller's log at 250 Hz.
+pub const MOST_ROWS: usize = 2_000_000;
+/// Bytes of a row: twenty thousand cells of fifty.
+pub const LONGEST_ROW: usize = 1_000_000;
+/// Values of a TOML text, each of which takes a place in a tree: as many as 300 000 vertices and triangles have.
+pub const MOST_VALUES: usize = 1_500_000;
+/// Values of a JSON text.
+pub const MOST_JSON_VALUES: usize = 6_000_000;
+/// Vertices and triangles of all meshes that one scenario names.
+pub const MOST_MESH_PARTS: usize = 200_000;
+
+/// The bytes of a table of text at `path`.
+///
+/// # Errors
+/// As of [`read`]; more rows, or longer ones, than any table has.
+pub fn read_table(path: &Path) -> io::Result<Vec<u8>> {
+    let bytes = read(path, MOST_BYTES)?;
+    check_table(&bytes).map_err(|what| io::Error::new(io::ErrorKind::InvalidData, what))?;
+    Ok(bytes)
+}
+
+/// Refuses a table of more than [`MOST_ROWS`] rows or [`LONGEST_ROW`] bytes in one.
+///
+/// # Errors
+/// What there is too much of.
+pub fn check_table(bytes: &[u8]) -> Result<(), String> {
+    let (mut rows, mut begun) = (0, 0);
+    for (at, byte) in bytes.iter().enumerate() {
+        if matches!(byte, b'\n' | b'\r') {
+            (rows, begun) = (rows + 1, at + 1);
+        } else if at - begun >= LONGEST_ROW {
+            return Err(format!("line {}: longer than {LONGEST_ROW} bytes", rows + 1));
+        }
+    }
+    if rows <= 2 * MOST_ROWS { Ok(()) } else { Err(format!("more than {MOST_ROWS} rows")) }
+}
+
+/// Refuses a TOML text of more than [`MOST_VALUES`] values, told by its signs alone.
+///
+/// # Errors
+/// How many there are.
+pub fn check_values(text: &str) -> Result<(), String> {
+    let values = count(text, b"[{=,");
+    if values <= MOST_VALUES { Ok(()) } else { Err(format!("{values} values: at most {MOST_VALUES}")) }
+}
+
+/// The text of a JSON file at `path`.
+///
+/// # Errors
+/// As of [`read_text`]; more than [`MOST_JSON_VALUES`] values, told by its signs alone.
+pub fn read_json_text(path: &Path) -> io::Result<String> {
+    let text = read_text(path, MOST_TEXT_BYTES)?;
+    let values = count(&text, b"[{:,");
+    if values <= MOST_JSON_VALUES {
+        return Ok(text);
+    }
+    let what = format!("{values} values: at most {MOST_JSON_VALUES}");
+    Err(io::Error::new(io::ErrorKind::InvalidData, what))
+}
+
+fn count(text: &str, signs: &[u8; 4]) -> usize {
+    text.bytes().filter(|byte| signs.contains(byte)).count()
+}
+
 /// The bytes of the file at `path`, of which it may have `most`.
 ///
 /// # Errors
@@ -64,7 +130,7 @@ fn refuse_special(kind: FileType) -> io::Result<()> {
     if kind.is_file() {
         return Ok(());
     }
-    let what = if kind.is_dir() { "a folder" } else { special(kind) };
+    let what = if kind.is_dir() { "a directory" } else { special(kind) };
     Err(io::Error::new(io::ErrorKind::InvalidInput, format!("{what}, where a file is needed")))
 }
 
@@ -98,8 +164,23 @@ mod tests {
         assert_eq!(read(&path, 4).unwrap_err().kind(), io::ErrorKind::FileTooLarge);
         fs::write(&path, [0xff, 0xfe]).unwrap();
         assert!(read_text(&path, 5).unwrap_err().to_string().contains("no UTF-8"));
-        assert!(read(folder.path(), 5).unwrap_err().to_string().contains("a folder"));
+        assert!(read(folder.path(), 5).unwrap_err().to_string().contains("a directory"));
         assert_eq!(read(&folder.path().join("none"), 5).unwrap_err().kind(), io::ErrorKind::NotFound);
+    }
+
+    #[test]
+    fn tables_and_trees_have_bounds_of_their_own() {
+        assert!(check_table(b"a,b\r\n1,2\r\n").is_ok());
+        let long = vec![b','; LONGEST_ROW + 1];
+        assert!(check_table(&long).unwrap_err().contains("line 1"));
+        let many = vec![b'\n'; 2 * MOST_ROWS + 1];
+        assert!(check_table(&many).unwrap_err().contains("rows"));
+        assert!(check_values(&"a=1\n".repeat(1000)).is_ok());
+        assert!(check_values(&"[".repeat(MOST_VALUES + 1)).is_err());
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.json");
+        fs::write(&path, ",".repeat(MOST_JSON_VALUES + 1)).unwrap();
+        assert!(read_json_text(&path).unwrap_err().to_string().contains("values"));
     }
 
     #[cfg(unix)]

@@ -8,6 +8,7 @@ use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
 
 use crate::delimited::{Cut, Row, Table};
+use crate::quote;
 
 /// A point of a cloud.
 #[derive(Debug, Clone, PartialEq)]
@@ -294,7 +295,8 @@ impl PointRow<'_> {
             let (bounds, bound) =
                 if index == 3 { (0..=7, "from 0 to 7") } else { (-32..=31, "a whole number from -32 to 31") };
             let parsed = text.parse::<i32>().ok().filter(|number| bounds.contains(number));
-            *number = parsed.ok_or_else(|| CloudError::Value { line: self.line, column, value: text.into(), bound })?;
+            *number =
+                parsed.ok_or_else(|| CloudError::Value { line: self.line, column, value: quote::cell(text), bound })?;
         }
         Ok(Some(value))
     }
@@ -310,7 +312,7 @@ impl PointRow<'_> {
     fn number(&self, column: usize, largest: f64, bound: &'static str) -> Result<f64, CloudError> {
         let (text, name) = (self.text(column), COLUMNS[column]);
         let number = text.parse::<f64>().ok().filter(|number| number.abs() <= largest);
-        number.ok_or_else(|| CloudError::Value { line: self.line, column: name, value: text.into(), bound })
+        number.ok_or_else(|| CloudError::Value { line: self.line, column: name, value: quote::cell(text), bound })
     }
 }
 

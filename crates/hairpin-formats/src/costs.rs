@@ -2,13 +2,14 @@
 //!
 //! Decimals become whole numbers without passing through floating point: all costs times the same power of ten.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::bounds;
 use crate::delimited::{Cut, Row, Rows};
+use crate::quote;
 
 /// More digits behind the point leave no room in front of it.
 const MOST_DECIMALS: usize = 18;
@@ -141,7 +142,7 @@ pub fn read(path: &Path) -> Result<Costs, CostsError> {
 /// # Errors
 /// As [`read`].
 pub fn read_in(path: &Path, least: usize) -> Result<Costs, CostsError> {
-    let bytes = fs::read(path).map_err(|cause| CostsError::Unreadable { path: path.into(), cause })?;
+    let bytes = bounds::read_table(path).map_err(|cause| CostsError::Unreadable { path: path.into(), cause })?;
     // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
     parse(path, &String::from_utf8_lossy(&bytes), least)
 }
@@ -211,7 +212,7 @@ fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
         path: path.into(),
         line: row + 1,
         column: column + 1,
-        value: value.into(),
+        value: quote::cell(value),
     };
     let mut numbers = Vec::new();
     for (row, cells) in rows.iter().enumerate() {
@@ -235,7 +236,7 @@ fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
             path: path.into(),
             line: row + 1,
             column: column + 1,
-            value: (*cell).into(),
+            value: quote::cell(cell),
             scale: format!("10^{decimals}"),
         })?);
     }

@@ -51,6 +51,12 @@ fn with_short_words(text: &str) -> Cow<'_, str> {
     out.into()
 }
 
+/// As much of a cell as a message holds.
+pub fn cell(text: &str) -> String {
+    const MOST: usize = 80;
+    if text.chars().nth(MOST).is_none() { text.into() } else { text.chars().take(MOST).chain(['…']).collect() }
+}
+
 /// A name on one line, whatever is in it: what would begin another line, or command a terminal, is written out.
 pub fn on_one_line(name: &str) -> Cow<'_, str> {
     if !name.contains(char::is_control) {

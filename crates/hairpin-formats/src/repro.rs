@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
+use crate::bounds;
 use crate::rapid::{self, Frames};
 
 /// A file that is no repro file.
@@ -147,7 +148,7 @@ impl Repro {
     /// The file cannot be read, or is none.
     pub fn read(path: &Path) -> Result<Self, BrokenRepro> {
         let refuse = |what: String| BrokenRepro { path: path.into(), what };
-        let text = std::fs::read_to_string(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
+        let text = bounds::read_json_text(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
         let repro: Self = serde_json::from_str(&text).map_err(|error| refuse(format!("is no repro file: {error}")))?;
         repro.check().map_err(refuse)?;
         Ok(repro)

@@ -209,7 +209,7 @@ fn in_metres(path: &Path) -> Option<PathBuf> {
 /// The first thing wrong, with line, column and value.
 pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<(Vec<Point3<f64>>, bool), WaypointsError> {
     let unreadable = |cause| WaypointsError::Unreadable { path: path.into(), cause };
-    let bytes = bounds::read(path, MOST_BYTES).map_err(unreadable)?;
+    let bytes = bounds::read_table(path).map_err(unreadable)?;
     // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
     let text = String::from_utf8_lossy(&bytes);
     let header = Table::of(&text, Cut::COMMAS).names;

@@ -1,5 +1,5 @@
-//! What elevation maps say of themselves is read: units, planes, scales, masks, orientation; what is not read comes with
-//! the command that makes it readable.
+//! What elevation maps say of themselves is read: units, planes, scales, masks, orientation; what is not read comes
+//! with the command that makes it readable.
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,5 @@
 //! A program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking module.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::Setup;
@@ -9,6 +8,7 @@ use hairpin::feasibility::program::{Checked, Surroundings, check};
 use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;
 use hairpin_formats::atomic;
+use hairpin_formats::bounds::{self, MOST_TEXT_BYTES};
 use hairpin_formats::rapid::{self, Frames, Module, Options};
 use hairpin_formats::scenario::{arm_with, setup_for};
 
@@ -92,7 +92,8 @@ pub struct MoveFinding {
 /// # Errors
 /// A file that cannot be read at all; no such arm.
 pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
-    let bytes = fs::read(&settings.file).map_err(|error| Problem::of_file(&settings.file, error))?;
+    let bytes =
+        bounds::read(&settings.file, MOST_TEXT_BYTES).map_err(|error| Problem::of_file(&settings.file, error))?;
     if rapid::is_log(&bytes) {
         return clocked(settings, &bytes);
     }
@@ -214,6 +215,8 @@ fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFinding> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     const MODULE: &str = "MODULE m\n\

@@ -10,7 +10,7 @@ use std::fs;
 use hairpin::campaign::arm::{ArmGraph, ArmSetup};
 use hairpin::campaign::{Case, CaseNumber, Stop};
 use hairpin_formats::folder::{ARCS, GRAPH, OPTIMUM, graph_decimals};
-use hairpin_formats::{arcs, atomic, costs};
+use hairpin_formats::{arcs, atomic, bounds, costs};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -68,8 +68,8 @@ pub(crate) fn verify(work: &Work, arm: &ArmSetup, cases: &[Case]) -> Option<Opti
 }
 
 fn check(work: &Work, arm: &ArmSetup, first: &Case) -> Result<Optimum, String> {
-    let text =
-        fs::read_to_string(work.folder.file(OPTIMUM)).map_err(|cause| format!("{OPTIMUM} cannot be read: {cause}"))?;
+    let text = bounds::read_json_text(&work.folder.file(OPTIMUM))
+        .map_err(|cause| format!("{OPTIMUM} cannot be read: {cause}"))?;
     let object: Value = serde_json::from_str(&text).map_err(|error| format!("{OPTIMUM} is no JSON: {error}"))?;
     let decimals = object["decimals"].as_u64().map_or(0, |decimals| decimals.min(18) as usize);
     let table = costs::read_in(&work.folder.file(GRAPH), decimals).map_err(|error| error.to_string())?;

@@ -6,6 +6,7 @@ use hairpin::campaign::flight::FlightSetup;
 use hairpin::robot::quadrotor::Quadrotor;
 use hairpin::simulation::{Motion, Plant, PlantState, Stepper};
 use hairpin::trajectory::{Channel, Track, TrackError};
+use hairpin_formats::bounds;
 use hairpin_formats::rotor_speeds::{self, RotorSpeeds};
 use hairpin_formats::scenario::setup_for;
 use nalgebra::{Vector3, Vector4};
@@ -51,7 +52,10 @@ fn fly(robot: &Quadrotor, rows: &[RotorSpeeds]) -> Result<Track, TrackError> {
 }
 
 fn read(path: &Path, robot: &Quadrotor) -> Result<Vec<RotorSpeeds>, Problem> {
-    let text = std::fs::read_to_string(path);
+    let text = bounds::read_table(path).and_then(|bytes| {
+        String::from_utf8(bytes)
+            .map_err(|_| std::io::Error::new(std::io::ErrorKind::InvalidData, "it is no UTF-8 text"))
+    });
     let text = text.map_err(|error| Problem::of_file(path, format!("cannot be read: {error}")))?;
     rotor_speeds::parse(&text, robot.rotor_speed).map_err(|why| Problem::of_file(path, why))
 }

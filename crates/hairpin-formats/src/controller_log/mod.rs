@@ -1,6 +1,5 @@
 //! Recordings of arms as CSV, whoever wrote them: columns by name, units by name, decimal points or commas.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +9,9 @@ use hairpin::trajectory::{Channel, Track, TrackError};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use thiserror::Error;
 
+use crate::bounds;
 use crate::delimited::{Cut, Row as Cells, Table};
+use crate::quote;
 
 /// Farther from the base no arm's tool is, m.
 const FARTHEST_M: f64 = 100.0;
@@ -147,7 +148,8 @@ const RADIANS: &[(&str, f64)] = &[("_rad", 1.0), ("_deg", std::f64::consts::PI /
 /// # Errors
 /// The first thing wrong, with line, column and value; stamps that do not rise; fewer than two samples.
 pub fn read(path: &Path, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<ControllerLog, ControllerLogError> {
-    let bytes = fs::read(path).map_err(|cause| ControllerLogError::Unreadable { path: path.into(), cause })?;
+    let bytes =
+        bounds::read_table(path).map_err(|cause| ControllerLogError::Unreadable { path: path.into(), cause })?;
     // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
     parse(path, &String::from_utf8_lossy(&bytes), arm)
 }
@@ -322,7 +324,7 @@ impl Row<'_> {
             path: self.path.into(),
             line: self.cells.line,
             column: column.name.clone(),
-            value: self.cells.cell(column.index).into(),
+            value: quote::cell(self.cells.cell(column.index)),
             bound,
         }
     }

@@ -1,6 +1,7 @@
 //! Logs in the dialects that controllers and people write, and what is wrong with some.
 
 use std::f64::consts::FRAC_PI_2;
+use std::fs;
 
 use hairpin::robot::arm::ArmDescription;
 use nalgebra::Point3;

@@ -7,6 +7,7 @@ use hairpin::trajectory::Track;
 use hairpin::trajectory::program::Program;
 
 use super::{CampaignFolder, FolderError, RESULTS, WAYPOINTS};
+use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::parquet::results::Row;
 use crate::parquet::{cases, drive, profile, track};
 use crate::rapid::{self, Frames};
@@ -128,7 +129,8 @@ impl CampaignFolder {
 
     fn read_program(&self, path: &Path, case: CaseNumber) -> Result<Program, FolderError> {
         let refuse = |what: String| FolderError::Program { path: path.into(), what };
-        let bytes = std::fs::read(path).map_err(|cause| FolderError::Unreadable { path: path.into(), cause })?;
+        let bytes = bounds::read(path, MOST_TEXT_BYTES)
+            .map_err(|cause| FolderError::Unreadable { path: path.into(), cause })?;
         let frames = self.frames.get_or_init(|| self.scenario().as_ref().map_or_else(Frames::default, Frames::of));
         let module = rapid::read(&bytes, &frames.options()).map_err(|error| refuse(error.to_string()))?;
         let unclear = module.unclear_line.map(|line| format!("line {line} is not understood"));

@@ -1,6 +1,5 @@
 //! The folder's JSON files: indented, with a line's end.
 
-use std::fs;
 use std::io;
 
 use serde::Serialize;
@@ -8,6 +7,7 @@ use serde::de::DeserializeOwned;
 
 use super::{CampaignFolder, FolderError};
 use crate::atomic;
+use crate::bounds;
 
 impl CampaignFolder {
     pub(super) fn write_json(&self, name: &str, what: &impl Serialize) -> Result<(), FolderError> {
@@ -16,7 +16,7 @@ impl CampaignFolder {
 
     pub(super) fn read_json<T: DeserializeOwned>(&self, name: &str) -> Result<T, FolderError> {
         let path = self.file(name);
-        let text = fs::read_to_string(&path);
+        let text = bounds::read_json_text(&path);
         let found = text.and_then(|text| serde_json::from_str(&text).map_err(io::Error::from));
         found.map_err(|cause| FolderError::Unreadable { path, cause })
     }

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use super::error::FolderError;
 use super::names::{GENERATION, LIST, OURS, RESULTS, SCENARIO, WAYPOINTS, exports, stands_for};
 use crate::atomic;
+use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::scenario::read_made_by;
 
 /// No list that hairpin writes comes near it, bytes.
@@ -32,15 +33,10 @@ impl List {
     pub(super) fn read(path: &Path) -> Result<Option<Self>, FolderError> {
         let file = path.join(LIST);
         let refuse = |cause| FolderError::Unreadable { path: file.clone(), cause };
-        match fs::metadata(&file) {
+        let text = match bounds::read_text(&file, LARGEST) {
             Err(cause) if cause.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(cause) => return Err(refuse(cause)),
-            Ok(found) if found.len() > LARGEST => {
-                return Err(refuse(io::Error::new(io::ErrorKind::InvalidData, format!("more than {LARGEST} bytes"))));
-            }
-            Ok(_) => {}
-        }
-        let text = fs::read_to_string(&file).map_err(refuse)?;
+            text => text.map_err(refuse)?,
+        };
         let mut names = BTreeSet::new();
         for (line, name) in text.lines().enumerate() {
             if name.trim().is_empty() || name.starts_with('#') {
@@ -98,7 +94,7 @@ pub(super) fn all() -> Vec<String> {
 /// scenario, and its lock or its cases.
 pub(super) fn is_of_an_earlier_version(path: &Path, lock: &str) -> bool {
     let there = |name: &str| path.join(name).is_file();
-    let made = fs::read_to_string(path.join(SCENARIO)).is_ok_and(|text| read_made_by(&text).is_some());
+    let made = bounds::read_text(&path.join(SCENARIO), MOST_TEXT_BYTES).is_ok_and(|text| read_made_by(&text).is_some());
     made && (there(lock) || [GENERATION, RESULTS, WAYPOINTS].into_iter().all(there))
 }
 

@@ -51,6 +51,7 @@ use hairpin::campaign::{Curve, Tally};
 use hairpin::judgement::Stress;
 
 use crate::atomic::{self, WriteError};
+use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::rapid::Frames;
 
 pub use error::FolderError;
@@ -170,7 +171,7 @@ impl CampaignFolder {
     /// The file cannot be read.
     pub fn read_scenario(&self) -> Result<String, FolderError> {
         let path = self.file(SCENARIO);
-        fs::read_to_string(&path).map_err(|cause| FolderError::Unreadable { path, cause })
+        bounds::read_text(&path, MOST_TEXT_BYTES).map_err(|cause| FolderError::Unreadable { path, cause })
     }
 
     /// Writes what the search did.

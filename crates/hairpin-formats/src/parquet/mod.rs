@@ -4,10 +4,12 @@
 pub mod cases;
 pub mod drawn;
 pub mod drive;
+mod guard;
 pub mod profile;
 pub mod results;
 pub mod runs;
 mod table;
+mod thrift;
 pub mod track;
 mod values;
 

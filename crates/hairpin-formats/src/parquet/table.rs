@@ -16,7 +16,9 @@ use arrow_schema::{DataType, Field, Schema};
 use arrow_select::concat::concat_batches;
 use thiserror::Error;
 
+use super::guard::{check_footer, check_sizes, most_decoded};
 use crate::atomic::{self, WriteError};
+use crate::bounds::{self, MOST_RASTER_BYTES};
 use crate::foreign;
 
 /// Version of our schemas, in the metadata of every file.
@@ -151,10 +153,7 @@ impl Table {
     pub(crate) fn read(path: &Path) -> Result<Self, TableError> {
         let unreadable = |cause| TableError::Unreadable { path: path.into(), cause };
         let broken = |cause: String| TableError::Broken { path: path.into(), cause };
-        let file = File::open(path).map_err(unreadable)?;
-        if file.metadata().map_err(unreadable)?.is_dir() {
-            return Err(unreadable(io::Error::from(io::ErrorKind::IsADirectory)));
-        }
+        let file = bounds::open(path, MOST_RASTER_BYTES).map_err(unreadable)?;
         let decoded = foreign::call(|| decode(file));
         let (batch, metadata) =
             decoded.unwrap_or_else(|_| Err("its bytes contradict each other".into())).map_err(broken)?;
@@ -196,14 +195,27 @@ impl Table {
 
 type Decoded = (RecordBatch, Vec<(String, String)>);
 
-fn decode(file: File) -> Result<Decoded, String> {
+fn decode(mut file: File) -> Result<Decoded, String> {
+    let most = most_decoded(file.metadata().map_err(|error| error.to_string())?.len());
+    check_footer(&mut file)?;
+    let mut other = file.try_clone().map_err(|error| error.to_string())?;
     let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| error.to_string())?;
     let metadata = builder.metadata().file_metadata().key_value_metadata().map_or_else(Vec::new, |pairs| {
         pairs.iter().map(|pair| (pair.key.clone(), pair.value.clone().unwrap_or_default())).collect()
     });
     let schema = builder.schema().clone();
+    check_sizes(&mut other, builder.metadata(), &schema, most)?;
     let reader = builder.build().map_err(|error| error.to_string())?;
-    let batches = reader.collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
+    let (mut batches, mut taken) = (Vec::new(), 0);
+    for batch in reader {
+        let batch = batch.map_err(|error| error.to_string())?;
+        taken += batch.get_array_memory_size() as u64;
+        // Short batches have room to spare.
+        if taken > 2 * most {
+            return Err(format!("more than {most} bytes of rows are in it"));
+        }
+        batches.push(batch);
+    }
     let batch = concat_batches(&schema, &batches).map_err(|error| error.to_string())?;
     Ok((batch, metadata))
 }

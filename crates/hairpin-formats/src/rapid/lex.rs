@@ -67,7 +67,10 @@ pub(super) fn decode(bytes: &[u8]) -> String {
     }
 }
 
-/// All words, `End` last, and all comments.
+/// Words of a file at most: those of a hundred thousand moves with their targets in place.
+pub(super) const MOST_WORDS: usize = 5_000_000;
+
+/// The first [`MOST_WORDS`] words, `End` last, and all comments.
 pub(super) fn lex(text: &str) -> (Vec<Token>, Vec<Comment>) {
     let mut reader = Reader { rest: text, at: At { line: 1, column: 1 }, comments: Vec::new() };
     let mut tokens = Vec::new();
@@ -75,8 +78,8 @@ pub(super) fn lex(text: &str) -> (Vec<Token>, Vec<Comment>) {
         reader.skip();
         let at = reader.at;
         let word = reader.word();
-        let end = word == Word::End;
-        tokens.push(Token { word, at });
+        let end = word == Word::End || tokens.len() == MOST_WORDS;
+        tokens.push(Token { word: if end { Word::End } else { word }, at });
         if end {
             return (tokens, reader.comments);
         }

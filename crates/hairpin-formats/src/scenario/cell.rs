@@ -9,6 +9,7 @@ use hairpin::campaign::scenario::CostTable;
 
 use super::attached::{Wrong, attached, ending};
 use super::resolve::read_file;
+use crate::bounds::check_table;
 use crate::checksum::sha256;
 use crate::{cloud, costs, rapid};
 
@@ -41,6 +42,7 @@ pub(super) fn cloud(
 }
 
 fn of_csv(bytes: &[u8]) -> Result<Vec<cloud::CloudPoint>, String> {
+    check_table(bytes)?;
     let text = std::str::from_utf8(bytes).map_err(|error| format!("must be UTF-8 text: {error}"))?;
     cloud::parse(text).map_err(|error| error.to_string())
 }

@@ -11,6 +11,7 @@ use super::guest::Guest;
 use super::report::Report;
 use super::resolve::read_file;
 use super::{baseline, cell, learned, terrain, user_score};
+use crate::bounds::MOST_MESH_PARTS;
 use crate::folder::inside;
 use crate::mesh::read_mesh;
 
@@ -29,8 +30,9 @@ pub(super) fn read(
     let map = map.and_then(|keys| noting(terrain::read(keys, find), &mut wrong));
     let cloud = cloud.and_then(|(file, checksum)| noting(cell::cloud(file, checksum, find), &mut wrong));
     let costs = costs.and_then(|table| noting(cell::costs(table, find), &mut wrong));
+    let mut parts = 0;
     for keys in meshes {
-        noting(mesh(keys, find), &mut wrong);
+        noting(mesh(keys, find, &mut parts), &mut wrong);
     }
     let baseline = baseline.and_then(|limit| noting(baseline::attach(limit, find), &mut wrong));
     let mut attachments = Attachments { map, cloud, costs, baseline, ..Attachments::default() };
@@ -68,7 +70,8 @@ pub fn attach(mut scenario: Scenario, folder: &Path) -> Result<Resolved, Report>
     }
 }
 
-fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf) -> Result<(), Wrong> {
+/// `parts` are the vertices and triangles so far.
+fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf, parts: &mut usize) -> Result<(), Wrong> {
     let NamedMesh { key, file, scale, vertices_key, vertices, triangles } = keys;
     let Some(file) = file.take() else { return Ok(()) };
     let wrong = |bound: String| Wrong { key: key.clone(), value: file.clone(), bound };
@@ -77,6 +80,12 @@ fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf) -> Result<(), Wrong
     }
     let bytes = read_file(&find(&file)).map_err(|why| wrong(format!("cannot be read: {why}")))?;
     let read = read_mesh(&bytes, &file).map_err(|error| wrong(error.to_string()))?;
+    *parts += read.vertices.len() + read.triangles.len();
+    if *parts > MOST_MESH_PARTS {
+        let bound =
+            format!("with the meshes before it {parts} vertices and triangles, at most {MOST_MESH_PARTS}: simplify it");
+        return Err(wrong(bound));
+    }
     // Collada says its unit, and is read in metres; where vertices are in mm a file's scale is per mm.
     let usual = if scale.is_some() && ending(&file) == "dae" { 1e3 } else { 1.0 };
     let scale = scale.and_then(Option::take).unwrap_or(usual);

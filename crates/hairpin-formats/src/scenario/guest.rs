@@ -7,6 +7,7 @@ use hairpin::campaign::scenario::{LEARNED, Named, PYTHON};
 use super::attached::Wrong;
 use super::tree::{Node, NodeKind};
 use super::write::read_made_by;
+use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::folder::{SCENARIO, inside, is_written_to};
 use crate::library;
 
@@ -62,7 +63,7 @@ pub fn kept_in(name_or_path: &str) -> Option<PathBuf> {
         return None;
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let made = || std::fs::read_to_string(path).is_ok_and(|text| read_made_by(&text).is_some());
+    let made = || bounds::read_text(path, MOST_TEXT_BYTES).is_ok_and(|text| read_made_by(&text).is_some());
     (is_written_to(folder) || made()).then(|| folder.to_owned())
 }
 

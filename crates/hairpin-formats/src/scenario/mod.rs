@@ -35,6 +35,7 @@ pub use rover::rover_for;
 pub(crate) use write::MADE_BY;
 pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
+use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::folder::SCENARIO;
 use crate::{library, schema};
 use guest::Guest;
@@ -95,7 +96,7 @@ pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup,
         return Err(folder(name_or_path));
     }
     let text = if path.is_file() {
-        std::fs::read_to_string(path).map_err(|error| unreadable(name_or_path, &error.to_string()))?
+        bounds::read_text(path, MOST_TEXT_BYTES).map_err(|error| unreadable(name_or_path, &error.to_string()))?
     } else {
         let shipped = library::robots().find(|robot| robot.name == name_or_path);
         shipped.ok_or_else(|| unknown(name_or_path))?.text.to_owned()
@@ -126,7 +127,9 @@ pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup,
 /// # Errors
 /// As [`read_setup`]; nothing of that name.
 pub fn arm_setup_for(cell: &str, points: &Path, sets: &[(String, String)]) -> Result<Setup, Report> {
-    let text = |path: &str| std::fs::read_to_string(path).ok().and_then(|text| text.parse::<Table>().ok());
+    let text = |path: &str| {
+        bounds::read_text(Path::new(path), MOST_TEXT_BYTES).ok().and_then(|text| text.parse::<Table>().ok())
+    };
     let is_scenario = library::scenarios().any(|shipped| shipped.name == cell)
         || text(cell).is_some_and(|table| table.contains_key("hairpin"));
     // The points' file is given from where the command runs, the scenario's other files from where it lies.

@@ -45,6 +45,9 @@ pub struct Complaint {
     place: Place,
 }
 
+/// Mistakes that are told at most: each takes a look at the text before it.
+const MOST_COMPLAINTS: usize = 200;
+
 /// All that is wrong with a scenario. Exit code 2.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Report {
@@ -120,6 +123,9 @@ impl Report {
 
     /// Adds a mistake: `message` the whole sentence, `bound` the words beside the caret.
     pub(crate) fn complain(&mut self, place: &Place, field: &str, value: &str, bound: &str, message: String) {
+        if self.complaints.len() == MOST_COMPLAINTS {
+            return;
+        }
         let source = &self.sources[place.source];
         let before = &source.text[..char_boundaries(&source.text, &place.span).start];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);

@@ -6,10 +6,8 @@ use super::report::{Place, Report};
 use super::shape::nearest;
 use super::tree::{self, Node, NodeKind};
 use super::urdf::{URDF, Wanted};
+use crate::bounds::{self, MOST_BYTES};
 use crate::library::{self, Shipped};
-
-/// A robot or world file is a page of numbers; a mesh file of 100 MB has two million triangles.
-const LARGEST_FILE: u64 = 100_000_000;
 
 pub(super) struct Resolver<'r> {
     pub(super) base: &'r Path,
@@ -117,14 +115,5 @@ pub(super) fn is_urdf(name: &str) -> bool {
 }
 
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
-    let about = std::fs::metadata(path).map_err(|error| error.to_string())?;
-    let size = about.len();
-    // Devices and pipes have no end.
-    if !about.is_file() && !about.is_dir() {
-        return Err("it is no file".into());
-    }
-    if size > LARGEST_FILE {
-        return Err(format!("{size} bytes are more than 100 MB"));
-    }
-    std::fs::read(path).map_err(|error| error.to_string())
+    bounds::read(path, MOST_BYTES).map_err(|error| error.to_string())
 }

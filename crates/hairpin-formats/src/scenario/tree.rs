@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::report::{Place, Report};
+use crate::bounds::check_values;
 
 /// A value and where it stands.
 #[derive(Debug, Clone)]
@@ -33,6 +34,10 @@ pub(super) enum NodeKind {
 /// The tree of source number `source`, every number that is not finite told; `None`, and why told, if it is no TOML.
 pub(super) fn parse(source: usize, report: &mut Report) -> Option<Node> {
     let text = report.source(source).text.clone();
+    if let Err(what) = check_values(&text) {
+        report.complain(&Place { source, span: 0..0 }, "", "", &what, format!("too large: {what}"));
+        return None;
+    }
     let (table, errors) = DeTable::parse_recoverable(&text);
     for error in errors.iter().take(10) {
         let place = Place { source, span: error.span().unwrap_or(0..0) };

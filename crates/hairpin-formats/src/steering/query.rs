@@ -1,14 +1,15 @@
 //! Queries as CSV: `id,x,y,yaw,k0,kf`, with or without `sx,sy,syaw`, and optional columns. A row that is wrong is told
 //! as such and its neighbours stand; a file that is no table of queries is refused as a whole.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::bounds;
 use crate::delimited::line_of;
 use crate::frames;
+use crate::quote;
 
 /// One query in ENU and a body of forward, left, up; whatever frame it was asked in.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,7 +130,7 @@ const SPEED: &str = "a finite number of m/s ≥ 0";
 /// # Errors
 /// It cannot be read, or is no table of queries.
 pub fn read(path: &Path) -> Result<Queries, BrokenFile> {
-    let bytes = fs::read(path).map_err(|cause| BrokenFile::Unreadable { path: path.into(), cause })?;
+    let bytes = bounds::read_table(path).map_err(|cause| BrokenFile::Unreadable { path: path.into(), cause })?;
     parse(&bytes)
 }
 
@@ -198,7 +199,7 @@ impl<'n> Columns<'n> {
 
     fn asked(&self, cells: &[String]) -> Result<Asked, Wrong> {
         let wrong = |column: &str, bound| {
-            let value = self.cell(cells, column).unwrap_or_default().to_owned();
+            let value = quote::cell(self.cell(cells, column).unwrap_or_default());
             Wrong { column: column.to_owned(), value, bound }
         };
         let number = |column: &str| {

@@ -6,6 +6,7 @@ use super::error::TerrainError;
 use super::no_data;
 use super::raster::{Layout, Raster, bounded};
 use super::reference::Reference;
+use crate::quote;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
     let text =
@@ -36,7 +37,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
             let height = match word.parse::<f32>() {
                 Ok(height) => height,
                 Err(_) => {
-                    no_data::parse(word).ok_or_else(|| wrong(format!("{:?} is no height", shortened(word))))? as f32
+                    no_data::parse(word).ok_or_else(|| wrong(format!("{:?} is no height", quote::cell(word))))? as f32
                 }
             };
             if heights.len() == columns * rows {
@@ -70,11 +71,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
     Ok(Raster { grid, heights, reference: Reference::default(), layout })
 }
 
-/// As much of a word as a message holds.
-fn shortened(word: &str) -> String {
-    word.chars().take(40).collect()
-}
-
 struct Header {
     columns: Option<u64>,
     rows: Option<u64>,
@@ -101,10 +97,10 @@ impl Header {
                 .parse::<f64>()
                 .ok()
                 .filter(|v| v.is_finite())
-                .ok_or(format!("{key} = {:?} is no number", shortened(value)))
+                .ok_or(format!("{key} = {:?} is no number", quote::cell(value)))
         };
         let count =
-            || value.parse::<u64>().map_err(|_| format!("{key} = {:?} is no number of cells", shortened(value)));
+            || value.parse::<u64>().map_err(|_| format!("{key} = {:?} is no number of cells", quote::cell(value)));
         match key {
             "ncols" => self.columns = Some(count()?),
             "nrows" => self.rows = Some(count()?),
@@ -117,9 +113,9 @@ impl Header {
             "dy" => self.sides[1] = Some(number()?),
             "nodata_value" | "nodata" => {
                 self.no_data =
-                    no_data::parse(value).ok_or_else(|| format!("{key} = {:?} is no number", shortened(value)))?;
+                    no_data::parse(value).ok_or_else(|| format!("{key} = {:?} is no number", quote::cell(value)))?;
             }
-            _ => return Err(format!("{:?} is no word of an ASCII grid's header", shortened(key))),
+            _ => return Err(format!("{:?} is no word of an ASCII grid's header", quote::cell(key))),
         }
         Ok(())
     }

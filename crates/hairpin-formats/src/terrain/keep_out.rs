@@ -4,6 +4,8 @@ use hairpin::campaign::scenario::{KeepOutSection, Mistake, keep_outs};
 use serde::Deserialize;
 use thiserror::Error;
 
+use crate::bounds::check_values;
+
 /// A file of nothing else.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -28,6 +30,7 @@ pub enum KeepOutError {
 /// # Errors
 /// Unknown keys, wrong types, a place without a shape or with two, numbers that are no place.
 pub fn read_keep_outs(text: &str) -> Result<Vec<KeepOutSection>, KeepOutError> {
+    check_values(text).map_err(KeepOutError::Text)?;
     let file: File = toml::from_str(text).map_err(|error| KeepOutError::Text(error.to_string()))?;
     keep_outs(&file.keep_out)?;
     Ok(file.keep_out)

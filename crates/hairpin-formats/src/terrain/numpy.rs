@@ -1,45 +1,122 @@
 //! NumPy arrays: two dimensions of floats in metres, rows from the north, NaN where there is no data.
-
-use npyz::{NpyFile, Order};
+//!
+//! The header is a dictionary of three values (numpy.lib.format, versions 1 to 3). It is read as just that: a general
+//! reader of Python's literals takes as long as somebody's brackets want it to.
 
 use super::error::TerrainError;
 use super::georeference::{Georeference, placed};
 use super::raster::{Layout, Raster, bounded};
 use super::reference::Reference;
 
+/// Headers of two dimensions have a hundred bytes.
+const LONGEST_HEADER: usize = 4096;
+
 pub(super) fn read(bytes: &[u8], georeference: &Georeference) -> Result<Raster, TerrainError> {
-    let broken = |error: &dyn std::fmt::Display| TerrainError::Broken(format!("no readable NumPy array: {error}"));
+    let broken = |what: &str| TerrainError::Broken(format!("no readable NumPy array: {what}"));
     if georeference.height_m.is_some() {
         return Err(TerrainError::Unwanted { key: "height_m" });
     }
-    let array = NpyFile::new(bytes).map_err(|error| broken(&error))?;
-    let (rows, columns) = match *array.shape() {
-        [rows, columns] => (rows, columns),
-        ref shape => {
-            return Err(TerrainError::Broken(format!("an array of shape {shape:?}: rows and columns are needed")));
-        }
+    let (header, data) = split(bytes).map_err(broken)?;
+    let Header { descr, fortran, shape } = Header::read(header)
+        .ok_or_else(|| broken("its header says no 'descr', 'fortran_order' and 'shape' of plain numbers"))?;
+    let [rows, columns] = shape[..] else {
+        return Err(TerrainError::Broken(format!("an array of shape {shape:?}: rows and columns are needed")));
     };
     let (columns, rows) = bounded(columns, rows)?;
-    // The data must be there before room for it is taken.
-    if (columns * rows) > bytes.len() {
-        let said = format!("the header says {rows} x {columns} heights, the file has {} bytes", bytes.len());
-        return Err(TerrainError::Broken(said));
-    }
-    let order = array.order();
-    let heights: Vec<f32> = match array.try_data::<f32>() {
-        Ok(data) => data.collect::<Result<_, _>>().map_err(|error| broken(&error))?,
-        Err(array) => match array.try_data::<f64>() {
-            Ok(data) => data.map(|h| h.map(|h| h as f32)).collect::<Result<_, _>>().map_err(|error| broken(&error))?,
-            Err(array) => {
-                let found = format!("an array of {}: float32 or float64 in metres is needed", array.dtype().descr());
-                return Err(TerrainError::Broken(found));
-            }
-        },
+    let number: fn(&[u8]) -> f32 = match descr {
+        "<f4" => |b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]),
+        ">f4" => |b| f32::from_be_bytes([b[0], b[1], b[2], b[3]]),
+        "<f8" => |b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]) as f32,
+        ">f8" => |b| f64::from_be_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]) as f32,
+        _ => {
+            let descr: String = descr.chars().take(40).collect();
+            let found = format!("an array of '{descr}': float32 or float64 in metres is needed");
+            return Err(TerrainError::Broken(found));
+        }
     };
-    let heights = match order {
-        Order::C => heights,
-        Order::Fortran => (0..rows * columns).map(|i| heights[i % columns * rows + i / columns]).collect(),
+    let size = if descr.ends_with('4') { 4 } else { 8 };
+    // The data must be there before room for it is taken.
+    let data = data
+        .get(..size * columns * rows)
+        .ok_or_else(|| broken(&format!("the header says {rows} x {columns} heights, {} bytes follow", data.len())))?;
+    let at = |index: usize| number(&data[size * index..]);
+    let heights = match fortran {
+        false => (0..rows * columns).map(at).collect(),
+        true => (0..rows * columns).map(|i| at(i % columns * rows + i / columns)).collect(),
     };
     let (reference, layout) = (Reference::default(), Layout::default());
     Ok(Raster { grid: placed(columns, rows, georeference)?, heights, reference, layout })
+}
+
+/// The text of the header, and what follows it.
+fn split(bytes: &[u8]) -> Result<(&str, &[u8]), &'static str> {
+    let rest = bytes.strip_prefix(b"\x93NUMPY").ok_or("it does not begin as one")?;
+    let (length, rest) = match *rest {
+        [1, _, a, b, ref rest @ ..] => (usize::from(u16::from_le_bytes([a, b])), rest),
+        [2 | 3, _, a, b, c, d, ref rest @ ..] => (u32::from_le_bytes([a, b, c, d]) as usize, rest),
+        _ => return Err("it is of another version"),
+    };
+    if length > LONGEST_HEADER {
+        return Err("its header is longer than that of any array of numbers");
+    }
+    let (header, data) = rest.split_at_checked(length).ok_or("it ends within its header")?;
+    Ok((std::str::from_utf8(header).map_err(|_| "its header is no text")?, data))
+}
+
+struct Header<'t> {
+    descr: &'t str,
+    fortran: bool,
+    shape: Vec<u64>,
+}
+
+impl<'t> Header<'t> {
+    /// `{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }`
+    fn read(text: &'t str) -> Option<Self> {
+        let mut rest = text.trim().strip_prefix('{')?.strip_suffix('}')?.trim();
+        let (mut descr, mut fortran, mut shape) = (None, None, None);
+        while !rest.is_empty() {
+            let (key, after) = quoted(rest)?;
+            rest = after.trim_start().strip_prefix(':')?.trim_start();
+            match key {
+                "descr" => {
+                    let (word, after) = quoted(rest)?;
+                    (descr, rest) = (Some(word), after);
+                }
+                "fortran_order" => {
+                    let (word, after) = rest.split_at(rest.find([',', '}']).unwrap_or(rest.len()));
+                    (fortran, rest) = (Some(word.trim().parse::<Bool>().ok()?.0), after);
+                }
+                "shape" => {
+                    let (inside, after) = rest.strip_prefix('(')?.split_once(')')?;
+                    let sizes = inside.split(',').map(str::trim).filter(|size| !size.is_empty());
+                    (shape, rest) = (Some(sizes.map(|size| size.parse().ok()).collect::<Option<Vec<u64>>>()?), after);
+                }
+                _ => return None,
+            }
+            rest = rest.trim_start();
+            rest = rest.strip_prefix(',').unwrap_or(rest).trim_start();
+        }
+        Some(Self { descr: descr?, fortran: fortran?, shape: shape? })
+    }
+}
+
+/// A word in quotes of either kind, and what follows.
+fn quoted(text: &str) -> Option<(&str, &str)> {
+    let quote = text.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
+    text[1..].split_once(quote)
+}
+
+/// Python's.
+struct Bool(bool);
+
+impl std::str::FromStr for Bool {
+    type Err = ();
+
+    fn from_str(word: &str) -> Result<Self, ()> {
+        match word {
+            "True" => Ok(Self(true)),
+            "False" => Ok(Self(false)),
+            _ => Err(()),
+        }
+    }
 }

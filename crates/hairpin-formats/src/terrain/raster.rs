@@ -36,6 +36,21 @@ impl Default for Layout {
     }
 }
 
+/// Cells of four bytes that any packed file may stand for …
+const ANY_CELLS: usize = 16_000_000;
+/// … and for each of its bytes: heights come to half of theirs, cells without data to nearly nothing.
+const CELLS_PER_BYTE: usize = 200;
+
+/// Refuses a header that promises more than the file can hold, before memory is taken for it.
+pub(super) fn held(columns: usize, rows: usize, bytes: usize, packed: bool) -> Result<(), TerrainError> {
+    let most = if packed { ANY_CELLS.saturating_add(bytes.saturating_mul(CELLS_PER_BYTE)) } else { bytes };
+    if columns * rows <= most {
+        return Ok(());
+    }
+    let said = format!("the header says {columns} x {rows} cells, more than {bytes} bytes can hold");
+    Err(TerrainError::Broken(said))
+}
+
 /// Refuses maps of more than [`MOST_CELLS`] before anything is allocated.
 pub(super) fn bounded(columns: u64, rows: u64) -> Result<(usize, usize), TerrainError> {
     match columns.checked_mul(rows) {

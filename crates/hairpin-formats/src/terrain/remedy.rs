@@ -4,8 +4,8 @@
 pub(super) struct Remedy;
 
 impl Remedy {
-    /// Projects a file in degrees onto the plane of its centre's UTM zone, or of the pole; of another body, onto a plane
-    /// that touches it there.
+    /// Projects a file in degrees onto the plane of its centre's UTM zone, or of the pole; of another body, onto a
+    /// plane that touches it there.
     pub(super) fn project(file: &str, [lon, lat]: [f64; 2], radius: Option<f64>) -> String {
         let lon = (lon + 180.0).rem_euclid(360.0) - 180.0;
         let target = match radius {

@@ -21,6 +21,11 @@ pub struct Sidecars {
 }
 
 impl Sidecars {
+    /// The texts of a `.prj` and an `.aux.xml`.
+    pub fn of(prj: Option<String>, aux: Option<String>) -> Self {
+        Self { prj, aux, masked: false }
+    }
+
     /// What lies beside the file at `path`.
     pub fn beside(path: &Path) -> Self {
         let prj = ["prj", "PRJ"].iter().find_map(|ending| text(&path.with_extension(ending)));

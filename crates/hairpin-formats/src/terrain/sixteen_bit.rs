@@ -2,7 +2,7 @@
 
 use super::error::TerrainError;
 use super::georeference::{Georeference, placed};
-use super::raster::{Layout, Raster, bounded};
+use super::raster::{Layout, Raster, bounded, held};
 use super::reference::Reference;
 
 /// Heights from `values` between the two given heights.
@@ -25,6 +25,7 @@ pub(super) fn read_png(bytes: &[u8], georeference: &Georeference) -> Result<Rast
         let found = format!("{:?} of {:?} bits: 16-bit greyscale is needed", info.color_type, info.bit_depth);
         return Err(TerrainError::Broken(found));
     }
+    held(columns, rows, bytes.len(), true)?;
     let mut pixels = vec![0; 2 * columns * rows];
     reader.next_frame(&mut pixels).map_err(broken)?;
     let values = pixels.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));

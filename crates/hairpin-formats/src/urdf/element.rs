@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use hairpin::math::rotation::{quaternion_from_euler, unit_quaternion};
 use nalgebra::{Isometry3, Translation3, Vector3};
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, ParsingOptions};
 use thiserror::Error;
 
 /// Why a text is no arm in URDF.
@@ -111,9 +111,13 @@ pub(super) fn origin(node: &Node) -> Result<Isometry3<f64>, UrdfError> {
     Ok(Isometry3::from_parts(Translation3::from(Vector3::from(triple(&origin, "xyz", [0.0; 3])?)), rotation))
 }
 
+/// Elements, attributes and texts of a robot: the largest have some ten thousand.
+const MOST_NODES: u32 = 2_000_000;
+
 /// The elements of a text.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, UrdfError> {
-    Document::parse(text).map_err(|error| {
+    let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    Document::parse_with_options(text, options).map_err(|error| {
         let place = error.pos();
         let before = text.split_inclusive('\n').take(place.row.saturating_sub(1) as usize).map(str::len).sum::<usize>();
         let within =

@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use hairpin::campaign::Setup;
+use hairpin_formats::bounds::{self, MOST_RASTER_BYTES};
 use hairpin_formats::executor::Command;
 use hairpin_formats::recordings::leads_out;
 
@@ -71,11 +72,11 @@ impl Wish {
                 let words = command.parse::<Command>();
                 let words = words.iter().flat_map(Command::words).map(Path::new);
                 let files = words.filter_map(|word| word.canonicalize().ok()).filter(|file| file.starts_with(real));
-                parts.extend(
-                    files
-                        .filter_map(|file| std::fs::read(file).ok())
-                        .map(|text| blake3::hash(&text).as_bytes().to_vec()),
-                );
+                // One that cannot be read is one, too: it may be readable when the command runs.
+                parts.extend(files.map(|file| match bounds::read(&file, MOST_RASTER_BYTES) {
+                    Ok(text) => blake3::hash(&text).as_bytes().to_vec(),
+                    Err(_) => part("unread"),
+                }));
             }
             What::Python { hash, .. } => parts.extend([part("python"), hash.to_vec()]),
             What::Logs(logs) => parts.extend([part("logs"), part(logs)]),

@@ -1,9 +1,8 @@
 //! The proof of a heaviest path as a file, and its check against the graph by independent code.
 
-use std::fs;
 use std::path::Path;
 
-use hairpin_formats::atomic;
+use hairpin_formats::{atomic, bounds};
 use serde_json::Value;
 
 use super::{Graph, MaxLoad};
@@ -31,7 +30,7 @@ impl MaxLoad {
 pub fn verify_certificate(graph: &Path, file: &Path) -> Result<(Graph, Checked), Problem> {
     let graph = Graph::read(graph)?;
     let broken = |what: &str| Problem::of_file(file, what);
-    let text = fs::read_to_string(file).map_err(|cause| broken(&format!("cannot be read: {cause}")))?;
+    let text = bounds::read_json_text(file).map_err(|cause| broken(&format!("cannot be read: {cause}")))?;
     let object: Value = serde_json::from_str(&text).map_err(|error| broken(&format!("is no JSON: {error}")))?;
     let n = graph.arcs.points();
     let costs = (0..n * n).map(|index| graph.arcs.cost(index / n, index % n)).collect();

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 
 use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Setup, Shrunk, Status};
 use hairpin::judgement::{Measures, Violation};
-use hairpin_formats::atomic;
 use hairpin_formats::checksum::sha256;
+use hairpin_formats::{atomic, bounds};
 use serde::{Deserialize, Serialize};
 
 use super::settings::ShrinkSettings;
@@ -74,7 +74,7 @@ impl<'a> Answers<'a> {
     ) -> Self {
         let path = work.folder.file(&format!("repro/{}-shrink.state", case.id()));
         let question = fingerprint(&work.setup, case, result.run);
-        let kept = std::fs::read_to_string(&path).ok().and_then(|text| serde_json::from_str::<State>(&text).ok());
+        let kept = bounds::read_json_text(&path).ok().and_then(|text| serde_json::from_str::<State>(&text).ok());
         let state = kept.filter(|state| state.question == question);
         Self {
             run: result.run,

@@ -9,6 +9,7 @@ use hairpin::feasibility::steering::shooting::flat::Cost;
 use hairpin::feasibility::steering::shooting::rough::{GroundCost, Settings};
 use hairpin::feasibility::steering::shooting::solve::Choices;
 use hairpin::world::terrain::KeepOuts;
+use hairpin_formats::bounds::{self, MOST_TEXT_BYTES};
 use hairpin_formats::steering::Asked;
 use hairpin_formats::terrain::read_keep_outs;
 
@@ -99,6 +100,6 @@ pub(super) fn places(settings: &SteerSettings, offset: [f64; 2]) -> Result<KeepO
 }
 
 fn file(path: &Path) -> Result<Vec<KeepOutSection>, Problem> {
-    let text = std::fs::read_to_string(path).map_err(|error| Problem::of_file(path, error))?;
+    let text = bounds::read_text(path, MOST_TEXT_BYTES).map_err(|error| Problem::of_file(path, error))?;
     read_keep_outs(&text).map_err(|error| Problem::of_file(path, error))
 }

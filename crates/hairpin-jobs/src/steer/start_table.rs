@@ -8,6 +8,7 @@ use hairpin::feasibility::steering::shooting::flat::steering;
 use hairpin::robot::rover::Rover;
 use hairpin::trajectory::start_table::{NONE, StartTable};
 use hairpin_formats::atomic;
+use hairpin_formats::bounds::MOST_BYTES;
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{read_start_table, start_table_bytes};
 use serde::Serialize;
@@ -54,8 +55,8 @@ pub fn make_start_table(rover: &str, out: &Path) -> Result<MadeTable, Problem> {
 /// Reads `path`, which must fit `rover`.
 pub(super) fn load(path: &Path, rover: &Rover) -> Result<StartTable, Problem> {
     let wrong = |error: &dyn std::fmt::Display| Problem::input(format!("--start-table {}: {error}", path.display()));
-    let table =
-        read_start_table(&std::fs::read(path).map_err(|error| wrong(&error))?).map_err(|error| wrong(&error))?;
+    let table = read_start_table(&hairpin_formats::bounds::read(path, MOST_BYTES).map_err(|error| wrong(&error))?)
+        .map_err(|error| wrong(&error))?;
     let (its, ours) = (table.steering(), steering(&bounds(rover)));
     if (its / ours - 1.0).abs() > ALIKE {
         return Err(wrong(&format!(

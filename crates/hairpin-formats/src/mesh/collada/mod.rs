@@ -19,7 +19,7 @@ mod tests;
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix4, Point3};
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, ParsingOptions};
 
 use self::geometry::{child, children, triangles_of};
 use self::place::{place_of, upright};
@@ -28,6 +28,8 @@ use super::types::{MOST_TRIANGLES, Mesh, MeshError};
 /// Nodes within nodes, at most, and in all: a file may name one node again and again.
 const DEEPEST: usize = 64;
 const MOST_NODES: usize = 100_000;
+/// Elements, attributes and texts of a file: its numbers stand in few.
+const MOST_ELEMENTS: u32 = 2_000_000;
 /// Bytes of a file: XML takes many times as much memory.
 const LARGEST: usize = 64_000_000;
 
@@ -39,7 +41,9 @@ pub(super) fn read_collada(text: &str) -> Result<Mesh, MeshError> {
     if text.len() > LARGEST {
         return Err(MeshError::NoCollada(format!("{} bytes are more than {LARGEST}", text.len())));
     }
-    let document = Document::parse(text).map_err(|error| MeshError::NoCollada(error.to_string()))?;
+    let options = ParsingOptions { nodes_limit: MOST_ELEMENTS, ..ParsingOptions::default() };
+    let document =
+        Document::parse_with_options(text, options).map_err(|error| MeshError::NoCollada(error.to_string()))?;
     let root = document.root_element();
     if root.tag_name().name() != "COLLADA" {
         return Err(MeshError::NoCollada(format!("its root is <{}>", root.tag_name().name())));

@@ -4,11 +4,14 @@ mod data;
 mod expressions;
 mod statements;
 
-use super::lex::{At, Token, Word, lex};
+use super::lex::{At, MOST_WORDS, Token, Word, lex};
 use super::syntax::{Routine, RoutineKind, Source};
 
 /// Blocks and brackets may be nested this deep.
 const DEEPEST: usize = 60;
+
+/// Lines of a file that is RAPID and is not understood, at most.
+const MOST_MISTAKES: usize = 10_000;
 
 /// Something in the file that is not RAPID as it is known here.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,6 +28,10 @@ pub(super) fn parse(text: &str) -> (Option<Source>, Vec<Mistake>, Vec<super::lex
     let (tokens, comments) = lex(text);
     let mut parser = Parser { tokens, next: 0, depth: 0, mistakes: Vec::new() };
     let source = parser.file();
+    if parser.tokens.len() > MOST_WORDS {
+        let at = parser.tokens[MOST_WORDS].at;
+        parser.mistakes.push(Mistake { at, what: format!("more than {MOST_WORDS} words: the rest is not read") });
+    }
     (source, parser.mistakes, comments)
 }
 
@@ -176,6 +183,12 @@ impl Parser {
             }
             if let Err(mistake) = self.part(source) {
                 self.mistakes.push(mistake);
+                if self.mistakes.len() >= MOST_MISTAKES {
+                    let what = format!("more than {MOST_MISTAKES} lines are not understood: the rest is not read");
+                    self.mistakes.push(Mistake { at, what });
+                    self.next = self.tokens.len() - 1;
+                    return;
+                }
                 self.recover(at);
             }
         }

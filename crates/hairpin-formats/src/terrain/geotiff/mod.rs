@@ -14,14 +14,11 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::error::{MOST_CELLS, TerrainError};
-use super::raster::{Layout, Raster, bounded};
+use super::raster::{Layout, Raster, bounded, held};
 use super::remedy::Remedy;
 use metadata::Band;
 
 type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
-
-/// A compressed cell takes some bits: deflate comes to a thousandth of what it packs, Zstandard to less.
-const MOST_PACKED: usize = 1 << 16;
 
 pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
     let broken = |error: tiff::TiffError| {
@@ -31,20 +28,17 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
     let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(broken)?.with_limits(limits());
     let (columns, rows) = tiff.dimensions().map_err(broken)?;
     let (columns, rows) = bounded(columns.into(), rows.into())?;
-    // A header can promise gigabytes that the file does not hold.
-    if columns * rows / MOST_PACKED > bytes.len() {
-        let said = format!("the header says {columns} x {rows} cells, the file has {} bytes", bytes.len());
-        return Err(TerrainError::Broken(said));
-    }
     let convert = |why: String, options: &str| TerrainError::Convert { why, command: Remedy::rewrite(file, options) };
     let number = |tiff: &mut Tiff<'_>, tag| tiff.find_tag_unsigned::<u16>(tag).map_err(broken);
     let samples = number(&mut tiff, Tag::SamplesPerPixel)?.unwrap_or(1);
     if samples != 1 {
         return Err(convert(format!("{samples} bands: one band of heights is needed"), "-b 1 "));
     }
-    if let Some(packed) = number(&mut tiff, Tag::Compression)?.and_then(unread) {
+    let compression = number(&mut tiff, Tag::Compression)?.unwrap_or(1);
+    if let Some(packed) = unread(compression) {
         return Err(convert(format!("compressed by {packed}, which is not read here"), "-co COMPRESS=DEFLATE "));
     }
+    held(columns, rows, bytes.len(), compression != 1)?;
     if let Some(orientation) = number(&mut tiff, Tag::Orientation)?.filter(|orientation| *orientation != 1) {
         return Err(convert(format!("its Orientation is {orientation}: rows from the top are needed"), ""));
     }
