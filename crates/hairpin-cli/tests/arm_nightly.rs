@@ -9,7 +9,8 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 fn hairpin(folder: &Path, arguments: &[&str]) -> Output {
-    Command::cargo_bin("hairpin").unwrap().current_dir(folder).args(arguments).output().unwrap()
+    let mut command = Command::cargo_bin("hairpin").unwrap();
+    command.current_dir(folder).args(arguments).env("XDG_STATE_HOME", folder.join(".state")).output().unwrap()
 }
 
 /// Exit code and what was told on both streams.
@@ -110,6 +111,25 @@ fn logs_are_judged_like_runs_of_ours() {
     assert!(code == 2 && text.contains("0001"), "{text}");
     let (code, text) = told(place, &["judge", "out/tilted"]);
     assert!(code == 0 && text.contains("nightly/irb_*.csv"), "{text}");
+    // Logs outside of a folder are read for whoever named them, and for others where they allow it.
+    assert_eq!(told(place, &["execute", "out/tilted"]).0, 0);
+    fs::rename(place.join("out/tilted"), place.join("out/received")).unwrap();
+    let (code, text) = told(place, &["execute", "out/received"]);
+    assert!(code == 2 && text.contains("../../nightly/irb_*.csv") && text.contains("--allow-commands"), "{text}");
+    assert_eq!(told(place, &["execute", "out/received", "--allow-commands"]).0, 0);
+    #[cfg(unix)]
+    {
+        // Within it they are, unless they are links that lead out.
+        let own = ["execute", "out/received", "--logs", "out/received/logs/irb_*.csv"];
+        fs::rename(place.join("nightly"), place.join("out/received/logs")).unwrap();
+        let (code, text) = told(place, &own);
+        assert_eq!(code, 0, "{text}");
+        assert_eq!(told(place, &["execute", "out/received"]).0, 0);
+        fs::rename(place.join("out/received/logs"), place.join("away")).unwrap();
+        std::os::unix::fs::symlink(place.join("away"), place.join("out/received/logs")).unwrap();
+        let (code, text) = told(place, &["execute", "out/received"]);
+        assert!(code == 2 && text.contains("is a link"), "{text}");
+    }
 }
 
 #[test]

@@ -13,7 +13,8 @@ const MINIMAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/execu
 /// Exit code, stdout, stderr.
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
-    let output = command.current_dir(folder).args(arguments).output().unwrap();
+    command.current_dir(folder).args(arguments).env("XDG_STATE_HOME", folder.join(".state"));
+    let output = command.output().unwrap();
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
 }

@@ -67,6 +67,9 @@ fn a_program_that_hangs_is_given_up_and_resumed() {
             (&code.into(), &Value::from(left)),
             "{out}: {object}"
         );
+        let logs = fs::read_dir(here.join(out)).unwrap().flatten();
+        let logs = logs.filter(|entry| entry.file_name().to_string_lossy().ends_with(".log")).count();
+        assert_eq!(logs, left, "of what was flown in the end there is none");
     }
     // Saved cases are waited for no longer.
     let far = ["--set", "spec.deviation.max_m=0.0001"];

@@ -1,12 +1,14 @@
 //! The flights of a campaign folder: what `execute` writes, one file a run, and the table of them all.
 
 use std::collections::BTreeMap;
+use std::fs;
+use std::io;
 use std::path::PathBuf;
 
 use hairpin::campaign::{CaseNumber, Run};
 
 use super::{CampaignFolder, FolderError, RUNS};
-use crate::atomic;
+use crate::atomic::{self, WriteError};
 use crate::executor::{Failed, was_never_asked};
 use crate::parquet::runs::{self, RunFacts};
 
@@ -67,6 +69,18 @@ impl CampaignFolder {
         let Failed { failure, stderr } = failed;
         let text = format!("{failure}\n\n--- the end of its stderr ---\n{stderr}");
         Ok(atomic::write(&self.file(&format!("executor-{case}-{run}.log")), text.as_bytes())?)
+    }
+
+    /// Removes it, where there is one: the run was flown.
+    ///
+    /// # Errors
+    /// It cannot be removed.
+    pub fn remove_executor_log(&self, case: CaseNumber, run: usize) -> Result<(), FolderError> {
+        let path = self.file(&format!("executor-{case}-{run}.log"));
+        match fs::remove_file(&path) {
+            Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }.into()),
+            _ => Ok(()),
+        }
     }
 
     /// Writes `runs.parquet`, once all runs are executed.

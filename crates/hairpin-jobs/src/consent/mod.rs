@@ -62,7 +62,8 @@ impl Consent {
         match kept {
             Some(folder) => self.ask(folder, &written),
             None => {
-                written.iter().for_each(|wish| watch.warn(&format!("{name} asks to {wish}")));
+                let runs = written.iter().filter(|wish| wish.runs());
+                runs.for_each(|wish| watch.warn(&format!("{name} asks to {wish}")));
                 Ok(())
             }
         }

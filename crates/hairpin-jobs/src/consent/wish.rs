@@ -62,6 +62,11 @@ impl Wish {
         sets.iter().any(|(key, _)| below(key.trim()))
     }
 
+    /// Whether something is run, not only read.
+    pub(super) fn runs(&self) -> bool {
+        !matches!(self.what, What::Logs(_))
+    }
+
     /// What a mark on it in the folder `real` is of: its key, what it says, and what of the folder runs with it.
     pub(super) fn parts(&self, real: &Path) -> Vec<Vec<u8>> {
         let part = |text: &str| text.as_bytes().to_vec();

@@ -169,11 +169,16 @@ fn fly_with(
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result: Result<_, Failed>| {
         let job = &missing[index];
-        // A log that cannot be written stops nothing; of what was not asked for there is none.
-        if let Err(failed) = &result
-            && !matches!(failed.failure, Failure::NotAsked { .. })
-            && let Err(error) = work.folder.write_executor_log(job.case.number, job.run, failed)
-        {
+        let (case, run) = (job.case.number, job.run);
+        let log = match &result {
+            // Of what was not asked for there is none.
+            Err(Failed { failure: Failure::NotAsked { .. }, .. }) => Ok(()),
+            Err(failed) => work.folder.write_executor_log(case, run, failed),
+            Ok(_) if job.again.is_none() => work.folder.remove_executor_log(case, run),
+            Ok(_) => Ok(()),
+        };
+        // A log that cannot be written stops nothing.
+        if let Err(error) = log {
             watch.warn(&format!("Warning: {error}"));
         }
         landed(job, as_run(&work.setup, job.case, job.run, result));
