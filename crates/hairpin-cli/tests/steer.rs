@@ -451,7 +451,7 @@ fn cars_and_differential_drives_are_steered() {
     let (code, _, error) = run(folder.path(), &["steer", "car", "--to", "1,1,1.5", "--turns"]);
     assert!(code == 2 && error.contains("cannot turn in place"), "{error}");
     // A file of that name goes first, and stderr says so.
-    fs::write(folder.path().join("car"), "kind = \"rover\"\nname = \"mine\"\n").unwrap();
+    fs::write(folder.path().join("car"), "kind = \"rover\"\nname = \"mine\"\n[limits]\ncurvature_1_m = 1\n").unwrap();
     let (code, out, error) = run(folder.path(), &["steer", "car", "--to", "4,1,0.5"]);
     assert!(
         code == 0 && out.contains("ok (mine") && error.contains("`car` is a file here and a shipped name"),

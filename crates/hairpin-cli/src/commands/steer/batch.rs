@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hairpin_formats::atomic;
+use hairpin_formats::quote::shortened;
 use hairpin_formats::steering::Status;
 use hairpin_jobs::steer::{Batch, Vehicle};
 use hairpin_jobs::{Problem, Watch};
@@ -35,9 +36,10 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, path: &Path, watch: &dyn Wat
 /// Counts on stdout if the table is in a file; wrong rows on stderr.
 fn tell(steer: &Steer, path: &Path, batch: &Batch, code: u8) {
     let rows = batch.queries.rows.iter();
-    let wrong: Vec<String> = rows
-        .filter_map(|row| Some(format!("{}, line {}: {}", path.display(), row.line, row.asked.as_ref().err()?)))
-        .collect();
+    let told = |line: usize, wrong: &dyn std::fmt::Display| {
+        shortened(&format!("{}, line {line}: {wrong}", path.display())).into_owned()
+    };
+    let wrong: Vec<String> = rows.filter_map(|row| Some(told(row.line, row.asked.as_ref().err()?))).collect();
     wrong.iter().take(MOST_TOLD).for_each(|line| console::warn(line));
     if wrong.len() > MOST_TOLD {
         console::warn(&format!("… and {} more wrong rows", wrong.len() - MOST_TOLD));
