@@ -1,6 +1,7 @@
 //! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking
 //! module.
 
+use hairpin_formats::listing::{Module, Unmodelled};
 use hairpin_jobs::Problem;
 use hairpin_jobs::import::{Follow, Follower, ImportSettings, Imported, Read, import};
 use serde_json::{Value, json};
@@ -13,7 +14,7 @@ use crate::exit::{DONE, FINDING, INCONCLUSIVE};
 pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
     let follower = || asked.cell.clone().map_or_else(|| Follower::Robot(asked.robot.clone()), Follower::Cell);
     let imported = import(&ImportSettings {
-        file: asked.file.clone(),
+        files: asked.files.clone(),
         check: asked.check.then(follower),
         procedure: asked.procedure.clone(),
         out: asked.out.clone(),
@@ -60,19 +61,28 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
     let Read { module, followed, findings } = read;
     let followed = followed.as_ref();
     let findings = findings.iter().map(|finding| {
-        json!({ "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to, "reason": finding.reason })
+        json!({
+            "file": finding.file, "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to,
+            "reason": finding.reason,
+        })
     });
-    let unclear = module.unclear().map(|(line, why)| json!({ "line": line, "why": why.what }));
-    let mistakes = module
-        .mistakes
-        .iter()
-        .map(|found| json!({ "line": found.at.line, "column": found.at.column, "what": found.what }));
+    let unclear = module.unclear().map(|(line, why)| {
+        let (file, line) = place(module, line);
+        json!({ "file": file, "line": line, "kind": why.unmodelled.map(Unmodelled::word), "why": why.what })
+    });
+    let mistakes = module.mistakes.iter().map(|found| {
+        let (file, line) = place(module, found.at.line);
+        json!({ "file": file, "line": line, "column": found.at.column, "what": found.what })
+    });
+    let unclear_place = module.unclear_line.map(|line| place(module, line));
     let mut object = json!({
         "module": module.program.name,
         "procedure": module.program.procedure,
         "moves": module.program.moves.len(),
         "certain_moves": module.certain,
-        "certain_up_to_line": module.unclear_line,
+        "certain_up_to_line": unclear_place.map(|(_, line)| line),
+        "certain_up_to_file": unclear_place.and_then(|(file, _)| file),
+        "files": module.parts.iter().map(|part| &part.name).collect::<Vec<_>>(),
         "robot": followed.map(|followed| &followed.arm.name),
         "obstacles": followed.and_then(|followed| followed.parts.as_ref()),
         "checked": followed.map(|followed| followed.checked.followed),
@@ -83,13 +93,19 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
         "exit_code": code,
     });
     if import.lines {
-        let lines = module
-            .lines
-            .iter()
-            .map(|(line, said)| json!({ "line": line, "class": said.class.words(), "why": said.what }));
+        let lines = module.lines.iter().map(|(line, said)| {
+            let (file, line) = place(module, *line);
+            json!({ "file": file, "line": line, "class": said.class.words(), "why": said.what })
+        });
         object["lines"] = lines.collect();
     }
     object
+}
+
+/// Name of a line's file, and which of its lines it is.
+fn place(module: &Module, line: usize) -> (Option<&str>, usize) {
+    let (part, line) = module.place(line);
+    (part.map(|part| part.name.as_str()), line)
 }
 
 fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
@@ -97,7 +113,7 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
     let moves = program.moves.len();
     console::say(&format!(
         "{}: module {}, procedure {}, {moves} moves",
-        import.file.display(),
+        import.files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", "),
         program.name,
         if program.procedure.is_empty() { "none" } else { &program.procedure }
     ));
@@ -115,27 +131,31 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
     if import.lines {
         for (line, said) in &module.lines {
             let why = if said.what.is_empty() { String::new() } else { format!(": {}", said.what) };
-            console::say(&format!("line {line}: {}{why}", said.class.words()));
+            console::say(&format!("{}: {}{why}", module.told(*line), said.class.words()));
         }
     }
     for finding in findings {
         console::say(&finding.sentence);
     }
     for (line, why) in module.unclear() {
-        console::say(&format!("line {line}: NOT UNDERSTOOD {}", why.what));
+        let line = module.told(line);
+        console::say(&match why.unmodelled {
+            Some(kind) => format!("{line}: NOT MODELLED {}: {}", kind.words(), why.what),
+            None => format!("{line}: NOT UNDERSTOOD {}", why.what),
+        });
     }
     for found in &module.mistakes {
-        console::warn(&format!("{}: {}", found.at, found.what));
+        console::warn(&format!("{}, column {}: {}", module.told(found.at.line), found.at.column, found.what));
     }
     for procedure in module.procedures.iter().filter(|procedure| !procedure.executed) {
-        console::warn(&format!("line {}: procedure {} is not executed", procedure.line, procedure.name));
+        console::warn(&format!("{}: procedure {} is not executed", module.told(procedure.line), procedure.name));
     }
     let word = if findings.len() == 1 { "finding" } else { "findings" };
     let what = if followed.is_some() { format!("{} {word}", findings.len()) } else { "read".to_owned() };
     console::say(&match module.unclear_line {
         Some(line) => {
             let verdict = if findings.is_empty() { "INCONCLUSIVE" } else { "FAIL" };
-            format!("{verdict}: {what} in the {} of {moves} moves before line {line}", module.certain)
+            format!("{verdict}: {what} in the {} of {moves} moves before {}", module.certain, module.told(line))
         }
         None if findings.is_empty() => format!("PASS: {what} in {moves} moves"),
         None => format!("FAIL: {} {word} in {moves} moves", findings.len()),

@@ -129,12 +129,8 @@ impl CampaignFolder {
         let refuse = |what: String| FolderError::Program { path: path.into(), what };
         let bytes = std::fs::read(path).map_err(|cause| FolderError::Unreadable { path: path.into(), cause })?;
         let module = rapid::read(&bytes, &rapid::Options::default()).map_err(|error| refuse(error.to_string()))?;
-        let unclear = module.unclear_line.map(|line| format!("line {line} is not understood"));
-        let mistake = module.mistakes.first().map(|found| format!("line {}: {}", found.at.line, found.what));
-        match unclear.or(mistake) {
-            Some(what) => Err(refuse(format!("case {case}: {what}"))),
-            None => module.program.checked().map_err(|error| refuse(error.to_string())),
-        }
+        let program = module.whole().map_err(|what| refuse(format!("case {case}: {what}")))?;
+        program.checked().map_err(|error| refuse(error.to_string()))
     }
 
     /// `programs/CASE.mod`.
