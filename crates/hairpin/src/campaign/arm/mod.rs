@@ -9,6 +9,7 @@ mod clock;
 mod execute;
 mod frame;
 mod graph;
+mod hidden;
 mod judge;
 mod knobs;
 mod losses;
