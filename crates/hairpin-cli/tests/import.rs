@@ -3,6 +3,7 @@
 mod commands;
 
 use std::fs;
+use std::path::{Path, PathBuf};
 
 use commands::{json, refused, run};
 
@@ -100,4 +101,104 @@ fn collisions_with_a_cell_are_told_by_line() {
     assert!(code == 1 && out.contains("the tool ") && out.contains("keep-out z < 100"), "{out}");
     refused(folder.path(), &["import", &file, "--check", "--cell", "anafi"], &["no arm's"]);
     refused(folder.path(), &["import", &file, "--check", "--cell", "nowhere.toml"], &["nowhere.toml"]);
+}
+
+/// Inputs on which something wrong was said once.
+fn cases() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/rapid")
+}
+
+#[test]
+fn an_axis_beside_the_arm_is_named_line_by_line() {
+    let (code, out, error) = run(&cases(), &["import", "track_false_pass.mod", "--check"]);
+    assert_eq!(code, 5, "{out}{error}");
+    for line in 4..=7 {
+        assert!(out.contains(&format!("line {line}: NOT MODELLED external axes: eax_a = ")), "{out}");
+    }
+    assert!(out.ends_with("INCONCLUSIVE: 0 findings in the 0 of 4 moves before line 4\n"), "{out}");
+    let object = json(&cases(), &["import", "track_false_pass.mod", "--check"]);
+    assert_eq!((object["exit_code"].as_i64(), object["certain_moves"].as_i64()), (Some(5), Some(0)));
+    let named = object["not_understood"].as_array().unwrap();
+    assert_eq!(named.len(), 4);
+    assert!(named.iter().all(|line| line["kind"] == "external-axes" && line["file"] == "track_false_pass.mod"));
+}
+
+/// What is proven before the first line that is not modelled is proven.
+#[test]
+fn a_finding_before_what_is_not_modelled_is_a_finding() {
+    let folder = tempfile::tempdir().unwrap();
+    let track = "MoveAbsJ [[0,0,0,0,30,0],[900,9E9,9E9,9E9,9E9,9E9]],v200,fine,tool0;";
+    let before = module(folder.path(), &format!("MoveAbsJ far,v200,fine,tool0;\n{track}"));
+    let object = json(folder.path(), &["import", &before, "--check"]);
+    assert_eq!((object["exit_code"].as_i64(), object["findings"][0]["line"].as_i64()), (Some(1), Some(8)));
+    assert_eq!(
+        (&object["not_understood"][0]["line"], &object["not_understood"][0]["kind"]),
+        (&9.into(), &"external-axes".into())
+    );
+    let after = module(folder.path(), &format!("{track}\nMoveAbsJ far,v200,fine,tool0;"));
+    let object = json(folder.path(), &["import", &after, "--check"]);
+    assert_eq!((object["exit_code"].as_i64(), object["findings"].as_array().unwrap().len()), (Some(5), 0));
+}
+
+#[test]
+fn predefined_data_and_the_state_of_the_program_are_followed() {
+    let (code, out, error) = run(&cases(), &["import", "alias_speed.mod", "--check"]);
+    // Followed to its end: the tool is turned by −30° about its axis, and axis 6 with it, which is no cf6 of 0.
+    assert!(code == 1 && !out.contains("not known") && !out.contains("NOT "), "{out}{error}");
+    assert!(out.ends_with("FAIL: 3 findings in 7 moves\n") && out.matches("[0,0,0,0]").count() == 3, "{out}");
+    let (code, out, error) = run(&cases(), &["import", "conf_off_after.mod", "--check"]);
+    assert_eq!(code, 1, "{out}{error}");
+    assert!(out.contains("line 10: UNREACHABLE pA→pFar") && out.ends_with("FAIL: 1 finding in 4 moves\n"), "{out}");
+}
+
+#[test]
+fn several_modules_are_one_program() {
+    for files in
+        [&["cell.pgf"][..], &["cell_main.mod", "cell_data.sys"], &["cell_data.sys", "cell_main.mod", "cell.pgf"]]
+    {
+        let arguments: Vec<&str> = ["import"].iter().chain(files).chain(&["--check"]).copied().collect();
+        let (code, out, error) = run(&cases(), &arguments);
+        assert!(out.contains("module MainModule, procedure main, 3 moves"), "{files:?}: {out}{error}");
+        assert!(code == 0 && out.ends_with("PASS: 0 findings in 3 moves\n"), "{files:?}: {out}{error}");
+    }
+    let alone = run(&cases(), &["import", "cell_main.mod", "--check"]);
+    assert_eq!(alone.0, 5, "{}", alone.1);
+}
+
+#[test]
+fn mistakes_in_modules_name_their_file_and_program_files_stay_in_their_folder() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("cell");
+    fs::create_dir(&folder).unwrap();
+    for name in ["cell_main.mod", "cell_data.sys"] {
+        fs::copy(cases().join(name), folder.join(name)).unwrap();
+    }
+    let data = fs::read_to_string(folder.join("cell_data.sys")).unwrap();
+    fs::write(folder.join("cell_data.sys"), data.replace("[[350,-120,200]", "[[3500,-120,200]")).unwrap();
+    let pgf = |module: &str| {
+        let text = format!("<Program>\n<Module>cell_main.mod</Module>\n<Module>{module}</Module>\n</Program>");
+        fs::write(folder.join("cell.pgf"), text).unwrap();
+    };
+    pgf("cell_data.sys");
+    let (code, out, _) = run(&folder, &["import", "cell.pgf", "--check"]);
+    assert!(code == 1 && out.contains("cell_main.mod line 5: UNREACHABLE pHome→"), "{out}");
+    let object = json(&folder, &["import", "cell.pgf", "--check"]);
+    assert_eq!((&object["findings"][0]["file"], &object["findings"][0]["line"]), (&"cell_main.mod".into(), &5.into()));
+    fs::write(folder.join("cell_data.sys"), data.replace("ConfJ \\On;", "ConfJ \\;")).unwrap();
+    let (code, out, error) = run(&folder, &["import", "cell.pgf", "--check"]);
+    assert!(code == 5 && out.contains("cell_data.sys line 7: NOT UNDERSTOOD expected"), "{out}{error}");
+    assert!(error.contains("cell_data.sys line 7, column "), "{error}");
+    pgf("../cell_data.sys");
+    refused(&folder, &["import", "cell.pgf"], &["cell.pgf: line 3: `../cell_data.sys`", "in the folder"]);
+    pgf("nowhere.mod");
+    refused(&folder, &["import", "cell.pgf"], &["cell.pgf: module `nowhere.mod` cannot be read"]);
+    fs::write(place.path().join("secret.mod"), "MODULE S\nENDMODULE\n").unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("../secret.mod", folder.join("link.mod")).unwrap();
+        pgf("link.mod");
+        refused(&folder, &["import", "cell.pgf"], &["link.mod", "leads out of the folder"]);
+    }
+    fs::write(folder.join("cell.pgf"), "hello").unwrap();
+    refused(&folder, &["import", "cell.pgf"], &["cell.pgf: is no XML"]);
 }

@@ -175,7 +175,11 @@ pub fn from_targets<'a>(
 ) -> Result<Vec<CloudPoint>, CloudError> {
     let mut points = Points::default();
     for (line, name, target) in targets {
-        let target = target.map_err(|why| CloudError::Target { line, name: name.into(), why: why.into() })?;
+        let refuse = |why: &str| CloudError::Target { line, name: name.into(), why: why.into() };
+        let target = target.map_err(refuse)?;
+        if target.external != NO_EXTERNAL {
+            return Err(refuse("uses external axes, which are not modelled (9E9 is not in use)"));
+        }
         points.push(CloudPoint {
             line,
             name: Some(name.into()),
@@ -319,7 +323,7 @@ impl PointRow<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rapid;
+    use crate::{listing, rapid};
 
     #[test]
     fn points_orientations_and_configurations_are_read() {
@@ -384,7 +388,7 @@ mod tests {
             );
             rapid::read(text.as_bytes(), &rapid::Options::default()).unwrap()
         };
-        let read = |module: &rapid::Module| {
+        let read = |module: &listing::Module| {
             from_targets(
                 module.targets.iter().map(|t| (t.line, t.name.as_str(), t.target.as_ref().map_err(String::as_str))),
             )

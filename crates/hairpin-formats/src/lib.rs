@@ -23,6 +23,7 @@ pub mod joint_trajectory;
 pub mod junit;
 pub mod krl;
 pub mod library;
+pub mod listing;
 pub mod mesh;
 pub mod parquet;
 pub mod placement;

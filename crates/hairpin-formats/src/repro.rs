@@ -221,7 +221,8 @@ impl Repro {
         let program = self.program.as_ref().map(|text| {
             let frames = Frames::of(&self.scenario);
             let module = rapid::read(text.as_bytes(), &frames.options()).map_err(|error| error.to_string());
-            module.and_then(|module| module.program.checked().map_err(|error| error.to_string()))
+            let program = module.and_then(|module| module.whole());
+            program.and_then(|program| program.checked().map_err(|error| error.to_string()))
         });
         let program = program.transpose().map_err(|error| format!("program: {error}"))?;
         let profile = self.profile.as_ref().map(|legs| Profile { legs: legs.iter().map(leg).collect() });

@@ -1,8 +1,8 @@
 //! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking
 //! module.
 
+use hairpin_formats::listing::{Module, Unmodelled};
 use hairpin_formats::quote::shortened;
-use hairpin_formats::rapid::Module;
 use hairpin_jobs::Problem;
 use hairpin_jobs::import::{Follow, Follower, ImportSettings, Imported, MoveFinding, Read, import};
 use hairpin_jobs::sets::Set;
@@ -16,7 +16,7 @@ use crate::{console, settings};
 pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
     let follower = || asked.cell.clone().map_or_else(|| Follower::Robot(asked.robot.clone()), Follower::Cell);
     let imported = import(&ImportSettings {
-        file: asked.file.clone(),
+        files: asked.files.clone(),
         check: asked.check.then(follower),
         procedure: asked.procedure.clone(),
         sets: sets(asked)?,
@@ -78,20 +78,28 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
     let Read { module, followed, findings } = read;
     let followed = followed.as_ref();
     let findings = findings.iter().map(|finding| {
-        json!({ "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to, "reason": shortened(&finding.reason),
-            "estimated": finding.estimated, "open": finding.open })
+        json!({
+            "file": finding.file, "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to,
+            "reason": shortened(&finding.reason), "estimated": finding.estimated, "open": finding.open,
+        })
     });
-    let unclear = module.unclear().map(|(line, why)| json!({ "line": line, "why": shortened(&why.what) }));
-    let mistakes = module
-        .mistakes
-        .iter()
-        .map(|found| json!({ "line": found.at.line, "column": found.at.column, "what": shortened(&found.what) }));
+    let unclear = module.unclear().map(|(line, why)| {
+        let (file, line) = place(module, line);
+        json!({ "file": file, "line": line, "kind": why.unmodelled.map(Unmodelled::word), "why": shortened(&why.what) })
+    });
+    let mistakes = module.mistakes.iter().map(|found| {
+        let (file, line) = place(module, found.at.line);
+        json!({ "file": file, "line": line, "column": found.at.column, "what": shortened(&found.what) })
+    });
+    let unclear_place = module.unclear_line.map(|line| place(module, line));
     let mut object = json!({
         "module": module.program.name,
         "procedure": module.program.procedure,
         "moves": module.program.moves.len(),
         "certain_moves": module.certain,
-        "certain_up_to_line": module.unclear_line,
+        "certain_up_to_line": unclear_place.map(|(_, line)| line),
+        "certain_up_to_file": unclear_place.and_then(|(file, _)| file),
+        "files": module.parts.iter().map(|part| &part.name).collect::<Vec<_>>(),
         "robot": followed.map(|followed| &followed.arm.name),
         "obstacles": followed.and_then(|followed| followed.parts.as_ref()),
         "checked": followed.map(|followed| followed.checked.followed),
@@ -103,13 +111,19 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
         "exit_code": code,
     });
     if import.lines {
-        let lines = module
-            .lines
-            .iter()
-            .map(|(line, said)| json!({ "line": line, "class": said.class.words(), "why": shortened(&said.what) }));
+        let lines = module.lines.iter().map(|(line, said)| {
+            let (file, line) = place(module, *line);
+            json!({ "file": file, "line": line, "class": said.class.words(), "why": shortened(&said.what) })
+        });
         object["lines"] = lines.collect();
     }
     object
+}
+
+/// Name of a line's file, and which of its lines it is.
+fn place(module: &Module, line: usize) -> (Option<&str>, usize) {
+    let (part, line) = module.place(line);
+    (part.map(|part| part.name.as_str()), line)
 }
 
 fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
@@ -117,7 +131,7 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
     let moves = program.moves.len();
     console::say(&format!(
         "{}: module {}, procedure {}, {moves} moves",
-        import.file.display(),
+        import.files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", "),
         program.name,
         if program.procedure.is_empty() { "none" } else { &program.procedure }
     ));
@@ -136,20 +150,24 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
     if import.lines {
         for (line, said) in &module.lines {
             let why = if said.what.is_empty() { String::new() } else { format!(": {}", said.what) };
-            console::say(&shortened(&format!("line {line}: {}{why}", said.class.words())));
+            console::say(&shortened(&format!("{}: {}{why}", module.told(*line), said.class.words())));
         }
     }
     for finding in findings {
         console::say(&shortened(&finding.sentence));
     }
     for (line, why) in module.unclear() {
-        console::say(&shortened(&format!("line {line}: NOT UNDERSTOOD {}", why.what)));
+        let line = module.told(line);
+        console::say(&shortened(&match why.unmodelled {
+            Some(kind) => format!("{line}: NOT MODELLED {}: {}", kind.words(), why.what),
+            None => format!("{line}: NOT UNDERSTOOD {}", why.what),
+        }));
     }
     for found in &module.mistakes {
-        console::warn(&format!("{}: {}", found.at, found.what));
+        console::warn(&format!("{}, column {}: {}", module.told(found.at.line), found.at.column, found.what));
     }
     for procedure in module.procedures.iter().filter(|procedure| !procedure.executed) {
-        console::warn(&format!("line {}: procedure {} is not executed", procedure.line, procedure.name));
+        console::warn(&format!("{}: procedure {} is not executed", module.told(procedure.line), procedure.name));
     }
     console::say(&verdict(module, followed.as_ref(), findings));
 }
@@ -175,10 +193,9 @@ fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding]) -> S
     match module.unclear_line {
         Some(line) => {
             let verdict = if findings.is_empty() { "INCONCLUSIVE" } else { "FAIL" };
-            format!(
-                "{verdict}: {what} in the {} of {moves} moves before line {line}{not_found_out}{estimated}",
-                module.certain
-            )
+            let before = module.told(line);
+            let certain = module.certain;
+            format!("{verdict}: {what} in the {certain} of {moves} moves before {before}{not_found_out}{estimated}")
         }
         None if findings.is_empty() && open.is_empty() => format!("PASS: {what} in {moves} moves{estimated}"),
         None if findings.is_empty() => format!("INCONCLUSIVE: {what} in {moves} moves{not_found_out}{estimated}"),

@@ -133,12 +133,8 @@ impl CampaignFolder {
             .map_err(|cause| FolderError::Unreadable { path: path.into(), cause })?;
         let frames = self.frames.get_or_init(|| self.scenario().as_ref().map_or_else(Frames::default, Frames::of));
         let module = rapid::read(&bytes, &frames.options()).map_err(|error| refuse(error.to_string()))?;
-        let unclear = module.unclear_line.map(|line| format!("line {line} is not understood"));
-        let mistake = module.mistakes.first().map(|found| format!("line {}: {}", found.at.line, found.what));
-        match unclear.or(mistake) {
-            Some(what) => Err(refuse(format!("case {case}: {what}"))),
-            None => module.program.checked().map_err(|error| refuse(error.to_string())),
-        }
+        let program = module.whole().map_err(|what| refuse(format!("case {case}: {what}")))?;
+        program.checked().map_err(|error| refuse(error.to_string()))
     }
 
     /// Its scenario's keys; `None` where they are none.

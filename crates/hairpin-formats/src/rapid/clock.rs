@@ -236,7 +236,7 @@ pub fn is_log(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`LogError`].
 pub fn read_log(bytes: &[u8]) -> Result<ArcTimes, LogError> {
-    let text = super::lex::decode(bytes);
+    let text = crate::listing::decode(bytes);
     let Table { header, names, rows } = Table::of(&text, Cut { delimiter: b';', comment: None });
     let head = header.trim();
     let points = (names.len() == 2 && names.cell(0) == LOG_MARK).then(|| names.cell(1).parse().ok()).flatten();

@@ -1,5 +1,8 @@
 //! Which instructions move the arm, which do not, and which change how it moves.
 
+use super::unmodelled;
+use crate::listing::Unmodelled;
+
 /// What an instruction does, as far as motion goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Effect {
@@ -12,7 +15,7 @@ pub(super) enum Effect {
     /// Has nothing to do with motion, but writes into its arguments.
     Writes,
     /// Changes motion in a way that is not followed.
-    Changes,
+    Changes(Unmodelled),
 }
 
 /// The moves.
@@ -24,20 +27,28 @@ pub(super) enum MoveKind {
     Circular,
 }
 
-const FOLLOWED: [&str; 9] = ["accset", "add", "clear", "confj", "confl", "decr", "incr", "singarea", "velset"];
+const FOLLOWED: [&str; 11] =
+    ["accset", "add", "clear", "confj", "confl", "decr", "gripload", "incr", "singarea", "softdeact", "velset"];
 
-const HARMLESS: [&str; 86] = [
+const HARMLESS: [&str; 112] = [
     "aliasio",
     "bookerrno",
+    "break",
+    "cancelload",
+    "checkprogref",
+    "cleariobuff",
+    "clearrawbytes",
     "clkreset",
     "clkstart",
     "clkstop",
     "close",
     "closedir",
+    "copyfile",
+    "cornerpathwarning",
     "eoffsoff",
     "errlog",
+    "errraise",
     "errwrite",
-    "gripload",
     "idelete",
     "idisable",
     "ienable",
@@ -58,19 +69,29 @@ const HARMLESS: [&str; 86] = [
     "iwatch",
     "load",
     "makedir",
-    "mechunitload",
     "motionsup",
     "open",
     "opendir",
+    "pathlengthreset",
+    "pathlengthstart",
+    "pathlengthstop",
     "pdispoff",
     "procerrrecovery",
     "pulsedo",
+    "raisetouser",
     "removedir",
     "removefile",
     "renamefile",
     "reset",
+    "resetppmoved",
+    "resetretrycount",
     "rewind",
+    "rmqemptyqueue",
+    "rmqsendmessage",
+    "rmqsendwait",
     "save",
+    "savecfgdata",
+    "scwrite",
     "set",
     "setallapplerr",
     "setao",
@@ -84,19 +105,25 @@ const HARMLESS: [&str; 86] = [
     "socketcreate",
     "socketlisten",
     "socketsend",
-    "softdeact",
     "spystart",
     "spystop",
     "startload",
     "stop",
     "systemstopaction",
+    "testsigndefine",
+    "testsignreset",
+    "texttabinstall",
     "tperase",
     "tpshow",
     "tpwrite",
+    "triggcheckio",
+    "triggdatacopy",
+    "triggdatareset",
     "triggequip",
     "triggint",
     "triggio",
-    "triggcheckio",
+    "triggrampao",
+    "tunereset",
     "uimsgbox",
     "uishow",
     "unload",
@@ -112,18 +139,25 @@ const HARMLESS: [&str; 86] = [
     "waittestandset",
     "waittime",
     "write",
+    "writecfgdata",
+    "writerawbytes",
     "writestrbin",
+    "writevar",
 ];
 
-const WRITES: [&str; 16] = [
+const WRITES: [&str; 20] = [
+    "bitclear",
+    "bitset",
     "copyrawbytes",
     "getdataval",
     "getsysdata",
+    "gettrapdata",
     "packrawbytes",
     "readanybin",
     "readcfgdata",
     "readerrdata",
-    "setdataval",
+    "readrawbytes",
+    "readvararr",
     "socketreceive",
     "tpreaddnum",
     "tpreadfk",
@@ -134,65 +168,6 @@ const WRITES: [&str; 16] = [
     "writebin",
 ];
 
-const CHANGES: [&str; 56] = [
-    "actunit",
-    "cirpathmode",
-    "clearpath",
-    "contactl",
-    "corrclear",
-    "corrcon",
-    "corrdiscon",
-    "corrwrite",
-    "deactunit",
-    "egmactjoint",
-    "egmactmove",
-    "egmactpose",
-    "egmmovec",
-    "egmmovel",
-    "egmrunjoint",
-    "egmrunpose",
-    "egmstop",
-    "eoffson",
-    "eoffsset",
-    "exitcycle",
-    "indamove",
-    "indcmove",
-    "inddmove",
-    "indreset",
-    "indrmove",
-    "motionprocessmodeset",
-    "moveextj",
-    "pathacclim",
-    "pathrecmovebwd",
-    "pathrecmovefwd",
-    "pathrecstart",
-    "pathrecstop",
-    "pathresol",
-    "pdispon",
-    "pdispset",
-    "restopath",
-    "searchc",
-    "searchextj",
-    "searchl",
-    "softact",
-    "speedrefresh",
-    "startmove",
-    "startmoveretry",
-    "stopmove",
-    "stopmovereset",
-    "storepath",
-    "syncmoveoff",
-    "syncmoveon",
-    "syncmoveundo",
-    "syncmovesuspend",
-    "syncmoveresume",
-    "triggabsj",
-    "triggc",
-    "triggj",
-    "triggl",
-    "worldacclim",
-];
-
 /// Endings of moves that do something else at their end: outputs, or a procedure in the middle of the corner.
 const ENDINGS: [&str; 5] = ["", "do", "ao", "go", "sync"];
 
@@ -201,14 +176,10 @@ pub(super) fn effect(name: &str) -> Option<Effect> {
     if let Some(kind) = move_kind(name) {
         return Some(Effect::Move(kind));
     }
-    [
-        (&FOLLOWED[..], Effect::Followed),
-        (&HARMLESS[..], Effect::Harmless),
-        (&WRITES[..], Effect::Writes),
-        (&CHANGES[..], Effect::Changes),
-    ]
-    .into_iter()
-    .find_map(|(names, effect)| names.contains(&name).then_some(effect))
+    let plain = [(&FOLLOWED[..], Effect::Followed), (&HARMLESS[..], Effect::Harmless), (&WRITES[..], Effect::Writes)]
+        .into_iter()
+        .find_map(|(names, effect)| names.contains(&name).then_some(effect));
+    plain.or_else(|| unmodelled::of(name).map(Effect::Changes))
 }
 
 /// Whether the name (lower case) is an instruction of ABB's.

@@ -1,21 +1,6 @@
 //! The words of a module. RAPID is free of lines: what counts is where each word begins.
 
-use std::fmt;
-
-/// Where in a file, both from 1; columns count characters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub struct At {
-    /// Line.
-    pub line: usize,
-    /// Column.
-    pub column: usize,
-}
-
-impl fmt::Display for At {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}, column {}", self.line, self.column)
-    }
-}
+use crate::listing::At;
 
 /// One word.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,21 +43,12 @@ const SIGNS: [&str; 26] = [
     "?", "|", "%", "&",
 ];
 
-/// The text of a module: UTF-8 where it is, else ISO 8859-1, as controllers write it.
-pub(super) fn decode(bytes: &[u8]) -> String {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.into(),
-        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
-    }
-}
-
 /// Words of a file at most: those of a hundred thousand moves with their targets in place.
 pub(super) const MOST_WORDS: usize = 5_000_000;
 
-/// The first [`MOST_WORDS`] words, `End` last, and all comments.
-pub(super) fn lex(text: &str) -> (Vec<Token>, Vec<Comment>) {
-    let mut reader = Reader { rest: text, at: At { line: 1, column: 1 }, comments: Vec::new() };
+/// The first [`MOST_WORDS`] words, `End` last, and all comments; the first line counts as `first_line`.
+pub(super) fn lex(text: &str, first_line: usize) -> (Vec<Token>, Vec<Comment>) {
+    let mut reader = Reader { rest: text, at: At { line: first_line, column: 1 }, comments: Vec::new() };
     let mut tokens = Vec::new();
     loop {
         reader.skip();

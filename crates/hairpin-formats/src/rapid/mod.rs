@@ -8,13 +8,15 @@ mod clock;
 mod instructions;
 mod kinds;
 mod lex;
-mod lines;
 mod names;
 mod parse;
+mod predefined;
+mod program_file;
 mod read;
 mod run;
 mod syntax;
 mod text;
+mod unmodelled;
 mod value;
 mod write;
 
@@ -22,8 +24,7 @@ mod write;
 mod tests;
 
 pub use clock::{ArcTimes, Clocked, Clocking, LogError, arc_clock, is_log, read_log};
-pub use lex::At;
-pub use lines::{Class, Line};
 pub use names::{LONGEST_NAME, NameError, as_name, check_name};
-pub use read::{Declared, Found, Frames, Module, NoModule, Options, Procedure, read};
+pub use program_file::{ProgramFileError, modules_of};
+pub use read::{Frames, NoModule, Options, read, read_all};
 pub use write::{FIRST_RUN, RapidError, module, program_file, slow, write};

@@ -1,18 +1,18 @@
 //! A module from a cell as a program, with what every line of it means for motion.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use hairpin::campaign::Scenario;
-use hairpin::trajectory::program::{PoseTarget, Program, Tool, WorkObject};
+use hairpin::trajectory::program::{Program, Tool, WorkObject};
 use thiserror::Error;
 
 use super::kinds::DataKind;
-use super::lex::{At, decode};
-use super::lines::{Class, Line};
+use super::lex::Comment;
 use super::parse::parse;
 use super::run::{Known, Machine};
-use super::syntax::{RoutineKind, Source, What, each};
+use super::syntax::{Routine, RoutineKind, Source, What, each};
 use super::value;
+use crate::listing::{Declared, File, Found, Line, Module, Part, Procedure, decode};
 
 /// What the reader does not find in the file.
 #[derive(Debug, Clone, Copy, Default)]
@@ -69,70 +69,6 @@ pub enum NoModule {
     },
 }
 
-/// Something that is not RAPID as it is known here.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Found {
-    /// Where.
-    pub at: At,
-    /// What.
-    pub what: String,
-}
-
-/// A procedure of the file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Procedure {
-    /// Its name.
-    pub name: String,
-    /// Its line.
-    pub line: usize,
-    /// Whether it was executed.
-    pub executed: bool,
-}
-
-/// A robtarget that the modules declare.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Declared {
-    /// Its line.
-    pub line: usize,
-    /// Its name; of an element of an array with its number: `p_3`.
-    pub name: String,
-    /// The target, or why it is none.
-    pub target: Result<PoseTarget, String>,
-}
-
-/// A file, read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Module {
-    /// The moves of the procedure, in the order of their execution.
-    pub program: Program,
-    /// Moves before the first line that changes motion and is not understood; all of them where there is none.
-    pub certain: usize,
-    /// The line of the file (from 1) up to which moves are certain.
-    pub unclear_line: Option<usize>,
-    /// Comments that follow the first MODULE, without the notice of written programs.
-    pub header: Vec<String>,
-    /// Every line that says something, from 1.
-    pub lines: BTreeMap<usize, Line>,
-    /// What could not be understood.
-    pub mistakes: Vec<Found>,
-    /// All procedures.
-    pub procedures: Vec<Procedure>,
-    /// All robtargets that the modules declare.
-    pub targets: Vec<Declared>,
-}
-
-impl Module {
-    /// Lines that change motion and are not understood.
-    pub fn unclear(&self) -> impl Iterator<Item = (usize, &Line)> {
-        self.lines.iter().filter(|(_, line)| line.class == Class::ChangesMotion).map(|(number, line)| (*number, line))
-    }
-
-    /// The class of a line; one that says nothing is harmless.
-    pub fn class(&self, line: usize) -> Class {
-        self.lines.get(&line).map_or(Class::Harmless, |line| line.class)
-    }
-}
-
 /// What is nested is read and executed by recursion, as deep as the limits allow; the caller's stack may be small.
 const STACK: usize = 64 << 20;
 
@@ -142,31 +78,81 @@ const STACK: usize = 64 << 20;
 /// # Errors
 /// [`NoModule`].
 pub fn read(bytes: &[u8], options: &Options<'_>) -> Result<Module, NoModule> {
+    read_all(&[File { name: "", bytes }], options).map_err(|(_, why)| why)
+}
+
+/// Reads the files of one program: what one module declares all know, but for what is LOCAL. Lines are counted through
+/// all of them ([`Module::place`]).
+///
+/// # Errors
+/// [`NoModule`], with the index of the file.
+pub fn read_all(files: &[File<'_>], options: &Options<'_>) -> Result<Module, (usize, NoModule)> {
     std::thread::scope(|scope| {
         let reader = std::thread::Builder::new().stack_size(STACK);
-        match reader.spawn_scoped(scope, || read_here(bytes, options)) {
+        match reader.spawn_scoped(scope, || read_here(files, options)) {
             Ok(reading) => reading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
             // No thread to be had: this one's stack does for all but the deepest programs.
-            Err(_) => read_here(bytes, options),
+            Err(_) => read_here(files, options),
         }
     })
 }
 
-fn read_here(bytes: &[u8], options: &Options<'_>) -> Result<Module, NoModule> {
-    let text = decode(bytes);
-    let (source, mistakes, comments) = parse(&text);
-    let source = source.ok_or(NoModule::Absent)?;
-    let entry = entry(&source, options.procedure)?;
+/// The text of all files.
+#[derive(Default)]
+struct Text {
+    source: Source,
+    parts: Vec<Part>,
+    mistakes: Vec<Found>,
+    /// Of the first file.
+    header: Vec<String>,
+}
+
+impl Text {
+    fn of(files: &[File<'_>]) -> Result<Self, (usize, NoModule)> {
+        let mut text = Self::default();
+        let mut first_line = 1;
+        for (index, file) in files.iter().enumerate() {
+            let decoded = decode(file.bytes);
+            let before = text.source.modules.len();
+            let (mistakes, comments) = parse(&decoded, first_line, &mut text.source);
+            let Some((_, line)) = text.source.modules.get(before) else { return Err((index, NoModule::Absent)) };
+            if index == 0 {
+                text.header = header(&comments, *line);
+            }
+            text.mistakes.extend(mistakes.into_iter().map(|mistake| Found { at: mistake.at, what: mistake.what }));
+            text.parts.push(Part { name: file.name.into(), first_line });
+            first_line += decoded.matches('\n').count() + 1;
+        }
+        if text.source.modules.is_empty() { Err((0, NoModule::Absent)) } else { Ok(text) }
+    }
+}
+
+/// Comments right below the line of MODULE, without the notice of written programs.
+fn header(comments: &[Comment], module: usize) -> Vec<String> {
+    let mut header = Vec::new();
+    for comment in comments.iter().skip_while(|comment| comment.line <= module) {
+        if comment.line != module + 1 + header.len() {
+            break;
+        }
+        header.push(comment.text.strip_prefix(' ').unwrap_or(&comment.text).to_owned());
+    }
+    header.retain(|line| line != crate::banner::NOTICE);
+    header
+}
+
+fn read_here(files: &[File<'_>], options: &Options<'_>) -> Result<Module, (usize, NoModule)> {
+    let Text { source, parts, mistakes, header } = Text::of(files)?;
+    let entry = entry(&source, options.procedure).map_err(|why| (0, why))?;
     let known = Known { tools: options.tools, work_objects: options.work_objects };
     let mut machine = Machine::new(&source, known);
     let targets = targets(&source, &machine);
-    if let Some(entry) = &entry {
+    if let Some(entry) = entry {
         machine.run(entry);
     }
     let mut lines = machine.lines;
     for mistake in &mistakes {
         // Within routines they are told where they are executed; a declaration that is lost shows where it is used.
-        lines.entry(mistake.at.line).or_insert_with(|| Line { class: Class::Harmless, what: mistake.what.clone() });
+        lines.entry(mistake.at.line).or_insert_with(|| Line::harmless(mistake.what.clone()));
     }
     let (certain, unclear_line) = match machine.unclear {
         Some((moves, line)) => (moves, Some(line)),
@@ -176,21 +162,14 @@ fn read_here(bytes: &[u8], options: &Options<'_>) -> Result<Module, NoModule> {
     let procedures = procedures.map(|routine| Procedure {
         name: routine.name.clone(),
         line: routine.at.line,
-        executed: machine.ran.contains(&routine.name.to_ascii_lowercase()),
+        executed: machine.ran.contains(&routine.at),
     });
-    let mut header = Vec::new();
-    for comment in comments.iter().skip_while(|comment| comment.line <= source.line) {
-        if comment.line != source.line + 1 + header.len() {
-            break;
-        }
-        header.push(comment.text.strip_prefix(' ').unwrap_or(&comment.text).to_owned());
-    }
-    header.retain(|line| line != crate::banner::NOTICE);
+    let home = entry.map_or(0, |entry| entry.home.module);
     Ok(Module {
         procedures: procedures.collect(),
         program: Program {
-            name: source.name.clone(),
-            procedure: entry.unwrap_or_default(),
+            name: source.modules.get(home).map(|(name, _)| name.clone()).unwrap_or_default(),
+            procedure: entry.map(|entry| entry.name.clone()).unwrap_or_default(),
             tools: machine.tools,
             work_objects: machine.work_objects,
             moves: machine.moves,
@@ -199,19 +178,20 @@ fn read_here(bytes: &[u8], options: &Options<'_>) -> Result<Module, NoModule> {
         unclear_line,
         header,
         lines,
-        mistakes: mistakes.into_iter().map(|mistake| Found { at: mistake.at, what: mistake.what }).collect(),
+        mistakes,
         targets,
+        parts,
     })
 }
 
 /// The procedure to execute; `None` where there is none without parameters.
-fn entry(source: &Source, asked: Option<&str>) -> Result<Option<String>, NoModule> {
+fn entry<'a>(source: &'a Source, asked: Option<&str>) -> Result<Option<&'a Routine>, NoModule> {
     let procedures = source.routines.iter().filter(|routine| routine.kind == RoutineKind::Procedure);
     let callable: Vec<_> = procedures.filter(|routine| routine.parameters.iter().all(|p| p.optional)).collect();
-    let named = |name: &str| callable.iter().find(|routine| routine.name.eq_ignore_ascii_case(name));
+    let named = |name: &str| callable.iter().find(|routine| routine.name.eq_ignore_ascii_case(name)).copied();
     if let Some(asked) = asked {
         return match named(asked) {
-            Some(routine) => Ok(Some(routine.name.clone())),
+            Some(routine) => Ok(Some(routine)),
             None => Err(NoModule::Procedure {
                 asked: asked.into(),
                 there: callable.iter().map(|routine| routine.name.clone()).collect(),
@@ -229,8 +209,7 @@ fn entry(source: &Source, asked: Option<&str>) -> Result<Option<String>, NoModul
         });
     }
     let root = callable.iter().find(|routine| !called.contains(&routine.name.to_ascii_lowercase()));
-    let routine = named("main").or(root).or(callable.first());
-    Ok(routine.map(|routine| routine.name.clone()))
+    Ok(named("main").or(root.copied()).or(callable.first().copied()))
 }
 
 /// Robtargets as they are declared, arrays element by element.
@@ -239,7 +218,7 @@ fn targets(source: &Source, machine: &Machine<'_>) -> Vec<Declared> {
     let robtargets =
         source.data.iter().filter(|declaration| DataKind::of(&declaration.kind) == Some(DataKind::RobTarget));
     for declaration in robtargets {
-        let Some(variable) = machine.global(&declaration.name) else { continue };
+        let Some(variable) = machine.global(declaration) else { continue };
         let mut leaves = Vec::new();
         collect(variable, declaration.name.clone(), &mut leaves);
         for (name, value) in leaves {

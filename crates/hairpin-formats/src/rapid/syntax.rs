@@ -1,6 +1,6 @@
 //! What a module says, before anything is executed.
 
-use super::lex::At;
+use crate::listing::At;
 
 /// A value to be computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,16 +94,28 @@ pub(super) enum What {
     Exit,
     Label,
     Goto(String),
-    /// RETRY, TRYNEXT, RAISE, CONNECT.
+    /// `CONNECT i WITH trap`: the trap's name.
+    Connect(String),
+    /// RETRY, TRYNEXT, RAISE.
     Harmless(&'static str),
     /// A line that could not be understood.
     Broken(String),
+}
+
+/// Where something is declared, and who knows it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Home {
+    /// Index of its module.
+    pub(super) module: usize,
+    /// Whether its module alone knows it.
+    pub(super) local: bool,
 }
 
 /// A piece of data.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Declaration {
     pub(super) at: At,
+    pub(super) home: Home,
     pub(super) kind: String,
     pub(super) name: String,
     /// Extents of an array, innermost last; empty for a single one.
@@ -125,6 +137,7 @@ pub(super) struct Parameter {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Routine {
     pub(super) at: At,
+    pub(super) home: Home,
     pub(super) kind: RoutineKind,
     pub(super) name: String,
     pub(super) parameters: Vec<Parameter>,
@@ -141,13 +154,11 @@ pub(super) enum RoutineKind {
     Trap,
 }
 
-/// A file: its modules taken together.
+/// Modules that are one program.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Source {
-    /// Name of the first module.
-    pub(super) name: String,
-    /// Line of the first module.
-    pub(super) line: usize,
+    /// Name and line of each.
+    pub(super) modules: Vec<(String, usize)>,
     pub(super) data: Vec<Declaration>,
     pub(super) routines: Vec<Routine>,
 }

@@ -30,6 +30,15 @@ pub(super) struct Variable {
     pub(super) value: Value,
     /// Whether it holds what it was declared with.
     pub(super) untouched: bool,
+    /// Whether an interrupt may change it at any time: what it holds is never known.
+    pub(super) volatile: bool,
+}
+
+impl Variable {
+    /// One that nothing is known of but its kind.
+    pub(super) fn unknown(name: &str, kind: Option<DataKind>) -> Self {
+        Self { name: name.into(), kind, value: Value::Unknown, untouched: false, volatile: false }
+    }
 }
 
 /// Why a value is not what it should be, in words that follow a name.

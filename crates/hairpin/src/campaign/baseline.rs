@@ -47,6 +47,28 @@ pub struct RunMoves {
     pub duration_s: Vec<Option<f64>>,
     /// Largest distance from the path; `None` without a sample on the move.
     pub deviation_m: Vec<Option<f64>>,
+    /// Of logs: what they do not show.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unseen: Option<RunUnseen>,
+}
+
+/// What a log does not show.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunUnseen {
+    /// Longest time between two samples.
+    pub longest_gap_s: f64,
+    /// The stamp before it.
+    pub from_s: f64,
+    /// The first and the last move that it hides some of.
+    pub moves: [String; 2],
+    /// Share of the plan's time that it hides.
+    pub plan_share: f64,
+    /// Moves with a sample on them.
+    pub moves_seen: usize,
+    /// Largest distance from the path that an estimate does not exclude between samples, where that is over the limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimated_m: Option<f64>,
 }
 
 /// What earlier releases did, oldest first; the last is what new runs are held against.

@@ -37,9 +37,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
         };
         match judge_run(setup, case, &plan, run, flight)? {
             Ok(judged) => {
-                if judged.unmeasured {
-                    failed = failed.or(Some(format!("run {}: nothing that `spec` limits was measured", run.run)));
-                }
+                failed = failed.or_else(|| judged.open.as_ref().map(|why| format!("run {}: {why}", run.run)));
                 deviations.push(RunDeviation {
                     case: case.number,
                     run: run.run,
@@ -103,8 +101,8 @@ pub fn measures_of(setup: &Setup, case: &Case, run: &Run) -> Option<Measures> {
 struct JudgedRun {
     measures: Measures,
     violations: Vec<Violation>,
-    /// Whether limits are of what was not measured alone.
-    unmeasured: bool,
+    /// Why what was recorded decides nothing.
+    open: Option<String>,
     ended: String,
     left_world: Option<f64>,
     crashed: bool,
@@ -184,15 +182,22 @@ fn judge_run(
         let programs = setup.kind().programs();
         let moves = programs.and_then(|programs| {
             let programmed = plan.programmed.get_or_init(|| programs.programmed(case)).as_ref();
-            programs.measured(programmed?, &flight.track)
+            programs.measured(programmed?, &flight.track, path)
         });
         measures.latest = moves.as_ref().and_then(latest);
         let mut violations = judgement::violations(&measures, flight, &terms.limits);
+        let unseen = moves.as_ref().and_then(|moves| moves.unseen.as_ref());
+        if unseen.is_some_and(|unseen| unseen.late_unproven) {
+            violations.retain(|violation| violation.what != "late");
+        }
+        // What limits there are may all be of what was not measured.
+        let unmeasured = terms.limits.miss(&measures).then(|| "nothing that `spec` limits was measured".into());
+        let open = unseen.and_then(|unseen| unseen.open.clone()).or(unmeasured);
         if let Some(programs) = programs {
             violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
         }
         JudgedRun {
-            unmeasured: terms.limits.miss(&measures),
+            open,
             violations,
             ended: flight.ended.word().into(),
             left_world: flight.left_world,

@@ -32,6 +32,8 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
     let confidence = setup.scenario.confidence().unwrap_or(CONFIDENCE);
     let reruns = rerun_words(results, confidence);
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
+    let doubt = results.iter().find(|result| result.status == Status::Inconclusive);
+    let doubt = doubt.and_then(|result| Some(format!("{}, {}", result.case, result.message.as_ref()?)));
     judgement::verdict(&Judged {
         how: &how,
         runs: setup.scenario.executor().repeat as usize,
@@ -42,6 +44,7 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         executor_failed: count(Status::ExecutorFailed),
         inconclusive: count(Status::Inconclusive),
         trouble: &trouble,
+        doubt: doubt.as_deref().unwrap_or_default(),
         worst: worst.as_ref().map(|(case, value, saturation)| Worst { case, value, saturation: *saturation }),
         share_limit: setup.scenario.violation_share(),
         confidence,

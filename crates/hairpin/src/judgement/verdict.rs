@@ -73,6 +73,8 @@ pub struct Judged<'a> {
     pub inconclusive: usize,
     /// What the executor's failures were: `time-out 60 s, stderr kept`.
     pub trouble: &'a str,
+    /// Why the data of the first case that allows no verdict allow none.
+    pub doubt: &'a str,
     /// The worst of all runs; `None` where nothing is limited.
     pub worst: Option<Worst<'a>>,
     /// Share of cases that may violate; `None` or 0: not one.
@@ -101,6 +103,7 @@ impl Default for Judged<'_> {
             executor_failed: 0,
             inconclusive: 0,
             trouble: "",
+            doubt: "",
             worst: None,
             share_limit: None,
             confidence: 0.95,
@@ -200,7 +203,8 @@ fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> 
         parts.push(format!("executor failed in {}/{}, not counted", judged.executor_failed, judged.cases));
     }
     if judged.inconclusive > 0 {
-        parts.push(format!("data of {}/{} inconclusive, not counted", judged.inconclusive, judged.cases));
+        let doubt = if judged.doubt.is_empty() { String::new() } else { format!(" ({})", judged.doubt) };
+        parts.push(format!("data of {}/{} inconclusive, not counted{doubt}", judged.inconclusive, judged.cases));
     }
     if judged.cases < judged.asked {
         parts.push(format!("{} of {} cases asked for were found", judged.cases, judged.asked));

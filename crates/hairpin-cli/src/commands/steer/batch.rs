@@ -36,7 +36,7 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, path: &Path, watch: &dyn Wat
 /// Counts on stdout if the table is in a file; wrong rows on stderr.
 fn tell(steer: &Steer, path: &Path, batch: &Batch, code: u8) {
     let rows = batch.queries.rows.iter();
-    let told = |line: usize, wrong: &dyn std::fmt::Display| {
+    let told = |line: u64, wrong: &dyn std::fmt::Display| {
         shortened(&format!("{}, line {line}: {wrong}", path.display())).into_owned()
     };
     let wrong: Vec<String> = rows.filter_map(|row| Some(told(row.line, row.asked.as_ref().err()?))).collect();

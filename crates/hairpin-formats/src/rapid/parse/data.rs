@@ -20,7 +20,7 @@ impl Parser {
         }
         let value = if self.take_sign(":=") { Some(self.expression()?) } else { None };
         self.expect_sign(";")?;
-        Ok(Declaration { at, kind, name, extents, value })
+        Ok(Declaration { at, home: self.home, kind, name, extents, value })
     }
 
     /// `(num a, \switch fast | num slow, INOUT robtarget p{*})`

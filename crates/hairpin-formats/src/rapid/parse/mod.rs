@@ -4,8 +4,9 @@ mod data;
 mod expressions;
 mod statements;
 
-use super::lex::{At, MOST_WORDS, Token, Word, lex};
-use super::syntax::{Routine, RoutineKind, Source};
+use super::lex::{Comment, MOST_WORDS, Token, Word, lex};
+use super::syntax::{Home, Routine, RoutineKind, Source};
+use crate::listing::At;
 
 /// Blocks and brackets may be nested this deep.
 const DEEPEST: usize = 60;
@@ -23,22 +24,25 @@ pub(super) struct Mistake {
 /// What an attempt to understand gives: a mistake ends the line.
 type Parsed<T> = Result<T, Mistake>;
 
-/// The modules in `text`, and what was not understood; `None` where there is no module.
-pub(super) fn parse(text: &str) -> (Option<Source>, Vec<Mistake>, Vec<super::lex::Comment>) {
-    let (tokens, comments) = lex(text);
-    let mut parser = Parser { tokens, next: 0, depth: 0, mistakes: Vec::new() };
-    let source = parser.file();
+/// Puts the modules in `text`, of which the first line counts as `first_line`, into `source`: what was not understood,
+/// and the comments.
+pub(super) fn parse(text: &str, first_line: usize, source: &mut Source) -> (Vec<Mistake>, Vec<Comment>) {
+    let (tokens, comments) = lex(text, first_line);
+    let mut parser = Parser { tokens, next: 0, depth: 0, home: Home::default(), mistakes: Vec::new() };
+    parser.file(source);
     if parser.tokens.len() > MOST_WORDS {
         let at = parser.tokens[MOST_WORDS].at;
         parser.mistakes.push(Mistake { at, what: format!("more than {MOST_WORDS} words: the rest is not read") });
     }
-    (source, parser.mistakes, comments)
+    (parser.mistakes, comments)
 }
 
 struct Parser {
     tokens: Vec<Token>,
     next: usize,
     depth: usize,
+    /// Of what is declared just now.
+    home: Home,
     mistakes: Vec<Mistake>,
 }
 
@@ -143,9 +147,8 @@ impl Parser {
         }
     }
 
-    /// All modules of the file as one.
-    fn file(&mut self) -> Option<Source> {
-        let mut source: Option<Source> = None;
+    /// All modules of the file.
+    fn file(&mut self, source: &mut Source) {
         while !matches!(self.word(), Word::End) {
             // Expressions of a file that is none may hold the word as well; a module has a name.
             if !(self.is_keyword("MODULE") && matches!(self.ahead(1), Word::Name(_))) {
@@ -155,11 +158,11 @@ impl Parser {
             let line = self.at().line;
             self.advance();
             let name = self.expect_name().unwrap_or_default();
-            let source = source.get_or_insert_with(|| Source { name, line, ..Source::default() });
+            self.home.module = source.modules.len();
+            source.modules.push((name, line));
             self.attributes();
             self.module(source);
         }
-        source
     }
 
     /// `(SYSMODULE, NOSTEPIN)`
@@ -196,7 +199,14 @@ impl Parser {
 
     fn part(&mut self, source: &mut Source) -> Parsed<()> {
         let start = self.next;
-        while self.take_keyword("LOCAL") || self.take_keyword("TASK") {}
+        self.home.local = false;
+        loop {
+            if self.take_keyword("LOCAL") {
+                self.home.local = true;
+            } else if !self.take_keyword("TASK") {
+                break;
+            }
+        }
         let at = self.at();
         let kind = match self.keyword_of(&["PROC", "FUNC", "TRAP", "RECORD", "ALIAS", "CONST", "PERS", "VAR"]) {
             Some("PROC") => RoutineKind::Procedure,
@@ -230,6 +240,7 @@ impl Parser {
     }
 
     fn routine(&mut self, kind: RoutineKind, at: At) -> Parsed<Routine> {
+        let home = self.home;
         if kind == RoutineKind::Function {
             self.expect_name()?;
         }
@@ -263,6 +274,6 @@ impl Parser {
         if !self.take_keyword(end) {
             self.mistakes.push(self.expected(end));
         }
-        Ok(Routine { at, kind, name, parameters, data, body, handlers })
+        Ok(Routine { at, home, kind, name, parameters, data, body, handlers })
     }
 }

@@ -1,7 +1,8 @@
 //! Statements and blocks of them.
 
 use super::{Mistake, Parsed, Parser};
-use crate::rapid::lex::{At, Word};
+use crate::listing::At;
+use crate::rapid::lex::Word;
 use crate::rapid::names::RESERVED;
 use crate::rapid::syntax::{Expression, Path, Statement, What};
 
@@ -53,6 +54,12 @@ impl Parser {
                 "RETURN" => What::Return(if self.is_sign(";") { None } else { Some(self.expression()?) }),
                 "EXIT" => What::Exit,
                 "GOTO" => What::Goto(self.expect_name()?),
+                "CONNECT" => {
+                    self.expect_name()?;
+                    self.steps()?;
+                    self.expect_keyword("WITH")?;
+                    What::Connect(self.expect_name()?)
+                }
                 _ => {
                     while !self.is_sign(";") && self.at().line == at.line {
                         self.advance();

@@ -1,9 +1,8 @@
 //! Calls of the file's own routines.
 
-use super::{DEEPEST, Flow, Frame, Machine};
+use super::{DEEPEST, Flow, Frame, Machine, twice};
+use crate::listing::{At, Class};
 use crate::rapid::kinds::DataKind;
-use crate::rapid::lex::At;
-use crate::rapid::lines::Class;
 use crate::rapid::syntax::{Argument, Expression, Path, Routine};
 use crate::rapid::value::{Value, Variable};
 
@@ -17,7 +16,11 @@ impl<'a> Machine<'a> {
     /// Calls the routine of that name (lower case, one of the file's): whether execution goes on behind it, and its
     /// value.
     pub(super) fn call(&mut self, name: &str, arguments: &[Argument], at: At) -> (bool, Option<Value>) {
-        let Some(routine) = self.routines.get(name).copied() else { return (true, None) };
+        let Some(routine) = self.routine(name) else { return (true, None) };
+        if self.is_twice(routine) {
+            self.mark(at, Class::ChangesMotion, twice(&routine.name));
+            return (true, None);
+        }
         if self.depth >= DEEPEST {
             let what =
                 format!("`{}` is called in itself, or blocks are nested, more than {DEEPEST} deep", routine.name);
@@ -32,7 +35,9 @@ impl<'a> Machine<'a> {
             }
         };
         self.frames.push(bound.frame);
+        let caller = std::mem::replace(&mut self.module, routine.home.module);
         let flow = self.enter(routine);
+        self.module = caller;
         let frame = self.frames.pop().unwrap_or_default();
         self.size -= frame.size.min(self.size);
         for (parameter, path) in bound.back {
@@ -55,7 +60,7 @@ impl<'a> Machine<'a> {
 
     /// Executes the routine in the innermost frame.
     pub(super) fn enter(&mut self, routine: &'a Routine) -> Flow {
-        self.ran.insert(routine.name.to_ascii_lowercase());
+        self.ran.insert(routine.at);
         self.mark(routine.at, Class::Understood, "");
         for declaration in &routine.data {
             self.declare(declaration);
@@ -98,7 +103,7 @@ impl<'a> Machine<'a> {
                     }
                 }
             }
-            let variable = Variable { name: parameter.name.clone(), kind, value: known, untouched: true };
+            let variable = Variable { value: known, untouched: true, ..Variable::unknown(&parameter.name, kind) };
             bound.frame.variables.insert(parameter.name.clone(), variable);
         }
         match placed.next() {

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::{DEEPEST, Machine};
+use crate::listing::At;
 use crate::rapid::instructions::{self, Effect};
-use crate::rapid::syntax::{Argument, Expression, Path, Statement, Step, What, inner};
+use crate::rapid::syntax::{Argument, Expression, Path, Routine, Statement, Step, What, inner};
 
 /// What a block might do.
 #[derive(Debug, Default)]
@@ -13,10 +14,10 @@ pub(super) struct Effects {
     pub(super) moves: bool,
     /// It may end a routine or the program.
     pub(super) leaves: bool,
-    /// What it may assign to.
-    pub(super) assigned: BTreeSet<String>,
-    /// Routines that were looked at.
-    seen: BTreeSet<String>,
+    /// What it may assign to, each with the module that says so.
+    pub(super) assigned: BTreeSet<(usize, String)>,
+    /// Where the routines stand that were looked at.
+    seen: BTreeSet<At>,
     /// How many of them call each other just now.
     depth: usize,
 }
@@ -50,6 +51,14 @@ pub(super) fn has_way_out(block: &[Statement]) -> bool {
 }
 
 impl Machine<'_> {
+    /// What the routine might do, whenever it is executed.
+    pub(super) fn effects_of(&mut self, routine: &Routine) -> Effects {
+        let here = std::mem::replace(&mut self.module, routine.home.module);
+        let effects = self.effects(&[&routine.body]);
+        self.module = here;
+        effects
+    }
+
     /// What any of the blocks might do, with all that they call.
     pub(super) fn effects(&mut self, blocks: &[&[Statement]]) -> Effects {
         let mut effects = Effects::default();
@@ -65,7 +74,7 @@ impl Machine<'_> {
         for statement in block {
             match &statement.what {
                 What::Assign { to, value } => {
-                    effects.assigned.insert(to.name.clone());
+                    effects.assigned.insert((self.module, to.name.clone()));
                     self.in_path(to, effects);
                     self.in_expression(value, effects);
                 }
@@ -78,7 +87,7 @@ impl Machine<'_> {
                 What::While { condition, .. } => self.in_expression(condition, effects),
                 What::For { bounds, .. } => bounds.iter().for_each(|bound| self.in_expression(bound, effects)),
                 What::Test { of, .. } => self.in_expression(of, effects),
-                What::Label | What::Harmless(_) => {}
+                What::Label | What::Harmless(_) | What::Connect(_) => {}
             }
             for block in inner(statement) {
                 self.collect(block, effects);
@@ -93,19 +102,23 @@ impl Machine<'_> {
             }
         }
         let lower = name.to_ascii_lowercase();
-        if let Some(routine) = self.routines.get(&lower).copied() {
+        let module = self.module;
+        let given = || paths(arguments).map(|path| (module, path.name.clone()));
+        if let Some(routine) = self.routine(&lower) {
             if routine.parameters.iter().any(|parameter| parameter.returned) {
-                effects.assigned.extend(paths(arguments).map(|path| path.name.clone()));
+                effects.assigned.extend(given());
             }
             if effects.depth >= DEEPEST {
                 // Too far to look: anything may happen there.
                 effects.moves = true;
                 return;
             }
-            if effects.seen.insert(lower) {
+            if effects.seen.insert(routine.at) {
                 let leaves = effects.leaves;
                 effects.depth += 1;
+                self.module = routine.home.module;
                 self.collect(&routine.body, effects);
+                self.module = module;
                 effects.depth -= 1;
                 // Its RETURN ends only itself.
                 effects.leaves = leaves || ends(&routine.body);
@@ -114,11 +127,12 @@ impl Machine<'_> {
         }
         match instructions::effect(&lower) {
             Some(Effect::Harmless) => {}
-            Some(Effect::Writes) => effects.assigned.extend(paths(arguments).map(|path| path.name.clone())),
+            Some(Effect::Writes) => effects.assigned.extend(given()),
             Some(Effect::Followed) if ["incr", "decr", "add", "clear"].contains(&lower.as_str()) => {
-                effects.assigned.extend(paths(arguments).map(|path| path.name.clone()));
+                effects.assigned.extend(given());
             }
-            Some(Effect::Move(_) | Effect::Followed | Effect::Changes) | None => effects.moves = true,
+            Some(Effect::Followed) if self.changes_no_load(&lower, arguments) => {}
+            Some(Effect::Move(_) | Effect::Followed | Effect::Changes(_)) | None => effects.moves = true,
         }
     }
 
@@ -141,7 +155,7 @@ impl Machine<'_> {
                 self.in_expression(first, effects);
                 rest.iter().for_each(|(_, part)| self.in_expression(part, effects));
             }
-            Expression::Call { name, arguments } if self.routines.contains_key(&name.to_ascii_lowercase()) => {
+            Expression::Call { name, arguments } if self.routine(&name.to_ascii_lowercase()).is_some() => {
                 self.in_call(name, arguments, effects);
             }
             Expression::Call { arguments, .. } => {

@@ -1,8 +1,8 @@
 //! What expressions come to. Whatever depends on the cell is unknown; nothing here fails.
 
 use super::{DEEPEST, Machine};
+use crate::listing::At;
 use crate::rapid::builtin::{self, Arguments};
-use crate::rapid::lex::At;
 use crate::rapid::syntax::{Argument, Expression};
 use crate::rapid::value::Value;
 
@@ -51,7 +51,7 @@ impl Machine<'_> {
 
     fn function(&mut self, name: &str, arguments: &[Argument], at: At) -> Value {
         let lower = name.to_ascii_lowercase();
-        if self.routines.contains_key(&lower) {
+        if self.routine(&lower).is_some() {
             return self.call(&lower, arguments, at).1.unwrap_or(Value::Unknown);
         }
         if lower == "present" {

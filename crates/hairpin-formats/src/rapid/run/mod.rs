@@ -4,7 +4,11 @@
 mod calls;
 mod effects;
 mod expressions;
+mod follow;
+mod frames;
+mod load;
 mod motion;
+mod scope;
 mod statements;
 mod variables;
 
@@ -12,11 +16,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use hairpin::trajectory::program::{Move, Tool, WorkObject};
 
+use self::scope::Scope;
 use super::kinds::DataKind;
-use super::lex::At;
-use super::lines::{Class, Line};
-use super::syntax::{Routine, RoutineKind, Source, each};
+use super::syntax::{Declaration, Home, Routine, RoutineKind, Source, each};
 use super::value::{Value, Variable};
+use crate::listing::{At, Class, Line, Unmodelled};
 
 /// Statements and values at most; a program that takes more is told to be endless.
 const MOST_STEPS: usize = 1_000_000;
@@ -27,12 +31,23 @@ const DEEPEST: usize = 250;
 
 /// What execution gave.
 pub(super) struct Machine<'a> {
-    routines: BTreeMap<String, &'a Routine>,
-    globals: BTreeMap<String, Variable>,
+    routines: Scope<&'a Routine>,
+    traps: Scope<&'a Routine>,
+    globals: Scope<Variable>,
+    /// Where names are declared that the program declares more than once: no controller loads that.
+    twice: BTreeSet<At>,
     frames: Vec<Frame>,
+    /// The module of what is executed just now.
+    module: usize,
     known: Known<'a>,
     /// State of ConfL and ConfJ.
     demanded: Demanded,
+    /// Whether GripLoad named another load than load0.
+    gripped: bool,
+    /// Whether SoftAct came before.
+    soft: bool,
+    /// Names, in lower case, of the tools that moves have used.
+    carried: BTreeSet<String>,
     steps: usize,
     depth: usize,
     /// Data that is declared, in values.
@@ -43,7 +58,8 @@ pub(super) struct Machine<'a> {
     pub(super) lines: BTreeMap<usize, Line>,
     /// How many moves come before the first line that changes motion and is not understood, and that line.
     pub(super) unclear: Option<(usize, usize)>,
-    pub(super) ran: BTreeSet<String>,
+    /// Where the routines stand that were executed.
+    pub(super) ran: BTreeSet<At>,
 }
 
 /// What the controller has beside the file.
@@ -79,14 +95,19 @@ enum Flow {
 impl<'a> Machine<'a> {
     /// Declares all data of the modules.
     pub(super) fn new(source: &'a Source, known: Known<'a>) -> Self {
-        let named = |routine: &'a Routine| (routine.name.to_ascii_lowercase(), routine);
-        let callable = source.routines.iter().filter(|routine| routine.kind != RoutineKind::Trap);
+        let count = source.modules.len();
         let mut machine = Self {
-            routines: callable.map(named).collect(),
-            globals: BTreeMap::new(),
+            routines: Scope::new(count),
+            traps: Scope::new(count),
+            globals: Scope::new(count),
+            twice: declared_twice(source),
             frames: Vec::new(),
+            module: 0,
             known,
             demanded: Demanded { linear: true, joint: true },
+            gripped: false,
+            soft: false,
+            carried: BTreeSet::new(),
             steps: 0,
             depth: 0,
             size: 0,
@@ -97,17 +118,22 @@ impl<'a> Machine<'a> {
             unclear: None,
             ran: BTreeSet::new(),
         };
+        for routine in &source.routines {
+            let trap = routine.kind == RoutineKind::Trap;
+            let scope = if trap { &mut machine.traps } else { &mut machine.routines };
+            scope.insert(routine.home, routine.name.to_ascii_lowercase(), routine);
+        }
         machine.register(source);
         // Every controller has them; what they hold is anyone's.
         for name in ["reg1", "reg2", "reg3", "reg4", "reg5"] {
-            let variable =
-                Variable { name: name.into(), kind: Some(DataKind::Num), value: Value::Unknown, untouched: false };
-            machine.globals.insert(name.into(), variable);
+            let variable = Variable::unknown(name, Some(DataKind::Num));
+            machine.globals.insert(Home::default(), name.into(), variable);
         }
         // Data may refer to data that is declared below it.
         for _ in 0..3 {
             machine.size = 0;
             for declaration in &source.data {
+                machine.module = declaration.home.module;
                 machine.declare(declaration);
             }
         }
@@ -127,24 +153,45 @@ impl<'a> Machine<'a> {
     }
 
     /// Data of the modules, as it is now.
-    pub(super) fn global(&self, name: &str) -> Option<&Value> {
-        self.globals.get(&name.to_ascii_lowercase()).map(|variable| &variable.value)
+    pub(super) fn global(&self, declaration: &Declaration) -> Option<&Value> {
+        let name = declaration.name.to_ascii_lowercase();
+        self.globals.get(declaration.home.module, &name).map(|variable| &variable.value)
     }
 
-    /// Executes the procedure; it must be one of the file's.
-    pub(super) fn run(&mut self, procedure: &str) {
-        if let Some(routine) = self.routines.get(&procedure.to_ascii_lowercase()).copied() {
-            self.frames.push(Frame::default());
-            self.enter(routine);
-            self.frames.pop();
+    /// Executes the procedure.
+    pub(super) fn run(&mut self, procedure: &'a Routine) {
+        if self.is_twice(procedure) {
+            return self.mark(procedure.at, Class::ChangesMotion, twice(&procedure.name));
         }
+        self.module = procedure.home.module;
+        self.frames.push(Frame::default());
+        self.enter(procedure);
+        self.frames.pop();
+    }
+
+    /// The routine that the name (lower case) means here.
+    fn routine(&self, name: &str) -> Option<&'a Routine> {
+        self.routines.get(self.module, name).copied()
+    }
+
+    fn is_twice(&self, routine: &Routine) -> bool {
+        self.twice.contains(&routine.at)
     }
 
     /// Marks the line of `at`. The worst class that a line ever had stays.
     fn mark(&mut self, at: At, class: Class, what: impl Into<String>) {
+        self.mark_as(at, class, what, None);
+    }
+
+    /// Marks the line of `at` as one whose motion is known and not modelled.
+    fn mark_unmodelled(&mut self, at: At, unmodelled: Unmodelled, what: impl Into<String>) {
+        self.mark_as(at, Class::ChangesMotion, what, Some(unmodelled));
+    }
+
+    fn mark_as(&mut self, at: At, class: Class, what: impl Into<String>, unmodelled: Option<Unmodelled>) {
         let line = self.lines.entry(at.line).or_insert_with(Line::unreached);
         if class > line.class || (class == line.class && line.what.is_empty()) {
-            *line = Line { class, what: what.into() };
+            *line = Line { class, what: what.into(), unmodelled };
         }
         if class == Class::ChangesMotion && self.unclear.is_none() {
             self.unclear = Some((self.moves.len(), at.line));
@@ -162,3 +209,22 @@ impl<'a> Machine<'a> {
         !enough
     }
 }
+
+/// Where names stand that are declared more than once for all modules, or within one.
+fn declared_twice(source: &Source) -> BTreeSet<At> {
+    let mut all: BTreeMap<(Option<usize>, String), Vec<At>> = BTreeMap::new();
+    let data = source.data.iter().map(|data| (data.home, &data.name, data.at));
+    let routines = source.routines.iter().map(|routine| (routine.home, &routine.name, routine.at));
+    for (home, name, at) in data.chain(routines) {
+        let of = home.local.then_some(home.module);
+        all.entry((of, name.to_ascii_lowercase())).or_default().push(at);
+    }
+    all.into_values().filter(|places| places.len() > 1).flatten().collect()
+}
+
+/// Why a name cannot be followed.
+fn twice(name: &str) -> String {
+    format!("`{name}` {TWICE}")
+}
+
+const TWICE: &str = "is declared more than once: no controller loads that";

@@ -1,23 +1,42 @@
-//! Moves, and what is followed of the instructions around them.
+//! Moves, and what about them is not modelled.
 
 use std::collections::BTreeMap;
 
-use hairpin::trajectory::program::{Motion, Move, Speed, Tool, WorkObject, Zone};
+use hairpin::trajectory::program::{Motion, Move, Speed, Zone};
 
 use super::Machine;
+use crate::listing::{At, Class, Doubt, Unmodelled, beside};
 use crate::rapid::instructions::MoveKind;
 use crate::rapid::kinds::DataKind;
-use crate::rapid::lex::At;
-use crate::rapid::lines::Class;
+use crate::rapid::predefined;
 use crate::rapid::syntax::{Argument, Expression, Path};
 use crate::rapid::value::{self, Unfit, Value, Variable};
 
 /// Optional arguments that leave the path as it is.
-const INERT: [&str; 5] = ["conc", "id", "inpos", "tload", "noeoffs"];
+const INERT: [&str; 3] = ["conc", "inpos", "noeoffs"];
 /// Optional arguments that are followed.
-const HEEDED: [&str; 4] = ["v", "t", "z", "wobj"];
+const HEEDED: [&str; 5] = ["v", "t", "z", "wobj", "tload"];
+/// Optional arguments that change the path as nothing here does.
+const CHANGING: [(&str, Unmodelled); 2] = [("id", Unmodelled::MultiMove), ("corr", Unmodelled::Corrections)];
 
-type Named<'b> = BTreeMap<&'b str, Option<&'b Expression>>;
+pub(super) type Named<'b> = BTreeMap<&'b str, Option<&'b Expression>>;
+
+/// Why a move is not to be counted on: what is not modelled, where that is known, and words.
+#[derive(Debug, Default)]
+pub(super) struct Doubts(Vec<Doubt>);
+
+impl Doubts {
+    pub(super) fn push(&mut self, unmodelled: Option<Unmodelled>, what: String) {
+        self.0.push((unmodelled, what));
+    }
+
+    /// All of them: the first one that has a name gives it.
+    fn told(self) -> Option<(Option<Unmodelled>, String)> {
+        let named = self.0.iter().find_map(|(unmodelled, _)| *unmodelled);
+        let words: Vec<String> = self.0.into_iter().map(|(_, what)| what).collect();
+        (!words.is_empty()).then(|| (named, words.join("; ")))
+    }
+}
 
 impl Machine<'_> {
     /// Executes a move.
@@ -26,11 +45,11 @@ impl Machine<'_> {
         match self.movement(kind, &placed, &named, at) {
             Ok((m, doubts)) => {
                 self.moves.push(m);
-                match doubts.into_iter().next() {
+                match doubts.told() {
                     None => self.mark(at, Class::Understood, ""),
-                    Some(doubt) => {
+                    Some((unmodelled, what)) => {
                         // The move itself is not to be counted on either.
-                        self.mark_before_last(at, doubt);
+                        self.mark_before_last(at, unmodelled, what);
                     }
                 }
             }
@@ -38,9 +57,9 @@ impl Machine<'_> {
         }
     }
 
-    fn mark_before_last(&mut self, at: At, what: String) {
+    fn mark_before_last(&mut self, at: At, unmodelled: Option<Unmodelled>, what: String) {
         let first = self.unclear.is_none();
-        self.mark(at, Class::ChangesMotion, what);
+        self.mark_as(at, Class::ChangesMotion, what, unmodelled);
         if first {
             self.unclear = Some((self.moves.len() - 1, at.line));
         }
@@ -53,8 +72,8 @@ impl Machine<'_> {
         placed: &[&Expression],
         named: &Named<'_>,
         at: At,
-    ) -> Result<(Move, Vec<String>), Unfit> {
-        let mut doubts = Vec::new();
+    ) -> Result<(Move, Doubts), Unfit> {
+        let mut doubts = Doubts::default();
         let circular = usize::from(kind == MoveKind::Circular);
         let expected = 4 + circular;
         if placed.len() < expected {
@@ -82,8 +101,17 @@ impl Machine<'_> {
         };
         let tool = self.tool(placed[3 + circular], at, &mut doubts)?;
         let work_object = self.work_object(named.get("wobj").copied().flatten(), at, &mut doubts)?;
+        if let Some(axes) = moved_beside(&motion) {
+            doubts.0.push(axes);
+        }
+        if let Some(load) = named.get("tload").copied().flatten()
+            && !self.is_no_load(load, at)
+        {
+            doubts.push(Some(Unmodelled::Payload), "\\TLoad: not the load of the tool".into());
+        }
         for name in named.keys().filter(|name| !INERT.contains(*name) && !HEEDED.contains(*name)) {
-            doubts.push(format!("\\{name} is not followed"));
+            let known = CHANGING.iter().find(|(known, _)| known == name).map(|(_, what)| *what);
+            doubts.push(known, format!("\\{name} is not followed"));
         }
         let demanded = match kind {
             MoveKind::AbsoluteJoint => true,
@@ -105,10 +133,15 @@ impl Machine<'_> {
     }
 
     /// A value of the kind, with its name if it is data of the modules as it was declared.
-    fn data(&mut self, expression: &Expression, kind: DataKind, at: At) -> Result<(Value, Option<String>), Unfit> {
+    pub(super) fn data(
+        &mut self,
+        expression: &Expression,
+        kind: DataKind,
+        at: At,
+    ) -> Result<(Value, Option<String>), Unfit> {
         let name = match expression {
             Expression::Path(path) if path.steps.is_empty() => {
-                if self.find(&path.name).is_none() {
+                if self.find(&path.name).is_none() && predefined::value(&path.name.to_ascii_lowercase()).is_none() {
                     return Err(format!("`{}` is not declared in this file", path.name));
                 }
                 self.declared(&path.name).map(|Variable { name, .. }| name.clone())
@@ -123,7 +156,7 @@ impl Machine<'_> {
     }
 
     /// The reason with the name of what it is about.
-    fn about(&self, expression: &Expression, what: Unfit) -> Unfit {
+    pub(super) fn about(&self, expression: &Expression, what: Unfit) -> Unfit {
         match expression {
             Expression::Path(Path { name, .. }) | Expression::Call { name, .. } => format!("`{name}` {what}"),
             _ => format!("a value {what}"),
@@ -150,7 +183,8 @@ impl Machine<'_> {
             Some(speed) => speed,
             None => {
                 let (value, name) = self.data(expression, DataKind::SpeedData, at)?;
-                value::speed(&value, name.as_deref()).map_err(|what| self.about(expression, what))?
+                let speed = value::speed(&value, name.as_deref()).map_err(|what| self.about(expression, what))?;
+                endless(speed)
             }
         };
         if let Some(tcp) = tcp {
@@ -174,134 +208,8 @@ impl Machine<'_> {
         Ok(zone)
     }
 
-    /// The name that the expression is, if the file does not declare it.
-    fn undeclared<'b>(&self, expression: &'b Expression) -> Option<&'b str> {
-        match expression {
-            Expression::Path(Path { name, steps }) if steps.is_empty() && self.find(name).is_none() => Some(name),
-            _ => None,
-        }
-    }
-
-    fn tool(&mut self, expression: &Expression, at: At, doubts: &mut Vec<String>) -> Result<Tool, Unfit> {
-        if let Some(name) = self.undeclared(expression) {
-            let known = self.known.tools.iter().find(|tool| tool.name.eq_ignore_ascii_case(name));
-            return Ok(match known {
-                Some(tool) => Tool { declare: false, ..tool.clone() },
-                None if name.eq_ignore_ascii_case("tool0") => Tool::flange(),
-                None => {
-                    doubts.push(format!("tool `{name}` is not declared in this file"));
-                    Tool { name: name.into(), ..Tool::flange() }
-                }
-            });
-        }
-        let (value, name) = self.data(expression, DataKind::ToolData, at)?;
-        let name = name.unwrap_or_else(|| "tChanged".into());
-        let tool = value::tool(&value, &name).map_err(|what| self.about(expression, what))?;
-        if !tool.held {
-            doubts.push(format!("tool `{name}` stands in the cell"));
-        }
-        Ok(tool)
-    }
-
-    fn work_object(
-        &mut self,
-        expression: Option<&Expression>,
-        at: At,
-        doubts: &mut Vec<String>,
-    ) -> Result<WorkObject, Unfit> {
-        let Some(expression) = expression else { return Ok(WorkObject::base()) };
-        if let Some(name) = self.undeclared(expression) {
-            let known = self.known.work_objects.iter().find(|object| object.name.eq_ignore_ascii_case(name));
-            return Ok(match known {
-                Some(object) => WorkObject { declare: false, ..object.clone() },
-                None if name.eq_ignore_ascii_case("wobj0") => WorkObject::base(),
-                None => {
-                    doubts.push(format!("work object `{name}` is not declared in this file"));
-                    WorkObject { name: name.into(), ..WorkObject::base() }
-                }
-            });
-        }
-        let (value, name) = self.data(expression, DataKind::WobjData, at)?;
-        let name = name.unwrap_or_else(|| "wChanged".into());
-        let object = value::work_object(&value, &name).map_err(|what| self.about(expression, what))?;
-        if object.held || object.moved_by.is_some() {
-            doubts.push(format!("work object `{name}` moves"));
-        }
-        Ok(object)
-    }
-
-    /// Where the tool stands in the table; one that was changed on the way gets a name of its own.
-    fn tool_index(&mut self, mut tool: Tool) -> usize {
-        let base = tool.name.clone();
-        let mut count = 1;
-        while let Some(index) = self.tools.iter().position(|known| known.name.eq_ignore_ascii_case(&tool.name)) {
-            if self.tools[index] == tool {
-                return index;
-            }
-            count += 1;
-            tool.name = format!("{}_{count}", base.chars().take(26).collect::<String>());
-        }
-        self.tools.push(tool);
-        self.tools.len() - 1
-    }
-
-    fn work_object_index(&mut self, mut object: WorkObject) -> usize {
-        let base = object.name.clone();
-        let mut count = 1;
-        while let Some(index) = self.work_objects.iter().position(|known| known.name.eq_ignore_ascii_case(&object.name))
-        {
-            if self.work_objects[index] == object {
-                return index;
-            }
-            count += 1;
-            object.name = format!("{}_{count}", base.chars().take(26).collect::<String>());
-        }
-        self.work_objects.push(object);
-        self.work_objects.len() - 1
-    }
-
-    /// ConfL, ConfJ, SingArea, AccSet, VelSet; Incr, Decr, Add, Clear.
-    pub(super) fn follow(&mut self, name: &str, arguments: &[Argument], at: At) {
-        let (placed, named) = self.sort(arguments);
-        let numbers: Vec<Option<f64>> = placed.iter().map(|value| self.evaluate(value, at).number()).collect();
-        match name {
-            "confl" | "confj" => {
-                let on = !named.contains_key("off");
-                *(if name == "confl" { &mut self.demanded.linear } else { &mut self.demanded.joint }) = on;
-                self.mark(at, Class::Understood, "");
-            }
-            // What controllers start with changes nothing.
-            "singarea" if named.contains_key("off") => self.mark(at, Class::Harmless, ""),
-            "accset" if named.is_empty() && numbers == [Some(100.0); 2] => self.mark(at, Class::Harmless, ""),
-            "velset" if numbers == [Some(100.0), Some(5000.0)] => self.mark(at, Class::Harmless, ""),
-            "singarea" | "accset" | "velset" => self.mark(at, Class::ChangesMotion, format!("{name} is not followed")),
-            _ => self.adjust(name, &placed, &numbers, at),
-        }
-    }
-
-    fn adjust(&mut self, name: &str, placed: &[&Expression], numbers: &[Option<f64>], at: At) {
-        let Some(Expression::Path(path)) = placed.first() else {
-            return self.mark(at, Class::Harmless, "no variable");
-        };
-        let by = match name {
-            "incr" => Some(1.0),
-            "decr" => Some(-1.0),
-            "add" => numbers.get(1).copied().flatten(),
-            _ => None,
-        };
-        let value = match (name, numbers[0].zip(by)) {
-            ("clear", _) => Value::Num(0.0),
-            (_, Some((value, by))) => Value::Num(value + by),
-            _ => Value::Unknown,
-        };
-        match self.assign(path, value, at) {
-            Ok(()) => self.mark(at, Class::Understood, ""),
-            Err(what) => self.mark(at, Class::Harmless, what),
-        }
-    }
-
     /// Arguments by place and by name; conditional ones if their condition holds.
-    fn sort<'b>(&self, arguments: &'b [Argument]) -> (Vec<&'b Expression>, Named<'b>) {
+    pub(super) fn sort<'b>(&self, arguments: &'b [Argument]) -> (Vec<&'b Expression>, Named<'b>) {
         let (mut placed, mut named) = (Vec::new(), BTreeMap::new());
         for argument in arguments {
             match argument {
@@ -318,4 +226,18 @@ impl Machine<'_> {
         }
         (placed, named)
     }
+}
+
+/// A speed without end has the one name under which it can be written.
+fn endless(speed: Speed) -> Speed {
+    Speed::predefined("vmax").filter(|vmax| vmax.same_as(&speed)).unwrap_or(speed)
+}
+
+/// The external axes that the move's end puts somewhere; those of an arc's point on the way are nobody's.
+fn moved_beside(motion: &Motion) -> Option<Doubt> {
+    let external = match motion {
+        Motion::AbsoluteJoint(to) => &to.external,
+        Motion::Joint(to) | Motion::Linear(to) | Motion::Circular { to, .. } => &to.external,
+    };
+    beside(external, ["eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f"])
 }

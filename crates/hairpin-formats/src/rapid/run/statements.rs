@@ -1,9 +1,8 @@
 //! Statements one after the other.
 
 use super::{DEEPEST, Flow, Machine};
+use crate::listing::{At, Class, Unmodelled};
 use crate::rapid::instructions::{self, Effect};
-use crate::rapid::lex::At;
-use crate::rapid::lines::Class;
 use crate::rapid::syntax::{Argument, Expression, Statement, What};
 use crate::rapid::value::Value;
 
@@ -66,6 +65,7 @@ impl Machine<'_> {
                 self.mark(at, Class::ChangesMotion, format!("GOTO {label} is not followed"));
                 return Flow::End;
             }
+            What::Connect(trap) => self.connect(trap, at),
             What::Harmless(keyword) => self.mark(at, Class::Harmless, *keyword),
             What::Broken(what) => self.mark(at, Class::ChangesMotion, what.clone()),
         }
@@ -74,7 +74,7 @@ impl Machine<'_> {
 
     fn instruction(&mut self, name: &str, arguments: &[Argument], at: At) -> Flow {
         let lower = name.to_ascii_lowercase();
-        if self.routines.contains_key(&lower) {
+        if self.routine(&lower).is_some() {
             self.mark(at, Class::Understood, "");
             let (on, _) = self.call(&lower, arguments, at);
             return if on { Flow::Next } else { Flow::End };
@@ -89,10 +89,31 @@ impl Machine<'_> {
                     self.forget(&path.name);
                 }
             }
-            Some(Effect::Changes) => self.mark(at, Class::ChangesMotion, format!("{name} is not followed")),
+            Some(Effect::Changes(unmodelled)) => {
+                self.soft |= unmodelled == Unmodelled::SoftServos;
+                self.mark_unmodelled(at, unmodelled, format!("{name} is not followed"));
+            }
             None => self.mark(at, Class::ChangesMotion, format!("`{name}` is not in this file")),
         }
         Flow::Next
+    }
+
+    /// From here on the trap may be executed at any time.
+    fn connect(&mut self, name: &str, at: At) {
+        let Some(trap) = self.traps.get(self.module, &name.to_ascii_lowercase()).copied() else {
+            let what = format!("trap `{name}` is not in this file: what it does is not known");
+            return self.mark_unmodelled(at, Unmodelled::Interrupts, what);
+        };
+        let effects = self.effects_of(trap);
+        for (module, name) in effects.assigned {
+            self.make_volatile(module, &name);
+        }
+        if effects.moves {
+            let what = format!("trap `{}` may change motion whenever its interrupt comes", trap.name);
+            self.mark_unmodelled(at, Unmodelled::Interrupts, what);
+        } else {
+            self.mark(at, Class::Harmless, "CONNECT");
+        }
     }
 
     /// `%"name"%`: followed where the name is known and nothing is handed over.
@@ -219,8 +240,8 @@ impl Machine<'_> {
         } else {
             self.mark(at, Class::Harmless, "depends on the cell");
         }
-        for name in effects.assigned {
-            self.forget(&name);
+        for (module, name) in effects.assigned {
+            self.forget_all(module, &name);
         }
     }
 }

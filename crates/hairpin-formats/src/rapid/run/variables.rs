@@ -1,9 +1,9 @@
 //! Data while a program is executed.
 
-use super::Machine;
+use super::{Machine, TWICE};
+use crate::listing::{At, Class};
 use crate::rapid::kinds::DataKind;
-use crate::rapid::lex::At;
-use crate::rapid::lines::Class;
+use crate::rapid::predefined;
 use crate::rapid::syntax::{Declaration, Path, Step};
 use crate::rapid::value::{Value, Variable};
 
@@ -15,26 +15,27 @@ impl Machine<'_> {
     pub(super) fn find(&self, name: &str) -> Option<&Variable> {
         let name = name.to_ascii_lowercase();
         let local = self.frames.last().and_then(|frame| frame.variables.get(&name));
-        local.or_else(|| self.globals.get(&name))
+        local.or_else(|| self.globals.get(self.module, &name))
     }
 
     fn find_mut(&mut self, name: &str) -> Option<&mut Variable> {
         let name = name.to_ascii_lowercase();
         let local = self.frames.last_mut().and_then(|frame| frame.variables.get_mut(&name));
-        local.or_else(|| self.globals.get_mut(&name))
+        local.or_else(|| self.globals.get_mut(self.module, &name))
     }
 
     /// The declaration of the modules itself, if it is what `name` means and still holds what it was declared with.
     pub(super) fn declared(&self, name: &str) -> Option<&Variable> {
         let lower = name.to_ascii_lowercase();
         let hidden = self.frames.last().is_some_and(|frame| frame.variables.contains_key(&lower));
-        self.globals.get(&lower).filter(|variable| !hidden && variable.untouched)
+        self.globals.get(self.module, &lower).filter(|variable| !hidden && variable.untouched)
     }
 
     /// Declares into the innermost routine, or into the modules where there is none.
     pub(super) fn declare(&mut self, declaration: &Declaration) {
         let kind = DataKind::of(&declaration.kind);
         let value = match kind {
+            Some(_) if self.frames.is_empty() && self.twice.contains(&declaration.at) => Err(TWICE.into()),
             Some(kind) => self.declared_value(declaration, kind),
             None => Ok(Value::Unknown),
         };
@@ -50,12 +51,12 @@ impl Machine<'_> {
                 Value::Unknown
             }
         };
-        let variable = Variable { name: declaration.name.clone(), kind, value, untouched: true };
+        let variable = Variable { value, untouched: true, ..Variable::unknown(&declaration.name, kind) };
         let name = declaration.name.to_ascii_lowercase();
         match self.frames.last_mut() {
-            Some(frame) => frame.variables.insert(name, variable),
-            None => self.globals.insert(name, variable),
-        };
+            Some(frame) => drop(frame.variables.insert(name, variable)),
+            None => self.globals.insert(declaration.home, name, variable),
+        }
     }
 
     fn declared_value(&mut self, declaration: &Declaration, kind: DataKind) -> Result<Value, String> {
@@ -87,19 +88,19 @@ impl Machine<'_> {
     pub(super) fn look(&mut self, path: &Path, at: At) -> Value {
         let Some(steps) = self.resolve(path, at) else { return Value::Unknown };
         let Some(variable) = self.find_mut(&path.name) else {
-            return if path.name.eq_ignore_ascii_case("pi") {
-                Value::Num(std::f64::consts::PI)
-            } else {
-                Value::Unknown
-            };
+            let Some(mut value) = predefined::value(&path.name.to_ascii_lowercase()) else { return Value::Unknown };
+            return walk(&mut value, &steps).map_or(Value::Unknown, |value| value.clone());
         };
+        if variable.volatile {
+            return Value::Unknown;
+        }
         let value = walk(&mut variable.value, &steps).map_or(Value::Unknown, |value| value.clone());
         self.steps = self.steps.saturating_add(value.size());
         value
     }
 
     /// Puts a value where a path leads. What cannot be told from what makes the whole variable unknown.
-    pub(super) fn assign(&mut self, path: &Path, value: Value, at: At) -> Result<(), String> {
+    pub(super) fn put(&mut self, path: &Path, value: Value, at: At) -> Result<(), String> {
         let steps = self.resolve(path, at);
         let Some(variable) = self.find_mut(&path.name) else {
             return Err(format!("`{}` is not declared in this file", path.name));
@@ -143,8 +144,7 @@ impl Machine<'_> {
 
     /// Sets the counter of a loop.
     pub(super) fn hold(&mut self, name: &str, value: f64) {
-        let variable =
-            Variable { name: name.into(), kind: Some(DataKind::Num), value: Value::Num(value), untouched: false };
+        let variable = Variable { value: Value::Num(value), ..Variable::unknown(name, Some(DataKind::Num)) };
         if let Some(frame) = self.frames.last_mut() {
             frame.variables.insert(name.to_ascii_lowercase(), variable);
         }
@@ -162,6 +162,24 @@ impl Machine<'_> {
     pub(super) fn forget(&mut self, name: &str) {
         if let Some(variable) = self.find_mut(name) {
             variable.value = Value::Unknown;
+            variable.untouched = false;
+        }
+    }
+
+    /// Whatever the name may mean here or in that module is no longer known.
+    pub(super) fn forget_all(&mut self, module: usize, name: &str) {
+        let name = name.to_ascii_lowercase();
+        let framed = self.frames.last_mut().and_then(|frame| frame.variables.get_mut(&name));
+        for variable in framed.into_iter().chain(self.globals.get_mut(module, &name)) {
+            variable.value = Value::Unknown;
+            variable.untouched = false;
+        }
+    }
+
+    /// What the name means in that module is never known again.
+    pub(super) fn make_volatile(&mut self, module: usize, name: &str) {
+        if let Some(variable) = self.globals.get_mut(module, &name.to_ascii_lowercase()) {
+            variable.volatile = true;
             variable.untouched = false;
         }
     }

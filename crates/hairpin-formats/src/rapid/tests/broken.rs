@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::{Class, NoModule, Options, read};
+use super::super::{NoModule, Options, read};
 use super::{FIRST, inside, main_of};
+use crate::listing::Class;
 
 #[test]
 fn only_a_file_without_a_module_is_refused() {

@@ -2,8 +2,9 @@
 
 use hairpin::trajectory::program::{Motion, Speed, Zone};
 
-use super::super::{Class, NoModule, Options, read};
+use super::super::{NoModule, Options, read};
 use super::{FIRST, assert_clear, classes, inside, is_linear, main_of, place, pose, unclear};
+use crate::listing::Class;
 
 /// As a backup has it: header line, attributes, ISO 8859-1 in a comment, values of RobotStudio's making.
 const BACKUP: &[u8] = b"%%%\r\n  VERSION:1\r\n  LANGUAGE:ENGLISH\r\n%%%\r\n\r\nMODULE Palette(NOSTEPIN)\r\n\
@@ -148,7 +149,7 @@ fn expressions_have_the_precedence_of_rapid() {
 fn moves_with_extras_are_moves() {
     let module = main_of(
         "MoveAbsJ home\\NoEOffs, v1000\\T:=2.5, z50, tool0;\n\
-         MoveL \\Conc, p10\\ID:=10, v1000, z50\\Z:=15, tool0\\WObj:=wobj0\\TLoad:=load0;\n\
+         MoveL \\Conc, p10, v1000, z50\\Z:=15, tool0\\WObj:=wobj0\\TLoad:=load0;\n\
          MoveLDO p20, v100, z10, tool0, do1, 1;\n\
          MoveJSync p10, v100, z10, tool0, \"note\";\n\
          MoveC p20, Offs(p20,-200,100,-50), vmax, z1, tool0;\n\
@@ -219,7 +220,9 @@ fn what_does_not_touch_motion_is_harmless() {
         "TPReadNum n, \"How many?\";",
         "PulseDO\\PLength:=0.2, do1;",
         "GripLoad load0;",
-        "IDelete i1; CONNECT i1 WITH t1;",
+        "IDelete i1; ISleep i1;",
+        "SoftDeact;",
+        "ErrRaise \"ERR_NONE\",4800,\"No part\",\"put one\",\"\",\"\",\"\";",
         "label1:",
     ];
     for line in harmless {

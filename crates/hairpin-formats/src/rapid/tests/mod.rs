@@ -3,12 +3,16 @@
 mod broken;
 mod cells;
 mod clocks;
+mod predefined;
 mod round_trip;
+mod several;
+mod unmodelled;
 mod written;
 
 use hairpin::trajectory::program::{Motion, Move, PoseTarget};
 
-use super::{Class, Module, Options, read};
+use super::{Options, read};
+use crate::listing::{Class, Module};
 
 /// Reads a module of which `body` is the inside.
 fn inside(body: &str) -> Module {

@@ -32,15 +32,22 @@ impl Programs for ArmSetup {
         self.planned_path(case).ok()
     }
 
-    fn measured(&self, programmed: &PlannedPath, recording: &Track) -> Option<Measured> {
+    fn measured(&self, programmed: &PlannedPath, recording: &Track, reference: Option<&Track>) -> Option<Measured> {
         let usual = MeasureSettings::default();
-        let turn_weight = if recording.channel(ATTITUDE_UNKNOWN).is_some() { 0.0 } else { usual.turn_weight };
+        let orientation_known = recording.channel(ATTITUDE_UNKNOWN).is_none();
+        let turn_weight = if orientation_known { usual.turn_weight } else { 0.0 };
         let clock = match self.scenario.execute.log_clock {
             LogClock::AsRecorded => Clock::AsRecorded,
             LogClock::OffsetRemoved => Clock::OffsetRemoved,
         };
-        let measured = measure_moves(programmed, recording, &MeasureSettings { turn_weight, clock, ..usual }).ok()?;
-        Some(Measured { deviations: Vec::new(), ..measured })
+        let settings = MeasureSettings { turn_weight, clock, ..usual };
+        let measured = measure_moves(programmed, recording, &settings).ok()?;
+        let unseen = match self.recordings() {
+            Some(_) => self.unseen(programmed, recording, reference, &measured, &settings),
+            // The virtual controller leaves nothing out.
+            None => None,
+        };
+        Some(Measured { deviations: Vec::new(), unseen, ..measured })
     }
 
     fn moves_seen(&self, case: &Case) -> Vec<Option<MoveFeatures>> {

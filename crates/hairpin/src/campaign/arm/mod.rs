@@ -9,6 +9,7 @@ mod clock;
 mod doubt;
 mod execute;
 mod graph;
+mod hidden;
 mod judge;
 mod knobs;
 mod losses;

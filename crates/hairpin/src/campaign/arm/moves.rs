@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use crate::campaign::baseline::{CaseMoves, RunMoves};
+use crate::campaign::baseline::{CaseMoves, RunMoves, RunUnseen};
 use crate::campaign::{Case, RunDeviation};
 use crate::judgement::moves::{Measured, MoveMeasures};
 use crate::trajectory::program::{Motion, Program};
@@ -24,6 +24,14 @@ impl CaseMoves {
             offset_removed: measured.offset.is_some_and(|offset| offset.removed),
             duration_s: measured.moves.iter().map(|one| one.duration).collect(),
             deviation_m: measured.moves.iter().map(|one| one.deviation).collect(),
+            unseen: measured.unseen.as_ref().map(|unseen| RunUnseen {
+                longest_gap_s: unseen.longest.seconds,
+                from_s: unseen.longest.from,
+                moves: unseen.longest.names.clone(),
+                plan_share: unseen.longest.share,
+                moves_seen: unseen.seen[0],
+                estimated_m: unseen.estimate,
+            }),
         };
         Some(Self { case: case.number, program: digest(program), moves, runs: measured.iter().map(run).collect() })
     }
@@ -45,6 +53,7 @@ impl CaseMoves {
             offset: run.offset(),
             sample: run.sample_s,
             deviations: Vec::new(),
+            unseen: None,
         };
         self.runs.iter().map(of).collect()
     }

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::ArmSetup;
-use crate::campaign::baseline::{CaseMoves, Moves};
+use crate::campaign::baseline::{CaseMoves, Moves, RunUnseen};
 use crate::campaign::{Case, CaseNumber, RunDeviation};
 use crate::judgement::Verdict;
 use crate::judgement::moves::{Band, MovesError, ProgramComparison, Regression, Release, compare, offset_told, trend};
@@ -85,8 +85,21 @@ impl ArmSetup {
             None => verdict,
         };
         let runs = moves.cases.iter().flat_map(|case| &case.runs);
-        if let Some(offset) = offset_told(runs.filter_map(|run| Some((run.offset()?, run.sample_s)))) {
+        if let Some(offset) = offset_told(runs.clone().filter_map(|run| Some((run.offset()?, run.sample_s)))) {
             verdict.sentence += &format!("; {offset}");
+        }
+        let unseen: Vec<&RunUnseen> = runs.filter_map(|run| run.unseen.as_ref()).collect();
+        if let Some(longest) = unseen.iter().max_by(|a, b| a.longest_gap_s.total_cmp(&b.longest_gap_s)) {
+            let [first, last] = &longest.moves;
+            let hides = if first == last { first.clone() } else { format!("{first} … {last}") };
+            verdict.sentence += &format!("; longest gap of the logs {:.3} s ({hides})", longest.longest_gap_s);
+        }
+        let estimates = unseen.iter().filter_map(|unseen| unseen.estimated_m);
+        if let Some(most) = estimates.reduce(f64::max) {
+            verdict.sentence += &format!(
+                ", {:.0} mm beside the path not excluded between samples by estimated accelerations",
+                1e3 * most
+            );
         }
         verdict
     }
@@ -171,6 +184,7 @@ mod tests {
             offset_removed: false,
             duration_s: moves.iter().map(|_| Some(1.0)).collect(),
             deviation_m: moves.iter().map(|_| Some(1e-4)).collect(),
+            unseen: None,
         };
         let moves = moves.iter().map(|name| (*name).to_owned()).collect();
         CaseMoves { case: CaseNumber(number), program: "a".into(), moves, runs: (0..runs).map(run).collect() }

@@ -17,8 +17,9 @@ pub(in crate::campaign) trait Programs {
     /// The programmed path of `case` with its zones, and where its moves end; `None` where it has none.
     fn programmed(&self, case: &Case) -> Option<PlannedPath>;
 
-    /// What `recording` did on each move of the path; `None` where it is too short. Distances of samples are left out.
-    fn measured(&self, programmed: &PlannedPath, recording: &Track) -> Option<Measured>;
+    /// What `recording` did on each move of the path, and of logs what they do not show; `None` where it is too short.
+    /// Distances of samples are left out. `reference` is what deviations are measured from.
+    fn measured(&self, programmed: &PlannedPath, recording: &Track, reference: Option<&Track>) -> Option<Measured>;
 
     /// What a search knows of each move of the program of `case`; `None` of those from and to home, on arcs, and
     /// between points of unknown posture.

@@ -203,3 +203,32 @@ fn obstacles_are_met_where_they_stand() {
     let found = check(&arm, &program(vec![Motion::AbsoluteJoint(aside)]), 2, &around, &settings()).findings;
     assert!(matches!(found[..], [super::Finding { refusal: Refusal::Collides { part: 0, .. }, .. }]), "{found:?}");
 }
+
+/// What one move does wrong is told once: the next goes on from the program's own state, which demands no configuration.
+#[test]
+fn a_finding_leaves_the_state_of_the_program() {
+    let arm = arm();
+    let start = at(&arm, [10.0, 5.0, 10.0, 20.0, 50.0, -30.0], "a");
+    // Nobody has these quadrants there.
+    let free = PoseTarget { configuration: Some([2, 2, 2, 0]), ..start.clone() };
+    let far = PoseTarget { pose: Translation3::new(2.0, 0.0, 0.0) * start.pose, ..free.clone() };
+    let away = JointTarget {
+        name: Some("away".into()),
+        joints: rad([0.0, 0.0, 0.0, 200.0, 30.0, 0.0]),
+        external: NO_EXTERNAL,
+    };
+    for wrong in [Motion::Linear(far.clone()), Motion::Joint(far), Motion::AbsoluteJoint(away)] {
+        let after = |demanded: bool| {
+            let mut asked = program(vec![
+                Motion::Joint(free.clone()),
+                wrong.clone(),
+                Motion::Linear(shifted(&free, 0.0, 0.02, 0.0)),
+                Motion::Joint(free.clone()),
+            ]);
+            asked.moves[1..].iter_mut().for_each(|m| m.configuration_demanded = demanded);
+            faults(&arm, &asked).into_iter().map(|(index, _)| index).collect::<Vec<_>>()
+        };
+        assert_eq!(after(false), [2], "{wrong:?}");
+        assert_eq!(after(true), [1, 2, 3, 4], "{wrong:?}");
+    }
+}

@@ -44,9 +44,9 @@ const MOST_REMEDIES: usize = 50;
 /// posture or configuration puts the arm.
 ///
 /// Straight and circular moves keep one branch of the inverse kinematics; limits, singularities and what links and tool
-/// meet are proven between samples ([`follow`]). After a move that is refused the arm is taken to stand at its target.
-///
-/// After a refused move the walk goes on from its target, so that one mistake is one finding.
+/// meet are proven between samples ([`follow`]). After a move that is refused the arm is taken to stand at its target,
+/// so that one mistake is one finding: in its configuration where the program demands that, else in the posture nearest
+/// to the last one known; a target that nothing reaches leaves it unknown where the arm stands.
 ///
 /// | move | proven |
 /// | --- | --- |
@@ -72,7 +72,7 @@ pub fn check(
     };
     let tools: Vec<Carried> = program.tools.iter().map(of).collect();
     let checked = Checked { followed: 0, ends_only: 0, findings: Vec::new() };
-    let mut walk = Walk { arm, program, tools: &tools, settings, at: None, from: None, checked };
+    let mut walk = Walk { arm, program, tools: &tools, settings, at: None, last: None, from: None, checked };
     for (index, m) in program.moves.iter().take(count).enumerate() {
         walk.step(index, m);
         walk.from = m.motion.name().map(Into::into);
@@ -97,6 +97,8 @@ struct Walk<'a> {
     settings: &'a FollowSettings,
     /// Where the arm stands, if that is known.
     at: Option<Joints>,
+    /// Where it stood last, as far as that was ever known.
+    last: Option<Joints>,
     /// Name of where it stands.
     from: Option<String>,
     checked: Checked,
@@ -112,7 +114,10 @@ impl Walk<'_> {
                 None => self.turn(index, m, to.joints),
             },
             (Motion::Joint(to), _) => self.arrive(index, m, to, to.configuration.filter(|_| m.configuration_demanded)),
-            (Motion::Linear(to) | Motion::Circular { to, .. }, None) => self.arrive(index, m, to, to.configuration),
+            (Motion::Linear(to) | Motion::Circular { to, .. }, None) => {
+                let demanded = to.configuration.filter(|_| m.configuration_demanded);
+                self.arrive(index, m, to, demanded);
+            }
             (Motion::Linear(to), Some(q)) => {
                 let way = Way::linear(&(self.arm.forward(&q) * tcp), &self.base_from_tcp(m, to));
                 self.follow(index, m, to, &way, &q);
@@ -129,9 +134,24 @@ impl Walk<'_> {
         }
     }
 
-    /// Where a posture is not known, the first turns of all axes.
+    /// Where a posture was never known, the first turns of all axes.
     fn near(&self) -> Joints {
-        self.at.unwrap_or([0.0; AXES])
+        self.last.unwrap_or([0.0; AXES])
+    }
+
+    fn stand(&mut self, at: Option<Joints>) {
+        self.at = at;
+        self.last = at.or(self.last);
+    }
+
+    /// The posture at a target, in the configuration if there is one.
+    fn choose(
+        &self,
+        m: &Move,
+        to: &PoseTarget,
+        configuration: Option<[i32; 4]>,
+    ) -> Result<Joints, (Refusal, Option<Fit>)> {
+        posture::choose(self.arm, &self.flange(m, to), configuration, &self.near())
     }
 
     /// base_from_object · target.
@@ -172,12 +192,18 @@ impl Walk<'_> {
             // Where it comes from is not known: it only has to stand there.
             None => self.doubt(index, m, &Way::Joint { start: self.at.unwrap_or(end), end }, &self.at.unwrap_or(end)),
         }
-        self.at = Some(end);
+        self.stand(Some(end));
     }
 
     /// Takes the arm to the target in joints.
     fn arrive(&mut self, index: usize, m: &Move, to: &PoseTarget, demanded: Option<[i32; 4]>) {
-        match posture::choose(self.arm, &self.flange(m, to), demanded, &self.near()) {
+        // Nobody demands it, but where nothing else is known it is what the program's maker saw.
+        let seen = to.configuration.filter(|_| demanded.is_none() && self.last.is_none());
+        let chosen = match seen {
+            Some(_) => self.choose(m, to, seen).or_else(|_| self.choose(m, to, None)),
+            None => self.choose(m, to, demanded),
+        };
+        match chosen {
             Ok(q) => self.turn(index, m, q),
             Err((refusal, fit)) => self.refuse(index, m, refusal, to.configuration, fit),
         }
@@ -188,7 +214,7 @@ impl Walk<'_> {
         match self.followed(m, way, start) {
             Ok(followed) => {
                 self.doubt(index, m, way, start);
-                self.at = Some(followed.end);
+                self.stand(Some(followed.end));
                 let demanded = to.configuration.filter(|_| m.configuration_demanded);
                 if let Some(demanded) = demanded.filter(|cf| !posture::has(self.arm, &followed.end, cf)) {
                     let arrives = self.arm.configuration(&followed.end).numbers();
@@ -226,10 +252,10 @@ impl Walk<'_> {
     /// Writes a finding down and moves on to the target, in its configuration if there is such a posture.
     fn refuse(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
         self.record(index, m, refusal, tried, fit);
-        self.at = m.motion.end().and_then(|to| {
-            let flange = self.flange(m, to);
-            let asked = posture::choose(self.arm, &flange, to.configuration, &self.near());
-            asked.or_else(|_| posture::choose(self.arm, &flange, None, &self.near())).ok()
+        let at = m.motion.end().and_then(|to| {
+            let demanded = to.configuration.filter(|_| m.configuration_demanded);
+            self.choose(m, to, demanded).or_else(|_| self.choose(m, to, None)).ok()
         });
+        self.stand(at);
     }
 }

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Point3};
 
 use crate::math::power::square;
 use crate::trajectory::{PlannedPath, Track};
@@ -26,6 +26,8 @@ pub(super) struct Way {
     weight: f64,
 }
 
+/// Poses before and after those that are meant of which segments are looked at.
+const BESIDE: usize = 2;
 /// Cells of the alignment at most; above it only every few samples are aligned over the whole path, the others between
 /// them.
 const MOST_CELLS: usize = 1 << 20;
@@ -168,9 +170,16 @@ impl Way {
         along
     }
 
+    /// Distance of a point from the path about the poses of `range`, m.
+    pub(super) fn distance(&self, range: &Range<usize>, point: &Point3<f64>) -> f64 {
+        let place = |i: usize| self.poses[i].translation.vector.into();
+        let (first, last) = (range.start.saturating_sub(BESIDE), (range.end + BESIDE).min(self.poses.len() - 1));
+        let segments = (first..last).map(|i| crate::math::segment::point_distance(point, &place(i), &place(i + 1)));
+        segments.fold((point.coords - self.poses[range.start].translation.vector).norm(), f64::min)
+    }
+
     /// Distance of `pose`'s position from the path about pose `j`, m.
     pub(super) fn deviation(&self, j: usize, pose: &Isometry3<f64>) -> f64 {
-        const BESIDE: usize = 2;
         let place = |i: usize| self.poses[i].translation.vector.into();
         let (first, last) = (j.saturating_sub(BESIDE), (j + BESIDE).min(self.poses.len() - 1));
         let point = pose.translation.vector.into();

@@ -90,6 +90,8 @@ pub struct Measured {
     pub sample: f64,
     /// Distance from the path at every sample, m.
     pub deviations: Vec<f64>,
+    /// Of recordings from elsewhere: what they do not show.
+    pub unseen: Option<super::unseen::Unseen>,
 }
 
 /// Measures `recording` against the planned path, move by move.
@@ -161,11 +163,11 @@ pub fn measure_moves(
         }
     }
     let steps = recording.times().windows(2).map(|pair| pair[1] - pair[0]).collect();
-    Ok(Measured { moves, offset, sample: median(steps), deviations })
+    Ok(Measured { moves, offset, sample: median(steps), deviations, unseen: None })
 }
 
 /// Where along the path each move counts as arrived; never before the one before it.
-fn targets(ends: &[f64], arrival: f64) -> Vec<f64> {
+pub(super) fn targets(ends: &[f64], arrival: f64) -> Vec<f64> {
     let mut before = 0.0;
     let targets = ends.iter().map(|end| {
         // A move shorter than twice the distance is over at its middle.
@@ -203,7 +205,7 @@ fn offset(arrived: &[Option<f64>], planned: &[Option<f64>], clock: Clock) -> Opt
 }
 
 /// Of at least one value.
-fn median(mut values: Vec<f64>) -> f64 {
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     let half = values.len() / 2;
     if values.len().is_multiple_of(2) { 0.5 * (values[half - 1] + values[half]) } else { values[half] }

@@ -5,6 +5,7 @@
 //! | --- | --- |
 //! | where on the path each sample is | `align`: monotone, in position and orientation |
 //! | deviation, arrival and duration of each move | [`measure_moves`] |
+//! | gaps, and what they may hide | [`unseen`] |
 //! | against limits | [`move_violations`], [`moves_verdict`] |
 //! | against an earlier release's repeats | [`compare`], [`Regression`] |
 //! | over all releases | [`trend`] |
@@ -20,6 +21,7 @@ mod measure;
 mod regression;
 mod spec;
 mod trend;
+mod unseen;
 mod verdict;
 
 #[cfg(test)]
@@ -32,6 +34,7 @@ pub use measure::{Clock, MeasureSettings, Measured, MoveMeasures, Offset, measur
 pub use regression::{ProgramComparison, Regression};
 pub use spec::{MoveLimits, move_violations, worst_of};
 pub use trend::{Trend, trend};
+pub use unseen::{Between, Gap, Hidden, Unseen, unseen};
 pub use verdict::{JudgedMoves, moves_verdict, offset_told};
 
 /// Why recordings cannot be judged.

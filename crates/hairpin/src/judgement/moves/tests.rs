@@ -318,3 +318,129 @@ fn what_cannot_be_judged_is_refused() {
     let violation: Option<(usize, Violation)> = worst_of(&[], &LIMITS);
     assert!(violation.is_none());
 }
+
+/// A point of which the acceleration alone is known.
+struct Accelerated<'a> {
+    recording: &'a Track,
+    most: f64,
+}
+
+impl Between for Accelerated<'_> {
+    fn hidden(&self, i: usize) -> f64 {
+        let seconds = self.recording.times()[i + 1] - self.recording.times()[i];
+        self.most * seconds * seconds / 8.0
+    }
+
+    fn half(&self, i: usize) -> f64 {
+        0.5 * (self.recording.position(i + 1) - self.recording.position(i)).norm()
+    }
+
+    fn chord(&self, i: usize, count: usize) -> Vec<Point3<f64>> {
+        let (a, b) = (self.recording.position(i), self.recording.position(i + 1));
+        (0..=count).map(|n| a + (b - a) * (n as f64 / count as f64)).collect()
+    }
+}
+
+/// The samples of `recording` that `keep` says, by number and time.
+fn thinned(recording: &Track, keep: impl Fn(usize, f64) -> bool) -> Track {
+    let kept: Vec<usize> = (0..recording.len()).filter(|i| keep(*i, recording.times()[*i])).collect();
+    let times = kept.iter().map(|i| recording.times()[*i]).collect();
+    Track::new(times, kept.iter().map(|i| recording.poses()[*i]).collect(), Vec::new()).unwrap()
+}
+
+fn not_shown(path: &PlannedPath, recording: &Track, most: f64, estimated: bool, limits: [Option<f64>; 2]) -> Unseen {
+    let between = Accelerated { recording, most };
+    let hidden = Hidden { path: limits[0], late: limits[1], corner: 0.0, between: &between, estimated };
+    unseen(path, recording, &MeasureSettings::default(), &hidden).unwrap()
+}
+
+/// a h²/8 beside the chord: what it leaves within the limit is decided, what it does not is open.
+#[test]
+fn what_a_bound_excludes_is_decided() {
+    let path = revisiting();
+    let dense = record(&path, 4.5, |t| t, still);
+    let at = |every: usize, most: f64, limit: f64| {
+        let recording = thinned(&dense, |i, _| i % every == 0);
+        not_shown(&path, &recording, most, false, [Some(limit), None]).open
+    };
+    // 10 ms and 1 m/s²: 12.5 µm. 100 ms: 1.25 mm, and the chords at the corners.
+    assert_eq!(at(1, 1.0, 5e-4), None);
+    assert_eq!(at(1, 36.0, 5e-4), None);
+    assert!(at(1, 50.0, 5e-4).is_some(), "0.625 mm are not excluded");
+    assert!(at(10, 1.0, 1e-3).is_some());
+    assert_eq!(at(10, 1.0, 5e-2), None);
+    let told = at(10, 1.0, 1e-3).unwrap();
+    assert!(told.contains("mm off the path are not excluded") && told.contains("the limit is 1.00 mm"), "{told}");
+    assert!(!told.contains("estimated"), "{told}");
+}
+
+#[test]
+fn gaps_are_told_against_the_plan() {
+    let path = revisiting();
+    let dense = record(&path, 4.5, |t| t, still);
+    let hole = thinned(&dense, |_, t| !(0.5..2.6).contains(&t));
+    for estimated in [true, false] {
+        let unseen = not_shown(&path, &hole, 1.0, estimated, [Some(0.01), None]);
+        let gap = &unseen.longest;
+        assert!((gap.seconds - 2.11).abs() < 1e-9 && (gap.from - 0.49).abs() < 1e-9, "{gap:?}");
+        assert_eq!((gap.moves, gap.names.clone()), ([0, 2], ["p0→p1".into(), "p2→p3".into()]));
+        assert!((gap.share - 2.11 / 4.3).abs() < 0.02, "{gap:?}");
+        assert_eq!(unseen.seen, [3, 4]);
+        let told = unseen.open.unwrap();
+        assert!(told.starts_with("a gap of 2.110 s from t = 0.490 s (211 times the usual interval) hides moves 1 (p0→p1) to 3 (p2→p3), 49 % of the plan: "), "{told}");
+        assert_eq!(told.contains("estimated"), estimated, "{told}");
+    }
+    // Within what the limit allows it hides nothing that matters.
+    let short = thinned(&dense, |_, t| !(0.50..0.56).contains(&t));
+    assert_eq!(not_shown(&path, &short, 1.0, true, [Some(0.01), None]).open, None);
+    assert!(not_shown(&path, &short, 1.0, true, [None, None]).open.is_none());
+}
+
+/// An estimate condemns no log whose samples come as they do: only gaps, and moves that are not seen at all.
+#[test]
+fn an_even_log_is_decided_whatever_an_estimate_does_not_exclude() {
+    let path = revisiting();
+    let dense = record(&path, 4.6, |t| t, still);
+    let last = dense.len() - 1;
+    for every in [10, 50, 100] {
+        let even = thinned(&dense, |i, _| i % every == 0 || i == last);
+        let unseen = not_shown(&path, &even, 40.0, true, [Some(0.015), None]);
+        assert_eq!((unseen.open, unseen.seen), (None, [4, 4]), "{every}");
+        assert!(unseen.estimate.unwrap() > 0.015, "{every}");
+    }
+    let dense_enough = not_shown(&path, &dense, 40.0, true, [Some(0.015), None]);
+    assert_eq!((dense_enough.open, dense_enough.estimate), (None, None));
+    let both_ends = thinned(&dense, |i, _| i == 0 || i == last);
+    let told = not_shown(&path, &both_ends, 40.0, true, [Some(0.015), None]).open.unwrap();
+    assert!(told.contains("no sample on 3 of 4 moves") && told.contains("p0→p1"), "{told}");
+}
+
+#[test]
+fn what_is_missing_at_the_ends_is_not_passed_over() {
+    let path = revisiting();
+    let early = record(&path, 3.9, |t| t, still);
+    let told = not_shown(&path, &early, 1.0, true, [Some(0.01), None]).open.unwrap();
+    assert!(told.starts_with("the log ends at t = 3.890 s, ") && told.contains("on move 4 of 4 (p3→p4)"), "{told}");
+    let late = thinned(&record(&path, 4.5, |t| t, still), |_, t| t > 0.5);
+    let told = not_shown(&path, &late, 1.0, true, [Some(0.01), None]).open.unwrap();
+    assert!(told.starts_with("the log begins at t = 0.510 s, ") && told.contains("on move 1 of 4"), "{told}");
+}
+
+/// An arrival in a gap is late for certain only if it was not there yet when the limit was over.
+#[test]
+fn arrivals_in_gaps_are_late_only_where_the_gap_says_so() {
+    let path = revisiting();
+    let dense = record(&path, 4.6, |t| t, still);
+    let around = |from: f64, to: f64| thinned(&dense, |_, t| !(from..to).contains(&t));
+    let late = |recording: &Track, limit: f64| not_shown(&path, recording, 1.0, true, [None, Some(limit)]);
+    // Move 0 is to arrive at 1.0 s; the arm is seen before at 0.79 s and after at 1.3 s, on its way back.
+    let open = late(&around(0.8, 1.3), 0.1);
+    assert!(open.open.as_ref().unwrap().contains("p0→p1 arrived between"), "{open:?}");
+    assert_eq!(late(&around(0.8, 1.3), 0.5).open, None);
+    assert_eq!(late(&dense, 0.01).open, None);
+    // Half a second late in truth, seen not yet there when 0.2 s were over: late, whatever the gap.
+    let slow = record(&path, 5.2, |t| t - 0.5, still);
+    let slow = thinned(&slow, |_, t| !(1.4..1.7).contains(&t));
+    let proven = late(&slow, 0.2);
+    assert!(!proven.late_unproven, "{proven:?}");
+}

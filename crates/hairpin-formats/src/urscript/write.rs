@@ -1,10 +1,11 @@
-//! Programs as URScript of Universal Robots: metres, radians, rotation vectors, poses in the base.
+//! Programs written as URScript.
 
 use hairpin::math::rotation::rotation_vector;
 use hairpin::trajectory::program::{Motion, Move, PoseTarget, Program, ProgramError};
 use nalgebra::Isometry3;
 use thiserror::Error;
 
+use super::CONVENTIONS;
 use crate::banner::comments;
 use crate::decimal::decimal;
 
@@ -87,12 +88,7 @@ pub fn text(program: &Program, settings: &Settings, header: &[String]) -> Result
         }
     }
     let mut lines: Vec<String> = comments("#", header).collect();
-    lines.push("# Poses p[x,y,z,rx,ry,rz] in the robot's base, m and rad (rotation vector); joints in rad.".into());
-    lines.push(
-        "# Joint moves take the speed of the leading axis below, not the programmed one of the tool's centre point;"
-            .into(),
-    );
-    lines.push("# to a pose they go by the inverse kinematics nearest to where the arm is.".into());
+    lines.extend(CONVENTIONS.map(|line| format!("# {line}")));
     lines.push(format!("def {name}():"));
     let mut tool = None;
     for (index, m) in program.moves.iter().enumerate() {
@@ -154,103 +150,4 @@ fn metres(value: f64) -> String {
 fn pose(pose: &Isometry3<f64>) -> String {
     let (p, r) = (pose.translation.vector, rotation_vector(&pose.rotation));
     format!("p[{}]", [p.x, p.y, p.z, r.x, r.y, r.z].map(metres).join(","))
-}
-
-#[cfg(test)]
-mod tests {
-    use hairpin::math::rotation::from_rotation_vector;
-    use hairpin::trajectory::program::{JointTarget, NO_EXTERNAL, Speed, Tool, WorkObject, Zone};
-    use nalgebra::{Translation3, UnitQuaternion, Vector3};
-
-    use super::*;
-
-    fn turned(roll: f64, pitch: f64, yaw: f64) -> UnitQuaternion<f64> {
-        UnitQuaternion::from_euler_angles(roll, pitch, yaw)
-    }
-
-    fn program() -> Program {
-        let tool = Tool { tcp: Isometry3::translation(0.0, 0.0, 0.12), mass: 0.8, ..Tool::flange() };
-        let object = WorkObject {
-            user: Isometry3::from_parts(Translation3::new(0.1, -0.2, 0.3), turned(0.0, 0.0, 0.5)),
-            ..WorkObject::base()
-        };
-        let mut program = Program::new("M", "heavy_run", tool, object);
-        let at = |x: f64, y: f64| {
-            let turn = turned(3.0, -0.2, 0.4 + x);
-            PoseTarget::unnamed(Isometry3::from_parts(Translation3::new(x, y, 0.4), turn))
-        };
-        let joints = [0.1, -1.5, 2.0, -0.5, 1.5, 6.0];
-        let home = JointTarget { name: None, joints, external: NO_EXTERNAL };
-        let (v, z) = (|name| Speed::predefined(name).unwrap(), |name| Zone::predefined(name).unwrap());
-        program.moves = vec![
-            Move::new(Motion::AbsoluteJoint(home), v("v200"), Zone::stop()),
-            Move::new(Motion::Joint(at(0.3, 0.0)), v("v200"), z("z10")),
-            Move { duration: Some(2.5), ..Move::new(Motion::Linear(at(0.3, 0.1)), v("v150"), z("z10")) },
-            Move::new(Motion::Circular { via: at(0.305, 0.108), to: at(0.312, 0.11) }, v("vmax"), z("z100")),
-            Move::new(Motion::Linear(at(0.4, 0.11)), v("v2000"), Zone::stop()),
-        ];
-        program
-    }
-
-    type Call = (String, Vec<Vec<f64>>, Vec<(String, f64)>);
-
-    /// A reader of its own: function name, and each call with its numbers in brackets and its named arguments.
-    fn calls(text: &str) -> Vec<Call> {
-        let lines = text.lines().filter(|line| line.starts_with("  "));
-        lines
-            .map(|line| {
-                let (name, rest) = line.trim().split_once('(').unwrap();
-                let rest = rest.strip_suffix(')').unwrap();
-                let lists = rest.split('[').skip(1).map(|list| {
-                    list.split(']').next().unwrap().split(',').map(|x| x.trim().parse().unwrap()).collect()
-                });
-                let named = rest.split(", ").filter_map(|part| part.split_once('='));
-                let named = named.map(|(name, value)| (name.to_owned(), value.parse().unwrap()));
-                (name.to_owned(), lists.collect(), named.collect())
-            })
-            .collect()
-    }
-
-    #[test]
-    fn poses_speeds_and_corners_are_those_of_the_program() {
-        let program = program();
-        let text = text(&program, &Settings::default(), &["gap 0.3 %".into()]).unwrap();
-        assert!(text.starts_with("# gap 0.3 %\n# This is a test program") && text.ends_with("\nend\nheavy_run()\n"));
-        let calls = calls(&text);
-        let names: Vec<_> = calls.iter().map(|(name, ..)| name.as_str()).collect();
-        assert_eq!(names, ["set_tcp", "set_target_payload", "movej", "movej", "movel", "movec", "movel"]);
-        assert_eq!(calls[0].1, [[0.0, 0.0, 0.12, 0.0, 0.0, 0.0]]);
-        assert_eq!(calls[2].1, [[0.1, -1.5, 2.0, -0.5, 1.5, 6.0]]);
-        let base = program.work_objects[0].base_from_object();
-        for (call, m) in calls[3..].iter().zip(&program.moves[1..]) {
-            for (numbers, target) in call.1.iter().zip(m.motion.poses()) {
-                let expected = base * target.pose;
-                let turn = from_rotation_vector(&Vector3::new(numbers[3], numbers[4], numbers[5]));
-                assert!((Vector3::new(numbers[0], numbers[1], numbers[2]) - expected.translation.vector).norm() < 1e-8);
-                assert!(turn.angle_to(&expected.rotation) < 1e-7, "{turn} {expected}");
-            }
-        }
-        let named = |call: usize, name: &str| calls[call].2.iter().find(|(n, _)| n == name).map(|(_, v)| *v);
-        assert_eq!(
-            (named(4, "v"), named(4, "t"), named(5, "v"), named(6, "v")),
-            (Some(0.15), Some(2.5), Some(1.0), Some(1.0))
-        );
-        // The first corner comes from a posture, the third is cut to half of 12.2 mm.
-        assert_eq!((named(3, "r"), named(6, "r")), (Some(0.0), Some(0.0)));
-        let half = 0.5 * (0.012_f64.powi(2) + 0.01_f64.powi(2)).sqrt();
-        assert!((named(4, "r").unwrap() - half).abs() < 1e-9 && (named(5, "r").unwrap() - half).abs() < 1e-9);
-    }
-
-    #[test]
-    fn what_controllers_refuse_is_not_written() {
-        let named = Program { procedure: "end".into(), ..program() };
-        assert!(matches!(text(&named, &Settings::default(), &[]), Err(UrscriptError::Name { .. })));
-        let settings = Settings { acceleration: 0.0, ..Settings::default() };
-        assert!(matches!(text(&program(), &settings, &[]), Err(UrscriptError::Setting { field: "acceleration", .. })));
-        let mut broken = program();
-        broken.moves.remove(2);
-        broken.moves.remove(0);
-        broken.moves.remove(0);
-        assert!(matches!(text(&broken, &Settings::default(), &[]), Err(UrscriptError::Program(_))));
-    }
 }

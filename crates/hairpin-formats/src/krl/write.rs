@@ -1,4 +1,4 @@
-//! Programs as KUKA's KRL, a `.src` and a `.dat`: mm and degrees, A B C about z, y, x.
+//! Programs written as KRL.
 
 use std::collections::BTreeMap;
 
@@ -7,6 +7,7 @@ use hairpin::trajectory::program::{External, Motion, PoseTarget, Program, Progra
 use nalgebra::Isometry3;
 use thiserror::Error;
 
+use super::{CONVENTIONS, JOINT_MOVES, PREFIX, UNNAMED};
 use crate::banner::comments;
 use crate::decimal::decimal;
 
@@ -93,9 +94,9 @@ pub fn files(program: &Program, settings: &Settings, header: &[String]) -> Resul
     writer.moves()?;
     let comments: Vec<String> = comments(";", header)
         .chain([
-            "; Positions in $BASE, mm and degrees; A about z, B about the new y, C about the new x.".into(),
-            "; Status and turn (S, T) are not known and not given: joint moves to a pose keep those of the move before.".into(),
-            format!("; Joint moves run at {} % of the axes' speeds and stop.", decimal(joint_percent, 3)),
+            format!("; {}", CONVENTIONS[0]),
+            format!("; {}", CONVENTIONS[1]),
+            format!("; {JOINT_MOVES} {} % of the axes' speeds and stop.", decimal(joint_percent, 3)),
         ])
         .collect();
     let src = ["&ACCESS RVP".into(), "&REL 1".into(), format!("DEF {name} ( )")]
@@ -133,10 +134,10 @@ impl Writer<'_> {
     fn declare(&mut self, kind: &str, name: Option<&str>, value: String) -> Result<String, KrlError> {
         let name = match name {
             // The X keeps it clear of keywords, as the controller's own editor does.
-            Some(name) => self.named(&format!("X{name}"))?,
+            Some(name) => self.named(&format!("{PREFIX}{name}"))?,
             None => {
                 self.unnamed += 1;
-                format!("XAT{}", self.unnamed)
+                format!("{UNNAMED}{}", self.unnamed)
             }
         };
         match self.names.get(&name.to_ascii_lowercase()) {
@@ -210,108 +211,4 @@ fn frame(pose: &Isometry3<f64>) -> String {
 fn external(axes: &External) -> String {
     let one = |(index, axis): (usize, &Option<f64>)| format!("E{} {}", index + 1, decimal(axis.unwrap_or(0.0), 6));
     axes.iter().enumerate().map(one).collect::<Vec<_>>().join(",")
-}
-
-#[cfg(test)]
-mod tests {
-    use hairpin::math::rotation::quaternion_from_euler;
-    use hairpin::trajectory::program::{JointTarget, Move, NO_EXTERNAL, Speed, Tool, WorkObject, Zone};
-    use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
-
-    use super::*;
-
-    fn at(x: f64, y: f64) -> PoseTarget {
-        let turn = UnitQuaternion::from_euler_angles(0.3, -0.2 - x, 2.4);
-        PoseTarget::unnamed(Isometry3::from_parts(Translation3::new(x, y, 0.4), turn))
-    }
-
-    fn program() -> Program {
-        let tool = Tool { tcp: at(0.0, 0.1).pose, ..Tool::flange() };
-        let object = WorkObject { user: at(0.2, 0.1).pose, object: at(-0.1, 0.0).pose, ..WorkObject::base() };
-        let mut program = Program::new("Heavy", "main", tool, object);
-        let home =
-            JointTarget { name: Some("home".into()), joints: [0.1, -0.2, 0.3, -0.4, 0.5, 0.6], external: NO_EXTERNAL };
-        let (v, z) = (|name| Speed::predefined(name).unwrap(), |name| Zone::predefined(name).unwrap());
-        program.moves = vec![
-            Move::new(Motion::AbsoluteJoint(home.clone()), v("v200"), Zone::stop()),
-            Move::new(Motion::Joint(at(0.3, 0.0).named("p0")), v("v200"), z("z10")),
-            Move::new(Motion::Linear(at(0.3, 0.1)), v("v150"), z("z10")),
-            Move::new(Motion::Circular { via: at(0.35, 0.15), to: at(0.4, 0.1).named("p2") }, v("vmax"), Zone::stop()),
-            Move::new(Motion::AbsoluteJoint(home), v("v200"), Zone::stop()),
-        ];
-        program
-    }
-
-    /// A reader of its own: what each `{X 1,Y 2,…}` says by name.
-    fn numbers(text: &str) -> BTreeMap<String, f64> {
-        let inside = text.split('{').nth(1).unwrap().split('}').next().unwrap();
-        let parts = inside.split(',').map(|part| part.trim().split_once(' ').unwrap());
-        parts.map(|(name, value)| (name.to_owned(), value.parse().unwrap())).collect()
-    }
-
-    fn assert_frame(text: &str, pose: &Isometry3<f64>) {
-        let n = numbers(text);
-        let [a, b, c] = ["A", "B", "C"].map(|name| n[name].to_radians());
-        let q = quaternion_from_euler(c, b, a);
-        let turn = UnitQuaternion::new_normalize(Quaternion::new(q[0], q[1], q[2], q[3]));
-        let place = Vector3::new(n["X"], n["Y"], n["Z"]) / 1000.0;
-        assert!((place - pose.translation.vector).norm() < 2e-9 && turn.angle_to(&pose.rotation) < 1e-7, "{text}");
-    }
-
-    #[test]
-    fn positions_frames_and_speeds_are_those_of_the_program() {
-        let program = program();
-        let Files { src, dat } = files(&program, &Settings::default(), &["optimal".into()]).unwrap();
-        let statements: Vec<&str> = src.split("\r\n").filter(|line| !line.starts_with([';', '&'])).collect();
-        let find = |name: &str| dat.split("\r\n").find(|line| line.contains(&format!(" {name}="))).unwrap();
-        let home = numbers(find("Xhome"));
-        for (index, q) in [0.1, -0.2, 0.3, -0.4, 0.5, 0.6_f64].iter().enumerate() {
-            assert!((home[&format!("A{}", index + 1)] - q.to_degrees()).abs() < 1e-6);
-        }
-        for (name, pose) in
-            [("Xp0", at(0.3, 0.0)), ("XAT1", at(0.3, 0.1)), ("XAT2", at(0.35, 0.15)), ("Xp2", at(0.4, 0.1))]
-        {
-            assert!(find(name).starts_with("DECL E6POS "));
-            assert_frame(find(name), &pose.pose);
-        }
-        assert_frame(statements[3], &program.tools[0].tcp);
-        assert_frame(statements[4], &program.work_objects[0].base_from_object());
-        assert!(statements[3].starts_with("$TOOL=") && statements[4].starts_with("$BASE="));
-        assert_eq!(statements[..3], ["DEF Heavy ( )", "BAS (#INITMOV,0)", "BAS (#VEL_PTP,30)"]);
-        let rest = [
-            "PTP Xhome",
-            "PTP Xp0",
-            "$VEL.CP=0.15",
-            "$VEL.ORI1=500",
-            "$VEL.ORI2=500",
-            "$APO.CDIS=10",
-            "LIN XAT1 C_DIS",
-            "$VEL.CP=2",
-            "CIRC XAT2,Xp2",
-            "PTP Xhome",
-            "END",
-            "",
-        ];
-        assert_eq!(statements[5..], rest);
-        assert!(src.contains("; optimal\r\n; This is a test program") && src.contains("(S, T) are not known"));
-        assert!(dat.starts_with("&ACCESS RVP\r\n&REL 1\r\nDEFDAT Heavy\r\n") && dat.ends_with("ENDDAT\r\n"));
-    }
-
-    #[test]
-    fn what_controllers_refuse_is_not_written() {
-        let refused = |change: &dyn Fn(&mut Program)| {
-            let mut program = program();
-            change(&mut program);
-            files(&program, &Settings::default(), &[]).unwrap_err()
-        };
-        assert_eq!(refused(&|p| drop(p.moves.remove(0))), KrlError::FirstPose);
-        assert!(matches!(refused(&|p| p.name = "a".repeat(25)), KrlError::Name { .. }));
-        assert!(matches!(
-            refused(&|p| p.moves[2].motion = Motion::Linear(at(0.3, 0.1).named("P0"))),
-            KrlError::Twice { .. }
-        ));
-        assert!(matches!(refused(&|p| p.moves[1].speed.tcp = f64::NAN), KrlError::Program(_)));
-        let fast = Settings { joint_percent: 101.0, ..Settings::default() };
-        assert!(matches!(files(&program(), &fast, &[]), Err(KrlError::Setting { field: "joint_percent", .. })));
-    }
 }

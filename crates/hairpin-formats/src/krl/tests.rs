@@ -1,0 +1,170 @@
+//! Programs written, read by a reader of the tests' own, and read back.
+
+use std::collections::BTreeMap;
+
+use hairpin::math::rotation::quaternion_from_euler;
+use hairpin::trajectory::program::{
+    JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
+};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
+
+use super::*;
+use crate::listing::{Class, File, Module, Unmodelled};
+
+fn at(x: f64, y: f64) -> PoseTarget {
+    let turn = UnitQuaternion::from_euler_angles(0.3, -0.2 - x, 2.4);
+    PoseTarget::unnamed(Isometry3::from_parts(Translation3::new(x, y, 0.4), turn))
+}
+
+fn program() -> Program {
+    let tool = Tool { tcp: at(0.0, 0.1).pose, ..Tool::flange() };
+    let object = WorkObject { user: at(0.2, 0.1).pose, object: at(-0.1, 0.0).pose, ..WorkObject::base() };
+    let mut program = Program::new("Heavy", "main", tool, object);
+    let home =
+        JointTarget { name: Some("home".into()), joints: [0.1, -0.2, 0.3, -0.4, 0.5, 0.6], external: NO_EXTERNAL };
+    let (v, z) = (|name| Speed::predefined(name).unwrap(), |name| Zone::predefined(name).unwrap());
+    program.moves = vec![
+        Move::new(Motion::AbsoluteJoint(home.clone()), v("v200"), Zone::stop()),
+        Move::new(Motion::Joint(at(0.3, 0.0).named("p0")), v("v200"), z("z10")),
+        Move::new(Motion::Linear(at(0.3, 0.1)), v("v150"), z("z10")),
+        Move::new(Motion::Circular { via: at(0.35, 0.15), to: at(0.4, 0.1).named("p2") }, v("vmax"), Zone::stop()),
+        Move::new(Motion::AbsoluteJoint(home), v("v200"), Zone::stop()),
+    ];
+    program
+}
+
+/// A reader of its own: what each `{X 1,Y 2,…}` says by name.
+fn numbers(text: &str) -> BTreeMap<String, f64> {
+    let inside = text.split('{').nth(1).unwrap().split('}').next().unwrap();
+    let parts = inside.split(',').map(|part| part.trim().split_once(' ').unwrap());
+    parts.map(|(name, value)| (name.to_owned(), value.parse().unwrap())).collect()
+}
+
+fn assert_frame(text: &str, pose: &Isometry3<f64>) {
+    let n = numbers(text);
+    let [a, b, c] = ["A", "B", "C"].map(|name| n[name].to_radians());
+    let q = quaternion_from_euler(c, b, a);
+    let turn = UnitQuaternion::new_normalize(Quaternion::new(q[0], q[1], q[2], q[3]));
+    let place = Vector3::new(n["X"], n["Y"], n["Z"]) / 1000.0;
+    assert!((place - pose.translation.vector).norm() < 2e-9 && turn.angle_to(&pose.rotation) < 1e-7, "{text}");
+}
+
+#[test]
+fn positions_frames_and_speeds_are_those_of_the_program() {
+    let program = program();
+    let Files { src, dat } = files(&program, &Settings::default(), &["optimal".into()]).unwrap();
+    let statements: Vec<&str> = src.split("\r\n").filter(|line| !line.starts_with([';', '&'])).collect();
+    let find = |name: &str| dat.split("\r\n").find(|line| line.contains(&format!(" {name}="))).unwrap();
+    let home = numbers(find("Xhome"));
+    for (index, q) in [0.1, -0.2, 0.3, -0.4, 0.5, 0.6_f64].iter().enumerate() {
+        assert!((home[&format!("A{}", index + 1)] - q.to_degrees()).abs() < 1e-6);
+    }
+    for (name, pose) in [("Xp0", at(0.3, 0.0)), ("XAT1", at(0.3, 0.1)), ("XAT2", at(0.35, 0.15)), ("Xp2", at(0.4, 0.1))]
+    {
+        assert!(find(name).starts_with("DECL E6POS "));
+        assert_frame(find(name), &pose.pose);
+    }
+    assert_frame(statements[3], &program.tools[0].tcp);
+    assert_frame(statements[4], &program.work_objects[0].base_from_object());
+    assert!(statements[3].starts_with("$TOOL=") && statements[4].starts_with("$BASE="));
+    assert_eq!(statements[..3], ["DEF Heavy ( )", "BAS (#INITMOV,0)", "BAS (#VEL_PTP,30)"]);
+    let rest = [
+        "PTP Xhome",
+        "PTP Xp0",
+        "$VEL.CP=0.15",
+        "$VEL.ORI1=500",
+        "$VEL.ORI2=500",
+        "$APO.CDIS=10",
+        "LIN XAT1 C_DIS",
+        "$VEL.CP=2",
+        "CIRC XAT2,Xp2",
+        "PTP Xhome",
+        "END",
+        "",
+    ];
+    assert_eq!(statements[5..], rest);
+    assert!(src.contains("; optimal\r\n; This is a test program") && src.contains("(S, T) are not known"));
+    assert!(dat.starts_with("&ACCESS RVP\r\n&REL 1\r\nDEFDAT Heavy\r\n") && dat.ends_with("ENDDAT\r\n"));
+}
+
+#[test]
+fn what_controllers_refuse_is_not_written() {
+    let refused = |change: &dyn Fn(&mut Program)| {
+        let mut program = program();
+        change(&mut program);
+        files(&program, &Settings::default(), &[]).unwrap_err()
+    };
+    assert_eq!(refused(&|p| drop(p.moves.remove(0))), KrlError::FirstPose);
+    assert!(matches!(refused(&|p| p.name = "a".repeat(25)), KrlError::Name { .. }));
+    assert!(matches!(
+        refused(&|p| p.moves[2].motion = Motion::Linear(at(0.3, 0.1).named("P0"))),
+        KrlError::Twice { .. }
+    ));
+    assert!(matches!(refused(&|p| p.moves[1].speed.tcp = f64::NAN), KrlError::Program(_)));
+    let fast = Settings { joint_percent: 101.0, ..Settings::default() };
+    assert!(matches!(files(&program(), &fast, &[]), Err(KrlError::Setting { field: "joint_percent", .. })));
+}
+
+fn back(files: &Files) -> Module {
+    let file = |name, text: &'static str| File { name, bytes: text.as_bytes() };
+    let leak = |text: &str| -> &'static str { String::from(text).leak() };
+    read(file("heavy.src", leak(&files.src)), Some(file("heavy.dat", leak(&files.dat)))).unwrap()
+}
+
+#[test]
+fn what_is_written_reads_back_and_is_written_the_same() {
+    let program = program();
+    let written = files(&program, &Settings::default(), &["optimal".into()]).unwrap();
+    let read = back(&written);
+    assert_eq!((read.unclear_line, read.certain, &read.mistakes[..]), (None, 5, &[][..]), "{:?}", read.lines);
+    assert_eq!(files(&read.program, &Settings::default(), &read.header).unwrap(), written);
+    assert_eq!((read.program.name.as_str(), read.header.as_slice()), ("Heavy", &["optimal".to_owned()][..]));
+    for (a, b) in program.moves.iter().zip(&read.program.moves) {
+        // Joint moves stop.
+        let stops = |m: &Move| m.zone.fine || !matches!(m.motion, Motion::Linear(_) | Motion::Circular { .. });
+        assert_eq!((a.motion.name(), stops(a)), (b.motion.name(), stops(b)));
+        for (p, q) in a.motion.poses().zip(b.motion.poses()) {
+            assert!((p.pose.translation.vector - q.pose.translation.vector).norm() < 2e-9);
+            assert!(p.pose.rotation.angle_to(&q.pose.rotation) < 1e-7);
+        }
+        let (object, again) = (&program.work_objects[a.work_object], &read.program.work_objects[b.work_object]);
+        let off = object.base_from_object().inverse() * again.base_from_object();
+        assert!(off.translation.vector.norm() < 1e-8 && off.rotation.angle() < 1e-7);
+    }
+    assert_eq!(read.program.moves[2].speed.tcp, 0.15);
+    // Lines are counted through both files; each is told with its own.
+    let dat_line = read.targets[0].line;
+    assert_eq!((read.told(read.program.moves[0].line.unwrap()), read.targets.len()), ("heavy.src line 13".into(), 4));
+    assert_eq!(read.told(dat_line), "heavy.dat line 5");
+}
+
+#[test]
+fn what_is_not_followed_is_named_by_line() {
+    let head = "DEF m ( )\n$TOOL={X 0,Y 0,Z 100,A 0,B 0,C 0}\n$BASE=$NULLFRAME\n$VEL.CP=0.2\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}\n";
+    let p = "{X 400,Y 0,Z 300,A 0,B 90,C 0}";
+    for (body, kind, words) in [
+        (format!("LIN {p}"), None, ""),
+        (format!("LIN {p} C_PTP"), Some(Unmodelled::Interpolation), "C_PTP is not followed"),
+        ("LIN {X 400,Y 0,Z 300,A 0,B 90,C 0,E1 900}".into(), Some(Unmodelled::ExternalAxes), "E1 = 900 in use"),
+        ("PTP {X 400,Y 0,Z 300,A 0,B 90,C 0,S 2,T 'B010'}".into(), Some(Unmodelled::Interpolation), "(S, T)"),
+        ("$LOAD={M 3}".into(), Some(Unmodelled::Payload), "$LOAD"),
+        ("TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE".into(), Some(Unmodelled::Triggers), "TRIGGER"),
+        ("BAS (#VEL_CP,0.5)".into(), Some(Unmodelled::Speeds), "#VEL_CP"),
+        ("IF $IN[1] THEN".into(), None, "`IF` is not followed"),
+        ("LIN XP9".into(), None, "`XP9` is not declared"),
+        ("LIN {X 1,Y 2}".into(), None, "Z is missing"),
+        ("(what)".into(), None, "is not followed"),
+    ] {
+        let text = format!("{head}{body} ; comment\nLIN {p}\nEND\n");
+        let read = read(File { name: "m.src", bytes: text.as_bytes() }, None).unwrap();
+        let line = &read.lines[&6];
+        let clear = words.is_empty();
+        assert_eq!((read.unclear_line, read.certain), if clear { (None, 3) } else { (Some(6), 1) }, "{body}: {line:?}");
+        assert_eq!(line.class, if clear { Class::Understood } else { Class::ChangesMotion }, "{body}");
+        assert!(line.what.contains(words) && line.unmodelled == kind, "{body}: {line:?}");
+    }
+    let bare = "DEF m ( )\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}\nEND\n";
+    let bare = read(File { name: "m.src", bytes: bare.as_bytes() }, None).unwrap();
+    assert!(bare.lines[&2].what.contains("$TOOL and $BASE are not both set"));
+    assert_eq!(read(File { name: "m.src", bytes: b"hello" }, None), Err(NoProgram::Absent));
+}

@@ -1,0 +1,56 @@
+//! What is followed of the instructions around moves.
+
+use super::Machine;
+use crate::listing::{At, Class, Unmodelled};
+use crate::rapid::syntax::{Argument, Expression};
+use crate::rapid::value::Value;
+
+impl Machine<'_> {
+    /// ConfL, ConfJ, SingArea, AccSet, VelSet, GripLoad, SoftDeact; Incr, Decr, Add, Clear.
+    pub(super) fn follow(&mut self, name: &str, arguments: &[Argument], at: At) {
+        let (placed, named) = self.sort(arguments);
+        let numbers: Vec<Option<f64>> = placed.iter().map(|value| self.evaluate(value, at).number()).collect();
+        match name {
+            "confl" | "confj" => {
+                let on = !named.contains_key("off");
+                *(if name == "confl" { &mut self.demanded.linear } else { &mut self.demanded.joint }) = on;
+                self.mark(at, Class::Understood, "");
+            }
+            // What controllers start with changes nothing.
+            "singarea" if named.contains_key("off") => self.mark(at, Class::Harmless, ""),
+            "accset" if named.is_empty() && numbers == [Some(100.0); 2] => self.mark(at, Class::Harmless, ""),
+            "velset" if numbers == [Some(100.0), Some(5000.0)] => self.mark(at, Class::Harmless, ""),
+            "singarea" => self.mark_unmodelled(at, Unmodelled::Interpolation, "singarea is not followed"),
+            "accset" | "velset" => {
+                self.mark_unmodelled(at, Unmodelled::Speeds, format!("{name} is not followed"));
+            }
+            "gripload" => self.grip(&placed, at),
+            "softdeact" if self.soft => {
+                self.mark_unmodelled(at, Unmodelled::SoftServos, "SoftDeact: servos get stiff again");
+            }
+            "softdeact" => self.mark(at, Class::Harmless, ""),
+            _ => self.adjust(name, &placed, &numbers, at),
+        }
+    }
+
+    fn adjust(&mut self, name: &str, placed: &[&Expression], numbers: &[Option<f64>], at: At) {
+        let Some(Expression::Path(path)) = placed.first() else {
+            return self.mark(at, Class::Harmless, "no variable");
+        };
+        let by = match name {
+            "incr" => Some(1.0),
+            "decr" => Some(-1.0),
+            "add" => numbers.get(1).copied().flatten(),
+            _ => None,
+        };
+        let value = match (name, numbers[0].zip(by)) {
+            ("clear", _) => Value::Num(0.0),
+            (_, Some((value, by))) => Value::Num(value + by),
+            _ => Value::Unknown,
+        };
+        match self.assign(path, value, at) {
+            Ok(()) => self.mark(at, Class::Understood, ""),
+            Err(what) => self.mark(at, Class::Harmless, what),
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Who knows which name: what is LOCAL its own module alone, all else every module of the program.
+
+use std::collections::BTreeMap;
+
+use crate::rapid::syntax::Home;
+
+/// Things by their names, in lower case.
+pub(super) struct Scope<T> {
+    shared: BTreeMap<String, T>,
+    /// Of each module.
+    local: Vec<BTreeMap<String, T>>,
+}
+
+impl<T> Scope<T> {
+    /// Of so many modules, without names.
+    pub(super) fn new(modules: usize) -> Self {
+        Self { shared: BTreeMap::new(), local: (0..modules).map(|_| BTreeMap::new()).collect() }
+    }
+
+    fn names(&mut self, home: Home) -> &mut BTreeMap<String, T> {
+        match self.local.get_mut(home.module) {
+            Some(local) if home.local => local,
+            _ => &mut self.shared,
+        }
+    }
+
+    /// Puts a thing under the name; what was there before gives way.
+    pub(super) fn insert(&mut self, home: Home, name: String, thing: T) {
+        self.names(home).insert(name, thing);
+    }
+
+    /// What the name means in a module.
+    pub(super) fn get(&self, module: usize, name: &str) -> Option<&T> {
+        self.local.get(module).and_then(|local| local.get(name)).or_else(|| self.shared.get(name))
+    }
+
+    /// The same, to be changed.
+    pub(super) fn get_mut(&mut self, module: usize, name: &str) -> Option<&mut T> {
+        let local = self.local.get_mut(module).and_then(|local| local.get_mut(name));
+        local.or_else(|| self.shared.get_mut(name))
+    }
+}

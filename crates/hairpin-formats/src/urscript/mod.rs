@@ -1,0 +1,21 @@
+//! URScript of Universal Robots, out and in: metres, radians, rotation vectors, poses in the base.
+//!
+//! What is written reads back to the same moves. Of other programs the moves up to the first line that says more are
+//! certain.
+
+mod arguments;
+mod read;
+mod write;
+
+#[cfg(test)]
+mod tests;
+
+pub use read::{NoProgram, read};
+pub use write::{Settings, UrscriptError, text};
+
+/// What is said at the head of every program.
+const CONVENTIONS: [&str; 3] = [
+    "Poses p[x,y,z,rx,ry,rz] in the robot's base, m and rad (rotation vector); joints in rad.",
+    "Joint moves take the speed of the leading axis below, not the programmed one of the tool's centre point;",
+    "to a pose they go by the inverse kinematics nearest to where the arm is.",
+];

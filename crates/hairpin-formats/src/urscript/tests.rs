@@ -1,0 +1,165 @@
+//! Programs written, read by a reader of the tests' own, and read back.
+
+use hairpin::math::rotation::from_rotation_vector;
+use hairpin::trajectory::program::{
+    JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
+};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use super::*;
+use crate::listing::{Class, File, Module, Unmodelled};
+
+fn turned(roll: f64, pitch: f64, yaw: f64) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_euler_angles(roll, pitch, yaw)
+}
+
+fn program() -> Program {
+    let tool = Tool { tcp: Isometry3::translation(0.0, 0.0, 0.12), mass: 0.8, ..Tool::flange() };
+    let object = WorkObject {
+        user: Isometry3::from_parts(Translation3::new(0.1, -0.2, 0.3), turned(0.0, 0.0, 0.5)),
+        ..WorkObject::base()
+    };
+    let mut program = Program::new("M", "heavy_run", tool, object);
+    let at = |x: f64, y: f64| {
+        let turn = turned(3.0, -0.2, 0.4 + x);
+        PoseTarget::unnamed(Isometry3::from_parts(Translation3::new(x, y, 0.4), turn))
+    };
+    let joints = [0.1, -1.5, 2.0, -0.5, 1.5, 6.0];
+    let home = JointTarget { name: None, joints, external: NO_EXTERNAL };
+    let (v, z) = (|name| Speed::predefined(name).unwrap(), |name| Zone::predefined(name).unwrap());
+    program.moves = vec![
+        Move::new(Motion::AbsoluteJoint(home), v("v200"), Zone::stop()),
+        Move::new(Motion::Joint(at(0.3, 0.0)), v("v200"), z("z10")),
+        Move { duration: Some(2.5), ..Move::new(Motion::Linear(at(0.3, 0.1)), v("v150"), z("z10")) },
+        Move::new(Motion::Circular { via: at(0.305, 0.108), to: at(0.312, 0.11) }, v("vmax"), z("z100")),
+        Move::new(Motion::Linear(at(0.4, 0.11)), v("v2000"), Zone::stop()),
+    ];
+    program
+}
+
+type Call = (String, Vec<Vec<f64>>, Vec<(String, f64)>);
+
+/// A reader of its own: function name, and each call with its numbers in brackets and its named arguments.
+fn calls(text: &str) -> Vec<Call> {
+    let lines = text.lines().filter(|line| line.starts_with("  "));
+    lines
+        .map(|line| {
+            let (name, rest) = line.trim().split_once('(').unwrap();
+            let rest = rest.strip_suffix(')').unwrap();
+            let lists = rest
+                .split('[')
+                .skip(1)
+                .map(|list| list.split(']').next().unwrap().split(',').map(|x| x.trim().parse().unwrap()).collect());
+            let named = rest.split(", ").filter_map(|part| part.split_once('='));
+            let named = named.map(|(name, value)| (name.to_owned(), value.parse().unwrap()));
+            (name.to_owned(), lists.collect(), named.collect())
+        })
+        .collect()
+}
+
+#[test]
+fn poses_speeds_and_corners_are_those_of_the_program() {
+    let program = program();
+    let text = text(&program, &Settings::default(), &["gap 0.3 %".into()]).unwrap();
+    assert!(text.starts_with("# gap 0.3 %\n# This is a test program") && text.ends_with("\nend\nheavy_run()\n"));
+    let calls = calls(&text);
+    let names: Vec<_> = calls.iter().map(|(name, ..)| name.as_str()).collect();
+    assert_eq!(names, ["set_tcp", "set_target_payload", "movej", "movej", "movel", "movec", "movel"]);
+    assert_eq!(calls[0].1, [[0.0, 0.0, 0.12, 0.0, 0.0, 0.0]]);
+    assert_eq!(calls[2].1, [[0.1, -1.5, 2.0, -0.5, 1.5, 6.0]]);
+    let base = program.work_objects[0].base_from_object();
+    for (call, m) in calls[3..].iter().zip(&program.moves[1..]) {
+        for (numbers, target) in call.1.iter().zip(m.motion.poses()) {
+            let expected = base * target.pose;
+            let turn = from_rotation_vector(&Vector3::new(numbers[3], numbers[4], numbers[5]));
+            assert!((Vector3::new(numbers[0], numbers[1], numbers[2]) - expected.translation.vector).norm() < 1e-8);
+            assert!(turn.angle_to(&expected.rotation) < 1e-7, "{turn} {expected}");
+        }
+    }
+    let named = |call: usize, name: &str| calls[call].2.iter().find(|(n, _)| n == name).map(|(_, v)| *v);
+    assert_eq!(
+        (named(4, "v"), named(4, "t"), named(5, "v"), named(6, "v")),
+        (Some(0.15), Some(2.5), Some(1.0), Some(1.0))
+    );
+    // The first corner comes from a posture, the third is cut to half of 12.2 mm.
+    assert_eq!((named(3, "r"), named(6, "r")), (Some(0.0), Some(0.0)));
+    let half = 0.5 * (0.012_f64.powi(2) + 0.01_f64.powi(2)).sqrt();
+    assert!((named(4, "r").unwrap() - half).abs() < 1e-9 && (named(5, "r").unwrap() - half).abs() < 1e-9);
+}
+
+#[test]
+fn what_controllers_refuse_is_not_written() {
+    let named = Program { procedure: "end".into(), ..program() };
+    assert!(matches!(text(&named, &Settings::default(), &[]), Err(UrscriptError::Name { .. })));
+    let settings = Settings { acceleration: 0.0, ..Settings::default() };
+    assert!(matches!(text(&program(), &settings, &[]), Err(UrscriptError::Setting { field: "acceleration", .. })));
+    let mut broken = program();
+    broken.moves.remove(2);
+    broken.moves.remove(0);
+    broken.moves.remove(0);
+    assert!(matches!(text(&broken, &Settings::default(), &[]), Err(UrscriptError::Program(_))));
+}
+
+fn back(text: &str) -> Module {
+    read(File { name: "m.script", bytes: text.as_bytes() }).unwrap()
+}
+
+#[test]
+fn what_is_written_reads_back_and_is_written_the_same() {
+    let program = program();
+    let written = text(&program, &Settings::default(), &["gap 0.3 %".into()]).unwrap();
+    let read = back(&written);
+    assert_eq!((read.unclear_line, read.certain, &read.mistakes[..]), (None, 5, &[][..]), "{:?}", read.lines);
+    assert_eq!(text(&read.program, &Settings::default(), &read.header).unwrap(), written);
+    assert_eq!(read.program.procedure, "heavy_run");
+    for (a, b) in program.moves.iter().zip(&read.program.moves) {
+        let base = program.work_objects[a.work_object].base_from_object();
+        for (p, q) in a.motion.poses().zip(b.motion.poses()) {
+            let off = (base * p.pose).inverse() * q.pose;
+            assert!(off.translation.vector.norm() < 1e-8 && off.rotation.angle() < 1e-7);
+        }
+        assert_eq!(a.duration, b.duration);
+    }
+    let (tool, again) = (&program.tools[0], &read.program.tools[0]);
+    assert_eq!((tool.tcp, tool.mass, tool.centre_of_gravity), (again.tcp, again.mass, again.centre_of_gravity));
+}
+
+#[test]
+fn what_is_not_followed_is_named_by_line() {
+    let head = "def m():\n  set_tcp(p[0,0,0.1,0,0,0])\n  set_target_payload(1.5, [0,0,0.05])\n  movej([0,-1.5,1.5,0,1.5,0], a=1, v=1, r=0)\n";
+    for (body, kind, words) in [
+        ("movel(p[0.4,0,0.3,0,3.1,0], a=1.2, v=0.2, r=0)", None, ""),
+        ("movel(p[0.4,0,0.3,0,3.1,0], 1.2, 0.2)", None, ""),
+        ("sleep(0.5)", None, ""),
+        ("set_payload(3.0)", Some(Unmodelled::Payload), "`set_payload` is not followed"),
+        ("set_target_payload(3.0, [0,0,0])", Some(Unmodelled::Payload), "set_target_payload"),
+        (
+            "force_mode(p[0,0,0,0,0,0], [0,0,1,0,0,0], [0,0,9,0,0,0], 2, [1,1,1,1,1,1])",
+            Some(Unmodelled::ForceControl),
+            "force_mode",
+        ),
+        ("track_conveyor_linear(p[1,0,0,0,0,0], 500)", Some(Unmodelled::Conveyors), "track_conveyor_linear"),
+        ("servoj([0,0,0,0,0,0])", Some(Unmodelled::Guidance), "servoj"),
+        (
+            "movec(p[0.4,0,0.3,0,3,0], p[0.4,0.1,0.3,0,3,0], a=1, v=1, r=0, mode=1)",
+            Some(Unmodelled::Interpolation),
+            "mode 1",
+        ),
+        ("movel(home, a=1.2, v=0.2)", None, "expected a pose"),
+        ("if True:", None, "`if` is not followed"),
+        ("home = p[0,0,0,0,0,0]", None, "`home` is not followed"),
+    ] {
+        let text =
+            format!("{head}  {body} # comment\n  movel(p[0.4,0.1,0.3,0,3.1,0], a=1.2, v=0.2, r=0.01)\nend\nm()\n");
+        let read = back(&text);
+        let line = &read.lines[&5];
+        let clear = words.is_empty();
+        assert_eq!(read.unclear_line, (!clear).then_some(5), "{body}: {line:?}");
+        assert!(clear || read.certain == 1, "{body}");
+        assert!(line.what.contains(words) && line.unmodelled == kind, "{body}: {line:?}");
+        assert_eq!(line.class == Class::ChangesMotion, !clear, "{body}");
+    }
+    let bare = back("def m():\n  movej([0,0,0,0,0,0])\nend\nm()\nother()\n");
+    assert!(bare.lines[&2].what.contains("centre point is not set") && bare.lines[&5].class == Class::ChangesMotion);
+    assert_eq!(read(File { name: "m.script", bytes: b"hello" }), Err(NoProgram::Absent));
+}

@@ -1,0 +1,173 @@
+//! What an arm may have done between two samples of a log, by the accelerations and speeds of its joints.
+//!
+//! A joint with |q̈| ≤ α and |q̇| ≤ ω whose angles are known a time h apart stays within min(α h²/8, ω h/2) of the line
+//! between them, and the tool's point within Σ of that times its distance from each axis of where the joints' lines put
+//! it. Logs of poses are taken to joints first, along one branch; where that cannot be done the tool's own acceleration
+//! is bounded, which is far more: |ẍ| ≤ Σ αₖ Lₖ + (Σ ωₖ)(Σ ωₖ Lₖ).
+
+use nalgebra::{Isometry3, Point3};
+
+use super::ArmSetup;
+use crate::campaign::scenario::PathFrom;
+use crate::judgement::moves::{Between, Clock, Hidden, MeasureSettings, Measured, Unseen, unseen};
+use crate::math::segment::point_distance;
+use crate::robot::arm::{AXES, Arm, Joints};
+use crate::trajectory::{ATTITUDE_UNKNOWN, PlannedPath, Track};
+
+/// Key of an arm's file whose absence makes accelerations estimates.
+const ACCELERATIONS: &str = "joints.acceleration_deg_s2";
+
+impl ArmSetup {
+    /// What the log of a run does not show.
+    pub(super) fn unseen(
+        &self,
+        programmed: &PlannedPath,
+        recording: &Track,
+        reference: Option<&Track>,
+        measured: &Measured,
+        settings: &MeasureSettings,
+    ) -> Option<Unseen> {
+        let (arm, spec) = (&self.station.arm, &self.scenario.spec);
+        let between = Log::of(arm, &self.station.tool.tcp, &self.station.home, recording);
+        // Times that are taken off are those of the plan's clock, later.
+        let shift = match settings.clock {
+            Clock::AsRecorded => 0.0,
+            Clock::OffsetRemoved => measured.offset.map_or(0.0, |offset| offset.seconds),
+        };
+        let corner = match (spec.path.map(|limit| limit.from), reference) {
+            (Some(PathFrom::Sharp), Some(reference)) => farthest(programmed.track(), reference),
+            _ => 0.0,
+        };
+        let hidden = Hidden {
+            path: spec.path.map(|limit| limit.max_mm * 1e-3),
+            late: spec.arrival.map(|limit| limit.max_late_ms * 1e-3 + shift),
+            corner,
+            between: &between,
+            estimated: arm.estimated.iter().any(|key| key == ACCELERATIONS),
+        };
+        unseen(programmed, recording, settings, &hidden).ok()
+    }
+}
+
+/// How far the path is from another one at most, m.
+fn farthest(path: &Track, other: &Track) -> f64 {
+    let nearest = |i: usize| {
+        let point = path.position(i);
+        let segments = (1..other.len()).map(|j| point_distance(&point, &other.position(j - 1), &other.position(j)));
+        segments.fold(f64::INFINITY, f64::min)
+    };
+    (0..path.len()).map(nearest).filter(|distance| distance.is_finite()).fold(0.0, f64::max)
+}
+
+/// A log with what is known of the arm.
+struct Log<'a> {
+    arm: &'a Arm,
+    tcp: &'a Isometry3<f64>,
+    recording: &'a Track,
+    /// Angles at every sample, where they are known.
+    joints: Option<Vec<Joints>>,
+    /// Farthest that the tool's point can be from each axis, m.
+    longest: Joints,
+}
+
+impl<'a> Log<'a> {
+    fn of(arm: &'a Arm, tcp: &'a Isometry3<f64>, home: &Joints, recording: &'a Track) -> Self {
+        let joints = recorded(recording).or_else(|| {
+            let known = recording.channel(ATTITUDE_UNKNOWN).is_none();
+            known.then(|| along_a_branch(arm, tcp, home, recording)).flatten()
+        });
+        let mut longest = [0.0; AXES];
+        let mut beyond = arm.chain.flange.translation.vector.norm() + tcp.translation.vector.norm();
+        for k in (0..AXES).rev() {
+            longest[k] = beyond;
+            beyond += arm.chain.joints[k].origin.translation.vector.norm();
+        }
+        Self { arm, tcp, recording, joints, longest }
+    }
+
+    fn seconds(&self, i: usize) -> f64 {
+        self.recording.times()[i + 1] - self.recording.times()[i]
+    }
+
+    /// What each joint may have turned aside, rad.
+    fn aside(&self, seconds: f64) -> Joints {
+        let limits = &self.arm.limits;
+        std::array::from_fn(|k| (limits[k].acceleration * seconds * seconds / 8.0).min(limits[k].speed * seconds / 2.0))
+    }
+
+    /// The tool's point at these angles, and its distance from each axis.
+    fn stands(&self, q: &Joints) -> (Point3<f64>, Joints) {
+        let frames = self.arm.chain.frames(q);
+        let point = Point3::from((frames[AXES] * self.arm.chain.flange * self.tcp).translation.vector);
+        let axes = self.arm.chain.axes(&frames);
+        (point, std::array::from_fn(|k| axes[k].1.cross(&(point - axes[k].0)).norm()))
+    }
+}
+
+/// The angles that the log itself tells.
+fn recorded(recording: &Track) -> Option<Vec<Joints>> {
+    let channels: Vec<&[f64]> =
+        (1..=AXES).map(|k| recording.channel(&format!("q{k}_rad"))).collect::<Option<Vec<_>>>()?;
+    Some((0..recording.len()).map(|i| std::array::from_fn(|k| channels[k][i])).collect())
+}
+
+/// The angles that put the tool where the log has it, each nearest to those before.
+fn along_a_branch(arm: &Arm, tcp: &Isometry3<f64>, home: &Joints, recording: &Track) -> Option<Vec<Joints>> {
+    let distance = |a: &Joints, b: &Joints| (0..AXES).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
+    let (flange_from_tcp, mut before, mut all) = (tcp.inverse(), *home, Vec::with_capacity(recording.len()));
+    for pose in recording.poses() {
+        let solutions = arm.inverse(&(pose * flange_from_tcp), &before);
+        before = solutions.into_iter().min_by(|a, b| distance(a, &before).total_cmp(&distance(b, &before)))?;
+        all.push(before);
+    }
+    Some(all)
+}
+
+impl Between for Log<'_> {
+    fn hidden(&self, i: usize) -> f64 {
+        let seconds = self.seconds(i);
+        let aside = self.aside(seconds);
+        let Some(joints) = &self.joints else {
+            let limits = &self.arm.limits;
+            let sum = |of: &dyn Fn(usize) -> f64| (0..AXES).map(of).sum::<f64>();
+            let speed = sum(&|k| limits[k].speed * self.longest[k]);
+            let acceleration = sum(&|k| limits[k].acceleration * self.longest[k]) + sum(&|k| limits[k].speed) * speed;
+            return (acceleration * seconds * seconds / 8.0).min(speed * seconds / 2.0);
+        };
+        let [(_, before), (_, after)] = [i, i + 1].map(|k| self.stands(&joints[k]));
+        // Joints beyond an axis carry the point away from it, by half their way and by what they turn aside.
+        let (mut beyond, mut most) = (0.0, 0.0);
+        for k in (0..AXES).rev() {
+            let distance = (before[k].max(after[k]) + beyond).min(self.longest[k]);
+            most += aside[k] * distance;
+            beyond += (0.5 * (joints[i + 1][k] - joints[i][k]).abs() + aside[k]) * self.longest[k];
+        }
+        most
+    }
+
+    fn half(&self, i: usize) -> f64 {
+        match &self.joints {
+            Some(joints) => {
+                0.5 * (0..AXES).map(|k| (joints[i + 1][k] - joints[i][k]).abs() * self.longest[k]).sum::<f64>()
+            }
+            None => 0.5 * (self.recording.position(i + 1) - self.recording.position(i)).norm(),
+        }
+    }
+
+    fn chord(&self, i: usize, count: usize) -> Vec<Point3<f64>> {
+        let point = |n: usize| {
+            let share = n as f64 / count as f64;
+            match &self.joints {
+                Some(joints) => {
+                    let (a, b) = (&joints[i], &joints[i + 1]);
+                    self.stands(&std::array::from_fn(|k| a[k] + share * (b[k] - a[k]))).0
+                }
+                None => {
+                    let (a, b) = (self.recording.position(i), self.recording.position(i + 1));
+                    a + (b - a) * share
+                }
+            }
+        };
+        (0..=count).map(point).collect()
+    }
+}

@@ -1,0 +1,335 @@
+//! What a recording does not show: gaps between its samples and what is missing at its ends, told against the plan.
+//!
+//! A motion with |ẍ| ≤ a that is known a time h apart stays within a·h²/8 of its chord: so far off the path it may have
+//! been, though no sample says so. Where what was measured is within its limit and what may be hidden is not, nothing is
+//! known. Where a is only an estimate it clears and never condemns: a gap does that is over five times the median
+//! interval and takes the end of a move with it, or a tenth of one, and so do whole moves of which there is no sample.
+
+use nalgebra::Point3;
+
+use super::MovesError;
+use super::align::Way;
+use super::measure::{MeasureSettings, median, targets};
+use crate::trajectory::{PlannedPath, Track};
+
+/// What may have been between sample `i` and the one after it.
+pub trait Between {
+    /// Farthest from the chord, m: a·h²/8.
+    fn hidden(&self, i: usize) -> f64;
+
+    /// Farthest of the chord from the nearer of both samples, m.
+    fn half(&self, i: usize) -> f64;
+
+    /// So many points of the chord, evenly.
+    fn chord(&self, i: usize, count: usize) -> Vec<Point3<f64>>;
+}
+
+/// What a recording is held against.
+#[derive(Clone, Copy)]
+pub struct Hidden<'a> {
+    /// Largest distance from the path, m.
+    pub path: Option<f64>,
+    /// Latest arrival, s.
+    pub late: Option<f64>,
+    /// How far what deviations are measured from may be from the planned path itself, m.
+    pub corner: f64,
+    /// What may have been between samples.
+    pub between: &'a dyn Between,
+    /// Whether that rests on estimates.
+    pub estimated: bool,
+}
+
+/// The longest time between two samples, and what of the plan it takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gap {
+    /// Its first stamp, s.
+    pub from: f64,
+    /// How long it is, s.
+    pub seconds: f64,
+    /// Of how many times the median interval.
+    pub ratio: f64,
+    /// The first and the last move that it hides some of, from 0.
+    pub moves: [usize; 2],
+    /// Both by name.
+    pub names: [String; 2],
+    /// Share of the plan's time that it hides.
+    pub share: f64,
+}
+
+/// What one recording does not show.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unseen {
+    /// The longest gap.
+    pub longest: Gap,
+    /// Moves with a sample on them, of all.
+    pub seen: [usize; 2],
+    /// Why the recording decides nothing where it violates nothing; `None` where it does decide.
+    pub open: Option<String>,
+    /// Whether a violation of the time of arrival is not proven, since the arrival lies in a gap.
+    pub late_unproven: bool,
+    /// Largest distance from the path that an estimate does not exclude between samples, where it is over the limit and
+    /// decides nothing, m.
+    pub estimate: Option<f64>,
+}
+
+/// A gap is longer than so many median intervals.
+const OUTLYING: f64 = 5.0;
+/// Share of a move, or of the plan, that may go unseen.
+const LEAST_SHARE: f64 = 0.1;
+/// Points of a chord that are looked at.
+const POINTS: usize = 32;
+const MILLI: f64 = 1e3;
+
+/// What `recording` does not show of `path`.
+///
+/// # Errors
+/// As [`super::measure_moves`].
+pub fn unseen(
+    path: &PlannedPath,
+    recording: &Track,
+    settings: &MeasureSettings,
+    hidden: &Hidden<'_>,
+) -> Result<Unseen, MovesError> {
+    if path.moves().is_empty() {
+        return Err(MovesError::NoMoves);
+    }
+    if recording.len() < 2 {
+        return Err(MovesError::Samples { found: recording.len() });
+    }
+    let way = Way::new(path, settings.turn_weight);
+    let (progress, nearest) = way.progress(recording);
+    let times = recording.times();
+    let usual = median(times.windows(2).map(|pair| pair[1] - pair[0]).collect());
+    let targets = targets(&way.ends, settings.arrival);
+    let look = Look { path, recording, hidden, way: &way, progress: &progress, nearest: &nearest, usual, targets };
+    Ok(look.all())
+}
+
+struct Look<'a> {
+    path: &'a PlannedPath,
+    recording: &'a Track,
+    hidden: &'a Hidden<'a>,
+    way: &'a Way,
+    progress: &'a [f64],
+    nearest: &'a [usize],
+    /// Median interval, s.
+    usual: f64,
+    /// Where each move counts as arrived, by length.
+    targets: Vec<f64>,
+}
+
+impl Look<'_> {
+    fn all(&self) -> Unseen {
+        let intervals = 0..self.recording.len() - 1;
+        let longest = intervals.clone().max_by(|a, b| self.seconds(*a).total_cmp(&self.seconds(*b))).unwrap_or(0);
+        let longest = self.gap(longest);
+        let unseen = self.moves_unseen();
+        let mut open = self.ends();
+        let mut estimate = None;
+        if let Some(limit) = self.hidden.path {
+            let over = intervals.filter_map(|i| Some((i, self.beyond(i, limit)?)));
+            let over: Vec<(usize, f64)> = over.collect();
+            let gravest =
+                |all: &mut dyn Iterator<Item = &(usize, f64)>| all.max_by(|a, b| a.1.total_cmp(&b.1)).copied();
+            let decides = match self.hidden.estimated {
+                false => gravest(&mut over.iter()),
+                true => gravest(&mut over.iter().filter(|(i, _)| self.is_outlying(*i))),
+            };
+            open = open.or_else(|| decides.map(|(i, most)| self.told(i, most, limit)));
+            let share: f64 = unseen.iter().map(|index| self.planned_share(*index)).sum();
+            if !over.is_empty() && share > LEAST_SHARE {
+                open = open.or_else(|| Some(self.told_unseen(&unseen, share)));
+            }
+            estimate = gravest(&mut over.iter()).map(|(_, most)| most);
+        }
+        let (unproven, proven) = self.late();
+        let open = open.or_else(|| unproven.as_ref().map(|(why, _)| why.clone()));
+        let moves = self.path.moves().len();
+        Unseen {
+            longest,
+            seen: [moves - unseen.len(), moves],
+            late_unproven: unproven.is_some_and(|(_, over)| over) && !proven,
+            estimate: estimate.filter(|_| open.is_none()),
+            open,
+        }
+    }
+
+    fn seconds(&self, i: usize) -> f64 {
+        self.recording.times()[i + 1] - self.recording.times()[i]
+    }
+
+    /// When the plan is so far along, s.
+    fn planned(&self, along: f64) -> f64 {
+        let at = self.way.planned.partition_point(|length| *length < along);
+        self.path.track().times()[at.min(self.way.planned.len() - 1)]
+    }
+
+    /// The plan's time, s.
+    fn whole(&self) -> f64 {
+        let last = self.path.moves().len() - 1;
+        self.path.passes(last).max(f64::MIN_POSITIVE)
+    }
+
+    fn gap(&self, i: usize) -> Gap {
+        let (a, b) = (self.progress[i], self.progress[i + 1]);
+        let last = self.way.owner(b);
+        // What has ended at the first sample is seen.
+        let first = self.way.ends.partition_point(|end| *end <= a).min(last);
+        let name = |index: usize| self.path.moves()[index].name.clone();
+        Gap {
+            from: self.recording.times()[i],
+            seconds: self.seconds(i),
+            ratio: self.seconds(i) / self.usual,
+            moves: [first, last],
+            names: [name(first), name(last)],
+            share: (self.planned(b) - self.planned(a)) / self.whole(),
+        }
+    }
+
+    /// Whether the interval is a gap that takes the end of a move, or a tenth of one.
+    fn is_outlying(&self, i: usize) -> bool {
+        if self.seconds(i) <= OUTLYING * self.usual {
+            return false;
+        }
+        let (a, b) = (self.progress[i], self.progress[i + 1]);
+        let mut before = 0.0;
+        self.way.ends.iter().zip(&self.targets).any(|(end, target)| {
+            let of_move = (end.min(b) - a.max(before)) / (end - before).max(f64::MIN_POSITIVE);
+            before = *end;
+            (a < *target && *target <= b) || of_move >= LEAST_SHARE
+        })
+    }
+
+    /// How far off the path the arm may have been between two samples, m, where that is beyond the limit.
+    fn beyond(&self, i: usize, limit: f64) -> Option<f64> {
+        let poses = self.recording.poses();
+        let measured =
+            [i, i + 1].map(|k| self.way.deviation(self.nearest[k], &poses[k])).into_iter().fold(0.0, f64::max);
+        let aside = self.hidden.between.hidden(i) + self.hidden.corner;
+        let half = self.hidden.between.half(i);
+        if measured + half + aside <= limit {
+            return None;
+        }
+        let range = self.nearest[i]..self.nearest[i + 1] + 1;
+        let chord = self.hidden.between.chord(i, POINTS);
+        let off = chord.iter().map(|point| self.way.distance(&range, point)).fold(measured, f64::max);
+        let most = off + aside + half / POINTS as f64;
+        (most > limit).then_some(most)
+    }
+
+    fn told(&self, i: usize, most: f64, limit: f64) -> String {
+        let gap = self.gap(i);
+        let estimated = if self.hidden.estimated { ", estimated" } else { "" };
+        format!(
+            "{gap}: {:.2} mm off the path are not excluded there (a_max h²/8 of the arm's joints{estimated}), the limit is {:.2} mm",
+            MILLI * most,
+            MILLI * limit
+        )
+    }
+
+    /// Moves without any sample.
+    fn moves_unseen(&self) -> Vec<usize> {
+        let mut seen = vec![false; self.path.moves().len()];
+        for along in self.progress {
+            seen[self.way.owner(*along)] = true;
+        }
+        seen.iter().enumerate().filter(|(_, seen)| !**seen).map(|(index, _)| index).collect()
+    }
+
+    fn planned_share(&self, index: usize) -> f64 {
+        let before = index.checked_sub(1).map_or(0.0, |before| self.path.passes(before));
+        (self.path.passes(index) - before) / self.whole()
+    }
+
+    fn told_unseen(&self, unseen: &[usize], share: f64) -> String {
+        let name = |index: usize| self.path.moves()[index].name.as_str();
+        format!(
+            "no sample on {} of {} moves, {:.0} % of the plan, the first of them {} (samples are {:.3} s apart)",
+            unseen.len(),
+            self.path.moves().len(),
+            100.0 * share,
+            name(unseen[0]),
+            self.usual
+        )
+    }
+
+    /// What is missing before the first sample and after the last.
+    fn ends(&self) -> Option<String> {
+        let limit = self.hidden.path?;
+        let (first, last) = (self.progress[0], self.progress[self.progress.len() - 1]);
+        let (ends, times) = (&self.way.ends, self.recording.times());
+        let names = |index: usize| self.path.moves()[index].name.as_str();
+        if first > limit.max(LEAST_SHARE * ends[0]) {
+            let index = self.way.owner(first);
+            return Some(format!(
+                "the log begins at t = {:.3} s, {:.1} mm along the plan, on move {} of {} ({}): what came before is not seen",
+                times[0],
+                MILLI * first,
+                index + 1,
+                ends.len(),
+                names(index)
+            ));
+        }
+        let left = ends[ends.len() - 1] - last;
+        (left > limit.max(ends[ends.len() - 1] - self.targets[ends.len() - 1])).then(|| {
+            let index = self.way.owner(last);
+            format!(
+                "the log ends at t = {:.3} s, {:.1} mm before the plan's end, on move {} of {} ({}): the rest is not seen",
+                times[times.len() - 1],
+                MILLI * left,
+                index + 1,
+                ends.len(),
+                names(index)
+            )
+        })
+    }
+
+    /// The arrival in a gap of which it is not known whether it is late, and whether its estimate is; and whether
+    /// another one is late for certain.
+    fn late(&self) -> (Option<(String, bool)>, bool) {
+        let Some(limit) = self.hidden.late else { return (None, false) };
+        let (times, mut unproven, mut proven) = (self.recording.times(), None, false);
+        for (index, target) in self.targets.iter().enumerate() {
+            let i = self.progress.partition_point(|progress| progress < target);
+            let planned = self.planned(*target);
+            if i == 0 || i == times.len() {
+                continue;
+            }
+            let outlying = self.seconds(i - 1) > OUTLYING * self.usual;
+            let [early, late] = [times[i - 1] - planned, times[i] - planned];
+            let share = (target - self.progress[i - 1]) / (self.progress[i] - self.progress[i - 1]);
+            let estimate = early + share * (late - early);
+            if !outlying || early > limit {
+                proven |= estimate > limit;
+            } else if late > limit && unproven.is_none() {
+                let name = &self.path.moves()[index].name;
+                let why = format!(
+                    "{}: {name} arrived between {:.0} and {:.0} ms late, the limit is {:.0} ms",
+                    self.gap(i - 1),
+                    MILLI * early,
+                    MILLI * late,
+                    MILLI * limit
+                );
+                unproven = Some((why, estimate > limit));
+            }
+        }
+        (unproven, proven)
+    }
+}
+
+impl std::fmt::Display for Gap {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [first, last] = self.moves;
+        write!(
+            f,
+            "a gap of {:.3} s from t = {:.3} s ({:.0} times the usual interval) hides ",
+            self.seconds, self.from, self.ratio
+        )?;
+        if first == last {
+            write!(f, "some of move {} ({})", first + 1, self.names[0])?;
+        } else {
+            write!(f, "moves {} ({}) to {} ({})", first + 1, self.names[0], last + 1, self.names[1])?;
+        }
+        write!(f, ", {:.0} % of the plan", 100.0 * self.share)
+    }
+}
