@@ -8,7 +8,7 @@ use hairpin::campaign::{Attachments, Resolved, Scenario};
 
 use super::attached::{Wrong, ending};
 use super::report::Report;
-use super::resolve::read_file;
+use super::whole::read_file;
 use super::{baseline, cell, learned, terrain, user_score};
 use crate::mesh::read_mesh;
 

@@ -16,6 +16,7 @@ mod terrain;
 mod tree;
 mod urdf;
 mod user_score;
+mod whole;
 mod write;
 
 use std::path::Path;
@@ -32,8 +33,9 @@ pub use write::{MadeBy, WriteError, read_made_by, to_toml};
 
 use crate::folder::SCENARIO;
 use crate::{library, schema};
-use resolve::{Resolver, is_urdf};
+use resolve::Resolver;
 use tree::{Node, NodeKind};
+use whole::is_urdf;
 
 /// Reads a scenario, resolves it, and builds what it describes.
 ///

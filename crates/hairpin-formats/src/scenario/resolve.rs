@@ -5,11 +5,9 @@ use std::path::Path;
 use super::report::{Place, Report};
 use super::shape::nearest;
 use super::tree::{self, Node, NodeKind};
-use super::urdf::{URDF, Wanted};
+use super::urdf::{self, URDF, Wanted};
+use super::whole::{is_urdf, read_file};
 use crate::library::{self, Shipped};
-
-/// A robot or world file is a page of numbers; a mesh file of 100 MB has two million triangles.
-const LARGEST_FILE: u64 = 100_000_000;
 
 pub(super) struct Resolver<'r> {
     pub(super) base: &'r Path,
@@ -22,7 +20,7 @@ impl Resolver<'_> {
         let Some(node) = root.entries().and_then(|entries| entries.get_mut("robot")) else { return };
         let table = match &node.kind {
             NodeKind::Text(name) => self.robot_file(name, &node.place),
-            NodeKind::Table(_) if node.get(URDF).is_some() => self.of_urdf(node.clone(), self.base),
+            NodeKind::Table(_) if node.get(URDF).is_some() => urdf::of_urdf(node.clone(), self.base, self.report),
             _ => return,
         };
         let Some(table) = table else { return };
@@ -38,7 +36,7 @@ impl Resolver<'_> {
         }
         // What a robot's file names lies beside it.
         let path = self.base.join(name);
-        self.of_urdf(node, path.parent().unwrap_or(self.base))
+        urdf::of_urdf(node, path.parent().unwrap_or(self.base), self.report)
     }
 
     /// Fills in the keys of the base world that the scenario's own world has not.
@@ -77,7 +75,7 @@ impl Resolver<'_> {
         let text =
             read_file(&path).and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no UTF-8 text".into()));
         match text {
-            Ok(text) if urdf => self.read_urdf(&path, text, &Wanted::default()),
+            Ok(text) if urdf => urdf::arm_of(&path, text, &Wanted::default(), self.report),
             Ok(text) => {
                 let source = self.report.add_source(path.display().to_string(), text);
                 tree::parse(source, self.report)
@@ -89,23 +87,4 @@ impl Resolver<'_> {
             }
         }
     }
-}
-
-/// Whether a file's name is one of URDF.
-pub(super) fn is_urdf(name: &str) -> bool {
-    let name = name.to_ascii_lowercase();
-    name.ends_with(".urdf") || name.ends_with(".xml")
-}
-
-pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
-    let about = std::fs::metadata(path).map_err(|error| error.to_string())?;
-    let size = about.len();
-    // Devices and pipes have no end.
-    if !about.is_file() && !about.is_dir() {
-        return Err("it is no file".into());
-    }
-    if size > LARGEST_FILE {
-        return Err(format!("{size} bytes are more than 100 MB"));
-    }
-    std::fs::read(path).map_err(|error| error.to_string())
 }
