@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 pub use types::{Mesh, MeshError};
 
-/// Reads a mesh; the ending of `name` tells OBJ, STL and Collada (`.dae`) apart. Coordinates of OBJ and STL are taken as
-/// metres; Collada says its unit.
+/// Reads a mesh; the ending of `name` tells OBJ, STL and Collada (`.dae`) apart. Coordinates of OBJ and STL are taken
+/// as metres; Collada says its unit.
 ///
 /// # Errors
 /// [`MeshError`].

@@ -10,7 +10,7 @@ use hairpin::campaign::scenario::RegressionLimit;
 use serde::Deserialize;
 
 use super::attached::{Wrong, attached};
-use super::resolve::read_file;
+use super::whole::read_file;
 use crate::atomic::json_text;
 use crate::checksum::sha256;
 use crate::folder::{BASELINE, MOVES};

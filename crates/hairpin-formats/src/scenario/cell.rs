@@ -8,7 +8,7 @@ use hairpin::campaign::attachments::{CloudPoint, CostMatrix};
 use hairpin::campaign::scenario::CostTable;
 
 use super::attached::{Wrong, attached, ending};
-use super::resolve::read_file;
+use super::whole::read_file;
 use crate::bounds::check_table;
 use crate::checksum::sha256;
 use crate::{cloud, costs, rapid};

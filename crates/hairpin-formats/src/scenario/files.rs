@@ -9,7 +9,7 @@ use hairpin::campaign::{Attachments, Resolved, Scenario};
 use super::attached::{Wrong, ending};
 use super::guest::Guest;
 use super::report::Report;
-use super::resolve::read_file;
+use super::whole::read_file;
 use super::{baseline, cell, learned, terrain, user_score};
 use crate::bounds::MOST_MESH_PARTS;
 use crate::folder::inside;

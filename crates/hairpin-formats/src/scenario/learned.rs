@@ -8,7 +8,7 @@ use hairpin::campaign::learn::{NAME, ScoreModel};
 use hairpin::campaign::scenario::LEARNED;
 
 use super::attached::{Wrong, attached};
-use super::resolve::read_file;
+use super::whole::read_file;
 
 /// Reads the model of `score`, if that is learned; `key` is its key. A resolved scenario's is [`NAME`].
 pub(super) fn read(

@@ -18,6 +18,7 @@ mod terrain;
 mod tree;
 mod urdf;
 mod user_score;
+mod whole;
 mod write;
 
 use std::path::Path;
@@ -39,9 +40,10 @@ use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::folder::SCENARIO;
 use crate::{library, schema};
 use guest::Guest;
-use resolve::{Resolver, is_urdf};
+use resolve::Resolver;
 use robot::as_path;
 use tree::{Node, NodeKind};
+use whole::is_urdf;
 
 /// Reads a scenario, resolves it, and builds what it describes.
 ///

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::report::{Place, Report};
 use super::shape::nearest;
 use super::tree::{self, Node, NodeKind};
-use super::urdf::{URDF, Wanted};
-use crate::bounds::{self, MOST_BYTES};
+use super::urdf::{self, URDF, Wanted};
+use super::whole::{is_urdf, read_file};
 use crate::library::{self, Shipped};
 
 pub(super) struct Resolver<'r> {
@@ -20,7 +20,7 @@ impl Resolver<'_> {
         let Some(node) = root.entries().and_then(|entries| entries.get_mut("robot")) else { return };
         let table = match &node.kind {
             NodeKind::Text(name) => self.robot_file(name, &node.place),
-            NodeKind::Table(_) if node.get(URDF).is_some() => self.of_urdf(node.clone(), self.base),
+            NodeKind::Table(_) if node.get(URDF).is_some() => urdf::of_urdf(node.clone(), self.base, self.report),
             _ => return,
         };
         let Some(table) = table else { return };
@@ -36,7 +36,7 @@ impl Resolver<'_> {
         }
         // What a robot's file names lies beside it.
         let path = self.base.join(name);
-        self.of_urdf(node, path.parent().unwrap_or(self.base))
+        urdf::of_urdf(node, path.parent().unwrap_or(self.base), self.report)
     }
 
     /// Fills in the keys of the base world that the scenario's own world has not.
@@ -75,7 +75,7 @@ impl Resolver<'_> {
         let text =
             read_file(&path).and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no UTF-8 text".into()));
         match text {
-            Ok(text) if urdf => self.read_urdf(&path, text, &Wanted::default()),
+            Ok(text) if urdf => urdf::arm_of(&path, text, &Wanted::default(), self.report),
             // What is not even called TOML is shown to nobody: a scenario from elsewhere may name any file.
             Ok(text)
                 if !name.ends_with(".toml")
@@ -106,14 +106,4 @@ fn first_that_is_no_toml(text: &str) -> Option<usize> {
         Some(_) => None,
         None => report.complaints().first().map(|complaint| complaint.line),
     }
-}
-
-/// Whether a file's name is one of URDF.
-pub(super) fn is_urdf(name: &str) -> bool {
-    let name = name.to_ascii_lowercase();
-    name.ends_with(".urdf") || name.ends_with(".xml")
-}
-
-pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
-    bounds::read(path, MOST_BYTES).map_err(|error| error.to_string())
 }

@@ -8,7 +8,7 @@ use hairpin::campaign::{Attached, Scenario};
 use hairpin::world::terrain::ElevationMap;
 
 use super::attached::{Wrong, attached, ending};
-use super::resolve::read_file;
+use super::whole::read_file;
 use crate::checksum::sha256;
 use crate::frames::other_yaw;
 use crate::terrain::{Georeference, GivenUnit, MapFile, Sidecars, Unit, read_terrain};

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::report::Place;
-use super::resolve::{Resolver, is_urdf, read_file};
+use super::report::{Place, Report};
+use super::whole::{is_urdf, read_file};
 use super::tree::{Node, NodeKind, below};
 use crate::mesh::read_mesh;
 use crate::urdf::{NoMesh, Triangles, UrdfError, UrdfOptions, read_srdf, read_urdf};
@@ -42,124 +42,122 @@ pub(super) fn takes(root: &mut Node, key: &str) -> bool {
     robot.get(URDF).is_some()
 }
 
-impl Resolver<'_> {
-    /// The arm of a table that names a URDF; what it names lies in `base`.
-    pub(super) fn of_urdf(&mut self, mut table: Node, base: &Path) -> Option<Node> {
-        let entries = table.entries()?;
-        let mut given: BTreeMap<&str, Node> =
-            KEYS.iter().filter_map(|key| Some((*key, entries.remove(*key)?))).collect();
-        let named = given.remove(URDF)?;
-        let NodeKind::Text(name) = &named.kind else {
-            self.told(&named, URDF, "expected the path of a URDF");
+/// The arm of a table that names a URDF; what it names lies in `base`.
+pub(super) fn of_urdf(mut table: Node, base: &Path, report: &mut Report) -> Option<Node> {
+    let entries = table.entries()?;
+    let mut given: BTreeMap<&str, Node> =
+        KEYS.iter().filter_map(|key| Some((*key, entries.remove(*key)?))).collect();
+    let named = given.remove(URDF)?;
+    let NodeKind::Text(name) = &named.kind else {
+        told(&named, URDF, "expected the path of a URDF", report);
+        return None;
+    };
+    let wanted = wanted(&given, base, report)?;
+    let path = base.join(name);
+    let text = read_file(&path).and_then(|b| String::from_utf8(b).map_err(|_| "it is no UTF-8 text".into()));
+    let mut arm = match text {
+        Ok(text) => arm_of(&path, text, &wanted, report)?,
+        Err(why) => {
+            told(&named, URDF, &format!("cannot be read: {why}"), report);
             return None;
-        };
-        let wanted = self.wanted(&given, base)?;
-        let path = base.join(name);
-        let text = read_file(&path).and_then(|b| String::from_utf8(b).map_err(|_| "it is no UTF-8 text".into()));
-        let mut arm = match text {
-            Ok(text) => self.read_urdf(&path, text, &wanted)?,
-            Err(why) => {
-                self.told(&named, URDF, &format!("cannot be read: {why}"));
-                return None;
+        }
+    };
+    merge(&mut arm, table);
+    Some(arm)
+}
+
+fn told(node: &Node, key: &str, bound: &str, report: &mut Report) {
+    let (value, key) = (node.describe(), format!("robot.{key}"));
+    report.complain(&node.place, &key, &value, bound, format!("`{key}` is {value}: {bound}"));
+}
+
+/// The keys beside `urdf`; `None` where one of them is of another kind, or cannot be read.
+fn wanted(given: &BTreeMap<&str, Node>, base: &Path, report: &mut Report) -> Option<Wanted> {
+    let mut wanted = Wanted::default();
+    for (key, node) in given {
+        let fine = match (*key, &node.kind) {
+            ("tip", NodeKind::Text(link)) => {
+                wanted.options.tip = Some(link.clone());
+                true
             }
+            ("base", NodeKind::Text(link)) => {
+                wanted.options.base = Some(link.clone());
+                true
+            }
+            ("packages", _) => {
+                texts(node).map(|all| wanted.packages = all.iter().map(|at| base.join(at)).collect()).is_some()
+            }
+            ("exclude", NodeKind::Array(pairs)) => {
+                let pairs: Option<Vec<[String; 2]>> = pairs.iter().map(pair).collect();
+                pairs.map(|pairs| wanted.options.exclude = pairs).is_some()
+            }
+            ("srdf", NodeKind::Text(file)) => {
+                wanted.options.disabled = srdf(node, &base.join(file), report)?;
+                true
+            }
+            _ => false,
         };
-        merge(&mut arm, table);
-        Some(arm)
-    }
-
-    fn told(&mut self, node: &Node, key: &str, bound: &str) {
-        let (value, key) = (node.describe(), format!("robot.{key}"));
-        self.report.complain(&node.place, &key, &value, bound, format!("`{key}` is {value}: {bound}"));
-    }
-
-    /// The keys beside `urdf`; `None` where one of them is of another kind, or cannot be read.
-    fn wanted(&mut self, given: &BTreeMap<&str, Node>, base: &Path) -> Option<Wanted> {
-        let mut wanted = Wanted::default();
-        for (key, node) in given {
-            let fine = match (*key, &node.kind) {
-                ("tip", NodeKind::Text(link)) => {
-                    wanted.options.tip = Some(link.clone());
-                    true
-                }
-                ("base", NodeKind::Text(link)) => {
-                    wanted.options.base = Some(link.clone());
-                    true
-                }
-                ("packages", _) => {
-                    texts(node).map(|all| wanted.packages = all.iter().map(|at| base.join(at)).collect()).is_some()
-                }
-                ("exclude", NodeKind::Array(pairs)) => {
-                    let pairs: Option<Vec<[String; 2]>> = pairs.iter().map(pair).collect();
-                    pairs.map(|pairs| wanted.options.exclude = pairs).is_some()
-                }
-                ("srdf", NodeKind::Text(file)) => {
-                    wanted.options.disabled = self.srdf(node, &base.join(file))?;
-                    true
-                }
-                _ => false,
+        if !fine {
+            let expected = match *key {
+                "packages" => "expected a folder that packages lie in, or an array of folders",
+                "exclude" => "expected pairs of links, such as [[\"base_link\", \"link_4\"]]",
+                "srdf" => "expected the path of an SRDF",
+                _ => "expected the name of a link",
             };
-            if !fine {
-                let expected = match *key {
-                    "packages" => "expected a folder that packages lie in, or an array of folders",
-                    "exclude" => "expected pairs of links, such as [[\"base_link\", \"link_4\"]]",
-                    "srdf" => "expected the path of an SRDF",
-                    _ => "expected the name of a link",
-                };
-                self.told(node, key, expected);
-                return None;
-            }
-        }
-        Some(wanted)
-    }
-
-    fn srdf(&mut self, node: &Node, path: &Path) -> Option<Vec<[String; 2]>> {
-        let text = read_file(path).and_then(|b| String::from_utf8(b).map_err(|_| "it is no UTF-8 text".into()));
-        match text {
-            Ok(text) => {
-                let source = self.report.add_source(path.display().to_string(), text.clone());
-                read_srdf(&text).map_err(|error| self.wrong(source, &error)).ok()
-            }
-            Err(why) => {
-                self.told(node, "srdf", &format!("cannot be read: {why}"));
-                None
-            }
+            told(node, key, expected, report);
+            return None;
         }
     }
+    Some(wanted)
+}
 
-    /// The arm's table of a URDF's text.
-    pub(super) fn read_urdf(&mut self, path: &Path, text: String, wanted: &Wanted) -> Option<Node> {
-        let read = read_urdf(&text, &wanted.options, &|name| mesh_of(path, &wanted.packages, name));
-        let source = self.report.add_source(path.display().to_string(), text);
-        match read {
-            Ok(arm) => {
-                let robot = self.robot_element(source);
-                let tree = Tree { places: &arm.places, source };
-                serde_json::to_value(&arm.description).ok().map(|value| tree.node(&value, "", &robot))
-            }
-            Err(error) => {
-                self.wrong(source, &error);
-                None
-            }
+fn srdf(node: &Node, path: &Path, report: &mut Report) -> Option<Vec<[String; 2]>> {
+    let text = read_file(path).and_then(|b| String::from_utf8(b).map_err(|_| "it is no UTF-8 text".into()));
+    match text {
+        Ok(text) => {
+            let source = report.add_source(path.display().to_string(), text.clone());
+            read_srdf(&text).map_err(|error| wrong(source, &error, report)).ok()
+        }
+        Err(why) => {
+            told(node, "srdf", &format!("cannot be read: {why}"), report);
+            None
         }
     }
+}
 
-    /// Tells what is wrong with the XML of source number `source`.
-    fn wrong(&mut self, source: usize, error: &UrdfError) {
-        let (place, what) = match error {
-            UrdfError::Xml { at, .. } => (Place { source, span: *at..*at }, error.to_string()),
-            UrdfError::At { span, what, .. } => (Place { source, span: span.clone() }, what.clone()),
-            UrdfError::Chain(what) => (self.robot_element(source), what.clone()),
-        };
-        let name = self.report.source(source).name.clone();
-        self.report.complain(&place, "robot", "", &what, format!("{name}: {what}"));
+/// The arm's table of a URDF's text.
+pub(super) fn arm_of(path: &Path, text: String, wanted: &Wanted, report: &mut Report) -> Option<Node> {
+    let read = read_urdf(&text, &wanted.options, &|name| mesh_of(path, &wanted.packages, name));
+    let source = report.add_source(path.display().to_string(), text);
+    match read {
+        Ok(arm) => {
+            let robot = robot_element(source, report);
+            let tree = Tree { places: &arm.places, source };
+            serde_json::to_value(&arm.description).ok().map(|value| tree.node(&value, "", &robot))
+        }
+        Err(error) => {
+            wrong(source, &error, report);
+            None
+        }
     }
+}
 
-    /// Where the root element begins.
-    fn robot_element(&self, source: usize) -> Place {
-        let text = &self.report.source(source).text;
-        let at = text.find("<robot").unwrap_or(0);
-        Place { source, span: at..text.len().min(at + "<robot".len()) }
-    }
+/// Tells what is wrong with the XML of source number `source`.
+fn wrong(source: usize, error: &UrdfError, report: &mut Report) {
+    let (place, what) = match error {
+        UrdfError::Xml { at, .. } => (Place { source, span: *at..*at }, error.to_string()),
+        UrdfError::At { span, what, .. } => (Place { source, span: span.clone() }, what.clone()),
+        UrdfError::Chain(what) => (robot_element(source, report), what.clone()),
+    };
+    let name = report.source(source).name.clone();
+    report.complain(&place, "robot", "", &what, format!("{name}: {what}"));
+}
+
+/// Where the root element begins.
+fn robot_element(source: usize, report: &Report) -> Place {
+    let text = &report.source(source).text;
+    let at = text.find("<robot").unwrap_or(0);
+    Place { source, span: at..text.len().min(at + "<robot".len()) }
 }
 
 /// A table's tree, every value where the URDF has what it comes from.
@@ -233,8 +231,8 @@ fn pair(node: &Node) -> Option<[String; 2]> {
     }
 }
 
-/// The file of a mesh that a URDF names: beside it, or in a package that lies in one of `packages`, or among the folders
-/// that the URDF itself lies in.
+/// The file of a mesh that a URDF names: beside it, or in a package that lies in one of `packages`, or among the
+/// folders that the URDF itself lies in.
 fn mesh_of(urdf: &Path, packages: &[PathBuf], name: &str) -> Result<Triangles, NoMesh> {
     let inside = name.strip_prefix("package://").or_else(|| name.strip_prefix("model://"));
     let candidates: Vec<PathBuf> = match inside.map(|inside| inside.split_once('/').unwrap_or((inside, ""))) {

@@ -19,7 +19,7 @@ use hairpin::campaign::user_score::{LegFacts, NAME};
 use hairpin::campaign::{Attached, LegScorer};
 
 use super::attached::{Wrong, attached};
-use super::resolve::read_file;
+use super::whole::read_file;
 use crate::executor::{self, Tail};
 
 /// Asks the user's functions.

@@ -21,6 +21,8 @@ use super::tree::{Joint, Moves, Tree};
 const USUAL_SPEED: f64 = std::f64::consts::PI;
 /// Largest angle of a joint without bounds.
 const UNBOUNDED: f64 = 3600.0;
+/// Bodies, at most: each is held against every other.
+const MOST_BODIES: usize = 2000;
 /// Sentences about shapes, at most.
 const MOST_SAID: usize = 40;
 
@@ -128,6 +130,9 @@ impl Built {
                 names[stand.of].push(name);
             }
             let Some(link) = tree.links.get(name) else { continue };
+            if self.capsules.len() + self.hulls.len() > MOST_BODIES {
+                return Err(at(link, &format!("the links before this one have more than {MOST_BODIES} bodies")));
+            }
             let shapes = reader.of(link)?;
             with_body[stand.of] |= !shapes.all.is_empty();
             for shape in &shapes.all {

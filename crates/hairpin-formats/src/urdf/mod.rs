@@ -8,9 +8,10 @@
 //!
 //! | read | as |
 //! | --- | --- |
-//! | `revolute`, `continuous` between base and flange | the six axes; a `continuous` one without `<limit>` turns at an estimated speed |
+//! | `revolute`, `continuous` between base and flange | the six axes; without `<limit>` at an estimated speed |
 //! | `fixed` | part of the link before |
-//! | other joints beside or behind the arm (a gripper's) | held at rest; `mimic` where the master is, or anywhere about the joint where the master is an axis |
+//! | other joints beside or behind the arm (a gripper's) | held at rest |
+//! | `mimic` there | where the master is; of an axis as master, anywhere about the joint |
 //! | `<collision>`: box, sphere, capsule | exactly |
 //! | cylinder | a prism of 32 sides around it |
 //! | mesh: STL, OBJ, Collada | convex hulls around it, never smaller |

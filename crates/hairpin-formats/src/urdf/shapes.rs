@@ -8,8 +8,8 @@ use roxmltree::Node;
 use super::element::{UrdfError, at, attribute, child, origin, positive, told, triple};
 use super::outline::{Piece, outline};
 
-/// All points within `radius` of the hull of `points`, m, in the frame of the link; and how much larger that may be than
-/// what is described.
+/// All points within `radius` of the hull of `points`, m, in the frame of the link; and how much larger that may be
+/// than what is described.
 #[derive(Debug, Clone)]
 pub(super) struct Shape {
     pub(super) points: Vec<Point3<f64>>,

@@ -3,8 +3,10 @@
 use std::fmt::{Debug, Display};
 use std::path::Path;
 
+use hairpin::campaign::bounds::FARTHEST_M;
 use hairpin::robot::arm::ArmDescription;
 use hairpin_formats::executor::FromExecutor;
+use hairpin_formats::scenario::setup_for;
 use hairpin_formats::{cloud, controller_log, costs, mesh, rapid, urdf, waypoints};
 
 use super::{Answer, Sample};
@@ -35,8 +37,9 @@ fn of_arm(text: &str) -> Answer {
 }
 
 fn of_urdf(text: &str) -> Answer {
-    match urdf::read_urdf(text) {
-        Ok(described) => said(described.build()),
+    let meshes = |name: &str| Err(urdf::NoMesh::Missing(name.into()));
+    match urdf::read_urdf(text, &urdf::UrdfOptions::default(), &meshes) {
+        Ok(arm) => said(arm.description.build()),
         Err(error) => Answer::Refused(error.to_string()),
     }
 }
@@ -60,7 +63,8 @@ fn of_log(text: &str) -> Answer {
 }
 
 fn of_waypoints(text: &str) -> Answer {
-    of_file(text, "a.csv", waypoints::read)
+    let robot = setup_for("demo-quadrotor", &[]).expect("shipped");
+    of_file(text, "a.csv", |path| waypoints::read(path, &robot.scenario, FARTHEST_M))
 }
 
 fn of_costs(text: &str) -> Answer {

@@ -138,7 +138,8 @@ fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     judgement::inconclusive(&format!("0/{asked}"), &how, "stopped before the first trajectory was found")
 }
 
-/// The verdict of exit 3 (5 where it rests on nothing but estimates), with what it rests on, and the smallest change that helps where that was looked for.
+/// The verdict of exit 3 (5 where it rests on nothing but estimates), with what it rests on, and the smallest change
+/// that helps where that was looked for.
 pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str>) -> Verdict {
     let rests_on = match tally.proven_empty {
         proven if proven > 0 && proven == tally.graphs => "proof".into(),

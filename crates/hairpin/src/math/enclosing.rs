@@ -35,7 +35,8 @@ pub fn enclose(points: &[Point3<f64>]) -> Option<Enclosing> {
     }
     let near = NEAR * size;
     let mut radius = 0.0_f64;
-    let outside = |taken: &[Point3<f64>], p: &Point3<f64>| gap(|n| farthest(taken, n), |_| *p, [0.0, near]).most;
+    let outside =
+        |taken: &[Point3<f64>], p: &Point3<f64>| gap(|n| farthest(taken, n), |_| *p, [0.0, f64::INFINITY]).most;
     let mut open: Vec<(f64, Point3<f64>)> = points.iter().map(|p| (f64::INFINITY, *p)).collect();
     while !open.is_empty() {
         for (distance, p) in &mut open {
@@ -109,6 +110,13 @@ mod tests {
             .collect();
         let found = enclose(&cube).unwrap();
         assert!(found.points.len() == 8 && found.radius < 1e-9, "{found:?}");
+        // Of 400 points of a cylinder 64 leave no more than the arcs between 16 of each rim.
+        let rim = |i: usize| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * (i / 2) as f64 / 200.0);
+            Point3::new(0.05 * cos, 0.05 * sin, if i % 2 == 0 { 0.0 } else { 0.27 })
+        };
+        let found = enclose(&(0..400).map(rim).collect::<Vec<_>>()).unwrap();
+        assert!(found.radius < 1.2e-3, "{}", found.radius);
         assert!(enclose(&[]).is_none());
         assert_eq!(enclose(&[Point3::origin()]).unwrap().radius, 0.0);
     }

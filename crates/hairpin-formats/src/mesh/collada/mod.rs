@@ -3,7 +3,8 @@
 //! | read | as |
 //! | --- | --- |
 //! | `asset`: `unit`, `up_axis` | metres and z up, in place of what the file has |
-//! | `scene`, `visual_scene`, `node`, `instance_node` | where its parts stand: `matrix`, `translate`, `rotate`, `scale`, one after the other |
+//! | `scene`, `visual_scene`, `node`, `instance_node` | where its parts stand |
+//! | `matrix`, `translate`, `rotate`, `scale` of a node | one after the other |
 //! | `instance_geometry`, `instance_controller` (its skin's source) | a part |
 //! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | triangles; faces of more corners become fans |
 //! | colours, textures, lights, cameras, lines, animations | nothing |

@@ -49,7 +49,7 @@ impl Claim for ArmSetup {
 
     /// Every change is another graph, and drawing points for one that has none takes long.
     fn patience(&self) -> Option<f64> {
-        Some(2.0)
+        Some(3.0)
     }
 
     fn knobs(&self) -> Knobs {

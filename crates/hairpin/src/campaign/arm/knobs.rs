@@ -30,11 +30,12 @@ fn turned(scenario: &ArmScenario) -> Vec<Knob> {
     let margin = Some(moves.singularity_margin_deg).filter(|now| *now > 0.0);
     let least = search.min_cost.filter(|cost| *cost > 0.0);
     [
+        // Where a cost is asked for, nothing else may help, and patience has an end.
+        least.and_then(|now| Knob::number("generate.search.min_cost", now, 0.0, "")),
         clearance.and_then(|now| Knob::number("generate.moves.clearance_mm", now, 0.0, "mm")),
         margin.and_then(|now| Knob::number("generate.moves.singularity_margin_deg", now, 0.01 * now, "°")),
         // Moves are proven clear for whatever the spec allows.
         allowed.and_then(|now| Knob::number("spec.path.max_mm", now, 0.01 * now, "mm")),
-        least.and_then(|now| Knob::number("generate.search.min_cost", now, 0.0, "")),
         search.start.and_then(|_| Knob::switch("generate.search.start", Value::Null, "any first point")),
         search.end.and_then(|_| Knob::switch("generate.search.end", Value::Null, "any last point")),
         obstacles.then(|| Knob::switch("world.obstacles", json!([]), "no obstacles")).flatten(),

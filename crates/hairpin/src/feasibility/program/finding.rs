@@ -56,7 +56,8 @@ impl Finding {
         format!("{why}; {with} it fits by {:.1}°", fit.margin.to_degrees())
     }
 
-    /// `line 8: UNREACHABLE p10→p20: …`, of what meets something `line 8: COLLISION …`, of what rests on estimates alone
+    /// `line 8: UNREACHABLE p10→p20: …`, of what meets something `line 8: COLLISION …`, of what rests on estimates
+    /// alone
     /// `line 8: INCONCLUSIVE …`.
     pub fn in_words(&self, parts: &[String]) -> String {
         let line = self.line.map_or(String::new(), |line| format!("line {line}: "));

@@ -208,6 +208,8 @@ pub struct MassDescription {
 
 /// What is no more than this (m) larger than a shape is taken for it.
 const AS_GIVEN: f64 = 1e-3;
+/// Capsules and hulls, at most: each is held against every other.
+const MOST_BODIES: usize = 4000;
 /// Points of one hull, at most.
 const MOST_POINTS: usize = 256;
 
@@ -292,6 +294,10 @@ impl ArmDescription {
 
     /// Adds what is given to links that are bare.
     fn given(&self, links: &mut [Link; AXES + 1]) -> Result<(), ArmError> {
+        let count = self.capsules.len() + self.hulls.len();
+        if count > MOST_BODIES {
+            return Err(wrong("capsules", format!("{count} capsules and hulls"), format!("{MOST_BODIES} at most")));
+        }
         for (i, given) in self.capsules.iter().enumerate() {
             let key = |name: &str| format!("capsules[{i}].{name}");
             let link = links.get_mut(given.link).ok_or_else(|| wrong(&key("link"), given.link, "0 to 6"))?;

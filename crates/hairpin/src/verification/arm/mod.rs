@@ -3,11 +3,11 @@
 //!
 //! Shares nothing with what proved or executes them: links by products of exponentials (`screws`), all postures of a
 //! pose by canonical subproblems (`inverse`), configurations and singularities by where axes lie (`configuration`),
-//! bodies by points of them (`samples`), straight moves and arcs by Newton's steps on the geometric Jacobian from sample to sample (`reach`, `follow`),
-//! orientations along great arcs of quaternions (`course`), corners that zones cut both as the path about them (`path`)
-//! and by points of their triangles (`corner`), distances of points from solids by formulas of their own (`solids`).
-//! What is proven to keep a distance everywhere keeps it at every sample, so that no true claim is refused; a false one
-//! is found where samples see it.
+//! bodies by points of them (`samples`), straight moves and arcs by Newton's steps on the geometric Jacobian from
+//! sample to sample (`reach`, `follow`), orientations along great arcs of quaternions (`course`), corners that zones
+//! cut both as the path about them (`path`) and by points of their triangles (`corner`), distances of points from
+//! solids by formulas of their own (`solids`). What is proven to keep a distance everywhere keeps it at every sample,
+//! so that no true claim is refused; a false one is found where samples see it.
 //!
 //! ```text
 //! claim   program (moves as written) or graph (postures, poses, ways) · arm · cell, plain numbers

@@ -191,7 +191,8 @@ pub struct CellHull {
     pub points_mm: Vec<[f64; 3]>,
 }
 
-/// `mesh = { vertices_mm, triangles }` or `mesh = { file, scale_mm }` (STL, OBJ or Collada, resolved into the former when read).
+/// `mesh = { vertices_mm, triangles }` or `mesh = { file, scale_mm }` (STL, OBJ or Collada, resolved into the former
+/// when read).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CellMesh {
