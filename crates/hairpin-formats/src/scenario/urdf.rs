@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::report::{Place, Report};
-use super::whole::{is_urdf, read_file};
 use super::tree::{Node, NodeKind, below};
+use super::whole::{is_urdf, read_file};
 use crate::mesh::read_mesh;
 use crate::urdf::{NoMesh, Triangles, UrdfError, UrdfOptions, read_srdf, read_urdf};
 
@@ -45,8 +45,7 @@ pub(super) fn takes(root: &mut Node, key: &str) -> bool {
 /// The arm of a table that names a URDF; what it names lies in `base`.
 pub(super) fn of_urdf(mut table: Node, base: &Path, report: &mut Report) -> Option<Node> {
     let entries = table.entries()?;
-    let mut given: BTreeMap<&str, Node> =
-        KEYS.iter().filter_map(|key| Some((*key, entries.remove(*key)?))).collect();
+    let mut given: BTreeMap<&str, Node> = KEYS.iter().filter_map(|key| Some((*key, entries.remove(*key)?))).collect();
     let named = given.remove(URDF)?;
     let NodeKind::Text(name) = &named.kind else {
         told(&named, URDF, "expected the path of a URDF", report);
