@@ -125,7 +125,7 @@ fn a_time_limit_does_not_wait_for_an_answer() {
     begin(here, slow);
     json(here, &["generate", "q.toml", "--out", "fast"]);
     fs::write(here.join("slow"), "").unwrap();
-    let stopped = json(here, &["generate", "q.toml", "--out", "slow-one", "--time-limit", "0.5"]);
+    let stopped = json(here, &["generate", "q.toml", "--out", "slow-one", "--time-limit", "2"]);
     assert_eq!((&stopped["exit_code"], &stopped["counts"]["cases"]), (&0.into(), &0.into()), "{stopped}");
     fs::remove_file(here.join("slow")).unwrap();
     json(here, &["generate", "q.toml", "--out", "slow-one", "--resume"]);
