@@ -222,11 +222,10 @@ fn read(source: usize, (base, guest): Whose<'_>, sets: &[(String, String)], repo
             return None;
         }
     };
-    let own_coordinates = terrain::in_own_coordinates(&scenario);
+    let own_coordinates = terrain::in_own_coordinates(&mut scenario);
     let (attachments, mut wrong) = files::read(&mut scenario, &|file| base.join(file), guest);
-    terrain::turn(&mut scenario);
-    if own_coordinates && wrong.is_empty() {
-        wrong.extend(terrain::shift(&mut scenario).err());
+    if wrong.is_empty() {
+        wrong.extend(terrain::place(&mut scenario, own_coordinates).err());
     }
     for one in wrong {
         report.complain(&place_of(&root, &one.key), &one.key, &one.value, &one.bound, one.message());
@@ -266,11 +265,7 @@ fn apply_sets(root: &mut Node, sets: &[(String, String)], resolver: &mut Resolve
         let Some(set) = set::parse(key, value, resolver.report) else { continue };
         // A key inside the robot or the base world can only be set where it is: there, and no longer in its file.
         match set.path.segments() {
-            [first, key, ..] if first == "robot" => {
-                if !urdf::takes(root, key) {
-                    resolver.robot(root);
-                }
-            }
+            [first, key, ..] if first == "robot" && !urdf::takes(root, key) => resolver.robot(root),
             [first, second, ..] if first == "world" && second != "base" => resolver.world(root),
             _ => {}
         }

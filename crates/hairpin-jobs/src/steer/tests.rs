@@ -106,14 +106,14 @@ fn a_detour_gives_way_to_a_goal_within_the_tolerances() {
         let near = seed % 2 == 0;
         let size = if near { 0.6 } else { 6.0 };
         let to = [size * unit(0), size * (unit(1) - 0.5), 2.0 * (unit(2) - 0.5), 0.4 * (unit(3) - 0.5)];
-        let tolerance_m = Some(if near { 0.1 } else { 0.02 });
-        let asked = Question { to, tolerance_m, ..Question::default() }.asked();
+        let tolerance = if near { 0.1 } else { 0.02 };
+        let asked = Question { to, tolerance_m: Some(tolerance), ..Question::default() }.asked();
         let Some((exact, length)) = exactly(&lax, &asked) else { continue };
         let answered = lax.answer(&asked);
         let (solution, replay) = answered.drive.as_ref().unwrap();
         assert!(answered.status == Status::Ok && replay.length <= length, "seed {seed}: {to:?}");
         let [x, y, yaw] = replay.error;
-        assert!(x.hypot(y) <= tolerance_m.unwrap() && yaw.abs() <= 0.1, "seed {seed}: {to:?}: {replay:?}");
+        assert!(x.hypot(y) <= tolerance && yaw.abs() <= 0.1, "seed {seed}: {to:?}: {replay:?}");
         if length <= 1.5 * to[0].hypot(to[1]) {
             assert!(solution.segments == exact.segments || replay.length == 0.0, "seed {seed}: the exact one stays");
         }
