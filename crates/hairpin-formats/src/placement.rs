@@ -66,7 +66,7 @@ impl Placement {
     pub fn from_geodetic(&self, place: &Geodetic) -> Result<Point3<f64>, String> {
         match self {
             Self::Cage(cage) => Ok(cage.from_geodetic(place)),
-            Self::Plane(plane) => plane.from_geodetic(place),
+            Self::Plane(plane) => plane.point(place),
         }
     }
 
@@ -121,7 +121,7 @@ impl Plane {
         }
     }
 
-    fn from_geodetic(&self, place: &Geodetic) -> Result<Point3<f64>, String> {
+    fn point(&self, place: &Geodetic) -> Result<Point3<f64>, String> {
         let [east, north] = self.projected.offset;
         let mut at = (place.lon_deg.to_radians(), place.lat_deg.to_radians(), 0.0);
         let moved = transform(&self.wgs_84, &self.plane, &mut at);

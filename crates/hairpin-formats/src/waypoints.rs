@@ -1,5 +1,5 @@
-//! Waypoints as CSV, one file a case: `x_m,y_m,z_m`, start first. Written for others, and read from others, who may also
-//! say where on Earth they are: `lat_deg,lon_deg,alt_amsl_m`.
+//! Waypoints as CSV, one file a case: `x_m,y_m,z_m`, start first. Written for others, and read from others, who may
+//! also say where on Earth they are: `lat_deg,lon_deg,alt_amsl_m`.
 
 use std::fs;
 use std::io;
@@ -169,12 +169,12 @@ fn read_environment(path: &Path) -> Result<Option<Environment>, WaypointsError> 
     }
 }
 
-/// Reads the `.csv` files of a folder, sorted by name, and the environments beside them. A file in degrees is placed by
-/// `scenario`, and passed over where the same waypoints lie beside it in metres, as `export` writes both.
+/// Reads the `.csv` files of a folder, sorted by name, and the environments beside them. A file in degrees is placed
+/// by `scenario`, and passed over where the same waypoints lie beside it in metres, as `export` writes both.
 ///
 /// # Errors
-/// As [`read`]; a folder that cannot be read or has no such file; an environment that is none; a world that is nowhere on
-/// Earth.
+/// As [`read`]; a folder that cannot be read or has no such file; an environment that is none; a world that is nowhere
+/// on Earth.
 pub fn read_folder(folder: &Path, scenario: &Scenario) -> Result<Vec<Mission>, WaypointsError> {
     let refuse = |cause| WaypointsError::Unreadable { path: folder.into(), cause };
     let entries = fs::read_dir(folder).map_err(refuse)?;
@@ -229,7 +229,7 @@ pub fn read(path: &Path, scenario: &Scenario) -> Result<(Vec<Point3<f64>>, bool)
     let waypoints = parse(path, &text, geodetic::PLACE, |row, places| {
         let place = degrees_of(path, row, places)?;
         let point = world.from_geodetic(&place).map_err(|why| placed(format!("line {}: {why}", row.line)))?;
-        match (0..3).find(|axis| !(point[*axis].abs() <= FARTHEST_M)) {
+        match (0..3).find(|axis| !(-FARTHEST_M..=FARTHEST_M).contains(&point[*axis])) {
             Some(_) => {
                 let far = (point - Point3::origin()).norm() / 1000.0;
                 let most = FARTHEST_M / 1000.0;

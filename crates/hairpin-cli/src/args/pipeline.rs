@@ -157,7 +157,7 @@ pub(crate) struct Export {
 pub(crate) enum Format {
     /// missions/CASE.csv: x_m,y_m,z_m
     Waypoints,
-    /// missions/CASE.geodetic.csv: lat_deg,lon_deg,alt_amsl_m,relative_alt_m by the scenario's world.origin or its map's EPSG code
+    /// missions/CASE.geodetic.csv: lat_deg,lon_deg,alt_amsl_m,relative_alt_m by world.origin or the map's EPSG code
     Geodetic,
     /// CASE.planned.csv and CASE-RUN.csv: poses in time, quaternions w first
     Csv,

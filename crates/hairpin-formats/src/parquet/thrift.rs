@@ -20,8 +20,8 @@ impl<'b> Walker<'b> {
         self.at
     }
 
-    /// Walks through one structure and hands every whole number in it to `found`, by field; `None`: it is none, or claims
-    /// a list or a text longer than the bytes that are left.
+    /// Walks through one structure and hands every whole number in it to `found`, by field; `None`: it is none, or
+    /// claims a list or a text longer than the bytes that are left.
     pub(super) fn structure(&mut self, found: &mut dyn FnMut(i64, i64)) -> Option<()> {
         self.fields(0, found)
     }

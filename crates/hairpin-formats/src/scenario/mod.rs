@@ -186,11 +186,10 @@ fn read(source: usize, base: &Path, sets: &[(String, String)], report: &mut Repo
             return None;
         }
     };
-    let own_coordinates = terrain::in_own_coordinates(&scenario);
+    let own_coordinates = terrain::in_own_coordinates(&mut scenario);
     let (attachments, mut wrong) = files::read(&mut scenario, &|file| base.join(file));
-    terrain::turn(&mut scenario);
-    if own_coordinates && wrong.is_empty() {
-        wrong.extend(terrain::shift(&mut scenario).err());
+    if wrong.is_empty() {
+        wrong.extend(terrain::place(&mut scenario, own_coordinates).err());
     }
     for one in wrong {
         report.complain(&place_of(&root, &one.key), &one.key, &one.value, &one.bound, one.message());

@@ -71,16 +71,24 @@ fn unit_of(unit: &Unit) -> Option<MapUnit> {
 }
 
 /// Whether the poses of `scenario` are in its map's own coordinates, should these turn out to be far from their zero.
-pub(super) fn in_own_coordinates(scenario: &Scenario) -> bool {
-    scenario.own::<DriveScenario>().is_some_and(|drive| drive.world.terrain.offset_m.is_none())
+pub(super) fn in_own_coordinates(scenario: &mut Scenario) -> bool {
+    scenario.named().map.is_some_and(|terrain| terrain.offset_m.is_none())
 }
 
-/// Takes the offset that the map was given off the poses of a file in the map's own coordinates.
+/// Gives the poses of a file in another frame, or in the map's own coordinates, those of the map as it was read.
 ///
 /// # Errors
-/// What cannot be told to be in these coordinates: draws of places, and an origin on Earth.
-pub(super) fn shift(scenario: &mut Scenario) -> Result<(), Wrong> {
+/// What cannot be told to be in the map's own coordinates: draws of places, and an origin on Earth.
+pub(super) fn place(scenario: &mut Scenario, own_coordinates: bool) -> Result<(), Wrong> {
     let Some(drive) = scenario.own_mut::<DriveScenario>() else { return Ok(()) };
+    if drive.world.frame == Frame::Ned {
+        turn_poses(drive);
+    }
+    if own_coordinates { shift_poses(drive) } else { Ok(()) }
+}
+
+/// Takes the offset that the map was given off the poses.
+fn shift_poses(drive: &mut DriveScenario) -> Result<(), Wrong> {
     let Some([east, north]) = drive.world.terrain.offset_m else { return Ok(()) };
     let given = |key: String, what: &str| {
         let bound = format!(
@@ -109,13 +117,6 @@ pub(super) fn shift(scenario: &mut Scenario) -> Result<(), Wrong> {
         keep_out.polygon.iter_mut().flat_map(|polygon| &mut polygon.points_m).for_each(place);
     }
     Ok(())
-}
-
-/// Turns the poses of a file in another frame into the map's own.
-pub(super) fn turn(scenario: &mut Scenario) {
-    if let Some(drive) = scenario.own_mut::<DriveScenario>().filter(|drive| drive.world.frame == Frame::Ned) {
-        turn_poses(drive);
-    }
 }
 
 /// From x north, y east, yaw clockwise from north to x east, y north, yaw counter-clockwise from east.

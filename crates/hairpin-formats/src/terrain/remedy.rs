@@ -32,7 +32,7 @@ impl Remedy {
 /// The EPSG code of the UTM zone, or of the polar stereographic plane, at a place, in degrees.
 fn utm_zone(lon: f64, lat: f64) -> u32 {
     let north = lat >= 0.0;
-    if lat > 84.0 || lat < -80.0 {
+    if !(-80.0..=84.0).contains(&lat) {
         return if north { 32661 } else { 32761 };
     }
     let zone = (((lon + 180.0) / 6.0).floor() as u32 + 1).clamp(1, 60);

@@ -2,7 +2,7 @@
 
 use tiff::tags::Tag;
 
-use super::Tiff;
+use super::decoder::Tiff;
 use crate::terrain::reference::{Model, Reference};
 use crate::terrain::unit::Unit;
 

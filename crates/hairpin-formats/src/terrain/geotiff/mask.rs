@@ -1,12 +1,10 @@
 //! Masks within the file: a directory of its own (NewSubfileType 4) whose zeros are cells without data.
 
-use std::io::Cursor;
-
-use tiff::decoder::{Decoder, DecodingResult};
+use tiff::decoder::DecodingResult;
 use tiff::tags::{ByteOrder, Tag};
 use tiff::{TiffError, TiffFormatError, TiffResult};
 
-use super::{Tiff, limits};
+use super::decoder::{Tiff, limits, open};
 
 /// Bits of NewSubfileType: a smaller copy; a mask.
 const SMALLER: u32 = 1;
@@ -38,7 +36,7 @@ pub(super) fn apply(
         }
         let at = tiff.ifd_pointer().ok_or(TiffFormatError::ImageFileDirectoryNotFound)?.0;
         let order = tiff.byte_order();
-        let values = decode(bytes, at, order)?;
+        let values = decode(bytes, at, order, heights.len())?;
         let bits = values.len() < heights.len();
         let stride = columns.div_ceil(8);
         for (index, height) in heights.iter_mut().enumerate() {
@@ -60,10 +58,10 @@ pub(super) fn apply(
 /// The values of the mask whose directory is at `at`: a byte or a bit each, rows padded to bytes.
 ///
 /// The library reads no transparency masks. What one holds is a grey picture, so that is what a copy says it is.
-fn decode(bytes: &[u8], at: u64, order: ByteOrder) -> TiffResult<Vec<u8>> {
+fn decode(bytes: &[u8], at: u64, order: ByteOrder, cells: usize) -> TiffResult<Vec<u8>> {
     let mut copy = bytes.to_vec();
     call_grey(&mut copy, at, order).ok_or(TiffFormatError::ImageFileDirectoryNotFound)?;
-    let mut mask = Decoder::new(Cursor::new(copy.as_slice()))?.with_limits(limits());
+    let mut mask = open(&copy)?.with_limits(limits(cells));
     while mask.ifd_pointer().is_none_or(|here| here.0 != at) {
         mask.next_image()?;
     }

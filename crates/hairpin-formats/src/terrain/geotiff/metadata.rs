@@ -3,7 +3,7 @@
 use roxmltree::Document;
 use tiff::tags::Tag;
 
-use super::Tiff;
+use super::decoder::Tiff;
 use crate::terrain::error::TerrainError;
 use crate::terrain::unit::Unit;
 

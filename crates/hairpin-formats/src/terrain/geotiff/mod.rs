@@ -3,31 +3,30 @@
 //! Sources: OGC GeoTIFF 1.1 (19-008r4); GDAL's tags GDAL_METADATA (scale, offset, unit of a band), GDAL_NODATA and its
 //! masks within the file.
 
+mod decoder;
 mod keys;
 mod mask;
 mod metadata;
 mod place;
 
-use std::io::Cursor;
-
-use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::decoder::DecodingResult;
 use tiff::tags::Tag;
 
-use super::error::{MOST_CELLS, TerrainError};
+use super::error::TerrainError;
 use super::raster::{Layout, Raster, bounded, held};
 use super::remedy::Remedy;
+use decoder::{Tiff, limits, open};
 use metadata::Band;
-
-type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
 
 pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
     let broken = |error: tiff::TiffError| {
         let why = format!("no readable GeoTIFF ({error}); if GDAL reads it");
         TerrainError::Convert { why, command: Remedy::rewrite(file, "-co COMPRESS=DEFLATE ") }
     };
-    let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(broken)?.with_limits(limits());
+    let mut tiff = open(bytes).map_err(broken)?;
     let (columns, rows) = tiff.dimensions().map_err(broken)?;
     let (columns, rows) = bounded(columns.into(), rows.into())?;
+    let mut tiff = tiff.with_limits(limits(columns * rows));
     let convert = |why: String, options: &str| TerrainError::Convert { why, command: Remedy::rewrite(file, options) };
     let number = |tiff: &mut Tiff<'_>, tag| tiff.find_tag_unsigned::<u16>(tag).map_err(broken);
     let samples = number(&mut tiff, Tag::SamplesPerPixel)?.unwrap_or(1);
@@ -56,14 +55,6 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
     let Band { scale, offset, no_data, .. } = band;
     let layout = Layout { scale, offset, no_data, masked, south_up: placed.south_up, at_centers: keys.at_centers };
     Ok(Raster { grid: placed.grid, heights, reference, layout })
-}
-
-fn limits() -> Limits {
-    let mut limits = Limits::default();
-    // Eight bytes a cell at most; the image's own strips cannot be larger.
-    limits.decoding_buffer_size = 8 * MOST_CELLS as usize;
-    limits.intermediate_buffer_size = limits.decoding_buffer_size;
-    limits
 }
 
 /// What a compression is called that is not read here.
