@@ -202,3 +202,30 @@ fn mistakes_in_modules_name_their_file_and_program_files_stay_in_their_folder() 
     fs::write(folder.join("cell.pgf"), "hello").unwrap();
     refused(&folder, &["import", "cell.pgf"], &["cell.pgf: is no XML"]);
 }
+
+/// What `export` writes in any language, `import` follows move by move.
+#[test]
+fn what_is_exported_is_read_back() {
+    let place = tempfile::tempdir().unwrap();
+    let text = "hairpin = 1\nrobot = \"irb120\"\nseed = 3\n[world]\ntool = { tcp_mm = [0, 0, 100], radius_mm = 20 }\n\
+        [task]\npoints = [[300, 100, 400], [350, -100, 300], [400, 50, 350], [250, 200, 450]]\n\
+        [generate]\nmoves = { speeds = [\"v500\"], zones = [\"fine\", \"z10\"] }\nsearch = { programs = 1 }\n\
+        [spec]\npath = { max_mm = 20 }\n";
+    fs::write(place.path().join("arm.toml"), text).unwrap();
+    let (code, out, error) = run(place.path(), &["generate", "arm.toml", "--out", "A"]);
+    assert_eq!(code, 0, "{out}{error}");
+    let mut counts = Vec::new();
+    for (language, file) in
+        [("rapid", "A/0000.mod"), ("rapid", "A/0000.pgf"), ("krl", "A/0000.src"), ("urscript", "A/0000.script")]
+    {
+        let (code, out, error) = run(place.path(), &["export", "A", "--to", language]);
+        assert_eq!(code, 0, "{out}{error}");
+        let (code, out, error) = run(place.path(), &["import", file, "--check"]);
+        assert!(code == 0 && out.contains("PASS: 0 findings in "), "{file}: {out}{error}");
+        counts.push(json(place.path(), &["import", file])["certain_moves"].as_i64().unwrap());
+    }
+    assert!(counts[0] > 4 && counts.iter().all(|count| *count == counts[0]), "{counts:?}");
+    fs::remove_file(place.path().join("A/0000.dat")).unwrap();
+    let (code, out, _) = run(place.path(), &["import", "A/0000.src", "--check"]);
+    assert!(code == 5 && out.contains("NOT UNDERSTOOD `X") && out.contains("is not declared in this program"), "{out}");
+}

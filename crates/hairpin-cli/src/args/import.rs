@@ -6,8 +6,8 @@ use clap::Args;
 
 #[derive(Debug, Args)]
 pub(crate) struct Import {
-    /// RAPID modules that are one program (.mod, .sys; docs/rapid.md says which RAPID is understood) or the program file
-    /// (.pgf) that names them, KRL (.src), URScript (.script), or the log that arc_clock.mod wrote
+    /// RAPID modules that are one program (.mod, .sys; docs/rapid.md says which RAPID is understood) or the program
+    /// file (.pgf) that names them, KRL (.src), URScript (.script), or the log that arc_clock.mod wrote
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Follow every move in the joints of an arm: reach, limits, singularities, configurations, collisions, by line

@@ -39,7 +39,8 @@ impl Frames {
         Self { tools, work_objects }
     }
 
-    /// The same for modules from elsewhere, to which `tool0` is the flange and `wobj0` the base whatever a scenario has.
+    /// The same for modules from elsewhere, to which `tool0` is the flange and `wobj0` the base whatever a scenario
+    /// has.
     pub fn of_cell(scenario: &Scenario) -> Self {
         let mut frames = Self::of(scenario);
         frames.tools.retain(|tool| !tool.name.eq_ignore_ascii_case("tool0"));

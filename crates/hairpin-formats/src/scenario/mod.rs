@@ -41,9 +41,8 @@ use crate::folder::SCENARIO;
 use crate::{library, schema};
 use guest::Guest;
 use resolve::Resolver;
-use robot::as_path;
 use tree::{Node, NodeKind};
-use whole::is_urdf;
+use whole::{as_path, is_urdf};
 
 /// Reads a scenario, resolves it, and builds what it describes.
 ///

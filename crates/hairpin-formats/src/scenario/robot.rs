@@ -1,6 +1,5 @@
 //! Robots of one kind by name or path, outside scenarios.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -11,6 +10,7 @@ use serde::de::DeserializeOwned;
 use super::report::{Place, Report};
 use super::resolve::Resolver;
 use super::tree::{Node, NodeKind};
+use super::whole::as_path;
 use super::{apply_sets, place_of, shape};
 use crate::library::{self, Shipped};
 
@@ -101,9 +101,4 @@ fn alternatives(kinds: &[&str]) -> String {
         [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
         _ => kinds.concat(),
     }
-}
-
-/// The name of a file, told apart from a shipped robot's of the same name.
-pub(super) fn as_path(file: &str) -> Cow<'_, str> {
-    if library::robots().any(|robot| robot.name == file) { format!("./{file}").into() } else { file.into() }
 }

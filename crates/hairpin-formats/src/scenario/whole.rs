@@ -1,8 +1,10 @@
-//! A file that is read at once, of bounded size.
+//! Files that scenarios and commands name: what they are by their names, and all of what is in one.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use crate::bounds::{self, MOST_BYTES};
+use crate::library;
 
 /// Whether a file's name is one of URDF.
 pub(super) fn is_urdf(name: &str) -> bool {
@@ -12,4 +14,9 @@ pub(super) fn is_urdf(name: &str) -> bool {
 
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     bounds::read(path, MOST_BYTES).map_err(|error| error.to_string())
+}
+
+/// The name of a file, told apart from a shipped robot's of the same name.
+pub(super) fn as_path(file: &str) -> Cow<'_, str> {
+    if library::robots().any(|robot| robot.name == file) { format!("./{file}").into() } else { file.into() }
 }

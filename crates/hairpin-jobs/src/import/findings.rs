@@ -3,7 +3,7 @@
 use hairpin::feasibility::program::Finding;
 use hairpin_formats::listing::Module;
 
-use super::Follow;
+use super::follow::Follow;
 
 /// What is said of one move.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,29 +2,26 @@
 
 mod files;
 mod findings;
+mod follow;
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::Setup;
-use hairpin::campaign::arm::ArmSetup;
-use hairpin::feasibility::program::{Checked, Surroundings, check};
-use hairpin::feasibility::reachability::joint::FollowSettings;
-use hairpin::robot::arm::Arm;
 use hairpin_formats::listing::Module;
 use hairpin_formats::rapid::Frames;
-use hairpin_formats::scenario::{arm_with, setup_for};
+use hairpin_formats::scenario::setup_for;
 use hairpin_formats::{atomic, rapid};
 
 use crate::Problem;
 use crate::sets::Set;
 
 pub use findings::MoveFinding;
+pub use follow::{Follow, Follower};
 
 /// What is read, and what it is held against.
 #[derive(Debug, Clone, Default)]
 pub struct ImportSettings {
-    /// RAPID modules that are one program, a program file that names them, a program in KRL or URScript, or the log that
-    /// arc_clock.mod wrote.
+    /// RAPID modules that are one program, a program file that names them, a program in KRL or URScript, or the log
+    /// that arc_clock.mod wrote.
     pub files: Vec<PathBuf>,
     /// Who is to do what the program says; nobody if not given.
     pub check: Option<Follower>,
@@ -34,15 +31,6 @@ pub struct ImportSettings {
     pub sets: Vec<Set>,
     /// Of a log: where the table of costs goes; arc_ms.csv beside the log if not given.
     pub out: Option<PathBuf>,
-}
-
-/// An arm that follows a program.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Follower {
-    /// Alone: a shipped name, an arm's file or a URDF.
-    Robot(String),
-    /// In its cell: a scenario of an arm, by file or name.
-    Cell(String),
 }
 
 /// What a file turned out to be.
@@ -89,8 +77,8 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
     };
     let frames = cell.as_ref().map_or_else(Frames::default, |setup| Frames::of_cell(&setup.scenario));
     let module = files::read(&settings.files, settings.procedure.as_deref(), &frames)?;
-    let followed =
-        settings.check.as_ref().map(|follower| follow(follower, cell.as_ref(), &settings.sets, &module)).transpose()?;
+    let follow = |follower| follow::follow(follower, cell.as_ref(), &settings.sets, &module);
+    let followed = settings.check.as_ref().map(follow).transpose()?;
     let findings = findings::findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))
 }
@@ -102,44 +90,6 @@ fn clocked(settings: &ImportSettings, file: &Path, bytes: &[u8]) -> Result<Impor
     atomic::write(&out, times.csv().as_bytes())?;
     let readings = times.arcs.values().map(|(_, count)| count).sum::<usize>();
     Ok(Imported::Clocked { out, points: times.points, moves: times.arcs.len(), readings })
-}
-
-/// What an arm makes of the program.
-pub struct Follow {
-    /// The arm.
-    pub arm: Arm,
-    /// Names of the cell's parts, where one was given.
-    pub parts: Option<Vec<String>>,
-    /// What it made of the moves that are certain.
-    pub checked: Checked,
-    /// Whether bodies of it are estimated: what is clear of them is as well.
-    pub estimated: bool,
-}
-
-/// Follows the moves that are certain, in the cell if one is given.
-fn follow(follower: &Follower, setup: Option<&Setup>, sets: &[Set], module: &Module) -> Result<Follow, Problem> {
-    let settings = FollowSettings { locate: true, ..FollowSettings::default() };
-    let cell = match follower {
-        Follower::Robot(robot) => {
-            let arm = arm_with(robot, sets)?;
-            let checked = check(&arm, &module.program, module.certain, &Surroundings::default(), &settings);
-            let estimated = arm.has_stand_ins();
-            return Ok(Follow { arm, parts: None, checked, estimated });
-        }
-        Follower::Cell(cell) => cell,
-    };
-    let Some(arm) = setup.and_then(|setup| setup.own::<ArmSetup>()) else {
-        return Err(Problem::input(format!("--cell {cell}: is no arm's")));
-    };
-    let around = Surroundings {
-        cell: Some(&arm.station.cell),
-        tool_radius: arm.station.tool.radius,
-        clearance: arm.scenario.generate.moves.clearance_mm * 1e-3,
-    };
-    let checked = check(&arm.station.arm, &module.program, module.certain, &around, &settings);
-    let (parts, arm) = (Some(arm.part_names()), arm.station.arm.clone());
-    let estimated = arm.has_stand_ins();
-    Ok(Follow { arm, parts, checked, estimated })
 }
 
 #[cfg(test)]

@@ -204,7 +204,8 @@ fn obstacles_are_met_where_they_stand() {
     assert!(matches!(found[..], [super::Finding { refusal: Refusal::Collides { part: 0, .. }, .. }]), "{found:?}");
 }
 
-/// What one move does wrong is told once: the next goes on from the program's own state, which demands no configuration.
+/// What one move does wrong is told once: the next goes on from the program's own state, which demands no
+/// configuration.
 #[test]
 fn a_finding_leaves_the_state_of_the_program() {
     let arm = arm();

@@ -2,6 +2,7 @@
 
 use super::MovesError;
 use super::align::Way;
+use super::gap::Unseen;
 use crate::trajectory::{PlannedPath, Track};
 
 /// Which times are judged.
@@ -91,7 +92,7 @@ pub struct Measured {
     /// Distance from the path at every sample, m.
     pub deviations: Vec<f64>,
     /// Of recordings from elsewhere: what they do not show.
-    pub unseen: Option<super::unseen::Unseen>,
+    pub unseen: Option<Unseen>,
 }
 
 /// Measures `recording` against the planned path, move by move.

@@ -17,6 +17,7 @@
 
 mod align;
 mod compare;
+mod gap;
 mod measure;
 mod regression;
 mod spec;
@@ -30,11 +31,12 @@ mod tests;
 use thiserror::Error;
 
 pub use compare::{Band, Comparison, Metric, MoveComparison, Outcome, Release, compare};
+pub use gap::{Gap, Unseen};
 pub use measure::{Clock, MeasureSettings, Measured, MoveMeasures, Offset, measure_moves};
 pub use regression::{ProgramComparison, Regression};
 pub use spec::{MoveLimits, move_violations, worst_of};
 pub use trend::{Trend, trend};
-pub use unseen::{Between, Gap, Hidden, Unseen, unseen};
+pub use unseen::{Between, Hidden, unseen};
 pub use verdict::{JudgedMoves, moves_verdict, offset_told};
 
 /// Why recordings cannot be judged.

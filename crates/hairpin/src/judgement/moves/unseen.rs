@@ -1,14 +1,16 @@
 //! What a recording does not show: gaps between its samples and what is missing at its ends, told against the plan.
 //!
-//! A motion with |ẍ| ≤ a that is known a time h apart stays within a·h²/8 of its chord: so far off the path it may have
-//! been, though no sample says so. Where what was measured is within its limit and what may be hidden is not, nothing is
-//! known. Where a is only an estimate it clears and never condemns: a gap does that is over five times the median
-//! interval and takes the end of a move with it, or a tenth of one, and so do whole moves of which there is no sample.
+//! A motion with |ẍ| ≤ a that is known a time h apart stays within a·h²/8 of its chord: so far off the path it may
+//! have been, though no sample says so. Where what was measured is within its limit and what may be hidden is not,
+//! nothing is known. Where a is only an estimate it clears and never condemns: a gap does that is over five times the
+//! median interval and takes the end of a move with it, or a tenth of one, and so do whole moves of which there is no
+//! sample.
 
 use nalgebra::Point3;
 
 use super::MovesError;
 use super::align::Way;
+use super::gap::{Gap, Unseen};
 use super::measure::{MeasureSettings, median, targets};
 use crate::trajectory::{PlannedPath, Track};
 
@@ -37,39 +39,6 @@ pub struct Hidden<'a> {
     pub between: &'a dyn Between,
     /// Whether that rests on estimates.
     pub estimated: bool,
-}
-
-/// The longest time between two samples, and what of the plan it takes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Gap {
-    /// Its first stamp, s.
-    pub from: f64,
-    /// How long it is, s.
-    pub seconds: f64,
-    /// Of how many times the median interval.
-    pub ratio: f64,
-    /// The first and the last move that it hides some of, from 0.
-    pub moves: [usize; 2],
-    /// Both by name.
-    pub names: [String; 2],
-    /// Share of the plan's time that it hides.
-    pub share: f64,
-}
-
-/// What one recording does not show.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Unseen {
-    /// The longest gap.
-    pub longest: Gap,
-    /// Moves with a sample on them, of all.
-    pub seen: [usize; 2],
-    /// Why the recording decides nothing where it violates nothing; `None` where it does decide.
-    pub open: Option<String>,
-    /// Whether a violation of the time of arrival is not proven, since the arrival lies in a gap.
-    pub late_unproven: bool,
-    /// Largest distance from the path that an estimate does not exclude between samples, where it is over the limit and
-    /// decides nothing, m.
-    pub estimate: Option<f64>,
 }
 
 /// A gap is longer than so many median intervals.
@@ -314,22 +283,5 @@ impl Look<'_> {
             }
         }
         (unproven, proven)
-    }
-}
-
-impl std::fmt::Display for Gap {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let [first, last] = self.moves;
-        write!(
-            f,
-            "a gap of {:.3} s from t = {:.3} s ({:.0} times the usual interval) hides ",
-            self.seconds, self.from, self.ratio
-        )?;
-        if first == last {
-            write!(f, "some of move {} ({})", first + 1, self.names[0])?;
-        } else {
-            write!(f, "moves {} ({}) to {} ({})", first + 1, self.names[0], last + 1, self.names[1])?;
-        }
-        write!(f, ", {:.0} % of the plan", 100.0 * self.share)
     }
 }
