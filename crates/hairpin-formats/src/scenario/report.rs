@@ -40,6 +40,9 @@ pub struct Complaint {
     place: Place,
 }
 
+/// Bytes of a line that is shown.
+const LONGEST_LINE: usize = 2000;
+
 /// All that is wrong with a scenario. Exit code 2.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Report {
@@ -66,6 +69,15 @@ impl Report {
                 continue;
             }
             let span = char_boundaries(text, &complaint.place.span);
+            // A file that is one long line is told by its place alone.
+            let ends = |part: &str, last: bool| if last { part.rfind('\n') } else { part.find('\n') };
+            let before = ends(&text[..span.start], true).map_or(span.start, |at| span.start - at);
+            let after = ends(&text[span.start..], false).unwrap_or(text.len() - span.start);
+            if before + after > LONGEST_LINE {
+                let place = format!("{name}:{}:{}", complaint.line, complaint.column);
+                out.extend(format!("Error: {}\n   at {place}\n", complaint.message).into_bytes());
+                continue;
+            }
             let config =
                 Config::default().with_color(colour).with_index_type(IndexType::Byte).with_char_set(CharSet::Unicode);
             let label = Label::new((name.clone(), span.clone())).with_message(&complaint.bound);

@@ -103,7 +103,7 @@ impl<'f> Reader<'f> {
                 let out = radius / libm::cos(std::f64::consts::PI / SIDES as f64);
                 let rim = |i: usize| {
                     let (sin, cos) = libm::sincos(std::f64::consts::TAU * (i / 2) as f64 / SIDES as f64);
-                    Point3::new(out * cos, out * sin, if i % 2 == 0 { half } else { -half })
+                    Point3::new(out * cos, out * sin, if i.is_multiple_of(2) { half } else { -half })
                 };
                 one((0..2 * SIDES).map(rim).collect(), 0.0, out - radius)
             }

@@ -113,7 +113,7 @@ mod tests {
         // Of 400 points of a cylinder 64 leave no more than the arcs between 16 of each rim.
         let rim = |i: usize| {
             let (sin, cos) = libm::sincos(std::f64::consts::TAU * (i / 2) as f64 / 200.0);
-            Point3::new(0.05 * cos, 0.05 * sin, if i % 2 == 0 { 0.0 } else { 0.27 })
+            Point3::new(0.05 * cos, 0.05 * sin, if i.is_multiple_of(2) { 0.0 } else { 0.27 })
         };
         let found = enclose(&(0..400).map(rim).collect::<Vec<_>>()).unwrap();
         assert!(found.radius < 1.2e-3, "{}", found.radius);

@@ -273,7 +273,7 @@ impl ArmDescription {
             estimated.push("capsules".into());
         }
         for (key, named) in [("stand_ins", &self.stand_ins), ("no_body", &self.no_body)] {
-            for (i, link) in named.iter().enumerate().filter(|(_, link)| **link > AXES) {
+            if let Some((i, link)) = named.iter().enumerate().find(|(_, link)| **link > AXES) {
                 return Err(wrong(&format!("{key}[{i}]"), link, "0 to 6"));
             }
         }
@@ -284,7 +284,8 @@ impl ArmDescription {
                 link.capsules.extend(stand_in);
                 link.outline = Outline::StandIn;
                 // Why, is told by whoever has looked for a shape.
-                if !self.stand_ins.contains(&number) && !(all_bare && self.no_body.is_empty()) {
+                let told = self.stand_ins.contains(&number) || (all_bare && self.no_body.is_empty());
+                if !told {
                     estimated.push(format!("capsules of {}", body::named(number)));
                 }
             }
