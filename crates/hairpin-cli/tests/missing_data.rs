@@ -122,10 +122,10 @@ fn the_robots_own_accelerations_bound_what_samples_hide() {
     exported.log(place, "good", false, |_| true);
     exported.log(place, "tenth", false, |i| i % 10 == 0 || i == last);
     let (code, text) = judged(place, "A", "good", &[]);
-    assert!(code == 0 && !text.contains("estimated"), "{text}");
+    assert!(code == 0 && !text.contains("joints, estimated"), "{text}");
     // Some 15 m/s² for a tenth of a second: 19 mm, more than 15 and less than 60.
     let (code, text) = judged(place, "A", "tenth", &[]);
-    assert!(code == 5 && text.contains("a_max h²/8") && !text.contains("estimated"), "{text}");
+    assert!(code == 5 && text.contains("a_max h²/8") && !text.contains("joints, estimated"), "{text}");
     let (code, text) = judged(place, "A", "tenth", &["--set", "spec.path.max_mm=60"]);
     assert!(code == 0, "{text}");
 }

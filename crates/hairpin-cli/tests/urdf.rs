@@ -160,6 +160,24 @@ fn mistakes_are_told_in_the_urdf_s_own_text() {
     }
 }
 
+/// What has fifty thousand of something is answered soon, and not echoed.
+#[test]
+fn large_files_are_no_flood() {
+    let folder = cases();
+    let good = fs::read_to_string(folder.path().join("six_mesh.urdf")).unwrap();
+    let many: String = (0..50_000)
+        .map(|k| {
+            let mesh = format!("<collision><geometry><mesh filename='package://a/{k}.stl'/></geometry></collision>");
+            format!("<joint name='f{k}' type='fixed'><parent link='l2'/><child link='x{k}'/></joint><link name='x{k}'>{mesh}</link>")
+        })
+        .collect();
+    fs::write(folder.path().join("six_mesh.urdf"), good.replace("</robot>", &(many + "</robot>"))).unwrap();
+    let begun = std::time::Instant::now();
+    let (code, _, error) = run(folder.path(), &["import", "fk.mod", "--check", "--robot", "six_mesh.urdf"]);
+    assert!(code == 2 && error.len() < 3000 && error.contains("more than 2000 bodies"), "{code} {}", error.len());
+    assert!(begun.elapsed().as_secs() < 15, "{:?}", begun.elapsed());
+}
+
 /// In this posture stand-ins meet each other and a tool without a radius: nobody knows whether the arm does.
 #[test]
 fn what_stand_ins_alone_do_is_not_found_out() {

@@ -158,10 +158,14 @@ mod tests {
     #[test]
     fn segments_and_cubes_are_as_far_apart_as_closed_forms_say() {
         let mut random = stream(3);
-        for i in 0..20_000 {
+        for i in 0..20_000u32 {
             let p: Vec<Point3<f64>> = (0..4)
                 .map(|_| {
-                    Point3::new(unit(&mut random), unit(&mut random), if i % 3 == 0 { 0.0 } else { unit(&mut random) })
+                    Point3::new(
+                        unit(&mut random),
+                        unit(&mut random),
+                        if i.is_multiple_of(3) { 0.0 } else { unit(&mut random) },
+                    )
                 })
                 .collect();
             let found = gap(all(&p[..2]), all(&p[2..]), [0.0, f64::INFINITY]);

@@ -284,7 +284,8 @@ impl ArmDescription {
                 link.capsules.extend(stand_in);
                 link.outline = Outline::StandIn;
                 // Why, is told by whoever has looked for a shape.
-                if !(self.stand_ins.contains(&number) || all_bare && self.no_body.is_empty()) {
+                let told = self.stand_ins.contains(&number) || (all_bare && self.no_body.is_empty());
+                if !told {
                     estimated.push(format!("capsules of {}", body::named(number)));
                 }
             }
