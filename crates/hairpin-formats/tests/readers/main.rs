@@ -3,12 +3,14 @@
 //!
 //! A row more: a line in the page's table and a [`Sample`] of the same name in the list of its format's file.
 
+mod maps;
 mod programs;
 mod tables;
 
 use std::collections::BTreeMap;
 
 /// One row.
+#[derive(Clone)]
 pub(crate) struct Sample {
     /// Its first cell.
     pub(crate) row: &'static str,
@@ -56,7 +58,7 @@ fn word(sample: &Sample) -> String {
 
 #[test]
 fn every_row_does_what_its_word_says() {
-    let samples: Vec<Sample> = programs::samples().into_iter().chain(tables::samples()).collect();
+    let samples: Vec<Sample> = [programs::samples(), tables::samples(), maps::samples()].concat();
     let found: BTreeMap<String, String> = samples.iter().map(|sample| (sample.row.to_owned(), word(sample))).collect();
     assert_eq!(found.len(), samples.len(), "two samples of one row");
     let rows = rows();

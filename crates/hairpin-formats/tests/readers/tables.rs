@@ -44,6 +44,18 @@ fn of_urdf(text: &str) -> Answer {
     }
 }
 
+fn of_srdf(text: &str) -> Answer {
+    said(urdf::read_srdf(text))
+}
+
+fn of_dae(text: &str) -> Answer {
+    said(mesh::read_mesh(text.as_bytes(), "part.dae"))
+}
+
+fn of_stl(text: &str) -> Answer {
+    said(mesh::read_mesh(text.as_bytes(), "part.stl"))
+}
+
 fn of_cloud(text: &str) -> Answer {
     said(cloud::parse(text))
 }
@@ -105,6 +117,13 @@ fn six(joint: &str, link: &str, more: &str) -> String {
     text + more + "</robot>\n"
 }
 
+/// A link on the last one, by a joint of a kind with `more` inside.
+fn gripper(kind: &str, more: &str) -> String {
+    format!(
+        "<link name=\"finger\"/><joint name=\"to_finger\" type=\"{kind}\"><parent link=\"l6\"/><child link=\"finger\"/>{more}</joint>\n"
+    )
+}
+
 fn urdf_row(row: &'static str, [joint, link, more]: [&str; 3]) -> Sample {
     Sample { row, read: of_urdf, without: six("", "", ""), with: six(joint, link, more) }
 }
@@ -119,6 +138,13 @@ const TARGET: &str =
 const LOG: &str = "t_s,x_mm,y_mm,z_mm\n0,300,0,300\n0.1,310,0,300\n0.2,320,0,300\n";
 const WAYPOINTS: &str = "x_m,y_m,z_m\n0,0,1\n1,0,1\n";
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const STL: &str = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n";
+const DAE: &str = "<COLLADA version=\"1.4.1\"><asset><unit meter=\"1\"/><up_axis>Z_UP</up_axis></asset><library_geometries>\
+    <geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" count=\"9\">0 0 0 1 0 0 0 1 0.5</float_array><technique_common>\
+    <accessor source=\"#a\" count=\"3\" stride=\"3\"/></technique_common></source><vertices id=\"v\">\
+    <input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>\
+    <p>0 1 2</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id=\"s\"><node>\
+    <instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
 const POSE: &str = "{\"type\":\"pose\",\"t_s\":0.1,\"p_m\":[0,0,1]}";
 
 pub(crate) fn samples() -> Vec<Sample> {
@@ -129,6 +155,53 @@ pub(crate) fn samples() -> Vec<Sample> {
         urdf_row("urdf.visual", ["", "<visual><geometry><sphere radius=\"0.05\"/></geometry></visual>", ""]),
         urdf_row("urdf.dynamics", ["<dynamics damping=\"0.1\" friction=\"0.2\"/>", "", ""]),
         urdf_row("urdf.transmission", ["", "", "<transmission name=\"t\"/>\n"]),
+        urdf_row(
+            "urdf.missing-mesh",
+            ["", "<collision><geometry><mesh filename=\"a.stl\"/></geometry></collision>", ""],
+        ),
+        urdf_row("urdf.mimic", ["<mimic joint=\"j1\"/>", "", ""]),
+        urdf_row(
+            "urdf.gripper",
+            ["", "", &gripper("prismatic", "<limit lower=\"0\" upper=\"0.04\" velocity=\"1\" effort=\"9\"/>")],
+        ),
+        urdf_row("urdf.two-tips", ["", "", &(gripper("fixed", "") + &gripper("fixed", "").replace("finger", "thumb"))]),
+        Sample {
+            row: "urdf.tool0",
+            read: of_urdf,
+            without: six("", "", ""),
+            with: six("", "", &gripper("fixed", "<origin xyz=\"0 0 0.1\"/>").replace("finger", "tool0")),
+        },
+        Sample {
+            row: "urdf.no-limits",
+            read: of_urdf,
+            without: six("", "", ""),
+            with: six("", "", "").replacen("lower=\"-2\" upper=\"2\"", "lower=\"0\" upper=\"0\"", 1),
+        },
+        Sample {
+            row: "urdf.continuous",
+            read: of_urdf,
+            without: six("", "", ""),
+            with: six("", "", "").replacen("type=\"revolute\"", "type=\"continuous\"", 1),
+        },
+        Sample {
+            row: "urdf.sliding",
+            read: of_urdf,
+            without: six("", "", ""),
+            with: six("", "", "").replacen("type=\"revolute\"", "type=\"prismatic\"", 1),
+        },
+        row(
+            "srdf.pairs",
+            of_srdf,
+            "<robot name=\"six\"/>",
+            "<robot name=\"six\"><disable_collisions link1=\"a\" link2=\"b\"/></robot>",
+        ),
+        row("srdf.groups", of_srdf, "<robot name=\"six\"/>", "<robot name=\"six\"><group name=\"arm\"/></robot>"),
+        row(
+            "srdf.half-a-pair",
+            of_srdf,
+            "<robot name=\"six\"/>",
+            "<robot name=\"six\"><disable_collisions link1=\"a\"/></robot>",
+        ),
         Sample {
             row: "urdf.no-robot",
             read: of_urdf,
@@ -167,6 +240,17 @@ pub(crate) fn samples() -> Vec<Sample> {
         row("clock.no-point", of_clock, "arc_ms;2\n0;1;20\n", "arc_ms;2\n0;5;20\n"),
         row("obj.faces", of_obj, OBJ, &format!("{OBJ}v 1 1 0\nf 2 4 3\n")),
         row("obj.materials", of_obj, OBJ, &format!("mtllib a.mtl\nusemtl a\nvn 0 0 1\n{OBJ}")),
+        row("stl.facets", of_stl, STL, &STL.replace("0 1 0\n", "0 2 0\n")),
+        row("stl.broken", of_stl, STL, &STL.replace("0 1 0\n", "0 up 0\n")),
+        row("dae.unit", of_dae, DAE, &DAE.replace("meter=\"1\"", "meter=\"0.001\"")),
+        row("dae.up-axis", of_dae, DAE, &DAE.replace("Z_UP", "Y_UP")),
+        row(
+            "dae.materials",
+            of_dae,
+            DAE,
+            &DAE.replace("<library_geometries>", "<library_materials/><library_geometries>"),
+        ),
+        row("dae.broken", of_dae, DAE, &DAE.replace("<p>0 1 2</p>", "<p>0 1 9</p>")),
         row("obj.broken", of_obj, OBJ, &format!("{OBJ}f 1 2 9\n")),
         row(
             "executor.attitude",
