@@ -266,12 +266,12 @@ impl Setup {
 
     /// What of its shape a claim rests on that is not known, in a few words.
     pub fn unknown_shapes(&self) -> Option<&'static str> {
-        self.kind().unknown_shapes()
+        self.robot_words().unknown_shapes
     }
 
     /// Seconds that explaining takes at most where nobody says.
     pub fn patience(&self) -> Option<f64> {
-        self.kind().patience()
+        self.programs().map(|programs| programs.patience())
     }
 
     fn robot_words(&self) -> RobotWords<'_> {

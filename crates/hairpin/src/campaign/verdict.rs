@@ -50,7 +50,7 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         confidence,
         claims: &claims,
         reruns: reruns.as_deref(),
-        estimated: setup.kind().unknown_shapes(),
+        estimated: setup.unknown_shapes(),
         proof: proof.as_deref(),
     })
 }
@@ -150,7 +150,7 @@ pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str
         Some(reason) => format!("{chain}: {reason}"),
         None => chain,
     };
-    if let Some(open) = setup.kind().not_found_out() {
+    if let Some(open) = setup.kind().programs().and_then(|programs| programs.not_found_out()) {
         return judgement::inconclusive("0", &[&rests_on, setup.scenario.reach()], &format!("{what}; {open}"));
     }
     judgement::nothing_feasible(&[&rests_on, setup.scenario.reach()], &what, change)

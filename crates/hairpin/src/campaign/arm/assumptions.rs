@@ -5,7 +5,7 @@ use nalgebra::Isometry3;
 use super::ArmSetup;
 use crate::campaign::scenario::{ArmMode, PathFrom};
 use crate::campaign::{Case, Tally};
-use crate::robot::arm::Outline;
+use crate::robot::arm::{Outline, body_name};
 use crate::search::heaviest::MOST_EXACT_POINTS;
 
 /// What stands behind the moves.
@@ -59,11 +59,8 @@ pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
 /// Which links are none of these.
 fn stand_ins(setup: &ArmSetup) -> String {
     let links = setup.station.arm.links.iter().enumerate();
-    let unknown = links.filter(|(_, link)| link.outline == Outline::StandIn).map(|(link, _)| match link {
-        0 => "the base".to_owned(),
-        link => format!("link {link}"),
-    });
-    let unknown: Vec<String> = unknown.collect();
+    let unknown = links.filter(|(_, link)| link.outline == Outline::StandIn);
+    let unknown: Vec<String> = unknown.map(|(link, _)| body_name(link)).collect();
     match unknown.len() {
         0 => String::new(),
         _ => format!(", but {} estimated: stand-ins along the dimensions", unknown.join(", ")),

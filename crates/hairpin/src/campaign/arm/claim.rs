@@ -1,7 +1,7 @@
 //! What of programs is claimed, and by whom.
 
 use super::solve::ArmSolver;
-use super::{ArmSetup, knobs, losses, obstructions, plan, replan, verify};
+use super::{ArmSetup, knobs, losses, plan, replan, verify};
 use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Solver};
 use crate::campaign::{Case, Scenario, Timed};
@@ -37,19 +37,6 @@ impl Claim for ArmSetup {
             proof.get_or_insert_default();
         }
         (proof, None)
-    }
-
-    fn in_the_way(&self) -> Vec<String> {
-        obstructions::in_the_way(self)
-    }
-
-    fn not_found_out(&self) -> Option<String> {
-        self.open_for_estimates()
-    }
-
-    /// Every change is another graph, and drawing points for one that has none takes long.
-    fn patience(&self) -> Option<f64> {
-        Some(3.0)
     }
 
     fn knobs(&self) -> Knobs {

@@ -1,7 +1,7 @@
 //! What an arm's recordings are measured against, and how limits are told in the units of arms' users.
 
-use super::ArmSetup;
 use super::execute::program_of;
+use super::{ArmSetup, obstructions};
 use crate::campaign::Case;
 use crate::campaign::kind::Programs;
 use crate::campaign::learn::MoveFeatures;
@@ -56,6 +56,19 @@ impl Programs for ArmSetup {
     }
 
     /// In mm and ms.
+    fn in_the_way(&self) -> Vec<String> {
+        obstructions::in_the_way(self)
+    }
+
+    fn not_found_out(&self) -> Option<String> {
+        self.open_for_estimates()
+    }
+
+    /// Every change is another graph, and drawing points for one that has none takes long.
+    fn patience(&self) -> f64 {
+        3.0
+    }
+
     fn in_their_units(&self, violation: Violation) -> Violation {
         let (factor, unit) = match (violation.unit.as_str(), violation.what.as_str()) {
             ("m", _) => (1e3, "mm"),

@@ -24,18 +24,15 @@ impl Say for ArmSetup {
     /// A tool has no nose and no left side.
     fn robot_words(&self) -> RobotWords<'_> {
         let arm = &self.station.arm;
+        // In Cartesian mode no link is looked at.
+        let looked_at = self.scenario.generate.mode == ArmMode::Joint && arm.has_stand_ins();
         RobotWords {
             name: &arm.name,
             caveat: &arm.caveat,
             estimated: arm.estimated.iter().map(String::as_str).collect(),
             has_sides: false,
+            unknown_shapes: looked_at.then_some("link shapes estimated"),
         }
-    }
-
-    /// In Cartesian mode no link is looked at.
-    fn unknown_shapes(&self) -> Option<&'static str> {
-        let looked_at = self.scenario.generate.mode == ArmMode::Joint && self.station.arm.has_stand_ins();
-        looked_at.then_some("link shapes estimated")
     }
 
     fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions {

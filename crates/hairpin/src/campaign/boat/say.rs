@@ -14,7 +14,7 @@ impl Say for BoatSetup {
     fn robot_words(&self) -> RobotWords<'_> {
         let boat = &self.boat;
         let estimated = boat.estimated.iter().map(String::as_str).collect();
-        RobotWords { name: &boat.name, caveat: &boat.caveat, estimated, has_sides: true }
+        RobotWords { name: &boat.name, caveat: &boat.caveat, estimated, has_sides: true, unknown_shapes: None }
     }
 
     fn assumptions(&self, _: &[Case], _: &Tally) -> Assumptions {

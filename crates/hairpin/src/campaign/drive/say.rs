@@ -14,7 +14,13 @@ use crate::world::terrain::{ElevationMap, Terrain};
 impl Say for DriveSetup {
     fn robot_words(&self) -> RobotWords<'_> {
         let rover = &self.rover;
-        RobotWords { name: &rover.name, caveat: &rover.caveat, estimated: rover.estimated.clone(), has_sides: true }
+        RobotWords {
+            name: &rover.name,
+            caveat: &rover.caveat,
+            estimated: rover.estimated.clone(),
+            has_sides: true,
+            unknown_shapes: None,
+        }
     }
 
     fn assumptions(&self, _: &[Case], _: &Tally) -> Assumptions {

@@ -53,7 +53,7 @@ pub fn explain(
     let setup = first_of(setup, graphs).and_then(|scenario| setup.of_draw(scenario))?;
     let tally = searched(&setup, true, stop);
     let losses = setup.kind().lost(graphs);
-    let reasons = setup.kind().in_the_way();
+    let reasons = setup.kind().programs().map_or_else(Vec::new, |programs| programs.in_the_way());
     let cancelled = || (stop.cancelled)() || enough();
     let looking = Stop { cancelled: &cancelled, ..*stop };
     let changes = if tally.solved > 0 { Vec::new() } else { smallest(&setup, &looking) };

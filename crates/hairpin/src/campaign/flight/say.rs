@@ -18,7 +18,7 @@ impl Say for FlightSetup {
     fn robot_words(&self) -> RobotWords<'_> {
         let Quadrotor { name, caveat, estimated, .. } = &*self.robot;
         let estimated = estimated.iter().map(String::as_str).collect();
-        RobotWords { name, caveat, estimated, has_sides: true }
+        RobotWords { name, caveat, estimated, has_sides: true, unknown_shapes: None }
     }
 
     fn assumptions(&self, cases: &[Case], _: &Tally) -> Assumptions {

@@ -62,22 +62,6 @@ pub(in crate::campaign) trait Claim {
     /// the scenario that the case was searched with. What is found of the two is one proof.
     fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>);
 
-    /// What stands in the way of legs, each in a sentence, where more is known than what is counted as lost.
-    fn in_the_way(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// Where nothing is feasible: why that is not found out, and what key would let it be, in a sentence's part; `None`
-    /// where it is.
-    fn not_found_out(&self) -> Option<String> {
-        None
-    }
-
-    /// Seconds that explaining takes at most where nobody says; `None`: until all is tried.
-    fn patience(&self) -> Option<f64> {
-        None
-    }
-
     /// The scenario keys that can make more feasible, and what a run can be freed of.
     fn knobs(&self) -> Knobs;
 }

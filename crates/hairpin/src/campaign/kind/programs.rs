@@ -6,7 +6,7 @@ use crate::judgement::Violation;
 use crate::judgement::moves::Measured;
 use crate::trajectory::{PlannedPath, Track};
 
-/// Runs that are measured move by move.
+/// Runs that are measured move by move, and what is known of moves that are not possible.
 pub(in crate::campaign) trait Programs {
     /// The logs whose recordings are the runs, where nothing is executed.
     fn recordings(&self) -> Option<&str>;
@@ -24,6 +24,16 @@ pub(in crate::campaign) trait Programs {
     /// What a search knows of each move of the program of `case`; `None` of those from and to home, on arcs, and
     /// between points of unknown posture.
     fn moves_seen(&self, case: &Case) -> Vec<Option<MoveFeatures>>;
+
+    /// What stands in the way of moves, each in a sentence, where more is known than what is counted as lost.
+    fn in_the_way(&self) -> Vec<String>;
+
+    /// Where no program is feasible: why that is not found out, and what key would let it be, in a sentence's part;
+    /// `None` where it is.
+    fn not_found_out(&self) -> Option<String>;
+
+    /// Seconds that explaining takes at most where nobody says.
+    fn patience(&self) -> f64;
 
     /// The same violation in the units that programs are written in.
     fn in_their_units(&self, violation: Violation) -> Violation;

@@ -20,6 +20,8 @@ pub(in crate::campaign) struct RobotWords<'a> {
     pub(in crate::campaign) estimated: Vec<&'a str>,
     /// Whether its attitude has a front and a left side that people know.
     pub(in crate::campaign) has_sides: bool,
+    /// What of its shape a claim rests on that is not known, in a few words of the verdict.
+    pub(in crate::campaign) unknown_shapes: Option<&'static str>,
 }
 
 /// "Assumptions and limits of this run", by what they are about.
@@ -97,11 +99,6 @@ pub(in crate::campaign) struct Motion<'a> {
 pub(in crate::campaign) trait Say {
     /// The robot.
     fn robot_words(&self) -> RobotWords<'_>;
-
-    /// What of the robot's shape its claim rests on that is not known, in a few words of the verdict.
-    fn unknown_shapes(&self) -> Option<&'static str> {
-        None
-    }
 
     /// What claim, execution and limits rest on.
     fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions;

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::joint::CircleError;
-use crate::robot::arm::{Margin, Singularity};
+use crate::robot::arm::{Margin, Singularity, body_name};
 
 /// Why a move between two points is not possible.
 ///
@@ -172,15 +172,6 @@ impl fmt::Display for Degrees {
     }
 }
 
-/// 0 the base, 1 to 6 links, 7 the tool.
-fn body(link: usize) -> String {
-    match link {
-        0 => "the base".into(),
-        7 => "the tool".into(),
-        link => format!("link {link}"),
-    }
-}
-
 impl fmt::Display for InWords<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let part = |index: usize| self.parts.get(index).map_or("?", String::as_str);
@@ -209,11 +200,11 @@ impl fmt::Display for InWords<'_> {
             }
             Refusal::Collides { link, part: index, at, undecided } => {
                 let verb = if undecided { not_proven } else { meets };
-                write!(f, "{} {verb} {} {}", body(link), part(index), percent(at))
+                write!(f, "{} {verb} {} {}", body_name(link), part(index), percent(at))
             }
             Refusal::SelfCollides { links: [a, b], at, undecided } => {
                 let verb = if undecided { "are not proven apart" } else { meet };
-                write!(f, "{} and {} {verb} {}", body(a), body(b), percent(at))
+                write!(f, "{} and {} {verb} {}", body_name(a), body_name(b), percent(at))
             }
             Refusal::Configuration { axis, arrives, wanted } => {
                 write!(

@@ -49,7 +49,7 @@ impl Outline {
 }
 
 /// 0 the base, 1 to 6 the links, 7 the tool, as findings call them.
-pub(super) fn named(body: usize) -> String {
+pub fn body_name(body: usize) -> String {
     match body {
         0 => "the base".into(),
         7 => "the tool".into(),

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::body::{self, Capsule, Hull, Link, Mass, Outline};
+use super::body::{self, Capsule, Hull, Link, Mass, Outline, body_name};
 use super::chain::{Chain, Joint};
 use super::opw::Opw;
 use super::{AXES, Arm, JointLimit, Joints, Kinematics};
@@ -286,7 +286,7 @@ impl ArmDescription {
                 // Why, is told by whoever has looked for a shape.
                 let told = self.stand_ins.contains(&number) || (all_bare && self.no_body.is_empty());
                 if !told {
-                    estimated.push(format!("capsules of {}", body::named(number)));
+                    estimated.push(format!("capsules of {}", body_name(number)));
                 }
             }
         }

@@ -34,7 +34,7 @@ mod tool;
 #[cfg(test)]
 mod tests;
 
-pub use body::{APART, Capsule, Hull, Link, Mass, Outline};
+pub use body::{APART, Capsule, Hull, Link, Mass, Outline, body_name};
 pub use chain::{Chain, Frames, Iterated, Joint};
 pub use configuration::{Branch, Configuration};
 pub use description::{

@@ -2,7 +2,7 @@
 
 use super::bodies::TOOL;
 use crate::feasibility::reachability::Refusal;
-use crate::robot::arm::{Arm, Outline, Tool};
+use crate::robot::arm::{Arm, Outline, Tool, body_name};
 
 /// What a refusal rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,10 +39,10 @@ impl Worth {
     pub fn in_words(&self, arm: &Arm) -> Option<String> {
         let is = |body: usize| match arm.links.get(body).map(|link| link.outline) {
             Some(Outline::Around(more)) => {
-                format!("{} is up to {:.0} mm larger than its mesh", named(body), (1e3 * more).max(1.0))
+                format!("{} is up to {:.0} mm larger than its mesh", body_name(body), (1e3 * more).max(1.0))
             }
-            Some(_) => format!("{} is a stand-in", named(body)),
-            None => format!("{} has no radius", named(body)),
+            Some(_) => format!("{} is a stand-in", body_name(body)),
+            None => format!("{} has no radius", body_name(body)),
         };
         match *self {
             Self::Certain => None,
@@ -59,13 +59,5 @@ pub fn is_known(arm: &Arm, tool: &Tool, body: usize) -> bool {
     match arm.links.get(body) {
         Some(link) => !link.outline.is_estimated(),
         None => tool.radius > 0.0,
-    }
-}
-
-fn named(body: usize) -> String {
-    match body {
-        0 => "the base".into(),
-        TOOL => "the tool".into(),
-        link => format!("link {link}"),
     }
 }
