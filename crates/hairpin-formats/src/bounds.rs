@@ -85,13 +85,9 @@ fn count(text: &str, signs: &[u8; 4]) -> usize {
 /// # Errors
 /// It cannot be read; it is no plain file; it is larger.
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    refuse_special(fs::metadata(path)?.file_type())?;
-    let file = File::open(path)?;
-    // What is open is what is asked: the name may lead to another file by now.
-    let metadata = file.metadata()?;
-    refuse_special(metadata.file_type())?;
-    refuse_larger(metadata.len(), most)?;
-    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    let file = open(path, most)?;
+    let mut bytes = Vec::with_capacity(file.metadata()?.len().min(most) as usize);
+    // It may grow while it is read.
     file.take(most + 1).read_to_end(&mut bytes)?;
     refuse_larger(bytes.len() as u64, most)?;
     Ok(bytes)
@@ -110,8 +106,10 @@ pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
 /// # Errors
 /// As of [`read`].
 pub fn open(path: &Path, most: u64) -> io::Result<File> {
+    // Opening a pipe would wait for a writer.
     refuse_special(fs::metadata(path)?.file_type())?;
     let file = File::open(path)?;
+    // What is open is what is asked: the name may lead to another file by now.
     let metadata = file.metadata()?;
     refuse_special(metadata.file_type())?;
     refuse_larger(metadata.len(), most)?;
