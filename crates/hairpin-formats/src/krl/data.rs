@@ -72,10 +72,15 @@ fn components(text: &str) -> Result<BTreeMap<String, f64>, String> {
     let inside = inside.ok_or("expected `{…}`")?;
     let inside = inside.split_once(':').map_or(inside, |(_, inside)| inside);
     let mut all = BTreeMap::new();
-    for part in inside.split(',').take(MOST_COMPONENTS) {
+    for part in inside.split(',') {
         let (name, value) = part.trim().split_once(char::is_whitespace).unwrap_or((part.trim(), ""));
         let value = number(value.trim()).ok_or_else(|| format!("`{}` has no number", name.escape_default()))?;
-        all.insert(name.to_ascii_uppercase(), value);
+        if all.insert(name.to_ascii_uppercase(), value).is_some() || all.len() > MOST_COMPONENTS {
+            return Err(format!(
+                "`{}` stands there twice, or with more than {MOST_COMPONENTS} others",
+                name.escape_default()
+            ));
+        }
     }
     Ok(all)
 }

@@ -153,6 +153,7 @@ fn what_is_not_followed_is_named_by_line() {
         ("IF $IN[1] THEN".into(), None, "`IF` is not followed"),
         ("LIN XP9".into(), None, "`XP9` is not declared"),
         ("LIN {X 1,Y 2}".into(), None, "Z is missing"),
+        (format!("LIN {}", p.replace("C 0", "C 0,X 900")), None, "`X` stands there twice"),
         ("(what)".into(), None, "is not followed"),
     ] {
         let text = format!("{head}{body} ; comment\nLIN {p}\nEND\n");
