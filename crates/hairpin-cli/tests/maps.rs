@@ -87,12 +87,8 @@ fn a_map_is_driven_in_its_own_coordinates_wherever_it_lies() {
     assert!((near - far).abs() < 1e-6, "{near} {far}");
 }
 
-#[test]
-fn a_campaign_on_a_map_of_the_earth_is_placed_by_its_plane() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = folder.path();
-    hills(at, [465_100, 5_248_400]);
-    let scenario = r#"
+/// One drive over the hills where they lie far from their plane's zero.
+const SCENARIO: &str = r#"
 hairpin = 1
 robot = "rocky8"
 seed = 1
@@ -111,7 +107,13 @@ controller = "pure-pursuit"
 [spec]
 limits = { path_deviation_m = 5.0 }
 "#;
-    fs::write(at.join("far.toml"), scenario).unwrap();
+
+#[test]
+fn a_campaign_on_a_map_of_the_earth_is_placed_by_its_plane() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    hills(at, [465_100, 5_248_400]);
+    fs::write(at.join("far.toml"), SCENARIO).unwrap();
     let object = json(at, &["stress", "far.toml", "--out", "a"]);
     assert_eq!(object["exit_code"], 0, "{object}");
     assert_eq!(object["frame"]["plane"], serde_json::json!({ "epsg": 32632, "offset_m": [465_000.0, 5_248_000.0] }));
@@ -141,4 +143,30 @@ limits = { path_deviation_m = 5.0 }
     let vary = "vary={ \"task.start.x_m\" = { uniform = [465098, 465099] } }";
     refused(at, &["stress", "far.toml", "--set", vary, "--out", "b"], &["task.start.x_m", "offset_m"]);
     refused(at, &["stress", "far.toml", "--set", "world.terrain.epsg=32633", "--out", "b"], &["epsg", "32632"]);
+}
+
+/// What lies beside a map is not in a campaign's copy of it, but its units are: else the copy would be another map.
+#[test]
+fn a_campaign_keeps_the_units_that_lay_beside_its_map() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    hills(at, [0, 0]);
+    let scenario =
+        SCENARIO.replace("465098", "-2").replace("5248398", "-2").replace("465108", "8").replace("5248406", "6");
+    fs::write(at.join("feet.toml"), scenario).unwrap();
+    let plane = fs::read_to_string(at.join("hills.prj")).unwrap();
+    for (unit, word) in [("UNIT[\"Foot\",0.3048]", Some("ft")), ("UNIT[\"Yard\",0.9144]", None)] {
+        fs::write(at.join("hills.prj"), format!("{},VERTCS[\"h\",VDATUM[\"v\"],{unit}]", plane.trim())).unwrap();
+        let generate = ["generate", "feet.toml", "--out", "a", "--force"];
+        let Some(word) = word else {
+            refused(at, &generate, &["height_unit", "yd", "write the map in metres"]);
+            continue;
+        };
+        assert_eq!(run(at, &generate).0, 0);
+        let kept = fs::read_to_string(at.join("a/scenario.toml")).unwrap();
+        assert!(kept.contains(&format!("height_unit = \"{word}\"")), "{kept}");
+        let verified = json(at, &["verify", "a"]);
+        assert_eq!((&verified["exit_code"], &verified["checked"]), (&0.into(), &1.into()), "{verified}");
+        assert_eq!(json(at, &["execute", "a"])["exit_code"], 0);
+    }
 }

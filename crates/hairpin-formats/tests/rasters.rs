@@ -3,8 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::scenario::MapUnit;
 use hairpin::world::terrain::{HoleRule, Terrain};
-use hairpin_formats::terrain::{Georeference, GivenUnit, MapFile, Sidecars, Source, TerrainError, read_terrain};
+use hairpin_formats::terrain::{Georeference, MapFile, Sidecars, Source, TerrainError, read_terrain};
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/terrain").join(name)
@@ -97,7 +98,7 @@ fn degrees_are_refused_with_the_zone_of_the_place() {
     // An ASCII grid says no unit; cells of a quarter of a millimetre on such coordinates are no metres.
     let said = refused("degrees.asc");
     assert!(said.contains("degrees") && said.contains("EPSG:32632") && said.contains("degrees.asc"), "{said}");
-    let given = Georeference { unit: Some(GivenUnit::Metre), ..Georeference::default() };
+    let given = Georeference { unit: Some(MapUnit::M), ..Georeference::default() };
     assert!(read("degrees.asc", &given).is_ok());
     let folder = tempfile::tempdir().unwrap();
     let (asc, prj) = (folder.path().join("a.asc"), folder.path().join("a.prj"));
@@ -126,11 +127,11 @@ fn feet_are_converted_and_told_apart() {
     // A plane in feet says nothing of heights: that is asked for, with the key that answers it.
     let said = refused("feet.tif");
     assert!(said.starts_with("height_unit") && said.contains("us-ft"), "{said}");
-    let given = Georeference { height_unit: Some(GivenUnit::Metre), ..Georeference::default() };
+    let given = Georeference { height_unit: Some(MapUnit::M), ..Georeference::default() };
     assert_hill("feet.tif", &read("feet.tif", &given).unwrap(), 1.0, 1e-5);
     let shown = Georeference { assume_heights: true, ..Georeference::default() };
     assert_eq!(read("feet.tif", &shown).unwrap().told.height_unit_from, Source::Taken);
-    let other = Georeference { unit: Some(GivenUnit::Foot), ..given };
+    let other = Georeference { unit: Some(MapUnit::Ft), ..given };
     let error = read("feet.tif", &other).unwrap_err().to_string();
     assert!(error.contains("unit = ft") && error.contains("US survey ft"), "{error}");
 }
@@ -196,4 +197,33 @@ fn what_is_not_read_comes_with_a_command() {
     note("");
     std::fs::write(folder.path().join("map.tif.msk"), "").unwrap();
     assert!(read().unwrap_err().to_string().contains(".msk"));
+}
+
+const FEET: &str = r#"PROJCS["p",GEOGCS["g",DATUM["d",SPHEROID["s",6378137,298.257222101]],UNIT["Degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],UNIT["Foot_US",0.3048006096012192]],VERTCS["h",VDATUM["v"],UNIT["Foot",0.3048]]"#;
+
+/// Keys in metres place pictures and raw files: the unit of the plane that a `.prj` names is not theirs.
+#[test]
+fn what_keys_place_is_in_metres_whatever_lies_beside_it() {
+    let values: Vec<u8> = [0_u16, 32_768, 65_535, 65_535].iter().flat_map(|value| value.to_le_bytes()).collect();
+    let given = Georeference { cell_m: Some(2.0), height_m: Some([0.0, 10.0]), ..Georeference::default() };
+    let beside = Sidecars::of(Some(FEET.into()), None);
+    let map = read_terrain(&values, "a.raw", &beside, &given).unwrap().map;
+    assert_eq!((map.extent(), map.cell_height(0, 0)), (([0.0, 0.0], [2.0, 2.0]), 10.0));
+}
+
+/// ESRI has the system of heights behind that of the plane, and heights in feet are no metres.
+#[test]
+fn what_lies_beside_a_map_and_is_not_understood_is_refused() {
+    let grid = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 1\n1 1\n";
+    let read = |beside: &Sidecars| read_terrain(grid.as_bytes(), "a.asc", beside, &Georeference::default());
+    let map = read(&Sidecars::of(Some(FEET.into()), None)).unwrap();
+    assert!((map.map.cell_height(0, 0) - 0.3048).abs() < 1e-6 && map.told.unit.name == "US survey ft");
+    let folder = tempfile::tempdir().unwrap();
+    let asc = folder.path().join("a.asc");
+    std::fs::write(folder.path().join("a.asc.aux.xml"), "<PAMDataset>").unwrap();
+    let error = read(&Sidecars::beside(&asc)).unwrap_err().to_string();
+    assert!(error.contains(".aux.xml") && error.contains("gdal_translate"), "{error}");
+    std::fs::remove_file(folder.path().join("a.asc.aux.xml")).unwrap();
+    std::fs::write(folder.path().join("a.prj"), b"PROJCS[\"caf\xe9\"").unwrap();
+    assert!(read(&Sidecars::beside(&asc)).unwrap_err().to_string().contains(".prj"));
 }

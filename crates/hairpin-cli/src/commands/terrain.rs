@@ -1,9 +1,10 @@
 //! What is typed of elevation maps' files.
 
+use hairpin::campaign::scenario::MapUnit;
 use hairpin::world::terrain::HoleRule;
-use hairpin_formats::terrain::{Georeference, GivenUnit};
+use hairpin_formats::terrain::Georeference;
 
-use crate::args::{MapFlags, MapUnit};
+use crate::args::{self, MapFlags};
 
 /// What is given of a map's file.
 pub(super) fn georeference(flags: &MapFlags, holes: HoleRule) -> Georeference {
@@ -19,10 +20,10 @@ pub(super) fn georeference(flags: &MapFlags, holes: HoleRule) -> Georeference {
     }
 }
 
-fn unit(unit: MapUnit) -> GivenUnit {
+fn unit(unit: args::MapUnit) -> MapUnit {
     match unit {
-        MapUnit::M => GivenUnit::Metre,
-        MapUnit::Ft => GivenUnit::Foot,
-        MapUnit::UsFt => GivenUnit::UsSurveyFoot,
+        args::MapUnit::M => MapUnit::M,
+        args::MapUnit::Ft => MapUnit::Ft,
+        args::MapUnit::UsFt => MapUnit::UsFt,
     }
 }

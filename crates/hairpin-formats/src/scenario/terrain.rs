@@ -11,7 +11,7 @@ use super::attached::{Wrong, attached, ending};
 use super::whole::read_file;
 use crate::checksum::sha256;
 use crate::frames::other_yaw;
-use crate::terrain::{Georeference, GivenUnit, MapFile, Sidecars, Unit, read_terrain};
+use crate::terrain::{Georeference, MapFile, Sidecars, Unit, read_terrain};
 
 /// Reads the map as `terrain` says. A resolved scenario's map is `terrain.ENDING`, which a campaign folder holds.
 pub(super) fn read(
@@ -27,8 +27,8 @@ pub(super) fn read(
         height_m: terrain.height_m,
         origin_m: terrain.origin_m,
         epsg: terrain.epsg,
-        unit: terrain.unit.map(given_unit),
-        height_unit: terrain.height_unit.map(given_unit),
+        unit: terrain.unit,
+        height_unit: terrain.height_unit,
         offset_m: terrain.offset_m,
         holes: terrain.no_data.into(),
         ..Georeference::default()
@@ -48,26 +48,26 @@ pub(super) fn read(
     terrain.file = Some(name);
     terrain.epsg = told.epsg;
     if told.beside {
-        // What lies beside the file is not in the copy of a campaign.
-        terrain.unit = terrain.unit.or(unit_of(&told.unit));
+        // What lies beside the file is not in the copy of a campaign: keys say it there.
+        terrain.unit = kept("unit", terrain.unit, &told.unit)?;
+        terrain.height_unit = kept("height_unit", terrain.height_unit, &told.height_unit)?;
     }
     terrain.offset_m = terrain.offset_m.or(Some(told.offset_m).filter(|offset| *offset != [0.0, 0.0]));
     terrain.checksum = Some(checksum);
     Ok((terrain.clone(), map))
 }
 
-fn given_unit(unit: MapUnit) -> GivenUnit {
-    match unit {
-        MapUnit::M => GivenUnit::Metre,
-        MapUnit::Ft => GivenUnit::Foot,
-        MapUnit::UsFt => GivenUnit::UsSurveyFoot,
+/// The key by which a campaign's copy of a map has the unit that lay beside the file; none for metres, which are taken.
+fn kept(key: &str, given: Option<MapUnit>, told: &Unit) -> Result<Option<MapUnit>, Wrong> {
+    if given.is_some() || told.is_metre() {
+        return Ok(given);
     }
-}
-
-/// The word for a unit that is not metres.
-fn unit_of(unit: &Unit) -> Option<MapUnit> {
-    let same = |word: &MapUnit| Unit::from(given_unit(*word)).metres == unit.metres;
-    [MapUnit::Ft, MapUnit::UsFt].into_iter().find(same)
+    told.as_given().map(Some).ok_or_else(|| Wrong {
+        key: format!("world.terrain.{key}"),
+        value: told.name.clone(),
+        bound: "m, ft or us-ft where it is said beside the file, which a campaign's copy of it has not: write the map in metres"
+            .into(),
+    })
 }
 
 /// Whether the poses of `scenario` are in its map's own coordinates, should these turn out to be far from their zero.

@@ -1,9 +1,9 @@
 //! What a file does not say of where it lies.
 
+use hairpin::campaign::scenario::MapUnit;
 use hairpin::world::terrain::{Grid, HoleRule};
 
 use super::error::TerrainError;
-use super::unit::GivenUnit;
 
 /// What a file does not say of itself; what it does say must not be given, or be the same.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,9 +19,9 @@ pub struct Georeference {
     /// EPSG code of the plane.
     pub epsg: Option<u32>,
     /// Unit of x and y, and of heights where they have no other: for GeoTIFF and ASCII grids.
-    pub unit: Option<GivenUnit>,
+    pub unit: Option<MapUnit>,
     /// Unit of heights.
-    pub height_unit: Option<GivenUnit>,
+    pub height_unit: Option<MapUnit>,
     /// Taken off the coordinates, m; [`super::offset_of`] chooses it if not given.
     pub offset_m: Option<[f64; 2]>,
     /// Heights whose unit nobody says are taken in that of x and y, to show the file.

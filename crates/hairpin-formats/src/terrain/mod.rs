@@ -25,11 +25,11 @@ pub use keep_out::{KeepOutError, read_keep_outs};
 pub use raster::Layout;
 pub use sidecar::Sidecars;
 pub use told::Told;
-pub use unit::{GivenUnit, Source, Unit};
+pub use unit::{Source, Unit};
 
 use hairpin::world::terrain::{ElevationMap, Grid};
 use raster::Raster;
-use reference::{Model, Units};
+use reference::{Model, Reference, Units};
 
 /// Coordinates beyond (m) are of a plane of the Earth: what lies there gets an origin of its own.
 const FAR: f64 = 20_000.0;
@@ -70,7 +70,9 @@ pub fn read_terrain(
     beside.check(name, &raster.layout)?;
     let by_sidecar = if raster.reference.model == Model::Unsaid { beside.reference(name)? } else { None };
     let beside = by_sidecar.is_some();
-    raster.reference = by_sidecar.unwrap_or(raster.reference);
+    let said = by_sidecar.unwrap_or(raster.reference);
+    let height_unit = said.height_unit.filter(|_| !has_heights_by_key(&ending));
+    raster.reference = Reference { placed: !says_itself(&ending), height_unit, ..said };
     let Raster { grid, mut heights, reference, layout } = raster;
     let center = [0, 1].map(|i| {
         let cells = if i == 0 { grid.columns } else { grid.rows };
@@ -106,9 +108,19 @@ pub fn offset_of(grid: &Grid) -> [f64; 2] {
     first_center.map(|low| (low / ROUND).floor() * ROUND)
 }
 
+/// Whether files of this ending say where their cells lie; of all others keys in metres do.
+fn says_itself(ending: &str) -> bool {
+    matches!(ending, "tif" | "tiff" | "asc")
+}
+
+/// Whether a key in metres says what the values of such files mean.
+fn has_heights_by_key(ending: &str) -> bool {
+    matches!(ending, "png" | "raw" | "bin")
+}
+
 /// What the file says itself must not be given.
 fn check_given(ending: &str, given: &Georeference) -> Result<(), TerrainError> {
-    let says_itself = matches!(ending, "tif" | "tiff" | "asc");
+    let says_itself = says_itself(ending);
     let unwanted = [
         ("cell_m", says_itself && given.cell_m.is_some()),
         ("height_m", says_itself && given.height_m.is_some()),
@@ -116,7 +128,7 @@ fn check_given(ending: &str, given: &Georeference) -> Result<(), TerrainError> {
         ("columns", says_itself && given.columns.is_some()),
         // Keys in metres place the others, and say what 16 bits mean.
         ("unit", !says_itself && given.unit.is_some()),
-        ("height_unit", matches!(ending, "png" | "raw" | "bin") && given.height_unit.is_some()),
+        ("height_unit", has_heights_by_key(ending) && given.height_unit.is_some()),
     ];
     match unwanted.iter().find(|(_, unwanted)| *unwanted) {
         Some((key, _)) => Err(TerrainError::Unwanted { key }),

@@ -21,8 +21,17 @@ pub(super) fn read(text: &str) -> Result<Reference, TerrainError> {
     let broken = || TerrainError::Broken("its .prj is no well-known text of a coordinate system".into());
     let mut rest = text.trim_start_matches('\u{feff}').trim();
     let root = node(&mut rest, 0).ok_or_else(broken)?;
-    of(&root).ok_or_else(broken)
+    let plane = of(&root).ok_or_else(broken)?;
+    rest = rest.trim_start_matches(|c: char| c.is_whitespace() || c == ',');
+    if rest.is_empty() {
+        return Ok(plane);
+    }
+    // ESRI has the system of heights behind that of the plane.
+    let heights = node(&mut rest, 0).filter(|node| node.is(&VERTICAL) && rest.trim().is_empty()).ok_or_else(broken)?;
+    Ok(Reference { height_unit: heights.height_unit(), ..plane })
 }
+
+const VERTICAL: [&str; 3] = ["VERT_CS", "VERTCS", "VERTCRS"];
 
 fn of(root: &Node<'_>) -> Option<Reference> {
     let name = root.values.first().copied().unwrap_or_default().to_owned();
@@ -52,10 +61,8 @@ fn of(root: &Node<'_>) -> Option<Reference> {
         // A plane with heights: what it says of the plane comes first.
         "COMPD_CS" | "COMPOUNDCRS" => {
             let plane = root.nodes.iter().find_map(of)?;
-            let vertical = root.nodes.iter().find(|node| node.is(&["VERT_CS", "VERTCRS"]));
-            let unit = vertical.and_then(|vertical| vertical.find(&["UNIT", "LENGTHUNIT"]));
-            let metres = unit.and_then(|unit| unit.values.get(1)?.parse().ok());
-            Some(Reference { height_unit: metres.and_then(Unit::of_length), ..plane })
+            let vertical = root.nodes.iter().find(|node| node.is(&VERTICAL));
+            Some(Reference { height_unit: vertical.and_then(Node::height_unit), ..plane })
         }
         _ => None,
     }
@@ -88,6 +95,12 @@ impl<'t> Node<'t> {
 
     fn find(&self, words: &[&str]) -> Option<&Node<'t>> {
         self.nodes.iter().find_map(|node| if node.is(words) { Some(node) } else { node.find(words) })
+    }
+
+    /// Of a system of heights.
+    fn height_unit(&self) -> Option<Unit> {
+        let unit = self.find(&["UNIT", "LENGTHUNIT"])?;
+        Unit::of_length(unit.values.get(1)?.parse().ok()?)
     }
 
     fn epsg(&self) -> Option<u32> {
@@ -157,6 +170,11 @@ mod tests {
         let both = format!(r#"COMPD_CS["both",{utm},VERT_CS["heights",VERT_DATUM["d",2005],UNIT["foot",0.3048]]]"#);
         let both = read(&both).unwrap();
         assert_eq!((both.epsg, both.height_unit.unwrap().name.as_str()), (Some(32632), "ft"));
+        let esri = format!(
+            r#"{utm},VERTCS["NAVD_1988_Foot_US",VDATUM["North_American_Vertical_Datum_1988"],PARAMETER["Direction",1.0],UNIT["Foot_US",0.3048006096012192]]"#
+        );
+        assert_eq!(read(&esri).unwrap().height_unit.unwrap().name, "US survey ft");
+        assert!(read(&format!("{utm},{DEGREES}")).is_err(), "two systems of the plane");
         let yard = read(r#"LOCAL_CS["yard",UNIT["foot",0.3048]]"#).unwrap();
         assert_eq!((yard.epsg, yard.unit.unwrap().name.as_str()), (None, "ft"));
         let newer = r#"PROJCRS["WGS 84 / UTM zone 19S",CS[Cartesian,2],AXIS["(E)",east,LENGTHUNIT["metre",1]],ID["EPSG",32719]]"#;

@@ -20,6 +20,8 @@ pub(super) struct Reference {
     pub(super) degrees: f64,
     /// Semi-major axis of the body, m, where it is said.
     pub(super) radius: Option<f64>,
+    /// Whether keys in metres place the cells, whatever the plane's unit.
+    pub(super) placed: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -79,7 +81,7 @@ impl Reference {
             }
             Some((_, System::Unknown)) | None => None,
         };
-        let said = self.unit.clone().or(by_code);
+        let said = self.unit.clone().or(by_code).filter(|_| !self.placed);
         if said.is_none() && given.unit.is_none() && looks_like_degrees(center, cell) {
             return Err(geographic(format!(
                 "cells of {} on coordinates like degrees, and no unit said (unit = \"m\" says that they are metres)",

@@ -55,6 +55,10 @@ impl Sidecars {
         if self.masked {
             return convert("cells are masked by a .msk");
         }
+        if self.aux.as_deref().is_some_and(|aux| Document::parse(aux).is_err()) {
+            let why = "an .aux.xml is beside the file and is no XML, so what it says of heights is not known".into();
+            return Err(TerrainError::Convert { why, command: Remedy::rewrite(file, "") });
+        }
         let said = |name: &str| {
             self.notes(|notes| {
                 let band = notes.children().find(|node| node.has_tag_name("PAMRasterBand"))?;
@@ -93,8 +97,10 @@ impl<'a, 'i> Child<'a, 'i> for Node<'a, 'i> {
     }
 }
 
+/// What is there and cannot be read is not understood, as what is no text of its format.
 fn text(path: &Path) -> Option<String> {
-    bounds::read_text(path, MOST_SIDECAR_BYTES).ok()
+    let there = path.symlink_metadata().is_ok();
+    there.then(|| bounds::read_text(path, MOST_SIDECAR_BYTES).unwrap_or_else(|_| "?".into()))
 }
 
 fn with(path: &Path, ending: &str) -> PathBuf {

@@ -1,5 +1,7 @@
 //! Units of length as maps name them: EPSG codes of units, words, and factors of a projection.
 
+use hairpin::campaign::scenario::MapUnit;
+
 /// A unit of length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unit {
@@ -7,17 +9,6 @@ pub struct Unit {
     pub name: String,
     /// One of it, m.
     pub metres: f64,
-}
-
-/// What a key says where a file does not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GivenUnit {
-    /// Metre.
-    Metre,
-    /// International foot.
-    Foot,
-    /// US survey foot.
-    UsSurveyFoot,
 }
 
 const FOOT: f64 = 0.3048;
@@ -68,6 +59,11 @@ impl Unit {
         self.metres == 1.0
     }
 
+    /// The word that keys have for it, if they have one.
+    pub(crate) fn as_given(&self) -> Option<MapUnit> {
+        [MapUnit::M, MapUnit::Ft, MapUnit::UsFt].into_iter().find(|word| Self::from(*word).metres == self.metres)
+    }
+
     /// By its number in the EPSG registry.
     pub(super) fn of_code(code: u16) -> Option<Self> {
         let (_, name, metres) = KNOWN.iter().find(|(known, ..)| *known == code)?;
@@ -103,12 +99,12 @@ impl Unit {
     }
 }
 
-impl From<GivenUnit> for Unit {
-    fn from(given: GivenUnit) -> Self {
+impl From<MapUnit> for Unit {
+    fn from(given: MapUnit) -> Self {
         let (name, metres) = match given {
-            GivenUnit::Metre => ("m", 1.0),
-            GivenUnit::Foot => ("ft", FOOT),
-            GivenUnit::UsSurveyFoot => ("US survey ft", US_SURVEY_FOOT),
+            MapUnit::M => ("m", 1.0),
+            MapUnit::Ft => ("ft", FOOT),
+            MapUnit::UsFt => ("US survey ft", US_SURVEY_FOOT),
         };
         Self { name: name.into(), metres }
     }

@@ -68,7 +68,8 @@ pub(super) fn read(tiff: &mut Tiff<'_>) -> Keys {
         _ => None,
     });
     let radius = table.number(SEMI_MAJOR_AXIS);
-    let reference = Reference { model, epsg: epsg.map(u32::from), unit, height_unit, name, degrees, radius };
+    let (epsg, placed) = (epsg.map(u32::from), false);
+    let reference = Reference { model, epsg, unit, height_unit, name, degrees, radius, placed };
     Keys { reference, at_centers: table.short(RASTER_TYPE) == Some(PIXEL_IS_POINT) }
 }
 
