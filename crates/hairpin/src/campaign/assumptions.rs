@@ -38,28 +38,29 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, beside: Option<String>, 
         said.push(format!("Missions: {} waypoint files made elsewhere; nothing was searched.", tally.missions.len()));
         return;
     }
-    let method = match search.method {
-        SearchMethod::Beam if setup.scenario.executes() => {
-            "best-first with a beam that executes partial trajectories: scores are the stress of a nominal run, no optimum is claimed"
+    let graphs = tally.graphs.max(cases.last().map_or(0, |case| case.graph + 1));
+    let found = format!("{} of {} cases asked for", cases.len(), search.cases);
+    if search.method == SearchMethod::Worst {
+        said.push(format!(
+            "Search: one pool of executions for all cases, each a nominal run: what was executed decides what is tried next, and the worst \
+             that differ are kept; no optimum is claimed; {found}, of {} executions, {} of them of trajectories drawn at random ({}).",
+            tally.expansions,
+            tally.drawn,
+            tally.sampler.as_deref().unwrap_or("none"),
+        ));
+        if let Some(seconds) = search.seconds {
+            said.push(format!(
+                "The search had {seconds} s: what it found depends on the clock and is not reproducible."
+            ));
         }
-        SearchMethod::Beam => "best-first with a beam: no optimum is claimed",
-        SearchMethod::Exact => "exact in each sampled graph, over its waypoints only",
-        SearchMethod::Uniform => "uniform over the feasible trajectories of each sampled graph",
-        SearchMethod::InLoop => {
-            "by executions in the loop: scores are the stress of a nominal run, no optimum is claimed"
-        }
-        SearchMethod::Adaptive => {
-            "in rounds of executing and learning: scores are the stress of a nominal run, no optimum is claimed"
-        }
-    };
-    said.push(format!(
-        "Search: {method}; score `{}`; {} of {} cases asked for, from {} sampled graphs of {} waypoints.",
-        setup.scenario.score(),
-        cases.len(),
-        search.cases,
-        tally.graphs.max(cases.last().map_or(0, |case| case.graph + 1)),
-        search.waypoints
-    ));
+    } else {
+        said.push(format!(
+            "Search: {}; score `{}`; {found}, from {graphs} sampled graphs of {} waypoints.",
+            in_graphs(setup, search.method),
+            setup.scenario.score(),
+            search.waypoints
+        ));
+    }
     if let Some(time) = search.time_s {
         said.push(format!(
             "The search had {time} s beside its {} executions: what it found depends on the clock and is not reproducible.",
@@ -90,6 +91,24 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, beside: Option<String>, 
         said.push(format!(
             "Length counts waypoints, start and end included: {length}. Waypoints are numbered from 0 = start."
         ));
+    }
+}
+
+/// How graphs are searched by `method`, in a sentence's part.
+fn in_graphs(setup: &Setup, method: SearchMethod) -> &'static str {
+    match method {
+        SearchMethod::Beam if setup.scenario.executes() => {
+            "best-first with a beam that executes partial trajectories: scores are the stress of a nominal run, no optimum is claimed"
+        }
+        SearchMethod::Beam => "best-first with a beam: no optimum is claimed",
+        SearchMethod::Exact => "exact in each sampled graph, over its waypoints only",
+        SearchMethod::Uniform => "uniform over the feasible trajectories of each sampled graph",
+        SearchMethod::InLoop => {
+            "by executions in the loop: scores are the stress of a nominal run, no optimum is claimed"
+        }
+        SearchMethod::Adaptive | SearchMethod::Worst => {
+            "in rounds of executing and learning: scores are the stress of a nominal run, no optimum is claimed"
+        }
     }
 }
 

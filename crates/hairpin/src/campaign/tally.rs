@@ -41,6 +41,16 @@ pub struct Tally {
     /// Why it learned nothing, in a sentence's part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unlearned: Option<String>,
+    /// Of one pool of executions: those that were of trajectories drawn at random.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub drawn: u64,
+    /// How they were drawn, in a sentence's part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sampler: Option<String>,
+    /// Of one pool of executions: how far apart its cases are at least, as `select` measures, on the scale of the
+    /// trajectories that were drawn first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub apart: Option<f64>,
     /// Names of the files that the cases were read from, in their order, where these are missions made elsewhere.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub missions: Vec<String>,
@@ -51,6 +61,10 @@ impl Tally {
     pub fn asked(&self, wanted: u64) -> usize {
         if self.missions.is_empty() { wanted as usize } else { self.missions.len() }
     }
+}
+
+fn is_zero(count: &u64) -> bool {
+    *count == 0
 }
 
 /// A round of an adaptive campaign.

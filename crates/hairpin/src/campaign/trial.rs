@@ -7,9 +7,11 @@ use super::learn::LegSample;
 use super::mission::run_seed;
 use super::placement::Placement;
 use super::samples::samples_of;
+use super::select::behaviour;
 use super::{Case, CaseNumber, Environment, Run, Setup, execute_again, execute_run};
 use crate::judgement::{Measures, Stress};
-use crate::search::in_loop::{Ran, Trial};
+use crate::search::in_loop::{self, Trial};
+use crate::search::worst::Ran;
 use crate::simulation::Airborne;
 
 /// Numbers of the noise that stress is confirmed under begin here: no run and no re-run of a violation has the same.
@@ -40,6 +42,43 @@ pub(super) fn execute(setup: &Setup, graph: u64, plan: &Plan, least: f64) -> Opt
     let sum = (0..confirm).try_fold(first.stress, |sum, number| Some(sum + again(number)?));
     let stress = sum.map_or(f64::NAN, |sum| sum / (1 + confirm) as f64);
     Some(Trial { stress, executions: 1 + confirm, ..first })
+}
+
+/// Executes `plan` of the graph with its number and measures it by each of `stresses`, NaN where one was not measured;
+/// with what tells the execution from others. What comes to the `least` of one of them is executed `confirm` times more,
+/// under noise, and its stresses are the means.
+pub(super) fn execute_for(
+    setup: &Setup,
+    (graph, plan): (u64, &Plan),
+    stresses: &[Stress],
+    least: &[f64],
+) -> Option<Ran> {
+    let executed = executed(setup, graph, plan)?;
+    let measured = |stress: &Stress, measures: &Measures| stress.of(measures).unwrap_or(f64::NAN);
+    let trial = |stress: &Stress| Trial {
+        stress: measured(stress, &executed.measures),
+        worst_leg: stress.worst_leg(&executed.measures).unwrap_or(0),
+        executions: 1,
+    };
+    let mut trials: Vec<Trial> = stresses.iter().map(trial).collect();
+    let confirm = setup.scenario.search().confirm;
+    if confirm > 0 && trials.iter().zip(least).any(|(trial, least)| trial.stress >= *least) {
+        for number in 0..confirm {
+            let measures = again(setup, &executed.case, number);
+            for (trial, stress) in trials.iter_mut().zip(stresses) {
+                trial.stress += measures.as_ref().map_or(f64::NAN, |measures| measured(stress, measures));
+            }
+        }
+        for trial in &mut trials {
+            (trial.stress, trial.executions) = (trial.stress / (1 + confirm) as f64, 1 + confirm);
+        }
+    }
+    Some(Ran { trials, behaviour: behaviour(&executed.measures) })
+}
+
+/// The measures of confirmation number `number` of `case`.
+fn again(setup: &Setup, case: &Case, number: u64) -> Option<Measures> {
+    measures_of(setup, case, &execute_again(setup, case, 0, CONFIRMING + number as usize))
 }
 
 /// The stress of an execution. Where obstacles are to be placed, it is how deep the robot gets into those that could
@@ -83,11 +122,11 @@ pub(super) fn execute_partial(
     plan: &Plan,
     before: Option<&Airborne>,
     whole: bool,
-) -> Result<Ran<Airborne>, u64> {
+) -> Result<in_loop::Ran<Airborne>, u64> {
     let legs = plan.waypoints.len() as u64 - 1;
     let Some(flying) = setup.kind().leg_by_leg() else {
         let stress = executed(setup, graph, plan).and_then(|executed| trial(setup, &executed.measures));
-        return Ok(Ran { stress: stress.ok_or(legs)?.stress, state: None, legs });
+        return Ok(in_loop::Ran { stress: stress.ok_or(legs)?.stress, state: None, legs });
     };
     let case = plan.clone().case(setup.scenario.seed(), graph, 0);
     let mut airborne = match before {
@@ -114,7 +153,7 @@ pub(super) fn execute_partial(
     }
     let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(airborne.so_far()) };
     let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
-    Ok(Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
+    Ok(in_loop::Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
 }
 
 /// How long the execution of `plan` takes, s.

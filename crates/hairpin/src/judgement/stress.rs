@@ -32,11 +32,13 @@ pub enum Stress {
     Tilt,
     /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³.
     JointEffort,
+    /// How late the latest arrival at a waypoint is, by its planned time, s.
+    Lateness,
 }
 
 impl Stress {
     /// All of them.
-    pub const ALL: [Stress; 9] = [
+    pub const ALL: [Stress; 10] = [
         Stress::MaxDeviation,
         Stress::MeanDeviation,
         Stress::MaxAcceleration,
@@ -46,6 +48,7 @@ impl Stress {
         Stress::Clearance,
         Stress::Tilt,
         Stress::JointEffort,
+        Stress::Lateness,
     ];
 
     /// The word in scenarios, files and on the command line.
@@ -60,6 +63,7 @@ impl Stress {
             Stress::Clearance => "clearance",
             Stress::Tilt => "tilt",
             Stress::JointEffort => "joint-effort",
+            Stress::Lateness => "lateness",
         }
     }
 
@@ -73,7 +77,7 @@ impl Stress {
         match self {
             Stress::MaxDeviation | Stress::MeanDeviation | Stress::Overshoot | Stress::Clearance => "m",
             Stress::MaxAcceleration => "m/s²",
-            Stress::Time => "s",
+            Stress::Time | Stress::Lateness => "s",
             Stress::Saturation => "",
             Stress::Tilt => "°",
             Stress::JointEffort => "rad²/s³",
@@ -92,6 +96,7 @@ impl Stress {
             Stress::Clearance => measures.min_clearance.map(|clearance| -clearance),
             Stress::Tilt => measures.min_tip_over_margin.map(|margin| -margin).or(measures.max_tilt),
             Stress::JointEffort => measures.joint_effort,
+            Stress::Lateness => measures.latest.map(|latest| latest.by),
         }
     }
 
@@ -107,6 +112,7 @@ impl Stress {
             Stress::Clearance => leg.min_clearance.map(|clearance| -clearance),
             Stress::Tilt => leg.min_tip_over_margin.map(|margin| -margin).or(leg.max_tilt),
             Stress::JointEffort => leg.joint_effort,
+            Stress::Lateness => None,
         }
     }
 
@@ -114,6 +120,9 @@ impl Stress {
     ///
     /// Where a search in the loop changes a trajectory, and where a report points.
     pub fn worst_leg(self, measures: &Measures) -> Option<usize> {
+        if self == Stress::Lateness {
+            return measures.latest.map(|latest| latest.leg);
+        }
         let mut worst: Option<(usize, f64)> = None;
         for (number, leg) in measures.legs.iter().enumerate() {
             let Some(value) = self.of_leg(leg).filter(|value| !value.is_nan()) else { continue };

@@ -10,7 +10,8 @@
 //! | good trajectories of a large graph, soon | [`mod@beam`] | found, and why it ended |
 //! | the best, proven | [`mod@exact`] | k best, an upper bound, how many there are |
 //! | what is typical | [`mod@uniform`] | draws, each trajectory equally likely |
-//! | the worst as executed | [`in_loop`] | trajectories by their executed stress |
+//! | the worst as executed, of all graphs | [`worst`] | the worst that differ, by their executed stress |
+//! | the same in one graph | [`in_loop`] | trajectories by their executed stress |
 //! | the heaviest tour of an arm's points | [`heaviest`] | paths, a bound, a certificate |
 //! | the shortest part that still fails | [`mod@ddmin`] | that part |
 //!
@@ -38,6 +39,7 @@ pub mod score;
 mod small;
 pub mod task;
 pub mod uniform;
+pub mod worst;
 
 pub use beam::{BeamOutcome, BeamSettings, beam, beam_grown};
 pub use ddmin::ddmin;

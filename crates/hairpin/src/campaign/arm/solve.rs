@@ -1,5 +1,7 @@
 //! The search: the heaviest paths through the reachability graph, made into programs.
 
+use nalgebra::Point3;
+
 use super::ArmSetup;
 use super::graph::{ArmGraph, graph_of};
 use super::program::Way;
@@ -7,6 +9,7 @@ use crate::campaign::graph::{Executions, Outcome, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, Evidence, Stop};
+use crate::math::random::Stream;
 use crate::search::heaviest::{
     Arcs, Ends, Heaviest, HeaviestSettings, Outcome as Found, Triples, WalkProof, WalkSettings, heaviest,
     heaviest_walk, heaviest_with_triples,
@@ -59,6 +62,18 @@ impl Solver for ArmSolver<'_> {
             Err(reason) => outcome.reason = Some(reason),
         }
         outcome
+    }
+
+    fn moves(&self) -> bool {
+        false
+    }
+
+    fn over(&self, _: u64, _: &Plan, _: &[Point3<f64>]) -> Option<Plan> {
+        None
+    }
+
+    fn elsewhere(&self, _: u64, _: &mut Stream) -> Option<Point3<f64>> {
+        None
     }
 }
 

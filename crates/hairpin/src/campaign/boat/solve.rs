@@ -1,6 +1,7 @@
 //! One graph, from its number to its plans: waypoints drawn in free water, their roadmap, the search asked for.
 
 use nalgebra::Point3;
+use rand::RngExt;
 
 use super::BoatSetup;
 use super::legs::scores;
@@ -10,8 +11,9 @@ use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Remembered, Road
 use crate::campaign::kind::Solver;
 use crate::feasibility::boat::{BoatJudge, BoatRoadmap, BoatRoadmapSettings};
 use crate::feasibility::reach::WitnessLegs;
+use crate::feasibility::reach::mend::mended;
 use crate::feasibility::steering::LegTiming;
-use crate::math::random::{named_seed, stream, unit};
+use crate::math::random::{Stream, named_seed, stream, unit};
 
 /// Draws for each waypoint, at most.
 const TRIES: u64 = 1000;
@@ -74,14 +76,23 @@ impl<'a> BoatSolver<'a> {
         BoatRoadmap::new(&self.judge, points, &settings)
     }
 
-    /// `plan` over `points`, as many as its own; `None` where they are not feasible.
+    /// `plan` over `points`, as many as its own, passed with the velocities that it has; `None` where they are not
+    /// feasible.
     fn moved(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let indices: Vec<usize> = (0..points.len()).collect();
         let profile = through(&self.judge, &self.timing.rungs(), plan.witness.as_ref()?.profile()?, &indices, points)?;
-        let leg_times = profile.legs.iter().map(|leg| leg.duration).collect();
-        let (waypoints, witness) = (points.to_vec(), Some(profile.into()));
-        // No search saw these legs.
-        Some(Plan { waypoints, leg_times, seen: Vec::new(), bound: None, witness, ..plan.clone() })
+        Some(Plan::witnessed(points.to_vec(), profile))
+    }
+
+    /// The same; where velocities are in the way, other ones are chosen at what changed, and then beside it.
+    fn mended(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+        let profile = plan.witness.as_ref()?.profile()?;
+        let mend = |beside| {
+            let waypoints = mended(profile, &plan.waypoints, points, beside);
+            self.judge.mend(&waypoints, &self.timing, |leg| profile.legs.get(leg).cloned())
+        };
+        let profile = mend(false).or_else(|| mend(true))?;
+        (profile.duration() <= self.setup.longest()).then(|| Plan::witnessed(points.to_vec(), profile))
     }
 
     fn search(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
@@ -129,5 +140,32 @@ impl Solver for BoatSolver<'_> {
 
     fn takes_scores(&self) -> bool {
         true
+    }
+
+    fn draw(&self, graph: u64) -> Result<Plan, String> {
+        let points = self.sample(graph)?;
+        let roadmap = self.roadmap(graph, &points);
+        let mut random = stream(named_seed(self.setup.scenario.seed, "wander", graph));
+        let walk = roadmap.wander(self.setup.scenario.task.length as usize, &mut random);
+        let nodes = walk.ok_or("none was met by drawing leg by leg")?;
+        let profile = roadmap.profile(&nodes).map_err(|why| why.to_string())?;
+        if profile.duration() > self.setup.longest() {
+            return Err("`max_time_s` is exceeded".into());
+        }
+        Ok(Plan::witnessed(nodes.iter().map(|node| points[node.waypoint as usize]).collect(), profile))
+    }
+
+    fn drawn_how(&self) -> &'static str {
+        "leg by leg, each witnessed leg equally likely"
+    }
+
+    fn over(&self, _: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+        let in_the_plane: Vec<_> = points.iter().map(|point| Point3::new(point.x, point.y, 0.0)).collect();
+        self.mended(plan, &in_the_plane)
+    }
+
+    fn elsewhere(&self, graph: u64, random: &mut Stream) -> Option<Point3<f64>> {
+        let points = self.sample(graph).ok()?;
+        Some(points[random.random_range(1..points.len() - 1)])
     }
 }

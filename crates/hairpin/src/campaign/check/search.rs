@@ -19,6 +19,11 @@ pub(in crate::campaign) fn check_search(search: &SearchSection, found: &mut Find
     // A partial trajectory on the frontier is some hundred bytes: ten million are a few GB.
     found.count("generate.search.frontier", search.frontier, 1, 10_000_000);
     found.count("generate.search.executions", search.executions, 1, 1_000_000);
+    if let Some(seconds) = search.seconds {
+        let worst = search.method == SearchMethod::Worst;
+        found.above("generate.search.seconds", seconds, 0.0, 1e6, " s");
+        found.require(worst, "generate.search.seconds", seconds, "left out: only the method `worst` ends by it");
+    }
     found.count("generate.search.confirm", search.confirm, 0, search.executions.saturating_sub(1).min(1_000));
     if let Some(graphs) = search.graphs {
         found.count("generate.search.graphs", graphs, 1, 1_000_000_000);
@@ -52,7 +57,7 @@ pub(in crate::campaign) fn check_executed(search: &SearchSection, key: &str, fou
     found.require(enough || !beam, "generate.search.executions", search.executions, &bound);
     let what = format!("the score `{EXECUTED}`");
     let bound = format!("false: {what} grows trajectories along their graphs' legs");
-    found.require(!search.move_waypoints, "generate.search.move_waypoints", true, &bound);
+    found.require(!search.moves_waypoints(), "generate.search.move_waypoints", true, &bound);
     check_unconfirmed(search, &what, found);
 }
 
@@ -78,6 +83,6 @@ fn check_adaptive(search: &SearchSection, found: &mut Findings) {
     let fine = (least..=MOST_LEARNED).contains(&search.executions);
     found.require(fine, "generate.search.executions", search.executions, &bound);
     let bound = "false: the method `adaptive` stays on its graphs' legs, which are what it learns of";
-    found.require(!search.move_waypoints, "generate.search.move_waypoints", true, bound);
+    found.require(!search.moves_waypoints(), "generate.search.move_waypoints", true, bound);
     check_unconfirmed(search, "the method `adaptive`", found);
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use nalgebra::Point3;
+use rand::RngExt;
 
 use super::DriveSetup;
 use super::ask::{Asked, Graph, ask, beside};
@@ -21,7 +22,7 @@ use crate::feasibility::reach::drive::{
     sample_ground,
 };
 use crate::feasibility::steering::shooting::families;
-use crate::math::random::named_seed;
+use crate::math::random::{Stream, named_seed};
 use crate::search::{Found, Score};
 use crate::trajectory::drive::Planar;
 use crate::trajectory::{Drive, Passing};
@@ -194,6 +195,15 @@ impl Solver for DriveSolver<'_> {
             Some(stepwise) => stepwise.solve(&self.settings, asked),
             None => self.by_roadmap(asked),
         }
+    }
+
+    fn over(&self, graph: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+        self.moved(graph, plan, points)
+    }
+
+    fn elsewhere(&self, graph: u64, random: &mut Stream) -> Option<Point3<f64>> {
+        let points = self.sample(graph).ok()?;
+        Some(points[random.random_range(1..points.len() - 1)])
     }
 }
 

@@ -7,10 +7,12 @@ use nalgebra::Vector3;
 use crate::campaign::attachments::Attachments;
 use crate::campaign::kind::Kind;
 use crate::campaign::own_controller::AnyController;
-use crate::campaign::scenario::{FlightScenario, Mistake, ObstacleSection, RobotSource, WorldSection};
+use crate::campaign::scenario::{
+    DeviationFrom, FlightScenario, Keys, Mistake, ObstacleSection, RobotSource, WorldSection,
+};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription};
-use crate::simulation::OwnController;
+use crate::simulation::{ControllerKind, OwnController};
 use crate::world::{Obstacle, Shape, World, WorldError};
 
 /// A resolved scenario of flights and what it describes.
@@ -37,6 +39,13 @@ impl FlightSetup {
             Some(known) if known.scenario.robot == keys.robot => Ok(known.robot.clone()),
             _ => robot_of(&keys.robot).map(Arc::new),
         }
+    }
+
+    /// Whether who flies, or who judges, reads the velocities and times of a plan, not its waypoints alone.
+    pub(super) fn reads_the_plan(&self) -> bool {
+        let ours = self.scenario.execute.controller_in_force();
+        let reads = self.controller.is_some() || ours.is_none_or(|kind| kind == ControllerKind::Geometric);
+        reads || self.scenario.head().terms.from == DeviationFrom::Path
     }
 
     /// The space of `keys`, likewise.

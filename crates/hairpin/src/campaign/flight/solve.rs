@@ -1,6 +1,7 @@
 //! One graph, from its number to its plans: the reach set asked for, the search asked for, and never another.
 
 use nalgebra::Point3;
+use rand::RngExt;
 
 use super::certificates::Certifier;
 use super::stepwise::Stepwise;
@@ -11,6 +12,7 @@ use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Surroundings, Wa
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::ReachName;
 use crate::feasibility::certify::Certificate;
+use crate::math::random::Stream;
 
 /// The part of a search that is the same for every graph.
 pub(super) struct FlightSolver<'a> {
@@ -56,11 +58,17 @@ impl<'a> FlightSolver<'a> {
         plan
     }
 
-    /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible.
+    /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible. Of a witness
+    /// `rewitnessed` makes the new one.
     ///
     /// Start and end stay where they are; what is in between keeps the margin from the walls and the robot's radius
-    /// from obstacles. A bound that was proven is dropped.
-    fn moved(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+    /// from obstacles. A bound that was proven is dropped, and so is a certificate.
+    fn moved(
+        &self,
+        plan: &Plan,
+        points: &[Point3<f64>],
+        rewitnessed: impl Fn(&Witness) -> Option<Plan>,
+    ) -> Option<Plan> {
         let FlightSetup { world, robot, .. } = self.setup;
         let inner = &points[1..points.len() - 1];
         let stands = |p: &Point3<f64>| {
@@ -69,20 +77,24 @@ impl<'a> FlightSolver<'a> {
         if !inner.iter().all(stands) {
             return None;
         }
-        let plan = Plan { waypoints: points.to_vec(), bound: None, ..plan.clone() };
         match &self.set {
             Set::Stepwise(set) => {
                 let clear =
                     points.windows(2).all(|leg| world.segment_distance(&leg[0], &leg[1]) >= robot.clearance_radius);
-                Some(Plan { seen: set.follows(points).filter(|_| clear)?, ..plan })
+                let seen = set.follows(points).filter(|_| clear)?;
+                let (waypoints, certified, witness) = (points.to_vec(), None, None);
+                Some(Plan { waypoints, seen, bound: None, certified, witness, ..plan.clone() })
             }
-            Set::Witness(set) => {
-                let Certificate::Yes(profile) = set.through(points) else { return None };
-                let leg_times = profile.legs.iter().map(|leg| leg.duration).collect();
-                // No search chose its velocities.
-                Some(Plan { leg_times, seen: Vec::new(), witness: Some(profile.into()), ..plan })
-            }
+            Set::Witness(set) => rewitnessed(set),
         }
+    }
+
+    /// The same, with all velocities chosen anew for the whole sequence.
+    fn moved_whole(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+        self.moved(plan, points, |set| {
+            let Certificate::Yes(profile) = set.through(points) else { return None };
+            Some(Plan::witnessed(points.to_vec(), profile))
+        })
     }
 }
 
@@ -107,7 +119,7 @@ impl Solver for FlightSolver<'_> {
         // A witness leaves its straight legs: obstacles are placed beside what the case will claim.
         let furnish = |plan: &Plan| (executions.furnish)(&self.certified(plan.clone()));
         let executions = Executions { furnish: &furnish, ..executions };
-        let looped = Looped { executions, surroundings, moved: &|plan, points| self.moved(plan, points), wanted };
+        let looped = Looped { executions, surroundings, moved: &|plan, points| self.moved_whole(plan, points), wanted };
         let mut outcome = match &self.set {
             Set::Stepwise(set) => set.solve(graph, &points, looped),
             Set::Witness(set) => set.solve(graph, &points, looped),
@@ -118,5 +130,50 @@ impl Solver for FlightSolver<'_> {
 
     fn takes_scores(&self) -> bool {
         true
+    }
+
+    fn draw(&self, graph: u64) -> Result<Plan, String> {
+        let points = graph::sample(self.setup, graph).map_err(|error| error.to_string())?;
+        match &self.set {
+            Set::Stepwise(set) => set.draw(graph, &points),
+            Set::Witness(set) => set.draw(graph, &points),
+        }
+    }
+
+    fn drawn_how(&self) -> &'static str {
+        match &self.set {
+            Set::Stepwise(_) => "each feasible trajectory of a sampled graph equally likely",
+            Set::Witness(_) => "leg by leg, each witnessed leg equally likely",
+        }
+    }
+
+    fn over(&self, _: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+        self.moved(plan, points, |set| set.over(plan, points))
+    }
+
+    fn elsewhere(&self, graph: u64, random: &mut Stream) -> Option<Point3<f64>> {
+        let points = graph::sample(self.setup, graph).ok()?;
+        Some(points[random.random_range(1..points.len() - 1)])
+    }
+
+    fn crossed(&self, graph: u64, plan: &Plan, other: &Plan, leg: usize, _: &mut Stream) -> Option<Plan> {
+        match &self.set {
+            Set::Stepwise(_) => {
+                let (head, tail) = (plan.waypoints.get(..=leg)?, other.waypoints.get(leg + 1..)?);
+                self.over(graph, plan, &[head, tail].concat())
+            }
+            Set::Witness(set) => set.crossed(plan, other, leg),
+        }
+    }
+
+    fn altered(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
+        match &self.set {
+            Set::Witness(set) if self.setup.reads_the_plan() => set.altered(plan, leg, random),
+            _ => None,
+        }
+    }
+
+    fn finished(&self, plan: Plan) -> Plan {
+        self.certified(plan)
     }
 }

@@ -2,6 +2,7 @@
 //! the waypoint.
 
 use std::cell::RefCell;
+use std::collections::HashSet;
 use std::hash::Hash;
 
 use nalgebra::Point3;
@@ -9,7 +10,9 @@ use nalgebra::Point3;
 use super::FlightSetup;
 use super::blocking::blocking;
 use super::legs::scores;
-use crate::campaign::graph::{Counter, Explored, Looped, Outcome, Plan, Question, Stage, in_order, search};
+use crate::campaign::graph::{
+    Counter, Executions, Explored, Looped, Outcome, Plan, Question, Round, Stage, Wanted, in_order, search,
+};
 use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
 use crate::campaign::{Evidence, SeenLeg};
 use crate::feasibility::reach::{
@@ -108,6 +111,20 @@ impl<'a> Stepwise<'a> {
                 self.clear_of_obstacles(asked, reach.as_ref(), start, |node| node.current, |_, _| true)
             }
         }
+    }
+
+    /// A plan of graph number `graph` over `points`, each of them equally likely.
+    ///
+    /// # Errors
+    /// Why there is none, in a sentence's part.
+    pub(super) fn draw(&self, graph: u64, points: &[Point3<f64>]) -> Result<Plan, String> {
+        let known = HashSet::new();
+        let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: 1, models: &[], known: &known };
+        let wanted = Wanted::Round(&round);
+        let looped = Looped { executions: Executions::none(), surroundings: None, moved: &|_, _| None, wanted };
+        let Outcome { plans, reason, .. } = self.solve(graph, points, looped);
+        let drawn = plans.into_iter().next().map(|(_, plan)| plan);
+        drawn.ok_or_else(|| reason.unwrap_or_else(|| "no feasible trajectory was drawn".into()))
     }
 
     /// The legs from each of `points` to the one after it, the first from rest; `None` where one is not feasible.

@@ -1,15 +1,22 @@
 //! The reach set `witness`: a roadmap of waypoint states per graph, and the profile of what is found.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
+use rand::RngExt;
 
 use super::FlightSetup;
 use super::legs::{judge, scores};
-use crate::campaign::graph::{Looped, Outcome, Remembered, Roads, Wanted, Witnessed};
+use crate::campaign::Witness as CaseWitness;
+use crate::campaign::graph::{Looped, Outcome, Plan, Remembered, Roads, Wanted, Witnessed};
 use crate::campaign::scenario::Timing;
 use crate::feasibility::certify::{Certificate, certify};
+use crate::feasibility::reach::mend::{MendedWaypoint, mended, passed};
 use crate::feasibility::reach::{Roadmap, RoadmapSettings, WitnessLegs};
 use crate::feasibility::steering::{LegJudge, LegTiming};
-use crate::math::random::named_seed;
+use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
+use crate::trajectory::Profile;
+
+/// Share of what is altered that is the time of a leg; the others are velocities at waypoints.
+const OTHER_TIME: f64 = 0.3;
 
 /// What judges legs, and how long they may take.
 pub(super) struct Witness<'a> {
@@ -54,6 +61,82 @@ impl<'a> Witness<'a> {
             seed: named_seed(scenario.seed, "roadmap", graph),
         };
         Roadmap::new(&self.judge, points, &settings)
+    }
+
+    /// A plan of graph number `graph` over `points`, drawn leg by leg.
+    ///
+    /// # Errors
+    /// Why there is none, in a sentence's part.
+    pub(super) fn draw(&self, graph: u64, points: &[Point3<f64>]) -> Result<Plan, String> {
+        let scenario = &self.setup.scenario;
+        let roadmap = self.roadmap(graph, points);
+        let mut random = stream(named_seed(scenario.seed, "wander", graph));
+        let walk = roadmap.wander(scenario.task.length as usize, &mut random);
+        let nodes = walk.ok_or("none was met by drawing leg by leg")?;
+        let profile = roadmap.profile(&nodes).map_err(|why| why.to_string())?;
+        let waypoints = nodes.iter().map(|node| points[node.waypoint as usize]).collect();
+        self.plan(waypoints, profile).ok_or_else(|| "`max_flight_time_s` is exceeded".into())
+    }
+
+    /// `profile` over `waypoints`; `None` where it takes too long.
+    fn plan(&self, waypoints: Vec<Point3<f64>>, profile: Profile) -> Option<Plan> {
+        let longest = self.setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
+        (profile.duration() <= longest).then(|| Plan::witnessed(waypoints, profile))
+    }
+
+    /// `plan` over `points`: what did not change is kept, and where that is in the way what is beside it is chosen anew
+    /// as well.
+    pub(super) fn over(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
+        let profile = plan.witness.as_ref()?.profile()?;
+        let kept = |leg: usize| profile.legs.get(leg).cloned();
+        let mend = |beside| {
+            let waypoints = mended(profile, &plan.waypoints, points, beside);
+            self.judge.mend(&waypoints, &self.timing, kept)
+        };
+        self.plan(points.to_vec(), mend(false).or_else(|| mend(true))?)
+    }
+
+    /// `plan` up to the first waypoint of leg `leg`, and `other` after it.
+    pub(super) fn crossed(&self, plan: &Plan, other: &Plan, leg: usize) -> Option<Plan> {
+        let [head, tail] = [plan, other].map(|plan| plan.witness.as_ref().and_then(CaseWitness::profile));
+        let (head, tail) = (head?, tail?);
+        let points = [plan.waypoints.get(..=leg)?, other.waypoints.get(leg + 1..)?].concat();
+        let of = |k: usize| if k <= leg { head } else { tail };
+        let mend = |chosen: bool| {
+            let waypoint = |(k, place): (usize, &Point3<f64>)| MendedWaypoint {
+                place: *place,
+                velocity: passed(of(k), k),
+                kept: !(chosen && (k == leg || k == leg + 1)),
+            };
+            let waypoints: Vec<_> = points.iter().enumerate().map(waypoint).collect();
+            self.judge.mend(&waypoints, &self.timing, |k| of(k).legs.get(k).filter(|_| k != leg).cloned())
+        };
+        self.plan(points.clone(), mend(false).or_else(|| mend(true))?)
+    }
+
+    /// `plan` with another velocity at a waypoint of leg `leg`, or another time of that leg.
+    pub(super) fn altered(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
+        let profile = plan.witness.as_ref()?.profile()?;
+        let last = plan.waypoints.len() - 1;
+        if unit(random) < OTHER_TIME {
+            let old = profile.legs.get(leg)?;
+            let [from, to] = [leg, leg + 1].map(|k| self.judge.end(plan.waypoints[k], passed(profile, k)));
+            let rungs = self.timing.rungs();
+            let rung = rungs[random.random_range(0..rungs.len())];
+            let mut legs = profile.legs.clone();
+            legs[leg] = (rung != old.duration).then(|| self.judge.judge(&from, &to, rung).ok())??;
+            return self.plan(plan.waypoints.clone(), Profile { legs });
+        }
+        let changed = (leg + random.random_range(0..2usize)).clamp(1, last.checked_sub(1).filter(|inner| *inner > 0)?);
+        let mut waypoints = mended(profile, &plan.waypoints, &plan.waypoints, false);
+        let old = waypoints[changed].velocity;
+        let speed = self.judge.top_speed() * unit(random);
+        let way = if unit(random) < 0.5 { old } else { plan.waypoints[changed + 1] - plan.waypoints[changed - 1] };
+        let way =
+            way.try_normalize(1e-9).unwrap_or_else(Vector3::x) + Vector3::from(standard_normals::<3>(random)) * 0.3;
+        waypoints[changed].velocity = way * (speed / way.norm().max(f64::MIN_POSITIVE));
+        let kept = |k: usize| profile.legs.get(k).filter(|_| k != changed && k + 1 != changed).cloned();
+        self.plan(plan.waypoints.clone(), self.judge.mend(&waypoints, &self.timing, kept)?)
     }
 
     /// Searches graph number `graph` over `points`.

@@ -9,6 +9,9 @@ mod graphs;
 mod known;
 mod optima;
 mod shares;
+mod space;
+mod targets;
+mod worst;
 
 use std::collections::HashSet;
 
@@ -23,10 +26,15 @@ use crate::math::random::case_seed;
 use crate::trajectory::program::{Motion, Program};
 pub use known::Known;
 pub use optima::{Optimum, optima};
+pub use space::Space;
+
+/// Graphs that a case which is searched by itself may be drawn from.
+const GRAPHS_OF_A_CASE: u64 = 1 << 32;
 
 /// `known` without the cases that its tally does not count, as a kill between the writing of both may leave them.
 pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
-    if scenario.search().method == SearchMethod::Adaptive || scenario.head().one_search {
+    let one = matches!(scenario.search().method, SearchMethod::Adaptive | SearchMethod::Worst);
+    if one && !varies(scenario) || scenario.head().one_search {
         // What a round chooses depends on all before it, and one search is one: there is no place to go on from.
         let done = !known.tally.stopped && known.tally.units > 0;
         return if done { known } else { Known::default() };
@@ -63,6 +71,9 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
         return adaptive::generate(&graphs, known, stop, sink);
     }
     let varied = varies(&setup.scenario);
+    if search.method == SearchMethod::Worst && !varied {
+        return worst::generate(&graphs, known, stop, sink);
+    }
     let units = match search.graphs {
         _ if varied => wanted,
         Some(graphs) => graphs,
@@ -117,6 +128,20 @@ fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
         Ok(graphs) => graphs,
         Err(reason) => return Outcome { reason: Some(reason), ..Outcome::default() },
     };
+    let search = setup.scenario.search();
+    if search.method == SearchMethod::Worst {
+        let pool = worst::pool(&graphs, 1, [search.executions, case * GRAPHS_OF_A_CASE], stop);
+        let plans = pool.plans.into_iter().map(|drawn| (drawn.graph, drawn.plan)).collect();
+        let (graphs, expansions) = (pool.drawn, pool.curve.executions);
+        return Outcome {
+            plans,
+            graphs,
+            expansions,
+            curves: vec![pool.curve],
+            reason: pool.nothing,
+            ..Outcome::default()
+        };
+    }
     let mut total = Outcome::default();
     for attempt in 0..GRAPHS_PER_CASE {
         let outcome = graphs.solve(case * GRAPHS_PER_CASE + attempt, Wanted::Cases, stop);

@@ -22,6 +22,13 @@ pub(in crate::campaign) struct Executions<'a> {
     pub(in crate::campaign) partial: Option<Partials<'a>>,
 }
 
+impl Executions<'static> {
+    /// For searches that execute nothing.
+    pub(in crate::campaign) fn none() -> Self {
+        Self { execute: &|_, _| None, duration: &|_| None, furnish: &|_| None, partial: None }
+    }
+}
+
 /// Executes a part; where it fails it says how many legs it executed in vain.
 type Part<'a> = &'a dyn Fn(&Plan, Option<&Airborne>, bool) -> Result<Ran<Airborne>, u64>;
 

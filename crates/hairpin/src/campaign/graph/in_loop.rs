@@ -48,7 +48,8 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Quest
     let undisturbed = if disturbance.is_some() { (budget as f64 * (1.0 - DISTURBED)).ceil() } else { budget as f64 };
     let settings = EvolveSettings {
         length: question.length,
-        executions: ((undisturbed * if search.move_waypoints { EVOLVED } else { 1.0 }) as u64).max(1 + search.confirm),
+        executions: ((undisturbed * if search.moves_waypoints() { EVOLVED } else { 1.0 }) as u64)
+            .max(1 + search.confirm),
         per_trial: 1 + search.confirm,
         revisits: search.revisits,
         ..EvolveSettings::default()
@@ -64,7 +65,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Quest
         Some(Climber { plan, trial, step })
     };
     let mut climbers: Vec<Climber> = evolved.pool.into_iter().filter_map(climber).collect();
-    if search.move_waypoints {
+    if search.moves_waypoints() {
         for (stage, (most, share)) in STAGES.into_iter().enumerate() {
             let most = most.min(climbers.len());
             let left = (undisturbed as u64).saturating_sub(best_so_far.len() as u64) as f64;

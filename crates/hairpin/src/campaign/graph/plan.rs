@@ -5,6 +5,7 @@ use nalgebra::Point3;
 use crate::campaign::{Case, CaseNumber, Environment, Evidence, SeenLeg, Witness};
 use crate::math::random::case_seed;
 use crate::search::Found;
+use crate::trajectory::Profile;
 
 /// A trajectory that a graph gave.
 #[derive(Debug, Clone)]
@@ -41,6 +42,30 @@ impl Plan {
             witness: None,
             environment: None,
         }
+    }
+
+    /// Over `waypoints`, which `profile` passes.
+    pub(in crate::campaign) fn witnessed(waypoints: Vec<Point3<f64>>, profile: Profile) -> Self {
+        Self {
+            leg_times: profile.legs.iter().map(|leg| leg.duration).collect(),
+            waypoints,
+            seen: Vec::new(),
+            score: 0.0,
+            bound: None,
+            evidence: Evidence::Witnessed,
+            certified: None,
+            witness: Some(profile.into()),
+            environment: None,
+        }
+    }
+
+    /// What `case` was made of.
+    pub(in crate::campaign) fn of(case: &Case) -> Self {
+        let Case {
+            number: _, seed: _, graph: _, waypoints, leg_times, seen, score, bound, evidence, certified, ..
+        } = case.clone();
+        let (witness, environment) = (case.witness.clone(), case.environment.clone());
+        Self { waypoints, leg_times, seen, score, bound, evidence, certified, witness, environment }
     }
 
     /// Case `number` of a campaign under the root seed, found in graph number `graph`.

@@ -36,8 +36,8 @@ fn by_method<N: Copy + Eq + Ord + Hash, O: Additive>(
         SearchMethod::Exact => by_dynamic_program(question),
         SearchMethod::Uniform => by_uniform_draws(question),
         SearchMethod::InLoop => by_trials(question),
-        // Its rounds are wanted one by one; here is whoever only asks what is feasible.
-        SearchMethod::Adaptive => by_uniform_draws(question),
+        // Their executions are asked for one by one; here is whoever only asks what is feasible.
+        SearchMethod::Worst | SearchMethod::Adaptive => by_uniform_draws(question),
     }
 }
 

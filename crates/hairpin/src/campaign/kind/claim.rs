@@ -1,11 +1,14 @@
 //! The claim: what a kind searches, plans and proves.
 
+use std::collections::HashSet;
+
 use nalgebra::Point3;
 use thiserror::Error;
 
 use super::{Knobs, Same};
-use crate::campaign::graph::{Executions, Losses, Outcome, Wanted};
+use crate::campaign::graph::{Executions, Losses, Outcome, Plan, Round, Wanted};
 use crate::campaign::{Case, CaseNumber, Scenario, Stop, Timed};
+use crate::math::random::Stream;
 use crate::simulation::SimulationError;
 use crate::trajectory::{Track, TrackError};
 use crate::verification::{EndError, Proof};
@@ -75,6 +78,60 @@ pub(in crate::campaign) trait Solver: Sync {
     /// Whether its legs can be asked for the optimum of other scores, by their names, than the scenario's.
     fn takes_scores(&self) -> bool {
         false
+    }
+
+    /// One feasible plan of graph number `graph`, drawn at random; the same whenever it is asked for.
+    ///
+    /// Unless a kind has a cheaper way, each walk of the graph is equally likely.
+    ///
+    /// # Errors
+    /// Why there is none, in a sentence's part.
+    fn draw(&self, graph: u64) -> Result<Plan, String> {
+        let known = HashSet::new();
+        let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: 1, models: &[], known: &known };
+        let Outcome { plans, reason, .. } =
+            self.solve(graph, Executions::none(), Wanted::Round(&round), &Stop::never());
+        let drawn = plans.into_iter().next().map(|(_, plan)| plan);
+        drawn.ok_or_else(|| reason.unwrap_or_else(|| "no feasible trajectory was drawn".into()))
+    }
+
+    /// How [`draw`](Self::draw) draws, in a sentence's part.
+    fn drawn_how(&self) -> &'static str {
+        "each feasible trajectory of a sampled graph equally likely"
+    }
+
+    /// Plans that other searches of its own find, to begin a search of changes with beside draws.
+    fn seeds(&self, _stop: &Stop) -> Vec<Plan> {
+        Vec::new()
+    }
+
+    /// Whether waypoints of plans may lie anywhere that is feasible.
+    fn moves(&self) -> bool {
+        true
+    }
+
+    /// `plan`, drawn from graph number `graph`, over other `points`, as many as its own; `None` where that is not
+    /// feasible.
+    fn over(&self, graph: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan>;
+
+    /// A waypoint of graph number `graph`, drawn at random.
+    fn elsewhere(&self, graph: u64, random: &mut Stream) -> Option<Point3<f64>>;
+
+    /// `plan`, drawn from graph number `graph`, up to the first waypoint of leg `leg`, and `other` after it.
+    fn crossed(&self, graph: u64, plan: &Plan, other: &Plan, leg: usize, _random: &mut Stream) -> Option<Plan> {
+        let (head, tail) = (plan.waypoints.get(..=leg)?, other.waypoints.get(leg + 1..)?);
+        self.over(graph, plan, &[head, tail].concat())
+    }
+
+    /// `plan` with something else than its waypoints changed, at leg `leg` if that can be; `None` where nothing can, or
+    /// what was drawn is not feasible.
+    fn altered(&self, _plan: &Plan, _leg: usize, _random: &mut Stream) -> Option<Plan> {
+        None
+    }
+
+    /// What is kept of a search, with what only kept plans are given.
+    fn finished(&self, plan: Plan) -> Plan {
+        plan
     }
 }
 

@@ -18,7 +18,7 @@ pub const PYTHON: &str = "python:";
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SearchSection {
-    /// beam | exact | uniform | in-loop | adaptive.
+    /// worst | beam | exact | uniform | in-loop | adaptive.
     pub method: SearchMethod,
     /// Waypoints sampled per graph.
     pub waypoints: u64,
@@ -41,10 +41,13 @@ pub struct SearchSection {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds
-    /// together.
+    /// `worst`: executions for each case asked for, all in one pool; `in-loop`, and the score `executed`: executions per
+    /// graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
-    /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
+    /// `worst`: time for the search, s, beside `executions`; what is found then depends on the clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+    /// `worst`, `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
     /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not
     /// given, one for 45 executions, at least 4 where there are enough, at most 15.
@@ -56,8 +59,14 @@ pub struct SearchSection {
     /// `adaptive`: time for executing and learning beside `executions`; what is found then depends on the clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
-    /// `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them.
-    pub move_waypoints: bool,
+    /// `worst`, `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them; if not given,
+    /// `worst` moves them and `in-loop` does not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub move_waypoints: Option<bool>,
+    /// `worst`: what is searched for; if not given, each limit of `[spec]`, by its margin in spreads of what is drawn at
+    /// random: deviation | clearance | acceleration | time | overshoot | tip-over | lateness.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<Target>,
     /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation |
     /// max-acceleration | time | overshoot | saturation | clearance | tilt.
     pub stress: Stress,
@@ -78,12 +87,49 @@ impl Default for SearchSection {
             frontier: 100_000,
             graphs: None,
             executions: 200,
+            seconds: None,
             confirm: 0,
             rounds: None,
             explore: 0.2,
             time_s: None,
-            move_waypoints: false,
+            move_waypoints: None,
+            target: None,
             stress: Stress::MaxDeviation,
+        }
+    }
+}
+
+/// What the method `worst` searches for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Target {
+    /// Largest deviation from the reference.
+    Deviation,
+    /// Least distance from obstacles.
+    Clearance,
+    /// Largest acceleration.
+    Acceleration,
+    /// Time taken.
+    Time,
+    /// Largest overshoot at a waypoint.
+    Overshoot,
+    /// Least angle by which the body must still lean to tip over; of what flies, its largest tilt.
+    TipOver,
+    /// Latest arrival at a waypoint, by its planned time.
+    Lateness,
+}
+
+impl Target {
+    /// As a stress, of which more is worse.
+    pub fn stress(self) -> Stress {
+        match self {
+            Self::Deviation => Stress::MaxDeviation,
+            Self::Clearance => Stress::Clearance,
+            Self::Acceleration => Stress::MaxAcceleration,
+            Self::Time => Stress::Time,
+            Self::Overshoot => Stress::Overshoot,
+            Self::TipOver => Stress::Tilt,
+            Self::Lateness => Stress::Lateness,
         }
     }
 }
@@ -92,6 +138,9 @@ impl Default for SearchSection {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SearchMethod {
+    /// One pool of executions for all cases: what is executed decides what is tried next, and the worst that differ are
+    /// kept.
+    Worst,
     /// Algorithms 1 and 2 of the paper.
     Beam,
     /// Dynamic programming: the optimum, or the proof that there is none.
@@ -107,7 +156,7 @@ pub enum SearchMethod {
 impl SearchMethod {
     /// Whether trajectories are executed while they are searched for.
     pub fn executes(self) -> bool {
-        matches!(self, Self::InLoop | Self::Adaptive)
+        matches!(self, Self::Worst | Self::InLoop | Self::Adaptive)
     }
 }
 
@@ -136,6 +185,16 @@ impl SearchSection {
         let [least, most] = ROUNDS;
         let enough = (self.executions / self.least_per_round()).max(1);
         self.rounds.unwrap_or_else(|| (self.executions / PER_ROUND).clamp(least, most).min(enough))
+    }
+
+    /// Executions of the pool of the method `worst`.
+    pub fn pooled_executions(&self) -> u64 {
+        self.executions.saturating_mul(self.cases)
+    }
+
+    /// Whether waypoints are moved off their graphs.
+    pub fn moves_waypoints(&self) -> bool {
+        self.move_waypoints.unwrap_or(self.method == SearchMethod::Worst)
     }
 
     /// Whether trajectories are executed while they are searched for under `score`.

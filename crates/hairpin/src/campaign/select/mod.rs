@@ -7,15 +7,13 @@ mod greedy;
 
 use std::collections::BTreeSet;
 
-use nalgebra::Point3;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{Case, CaseNumber, CaseResult};
 use crate::judgement::Measures;
-
-/// Points at which two ways are compared, evenly along each.
-const POINTS: usize = 24;
+use crate::search::worst::{Placed, Scale, Trace};
+use crate::trajectory::Route;
 
 /// What a choice is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -54,10 +52,8 @@ pub struct Candidate {
     ///
     /// Executed cases without measures count by their score as well.
     pub stress: f64,
-    /// Places along its way, m.
-    route: Vec<Point3<f64>>,
-    /// What came of it, each measure in its own unit; empty where it was not executed.
-    behaviour: Vec<f64>,
+    /// Its way, and what came of it; that is empty where it was not executed.
+    trace: Trace,
     /// Cells of the grid of motion that it met.
     ///
     /// By their numbers in the grid.
@@ -73,8 +69,7 @@ impl Candidate {
         Self {
             case: case.number,
             stress: measures.map_or(case.score, |measures| measures.max_deviation),
-            route: evenly(&case.waypoints),
-            behaviour: measures.map_or_else(Vec::new, behaviour),
+            trace: Trace { route: Route::along(&case.waypoints), behaviour: measures.map_or_else(Vec::new, behaviour) },
             cells,
         }
     }
@@ -84,11 +79,11 @@ impl Candidate {
 ///
 /// One that was not makes all of them compared by their ways alone.
 pub fn measured(candidates: &[Candidate]) -> bool {
-    candidates.iter().all(|candidate| !candidate.behaviour.is_empty())
+    candidates.iter().all(|candidate| !candidate.trace.behaviour.is_empty())
 }
 
-/// What a robot has no measure of counts as 0, of all cases alike.
-fn behaviour(m: &Measures) -> Vec<f64> {
+/// What tells one execution from another. What a robot has no measure of counts as 0, of all cases alike.
+pub(super) fn behaviour(m: &Measures) -> Vec<f64> {
     vec![
         m.max_deviation,
         m.mean_deviation,
@@ -100,37 +95,14 @@ fn behaviour(m: &Measures) -> Vec<f64> {
     ]
 }
 
-/// Places along a way, evenly by its length.
-///
-/// As many as are compared; waypoints in the plane or in space alike.
-fn evenly(waypoints: &[Point3<f64>]) -> Vec<Point3<f64>> {
-    let lengths: Vec<f64> = waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
-    let whole: f64 = lengths.iter().sum();
-    let (mut leg, mut before) = (0, 0.0);
-    (0..POINTS)
-        .map(|i| {
-            let along = whole * i as f64 / (POINTS - 1) as f64;
-            while leg + 1 < lengths.len() && before + lengths[leg] < along {
-                before += lengths[leg];
-                leg += 1;
-            }
-            let share = if lengths.is_empty() || lengths[leg] == 0.0 { 0.0 } else { (along - before) / lengths[leg] };
-            let next = waypoints[(leg + 1).min(waypoints.len() - 1)];
-            waypoints[leg] + (next - waypoints[leg]) * share.clamp(0.0, 1.0)
-        })
-        .collect()
-}
-
 /// How stressful cases are and how far apart, each 0 … 1 over all of them. Distances are computed where they are asked
 /// for: those of all pairs of ten thousand cases would take a gigabyte.
 #[derive(Debug, Clone)]
 pub struct Choice<'a> {
     candidates: &'a [Candidate],
     stress: Vec<f64>,
-    /// What came of each case, each measure as a share of its range; empty where that is not known of all.
-    behaviours: Vec<Vec<f64>>,
-    /// The largest distance of ways, and that of behaviours.
-    longest: [f64; 2],
+    scale: Scale,
+    placed: Vec<Placed>,
 }
 
 /// How good a choice is.
@@ -160,38 +132,14 @@ impl<'a> Choice<'a> {
     /// O(n²) distances on all threads, O(n) memory. The stress of each is (s − min) / (max − min).
     pub fn new(candidates: &'a [Candidate]) -> Self {
         let stress = unit(&candidates.iter().map(|c| c.stress).collect::<Vec<_>>());
-        let measures = candidates.first().map_or(0, |c| c.behaviour.len());
-        let columns: Vec<Vec<f64>> = if measured(candidates) {
-            (0..measures).map(|m| unit(&candidates.iter().map(|c| c.behaviour[m]).collect::<Vec<_>>())).collect()
-        } else {
-            Vec::new()
-        };
-        let behaviours =
-            (0..candidates.len()).map(|place| columns.iter().map(|column| column[place]).collect()).collect();
-        let choice = Self { candidates, stress, behaviours, longest: [0.0; 2] };
-        let of_row = |a: usize| (0..a).fold([0.0; 2], |most, b| larger(most, choice.distances(a, b)));
-        let longest = (0..candidates.len()).into_par_iter().map(of_row).reduce(|| [0.0; 2], larger);
-        Self { longest, ..choice }
+        let traces: Vec<Trace> = candidates.iter().map(|c| c.trace.clone()).collect();
+        let scale = Scale::of(&traces);
+        let placed = traces.iter().map(|trace| scale.place(trace)).collect();
+        Self { candidates, stress, scale, placed }
     }
 
-    /// How far two ways are apart, m, and what came of them.
-    ///
-    /// √(Σ |pᵢ − qᵢ|² / n) over the n points of both ways, and the Euclidean distance of the measures as shares of
-    /// their ranges.
-    fn distances(&self, a: usize, b: usize) -> [f64; 2] {
-        let [one, other] = [a, b].map(|place| &self.candidates[place].route);
-        let way: f64 = one.iter().zip(other).map(|(p, q)| (p - q).norm_squared()).sum();
-        let squares = self.behaviours[a].iter().zip(&self.behaviours[b]).map(|(x, y)| (x - y) * (x - y));
-        [(way / POINTS as f64).sqrt(), squares.sum::<f64>().sqrt()]
-    }
-
-    /// Both distances are metrics, and so is their mean over constants.
-    ///
-    /// Of those that are not all 0: ½ (d / d_max + b / b_max), or one of them alone.
     fn apart(&self, a: usize, b: usize) -> f64 {
-        let parts = self.longest.iter().filter(|longest| **longest > 0.0).count().max(1) as f64;
-        let share = |(distance, longest): (f64, f64)| if longest > 0.0 { distance / longest } else { 0.0 };
-        self.distances(a, b).into_iter().zip(self.longest).map(share).sum::<f64>() / parts
+        self.scale.apart(&self.placed[a], &self.placed[b])
     }
 
     /// `count` of the candidates, as their places in the list, in the order in which they are chosen.
@@ -241,12 +189,10 @@ fn unit(values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| if range > 0.0 { (value - low) / range } else { 0.0 }).collect()
 }
 
-fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [0, 1].map(|i| a[i].max(b[i]))
-}
-
 #[cfg(test)]
 mod tests {
+    use nalgebra::Point3;
+
     use super::*;
 
     fn candidate(case: usize, stress: f64, x: f64, cells: &[usize]) -> Candidate {
@@ -254,8 +200,7 @@ mod tests {
         Candidate {
             case: CaseNumber(case),
             stress,
-            route: evenly(&way),
-            behaviour: vec![stress, x],
+            trace: Trace { route: Route::along(&way), behaviour: vec![stress, x] },
             cells: cells.iter().copied().collect(),
         }
     }
@@ -277,16 +222,5 @@ mod tests {
         assert_eq!(choice.best(2, By::Coverage), [6, 0]);
         assert_eq!(choice.measure(&[6, 0]).cells, 4);
         assert_eq!(choice.best(99, By::Diverse).len(), 7);
-    }
-
-    #[test]
-    fn places_are_even_along_the_way() {
-        let way = [Point3::origin(), Point3::new(1.0, 0.0, 0.0), Point3::new(1.0, 3.0, 0.0)];
-        let places = evenly(&way);
-        assert_eq!((places[0], places[POINTS - 1]), (way[0], way[2]));
-        let steps: Vec<f64> = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
-        // But for the one around the corner.
-        assert!(steps.iter().filter(|step| (*step - 4.0 / 23.0).abs() < 1e-12).count() >= POINTS - 2, "{steps:?}");
-        assert_eq!(evenly(&[Point3::origin()]).len(), POINTS);
     }
 }

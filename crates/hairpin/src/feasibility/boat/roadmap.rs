@@ -8,6 +8,7 @@ use rand::RngExt;
 
 use super::leg::{BoatEnd, BoatJudge};
 use super::limits::BoatInfeasible;
+use crate::feasibility::reach::mend::{MendedWaypoint, mend};
 use crate::feasibility::reach::proven_legs::ProveLegs;
 use crate::feasibility::reach::states::{States, Velocities};
 use crate::feasibility::reach::{Leg, LegFeatures, Reach, WitnessLegs, WitnessNode};
@@ -101,6 +102,12 @@ impl<'a> BoatRoadmap<'a> {
         })
     }
 
+    /// A walk of `length` waypoints to the end, drawn leg by leg, none of them twice: at each step every state that a
+    /// proven leg leads to is equally likely. `None` where none was met.
+    pub fn wander(&self, length: usize, random: &mut Stream) -> Option<Vec<WitnessNode>> {
+        self.states.wander(length, random)
+    }
+
     /// What every candidate for a leg from `from` is, a state of another waypoint each: its node, or why it is none;
     /// `None` where the straight line alone takes longer at the largest speed than the longest leg may.
     pub fn candidates(&self, from: &WitnessNode) -> Vec<Result<WitnessNode, Option<BoatInfeasible>>> {
@@ -126,6 +133,19 @@ impl<'a> BoatRoadmap<'a> {
         let across = if both > 0.0 { (x * way.y - y * way.x).abs() / both } else { 0.0 };
         let corner = 1.0 - (features.turn / std::f64::consts::FRAC_PI_2 - 1.0).abs();
         features.v_in / top * (features.v_out / top) * corner * 0.5 * (1.0 + across)
+    }
+}
+
+impl BoatJudge {
+    /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](crate::feasibility::reach::mend). `old`
+    /// is a leg that is known to be proven between two waypoints that are kept. `None` where no choice has one.
+    pub fn mend(
+        &self,
+        waypoints: &[MendedWaypoint],
+        timing: &LegTiming,
+        old: impl Fn(usize) -> Option<ProfileLeg>,
+    ) -> Option<Profile> {
+        mend(self, &timing.rungs(), waypoints, |place, velocity| self.end(place, [velocity.x, velocity.y]), old)
     }
 }
 

@@ -27,6 +27,7 @@ pub mod filtered;
 mod graph;
 mod growing;
 pub mod hull;
+pub mod mend;
 pub mod none;
 pub mod planar_runs;
 pub mod polytope;
@@ -38,6 +39,7 @@ pub(in crate::feasibility) mod states;
 pub mod step;
 #[cfg(test)]
 mod tests;
+mod wander;
 pub mod witness;
 
 use nalgebra::Point3;

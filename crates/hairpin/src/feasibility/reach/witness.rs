@@ -12,6 +12,7 @@ use std::cell::OnceCell;
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
+use super::mend::{MendedWaypoint, mend};
 use super::proven_legs::{ProveLegs, WitnessLegs, WitnessNode};
 use super::states::{States, Velocities};
 use super::{Leg, Reach};
@@ -141,6 +142,15 @@ impl<'a> Roadmap<'a> {
         self.states.all()[self.states.number(node)].velocity
     }
 
+    /// A walk of `length` waypoints to the end, drawn leg by leg, none of them twice: at each step every state that a
+    /// proven leg leads to is equally likely. `None` where none was met.
+    ///
+    /// Walks through states with few ways on come more often than under [`uniform`](crate::search::uniform()), which
+    /// needs all legs of the graph: this judges some hundred.
+    pub fn wander(&self, length: usize, random: &mut Stream) -> Option<Vec<WitnessNode>> {
+        self.states.wander(length, random)
+    }
+
     /// Number of legs between all states; judges every leg that was not asked for yet.
     ///
     /// (n M)² judgements at worst.
@@ -210,6 +220,19 @@ impl<'a> Roadmap<'a> {
             .collect();
         let nearest = |p: &Point3<f64>| near.iter().map(|q| (q - p).norm()).fold(f64::INFINITY, f64::min);
         points.iter().map(nearest).collect()
+    }
+}
+
+impl LegJudge {
+    /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](super::mend). `old` is a leg that is
+    /// known to be proven between two waypoints that are kept. `None` where no choice of velocities has one.
+    pub fn mend(
+        &self,
+        waypoints: &[MendedWaypoint],
+        timing: &LegTiming,
+        old: impl Fn(usize) -> Option<ProfileLeg>,
+    ) -> Option<Profile> {
+        mend(self, &timing.rungs(), waypoints, |place, velocity| self.end(*place, velocity), old)
     }
 }
 

@@ -73,6 +73,7 @@ impl Keys for BoatScenario {
     fn surround(&mut self, _: &Environment) {}
 
     fn write_defaults(&mut self) {
+        self.generate.search.move_waypoints = Some(self.generate.search.moves_waypoints());
         self.execute.controller = self.execute.controller_in_force();
     }
 

@@ -100,6 +100,7 @@ impl Keys for DriveScenario {
     }
 
     fn write_defaults(&mut self) {
+        self.generate.search.move_waypoints = Some(self.generate.search.section().moves_waypoints());
         self.execute.controller = self.execute.controller_in_force();
     }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{EXECUTED, SearchMethod, SearchSection};
+use crate::campaign::scenario::{EXECUTED, SearchMethod, SearchSection, Target};
 use crate::judgement::Stress;
 use crate::search::Aggregate;
 use crate::world::Sampling;
@@ -40,7 +40,7 @@ macro_rules! drive_search {
 }
 
 drive_search! {
-    /// beam | exact | uniform | in-loop | adaptive.
+    /// worst | beam | exact | uniform | in-loop | adaptive.
     pub method: SearchMethod,
     /// Terms joined by +: slope, roll, curvature-change, slip, speed, reversals; random; executed; learned:MODEL; or
     /// python:FILE.
@@ -66,10 +66,13 @@ drive_search! {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `in-loop`, and the score `executed`: executions per graph at most; `adaptive`: executions of all rounds
-    /// together.
+    /// `worst`: executions for each case asked for, all in one pool; `in-loop`, and the score `executed`: executions per
+    /// graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
-    /// `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
+    /// `worst`: time for the search, s, beside `executions`; what is found then depends on the clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+    /// `worst`, `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
     pub confirm: u64,
     /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not
     /// given, one for 45 executions, at least 4 where there are enough, at most 15.
@@ -80,8 +83,14 @@ drive_search! {
     /// `adaptive`: time for executing and learning beside `executions`; what is found then depends on the clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
-    /// `in-loop`: whether waypoints are moved off their graph, as far as legs can be solved.
-    pub move_waypoints: bool,
+    /// `worst`, `in-loop`: whether waypoints are moved off their graph, as far as legs can be solved; if not given,
+    /// `worst` moves them and `in-loop` does not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub move_waypoints: Option<bool>,
+    /// `worst`: what is searched for; if not given, each limit of `[spec]`, by its margin in spreads of what is drawn at
+    /// random: deviation | clearance | acceleration | time | overshoot | tip-over | lateness.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<Target>,
     /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation |
     /// max-acceleration | time | overshoot | saturation | clearance | tilt.
     pub stress: Stress,

@@ -82,6 +82,7 @@ impl Keys for FlightScenario {
     }
 
     fn write_defaults(&mut self) {
+        self.generate.search.move_waypoints = Some(self.generate.search.moves_waypoints());
         self.generate.timing = Some(self.generate.timing_in_force());
         if self.execute.logs.is_none() {
             self.execute.controller = self.execute.controller_in_force();

@@ -1,0 +1,148 @@
+//! The search `worst`: one pool of executions for all cases, over whatever kind of robot.
+
+use nalgebra::Point3;
+
+use super::graphs::Graphs;
+use super::known::Known;
+use super::met;
+use super::targets::{Margins, targets};
+use crate::campaign::curve::Curve;
+use crate::campaign::graph::{Plan, fingerprint};
+use crate::campaign::{Case, Setup, Stop, Tally, Witness, trial};
+use crate::judgement::Stress;
+use crate::math::random::{Stream, named_seed};
+use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
+
+/// A plan, and the graph that it or the first of its ancestors was drawn from.
+#[derive(Clone)]
+pub(super) struct Drawn {
+    pub(super) graph: u64,
+    pub(super) plan: Plan,
+}
+
+/// The plans of one setup.
+struct Plans<'a> {
+    graphs: &'a Graphs<'a>,
+    stop: &'a Stop<'a>,
+    /// Of the first draw: cases that vary draw from graphs of their own.
+    first: u64,
+    stresses: Vec<Stress>,
+}
+
+impl Field for Plans<'_> {
+    type Plan = Drawn;
+
+    fn draw(&self, number: u64) -> Result<Drawn, String> {
+        let graph = self.first + number;
+        self.graphs.solver.draw(graph).map(|plan| Drawn { graph, plan })
+    }
+
+    fn seeds(&self) -> Vec<Drawn> {
+        let seeds = self.graphs.solver.seeds(self.stop).into_iter();
+        seeds.map(|plan| Drawn { graph: self.first, plan }).collect()
+    }
+
+    fn points<'p>(&self, drawn: &'p Drawn) -> &'p [Point3<f64>] {
+        &drawn.plan.waypoints
+    }
+
+    fn fingerprint(&self, drawn: &Drawn) -> [u8; 16] {
+        let Plan { waypoints, witness, leg_times, .. } = &drawn.plan;
+        // One way may be planned at other speeds, and velocities at waypoints are another plan to who reads them.
+        let times = leg_times.iter().map(|time| Point3::new(*time, 0.0, 0.0));
+        let passed = witness.iter().filter_map(Witness::profile).flat_map(|profile| &profile.legs);
+        let velocities = passed.map(|leg| leg.derivative(0.0, 1).into());
+        fingerprint(met(waypoints, witness.as_ref().and_then(Witness::program)).chain(times).chain(velocities))
+    }
+
+    fn moves(&self) -> bool {
+        self.graphs.solver.moves() && self.graphs.setup.scenario.search().moves_waypoints()
+    }
+
+    fn over(&self, drawn: &Drawn, points: &[Point3<f64>]) -> Option<Drawn> {
+        Some(Drawn { plan: self.graphs.solver.over(drawn.graph, &drawn.plan, points)?, ..*drawn })
+    }
+
+    fn elsewhere(&self, drawn: &Drawn, random: &mut Stream) -> Option<Point3<f64>> {
+        self.graphs.solver.elsewhere(drawn.graph, random)
+    }
+
+    fn crossed(&self, drawn: &Drawn, other: &Drawn, leg: usize, random: &mut Stream) -> Option<Drawn> {
+        let plan = self.graphs.solver.crossed(drawn.graph, &drawn.plan, &other.plan, leg, random)?;
+        Some(Drawn { plan, ..*drawn })
+    }
+
+    fn altered(&self, drawn: &Drawn, leg: usize, random: &mut Stream) -> Option<Drawn> {
+        Some(Drawn { plan: self.graphs.solver.altered(&drawn.plan, leg, random)?, ..*drawn })
+    }
+
+    fn run(&self, drawn: &Drawn, least: &[f64]) -> Option<Ran> {
+        trial::execute_for(self.graphs.setup, (drawn.graph, &drawn.plan), &self.stresses, least)
+    }
+}
+
+/// What one pool of executions found.
+pub(super) struct Pool {
+    /// The most stressful first.
+    pub(super) plans: Vec<Drawn>,
+    pub(super) curve: Curve,
+    pub(super) drawn: u64,
+    pub(super) apart: f64,
+    pub(super) nothing: Option<String>,
+}
+
+/// The worst `cases` of `graphs` in so many executions, drawn from graph number `first` on.
+pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2], stop: &Stop) -> Pool {
+    let search = graphs.setup.scenario.search();
+    let seed = named_seed(graphs.setup.scenario.seed(), "worst", first);
+    let targets = targets(graphs.setup);
+    let settings = WorstSettings { cases, targets: targets.len(), executions, per_trial: 1 + search.confirm, seed };
+    let begun = (stop.clock)();
+    let late = || search.seconds.is_some_and(|seconds| (stop.clock)() - begun >= seconds);
+    let told = |made: u64| (stop.progress)(made as usize, executions as usize);
+    let plans = Plans { graphs, stop, first, stresses: targets.iter().map(|target| target.stress).collect() };
+    let Worst { found, stresses, first: drawn_first, drawn, apart, nothing } =
+        worst(&plans, &settings, &|| (stop.cancelled)() || late(), &told);
+    let mut curve = Curve { graph: first, ..Curve::default() };
+    let margins = Margins::of(&targets, &stresses[..stresses.len().min(drawn_first as usize)]);
+    stresses.iter().for_each(|stresses| curve.push(stresses.as_ref().and_then(|stresses| margins.most(stresses))));
+    let plans = found.into_iter().map(|found| {
+        let Drawn { graph, plan } = found.plan;
+        let score = margins.told(found.target, found.trial.stress);
+        let plan = graphs.solver.finished(Plan { score, bound: None, ..plan });
+        Drawn { graph, plan }
+    });
+    Pool { plans: plans.collect(), curve, drawn, apart, nothing }
+}
+
+/// The cases that a scenario asks for, from one pool of executions; those of `known`, if it has all of them.
+pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut dyn FnMut(&[Case], &Tally)) -> Tally {
+    if known.tally.units > 0 {
+        sink(&[], &known.tally);
+        return known.tally.clone();
+    }
+    let setup: &Setup = graphs.setup;
+    let search = setup.scenario.search();
+    let Pool { plans, curve, drawn, apart, nothing } =
+        pool(graphs, search.cases as usize, [search.pooled_executions(), 0], stop);
+    let mut tally = Tally {
+        units: 1,
+        graphs: drawn,
+        solved: u64::from(!plans.is_empty()),
+        expansions: curve.executions,
+        complete: plans.len() as u64 >= search.cases,
+        stopped: (stop.cancelled)(),
+        drawn,
+        sampler: Some(graphs.solver.drawn_how().into()),
+        apart: Some(apart),
+        nothing,
+        ..Tally::default()
+    };
+    tally.complete &= !tally.stopped;
+    tally.curves.push(curve);
+    let seed = setup.scenario.seed();
+    let cases: Vec<Case> =
+        plans.into_iter().enumerate().map(|(number, Drawn { graph, plan })| plan.case(seed, graph, number)).collect();
+    sink(&cases, &tally);
+    tally
+}

@@ -1,0 +1,111 @@
+//! A witness over changed waypoints: legs whose ends stay are kept, and of what changed velocities and leg times are
+//! chosen anew.
+//!
+//! A dynamic program over the waypoints in order: one state where a waypoint's velocity is kept, a few where it is to be
+//! chosen, and each leg the shortest time for which it is proven. Of all choices the fastest whole is taken.
+
+use nalgebra::{Point3, Vector3};
+
+use super::proven_legs::ProveLegs;
+use crate::trajectory::{Profile, ProfileLeg};
+
+/// Speeds that are tried where one is to be chosen, as shares of the top speed.
+const SPEEDS: [f64; 3] = [0.6, 0.3, 0.0];
+
+/// How a waypoint is passed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MendedWaypoint {
+    /// m.
+    pub place: Point3<f64>,
+    /// m/s.
+    pub velocity: Vector3<f64>,
+    /// Whether this velocity is kept; else others are tried as well.
+    pub kept: bool,
+}
+
+/// The waypoints of `profile`, with other `points` in their places: where a point is another, or the one beside it is
+/// and `beside` says so, the velocity is to be chosen; both ends are passed as they were.
+///
+/// `before` are the profile's own waypoints; as many as `points`.
+pub fn mended(profile: &Profile, before: &[Point3<f64>], points: &[Point3<f64>], beside: bool) -> Vec<MendedWaypoint> {
+    let changed = |k: usize| before.get(k) != points.get(k);
+    let last = points.len().saturating_sub(1);
+    let waypoint = |(k, place): (usize, &Point3<f64>)| {
+        let near = beside && (changed(k.saturating_sub(1)) || changed((k + 1).min(last)));
+        let kept = k == 0 || k == last || !(changed(k) || near);
+        MendedWaypoint { place: *place, velocity: passed(profile, k), kept }
+    };
+    points.iter().enumerate().map(waypoint).collect()
+}
+
+/// Velocity at waypoint number `waypoint`, m/s.
+pub fn passed(profile: &Profile, waypoint: usize) -> Vector3<f64> {
+    match waypoint.checked_sub(1).map(|before| profile.legs.get(before)) {
+        Some(Some(leg)) => leg.derivative(leg.duration, 1),
+        _ => profile.legs.first().map_or_else(Vector3::zeros, |leg| leg.derivative(0.0, 1)),
+    }
+}
+
+/// The fastest witness over `waypoints` with leg times of `rungs`; `old` is a leg that is known to be proven between two
+/// waypoints that are kept. `None` where no choice is.
+pub(in crate::feasibility) fn mend<J: ProveLegs>(
+    judge: &J,
+    rungs: &[f64],
+    waypoints: &[MendedWaypoint],
+    end: impl Fn(&Point3<f64>, Vector3<f64>) -> J::End,
+    old: impl Fn(usize) -> Option<ProfileLeg>,
+) -> Option<Profile> {
+    struct Reached<E> {
+        end: E,
+        time: f64,
+        /// Number of the state before, and the leg from it.
+        from: Option<(usize, ProfileLeg)>,
+    }
+    let mut layers: Vec<Vec<Reached<J::End>>> = Vec::with_capacity(waypoints.len());
+    for (k, waypoint) in waypoints.iter().enumerate() {
+        let choices = choices(judge, waypoints, k);
+        let Some(before) = layers.last() else {
+            layers.push(vec![Reached { end: end(&waypoint.place, waypoint.velocity), time: 0.0, from: None }]);
+            continue;
+        };
+        let known = old(k - 1).filter(|_| waypoint.kept && waypoints[k - 1].kept);
+        let mut layer = Vec::with_capacity(choices.len());
+        for velocity in choices {
+            let there = end(&waypoint.place, velocity);
+            let mut best: Option<(f64, usize, ProfileLeg)> = None;
+            for (number, here) in before.iter().enumerate() {
+                let leg =
+                    known.clone().or_else(|| rungs.iter().find_map(|rung| judge.leg(&here.end, &there, *rung).ok()));
+                let Some(leg) = leg else { continue };
+                let time = here.time + leg.duration;
+                if best.as_ref().is_none_or(|(least, ..)| time < *least) {
+                    best = Some((time, number, leg));
+                }
+            }
+            layer.extend(best.map(|(time, number, leg)| Reached { end: there, time, from: Some((number, leg)) }));
+        }
+        layers.push(layer);
+    }
+    let mut number = 0;
+    let mut legs = Vec::with_capacity(waypoints.len());
+    for layer in layers.iter_mut().skip(1).rev() {
+        let (before, leg) = (number < layer.len()).then(|| layer.swap_remove(number).from).flatten()?;
+        legs.push(leg);
+        number = before;
+    }
+    legs.reverse();
+    Some(Profile { legs })
+}
+
+/// Velocities that waypoint `k` may be passed with: its own, and where it is to be chosen also along the line between
+/// its neighbours, at its own speed and at shares of the top speed, and at rest.
+fn choices<J: ProveLegs>(judge: &J, waypoints: &[MendedWaypoint], k: usize) -> Vec<Vector3<f64>> {
+    let MendedWaypoint { velocity, kept, .. } = waypoints[k];
+    if kept || k == 0 || k + 1 == waypoints.len() {
+        return vec![velocity];
+    }
+    let way = waypoints[k + 1].place - waypoints[k - 1].place;
+    let way = way.try_normalize(1e-9).unwrap_or_else(Vector3::zeros);
+    let speeds = std::iter::once(velocity.norm()).chain(SPEEDS.map(|share| share * judge.top_speed()));
+    std::iter::once(velocity).chain(speeds.map(|speed| way * speed)).collect()
+}

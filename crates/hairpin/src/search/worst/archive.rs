@@ -1,0 +1,158 @@
+//! The worst trajectories that differ: what a search keeps of all that it has executed.
+//!
+//! Clearing: in the order of stress, each trajectory stands that is far enough from all that stand before it. Those
+//! that stand are the answer, the first as many as are asked for, and the parents of what is tried next. Source:
+//! Pétrowski, A clearing procedure as a niching method for genetic algorithms, 1996.
+
+use super::scale::{Placed, Scale, Trace};
+use crate::search::in_loop::Trial;
+
+/// An executed trajectory.
+#[derive(Debug, Clone)]
+pub(super) struct Member<P> {
+    pub(super) plan: P,
+    pub(super) trial: Trial,
+    pub(super) placed: Placed,
+    /// Step of its moved waypoints, as a share of its mean leg.
+    pub(super) step: f64,
+}
+
+/// Executed trajectories in the order of their stress, of which some stand.
+pub(super) struct Archive<P> {
+    /// The most stressful first, the first of equals first.
+    members: Vec<Member<P>>,
+    /// Places of those that stand, rising.
+    standing: Vec<usize>,
+    scale: Scale,
+    /// How far apart those that stand are at least.
+    apart: f64,
+    /// How many stand at most.
+    most: usize,
+    /// How many are kept for each that may stand: what steps up where one falls.
+    spare: usize,
+}
+
+impl<P> Archive<P> {
+    /// Of `most` trajectories at most that stand `apart` by `scale`.
+    pub(super) fn new(scale: Scale, apart: f64, most: usize) -> Self {
+        Self { members: Vec::new(), standing: Vec::new(), scale, apart, most: most.max(1), spare: 8 }
+    }
+
+    /// Whether two trajectories are far enough apart to stand both.
+    pub(super) fn differ(&self, one: &Placed, other: &Placed) -> bool {
+        let apart = self.scale.apart(one, other);
+        apart >= self.apart && apart > 0.0
+    }
+
+    /// Takes `new` over; who stands afterwards is [`Self::standing`].
+    pub(super) fn take(&mut self, new: Vec<Member<P>>) {
+        for member in new {
+            let place = self.members.partition_point(|known| known.trial.stress >= member.trial.stress);
+            self.members.insert(place, member);
+        }
+        self.clear();
+        self.forget();
+    }
+
+    /// Those that stand, the most stressful first.
+    pub(super) fn standing(&self) -> impl ExactSizeIterator<Item = &Member<P>> {
+        self.standing.iter().map(|place| &self.members[*place])
+    }
+
+    /// Where what was executed stands on the archive's scale.
+    pub(super) fn place(&self, trace: &Trace) -> Placed {
+        self.scale.place(trace)
+    }
+
+    /// How many stand.
+    pub(super) fn len(&self) -> usize {
+        self.standing.len()
+    }
+
+    /// The stress of number `count` of those that stand, counted from 1; −∞ where fewer do.
+    pub(super) fn least(&self, count: usize) -> f64 {
+        count
+            .checked_sub(1)
+            .and_then(|last| self.standing.get(last))
+            .map_or(f64::NEG_INFINITY, |place| self.members[*place].trial.stress)
+    }
+
+    fn clear(&mut self) {
+        let mut standing: Vec<usize> = Vec::with_capacity(self.most);
+        for (place, member) in self.members.iter().enumerate() {
+            if standing.len() == self.most {
+                break;
+            }
+            if standing.iter().all(|other| self.differ(&member.placed, &self.members[*other].placed)) {
+                standing.push(place);
+            }
+        }
+        self.standing = standing;
+    }
+
+    /// Forgets the least stressful of those that do not stand, beyond what may ever step up.
+    fn forget(&mut self) {
+        let most = self.most * self.spare;
+        if self.members.len() <= most {
+            return;
+        }
+        let mut standing = self.standing.iter().copied().peekable();
+        let mut places = Vec::with_capacity(self.standing.len());
+        let (mut kept, mut place) = (Vec::with_capacity(most + self.most), 0);
+        for (at, member) in std::mem::take(&mut self.members).into_iter().enumerate() {
+            let stands = standing.next_if_eq(&at).is_some();
+            if stands {
+                places.push(place);
+            }
+            if stands || at < most {
+                kept.push(member);
+                place += 1;
+            }
+        }
+        (self.members, self.standing) = (kept, places);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::trajectory::Route;
+
+    fn trace(x: f64) -> Trace {
+        Trace { route: Route::along(&[Point3::origin(), Point3::new(x, 0.0, 0.0)]), behaviour: Vec::new() }
+    }
+
+    fn scale() -> Scale {
+        Scale::of(&[trace(0.0), trace(10.0)])
+    }
+
+    fn member(x: f64, stress: f64) -> Member<f64> {
+        let trial = Trial { stress, worst_leg: 0, executions: 1 };
+        Member { plan: x, trial, placed: scale().place(&trace(x)), step: 0.1 }
+    }
+
+    fn plans(archive: &Archive<f64>) -> Vec<f64> {
+        archive.standing().map(|member| member.plan).collect()
+    }
+
+    #[test]
+    fn near_copies_of_the_worst_do_not_stand_and_step_up_where_it_falls() {
+        let mut archive = Archive::new(scale(), 0.2, 3);
+        archive.take(vec![member(5.0, 1.0), member(5.5, 2.0), member(9.0, 0.5), member(1.0, 0.1), member(0.0, 0.2)]);
+        assert_eq!(plans(&archive), [5.5, 9.0, 0.0]);
+        assert_eq!([archive.least(1), archive.least(3), archive.least(4)], [2.0, 0.2, f64::NEG_INFINITY]);
+        // One beside two that stand replaces both, and what they kept away steps up.
+        archive.take(vec![member(7.3, 3.0)]);
+        assert_eq!(plans(&archive), [7.3, 5.0, 0.0]);
+    }
+
+    #[test]
+    fn what_stands_is_never_forgotten() {
+        let mut archive = Archive::new(scale(), 0.2, 2);
+        archive.take(vec![member(9.0, 1.0)]);
+        archive.take((0..100).map(|i| member(1.0 + 1e-3 * f64::from(i), 2.0 + f64::from(i))).collect());
+        assert_eq!((plans(&archive)[1], archive.members.len()), (9.0, 17));
+    }
+}

@@ -1,0 +1,67 @@
+//! Which change is tried next: shares by success, none without any.
+//!
+//! Probability matching: a change that gives what is kept more often is tried more often, and what it gave long ago
+//! counts less. Source: Goldberg, Probability matching, the magnitude of reinforcement, and classifier system bidding,
+//! 1990; with the least share of Thierens, An adaptive pursuit strategy for allocating operator probabilities, 2005.
+
+use crate::math::random::{Stream, unit};
+
+/// Share that every change has, as a part of an even share.
+const LEAST: f64 = 0.25;
+/// Weight of what a change has come to after one more trial of it.
+const MEMORY: f64 = 0.97;
+
+/// Shares of changes.
+#[derive(Debug, Clone)]
+pub(super) struct Portfolio {
+    /// Mean reward of each, the last ones weighing most.
+    success: Vec<f64>,
+}
+
+impl Portfolio {
+    /// Of `count` changes, all of them promising.
+    pub(super) fn new(count: usize) -> Self {
+        Self { success: vec![0.3; count] }
+    }
+
+    /// One of the changes.
+    ///
+    /// P = least / n + (1 − least) s / Σ s.
+    pub(super) fn draw(&self, random: &mut Stream) -> usize {
+        let count = self.success.len() as f64;
+        let all: f64 = self.success.iter().sum();
+        let mut left = unit(random);
+        for (number, success) in self.success.iter().enumerate() {
+            let matched = if all > 0.0 { success / all } else { 1.0 / count };
+            left -= LEAST / count + (1.0 - LEAST) * matched;
+            if left < 0.0 {
+                return number;
+            }
+        }
+        self.success.len() - 1
+    }
+
+    /// Change `number` came to `reward`, 0 … 1.
+    pub(super) fn reward(&mut self, number: usize, reward: f64) {
+        let success = &mut self.success[number];
+        *success = MEMORY * *success + (1.0 - MEMORY) * reward;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::stream;
+
+    #[test]
+    fn what_pays_gets_more_and_nothing_gets_none() {
+        let mut portfolio = Portfolio::new(4);
+        for _ in 0..200 {
+            (0..4).for_each(|number| portfolio.reward(number, f64::from(u8::from(number == 2))));
+        }
+        let mut drawn = [0; 4];
+        let mut random = stream(1);
+        (0..4000).for_each(|_| drawn[portfolio.draw(&mut random)] += 1);
+        assert!(drawn[2] > 3000 && drawn.iter().all(|count| *count > 150), "{drawn:?}");
+    }
+}

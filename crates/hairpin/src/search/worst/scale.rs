@@ -1,0 +1,122 @@
+//! How far two trajectories are apart: how far their ways are, and how far what came of them is, each as a share of
+//! what a sample spans.
+
+use rayon::prelude::*;
+
+use crate::trajectory::Route;
+
+/// A trajectory as it is compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    /// Its way.
+    pub route: Route,
+    /// What came of it, each measure in its own unit, as many of each trajectory; empty where that is not known.
+    pub behaviour: Vec<f64>,
+}
+
+/// A trajectory on a scale.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placed {
+    route: Route,
+    /// Each measure as a share of its range.
+    shares: Vec<f64>,
+}
+
+/// Units of distance, fixed by a sample of trajectories.
+///
+/// ```text
+/// d(a, b) = ½ ( way(a, b) / max way  +  ‖shares(a) − shares(b)‖ / max ‖·‖ )
+/// ```
+///
+/// over the pairs of the sample, shares being (x − min) / (max − min) of each measure; a part that is 0 throughout the
+/// sample is left out, and so are behaviours where one is not known. Both parts are metrics, and so is the whole.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scale {
+    /// Least value and range of each measure.
+    measures: Vec<[f64; 2]>,
+    longest: [f64; 2],
+}
+
+impl Scale {
+    /// The scale of `sample`.
+    ///
+    /// O(n²) distances on all threads, O(n) memory: those of all pairs of ten thousand would take a gigabyte.
+    pub fn of(sample: &[Trace]) -> Self {
+        let count = sample.iter().map(|trace| trace.behaviour.len()).min().unwrap_or(0);
+        let range = |m: usize| {
+            let column = || sample.iter().map(|trace| trace.behaviour[m]);
+            let low = column().fold(f64::INFINITY, f64::min);
+            [low, column().fold(f64::NEG_INFINITY, f64::max) - low]
+        };
+        let scale = Self { measures: (0..count).map(range).collect(), longest: [0.0; 2] };
+        let placed: Vec<Placed> = sample.iter().map(|trace| scale.place(trace)).collect();
+        let of_row = |a: usize| placed[..a].iter().fold([0.0; 2], |most, b| larger(most, parts(&placed[a], b)));
+        let longest = (0..placed.len()).into_par_iter().map(of_row).reduce(|| [0.0; 2], larger);
+        Self { longest, ..scale }
+    }
+
+    /// Where `trace` stands; shares of what lies outside of the sample's range lie outside of 0 … 1.
+    pub fn place(&self, trace: &Trace) -> Placed {
+        let share = |(value, [low, range]): (&f64, &[f64; 2])| if *range > 0.0 { (value - low) / range } else { 0.0 };
+        Placed { route: trace.route.clone(), shares: trace.behaviour.iter().zip(&self.measures).map(share).collect() }
+    }
+
+    /// How far two trajectories are apart: 0 … 1 within the sample, and maybe more beyond.
+    ///
+    /// Of both parts that are not 0 throughout the sample the mean, or one of them alone.
+    pub fn apart(&self, one: &Placed, other: &Placed) -> f64 {
+        let count = self.longest.iter().filter(|longest| **longest > 0.0).count().max(1) as f64;
+        let share = |(part, longest): (f64, f64)| if longest > 0.0 { part / longest } else { 0.0 };
+        parts(one, other).into_iter().zip(self.longest).map(share).sum::<f64>() / count
+    }
+
+    /// The distance that so many of the pairs of `sample` (0 … 1) are nearer than; 0 without pairs.
+    pub fn quantile(&self, sample: &[Trace], quantile: f64) -> f64 {
+        let placed: Vec<Placed> = sample.iter().map(|trace| self.place(trace)).collect();
+        let rows = placed.iter().enumerate();
+        let pairs = rows.flat_map(|(a, one)| placed[..a].iter().map(move |other| self.apart(one, other)));
+        let mut distances: Vec<f64> = pairs.collect();
+        distances.sort_unstable_by(f64::total_cmp);
+        distances.get((quantile * distances.len() as f64) as usize).or(distances.last()).copied().unwrap_or(0.0)
+    }
+}
+
+/// Of the ways, m, and of the behaviours.
+fn parts(one: &Placed, other: &Placed) -> [f64; 2] {
+    let squares = one.shares.iter().zip(&other.shares).map(|(x, y)| (x - y) * (x - y));
+    [one.route.apart(&other.route), squares.sum::<f64>().sqrt()]
+}
+
+fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|i| a[i].max(b[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+
+    fn trace(x: f64, stress: f64) -> Trace {
+        let route = Route::along(&[Point3::origin(), Point3::new(x, 0.0, 0.0)]);
+        Trace { route, behaviour: vec![stress, 7.0] }
+    }
+
+    #[test]
+    fn the_sample_spans_one_and_what_is_beyond_more() {
+        let sample = [trace(1.0, 0.0), trace(2.0, 4.0), trace(3.0, 1.0)];
+        let scale = Scale::of(&sample);
+        let apart = |one: &Trace, other: &Trace| scale.apart(&scale.place(one), &scale.place(other));
+        assert_eq!(apart(&sample[0], &sample[0]), 0.0);
+        // Half of the longest way, and all of the widest behaviour.
+        assert!((apart(&sample[0], &sample[1]) - 0.75).abs() < 1e-12);
+        assert!((apart(&sample[0], &trace(5.0, 8.0)) - 2.0).abs() < 1e-12);
+        let least = apart(&sample[0], &sample[2]).min(apart(&sample[1], &sample[2])).min(0.75);
+        assert_eq!(scale.quantile(&sample, 0.0), least);
+        assert_eq!(Scale::of(&sample[..1]).quantile(&sample[..1], 0.1), 0.0);
+        // Where all behave alike, ways decide alone.
+        let alike = [trace(1.0, 2.0), trace(3.0, 2.0)];
+        let scale = Scale::of(&alike);
+        assert_eq!(scale.apart(&scale.place(&alike[0]), &scale.place(&alike[1])), 1.0);
+    }
+}
