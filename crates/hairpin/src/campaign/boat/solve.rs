@@ -11,7 +11,7 @@ use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Remembered, Road
 use crate::campaign::kind::Solver;
 use crate::feasibility::boat::{BoatJudge, BoatRoadmap, BoatRoadmapSettings};
 use crate::feasibility::reach::WitnessLegs;
-use crate::feasibility::reach::mend::mended;
+use crate::feasibility::reach::mend::{Chosen, mended, old_leg};
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::{Stream, named_seed, stream, unit};
 
@@ -87,11 +87,12 @@ impl<'a> BoatSolver<'a> {
     /// The same; where velocities are in the way, other ones are chosen at what changed, and then beside it.
     fn mended(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let profile = plan.witness.as_ref()?.profile()?;
-        let mend = |beside| {
-            let waypoints = mended(profile, &plan.waypoints, points, beside);
-            self.judge.mend(&waypoints, &self.timing, |leg| profile.legs.get(leg).cloned())
+        let before = &plan.waypoints;
+        let mend = |chosen| {
+            let waypoints = mended(profile, before, points, chosen);
+            self.judge.mend(&waypoints, &self.timing, |leg| old_leg(profile, before, points, leg))
         };
-        let profile = mend(false).or_else(|| mend(true))?;
+        let profile = Chosen::ALL.into_iter().find_map(mend)?;
         (profile.duration() <= self.setup.longest()).then(|| Plan::witnessed(points.to_vec(), profile))
     }
 

@@ -9,7 +9,7 @@ use crate::campaign::Witness as CaseWitness;
 use crate::campaign::graph::{Looped, Outcome, Plan, Remembered, Roads, Wanted, Witnessed};
 use crate::campaign::scenario::Timing;
 use crate::feasibility::certify::{Certificate, certify};
-use crate::feasibility::reach::mend::{MendedWaypoint, mended, passed};
+use crate::feasibility::reach::mend::{Chosen, MendedWaypoint, OldLeg, mended, old_leg, passed};
 use crate::feasibility::reach::{Roadmap, RoadmapSettings, WitnessLegs};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
@@ -88,12 +88,12 @@ impl<'a> Witness<'a> {
     /// as well.
     pub(super) fn over(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let profile = plan.witness.as_ref()?.profile()?;
-        let kept = |leg: usize| profile.legs.get(leg).cloned();
-        let mend = |beside| {
-            let waypoints = mended(profile, &plan.waypoints, points, beside);
-            self.judge.mend(&waypoints, &self.timing, kept)
+        let before = &plan.waypoints;
+        let mend = |chosen| {
+            let waypoints = mended(profile, before, points, chosen);
+            self.judge.mend(&waypoints, &self.timing, |leg| old_leg(profile, before, points, leg))
         };
-        self.plan(points.to_vec(), mend(false).or_else(|| mend(true))?)
+        self.plan(points.to_vec(), Chosen::ALL.into_iter().find_map(mend)?)
     }
 
     /// `plan` up to the first waypoint of leg `leg`, and `other` after it.
@@ -109,7 +109,8 @@ impl<'a> Witness<'a> {
                 kept: !(chosen && (k == leg || k == leg + 1)),
             };
             let waypoints: Vec<_> = points.iter().enumerate().map(waypoint).collect();
-            self.judge.mend(&waypoints, &self.timing, |k| of(k).legs.get(k).filter(|_| k != leg).cloned())
+            let old = |k: usize| of(k).legs.get(k).filter(|_| k != leg).map_or(OldLeg::None, OldLeg::Same);
+            self.judge.mend(&waypoints, &self.timing, old)
         };
         self.plan(points.clone(), mend(false).or_else(|| mend(true))?)
     }
@@ -128,15 +129,19 @@ impl<'a> Witness<'a> {
             return self.plan(plan.waypoints.clone(), Profile { legs });
         }
         let changed = (leg + random.random_range(0..2usize)).clamp(1, last.checked_sub(1).filter(|inner| *inner > 0)?);
-        let mut waypoints = mended(profile, &plan.waypoints, &plan.waypoints, false);
+        let mut waypoints = mended(profile, &plan.waypoints, &plan.waypoints, Chosen::None);
         let old = waypoints[changed].velocity;
         let speed = self.judge.top_speed() * unit(random);
         let way = if unit(random) < 0.5 { old } else { plan.waypoints[changed + 1] - plan.waypoints[changed - 1] };
         let way =
             way.try_normalize(1e-9).unwrap_or_else(Vector3::x) + Vector3::from(standard_normals::<3>(random)) * 0.3;
         waypoints[changed].velocity = way * (speed / way.norm().max(f64::MIN_POSITIVE));
-        let kept = |k: usize| profile.legs.get(k).filter(|_| k != changed && k + 1 != changed).cloned();
-        self.plan(plan.waypoints.clone(), self.judge.mend(&waypoints, &self.timing, kept)?)
+        let old = |k: usize| match profile.legs.get(k) {
+            Some(leg) if k != changed && k + 1 != changed => OldLeg::Same(leg),
+            Some(leg) => OldLeg::Took(leg.duration),
+            None => OldLeg::None,
+        };
+        self.plan(plan.waypoints.clone(), self.judge.mend(&waypoints, &self.timing, old)?)
     }
 
     /// Searches graph number `graph` over `points`.

@@ -8,7 +8,7 @@ use rand::RngExt;
 
 use super::leg::{BoatEnd, BoatJudge};
 use super::limits::BoatInfeasible;
-use crate::feasibility::reach::mend::{MendedWaypoint, mend};
+use crate::feasibility::reach::mend::{MendedWaypoint, OldLeg, mend};
 use crate::feasibility::reach::proven_legs::ProveLegs;
 use crate::feasibility::reach::states::{States, Velocities};
 use crate::feasibility::reach::{Leg, LegFeatures, Reach, WitnessLegs, WitnessNode};
@@ -138,12 +138,12 @@ impl<'a> BoatRoadmap<'a> {
 
 impl BoatJudge {
     /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](crate::feasibility::reach::mend). `old`
-    /// is a leg that is known to be proven between two waypoints that are kept. `None` where no choice has one.
-    pub fn mend(
+    /// is what a leg was before. `None` where no choice of velocities has one.
+    pub fn mend<'o>(
         &self,
         waypoints: &[MendedWaypoint],
         timing: &LegTiming,
-        old: impl Fn(usize) -> Option<ProfileLeg>,
+        old: impl Fn(usize) -> OldLeg<'o>,
     ) -> Option<Profile> {
         mend(self, &timing.rungs(), waypoints, |place, velocity| self.end(place, [velocity.x, velocity.y]), old)
     }

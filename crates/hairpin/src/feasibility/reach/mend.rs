@@ -2,7 +2,8 @@
 //! chosen anew.
 //!
 //! A dynamic program over the waypoints in order: one state where a waypoint's velocity is kept, a few where it is to be
-//! chosen, and each leg the shortest time for which it is proven. Of all choices the fastest whole is taken.
+//! chosen; each leg takes the time that it had if it is proven for that, else the shortest for which it is. Of all choices
+//! the fastest whole is taken.
 
 use nalgebra::{Point3, Vector3};
 
@@ -23,19 +24,64 @@ pub struct MendedWaypoint {
     pub kept: bool,
 }
 
-/// The waypoints of `profile`, with other `points` in their places: where a point is another, or the one beside it is
-/// and `beside` says so, the velocity is to be chosen; both ends are passed as they were.
+/// Which velocities are chosen anew.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Chosen {
+    /// None: waypoints are passed as those were whose places they have.
+    None,
+    /// Those of waypoints that are others.
+    Changed,
+    /// And those beside them.
+    Beside,
+}
+
+impl Chosen {
+    /// In the order in which they are tried: what a trajectory is stressful by stays as long as it can.
+    pub const ALL: [Chosen; 3] = [Chosen::None, Chosen::Changed, Chosen::Beside];
+}
+
+/// The waypoints of `profile`, with other `points` in their places; both ends are passed as they were.
 ///
 /// `before` are the profile's own waypoints; as many as `points`.
-pub fn mended(profile: &Profile, before: &[Point3<f64>], points: &[Point3<f64>], beside: bool) -> Vec<MendedWaypoint> {
+pub fn mended(
+    profile: &Profile,
+    before: &[Point3<f64>],
+    points: &[Point3<f64>],
+    chosen: Chosen,
+) -> Vec<MendedWaypoint> {
     let changed = |k: usize| before.get(k) != points.get(k);
     let last = points.len().saturating_sub(1);
     let waypoint = |(k, place): (usize, &Point3<f64>)| {
-        let near = beside && (changed(k.saturating_sub(1)) || changed((k + 1).min(last)));
-        let kept = k == 0 || k == last || !(changed(k) || near);
+        let near = || changed(k.saturating_sub(1)) || changed((k + 1).min(last));
+        let kept = match chosen {
+            _ if k == 0 || k == last => true,
+            Chosen::None => true,
+            Chosen::Changed => !changed(k),
+            Chosen::Beside => !(changed(k) || near()),
+        };
         MendedWaypoint { place: *place, velocity: passed(profile, k), kept }
     };
     points.iter().enumerate().map(waypoint).collect()
+}
+
+/// What a leg was before.
+#[derive(Debug, Clone, PartialEq)]
+pub enum OldLeg<'a> {
+    /// Known to be proven: its ends are as they were.
+    Same(&'a ProfileLeg),
+    /// Of other ends, in so many seconds.
+    Took(f64),
+    /// There was none.
+    None,
+}
+
+/// What leg number `leg` of `profile` was, whose waypoints were `before` and are `points` now.
+pub fn old_leg<'a>(profile: &'a Profile, before: &[Point3<f64>], points: &[Point3<f64>], leg: usize) -> OldLeg<'a> {
+    match profile.legs.get(leg) {
+        Some(old) if before.get(leg..=leg + 1) == points.get(leg..=leg + 1) => OldLeg::Same(old),
+        Some(old) => OldLeg::Took(old.duration),
+        None => OldLeg::None,
+    }
 }
 
 /// Velocity at waypoint number `waypoint`, m/s.
@@ -46,14 +92,14 @@ pub fn passed(profile: &Profile, waypoint: usize) -> Vector3<f64> {
     }
 }
 
-/// The fastest witness over `waypoints` with leg times of `rungs`; `old` is a leg that is known to be proven between two
-/// waypoints that are kept. `None` where no choice is.
-pub(in crate::feasibility) fn mend<J: ProveLegs>(
+/// The fastest witness over `waypoints` with leg times of `rungs`; `old` is what a leg was before. `None` where no choice
+/// is proven.
+pub(in crate::feasibility) fn mend<'o, J: ProveLegs>(
     judge: &J,
     rungs: &[f64],
     waypoints: &[MendedWaypoint],
     end: impl Fn(&Point3<f64>, Vector3<f64>) -> J::End,
-    old: impl Fn(usize) -> Option<ProfileLeg>,
+    old: impl Fn(usize) -> OldLeg<'o>,
 ) -> Option<Profile> {
     struct Reached<E> {
         end: E,
@@ -68,14 +114,20 @@ pub(in crate::feasibility) fn mend<J: ProveLegs>(
             layers.push(vec![Reached { end: end(&waypoint.place, waypoint.velocity), time: 0.0, from: None }]);
             continue;
         };
-        let known = old(k - 1).filter(|_| waypoint.kept && waypoints[k - 1].kept);
+        let (known, took) = match old(k - 1) {
+            OldLeg::Same(leg) if waypoint.kept && waypoints[k - 1].kept => (Some(leg.clone()), None),
+            OldLeg::Same(leg) => (None, Some(leg.duration)),
+            OldLeg::Took(time) => (None, Some(time)),
+            OldLeg::None => (None, None),
+        };
+        let times = || took.iter().chain(rungs);
         let mut layer = Vec::with_capacity(choices.len());
         for velocity in choices {
             let there = end(&waypoint.place, velocity);
             let mut best: Option<(f64, usize, ProfileLeg)> = None;
             for (number, here) in before.iter().enumerate() {
                 let leg =
-                    known.clone().or_else(|| rungs.iter().find_map(|rung| judge.leg(&here.end, &there, *rung).ok()));
+                    known.clone().or_else(|| times().find_map(|time| judge.leg(&here.end, &there, *time).ok()));
                 let Some(leg) = leg else { continue };
                 let time = here.time + leg.duration;
                 if best.as_ref().is_none_or(|(least, ..)| time < *least) {

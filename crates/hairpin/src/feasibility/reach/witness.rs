@@ -12,7 +12,7 @@ use std::cell::OnceCell;
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
-use super::mend::{MendedWaypoint, mend};
+use super::mend::{MendedWaypoint, OldLeg, mend};
 use super::proven_legs::{ProveLegs, WitnessLegs, WitnessNode};
 use super::states::{States, Velocities};
 use super::{Leg, Reach};
@@ -224,13 +224,13 @@ impl<'a> Roadmap<'a> {
 }
 
 impl LegJudge {
-    /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](super::mend). `old` is a leg that is
-    /// known to be proven between two waypoints that are kept. `None` where no choice of velocities has one.
-    pub fn mend(
+    /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](super::mend). `old` is what a
+    /// leg was before. `None` where no choice of velocities has one.
+    pub fn mend<'o>(
         &self,
         waypoints: &[MendedWaypoint],
         timing: &LegTiming,
-        old: impl Fn(usize) -> Option<ProfileLeg>,
+        old: impl Fn(usize) -> OldLeg<'o>,
     ) -> Option<Profile> {
         mend(self, &timing.rungs(), waypoints, |place, velocity| self.end(*place, velocity), old)
     }
