@@ -12,6 +12,7 @@ use crate::campaign::kind::Solver;
 use crate::feasibility::boat::{BoatJudge, BoatRoadmap, BoatRoadmapSettings};
 use crate::feasibility::reach::WitnessLegs;
 use crate::feasibility::reach::mend::{Chosen, mended, old_leg};
+use crate::feasibility::reach::wander::Wandered;
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::{Stream, named_seed, stream, unit};
 
@@ -145,15 +146,14 @@ impl Solver for BoatSolver<'_> {
 
     fn draw(&self, graph: u64) -> Result<Plan, String> {
         let points = self.sample(graph)?;
-        let roadmap = self.roadmap(graph, &points);
         let mut random = stream(named_seed(self.setup.scenario.seed, "wander", graph));
-        let walk = roadmap.wander(self.setup.scenario.task.length as usize, &mut random);
-        let nodes = walk.ok_or("none was met by drawing leg by leg")?;
-        let profile = roadmap.profile(&nodes).map_err(|why| why.to_string())?;
+        let length = self.setup.scenario.task.length as usize;
+        let drawn = self.judge.wander(&points, &self.timing, length, &mut random);
+        let Wandered { waypoints, profile } = drawn.ok_or("none was met by drawing leg by leg")?;
         if profile.duration() > self.setup.longest() {
             return Err("`max_time_s` is exceeded".into());
         }
-        Ok(Plan::witnessed(nodes.iter().map(|node| points[node.waypoint as usize]).collect(), profile))
+        Ok(Plan::witnessed(waypoints, profile))
     }
 
     fn drawn_how(&self) -> &'static str {

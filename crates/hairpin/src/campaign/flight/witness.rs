@@ -10,6 +10,7 @@ use crate::campaign::graph::{Looped, Outcome, Plan, Remembered, Roads, Wanted, W
 use crate::campaign::scenario::Timing;
 use crate::feasibility::certify::{Certificate, certify};
 use crate::feasibility::reach::mend::{Chosen, MendedWaypoint, OldLeg, mended, old_leg, passed};
+use crate::feasibility::reach::wander::Wandered;
 use crate::feasibility::reach::{Roadmap, RoadmapSettings, WitnessLegs};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
@@ -69,12 +70,9 @@ impl<'a> Witness<'a> {
     /// Why there is none, in a sentence's part.
     pub(super) fn draw(&self, graph: u64, points: &[Point3<f64>]) -> Result<Plan, String> {
         let scenario = &self.setup.scenario;
-        let roadmap = self.roadmap(graph, points);
         let mut random = stream(named_seed(scenario.seed, "wander", graph));
-        let walk = roadmap.wander(scenario.task.length as usize, &mut random);
-        let nodes = walk.ok_or("none was met by drawing leg by leg")?;
-        let profile = roadmap.profile(&nodes).map_err(|why| why.to_string())?;
-        let waypoints = nodes.iter().map(|node| points[node.waypoint as usize]).collect();
+        let drawn = self.judge.wander(points, &self.timing, scenario.task.length as usize, &mut random);
+        let Wandered { waypoints, profile } = drawn.ok_or("none was met by drawing leg by leg")?;
         self.plan(waypoints, profile).ok_or_else(|| "`max_flight_time_s` is exceeded".into())
     }
 

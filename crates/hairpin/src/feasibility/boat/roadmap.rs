@@ -11,6 +11,7 @@ use super::limits::BoatInfeasible;
 use crate::feasibility::reach::mend::{MendedWaypoint, OldLeg, mend};
 use crate::feasibility::reach::proven_legs::ProveLegs;
 use crate::feasibility::reach::states::{States, Velocities};
+use crate::feasibility::reach::wander::{Ends, Wandered, another, wander};
 use crate::feasibility::reach::{Leg, LegFeatures, Reach, WitnessLegs, WitnessNode};
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::Stream;
@@ -102,12 +103,6 @@ impl<'a> BoatRoadmap<'a> {
         })
     }
 
-    /// A walk of `length` waypoints to the end, drawn leg by leg, none of them twice: at each step every state that a
-    /// proven leg leads to is equally likely. `None` where none was met.
-    pub fn wander(&self, length: usize, random: &mut Stream) -> Option<Vec<WitnessNode>> {
-        self.states.wander(length, random)
-    }
-
     /// What every candidate for a leg from `from` is, a state of another waypoint each: its node, or why it is none;
     /// `None` where the straight line alone takes longer at the largest speed than the longest leg may.
     pub fn candidates(&self, from: &WitnessNode) -> Vec<Result<WitnessNode, Option<BoatInfeasible>>> {
@@ -137,6 +132,26 @@ impl<'a> BoatRoadmap<'a> {
 }
 
 impl BoatJudge {
+    /// A walk of `length` waypoints of `points` from the first to the last and its witness, drawn leg by leg:
+    /// [`wander`](crate::feasibility::reach::wander). `None` where none was met.
+    ///
+    /// Speeds are uniform up to the top speed; each velocity points towards another waypoint.
+    pub fn wander(
+        &self,
+        points: &[Point3<f64>],
+        timing: &LegTiming,
+        length: usize,
+        random: &mut Stream,
+    ) -> Option<Wandered> {
+        let moving = |w: usize, speed: f64, random: &mut Stream| {
+            let way = points[another(points, w, f64::INFINITY, random)] - points[w];
+            let way = way.try_normalize(1e-9).unwrap_or_else(Vector3::x) * speed;
+            self.end(&points[w], [way.x, way.y])
+        };
+        let ends = Ends { at_rest: &|point| self.end(point, [0.0; 2]), moving: &moving };
+        wander(self, points, &timing.rungs(), &ends, length, random)
+    }
+
     /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](crate::feasibility::reach::mend). `old`
     /// is what a leg was before. `None` where no choice of velocities has one.
     pub fn mend<'o>(

@@ -126,8 +126,7 @@ pub(in crate::feasibility) fn mend<'o, J: ProveLegs>(
             let there = end(&waypoint.place, velocity);
             let mut best: Option<(f64, usize, ProfileLeg)> = None;
             for (number, here) in before.iter().enumerate() {
-                let leg =
-                    known.clone().or_else(|| times().find_map(|time| judge.leg(&here.end, &there, *time).ok()));
+                let leg = known.clone().or_else(|| times().find_map(|time| judge.leg(&here.end, &there, *time).ok()));
                 let Some(leg) = leg else { continue };
                 let time = here.time + leg.duration;
                 if best.as_ref().is_none_or(|(least, ..)| time < *least) {

@@ -39,7 +39,7 @@ pub(in crate::feasibility) mod states;
 pub mod step;
 #[cfg(test)]
 mod tests;
-mod wander;
+pub mod wander;
 pub mod witness;
 
 use nalgebra::Point3;

@@ -204,13 +204,6 @@ impl<'a, J: ProveLegs> States<'a, J> {
             .map(|rung| rung as u32)
     }
 
-    /// The shortest feasible leg time between two nodes, s; judged whenever it is asked for, and not kept.
-    pub(in crate::feasibility) fn rung(&self, from: &WitnessNode, to: &WitnessNode) -> Option<f64> {
-        let least = self.least_time(from.waypoint as usize, to.waypoint as usize);
-        let rung = self.shortest(self.number(from), self.number(to), least)?;
-        Some(self.rungs[rung as usize])
-    }
-
     /// Time of the straight line between two waypoints at the largest speed, s.
     fn least_time(&self, from: usize, to: usize) -> f64 {
         (self.points[to] - self.points[from]).norm() / self.judge.fastest()

@@ -15,6 +15,7 @@ use rand::RngExt;
 use super::mend::{MendedWaypoint, OldLeg, mend};
 use super::proven_legs::{ProveLegs, WitnessLegs, WitnessNode};
 use super::states::{States, Velocities};
+use super::wander::{Ends, Wandered, another, wander};
 use super::{Leg, Reach};
 use crate::feasibility::limits::Infeasible;
 use crate::feasibility::steering::{LegEnd, LegJudge, LegTiming};
@@ -142,15 +143,6 @@ impl<'a> Roadmap<'a> {
         self.states.all()[self.states.number(node)].velocity
     }
 
-    /// A walk of `length` waypoints to the end, drawn leg by leg, none of them twice: at each step every state that a
-    /// proven leg leads to is equally likely. `None` where none was met.
-    ///
-    /// Walks through states with few ways on come more often than under [`uniform`](crate::search::uniform()), which
-    /// needs all legs of the graph: this judges some hundred.
-    pub fn wander(&self, length: usize, random: &mut Stream) -> Option<Vec<WitnessNode>> {
-        self.states.wander(length, random)
-    }
-
     /// Number of legs between all states; judges every leg that was not asked for yet.
     ///
     /// (n M)² judgements at worst.
@@ -224,6 +216,28 @@ impl<'a> Roadmap<'a> {
 }
 
 impl LegJudge {
+    /// A walk of `length` waypoints of `points` from the first to the last and its witness, drawn leg by leg:
+    /// [`wander`](super::wander). `None` where none was met.
+    ///
+    /// Speeds are uniform up to the top speed, and each velocity points towards a waypoint that a leg at that speed can
+    /// reach. Walks through states with few ways on come more often than under [`uniform`](crate::search::uniform()),
+    /// which needs all legs of a graph: this judges some hundred.
+    pub fn wander(
+        &self,
+        points: &[Point3<f64>],
+        timing: &LegTiming,
+        length: usize,
+        random: &mut Stream,
+    ) -> Option<Wandered> {
+        let longest = timing.range().1;
+        let moving = |w: usize, speed: f64, random: &mut Stream| {
+            let towards = points[another(points, w, speed * longest, random)] - points[w];
+            self.end(points[w], towards.try_normalize(1e-9).unwrap_or_else(Vector3::zeros) * speed)
+        };
+        let ends = Ends { at_rest: &|point| self.end(*point, Vector3::zeros()), moving: &moving };
+        wander(self, points, &timing.rungs(), &ends, length, random)
+    }
+
     /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](super::mend). `old` is what a
     /// leg was before. `None` where no choice of velocities has one.
     pub fn mend<'o>(
