@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Setup, Stop, execute_run, generate, judge};
+use hairpin::campaign::{Case, OwnSimulator, Setup, Stop, execute_run, generate, judge};
 use hairpin::robot::quadrotor::Quadrotor;
 use hairpin::simulation::{Controller, Fault, FlightCommand, FlightState, OwnController, Reference};
 use hairpin_formats::scenario::setup_for;
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let own = ours.clone().with_controller(OwnController::new("pd", |_: &Quadrotor| Pd(2.0, 2.5)))?;
     let stop = Stop { cancelled: &|| false, progress: &|_, _| {}, clock: &|| 0.0 };
     let mut cases = Vec::new();
-    generate(&ours, &Known::default(), &stop, &mut |found, _| cases.extend_from_slice(found));
+    generate(&ours, &Known::default(), &OwnSimulator, &stop, &mut |found, _| cases.extend_from_slice(found));
     for setup in [&own, &ours] {
         let name = setup.controller().unwrap_or("nobody");
         println!("{name}: worst deviation {:.2} m on {} trajectories", worst(setup, &cases)?, cases.len());

@@ -71,7 +71,7 @@ pub(crate) enum Command {
     Execute(Execute),
     /// Judge the flights of a campaign folder: the third part
     Judge(Judge),
-    /// Learn a score from the flights of a campaign folder: learn OUT --out MODEL, then score = "learned:MODEL"
+    /// Learn a score from the flights of campaign folders: learn OUT --out MODEL, then score = "learned:MODEL"
     Learn(Learn),
     /// Integrate every control witness of a campaign by independent code
     Verify(Verify),

@@ -163,12 +163,11 @@ fn what_cannot_work_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     fs::write(here.join("q.toml"), SCENARIO).unwrap();
-    let table: [(&[&str], &[&str]); 8] = [
+    let table: [(&[&str], &[&str]); 7] = [
         (&["generate.search.executions=38"], &["39 …", "in each of 3 rounds", "13 to learn from"]),
         (&["generate.search.cases=200"], &["600 …", "one in each of 200 graphs"]),
         (&["generate.search.move_waypoints=true"], &["must be false", "stays on its graphs' legs"]),
         (&["generate.search.confirm=2"], &["generate.search.confirm", "only the method `in-loop` confirms"]),
-        (&["execute.command=\"true\""], &["\"adaptive\"", "controller given"]),
         (&["generate.search.explore=1.5"], &["generate.search.explore", "≤ 1"]),
         (&["vary.\"task.length\"={choice=[5,6]}"], &["`task.length` not varied"]),
         (&["generate.search.method=\"exact\"", "generate.search.time_s=3"], &["time_s", "only the method `adaptive`"]),

@@ -138,11 +138,6 @@ fn partial_trajectories_that_are_executed_lead_the_beam_to_more_stress_than_rand
     }
     no(&["generate.search.per_graph=30"], &["generate.search.executions", "25", "30 … 1 000 000", "per_graph"]);
     no(&["generate.search.stress=\"clearance\""], &["generate.search.stress", "nothing to be near to"]);
-    refused(
-        here,
-        &["stress", "q.toml", "--out", "no", "--set", "generate.score=\"executed\"", "--executor", "true"],
-        &["generate.score", "controller given"],
-    );
 }
 
 #[test]
@@ -187,10 +182,6 @@ fn executions_in_the_loop_tell_the_stress_that_is_judged_and_beat_uniform_draws(
     let mut typed = vec!["generate", "q.toml", "--out", "no", "--set", "generate.search.method=\"in-loop\""];
     typed.extend(["--set", "generate.search.executions=3", "--set", "generate.search.confirm=3"]);
     refused(here, &typed, &["generate.search.confirm", "0 … 2"]);
-    let command = ["--set", "execute.command=\"true\""];
-    let mut typed = vec!["generate", "q.toml", "--out", "no", "--set", "generate.search.method=\"in-loop\""];
-    typed.extend(command);
-    refused(here, &typed, &["in-loop", "controller given"]);
 }
 
 /// Moves of an arm: what its programs took is told by a model, which then is what programs are searched for.

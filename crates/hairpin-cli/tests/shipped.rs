@@ -1,7 +1,7 @@
 //! Every shipped scenario gives the cases that it promises.
 
 use hairpin::campaign::arm::ArmSetup;
-use hairpin::campaign::{Evidence, Known, Stop, generate};
+use hairpin::campaign::{Evidence, Known, OwnSimulator, Stop, generate};
 use hairpin_formats::library;
 use hairpin_formats::scenario::setup_for;
 
@@ -17,7 +17,9 @@ fn every_shipped_scenario_gives_nine_tenths_of_its_cases() {
         let sets = [(key.to_owned(), CASES.to_string())];
         let setup = setup_for(name, &sets).unwrap_or_else(|report| panic!("{name}: {report}"));
         let mut cases = Vec::new();
-        let tally = generate(&setup, &Known::default(), &Stop::never(), &mut |new, _| cases.extend_from_slice(new));
+        let tally = generate(&setup, &Known::default(), &OwnSimulator, &Stop::never(), &mut |new, _| {
+            cases.extend_from_slice(new)
+        });
         assert!(10 * cases.len() as u64 >= 9 * CASES, "{name}: {} of {CASES} cases, {tally:?}", cases.len());
         for case in &cases {
             if let Some(length) = setup.scenario.length() {
@@ -39,7 +41,7 @@ fn nothing_feasible_is_an_answer_with_its_reason() {
     let sets = [("task.length".to_owned(), "2".to_owned()), ("generate.search.graphs".to_owned(), "3".to_owned())];
     let setup = setup_for("paper-stable", &sets).expect("a sound scenario");
     let mut cases = 0;
-    let tally = generate(&setup, &Known::default(), &Stop::never(), &mut |new, _| cases += new.len());
+    let tally = generate(&setup, &Known::default(), &OwnSimulator, &Stop::never(), &mut |new, _| cases += new.len());
     let verdict = hairpin::campaign::verdict(&setup, &[], &[], &tally);
     assert_eq!((cases, tally.proven_empty, verdict.exit_code), (0, 3, 3));
     assert!(

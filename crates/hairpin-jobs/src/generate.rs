@@ -7,6 +7,7 @@ use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Stop, Tally, learn, planned};
 use hairpin_formats::atomic;
 
+use crate::execute::{Asked, in_the_loop};
 use crate::watch::not_waiting_for;
 use crate::work::{CampaignSettings, Work, plan};
 use crate::{Deadline, Problem, Watch, optimum};
@@ -49,20 +50,25 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     let begun = Instant::now();
     let user_score = work.setup.user_score();
     let score_trouble = || user_score.and_then(|user| user.trouble());
+    let stopped = || watch.stopped() || deadline.passed() || score_trouble().is_some();
     let stop = Stop {
-        cancelled: &|| watch.stopped() || deadline.passed() || score_trouble().is_some(),
+        cancelled: &stopped,
         progress: &|done, of| watch.progress(WHAT, done, of),
         clock: &|| begun.elapsed().as_secs_f64(),
     };
-    let tally = not_waiting_for(user_score, watch, deadline, || {
-        hairpin::campaign::generate(&work.setup, &known, &stop, &mut |new, tally| {
-            cases.extend_from_slice(new);
-            if at.elapsed() > CHECKPOINT && trouble.is_none() {
-                trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
-                (saved, at) = (cases.len(), Instant::now());
-            }
+    let search = |Asked { executor, stop: over }: Asked| {
+        let stop = Stop { cancelled: over, ..stop };
+        not_waiting_for(user_score, watch, deadline, || {
+            hairpin::campaign::generate(&work.setup, &known, executor, &stop, &mut |new, tally| {
+                cases.extend_from_slice(new);
+                if at.elapsed() > CHECKPOINT && trouble.is_none() {
+                    trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
+                    (saved, at) = (cases.len(), Instant::now());
+                }
+            })
         })
-    });
+    };
+    let (tally, executor_trouble) = in_the_loop(&work.setup, &stopped, watch, search)?;
     watch.finished(WHAT);
     if let Some(problem) = trouble {
         return Err(problem);
@@ -71,6 +77,9 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
         return Err(Problem::input(format!("`{}` = {trouble}", work.setup.scenario.score_key())));
     }
     keep_cases(work, &cases, saved, &unfinished(&tally))?;
+    if let Some(problem) = executor_trouble {
+        return Err(problem);
+    }
     work.folder.write_curves(work.setup.scenario.search().stress, &tally.curves)?;
     if let Some(model) = &tally.model {
         atomic::write_json(&work.folder.file(learn::NAME), model)?;

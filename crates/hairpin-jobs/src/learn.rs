@@ -1,17 +1,17 @@
-//! A score from executed legs.
+//! A score from executed legs, of one campaign or several.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use hairpin::campaign::Case;
-use hairpin::campaign::learn::ScoreModel;
+use hairpin::campaign::learn::{LegSample, MoveSample, ScoreModel};
 use hairpin::campaign::samples::{self, learn_moves, leg_samples, move_samples};
+use hairpin::campaign::{Case, Run, Setup};
 use hairpin::judgement::Stress;
 use hairpin::math::ridge::NoFit;
 use hairpin_formats::atomic;
 use rayon::prelude::*;
 
 use crate::Problem;
-use crate::work::open_to_read;
+use crate::work::{Work, open_to_read};
 
 /// A score that was learned and written.
 #[derive(Debug)]
@@ -24,49 +24,119 @@ pub struct Learned {
     pub arm: bool,
 }
 
-/// Learns `stress` from the campaign in `folder` and writes the score to `out`, however good it is.
+/// Learns `stress` from the campaigns in `folders`, as if all were one, and writes the score to `out`, however good it
+/// is. Trajectories are numbered on from folder to folder, in the order given.
 ///
 /// # Errors
-/// Nothing to learn from, or too little; a file that cannot be read or written.
-pub fn learn(folder: &Path, out: &Path, stress: Stress) -> Result<Learned, Problem> {
-    let work = open_to_read(folder)?;
-    let cases = work.folder.read_cases()?;
-    let table = work.folder.read_runs_table()?;
-    let place = folder.display();
-    let what = if work.setup.has_programs() { "move" } else { "leg" };
-    let found = |samples: usize| {
-        let missing = match samples {
-            0 if table.is_empty() => format!("nothing was executed: hairpin execute {place}"),
-            0 if !work.setup.has_programs() && cases.iter().all(|case| case.seen.is_empty()) => {
-                "no search saw the legs of its cases, as of missions made elsewhere".to_owned()
-            }
-            0 => format!("{} was measured on none of them", stress.word()),
-            _ => return Ok(()),
-        };
-        Err(Problem::input(format!("{place}: no {what} to learn from: {missing}")))
-    };
-    let runs = |case: &Case| work.folder.read_runs(case.number, &table);
-    let learned = if work.setup.has_programs() {
-        let of_case = |case: &Case| Ok(move_samples(&work.setup, case, &runs(case)?, stress));
-        let samples = cases.par_iter().map(of_case).collect::<Result<Vec<_>, Problem>>()?.concat();
-        found(samples.len())?;
-        learn_moves(&work.setup, stress, &samples)
+/// Nothing to learn from, or too little; a folder that is given twice, or of another robot or controller than the
+/// first; a file that cannot be read or written.
+pub fn learn(folders: &[PathBuf], out: &Path, stress: Stress) -> Result<Learned, Problem> {
+    let works = open_alike(folders)?;
+    let Some(first) = works.first() else { return Err(Problem::input("no campaign folder is given")) };
+    let arm = first.setup.has_programs();
+    let learned = if arm {
+        learn_moves(&first.setup, stress, &pooled(&works, stress, moves_of)?)
     } else {
-        let of_case = |case: &Case| Ok(leg_samples(&work.setup, case, &runs(case)?, stress));
-        let samples = cases.par_iter().map(of_case).collect::<Result<Vec<_>, Problem>>()?.concat();
-        found(samples.len())?;
-        samples::learn(&work.setup, stress, &samples)
+        samples::learn(&first.setup, stress, &pooled(&works, stress, legs_of)?)
     };
-    let model = learned.map_err(|error| match error {
-        NoFit::Groups { groups, needed } => Problem::input(format!(
-            "{place}: {groups} trajectories with executed {what}s; {needed} are needed in all: every fifth is held out, and ten folds \
-             are made of the others"
-        )),
-        error => Problem::input(format!("{place}: {error}")),
+    let model = learned.map_err(|error| {
+        let names: Vec<String> = folders.iter().map(|folder| folder.display().to_string()).collect();
+        let place = names.join(", ");
+        match error {
+            NoFit::Groups { groups, needed } => Problem::input(format!(
+                "{place}: {groups} trajectories with executed {}s; {needed} are needed in all: every fifth is held out, and ten folds \
+                 are made of the others",
+                what(arm)
+            )),
+            error => Problem::input(format!("{place}: {error}")),
+        }
     })?;
     atomic::write_json(out, &model)?;
-    let score_key = work.setup.scenario.score_key();
-    Ok(Learned { model, score_key, arm: work.setup.has_programs() })
+    Ok(Learned { model, score_key: first.setup.scenario.score_key(), arm })
+}
+
+/// The campaigns in `folders`, which are of one robot and were executed by one controller or program.
+fn open_alike(folders: &[PathBuf]) -> Result<Vec<Work>, Problem> {
+    let works = folders.iter().map(|folder| open_to_read(folder)).collect::<Result<Vec<_>, Problem>>()?;
+    let real = |folder: &Path| folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    for (place, work) in works.iter().enumerate().skip(1) {
+        if folders[..place].iter().any(|before| real(before) == real(&folders[place])) {
+            return Err(Problem::of_file(&folders[place], "is given twice: what it says would count twice"));
+        }
+        let (ours, theirs) = (of_whom(&works[0]), of_whom(work));
+        if let Some(((what, theirs), (_, ours))) = theirs.into_iter().zip(ours).find(|((_, a), (_, b))| a != b) {
+            let why =
+                format!("its {what} is {theirs}, and that of {} is {ours}: one model is of one", folders[0].display());
+            return Err(Problem::of_file(&folders[place], why));
+        }
+    }
+    Ok(works)
+}
+
+/// Whose legs a campaign has, and who executed them.
+fn of_whom(work: &Work) -> [(&'static str, String); 5] {
+    let subject = work.setup.scenario.subject();
+    let command = work.setup.scenario.executor().command.map_or("none".into(), |command| format!("`{command}`"));
+    [
+        ("robot", format!("`{}`", subject.robot)),
+        ("robot's numbers (BLAKE3)", subject.robot_hash),
+        ("meaning of speeds", format!("`{}`", subject.speeds)),
+        ("controller", format!("`{}`", subject.controller)),
+        ("`execute.command`", command),
+    ]
+}
+
+/// What is learned of, in a word.
+fn what(arm: bool) -> &'static str {
+    if arm { "move" } else { "leg" }
+}
+
+/// The samples of all of `works`, their trajectories numbered on. `of` gives those of one case; every folder has some.
+fn pooled<S: Send>(
+    works: &[Work],
+    stress: Stress,
+    of: fn(&Setup, &Case, &[Run], usize, Stress) -> Vec<S>,
+) -> Result<Vec<S>, Problem> {
+    let (mut all, mut before) = (Vec::new(), 0);
+    for work in works {
+        let cases = work.folder.read_cases()?;
+        let table = work.folder.read_runs_table()?;
+        let of_case = |case: &Case| {
+            let runs = work.folder.read_runs(case.number, &table)?;
+            Ok(of(&work.setup, case, &runs, before + case.number.0, stress))
+        };
+        let samples = cases.par_iter().map(of_case).collect::<Result<Vec<Vec<S>>, Problem>>()?;
+        let samples: Vec<S> = samples.into_iter().flatten().collect();
+        if samples.is_empty() {
+            return Err(nothing(work, &cases, table.is_empty(), stress));
+        }
+        all.extend(samples);
+        before += cases.iter().map(|case| case.number.0 + 1).max().unwrap_or_default();
+    }
+    Ok(all)
+}
+
+fn legs_of(setup: &Setup, case: &Case, runs: &[Run], trajectory: usize, stress: Stress) -> Vec<LegSample> {
+    let samples = leg_samples(setup, case, runs, stress);
+    samples.into_iter().map(|sample| LegSample { trajectory, ..sample }).collect()
+}
+
+fn moves_of(setup: &Setup, case: &Case, runs: &[Run], program: usize, stress: Stress) -> Vec<MoveSample> {
+    let samples = move_samples(setup, case, runs, stress);
+    samples.into_iter().map(|sample| MoveSample { program, ..sample }).collect()
+}
+
+/// Why a campaign has nothing to learn from.
+fn nothing(work: &Work, cases: &[Case], unflown: bool, stress: Stress) -> Problem {
+    let (place, arm) = (work.folder.path().display(), work.setup.has_programs());
+    let missing = if unflown {
+        format!("nothing was executed: hairpin execute {place}")
+    } else if !arm && cases.iter().all(|case| case.seen.is_empty()) {
+        "no search saw the legs of its cases, as of missions made elsewhere".to_owned()
+    } else {
+        format!("{} was measured on none of them", stress.word())
+    };
+    Problem::input(format!("{place}: no {} to learn from: {missing}", what(arm)))
 }
 
 #[cfg(test)]
@@ -76,24 +146,67 @@ mod tests {
     use crate::execute::{ExecuteSettings, execute};
     use crate::generate::generate;
     use crate::testing::{executed, generated, small};
+    use crate::work::CampaignSettings;
+
+    /// An executed campaign of `cases` of the seed `seed`, with one more key set.
+    fn flown(place: &tempfile::TempDir, name: &str, (seed, cases): (u64, u64), more: (&str, &str)) -> PathBuf {
+        let mut settings = CampaignSettings { out: Some(place.path().join(name)), ..small(place) };
+        for (key, value) in [("generate.search.cases", &*cases.to_string()), ("seed", &*seed.to_string()), more] {
+            settings.sets.push((key.into(), value.into()));
+        }
+        let folder = generate(&settings, &Unwatched).unwrap().work.folder.path().to_owned();
+        execute(&ExecuteSettings { folder: folder.clone(), ..ExecuteSettings::default() }, &Unwatched).unwrap();
+        folder
+    }
+
+    const PLAIN: (&str, &str) = ("execute.repeat", "1");
 
     #[test]
     fn a_score_is_learned_and_written() {
         let place = tempfile::tempdir().unwrap();
-        let mut settings = small(&place);
-        settings.sets.push(("generate.search.cases".into(), "20".into()));
-        let folder = generate(&settings, &Unwatched).unwrap().work.folder.path().to_owned();
-        execute(&ExecuteSettings { folder: folder.clone(), ..ExecuteSettings::default() }, &Unwatched).unwrap();
+        let folder = flown(&place, "out", (1, 20), PLAIN);
         let out = place.path().join("model.json");
-        let learned = learn(&folder, &out, Stress::MaxDeviation).unwrap();
+        let learned = learn(&[folder], &out, Stress::MaxDeviation).unwrap();
         assert_eq!((learned.model.trajectories, learned.score_key, learned.arm), (20, "generate.score", false));
         assert_eq!(serde_json::from_slice::<ScoreModel>(&std::fs::read(out).unwrap()).unwrap(), learned.model);
     }
 
     #[test]
+    fn several_campaigns_are_learned_from_as_one() {
+        let place = tempfile::tempdir().unwrap();
+        let folders = [flown(&place, "a", (1, 7), PLAIN), flown(&place, "b", (2, 8), PLAIN)];
+        let works: Vec<Work> = folders.iter().map(|folder| open_to_read(folder).unwrap()).collect();
+        // The union: the cases of one, then those of the other as number 7 and so on.
+        let mut union = Vec::new();
+        for (work, before) in works.iter().zip([0, 7]) {
+            let table = work.folder.read_runs_table().unwrap();
+            for mut case in work.folder.read_cases().unwrap() {
+                let runs = work.folder.read_runs(case.number, &table).unwrap();
+                case.number.0 += before;
+                union.extend(leg_samples(&work.setup, &case, &runs, Stress::MaxDeviation));
+            }
+        }
+        assert_eq!(pooled(&works, Stress::MaxDeviation, legs_of).unwrap(), union);
+        let out = place.path().join("model.json");
+        let learned = learn(&folders, &out, Stress::MaxDeviation).unwrap();
+        assert_eq!(learned.model.trajectories, 15);
+        assert_eq!(learned.model, samples::learn(&works[0].setup, Stress::MaxDeviation, &union).unwrap());
+        let refused = |other: &Path| {
+            let learned = learn(&[folders[0].clone(), other.to_owned()], &out, Stress::MaxDeviation);
+            learned.map(|_| ()).unwrap_err().to_string()
+        };
+        let twice = refused(&folders[0].join("../a"));
+        assert!(twice.contains("is given twice"), "{twice}");
+        let controller = refused(&flown(&place, "c", (1, 1), ("execute.controller", "\"fixed-velocity\"")));
+        assert!(controller.contains("its controller is `fixed-velocity`, and that of "), "{controller}");
+        let heavy = refused(&flown(&place, "d", (1, 1), ("robot.mass_kg", "1.01")));
+        assert!(heavy.contains("its robot's numbers"), "{heavy}");
+    }
+
+    #[test]
     fn what_is_missing_is_told() {
         let refused = |folder: &Path| {
-            let learned = learn(folder, &folder.join("model.json"), Stress::MaxDeviation);
+            let learned = learn(&[folder.to_owned()], &folder.join("model.json"), Stress::MaxDeviation);
             learned.map(|_| ()).unwrap_err().to_string()
         };
         let (_place, folder) = generated();

@@ -5,7 +5,7 @@ mod campaigns;
 use campaigns::{ENDLESS, asked, check_witness, distance_to_hull, from_mast, run, setup};
 use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Evidence, Scenario, Setup, Stop, generate, optima, verdict};
+use hairpin::campaign::{Case, Evidence, OwnSimulator, Scenario, Setup, Stop, generate, optima, verdict};
 use hairpin::feasibility::reach::sampling;
 use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::Quadrotor;
@@ -126,7 +126,7 @@ fn interruptions_and_threads_change_nothing() {
     let setup = setup("flightgoggles", 6, asked("hull", "beam", 4));
     let mut prefixes = vec![Known::default()];
     let mut cases = Vec::new();
-    let tally = generate(&setup, &Known::default(), &ENDLESS, &mut |new, tally| {
+    let tally = generate(&setup, &Known::default(), &OwnSimulator, &ENDLESS, &mut |new, tally| {
         cases.extend_from_slice(new);
         prefixes.push(Known { cases: cases.clone(), tally: tally.clone() });
     });
@@ -152,7 +152,7 @@ fn a_graph_whose_executions_were_cut_off_is_searched_again() {
     assert_eq!(calm.len(), 3);
     let looks = AtomicUsize::new(0);
     let looking = || looks.fetch_add(1, Ordering::Relaxed) == usize::MAX;
-    generate(&setup, &Known::default(), &Stop { cancelled: &looking, ..ENDLESS }, &mut |_, _| {});
+    generate(&setup, &Known::default(), &OwnSimulator, &Stop { cancelled: &looking, ..ENDLESS }, &mut |_, _| {});
     // Asked for the n-th time, the caller wants to stop: before, within and behind graphs, and before the last one that
     // is needed.
     for share in [0, 1, 2, 3, 4, 5, 6] {
@@ -161,7 +161,8 @@ fn a_graph_whose_executions_were_cut_off_is_searched_again() {
         let cancelled = || looks.fetch_add(1, Ordering::Relaxed) >= patience;
         let mut kept = Vec::new();
         let stop = Stop { cancelled: &cancelled, ..ENDLESS };
-        let tally = generate(&setup, &Known::default(), &stop, &mut |new, _| kept.extend_from_slice(new));
+        let tally =
+            generate(&setup, &Known::default(), &OwnSimulator, &stop, &mut |new, _| kept.extend_from_slice(new));
         assert!(tally.stopped && kept.len() < calm.len(), "not stopped at look {patience}");
         assert!(kept[..] == calm[..kept.len()], "stopped at look {patience}");
         let (cases, resumed) = run(&setup, &Known { cases: kept, tally });

@@ -3,7 +3,7 @@
 use hairpin::campaign::drive::DriveSetup;
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::scenario::CircleSection;
-use hairpin::campaign::{Case, Scenario, Setup, Stop, execute_run, generate, judge, planned, verify};
+use hairpin::campaign::{Case, OwnSimulator, Scenario, Setup, Stop, execute_run, generate, judge, planned, verify};
 use hairpin::trajectory::Ended;
 use serde_json::{Value, json};
 
@@ -46,7 +46,7 @@ fn setup(asked: Asked) -> Setup {
 fn searched(setup: &Setup) -> Vec<Case> {
     let stop = Stop { cancelled: &|| false, progress: &|_, _| {}, clock: &|| 0.0 };
     let mut cases = Vec::new();
-    generate(setup, &Known::default(), &stop, &mut |new, _| cases.extend_from_slice(new));
+    generate(setup, &Known::default(), &OwnSimulator, &stop, &mut |new, _| cases.extend_from_slice(new));
     cases
 }
 

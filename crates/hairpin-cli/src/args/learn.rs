@@ -6,14 +6,14 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hairpin::judgement::Stress;
 
-/// Learns per-leg stress from the executed legs of a campaign, as a polynomial of what the search saw of them. Degree
-/// and penalty are chosen by 10-fold cross-validation over trajectories; the quality told is that on trajectories that
+/// Learns per-leg stress from the executed legs of campaigns of one robot and one controller, as a polynomial of what the
+/// searches saw of them. Degree and penalty are chosen by 10-fold cross-validation over trajectories; the quality told is that on trajectories that
 /// took no part.
 #[derive(Debug, Args)]
 pub(crate) struct Learn {
-    /// Campaign folder
-    #[arg(value_name = "OUT")]
-    pub(crate) folder: PathBuf,
+    /// Campaign folders; several are learned from as if they were one
+    #[arg(value_name = "OUT", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
     /// The model file
     #[arg(long, value_name = "MODEL", default_value = "score-model.json")]
     pub(crate) out: PathBuf,

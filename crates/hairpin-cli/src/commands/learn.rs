@@ -11,7 +11,7 @@ use crate::exit::DONE;
 
 /// Runs the command: 0 when the model is written, however good it is.
 pub(crate) fn run(asked: &Learn) -> Result<u8, Problem> {
-    let learned = learn(&asked.folder, &asked.out, asked.stress)?;
+    let learned = learn(&asked.folders, &asked.out, asked.stress)?;
     if asked.json {
         let model = &learned.model;
         let answer = json!({

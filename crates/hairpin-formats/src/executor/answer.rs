@@ -11,10 +11,6 @@ use super::message::{FromExecutor, PoseMessage, ToExecutor, mission_message};
 use super::recording::Recording;
 use super::worker::{Worker, after};
 
-/// How long it is listened after an `end` of protocol 1, whose answers do not say what they are of: whoever flies twice
-/// goes on at once.
-const QUIET: Duration = Duration::from_millis(20);
-
 /// What came of one mission.
 #[derive(Debug)]
 pub struct Answer {
@@ -29,13 +25,11 @@ pub struct Answer {
 }
 
 impl Worker {
-    /// Flies one mission. After a failure the worker is usable again only if it is handed back.
-    pub fn fly(mut self, mission: &Mission, cancelled: &dyn Fn() -> bool) -> Answer {
+    /// Flies one mission, in protocol 1 when nothing has come for `quiet` since its last answer. After a failure the
+    /// worker is usable again only if it is handed back.
+    pub fn fly(mut self, mission: &Mission, quiet: Duration, cancelled: &dyn Fn() -> bool) -> Answer {
         let (mut before, asked) = (None, Envelope::of(mission));
-        if self.protocol == 1
-            && self.last.is_some()
-            && let Some(failure) = self.unasked(Duration::ZERO)
-        {
+        if let Some(failure) = self.unasked(quiet) {
             let failed = self.fail(failure);
             return Answer { result: Err(failed.clone()), before: Some(failed), not_begun: true, worker: None };
         }
@@ -137,11 +131,11 @@ impl Worker {
                     }
                 }
                 FromExecutor::End { reason, .. } => {
-                    let flight = recording.finish(reason)?;
-                    let unasked = if self.protocol == 1 { self.unasked(QUIET) } else { None };
-                    return unasked.map_or(Ok(flight), Err);
+                    self.ended = Some(Instant::now());
+                    return Ok(recording.finish(reason)?);
                 }
                 FromExecutor::Error { message, .. } => {
+                    self.ended = Some(Instant::now());
                     return Err(Failure::Reported { message: excerpt(&message, 500) });
                 }
                 other => return Err(Failure::Unexpected { found: other.kind(), awaited: "pose" }),

@@ -27,6 +27,15 @@ pub enum ToExecutor {
     Bye,
 }
 
+impl ToExecutor {
+    /// As it is sent, with the end of its line.
+    pub(super) fn line(&self) -> Vec<u8> {
+        let mut line = serde_json::to_vec(self).expect("messages are trees of strings and finite numbers");
+        line.push(b'\n');
+        line
+    }
+}
+
 /// One mission, world frame, SI.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MissionMessage {
@@ -77,6 +86,15 @@ pub fn mission_message(mission: &Mission) -> ToExecutor {
         time_limit_s: mission.time_limit,
         timed: timed.collect(),
     }))
+}
+
+/// What tells one mission from another: BLAKE3 of its message, whatever its case is called.
+pub(super) fn mission_key(mission: &Mission) -> [u8; 32] {
+    let mut message = mission_message(mission);
+    if let ToExecutor::Mission(message) = &mut message {
+        message.case.clear();
+    }
+    blake3::hash(&message.line()).into()
 }
 
 /// What the executor says. Fields that we do not know are ignored. From protocol 2 on, answers say by `case` and `run`

@@ -1,71 +1,66 @@
-//! Several workers fly many missions; one that fails costs its own mission and no other.
+//! The processes of one program: whoever has missions to fly checks one out and gives it back.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
-
-use hairpin::campaign::Mission;
-use hairpin::trajectory::Flight;
+use std::time::Duration;
 
 use super::command::Command;
-use super::failure::{Failed, Failure};
-use super::patience::{Heard, Patience};
 use super::pilot::{Pilot, Program};
 use super::worker::Limits;
 
-/// Flies missions `0..count` by `workers` processes of `command`; `mission(i)` makes the i-th (or says why it cannot be
-/// flown), `landed(i, …)` takes its flight, both from any thread and in any order. What was being flown when
-/// `cancelled` became true is not reported.
-///
-/// A program that cannot even be started fails every mission with the same sentence. Where three in a row, in their
-/// order, were left without an answer, those that were not asked for yet fail at once.
-pub fn fly_all(
-    command: &Command,
-    limits: Limits,
-    workers: usize,
-    count: usize,
-    mission: &(dyn Fn(usize) -> Result<Mission, String> + Sync),
-    landed: &(dyn Fn(usize, Result<Flight, Failed>) + Sync),
-    cancelled: &(dyn Fn() -> bool + Sync),
-) {
-    let (next, patience, program) = (AtomicUsize::new(0), Patience::new(count), Program::new(command, limits));
-    let stop = || cancelled() || patience.is_over();
-    thread::scope(|scope| {
-        for _ in 0..workers.clamp(1, count.max(1)) {
-            scope.spawn(|| {
-                let mut pilot = Pilot::new(&program, landed);
-                while !stop() {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= count {
-                        break;
-                    }
-                    match mission(index) {
-                        Ok(mission) => match pilot.fly(index, &mission, &stop) {
-                            Some(told) => patience.note(index, heard(&told)),
-                            None => break,
-                        },
-                        Err(cause) => {
-                            patience.note(index, Heard::NotAsked);
-                            landed(index, Err(Failed { failure: Failure::NoMission { cause }, stderr: String::new() }));
-                        }
-                    }
-                }
-                pilot.stop();
-            });
+/// Between looks at whether whoever waits for a process is still to have one.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Processes of one program. None is started before it is needed; all are ended, in order, when this is dropped.
+#[derive(Debug)]
+pub(super) struct Pool {
+    pub(super) program: Program,
+    /// Those that nobody has; the last one flew last.
+    free: Mutex<Vec<Pilot>>,
+    given_back: Condvar,
+}
+
+impl Pool {
+    /// Of at most `processes`, one at least.
+    pub(super) fn new(command: &Command, limits: Limits, processes: usize, trusting: bool) -> Self {
+        let free = std::iter::repeat_with(Pilot::default).take(processes.max(1)).collect();
+        let program = Program::new(command, limits, trusting);
+        Self { program, free: Mutex::new(free), given_back: Condvar::new() }
+    }
+
+    /// One that flies, as soon as one is free: the one that flew last. `None` where `cancelled` comes first.
+    pub(super) fn check_out(&self, cancelled: &dyn Fn() -> bool) -> Option<Pilot> {
+        let mut free = self.free();
+        loop {
+            if cancelled() {
+                return None;
+            }
+            if let Some(pilot) = free.pop() {
+                return Some(pilot);
+            }
+            free = self.given_back.wait_timeout(free, LOOK).unwrap_or_else(PoisonError::into_inner).0;
         }
-    });
-    if patience.is_over() && !cancelled() {
-        let failure = Failure::NotAsked { seconds: limits.mission.as_secs_f64() };
-        for index in patience.unheard() {
-            landed(index, Err(Failed { failure: failure.clone(), stderr: String::new() }));
-        }
+    }
+
+    /// Takes it back.
+    pub(super) fn give_back(&self, pilot: Pilot) {
+        self.free().push(pilot);
+        self.given_back.notify_one();
+    }
+
+    fn free(&self) -> MutexGuard<'_, Vec<Pilot>> {
+        self.free.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-fn heard(told: &Result<(), Failure>) -> Heard {
-    match told {
-        // A program that never starts is not started again and again in the first place.
-        Err(Failure::NoReady { .. }) => Heard::NotAsked,
-        Err(failure) if failure.is_time_out() => Heard::TimedOut,
-        _ => Heard::Answered,
+impl Drop for Pool {
+    /// All at once: each may take its grace.
+    fn drop(&mut self) {
+        let pilots = std::mem::take(self.free.get_mut().unwrap_or_else(PoisonError::into_inner));
+        thread::scope(|scope| {
+            for mut pilot in pilots {
+                scope.spawn(move || pilot.stop());
+            }
+        });
     }
 }

@@ -17,6 +17,10 @@ const LOOK: Duration = Duration::from_millis(50);
 /// How long a process that closed its stdout, or whose children hold stderr, is waited for.
 const AFTERMATH: Duration = Duration::from_millis(300);
 
+/// How long it is listened after an `end` of protocol 1 before the next mission is told, for answers do not say what they
+/// are of: whoever flies twice goes on at once. What has passed since the `end` counts.
+pub(super) const QUIET: Duration = Duration::from_millis(20);
+
 /// Wall-clock limits of a worker: all that a stranger's program may take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
@@ -50,6 +54,8 @@ pub struct Worker {
     pub(super) protocol: u64,
     /// The mission that it answered last.
     pub(super) last: Option<Envelope>,
+    /// When it gave its last answer, until the next mission is told.
+    pub(super) ended: Option<Instant>,
 }
 
 impl Worker {
@@ -101,6 +107,7 @@ impl Worker {
             name: String::new(),
             protocol,
             last: None,
+            ended: None,
         };
         match worker.shake_hands(cancelled) {
             Ok(()) => Ok(worker),
@@ -130,9 +137,10 @@ impl Worker {
         }
     }
 
-    /// What is wrong with a line that it sent within `patience` without having been asked, if it does.
+    /// What is wrong with a line that it sent within `patience` after its last answer, if it did: protocol 1 alone,
+    /// where an answer does not say what it is of.
     pub(super) fn unasked(&mut self, patience: Duration) -> Option<Failure> {
-        let until = Instant::now() + patience;
+        let until = self.ended.take().filter(|_| self.protocol == 1)? + patience;
         loop {
             match self.lines.recv_timeout(until.saturating_duration_since(Instant::now())) {
                 Ok(Line::Text(bytes)) if bytes.iter().all(u8::is_ascii_whitespace) => self.line_number += 1,
@@ -145,11 +153,9 @@ impl Worker {
 
     /// Hands a line to the thread that writes: a program that never reads must not hold us up.
     pub(super) fn say(&mut self, message: &ToExecutor) {
-        let mut line = serde_json::to_vec(message).expect("messages are trees of strings and finite numbers");
-        line.push(b'\n');
         if let Some(outgoing) = &self.outgoing {
             // It fails only where the program closed its stdin; what it says next decides.
-            let _ = outgoing.send(line);
+            let _ = outgoing.send(message.line());
         }
     }
 
@@ -209,10 +215,10 @@ impl Worker {
     /// Says `bye`, waits for the exit as long as the grace is, then ends the process with all its children. Gives what
     /// is wrong with its last answer, where it went on after that.
     pub fn stop(mut self) -> Option<Failed> {
+        let mut wrong = self.unasked(QUIET);
         self.say(&ToExecutor::Bye);
         self.outgoing = None;
         let until = Instant::now() + self.limits.grace;
-        let mut wrong = None;
         // Who still talks is heard, so that whoever waits for a reader can exit; words of farewell are no answers.
         let mut exited = false;
         loop {

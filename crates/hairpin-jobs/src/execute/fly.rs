@@ -165,7 +165,7 @@ fn fly_with(
     stop: &(dyn Fn() -> bool + Sync),
     watch: &dyn Watch,
 ) {
-    let workers = workers(&work.setup);
+    let processes = processes(&work.setup);
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result: Result<_, Failed>| {
         let job = &missing[index];
@@ -188,8 +188,8 @@ fn fly_with(
         flown.fetch_add(1, Ordering::Relaxed);
         land(index, result);
     };
-    fly_all(command, limits, workers, missing.len(), &make, &counted, stop);
-    tracing::info!("{} missions by {workers} workers", flown.into_inner());
+    fly_all(command, limits, processes, missing.len(), &make, &counted, stop);
+    tracing::info!("{} missions by {processes} processes", flown.into_inner());
 }
 
 fn as_run(setup: &Setup, case: &Case, number: usize, result: Result<hairpin::trajectory::Flight, Failed>) -> Run {
@@ -202,7 +202,7 @@ fn as_run(setup: &Setup, case: &Case, number: usize, result: Result<hairpin::tra
 }
 
 /// The user's program, where one flies.
-fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
+pub(super) fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
     let execute = setup.scenario.executor();
     let Some(text) = execute.command else { return Ok(None) };
     let command = text.parse().map_err(|error| Problem::input(format!("`execute.command` = {text:?} {error}")))?;
@@ -253,12 +253,12 @@ pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -
         let (setup, case, run) = jobs[index];
         flown.lock().unwrap_or_else(std::sync::PoisonError::into_inner)[index] = Some(as_run(setup, case, run, result));
     };
-    fly_all(&command, limits, workers(setup), jobs.len(), &make, &landed, &|| watch.stopped());
+    fly_all(&command, limits, processes(setup), jobs.len(), &make, &landed, &|| watch.stopped());
     let runs = flown.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     runs.into_iter().collect::<Option<_>>().ok_or_else(|| Problem::Interrupted("stopped".into()))
 }
 
 /// How many programs of the user's run side by side.
-fn workers(setup: &Setup) -> usize {
-    setup.scenario.executor().workers.map_or_else(rayon::current_num_threads, |n| n as usize)
+pub(super) fn processes(setup: &Setup) -> usize {
+    setup.scenario.executor().processes.map_or_else(rayon::current_num_threads, |n| n as usize)
 }

@@ -1,6 +1,7 @@
 //! Execution: the flights of a campaign whose trajectories are there, or of waypoint files made elsewhere.
 
 mod fly;
+mod in_loop;
 mod recorded;
 
 use std::path::{Path, PathBuf};
@@ -17,6 +18,7 @@ use crate::work::{changed_by, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
 pub use fly::{Flown, fly_each};
 pub(crate) use fly::{attitude_unknown, fly_missing, fly_one, fly_together};
+pub(crate) use in_loop::{Asked, in_the_loop};
 
 /// What is executed, and how.
 #[derive(Debug, Clone, Default)]

@@ -2,7 +2,7 @@
 //! first completion ends a graph. Through the pipeline as a campaign runs it: sampling, set-up and pruning of every
 //! graph are counted, and one distinct trajectory a graph.
 
-use hairpin::campaign::{Known, Setup, Stop, Tally, generate};
+use hairpin::campaign::{Known, OwnSimulator, Setup, Stop, Tally, generate};
 use hairpin_formats::scenario::setup_for;
 use hairpin_jobs::Problem;
 
@@ -36,7 +36,7 @@ pub(super) fn scenario(length: usize, revisits: bool, cases: u64) -> Result<Setu
 
 /// Generates on this thread alone, so that its clock sees all of it.
 pub(super) fn on_one_thread(setup: &Setup, stop: &Stop) -> Tally {
-    alone(|| generate(setup, &Known::default(), stop, &mut |_, _| ()))
+    alone(|| generate(setup, &Known::default(), &OwnSimulator, stop, &mut |_, _| ()))
 }
 
 fn beam(length: usize, revisits: bool, items: fn(&Tally) -> u64) -> Result<f64, Problem> {

@@ -67,6 +67,11 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, beside: Option<String>, 
             search.executions
         ));
     }
+    if let Some(command) = setup.scenario.executor().command.filter(|_| setup.scenario.executes()) {
+        said.push(format!(
+            "What the search executed was flown by `{command}`, each mission once; the judgement's runs were flown anew."
+        ));
+    }
     said.extend(beside);
     let made: u64 = tally.rounds.iter().map(|round| round.executions).sum();
     if search.method == SearchMethod::Adaptive && made < search.executions && search.time_s.is_none() && !tally.stopped

@@ -1,11 +1,8 @@
-//! Executes missions in our own simulator.
+//! Executes missions: all of a campaign's in our own simulator, or one wherever it is carried out.
 
 use rayon::prelude::*;
 
-use super::kind::Order;
-use super::{Case, CaseNumber, Mission, Mistake, Run, Setup, Stop, mission, mission_again};
-use crate::simulation::SimulationError;
-use crate::trajectory::Flight;
+use super::{Case, CaseNumber, Executor, Mission, Mistake, OwnSimulator, Run, Setup, Stop, mission, mission_again};
 
 /// Runs of `cases` that `wanted(case, run)` asks for, in our own simulator, on all threads of the current pool.
 ///
@@ -38,27 +35,27 @@ pub fn execute(
 
 /// Run number `run` of `case` in our own simulator.
 pub fn execute_run(setup: &Setup, case: &Case, run: usize) -> Run {
-    run_of(setup, case, run, mission(setup, case, run))
+    run_of(setup, &OwnSimulator, case, run, mission(setup, case, run))
 }
 
 /// The same with other noise, for the time number `again`: [`mission_again`].
 pub fn execute_again(setup: &Setup, case: &Case, run: usize, again: usize) -> Run {
-    run_of(setup, case, run, mission_again(setup, case, run, again))
+    run_of(setup, &OwnSimulator, case, run, mission_again(setup, case, run, again))
 }
 
-fn run_of(setup: &Setup, case: &Case, run: usize, mission: Result<Mission, Mistake>) -> Run {
+/// What becomes of `mission`, run number `run` of `case`, where `executor` carries it out.
+pub(super) fn run_of(
+    setup: &Setup,
+    executor: &dyn Executor,
+    case: &Case,
+    run: usize,
+    mission: Result<Mission, Mistake>,
+) -> Run {
     match mission {
         Ok(mission) => {
-            let outcome = carry_out(setup, &mission, case).map_err(|error| error.to_string());
+            let outcome = executor.fly(setup, case, &mission);
             Run { case: case.number, run, drawn: mission.drawn, outcome }
         }
         Err(mistake) => Run { case: case.number, run, drawn: Vec::new(), outcome: Err(mistake.to_string()) },
     }
-}
-
-/// `setup` is the nominal one, which the plan was made with; the mission has its own.
-fn carry_out(setup: &Setup, mission: &Mission, case: &Case) -> Result<Flight, SimulationError> {
-    let Mission { waypoints, accept, time_limit, seed, .. } = mission;
-    let order = Order { waypoints, accept: *accept, time_limit: *time_limit, seed: *seed };
-    mission.setup.kind().run(setup.kind().same(), case, &order)
 }

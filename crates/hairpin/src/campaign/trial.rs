@@ -1,6 +1,9 @@
-//! Executions that a search asks for: one nominal run of a plan, or of a part of one, in our own simulator.
+//! Executions that a search asks for: one nominal run of a plan, or of a part of one, wherever it is carried out.
 
-use super::graph::Plan;
+use nalgebra::Point3;
+
+use super::execute::run_of;
+use super::graph::{Plan, fingerprint};
 use super::judge::measures_of;
 use super::kind::Order;
 use super::learn::LegSample;
@@ -8,14 +11,36 @@ use super::mission::run_seed;
 use super::placement::Placement;
 use super::samples::samples_of;
 use super::select::behaviour;
-use super::{Case, CaseNumber, Environment, Run, Setup, execute_again, execute_run};
+use super::{Case, CaseNumber, Environment, Executor, Run, Setup, mission, mission_again};
 use crate::judgement::{Measures, Stress};
+use crate::math::random::named_seed;
 use crate::search::in_loop::{self, Trial};
 use crate::search::worst::Ran;
 use crate::simulation::Airborne;
 
 /// Numbers of the noise that stress is confirmed under begin here: no run and no re-run of a violation has the same.
 const CONFIRMING: usize = 1 << 20;
+
+/// The seed that a trajectory over `waypoints` keeps as a case, so that it is carried out later as it was while it was
+/// searched for; `None` where it is not, or in our own simulator: there seeds follow from cases' numbers.
+pub(super) fn kept_seed(setup: &Setup, executor: &dyn Executor, waypoints: &[Point3<f64>]) -> Option<u64> {
+    if executor.is_ours() || !setup.scenario.executes() {
+        return None;
+    }
+    let [a, b, c, d, e, f, g, h, ..] = fingerprint(waypoints.iter().copied());
+    Some(named_seed(setup.scenario.seed(), "executed", u64::from_le_bytes([a, b, c, d, e, f, g, h])))
+}
+
+/// Executions of plans of one graph.
+#[derive(Clone, Copy)]
+pub(super) struct Trials<'a> {
+    pub(super) setup: &'a Setup,
+    pub(super) executor: &'a dyn Executor,
+    /// Number of the graph.
+    pub(super) graph: u64,
+    /// The seed of the case that they are for, where it is known before its trajectory.
+    pub(super) seed: Option<u64>,
+}
 
 /// A plan that was carried out, and what was measured.
 struct Executed {
@@ -24,61 +49,145 @@ struct Executed {
     measures: Measures,
 }
 
-/// Executes `plan` of graph number `graph`; `None` where the simulator or the judge refuses. What comes to the stress
-/// `least` is executed `confirm` times more, under noise, and its stress is the mean; NaN where one of those fails.
-pub(super) fn execute(setup: &Setup, graph: u64, plan: &Plan, least: f64) -> Option<Trial> {
-    let executed = executed(setup, graph, plan)?;
-    let first = stressed(setup, &executed)?;
-    let confirm = setup.scenario.search().confirm;
-    if confirm == 0 || first.stress.is_nan() || first.stress < least {
-        return Some(first);
+impl Trials<'_> {
+    /// Executes `plan`; `None` where the executor or the judge refuses. What comes to the stress `least` is executed
+    /// `confirm` times more, under noise, and its stress is the mean; NaN where one of those fails.
+    pub(super) fn execute(&self, plan: &Plan, least: f64) -> Option<Trial> {
+        let setup = self.setup;
+        let executed = self.executed(plan)?;
+        let first = stressed(setup, &executed)?;
+        let confirm = setup.scenario.search().confirm;
+        if confirm == 0 || first.stress.is_nan() || first.stress < least {
+            return Some(first);
+        }
+        let again = |number: u64| Some(stressed(setup, &self.again(&executed.case, number)?)?.stress);
+        let sum = (0..confirm).try_fold(first.stress, |sum, number| Some(sum + again(number)?));
+        let stress = sum.map_or(f64::NAN, |sum| sum / (1 + confirm) as f64);
+        Some(Trial { stress, executions: 1 + confirm, ..first })
     }
-    let again = |number: u64| {
-        let case = executed.case.clone();
-        let run = execute_again(setup, &case, 0, CONFIRMING + number as usize);
-        let measures = measures_of(setup, &case, &run)?;
-        Some(stressed(setup, &Executed { case, run, measures })?.stress)
-    };
-    let sum = (0..confirm).try_fold(first.stress, |sum, number| Some(sum + again(number)?));
-    let stress = sum.map_or(f64::NAN, |sum| sum / (1 + confirm) as f64);
-    Some(Trial { stress, executions: 1 + confirm, ..first })
-}
 
-/// Executes `plan` of the graph with its number and measures it by each of `stresses`, NaN where one was not measured;
-/// with what tells the execution from others. What comes to the `least` of one of them is executed `confirm` times more,
-/// under noise, and its stresses are the means.
-pub(super) fn execute_for(
-    setup: &Setup,
-    (graph, plan): (u64, &Plan),
-    stresses: &[Stress],
-    least: &[f64],
-) -> Option<Ran> {
-    let executed = executed(setup, graph, plan)?;
-    let measured = |stress: &Stress, measures: &Measures| stress.of(measures).unwrap_or(f64::NAN);
-    let trial = |stress: &Stress| Trial {
-        stress: measured(stress, &executed.measures),
-        worst_leg: stress.worst_leg(&executed.measures).unwrap_or(0),
-        executions: 1,
-    };
-    let mut trials: Vec<Trial> = stresses.iter().map(trial).collect();
-    let confirm = setup.scenario.search().confirm;
-    if confirm > 0 && trials.iter().zip(least).any(|(trial, least)| trial.stress >= *least) {
-        for number in 0..confirm {
-            let measures = again(setup, &executed.case, number);
-            for (trial, stress) in trials.iter_mut().zip(stresses) {
-                trial.stress += measures.as_ref().map_or(f64::NAN, |measures| measured(stress, measures));
+    /// Executes `plan` and measures it by each of `stresses`, NaN where one was not measured; with what tells the
+    /// execution from others. What comes to the `least` of one of them is executed `confirm` times more, under noise, and
+    /// its stresses are the means.
+    pub(super) fn execute_for(&self, plan: &Plan, stresses: &[Stress], least: &[f64]) -> Option<Ran> {
+        let executed = self.executed(plan)?;
+        let measured = |stress: &Stress, measures: &Measures| stress.of(measures).unwrap_or(f64::NAN);
+        let trial = |stress: &Stress| Trial {
+            stress: measured(stress, &executed.measures),
+            worst_leg: stress.worst_leg(&executed.measures).unwrap_or(0),
+            executions: 1,
+        };
+        let mut trials: Vec<Trial> = stresses.iter().map(trial).collect();
+        let confirm = self.setup.scenario.search().confirm;
+        if confirm > 0 && trials.iter().zip(least).any(|(trial, least)| trial.stress >= *least) {
+            for number in 0..confirm {
+                let again = self.again(&executed.case, number);
+                for (trial, stress) in trials.iter_mut().zip(stresses) {
+                    trial.stress += again.as_ref().map_or(f64::NAN, |again| measured(stress, &again.measures));
+                }
+            }
+            for trial in &mut trials {
+                (trial.stress, trial.executions) = (trial.stress / (1 + confirm) as f64, 1 + confirm);
             }
         }
-        for trial in &mut trials {
-            (trial.stress, trial.executions) = (trial.stress / (1 + confirm) as f64, 1 + confirm);
-        }
+        Some(Ran { trials, behaviour: behaviour(&executed.measures) })
     }
-    Some(Ran { trials, behaviour: behaviour(&executed.measures) })
-}
 
-/// The measures of confirmation number `number` of `case`.
-fn again(setup: &Setup, case: &Case, number: u64) -> Option<Measures> {
-    measures_of(setup, case, &execute_again(setup, case, 0, CONFIRMING + number as usize))
+    /// The same once, with what there is to learn from it as trajectory number `trajectory`.
+    pub(super) fn execute_and_learn(&self, plan: &Plan, trajectory: usize) -> Option<(Trial, Vec<LegSample>)> {
+        let Executed { case, measures, .. } = self.executed(plan)?;
+        let mut samples = samples_of(&case, &measures, self.setup.scenario.search().stress);
+        samples.iter_mut().for_each(|sample| sample.trajectory = trajectory);
+        Some((trial(self.setup, &measures)?, samples))
+    }
+
+    /// Whether a part of a trajectory can be executed from where its beginning has led: in our own simulator, where
+    /// controllers know of one waypoint at a time.
+    pub(super) fn resumes(&self) -> bool {
+        self.executor.is_ours() && self.setup.kind().leg_by_leg().is_some()
+    }
+
+    /// Executes `plan`, the first waypoints of a trajectory, or all where it is `whole`: on from `before` or from the
+    /// start; the same as [`execute`](Self::execute) once it is whole. Where executions do not [resume](Self::resumes),
+    /// `plan` is carried out as if it were all.
+    ///
+    /// # Errors
+    /// Legs that were executed for nothing.
+    pub(super) fn execute_partial(
+        &self,
+        plan: &Plan,
+        before: Option<&Airborne>,
+        whole: bool,
+    ) -> Result<in_loop::Ran<Airborne>, u64> {
+        let setup = self.setup;
+        let legs = plan.waypoints.len() as u64 - 1;
+        let Some(flying) = setup.kind().leg_by_leg().filter(|_| self.executor.is_ours()) else {
+            let stress = self.executed(plan).and_then(|executed| trial(setup, &executed.measures));
+            return Ok(in_loop::Ran { stress: stress.ok_or(legs)?.stress, state: None, legs });
+        };
+        let case = self.case(plan);
+        let mut airborne = match before {
+            Some(before) => before.clone(),
+            None => {
+                let executor = setup.scenario.executor();
+                let length = setup.scenario.length().unwrap_or_default() as usize;
+                let order = Order {
+                    waypoints: &case.waypoints,
+                    accept: executor.accept,
+                    time_limit: executor.patience.time_limit(length, 0.0),
+                    seed: run_seed(case.seed, 0),
+                };
+                flying.at_start(&order).map_err(|_| legs)?
+            }
+        };
+        let mut flown = 0;
+        for waypoint in &case.waypoints[airborne.waypoints()..] {
+            flown += u64::from(!airborne.ended());
+            flying.fly_to(&mut airborne, *waypoint).map_err(|_| flown)?;
+        }
+        if whole {
+            flying.finish(&mut airborne).map_err(|_| flown)?;
+        }
+        let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(airborne.so_far()) };
+        let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
+        Ok(in_loop::Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
+    }
+
+    /// How long the execution of `plan` takes, s.
+    pub(super) fn duration(&self, plan: &Plan) -> Option<f64> {
+        self.executed(plan).map(|executed| executed.measures.total_time)
+    }
+
+    /// `plan` with the obstacles that are asked for, and its execution among them; as it is where none are. `None`
+    /// where there is no room for any.
+    pub(super) fn furnish(&self, plan: &Plan) -> Option<(Plan, Trial)> {
+        let Placement { among, .. } = placement(self.setup, &self.executed(plan)?)?;
+        let plan = Plan { environment: Some(among), ..plan.clone() };
+        let among = self.executed(&plan)?;
+        Some((plan, trial(self.setup, &among.measures)?))
+    }
+
+    fn executed(&self, plan: &Plan) -> Option<Executed> {
+        let case = self.case(plan);
+        let run = run_of(self.setup, self.executor, &case, 0, mission(self.setup, &case, 0));
+        let measures = measures_of(self.setup, &case, &run)?;
+        Some(Executed { case, run, measures })
+    }
+
+    /// Confirmation number `number` of `case`, under noise of its own.
+    fn again(&self, case: &Case, number: u64) -> Option<Executed> {
+        let mission = mission_again(self.setup, case, 0, CONFIRMING + number as usize);
+        let run = run_of(self.setup, self.executor, case, 0, mission);
+        let measures = measures_of(self.setup, case, &run)?;
+        Some(Executed { case: case.clone(), run, measures })
+    }
+
+    /// What `plan` is carried out as: a case whose number is not known yet.
+    fn case(&self, plan: &Plan) -> Case {
+        let case = plan.clone().case(self.setup.scenario.seed(), self.graph, 0);
+        let kept = kept_seed(self.setup, self.executor, &case.waypoints).map(|kept| self.seed.unwrap_or(kept));
+        Case { seed: kept.unwrap_or(case.seed), ..case }
+    }
 }
 
 /// The stress of an execution. Where obstacles are to be placed, it is how deep the robot gets into those that could
@@ -89,92 +198,6 @@ fn stressed(setup: &Setup, executed: &Executed) -> Option<Trial> {
     let worst_leg = leg.min(executed.case.waypoints.len().saturating_sub(2));
     let placed = Trial { stress: -clearance, worst_leg, executions: 1 };
     own.filter(|own| own.stress >= placed.stress).or(Some(placed))
-}
-
-/// The same, with what there is to learn from it as trajectory number `trajectory`.
-pub(super) fn execute_and_learn(
-    setup: &Setup,
-    graph: u64,
-    plan: &Plan,
-    trajectory: usize,
-) -> Option<(Trial, Vec<LegSample>)> {
-    let Executed { case, measures, .. } = executed(setup, graph, plan)?;
-    let mut samples = samples_of(&case, &measures, setup.scenario.search().stress);
-    samples.iter_mut().for_each(|sample| sample.trajectory = trajectory);
-    Some((trial(setup, &measures)?, samples))
-}
-
-/// Whether a part of a trajectory can be executed from where its beginning has led: where controllers know of one
-/// waypoint at a time.
-pub(super) fn resumes(setup: &Setup) -> bool {
-    setup.kind().leg_by_leg().is_some()
-}
-
-/// Executes `plan`, the first waypoints of a trajectory of graph number `graph`, or all where it is `whole`: on from
-/// `before` or from the start; the same as [`execute`] once it is whole. Where executions do not [resume](resumes),
-/// `plan` is carried out as if it were all.
-///
-/// # Errors
-/// Legs that were executed for nothing.
-pub(super) fn execute_partial(
-    setup: &Setup,
-    graph: u64,
-    plan: &Plan,
-    before: Option<&Airborne>,
-    whole: bool,
-) -> Result<in_loop::Ran<Airborne>, u64> {
-    let legs = plan.waypoints.len() as u64 - 1;
-    let Some(flying) = setup.kind().leg_by_leg() else {
-        let stress = executed(setup, graph, plan).and_then(|executed| trial(setup, &executed.measures));
-        return Ok(in_loop::Ran { stress: stress.ok_or(legs)?.stress, state: None, legs });
-    };
-    let case = plan.clone().case(setup.scenario.seed(), graph, 0);
-    let mut airborne = match before {
-        Some(before) => before.clone(),
-        None => {
-            let executor = setup.scenario.executor();
-            let length = setup.scenario.length().unwrap_or_default() as usize;
-            let order = Order {
-                waypoints: &case.waypoints,
-                accept: executor.accept,
-                time_limit: executor.patience.time_limit(length, 0.0),
-                seed: run_seed(case.seed, 0),
-            };
-            flying.at_start(&order).map_err(|_| legs)?
-        }
-    };
-    let mut flown = 0;
-    for waypoint in &case.waypoints[airborne.waypoints()..] {
-        flown += u64::from(!airborne.ended());
-        flying.fly_to(&mut airborne, *waypoint).map_err(|_| flown)?;
-    }
-    if whole {
-        flying.finish(&mut airborne).map_err(|_| flown)?;
-    }
-    let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(airborne.so_far()) };
-    let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
-    Ok(in_loop::Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
-}
-
-/// How long the execution of `plan` takes, s.
-pub(super) fn duration(setup: &Setup, graph: u64, plan: &Plan) -> Option<f64> {
-    executed(setup, graph, plan).map(|executed| executed.measures.total_time)
-}
-
-/// `plan` with the obstacles that are asked for, and its execution among them; as it is where none are. `None` where
-/// there is no room for any.
-pub(super) fn furnish(setup: &Setup, graph: u64, plan: &Plan) -> Option<(Plan, Trial)> {
-    let Placement { among, .. } = placement(setup, &executed(setup, graph, plan)?)?;
-    let plan = Plan { environment: Some(among), ..plan.clone() };
-    let among = executed(setup, graph, &plan)?;
-    Some((plan, trial(setup, &among.measures)?))
-}
-
-fn executed(setup: &Setup, graph: u64, plan: &Plan) -> Option<Executed> {
-    let case = plan.clone().case(setup.scenario.seed(), graph, 0);
-    let run = execute_run(setup, &case, 0);
-    let measures = measures_of(setup, &case, &run)?;
-    Some(Executed { case, run, measures })
 }
 
 /// Where the obstacles that are asked for, and not there yet, would stand.

@@ -3,7 +3,7 @@
 
 use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Scenario, Setup, Stop, Tally, generate, verify};
+use hairpin::campaign::{Case, OwnSimulator, Scenario, Setup, Stop, Tally, generate, verify};
 use hairpin::robot::quadrotor::QuadrotorDescription;
 use nalgebra::{Point3, Vector3};
 use serde_json::{Value, json};
@@ -43,7 +43,7 @@ pub(crate) const ENDLESS: Stop = Stop { cancelled: &|| false, progress: &|_, _| 
 
 pub(crate) fn run(setup: &Setup, known: &Known) -> (Vec<Case>, Tally) {
     let mut cases = known.cases.clone();
-    let tally = generate(setup, known, &ENDLESS, &mut |new, _| cases.extend_from_slice(new));
+    let tally = generate(setup, known, &OwnSimulator, &ENDLESS, &mut |new, _| cases.extend_from_slice(new));
     (cases, tally)
 }
 

@@ -33,7 +33,8 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["coverage", "goals", "states"],
     // The jobs.
     &["mission", "judge"],
-    &["execute", "samples"],
+    &["executor", "samples"],
+    &["execute"],
     &["trial", "verify", "verdict", "select", "compare", "shrink"],
     &["generate"],
     &["explain", "assumptions"],

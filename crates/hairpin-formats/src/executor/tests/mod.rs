@@ -13,6 +13,7 @@ use serde_json::json;
 
 use super::*;
 
+mod in_loop;
 mod second;
 
 fn mission(number: usize) -> Mission {
@@ -315,7 +316,7 @@ fn a_program_that_never_reads_is_no_trap() {
         ];
     let limits = Limits { mission: Duration::from_millis(500), ..limits() };
     let worker = Worker::start(&deaf, limits, 2, &|| false).unwrap();
-    let Answer { result, worker, .. } = worker.fly(&long, &|| false);
+    let Answer { result, worker, .. } = worker.fly(&long, Duration::ZERO, &|| false);
     assert!(matches!(result.unwrap_err().failure, Failure::TimeOut { .. }));
     assert!(worker.is_none());
 }

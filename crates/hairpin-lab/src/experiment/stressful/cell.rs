@@ -2,7 +2,7 @@
 
 use hairpin::campaign::learn::{NAME, ScoreModel};
 use hairpin::campaign::scenario::LEARNED;
-use hairpin::campaign::{self, Attached, Attachments, Case, Known, Optimum, Resolved, Setup, generate};
+use hairpin::campaign::{self, Attached, Attachments, Case, Known, Optimum, OwnSimulator, Resolved, Setup, generate};
 use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
 use hairpin_formats::scenario::setup_for;
@@ -57,7 +57,9 @@ pub(super) fn setup(scenario: &str, sets: &[Set], model: Option<&ScoreModel>) ->
 /// All cases that `setup` asks for, as many as its graphs give.
 pub(super) fn cases(setup: &Setup, watch: &dyn Watch) -> Result<Vec<Case>, Problem> {
     let mut cases = Vec::new();
-    watched(watch, |stop| generate(setup, &Known::default(), stop, &mut |new, _| cases.extend_from_slice(new)))?;
+    watched(watch, |stop| {
+        generate(setup, &Known::default(), &OwnSimulator, stop, &mut |new, _| cases.extend_from_slice(new))
+    })?;
     Ok(cases)
 }
 
@@ -102,7 +104,7 @@ pub(super) fn learned(
         ("generate.search.rounds", rounds.to_string()),
     ];
     let setup = setup(scenario, &with(base, &sets), None)?;
-    let tally = watched(watch, |stop| generate(&setup, &Known::default(), stop, &mut |_, _| {}))?;
+    let tally = watched(watch, |stop| generate(&setup, &Known::default(), &OwnSimulator, stop, &mut |_, _| {}))?;
     let reason = || tally.unlearned.or(tally.nothing).unwrap_or_else(|| "no trajectory was executed".into());
     tally.model.map(|model| *model).ok_or_else(|| Problem::input(format!("nothing to learn from: {}", reason())))
 }

@@ -2,7 +2,7 @@
 //! paper could not tell, the share of them that has a control witness.
 
 use hairpin::campaign::flight::FlightSetup;
-use hairpin::campaign::{Case, Known, Stop, generate};
+use hairpin::campaign::{Case, Known, OwnSimulator, Stop, generate};
 use hairpin::feasibility::Certificate;
 use hairpin::judgement::Statistics;
 use hairpin_formats::figure::{Axis, Figure, Marks, Point, Scale, Series, Table};
@@ -156,7 +156,7 @@ fn found(size: &Size, reach: &str, length: u64, watch: &dyn Watch) -> Result<Fou
         let stopwatch = Stopwatch::start();
         let over = || watch.stopped() || stopwatch.passed(size.seconds);
         let stop = Stop { cancelled: &over, ..Stop::never() };
-        let tally = generate(&setup, &Known::default(), &stop, &mut |new, _| trajectories += new.len());
+        let tally = generate(&setup, &Known::default(), &OwnSimulator, &stop, &mut |new, _| trajectories += new.len());
         (graphs, spent) = (tally.graphs, stopwatch.spent());
     });
     go_on(watch)?;

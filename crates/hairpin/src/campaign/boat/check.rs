@@ -144,7 +144,5 @@ fn check_execute(execute: &BoatExecute, boat: Option<&Boat>, found: &mut Finding
         found.from(&format!("execute.external_force_n[{axis}]"), part, -1e6, 1e6, " N");
     }
     found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
-    if let Some(workers) = execute.workers {
-        found.count("execute.workers", workers, 1, 1024);
-    }
+    found.processes(execute.processes, execute.workers);
 }

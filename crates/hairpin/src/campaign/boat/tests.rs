@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::campaign::scenario::KeyPath;
-use crate::campaign::{Known, Scenario, Setup, Stop, execute_run, generate, judge, verify};
+use crate::campaign::{Known, OwnSimulator, Scenario, Setup, Stop, execute_run, generate, judge, verify};
 use crate::trajectory::ProfileLeg;
 
 fn scenario() -> Value {
@@ -65,7 +65,7 @@ fn every_bound_holds() {
 fn cases_are_proven_sailed_and_judged_and_what_is_tampered_with_is_found() {
     let setup = changed(&[]).expect("a setup");
     let (mut cases, stop) = (Vec::new(), Stop::never());
-    generate(&setup, &Known::default(), &stop, &mut |found, _| cases.extend_from_slice(found));
+    generate(&setup, &Known::default(), &OwnSimulator, &stop, &mut |found, _| cases.extend_from_slice(found));
     assert_eq!(cases.len(), 2);
     for case in &cases {
         let verified = verify(&setup, case);

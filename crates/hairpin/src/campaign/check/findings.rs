@@ -72,6 +72,18 @@ impl Findings {
         self.require(!command.trim().is_empty(), key, &given, "a program and its arguments");
     }
 
+    /// How many processes of a command run side by side, by either name.
+    pub(in crate::campaign) fn processes(&mut self, processes: Option<u64>, workers: Option<u64>) {
+        for (key, count) in [("execute.processes", processes), ("execute.workers", workers)] {
+            if let Some(count) = count {
+                self.count(key, count, 1, 1024);
+            }
+        }
+        let twice = workers.filter(|_| processes.is_some());
+        let bound = "left out where `processes` is given, of which it is the older name";
+        self.require(twice.is_none(), "execute.workers", twice.unwrap_or_default(), bound);
+    }
+
     /// The share of violations that `table` allows lies in [0, 1), its confidence in [0.5, 1).
     pub(in crate::campaign) fn share(&mut self, table: &str, share: Option<f64>, confidence: Option<f64>) {
         if let Some(share) = share {

@@ -21,6 +21,7 @@ const FIXED: &[(&str, &str)] = &[
     ("spec.regression", "it judges all cases together"),
     ("execute.repeat", "it is the number of runs"),
     ("execute.timeout_s", "one program flies all runs"),
+    ("execute.processes", "one program flies all runs"),
     ("execute.workers", "one program flies all runs"),
     ("spec", "its limits may, such as \"spec.deviation.max_m\""),
     ("spec.violation_share", "it judges all cases together"),

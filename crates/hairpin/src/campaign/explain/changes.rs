@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::campaign::generate::{Known, generate};
 use crate::campaign::kind::{Knob, Turn};
-use crate::campaign::{Setup, Stop, Tally, vary};
+use crate::campaign::{OwnSimulator, Setup, Stop, Tally, vary};
 
 /// A number is turned until what helps is known to this share of itself and of the change …
 const PRECISION: f64 = 0.05;
@@ -217,7 +217,7 @@ pub(super) fn searched(setup: &Setup, all: bool, stop: &Stop) -> Tally {
     let found = std::sync::atomic::AtomicBool::new(false);
     let cancelled = || (stop.cancelled)() || (!all && found.load(std::sync::atomic::Ordering::Relaxed));
     let quiet = Stop { cancelled: &cancelled, progress: &|_, _| {}, clock: stop.clock };
-    generate(setup, &Known::default(), &quiet, &mut |cases, _| {
+    generate(setup, &Known::default(), &OwnSimulator, &quiet, &mut |cases, _| {
         if !cases.is_empty() {
             found.store(true, std::sync::atomic::Ordering::Relaxed);
         }

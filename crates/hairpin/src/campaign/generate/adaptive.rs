@@ -18,7 +18,8 @@ use crate::campaign::graph::{Outcome, Plan, Round, Wanted, fingerprint};
 use crate::campaign::learn::{LegSample, ScoreModel};
 use crate::campaign::samples::learn;
 use crate::campaign::scenario::SearchSection;
-use crate::campaign::{Case, RoundTally, Setup, Stop, Tally, trial};
+use crate::campaign::trial::kept_seed;
+use crate::campaign::{Case, RoundTally, Setup, Stop, Tally};
 use crate::math::random::named_seed;
 
 /// Models of a round, the one of all trajectories included: what else is executed are second bests.
@@ -149,10 +150,9 @@ impl Campaign<'_> {
                 let graph = self.graphs[todo.graph].number;
                 let trajectory = self.executed as usize + place;
                 let found = || {
-                    trial::execute_and_learn(self.setup, graph, &todo.plan, trajectory).filter(|(trial, _)| {
-                        // An infinite stress could not be told from a mistake.
-                        trial.stress.is_finite()
-                    })
+                    // An infinite stress could not be told from a mistake.
+                    let learned = self.sampled.trials(graph).execute_and_learn(&todo.plan, trajectory);
+                    learned.filter(|(trial, _)| trial.stress.is_finite())
                 };
                 self.begins(number, part).then(found)
             })
@@ -328,7 +328,9 @@ impl Campaign<'_> {
                     break;
                 }
                 if seen.insert(fingerprint(plan.waypoints.iter().copied())) {
-                    cases.push(plan.case(seed, number, cases.len()));
+                    let kept = kept_seed(self.setup, self.sampled.executor, &plan.waypoints);
+                    let case = plan.case(seed, number, cases.len());
+                    cases.push(Case { seed: kept.unwrap_or(case.seed), ..case });
                 } else {
                     self.tally.duplicates += 1;
                 }

@@ -3,7 +3,8 @@
 use crate::campaign::graph::{Executions, Outcome, Partials, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::EXECUTED;
-use crate::campaign::{Setup, Stop, trial};
+use crate::campaign::trial::Trials;
+use crate::campaign::{Executor, Setup, Stop};
 use crate::simulation::Airborne;
 
 /// Graphs sampled per case asked for, where the scenario sets no limit.
@@ -13,27 +14,41 @@ pub(super) const GRAPHS_PER_CASE: u64 = 20;
 pub(super) struct Graphs<'a> {
     pub(super) setup: &'a Setup,
     pub(super) solver: Box<dyn Solver + 'a>,
+    /// Who carries out what is executed while it is searched for.
+    pub(super) executor: &'a dyn Executor,
+    /// The seed of the case that they are for, where it is known before its trajectory.
+    seed: Option<u64>,
 }
 
 impl<'a> Graphs<'a> {
     /// # Errors
     /// Why nothing can be searched, in a sentence's part.
-    pub(super) fn of(setup: &'a Setup) -> Result<Self, String> {
-        Ok(Self { setup, solver: setup.kind().solver()? })
+    pub(super) fn of(setup: &'a Setup, executor: &'a dyn Executor) -> Result<Self, String> {
+        Ok(Self { setup, solver: setup.kind().solver()?, executor, seed: None })
+    }
+
+    /// The same for the one case that has the seed `seed`.
+    pub(super) fn with_seed(self, seed: u64) -> Self {
+        Self { seed: Some(seed), ..self }
+    }
+
+    /// Executions in graph number `graph`.
+    pub(super) fn trials(&self, graph: u64) -> Trials<'a> {
+        Trials { setup: self.setup, executor: self.executor, graph, seed: self.seed }
     }
 
     /// Searches graph number `graph` for what is `wanted`; `stop` ends what has no bound in counts.
     pub(super) fn solve(&self, graph: u64, wanted: Wanted, stop: &Stop) -> Outcome {
-        let setup = self.setup;
+        let trials = self.trials(graph);
         let goes_on = || (!(stop.cancelled)()).then_some(());
-        let execute = |plan: &Plan, least| goes_on().and_then(|()| trial::execute(setup, graph, plan, least));
-        let duration = |plan: &Plan| goes_on().and_then(|()| trial::duration(setup, graph, plan));
-        let furnish = |plan: &Plan| goes_on().and_then(|()| trial::furnish(setup, graph, plan));
+        let execute = |plan: &Plan, least| goes_on().and_then(|()| trials.execute(plan, least));
+        let duration = |plan: &Plan| goes_on().and_then(|()| trials.duration(plan));
+        let furnish = |plan: &Plan| goes_on().and_then(|()| trials.furnish(plan));
         let part = |plan: &Plan, before: Option<&Airborne>, whole| {
-            goes_on().ok_or(0u64).and_then(|()| trial::execute_partial(setup, graph, plan, before, whole))
+            goes_on().ok_or(0u64).and_then(|()| trials.execute_partial(plan, before, whole))
         };
-        let executed = setup.scenario.score() == EXECUTED;
-        let partial = executed.then(|| Partials { execute: &part, resumes: trial::resumes(setup) });
+        let executed = self.setup.scenario.score() == EXECUTED;
+        let partial = executed.then(|| Partials { execute: &part, resumes: trials.resumes() });
         let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish, partial };
         self.solver.solve(graph, executions, wanted, stop)
     }

@@ -21,7 +21,8 @@ use rayon::prelude::*;
 use self::graphs::{GRAPHS_PER_CASE, Graphs};
 use super::graph::{Outcome, Wanted, fingerprint};
 use super::scenario::SearchMethod;
-use super::{Case, CaseNumber, Scenario, Setup, Stop, Tally, Witness, vary};
+use super::trial::kept_seed;
+use super::{Case, CaseNumber, Executor, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
 use crate::trajectory::program::{Motion, Program};
 pub use known::Known;
@@ -53,13 +54,20 @@ fn varies(scenario: &Scenario) -> bool {
 /// Generates cases until `generate.search.cases` are found, the graphs are used up, or `stop` says so.
 ///
 /// `sink` gets the new cases of each unit of work with the tally that includes it; what it was given is enough to go
-/// on from there ([`Known`]) as if nothing had happened. Cases of a repeated waypoint list are counted once.
-pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(&[Case], &Tally)) -> Tally {
+/// on from there ([`Known`]) as if nothing had happened. Cases of a repeated waypoint list are counted once. What is
+/// executed while it is searched for is carried out by `executor`.
+pub fn generate(
+    setup: &Setup,
+    known: &Known,
+    executor: &dyn Executor,
+    stop: &Stop,
+    sink: &mut dyn FnMut(&[Case], &Tally),
+) -> Tally {
     let search = setup.scenario.search();
     let wanted = search.cases;
-    let mut collector = Collector::new(setup, known);
+    let mut collector = Collector::new(setup, executor, known);
     let searchable = setup.scenario.check_search().map_err(|mistake| mistake.to_string());
-    let graphs = match searchable.and_then(|()| Graphs::of(setup)) {
+    let graphs = match searchable.and_then(|()| Graphs::of(setup, executor)) {
         Ok(graphs) => graphs,
         Err(reason) => {
             collector.tally.nothing = Some(reason);
@@ -90,7 +98,7 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
             .map(|unit| {
                 let begins = !(stop.cancelled)();
                 let outcome = begins.then(|| {
-                    if varied { drawn_case(setup, unit, stop) } else { graphs.solve(unit, Wanted::Cases, stop) }
+                    if varied { drawn_case(&graphs, unit, stop) } else { graphs.solve(unit, Wanted::Cases, stop) }
                 });
                 // Where executions or the user's scores were denied, a graph was searched in part, and is searched
                 // again by whoever goes on.
@@ -120,12 +128,13 @@ pub fn generate(setup: &Setup, known: &Known, stop: &Stop, sink: &mut dyn FnMut(
 }
 
 /// Case number `case` of a scenario whose plan varies: its own scenario, its own graphs.
-fn drawn_case(setup: &Setup, case: u64, stop: &Stop) -> Outcome {
+fn drawn_case(nominal: &Graphs, case: u64, stop: &Stop) -> Outcome {
+    let Graphs { setup, executor, .. } = *nominal;
     let seed = case_seed(setup.scenario.seed(), case);
     let draws = vary::draw_for_case(&setup.scenario, seed, CaseNumber(case as usize));
     let drawn = setup.drawn(&draws).map_err(|mistake| mistake.to_string());
-    let graphs = match drawn.as_ref().map_err(Clone::clone).and_then(Graphs::of) {
-        Ok(graphs) => graphs,
+    let graphs = match drawn.as_ref().map_err(Clone::clone).and_then(|drawn| Graphs::of(drawn, executor)) {
+        Ok(graphs) => graphs.with_seed(seed),
         Err(reason) => return Outcome { reason: Some(reason), ..Outcome::default() },
     };
     let search = setup.scenario.search();
@@ -166,16 +175,17 @@ fn met<'a>(waypoints: &'a [Point3<f64>], program: Option<&'a Program>) -> impl I
 /// Takes outcomes over in order: numbers cases, drops repetitions, keeps the tally.
 struct Collector<'a> {
     setup: &'a Setup,
+    executor: &'a dyn Executor,
     tally: Tally,
     cases: usize,
     seen: HashSet<[u8; 16]>,
 }
 
 impl<'a> Collector<'a> {
-    fn new(setup: &'a Setup, known: &Known) -> Self {
+    fn new(setup: &'a Setup, executor: &'a dyn Executor, known: &Known) -> Self {
         let seen = known.cases.iter().map(|case| fingerprint(met(&case.waypoints, case.program()))).collect();
         let tally = Tally { stopped: false, ..known.tally.clone() };
-        Self { setup, tally, cases: known.cases.len(), seen }
+        Self { setup, executor, tally, cases: known.cases.len(), seen }
     }
 
     fn take(&mut self, outcome: Outcome, number: Option<usize>, wanted: u64) -> Vec<Case> {
@@ -201,7 +211,10 @@ impl<'a> Collector<'a> {
                 self.tally.duplicates += 1;
                 continue;
             }
-            new.push(plan.case(self.setup.scenario.seed(), graph, number.unwrap_or(self.cases)));
+            // What was drawn for a case hangs on its own seed.
+            let kept = kept_seed(self.setup, self.executor, &plan.waypoints).filter(|_| number.is_none());
+            let case = plan.case(self.setup.scenario.seed(), graph, number.unwrap_or(self.cases));
+            new.push(Case { seed: kept.unwrap_or(case.seed), ..case });
             self.cases += 1;
         }
         new

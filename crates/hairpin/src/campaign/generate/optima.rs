@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::graphs::{GRAPHS_PER_CASE, Graphs};
 use crate::campaign::graph::{AGGREGATES, Wanted};
-use crate::campaign::{Case, Setup, Stop};
+use crate::campaign::{Case, OwnSimulator, Setup, Stop};
 use crate::search::{Aggregate, Score};
 
 /// What one score under one aggregate found.
@@ -29,7 +29,7 @@ pub fn optima(setup: &Setup, names: &[&str], stop: &Stop) -> Result<Vec<Optimum>
         Score::named(name, 0, 1.0).map_err(|mistake| mistake.to_string())?;
     }
     setup.scenario.check_search().map_err(|mistake| mistake.to_string())?;
-    let all = Graphs::of(setup)?;
+    let all = Graphs::of(setup, &OwnSimulator)?;
     if let Some(name) = names.first().filter(|_| !all.solver.takes_scores()) {
         return Err(format!("`{name}` is a score of flights"));
     }

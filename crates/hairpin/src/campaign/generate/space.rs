@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::graphs::Graphs;
 use crate::campaign::graph::Plan;
-use crate::campaign::{Case, Setup};
+use crate::campaign::{Case, OwnSimulator, Setup};
 
 /// The feasible trajectories of one setup.
 pub struct Space<'a> {
@@ -15,7 +15,7 @@ impl<'a> Space<'a> {
     /// # Errors
     /// Why nothing can be searched, in a sentence's part.
     pub fn of(setup: &'a Setup) -> Result<Self, String> {
-        Ok(Self { graphs: Graphs::of(setup)? })
+        Ok(Self { graphs: Graphs::of(setup, &OwnSimulator)? })
     }
 
     /// Case number `number`, a feasible trajectory of graph number `graph` drawn at random; the same whenever it is asked

@@ -8,7 +8,8 @@ use super::met;
 use super::targets::{Margins, targets};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint};
-use crate::campaign::{Case, Setup, Stop, Tally, Witness, trial};
+use crate::campaign::trial::kept_seed;
+use crate::campaign::{Case, Setup, Stop, Tally, Witness};
 use crate::judgement::Stress;
 use crate::math::random::{Stream, named_seed};
 use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
@@ -77,7 +78,7 @@ impl Field for Plans<'_> {
     }
 
     fn run(&self, drawn: &Drawn, least: &[f64]) -> Option<Ran> {
-        trial::execute_for(self.graphs.setup, (drawn.graph, &drawn.plan), &self.stresses, least)
+        self.graphs.trials(drawn.graph).execute_for(&drawn.plan, &self.stresses, least)
     }
 }
 
@@ -141,8 +142,12 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
     tally.complete &= !tally.stopped;
     tally.curves.push(curve);
     let seed = setup.scenario.seed();
-    let cases: Vec<Case> =
-        plans.into_iter().enumerate().map(|(number, Drawn { graph, plan })| plan.case(seed, graph, number)).collect();
+    let case = |(number, Drawn { graph, plan }): (usize, Drawn)| {
+        let kept = kept_seed(setup, graphs.executor, &plan.waypoints);
+        let case = plan.case(seed, graph, number);
+        Case { seed: kept.unwrap_or(case.seed), ..case }
+    };
+    let cases: Vec<Case> = plans.into_iter().enumerate().map(case).collect();
     sink(&cases, &tally);
     tally
 }

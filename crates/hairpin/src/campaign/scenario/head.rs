@@ -17,8 +17,8 @@ pub struct Executor<'a> {
     pub repeat: u64,
     /// Wall-clock limit per mission of `command`, s.
     pub timeout: f64,
-    /// Workers of `command`.
-    pub workers: Option<u64>,
+    /// Processes of `command`.
+    pub processes: Option<u64>,
     /// A waypoint counts as reached inside this radius, m.
     pub accept: f64,
     /// Further runs of every violation, with other noise.
@@ -229,13 +229,13 @@ pub trait Keys: Any {
         self.search().executes(self.score())
     }
 
-    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours. Trajectories that
-    /// are there already are anybody's to execute.
+    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours or a command.
+    /// Trajectories that are there already are anybody's to execute.
     ///
     /// # Errors
     /// The method of search, or the score.
     fn check_search(&self) -> Result<(), Mistake> {
-        if !self.executes() || self.controller().is_some() {
+        if !self.executes() || self.controller().is_some() || self.executor().command.is_some() {
             return Ok(());
         }
         let method = self.search().method;
@@ -243,7 +243,8 @@ pub trait Keys: Any {
             true => ("generate.search.method", serde_json::to_string(&method).unwrap_or_default()),
             false => (self.score_key(), format!("\"{}\"", self.score())),
         };
-        let bound = "another one, or execute.controller given: a command is not executed in the loop";
+        let bound =
+            "another one, or execute.controller or execute.command given: recordings are not executed in the loop";
         Err(Mistake { key: key.into(), value, bound: bound.into() })
     }
 }

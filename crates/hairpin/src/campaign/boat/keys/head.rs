@@ -16,7 +16,7 @@ const SPARE_SECONDS: f64 = 60.0;
 
 impl Keys for BoatScenario {
     fn head(&self) -> Head<'_> {
-        let BoatExecute { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
+        let BoatExecute { command, repeat, timeout_s, accept_m, flaky, time_limit_s, .. } = &self.execute;
         Head {
             seed: self.seed,
             length: Some(self.task.length),
@@ -29,7 +29,7 @@ impl Keys for BoatScenario {
                 command: command.as_deref(),
                 repeat: *repeat,
                 timeout: *timeout_s,
-                workers: *workers,
+                processes: self.execute.processes.or(self.execute.workers),
                 accept: *accept_m,
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
                 patience: Patience { given: *time_limit_s, per_waypoint: 0.0, of_plan: SLOWNESS, spare: SPARE_SECONDS },

@@ -284,9 +284,7 @@ fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Find
         found.require(weighs, "execute.external_force_n", format!("{force:?}"), bound);
     }
     found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
-    if let Some(workers) = execute.workers {
-        found.count("execute.workers", workers, 1, 1024);
-    }
+    found.processes(execute.processes, execute.workers);
 }
 
 /// Limits are finite; shares lie in [0, 1), confidence in [0.5, 1).

@@ -17,9 +17,7 @@ pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
     found.from("execute.step_s", execute.step_s, 1e-5, 1e-3, " s");
     found.above("execute.fixed_velocity_m_s", execute.fixed_velocity_m_s, 0.0, 100.0, " m/s");
     found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
-    if let Some(workers) = execute.workers {
-        found.count("execute.workers", workers, 1, 1024);
-    }
+    found.processes(execute.processes, execute.workers);
 }
 
 /// At most one of controller, command and logs; none of them means the controller `stable-waypoint`.

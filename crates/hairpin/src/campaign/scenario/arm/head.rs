@@ -39,7 +39,7 @@ impl Keys for ArmScenario {
                 command: None,
                 repeat: execute.repeat,
                 timeout: f64::INFINITY,
-                workers: None,
+                processes: None,
                 accept: ARRIVED,
                 reruns: execute.flaky.map_or(0, |flaky| flaky.reruns),
                 // The virtual controller's runs end with their program.

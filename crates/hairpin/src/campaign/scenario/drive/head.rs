@@ -26,7 +26,7 @@ const LIMITS: &[&str] = &[
 
 impl Keys for DriveScenario {
     fn head(&self) -> Head<'_> {
-        let DriveExecute { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
+        let DriveExecute { command, repeat, timeout_s, accept_m, flaky, time_limit_s, .. } = &self.execute;
         let limits = &self.spec.limits;
         let judged_by = Limits {
             deviation: limits.path_deviation_m,
@@ -47,7 +47,7 @@ impl Keys for DriveScenario {
                 command: command.as_deref(),
                 repeat: repeat.unwrap_or(if self.vary.is_empty() { 1 } else { 2 }),
                 timeout: *timeout_s,
-                workers: *workers,
+                processes: self.execute.processes.or(self.execute.workers),
                 accept: *accept_m,
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
                 patience: Patience { given: *time_limit_s, per_waypoint: 0.0, of_plan: SLOWNESS, spare: SPARE_SECONDS },

@@ -38,7 +38,10 @@ pub struct ExecuteSection {
     pub segment_times: SegmentTimes,
     /// Wall-clock limit per mission of `command`.
     pub timeout_s: f64,
-    /// Workers of `command`; as many as threads if not given.
+    /// Processes of `command`, in the loop of a search and in executing; as many as threads if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub processes: Option<u64>,
+    /// The older name of `processes`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub workers: Option<u64>,
     /// Every violation is run again so often with other noise: how often does it come again?
@@ -61,6 +64,7 @@ impl Default for ExecuteSection {
             fixed_velocity_m_s: 2.0,
             segment_times: SegmentTimes::SqrtLength,
             timeout_s: 60.0,
+            processes: None,
             workers: None,
             flaky: None,
         }

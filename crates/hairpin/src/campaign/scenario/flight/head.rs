@@ -14,7 +14,7 @@ const SECONDS_PER_WAYPOINT: f64 = 9.0;
 
 impl Keys for FlightScenario {
     fn head(&self) -> Head<'_> {
-        let ExecuteSection { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
+        let ExecuteSection { command, repeat, timeout_s, accept_m, flaky, time_limit_s, .. } = &self.execute;
         Head {
             seed: self.seed,
             length: Some(self.task.length),
@@ -27,7 +27,7 @@ impl Keys for FlightScenario {
                 command: command.as_deref(),
                 repeat: *repeat,
                 timeout: *timeout_s,
-                workers: *workers,
+                processes: self.execute.processes.or(self.execute.workers),
                 accept: *accept_m,
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
                 patience: Patience {

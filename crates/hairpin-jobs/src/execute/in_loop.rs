@@ -1,0 +1,67 @@
+//! Who executes what a search asks for: our own simulator, or the user's program.
+
+use hairpin::campaign::{Executor, OwnSimulator, Setup};
+use hairpin_formats::executor::{InLoop, Told};
+use rayon::ThreadPoolBuilder;
+
+use super::fly::{command_of, processes};
+use crate::{Problem, Watch};
+
+/// Who executes, and whether the search is to stop.
+pub(crate) struct Asked<'a> {
+    pub(crate) executor: &'a dyn Executor,
+    /// Asked often: the caller wants it to, or nothing more can be executed.
+    pub(crate) stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Does `search` with whoever executes for `setup`. Gives what it found, and what went wrong with the user's program
+/// where that was the end of it.
+///
+/// Where there are more processes than threads, the search has a thread for each: who waits for a program does nothing
+/// else.
+///
+/// # Errors
+/// A command that is none; no threads.
+pub(crate) fn in_the_loop<T: Send>(
+    setup: &Setup,
+    stopped: &(dyn Fn() -> bool + Sync),
+    watch: &dyn Watch,
+    search: impl FnOnce(Asked) -> T + Send,
+) -> Result<(T, Option<Problem>), Problem> {
+    let program = if setup.scenario.executes() { command_of(setup)? } else { None };
+    let Some((command, limits)) = program else {
+        return Ok((search(Asked { executor: &OwnSimulator, stop: stopped }), None));
+    };
+    let processes = processes(setup);
+    let program = InLoop::new(&command, limits, processes, stopped);
+    let stop = || stopped() || program.trouble().is_some();
+    let asked = Asked { executor: &program, stop: &stop };
+    let found = if processes > rayon::current_num_threads() {
+        let threads = ThreadPoolBuilder::new().num_threads(processes).build().map_err(Problem::input)?;
+        threads.install(|| search(asked))
+    } else {
+        search(asked)
+    };
+    let told = program.all();
+    tell(&told, watch);
+    Ok((found, trouble(&told, stopped())))
+}
+
+/// What the user's program did not fly.
+fn tell(told: &Told, watch: &dyn Watch) {
+    let Told { flown, failed, again, last, .. } = told;
+    tracing::info!("{flown} executions in the loop, {failed} failed, {again} that were known");
+    let Some(last) = last else { return };
+    watch.warn(&format!("Warning: {failed} of {} executions in the loop failed; the last: {last}", flown + failed));
+    if !last.stderr.trim().is_empty() {
+        watch.warn(last.stderr.trim_end());
+    }
+}
+
+/// Why the search was in vain, or had to end.
+fn trouble(told: &Told, stopped: bool) -> Option<Problem> {
+    let Told { flown, failed, .. } = told;
+    let in_vain = *flown == 0 && *failed > 0 && !stopped;
+    let in_vain = || in_vain.then(|| format!("none of {failed} executions in the loop came to a flight"));
+    told.trouble.clone().or_else(in_vain).map(Problem::Executor)
+}

@@ -1,0 +1,44 @@
+//! Who carries runs out: our own simulator, or whatever a caller brings in its place.
+
+use super::kind::Order;
+use super::{Case, Mission, Setup};
+use crate::simulation::SimulationError;
+use crate::trajectory::Flight;
+
+/// Who carries runs out.
+///
+/// A search that executes asks from many threads, and takes what it is told to be what the same mission comes to in a
+/// judgement. Whoever can no longer carry anything out has the search's [`Stop`](super::Stop) say so.
+pub trait Executor: Sync {
+    /// The flight of `mission`, a run of `case`, whose plan was made with `nominal`.
+    ///
+    /// # Errors
+    /// Why there is none, in a sentence.
+    fn fly(&self, nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, String>;
+
+    /// Whether it is our own simulator, which can be left in the middle of a run and gone on with.
+    fn is_ours(&self) -> bool {
+        false
+    }
+}
+
+/// Our own simulator.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct OwnSimulator;
+
+impl Executor for OwnSimulator {
+    fn fly(&self, nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, String> {
+        carry_out(nominal, case, mission).map_err(|error| error.to_string())
+    }
+
+    fn is_ours(&self) -> bool {
+        true
+    }
+}
+
+/// `nominal` is what the plan was made with; the mission has its own setup.
+fn carry_out(nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, SimulationError> {
+    let Mission { waypoints, accept, time_limit, seed, .. } = mission;
+    let order = Order { waypoints, accept: *accept, time_limit: *time_limit, seed: *seed };
+    mission.setup.kind().run(nominal.kind().same(), case, &order)
+}
