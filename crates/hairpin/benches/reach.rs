@@ -28,7 +28,7 @@ fn graph() -> Vec<Point3<f64>> {
     points
 }
 
-#[divan::bench(args = ["flightgoggles", "anafi", "anafi-real", "crazyflie", "paper-flightgoggles"])]
+#[divan::bench(args = ["flightgoggles", "anafi", "anafi-real", "crazyflie", "paper-flightgoggles", "x500", "iris"])]
 fn end_points_of_625_runs(bencher: Bencher, name: &str) {
     let robot = shipped(name);
     let speeds = sampling::constant_speeds(&robot, 5);
@@ -36,7 +36,7 @@ fn end_points_of_625_runs(bencher: Bencher, name: &str) {
         .bench(|| sampling::end_points(Simd::default(), black_box(&robot), &speeds, 1.0, sampling::steps(&robot, 1.0)));
 }
 
-#[divan::bench(args = ["flightgoggles", "anafi", "anafi-real", "crazyflie", "paper-flightgoggles"])]
+#[divan::bench(args = ["flightgoggles", "anafi", "anafi-real", "crazyflie", "paper-flightgoggles", "x500", "iris"])]
 fn hull_of_625_points(bencher: Bencher, name: &str) {
     let hull = Hull::new(&shipped(name), &HullSettings::default()).expect("a hull");
     bencher.bench(|| Polytope::hull(Simd::default(), black_box(hull.samples())));

@@ -17,7 +17,7 @@ fn shipped(name: &str) -> Quadrotor {
     toml::from_str::<QuadrotorDescription>(&text).expect(name).build().expect(name)
 }
 
-const SHIPPED: [&str; 5] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie"];
+const SHIPPED: [&str; 7] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie", "x500", "iris"];
 
 /// FlightGoggles without drag and aerodynamic moment: the body that closed forms speak of.
 fn vacuum() -> Quadrotor {

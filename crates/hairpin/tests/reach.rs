@@ -18,7 +18,7 @@ fn shipped(name: &str) -> Quadrotor {
     toml::from_str::<QuadrotorDescription>(&text).expect(name).build().expect(name)
 }
 
-const SHIPPED: [&str; 5] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie"];
+const SHIPPED: [&str; 7] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie", "x500", "iris"];
 
 fn random_points(rng: &mut Stream, count: usize, size: f64) -> Vec<Point3<f64>> {
     (0..count).map(|_| Point3::from([0; 3].map(|_| rng.random_range(0.0..size)))).collect()

@@ -15,7 +15,7 @@ fn shipped(name: &str) -> Quadrotor {
     toml::from_str::<QuadrotorDescription>(&text).expect(name).build().expect(name)
 }
 
-const SHIPPED: [&str; 5] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie"];
+const SHIPPED: [&str; 7] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie", "x500", "iris"];
 
 fn direction(rng: &mut Stream) -> Vector3<f64> {
     loop {

@@ -6,14 +6,19 @@ use hairpin::trajectory::{Ended, Flight};
 use hairpin::world::World;
 use nalgebra::{Point3, Vector3};
 
-const SHIPPED: [&str; 5] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie"];
-const ALL: [ControllerKind; 6] = [
+const SHIPPED: [&str; 7] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie", "x500", "iris"];
+/// Of these, those that the gains were fixed on. The rotors of `x500` and `iris` turn them with 60 to 100 rad/s², a
+/// third of what the others have: stable gains bear it, `unstable-waypoint`, wound up, overshoots by more than 60 %.
+const FIXED_ON: [&str; 5] = ["flightgoggles", "paper-flightgoggles", "anafi", "anafi-real", "crazyflie"];
+const ALL: [ControllerKind; 8] = [
     ControllerKind::UnstableWaypoint,
     ControllerKind::StableWaypoint,
     ControllerKind::FixedVelocity,
     ControllerKind::MinimumSnap,
     ControllerKind::Geometric,
     ControllerKind::Anafi,
+    ControllerKind::Px4Mission,
+    ControllerKind::CrazyflieGoto,
 ];
 
 fn shipped(name: &str) -> Quadrotor {
@@ -74,7 +79,7 @@ fn stable_overshoots_by_less_than_5_percent_and_settles_within_6_s() {
 
 #[test]
 fn unstable_overshoots_by_30_to_60_percent_and_settles() {
-    for name in SHIPPED {
+    for name in FIXED_ON {
         for direction in directions() {
             let response = step(&shipped(name), ControllerKind::UnstableWaypoint, direction);
             assert!((0.30..0.60).contains(&response.overshoot), "{name} {direction:?}: {response:?}");
@@ -90,6 +95,7 @@ fn the_others_settle_with_little_overshoot() {
         (ControllerKind::MinimumSnap, 0.10, 6.0),
         (ControllerKind::Geometric, 0.01, 5.0),
         (ControllerKind::Anafi, 0.05, 5.0),
+        (ControllerKind::Px4Mission, 0.05, 8.0),
     ];
     for name in SHIPPED {
         for (kind, overshoot, settled) in bounds {
@@ -98,6 +104,37 @@ fn the_others_settle_with_little_overshoot() {
                 let fine = response.overshoot < overshoot && response.settled < settled && response.sideways < 0.2;
                 assert!(fine, "{kind:?} {name} {direction:?}: {response:?}");
             }
+        }
+    }
+}
+
+/// The polynomial of 10 m takes 10/v s; a velocity of 2 (p_s − p) follows it half a second late.
+#[test]
+fn crazyflie_goto_is_as_fast_as_it_is_asked_to_be_and_half_a_second_late() {
+    let world = World::new(Vector3::repeat(60.0), 0.0, vec![]).unwrap();
+    let start = Point3::new(30.0, 30.0, 30.0);
+    for (name, goto_speed, speed) in [("crazyflie", None, 0.5), ("crazyflie", Some(1.0), 1.0), ("x500", None, 1.2)] {
+        let robot = shipped(name);
+        for direction in directions().map(|d| d.normalize()).into_iter().chain([Vector3::z(), -Vector3::z()]) {
+            let waypoints = [start, start + direction * 10.0];
+            let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
+            let kind = ControllerKind::CrazyflieGoto;
+            let controller = ControllerSettings { kind, goto_speed, ..Default::default() };
+            let settings = FlySettings { time_limit: 25.0, linger: 100.0, ..Default::default() };
+            let flight = fly(&sortie, &controller, &Conditions::default(), &settings, 1).unwrap();
+            let (track, time) = (&flight.track, 10.0 / speed);
+            let along = |t: f64| {
+                let sample = track.times().iter().position(|at| *at >= t - 1e-9).unwrap();
+                (track.position(sample) - start).dot(&direction)
+            };
+            // In the middle it moves at 35/16 of its mean speed.
+            let late = (5.0 - along(0.5 * time)) / (35.0 / 16.0 * speed);
+            let told = format!("{name} at {speed} m/s, {direction:?}: {late} s late, {} m", along(time + 4.0));
+            // The integral of the height makes up for some of it.
+            let expected = if direction.z == 0.0 { 0.5 } else { 0.25 };
+            assert!((late - expected).abs() < 0.15 && (along(time + 4.0) - 10.0).abs() < 0.1, "{told}");
+            let farthest = track.times().iter().map(|t| along(*t)).fold(0.0, f64::max);
+            assert!(farthest < 10.5, "{told}: {farthest}");
         }
     }
 }
@@ -137,7 +174,8 @@ fn every_controller_reaches_every_waypoint_of_the_baseline_with_every_robot() {
             assert_eq!(flight.ended, Ended::Done, "{kind:?} {name}: {:?}", flight.reached);
             let times: Vec<f64> = flight.reached.iter().map(|t| t.expect("done means all reached")).collect();
             assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{kind:?} {name}: {times:?}");
-            assert_eq!(flight.left_world, None, "{kind:?} {name}");
+            let overshoots = kind == ControllerKind::UnstableWaypoint && !FIXED_ON.contains(&name);
+            assert!(flight.left_world.is_none() || overshoots, "{kind:?} {name}");
         }
     }
 }

@@ -16,7 +16,7 @@ fn profile_of(case: &mut Case) -> &mut Profile {
 
 #[test]
 fn any_coefficient_off_by_a_percent_is_found() {
-    for name in ["anafi", "anafi-real", "crazyflie", "flightgoggles", "paper-flightgoggles"] {
+    for name in ["anafi", "anafi-real", "crazyflie", "flightgoggles", "iris", "paper-flightgoggles", "x500"] {
         let setup = setup(name, 4, asked("witness", "beam", 1));
         let (cases, tally) = run(&setup, &Known::default());
         let case = cases.first().unwrap_or_else(|| panic!("{name}: {tally:?}"));

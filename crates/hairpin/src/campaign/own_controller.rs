@@ -7,7 +7,8 @@ use super::scenario::{Mistake, Scenario};
 use crate::simulation::{Controlled, OwnController};
 
 /// Keys that say of our controllers what no other knows.
-const OF_OURS: [&str; 3] = ["execute.controller", "execute.fixed_velocity_m_s", "execute.segment_times"];
+const OF_OURS: [&str; 4] =
+    ["execute.controller", "execute.fixed_velocity_m_s", "execute.segment_times", "execute.goto_speed_m_s"];
 
 /// A controller of the caller's own, for whatever kind of robot.
 #[derive(Debug, Clone)]

@@ -10,6 +10,7 @@
 //! | [`fresnel`] | ∫ exp(iπt²/2) dt, and where a clothoid ends | closed-form drives |
 //! | [`polynomial`] | degree 7 from both ends; Bernstein bounds | legs of a flight |
 //! | [`minimum_snap`](mod@minimum_snap) | min ∫‖p⁗‖² dt through given points | references, start values |
+//! | [`jerk_limit`] | from velocity to velocity within acceleration and jerk | set points |
 //! | [`linear`] | A x = b on the stack, Gauss's elimination | rests on the ground, solvers' steps |
 //! | [`interval`] | degree-1 Taylor models in four lanes | limits between samples |
 //! | [`outward`] | intervals with directed rounding, centred forms | proofs of clearance |
@@ -32,6 +33,7 @@ pub mod enclosing;
 pub mod fresnel;
 pub mod integrate;
 pub mod interval;
+pub mod jerk_limit;
 pub mod linear;
 pub mod minimum_snap;
 pub mod outward;

@@ -112,19 +112,10 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::simulation::tests::{cage, flightgoggles};
-    use crate::simulation::{ControllerKind, DiscreteGust, Gusts, fly};
+    use crate::simulation::tests::{KINDS, cage, flightgoggles};
+    use crate::simulation::{DiscreteGust, Gusts, fly};
     use crate::trajectory::Ended;
     use crate::world::{Obstacle, Shape};
-
-    const KINDS: [ControllerKind; 6] = [
-        ControllerKind::UnstableWaypoint,
-        ControllerKind::StableWaypoint,
-        ControllerKind::FixedVelocity,
-        ControllerKind::Anafi,
-        ControllerKind::MinimumSnap,
-        ControllerKind::Geometric,
-    ];
 
     fn points(list: &[[f64; 3]]) -> Vec<Point3<f64>> {
         list.iter().copied().map(Point3::from).collect()

@@ -83,6 +83,26 @@ pub trait Controller<R: Controlled> {
     fn schedule(&self) -> Option<Schedule> {
         None
     }
+
+    /// Where a waypoint counts as reached, of flights.
+    ///
+    /// Asked once, before the first turn.
+    fn acceptance(&self) -> Acceptance {
+        Acceptance::Sphere
+    }
+}
+
+/// Where a waypoint counts as reached, with the acceptance radius of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Acceptance {
+    /// No farther than the radius in space.
+    #[default]
+    Sphere,
+    /// No farther than the radius seen from above, and than a height.
+    Cylinder {
+        /// Above and below, m.
+        height: f64,
+    },
 }
 
 /// Why a controller has no command, in its own words.

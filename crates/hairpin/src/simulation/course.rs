@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::controller::{Controlled, Reference, Schedule};
+use super::controller::{Acceptance, Controlled, Reference, Schedule};
 use crate::trajectory::Ended;
 
 /// Progress along waypoints, both ends included.
@@ -19,6 +19,7 @@ pub(crate) struct Course {
     waypoints: Vec<Point3<f64>>,
     open: bool,
     accept: f64,
+    acceptance: Acceptance,
     next: usize,
     leg: usize,
     reached: Vec<Option<f64>>,
@@ -30,12 +31,18 @@ impl Course {
     pub(crate) fn new(waypoints: &[Point3<f64>], accept: f64) -> Self {
         let mut reached = vec![None; waypoints.len()];
         reached[0] = Some(0.0);
-        Self { waypoints: waypoints.to_vec(), open: false, accept, next: 1, leg: 0, reached, over: None }
+        let acceptance = Acceptance::Sphere;
+        Self { waypoints: waypoints.to_vec(), open: false, accept, acceptance, next: 1, leg: 0, reached, over: None }
     }
 
     /// At `start`, where to go from there not known yet.
     pub(crate) fn open(start: Point3<f64>, accept: f64) -> Self {
         Self { open: true, ..Self::new(&[start], accept) }
+    }
+
+    /// Waypoints count as reached as the controller has it, from now on.
+    pub(crate) fn accept_as(&mut self, acceptance: Acceptance) {
+        self.acceptance = acceptance;
     }
 
     /// Goes on to `waypoint`.
@@ -88,9 +95,14 @@ impl Course {
         }
     }
 
-    /// Whether waypoint k is no farther than the acceptance radius.
+    /// Whether waypoint k is no farther than the acceptance radius, in space or from above within a height.
     fn within(&self, k: usize, position: &Vector3<f64>) -> bool {
-        (self.waypoints[k].coords - position).norm_squared() <= self.accept * self.accept
+        let away = self.waypoints[k].coords - position;
+        let squared = self.accept * self.accept;
+        match self.acceptance {
+            Acceptance::Sphere => away.norm_squared() <= squared,
+            Acceptance::Cylinder { height } => away.xy().norm_squared() <= squared && away.z.abs() <= height,
+        }
     }
 
     /// The leg being flown; after the last waypoint, the last.
@@ -116,5 +128,31 @@ impl Course {
     /// When each waypoint was reached.
     pub(crate) fn into_reached(self) -> Vec<Option<f64>> {
         self.reached
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cylinder_is_wider_than_a_ball_at_its_edge_and_lower_at_its_top() {
+        let waypoints = [Point3::origin(), Point3::new(10.0, 0.0, 5.0)];
+        let reached = |acceptance, at: [f64; 3]| {
+            let mut course = Course::new(&waypoints, 1.0);
+            course.accept_as(acceptance);
+            course.note(1.0, &Vector3::from(at), None);
+            course.over().is_some()
+        };
+        let cylinder = Acceptance::Cylinder { height: 0.8 };
+        for (at, in_ball, in_cylinder) in [
+            ([9.05, 0.0, 5.75], false, true),
+            ([9.05, 0.0, 4.25], false, true),
+            ([10.0, 0.0, 5.9], true, false),
+            ([10.0, 1.0, 5.0], true, true),
+            ([10.0, 1.01, 5.0], false, false),
+        ] {
+            assert_eq!((reached(Acceptance::Sphere, at), reached(cylinder, at)), (in_ball, in_cylinder), "{at:?}");
+        }
     }
 }

@@ -41,7 +41,7 @@ use thiserror::Error;
 pub use airborne::Airborne;
 pub use close_loop::{FlySettings, Sortie};
 pub use command::{Demand, FlightCommand, FlightState};
-pub use controller::{Controlled, Controller, Fault, Misbehaviour, OwnController, Reference, Schedule};
+pub use controller::{Acceptance, Controlled, Controller, Fault, Misbehaviour, OwnController, Reference, Schedule};
 pub use controllers::{ControllerKind, ControllerSettings, SegmentTimes};
 pub use disturbance::{Conditions, DiscreteGust, Disturbances, Gusts};
 pub use plant::{Plant, PlantState};

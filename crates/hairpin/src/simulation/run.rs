@@ -157,6 +157,7 @@ impl Run {
             return Err(SimulationError::new("controller.period", value, "from 0.001 to 1 s"));
         }
         self.every.turn = self.ticks(period);
+        self.course.accept_as(hand.controller.acceptance());
         let begun = hand.controller.reset(&self.course.reference(hand.plan));
         begun.map_err(|fault| hand.failed(0.0, fault))
     }

@@ -9,6 +9,18 @@ use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription};
 use crate::trajectory::{Ended, Flight, Profile, ProfileLeg};
 use crate::world::{Obstacle, Shape, World};
 
+/// All controllers of ours.
+pub(super) const KINDS: [ControllerKind; 8] = [
+    ControllerKind::UnstableWaypoint,
+    ControllerKind::StableWaypoint,
+    ControllerKind::FixedVelocity,
+    ControllerKind::MinimumSnap,
+    ControllerKind::Geometric,
+    ControllerKind::Anafi,
+    ControllerKind::Px4Mission,
+    ControllerKind::CrazyflieGoto,
+];
+
 /// The shipped robots, FlightGoggles first.
 pub(crate) fn shipped() -> Vec<Quadrotor> {
     [
@@ -17,6 +29,8 @@ pub(crate) fn shipped() -> Vec<Quadrotor> {
         include_str!("../../../../data/robots/quadrotor/anafi.toml"),
         include_str!("../../../../data/robots/quadrotor/anafi-real.toml"),
         include_str!("../../../../data/robots/quadrotor/crazyflie.toml"),
+        include_str!("../../../../data/robots/quadrotor/x500.toml"),
+        include_str!("../../../../data/robots/quadrotor/iris.toml"),
     ]
     .map(|text| toml::from_str::<QuadrotorDescription>(text).unwrap().build().unwrap())
     .to_vec()

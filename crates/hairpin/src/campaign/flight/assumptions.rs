@@ -64,7 +64,7 @@ pub(super) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
     }
     let who = match (&setup.controller, execute.controller_in_force()) {
         (Some(own), _) => format!("`{}`, the caller's own, on hairpin's inner loops", own.name()),
-        (None, Some(ours)) => format!("`{}` with hairpin's own gains, fixed by step responses", ours.word()),
+        (None, Some(ours)) => format!("`{}` with {}", ours.word(), ours.gains()),
         (None, None) => return,
     };
     said.push(format!(

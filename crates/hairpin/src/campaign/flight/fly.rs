@@ -60,6 +60,7 @@ fn controller(setup: &FlightSetup) -> ControllerSettings {
         kind: execute.controller_in_force().unwrap_or(ControllerKind::StableWaypoint),
         fixed_velocity: execute.fixed_velocity_m_s,
         segment_times: execute.segment_times,
+        goto_speed: execute.goto_speed_m_s,
     }
 }
 

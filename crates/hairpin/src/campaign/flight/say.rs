@@ -12,6 +12,7 @@ use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::math::rotation::angle_between;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
+use crate::simulation::{Acceptance, ControllerKind};
 use crate::trajectory::Flight;
 
 impl Say for FlightSetup {
@@ -25,7 +26,7 @@ impl Say for FlightSetup {
         let mut said = Assumptions { beside: assumptions::searched_beside(self), ..Assumptions::default() };
         assumptions::claim(self, cases, &mut said.claim);
         assumptions::act(self, &mut said.act);
-        said.verdict.push(format!("A waypoint counts as reached within {} m.", self.scenario.execute.accept_m));
+        said.verdict.push(reached(self));
         assumptions::verdict(self, &mut said.verdict);
         said
     }
@@ -138,5 +139,17 @@ fn description(robot: &Quadrotor) -> QuadrotorDescription {
         max_speed_m_s: Some(robot.max_speed),
         clearance_radius_m: Some(robot.clearance_radius),
         gravity_m_s2: Some(robot.gravity),
+    }
+}
+
+/// Where a waypoint counts as reached: what a program of the user's does with the radius is its own business.
+fn reached(setup: &FlightSetup) -> String {
+    let execute = &setup.scenario.execute;
+    let ours = if setup.controller.is_some() { None } else { execute.controller_in_force() };
+    match ours.map(ControllerKind::acceptance) {
+        Some(Acceptance::Cylinder { height }) => {
+            format!("A waypoint counts as reached within {} m from above and {height} m in height.", execute.accept_m)
+        }
+        _ => format!("A waypoint counts as reached within {} m.", execute.accept_m),
     }
 }

@@ -4,13 +4,17 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::curve::SegmentTimes;
+use super::px4_mission;
+use crate::simulation::controller::Acceptance;
 
-/// The six controllers.
+/// The eight controllers.
 ///
 /// | word | commands | knows |
 /// | --- | --- | --- |
 /// | `unstable-waypoint`, `stable-waypoint`, `anafi` | a velocity towards the waypoint | the next waypoint |
 /// | `fixed-velocity` | a velocity of one size | the next waypoint |
+/// | `crazyflie-goto` | tilt and thrust towards a moving point | the next waypoint |
+/// | `px4-mission` | tilt and thrust towards a moving point | the next two waypoints |
 /// | `minimum-snap` | a velocity towards a moving point | all waypoints |
 /// | `geometric` | thrust, attitude, rates | the plan, or all waypoints |
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -28,6 +32,11 @@ pub enum ControllerKind {
     Geometric,
     /// A waypoint controller with the Anafi's limits: a stand-in for its closed one.
     Anafi,
+    /// A jerk-limited set point that looks two waypoints ahead, and a cascade that follows it, as PX4 flies missions.
+    Px4Mission,
+    /// A polynomial to each waypoint from the motion that was planned, and a PID that follows it, as the Crazyflie's
+    /// high-level commander flies `go_to`.
+    CrazyflieGoto,
 }
 
 impl ControllerKind {
@@ -40,14 +49,35 @@ impl ControllerKind {
             ControllerKind::MinimumSnap => "minimum-snap",
             ControllerKind::Geometric => "geometric",
             ControllerKind::Anafi => "anafi",
+            ControllerKind::Px4Mission => "px4-mission",
+            ControllerKind::CrazyflieGoto => "crazyflie-goto",
         }
     }
 
-    /// Whether it plans over all waypoints before it flies; the others know of one at a time.
+    /// Where its gains come from, for reports: "flown by … with …".
+    pub fn gains(self) -> &'static str {
+        match self {
+            Self::Px4Mission => "the default parameters of PX4 v1.16",
+            Self::CrazyflieGoto => "the default gains of crazyflie-firmware 2026.08",
+            _ => "hairpin's own gains, fixed by step responses",
+        }
+    }
+
+    /// Where it takes a waypoint for reached.
+    ///
+    /// The radius is the run's.
+    pub fn acceptance(self) -> Acceptance {
+        match self {
+            Self::Px4Mission => Acceptance::Cylinder { height: px4_mission::ACCEPTANCE_HEIGHT },
+            _ => Acceptance::Sphere,
+        }
+    }
+
+    /// Whether it looks beyond the next waypoint; the others know of one at a time.
     ///
     /// Those cannot be flown leg by leg ([`Airborne`](crate::simulation::Airborne)).
     pub fn plans_ahead(self) -> bool {
-        matches!(self, Self::MinimumSnap | Self::Geometric)
+        matches!(self, Self::MinimumSnap | Self::Geometric | Self::Px4Mission)
     }
 }
 
@@ -62,10 +92,17 @@ pub struct ControllerSettings {
     pub fixed_velocity: f64,
     /// Leg times of minimum-snap references.
     pub segment_times: SegmentTimes,
+    /// Mean speed of `CrazyflieGoto`, m/s; a tenth of the robot's top speed if not given.
+    pub goto_speed: Option<f64>,
 }
 
 impl Default for ControllerSettings {
     fn default() -> Self {
-        Self { kind: ControllerKind::StableWaypoint, fixed_velocity: 2.0, segment_times: SegmentTimes::default() }
+        Self {
+            kind: ControllerKind::StableWaypoint,
+            fixed_velocity: 2.0,
+            segment_times: SegmentTimes::default(),
+            goto_speed: None,
+        }
     }
 }

@@ -2,12 +2,14 @@
 
 mod anafi;
 mod cascade;
+mod crazyflie_goto;
 mod curve;
 mod fixed_velocity;
 mod geometric;
 mod kind;
 mod minimum_snap;
 mod pilot;
+mod px4_mission;
 pub(super) mod stable_waypoint;
 mod unstable_waypoint;
 

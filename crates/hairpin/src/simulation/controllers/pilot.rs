@@ -2,15 +2,17 @@
 
 use super::anafi::Anafi;
 use super::cascade::Cascade;
+use super::crazyflie_goto::CrazyflieGoto;
 use super::fixed_velocity::FixedVelocity;
 use super::geometric::Geometric;
 use super::kind::{ControllerKind, ControllerSettings};
 use super::minimum_snap::MinimumSnap;
+use super::px4_mission::Px4Mission;
 use super::{stable_waypoint, unstable_waypoint};
 use crate::robot::quadrotor::Quadrotor;
 use crate::simulation::SimulationError;
 use crate::simulation::command::{FlightCommand, FlightState};
-use crate::simulation::controller::{Controller, Fault, Reference, Schedule};
+use crate::simulation::controller::{Acceptance, Controller, Fault, Reference, Schedule};
 
 /// See the file's first line.
 #[derive(Debug, Clone)]
@@ -25,27 +27,32 @@ pub(crate) enum Pilot {
     Geometric(Geometric),
     /// See [`ControllerKind::Anafi`].
     Anafi(Anafi),
+    /// See [`ControllerKind::Px4Mission`].
+    Px4Mission(Px4Mission),
+    /// See [`ControllerKind::CrazyflieGoto`].
+    CrazyflieGoto(CrazyflieGoto),
 }
 
 impl Pilot {
     /// Builds the controller for a robot.
     ///
     /// # Errors
-    /// A fixed velocity that is not positive.
+    /// A speed that is given and not positive.
     pub(crate) fn new(settings: &ControllerSettings, robot: &Quadrotor) -> Result<Self, SimulationError> {
         Ok(match settings.kind {
             ControllerKind::UnstableWaypoint => Pilot::Waypoint(unstable_waypoint::cascade(robot)),
             ControllerKind::StableWaypoint => Pilot::Waypoint(stable_waypoint::cascade(robot)),
             ControllerKind::FixedVelocity => {
-                let speed = settings.fixed_velocity;
-                if !(speed.is_finite() && speed > 0.0) {
-                    return Err(SimulationError::new("fixed_velocity", speed.to_string(), "finite and > 0 m/s"));
-                }
-                Pilot::FixedVelocity(FixedVelocity::new(robot, speed))
+                Pilot::FixedVelocity(FixedVelocity::new(robot, positive("fixed_velocity", settings.fixed_velocity)?))
             }
             ControllerKind::MinimumSnap => Pilot::MinimumSnap(MinimumSnap::new(robot, settings.segment_times)),
             ControllerKind::Geometric => Pilot::Geometric(Geometric::new(robot, settings.segment_times)),
             ControllerKind::Anafi => Pilot::Anafi(Anafi::new(robot)),
+            ControllerKind::Px4Mission => Pilot::Px4Mission(Px4Mission::new(robot)),
+            ControllerKind::CrazyflieGoto => {
+                let speed = settings.goto_speed.map(|speed| positive("goto_speed", speed)).transpose()?;
+                Pilot::CrazyflieGoto(CrazyflieGoto::new(robot, speed))
+            }
         })
     }
 
@@ -56,6 +63,8 @@ impl Pilot {
             Pilot::MinimumSnap(controller) => controller,
             Pilot::Geometric(controller) => controller,
             Pilot::Anafi(controller) => controller,
+            Pilot::Px4Mission(controller) => controller,
+            Pilot::CrazyflieGoto(controller) => controller,
         }
     }
 }
@@ -72,6 +81,8 @@ impl Controller<Quadrotor> for Pilot {
             Pilot::MinimumSnap(controller) => controller.reset(reference),
             Pilot::Geometric(controller) => controller.reset(reference),
             Pilot::Anafi(controller) => controller.reset(reference),
+            Pilot::Px4Mission(controller) => controller.reset(reference),
+            Pilot::CrazyflieGoto(controller) => controller.reset(reference),
         }
     }
 
@@ -82,12 +93,26 @@ impl Controller<Quadrotor> for Pilot {
             Pilot::MinimumSnap(controller) => controller.control(dt, now, to),
             Pilot::Geometric(controller) => controller.control(dt, now, to),
             Pilot::Anafi(controller) => controller.control(dt, now, to),
+            Pilot::Px4Mission(controller) => controller.control(dt, now, to),
+            Pilot::CrazyflieGoto(controller) => controller.control(dt, now, to),
         }
     }
 
     fn schedule(&self) -> Option<Schedule> {
         self.controller().schedule()
     }
+
+    fn acceptance(&self) -> Acceptance {
+        self.controller().acceptance()
+    }
+}
+
+/// A speed, m/s.
+fn positive(field: &'static str, speed: f64) -> Result<f64, SimulationError> {
+    if speed.is_finite() && speed > 0.0 {
+        return Ok(speed);
+    }
+    Err(SimulationError::new(field, speed.to_string(), "finite and > 0 m/s"))
 }
 
 #[cfg(test)]
@@ -95,7 +120,7 @@ mod tests {
     use nalgebra::{Point3, Vector3};
 
     use super::*;
-    use crate::simulation::tests::{cage, flightgoggles};
+    use crate::simulation::tests::{KINDS, cage, flightgoggles};
     use crate::simulation::{Conditions, FlySettings, Gusts, OwnController, Sortie, fly, fly_with};
 
     /// Ours brought in by the door for strangers fly the same, to the bit: there is no second way.
@@ -106,14 +131,7 @@ mod tests {
         let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
         let gusts = Some(Gusts { std: 1.0, correlation: 1.0 });
         let conditions = Conditions { wind: Vector3::x(), gusts, noise: true, ..Conditions::default() };
-        for kind in [
-            ControllerKind::UnstableWaypoint,
-            ControllerKind::StableWaypoint,
-            ControllerKind::FixedVelocity,
-            ControllerKind::MinimumSnap,
-            ControllerKind::Geometric,
-            ControllerKind::Anafi,
-        ] {
+        for kind in KINDS {
             let settings = ControllerSettings { kind, ..ControllerSettings::default() };
             let own = OwnController::new("ours", move |robot| Pilot::new(&settings, robot).unwrap());
             let ours = fly(&sortie, &settings, &conditions, &FlySettings::default(), 3).unwrap();

@@ -16,6 +16,9 @@ pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
     // Coarser than 1 kHz the rate loop and the rotor lag are no longer resolved.
     found.from("execute.step_s", execute.step_s, 1e-5, 1e-3, " s");
     found.above("execute.fixed_velocity_m_s", execute.fixed_velocity_m_s, 0.0, 100.0, " m/s");
+    if let Some(speed) = execute.goto_speed_m_s {
+        found.above("execute.goto_speed_m_s", speed, 0.0, 100.0, " m/s");
+    }
     found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
     found.processes(execute.processes, execute.workers);
 }

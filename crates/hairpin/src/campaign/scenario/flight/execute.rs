@@ -10,7 +10,8 @@ use crate::simulation::{ControllerKind, SegmentTimes};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExecuteSection {
-    /// unstable-waypoint | stable-waypoint | fixed-velocity | minimum-snap | geometric | anafi.
+    /// unstable-waypoint | stable-waypoint | fixed-velocity | minimum-snap | geometric | anafi | px4-mission |
+    /// crazyflie-goto.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<ControllerKind>,
     /// A program that speaks the executor protocol, as a shell would split it.
@@ -36,6 +37,9 @@ pub struct ExecuteSection {
     pub fixed_velocity_m_s: f64,
     /// How minimum-snap sets its leg times.
     pub segment_times: SegmentTimes,
+    /// Mean speed of crazyflie-goto; a tenth of the robot's top speed if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goto_speed_m_s: Option<f64>,
     /// Wall-clock limit per mission of `command`.
     pub timeout_s: f64,
     /// Processes of `command`, in the loop of a search and in executing; as many as threads if not given.
@@ -63,6 +67,7 @@ impl Default for ExecuteSection {
             walls: false,
             fixed_velocity_m_s: 2.0,
             segment_times: SegmentTimes::SqrtLength,
+            goto_speed_m_s: None,
             timeout_s: 60.0,
             processes: None,
             workers: None,
