@@ -5,6 +5,8 @@ mod recorded;
 
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::Tally;
+use hairpin::judgement::Chosen;
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::waypoints;
@@ -74,7 +76,9 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     }
     let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
     let cases = missions.as_ref().map_or(kept.as_ref().map_or(0, Vec::len), Vec::len);
-    tell_share(&work.setup.scenario, cases as u64, watch);
+    let tally = if missions.is_none() && work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
+    let chosen = if missions.is_some() { Chosen::Given } else { tally.chosen(&work.setup.scenario.search()) };
+    tell_share(&work.setup.scenario, (cases as u64, chosen), watch);
     // Whatever can be refused is refused before anything is lost.
     let replayed = replay_saved(&work.setup, work.folder.path(), settings.repro.as_deref(), watch)?;
     recorded::check(&work, kept.as_deref().unwrap_or_default())?;

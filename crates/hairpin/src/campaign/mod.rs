@@ -46,7 +46,7 @@ pub mod verify;
 
 pub use assumptions::assumptions;
 pub use attachments::{Attached, Attachments, Resolved};
-pub use case::{Case, CaseResult, Evidence, Reruns, Run, SeenLeg, Status, Timed, Witness};
+pub use case::{Case, CaseResult, Draws, Evidence, Reruns, Run, SeenLeg, Status, Timed, Witness};
 pub use case_number::CaseNumber;
 pub use compare::{Comparison, compare};
 pub use coverage::{Coverage, Grid};

@@ -30,6 +30,7 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
     let gaps: Option<Vec<f64>> = cases.iter().map(Case::gap).collect();
     let proof = gaps.map(|gaps| gap_word(gaps.into_iter().fold(0.0, f64::max), "gap at most"));
     let confidence = setup.scenario.confidence().unwrap_or(CONFIDENCE);
+    let draws = |result: &CaseResult| result.draws.map(|draws| [draws.violated, draws.of]);
     let reruns = rerun_words(results, confidence);
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
     let doubt = results.iter().find(|result| result.status == Status::Inconclusive);
@@ -48,6 +49,8 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         worst: worst.as_ref().map(|(case, value, saturation)| Worst { case, value, saturation: *saturation }),
         share_limit: setup.scenario.violation_share(),
         confidence,
+        chosen: tally.chosen(&setup.scenario.search()),
+        draws: if let [only] = results { draws(only) } else { None },
         claims: &claims,
         reruns: reruns.as_deref(),
         estimated: setup.unknown_shapes(),

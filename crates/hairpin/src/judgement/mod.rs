@@ -7,7 +7,7 @@
 //! Track + waypoints + Settings ─ measure ─▶ Measures ─ violations(Limits) ─▶ Violation, gravest first
 //!                                              │
 //!                                              └ Stress: the one number that a search or a model is about
-//! cases of a campaign ─ share, statistics ─▶ verdict: one sentence, one exit code
+//! cases of a campaign ─ share (as they were chosen), statistics ─▶ verdict: one sentence, one exit code
 //! two sets of runs ─ paired: signed rank, medians, Holm ─▶ whether one is worse than chance has it
 //! an arm's recordings + PlannedPath ─ moves ─▶ each move: deviation, lateness, trend, regression
 //! ```
@@ -18,6 +18,7 @@
 
 mod apart;
 mod assign;
+mod chosen;
 mod deviation;
 pub mod measure;
 pub mod measures;
@@ -32,6 +33,7 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
+pub use chosen::Chosen;
 pub use measure::{deviation_of_samples, measure};
 pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures};
 pub use paired::{Median, SignedRank, holm, median, signed_rank};
