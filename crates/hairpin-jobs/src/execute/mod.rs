@@ -1,5 +1,6 @@
 //! Execution: the flights of a campaign whose trajectories are there, or of waypoint files made elsewhere.
 
+mod by_case;
 mod fly;
 mod recorded;
 
@@ -11,12 +12,14 @@ use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::waypoints;
 
+use crate::baseline::fly_baseline;
 use crate::consent::{Consent, Wish};
 use crate::missions::adopt;
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
 use crate::work::{changed_by, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
+pub(crate) use by_case::fly_by_case;
 pub use fly::{Flown, fly_each};
 pub(crate) use fly::{attitude_unknown, fly_missing, fly_one, fly_together};
 
@@ -100,6 +103,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
         work.folder.forget_runs()?;
     }
     let flown = fly_missing(&work, &cases, watch)?;
+    let tally = if work.folder.has_tally() { work.folder.read_tally()? } else { tally };
+    fly_baseline(&work, &tally, flown, watch)?;
     let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
     Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, missions, replayed })
 }

@@ -8,7 +8,7 @@ use super::text::attitude;
 use crate::campaign::kind::{Drawing, Surface};
 use crate::campaign::scenario::{DeviationFrom, Terms};
 use crate::campaign::{
-    Case, CaseNumber, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
+    Baseline, Case, CaseNumber, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
 };
 use crate::judgement::moves::Regression;
 use crate::judgement::{
@@ -140,6 +140,8 @@ pub struct Pieces<'a> {
     pub influences: Vec<Influence>,
     /// Which cells of the grid of motion were met.
     pub coverage: Option<Coverage>,
+    /// What random feasible cases came to.
+    pub baseline: Option<Baseline>,
 }
 
 /// The results' order in tables: failures, then doubts, then passes, each by its deviation, the largest first.
