@@ -1,8 +1,8 @@
 //! Limits that follow from what is ordinary: random feasible cases of their own, flown as the scenario's would be.
 
+use hairpin::campaign::Setup;
 use hairpin::campaign::calibrate::{self, LEAST, Outcome, Proposal};
 use hairpin::campaign::generate::{ByChance, Purpose};
-use hairpin::campaign::Setup;
 use hairpin::judgement::cases_needed;
 use hairpin::math::simd::Simd;
 use hairpin_formats::scenario::{kept_in, setup_for, shadowed};
@@ -52,6 +52,8 @@ pub struct Calibrated {
     pub flown: usize,
     /// Of these, cases of which a run was not flown, or cannot be judged.
     pub lost: usize,
+    /// Of these, cases of which a run left the world, a violation beside any limit.
+    pub left_world: usize,
     /// Where fewer cases were found than were to be flown: why, in a sentence's part.
     pub reason: Option<String>,
 }
@@ -59,8 +61,8 @@ pub struct Calibrated {
 /// Flies random feasible cases of the scenario and proposes the limits that the share breaks. Nothing is written.
 ///
 /// # Errors
-/// A scenario with mistakes, or whose runs are recordings; one of a campaign's folder that asks to run what its user has
-/// not allowed; it was asked to stop.
+/// A scenario with mistakes, or whose runs are recordings; one of a campaign's folder that asks to run what its user
+/// has not allowed; it was asked to stop.
 pub fn calibrate(settings: &CalibrateSettings, watch: &dyn Watch) -> Result<Calibrated, Problem> {
     shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
     let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
@@ -73,12 +75,16 @@ pub fn calibrate(settings: &CalibrateSettings, watch: &dyn Watch) -> Result<Cali
     let wanted = settings.cases.unwrap_or(needed);
     let ByChance { cases, reason, lacks_draws } = drawn(&setup, (Purpose::Limits, wanted), WHAT, watch)?;
     if lacks_draws {
-        return Err(Problem::input(format!("of {} nothing is drawn at random yet, so that no limit follows", setup.robot_name())));
+        return Err(Problem::input(format!(
+            "of {} nothing is drawn at random yet, so that no limit follows",
+            setup.robot_name()
+        )));
     }
     let outcomes = fly_by_case(&setup, &cases, &|case, runs| calibrate::outcome(&setup, case, runs), (WHAT, watch))?;
     let outcomes: Vec<Outcome> = outcomes.into_iter().flatten().collect();
     let proposals = calibrate::propose(&setup, &outcomes, settings.share);
-    Ok(Calibrated { proposals, flown: cases.len(), lost: cases.len() - outcomes.len(), reason, setup })
+    let left_world = outcomes.iter().filter(|outcome| outcome.left_world).count();
+    Ok(Calibrated { proposals, flown: cases.len(), lost: cases.len() - outcomes.len(), left_world, reason, setup })
 }
 
 #[cfg(test)]

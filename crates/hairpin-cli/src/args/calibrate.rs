@@ -6,9 +6,9 @@ use super::commands::Commands;
 use super::numbers::{LARGEST_SEED, small_share};
 use super::resources::{Kernels, Threads};
 
-/// Flies random feasible cases of the scenario, 200 at least and none of its campaign's, and proposes for every limit of its
-/// [spec] (for the deviation where it has none) the one that the share of them breaks, with its 95 % interval. Nothing is
-/// written. Exit code 0, 3 where nothing is feasible, 5 where no limit follows.
+/// Flies random feasible cases of the scenario, 200 at least and none of its campaign's, and proposes for every limit
+/// of its [spec] (for the deviation where it has none) the one that the share of them breaks, with its 95 % interval.
+/// Nothing is written. Exit code 0, 3 where nothing is feasible, 5 where no limit follows.
 #[derive(Debug, Args)]
 pub(crate) struct Calibrate {
     /// Scenario file, the name of a shipped scenario or robot, or a campaign folder's scenario.toml

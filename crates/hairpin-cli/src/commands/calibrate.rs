@@ -31,19 +31,22 @@ pub(crate) fn run(asked: &Calibrate, watch: &dyn Watch) -> Result<u8, Problem> {
         (false, 0) => NOTHING_FEASIBLE,
         (false, _) => INCONCLUSIVE,
     };
-    if asked.json { console::say(&object(asked, &found, code).to_string()) } else { tell(asked, &found) }
+    if asked.json {
+        console::say(&object(asked, &found, code).to_string())
+    } else {
+        tell(asked, &found)
+    }
     Ok(code)
 }
 
 /// The first limit by the contract's names, and all of them.
 fn object(asked: &Calibrate, found: &Calibrated, code: u8) -> Value {
-    let one = |it: &Proposal| {
-        json!({ "field": it.field, "value": it.value, "interval": it.interval, "cases": it.cases, "reason": it.reason })
-    };
+    let one = |it: &Proposal| json!({ "field": it.field, "value": it.value, "interval": it.interval, "cases": it.cases, "reason": it.reason });
     let mut object = found.proposals.first().map_or_else(|| json!({}), one);
     object["share"] = json!(asked.share);
     object["flown"] = json!(found.flown);
     object["lost"] = json!(found.lost);
+    object["left_world"] = json!(found.left_world);
     object["fewer"] = json!(found.reason);
     object["limits"] = found.proposals.iter().map(one).collect();
     object["spec"] = json!(lines(found));
@@ -59,6 +62,12 @@ fn tell(asked: &Calibrate, found: &Calibrated) {
     }
     if found.lost > 0 {
         console::warn(&format!("{} of {} cases were not flown, or cannot be judged", found.lost, found.flown));
+    }
+    if found.left_world > 0 {
+        console::warn(&format!(
+            "{} of {} cases leave the world, which is a violation whatever the limit",
+            found.left_world, found.flown
+        ));
     }
     for one in &found.proposals {
         let Some(reason) = &one.reason else { continue };

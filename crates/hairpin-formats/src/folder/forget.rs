@@ -6,8 +6,8 @@ use std::io;
 use hairpin::campaign::learn::NAME;
 
 use super::{
-    ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List, MOVES,
-    OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
+    ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List,
+    MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
 };
 use crate::atomic::{self, WriteError};
 

@@ -14,7 +14,7 @@
 //! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
 //! | `best-so-far.tsv` | of searches that execute: where the largest stress of a graph rose as executions went on |
 //! | `score-model.json` | the model of a learned score; of an adaptive campaign what it learned itself |
-//! | `baseline.parquet` | random feasible cases that were run alike, columns as in `results.parquet`; measured, not judged |
+//! | `baseline.parquet` | random feasible cases that were run alike, as `results.parquet`; not judged |
 //! | `reruns/CASE-K.parquet` | a violation run again with other noise, for the time number K |
 //! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |

@@ -83,7 +83,8 @@ pub fn from_folder(
         frame: Header::of(setup, &results).lines(),
         influences: folder.read_influences()?,
         coverage: folder.read_coverage()?,
-        baseline: baseline.and_then(|measured| Baseline::of(scenario.search().stress, scenario.executor().repeat, &measured)),
+        baseline: baseline
+            .and_then(|measured| Baseline::of(scenario.search().stress, scenario.executor().repeat, &measured)),
     };
     Ok(report::assemble(pieces))
 }

@@ -1,5 +1,5 @@
-//! Cases flown for what comes of them, without a folder: each is handed on when its last run has landed, so that no more
-//! flights are in memory than are in the air.
+//! Cases flown for what comes of them, without a folder: each is handed on when its last run has landed, so that no
+//! more flights are in memory than are in the air.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -38,7 +38,8 @@ pub(crate) fn fly_by_case<T: Send>(
     };
     let landed: Mutex<Vec<Vec<Run>>> = Mutex::new(vec![Vec::new(); cases.len()]);
     let all: Mutex<Vec<Option<T>>> = Mutex::new(cases.iter().map(|_| None).collect());
-    let make = |index: usize| mission(setup, &cases[index / repeat], index % repeat).map_err(|mistake| mistake.to_string());
+    let make =
+        |index: usize| mission(setup, &cases[index / repeat], index % repeat).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result: Result<_, Failed>| {
         let (place, number) = (index / repeat, index % repeat);
         let case = &cases[place];

@@ -79,7 +79,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     }
     let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
     let cases = missions.as_ref().map_or(kept.as_ref().map_or(0, Vec::len), Vec::len);
-    let tally = if missions.is_none() && work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
+    let tally =
+        if missions.is_none() && work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
     let chosen = if missions.is_some() { Chosen::Given } else { tally.chosen(&work.setup.scenario.search()) };
     tell_share(&work.setup.scenario, (cases as u64, chosen), watch);
     // Whatever can be refused is refused before anything is lost.

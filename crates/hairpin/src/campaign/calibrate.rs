@@ -52,11 +52,13 @@ const KEYS: &[Key] = &[
 /// What the runs of a case came to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// Of every key that limits are proposed for, its worst value over all runs, larger being worse; infinite where a run
-    /// crashed, left the world or did not finish, `None` where it was not measured.
+    /// Of every key that limits are proposed for, its worst value over all runs, larger being worse; infinite where a
+    /// run crashed or did not finish, `None` where it was not measured.
     worst: Vec<Option<f64>>,
-    /// Whether a run crashed, left the world or did not finish.
+    /// Whether a run crashed or did not finish.
     ended_badly: bool,
+    /// Whether a run left the world, a violation beside any limit.
+    pub left_world: bool,
 }
 
 /// A limit that the wanted share of cases breaks.
@@ -85,12 +87,14 @@ fn keys(setup: &Setup) -> Vec<&'static Key> {
 /// What the runs of `case` came to; `None` where one was not flown or cannot be judged.
 pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
     let keys = keys(setup);
-    let mut found = Outcome { worst: vec![None; keys.len()], ended_badly: false };
+    let mut found = Outcome { worst: vec![None; keys.len()], ended_badly: false, left_world: false };
     for run in runs {
         let measures = measures_of(setup, case, run)?;
         let flight = run.outcome.as_ref().ok()?;
         let events = Limits { unfinished: setup.scenario.asked() != Asked::Nothing, ..Limits::default() };
-        found.ended_badly |= !violations(&measures, flight, &events).is_empty();
+        let events = violations(&measures, flight, &events);
+        found.ended_badly |= events.iter().any(|event| event.is_crash() || event.what == "unfinished");
+        found.left_world |= flight.left_world.is_some();
         for (worst, key) in found.worst.iter_mut().zip(&keys) {
             let Some(value) = (key.of)(&measures) else { continue };
             let value = if key.least { -value } else { value };
@@ -106,17 +110,20 @@ pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
 /// The limits that the share `broken` of cases like these break, for every limit that the scenario has or, where it has
 /// none, for the deviation.
 ///
-/// A case breaks a limit that one of its runs breaks, and any limit where one crashes, leaves the world or does not
-/// finish. Fewer than 200 cases, and fewer than the interval takes, give no number.
+/// A case breaks a limit that one of its runs breaks, and any limit where one crashes or does not finish: how far off it
+/// would have been nobody knows. Fewer than 200 cases, and fewer than the interval takes, give no number.
 pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal> {
     let badly = outcomes.iter().filter(|outcome| outcome.ended_badly).count();
     let propose = |(place, key): (usize, &&'static Key)| {
         let values: Vec<f64> = outcomes.iter().filter_map(|outcome| outcome.worst[place]).collect();
         let cases = values.len();
-        let none = |reason: String| Proposal { field: key.key, value: None, interval: None, cases, reason: Some(reason) };
+        let none =
+            |reason: String| Proposal { field: key.key, value: None, interval: None, cases, reason: Some(reason) };
         let few = format!("{cases} cases were measured");
         let limit = match exceeded_by(&values, broken, CONFIDENCE) {
-            _ if cases == badly && cases > 0 => return none("every case crashes, leaves the world or does not finish".into()),
+            _ if cases == badly && cases > 0 => {
+                return none("every case crashes or does not finish".into());
+            }
             _ if cases == 0 && !outcomes.is_empty() => return none("it is not measured in this scenario".into()),
             _ if cases < LEAST => return none(format!("{few}, and {LEAST} are the least that a limit follows from")),
             None => return none(format!("{few}, too few for an interval of what {} % break", 100.0 * broken)),
@@ -124,7 +131,7 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
         };
         if limit.high.is_infinite() {
             return none(format!(
-                "{badly} of {cases} cases crash, leave the world or do not finish whatever the limit, so that it may be that more than {} % \
+                "{badly} of {cases} cases crash or do not finish, whatever the limit, so that it may be that more than {} % \
                  break any",
                 100.0 * broken
             ));
@@ -143,7 +150,7 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
     keys(setup).iter().enumerate().map(propose).collect()
 }
 
-/// The scenario's `[spec]` with the proposed limits in it, to three digits: the value of each of its keys, in their order.
+/// The scenario's `[spec]` with the proposed limits in it, to three digits: the value of each of its keys.
 pub fn spec(setup: &Setup, proposals: &[Proposal]) -> Map<String, Value> {
     let mut spec = match setup.scenario.section("spec") {
         Some(Value::Object(spec)) => spec,
@@ -192,7 +199,7 @@ mod tests {
         let one = |i: usize| {
             let ended_badly = i < badly;
             let worst = vec![Some(if ended_badly { f64::INFINITY } else { 0.01 * i as f64 })];
-            Outcome { worst, ended_badly }
+            Outcome { worst, ended_badly, left_world: false }
         };
         (0..count).map(one).collect()
     }
@@ -206,7 +213,10 @@ mod tests {
         assert!((only.value.unwrap() - 1.89).abs() < 1e-12, "{only:?}");
         let [low, high] = only.interval.unwrap();
         assert!((low - 1.83).abs() < 1e-12 && (high - 1.96).abs() < 1e-12, "{only:?}");
-        assert_eq!(json!(spec(&setup, &found)), json!({ "deviation": { "max_m": 1.89, "from": "path", "corner_m": 1.0 } }));
+        assert_eq!(
+            json!(spec(&setup, &found)),
+            json!({ "deviation": { "max_m": 1.89, "from": "path", "corner_m": 1.0 } })
+        );
     }
 
     #[test]

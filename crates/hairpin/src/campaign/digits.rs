@@ -69,7 +69,10 @@ mod tests {
         assert_eq!(number(Some(123.44)), "123.4");
         assert_eq!(number(Some(1234.4)), "1234");
         assert_eq!(number(None), "–");
-        assert_eq!((grouped(4000), grouped(999), grouped(1_000_000)), ("4 000".into(), "999".into(), "1 000 000".into()));
+        assert_eq!(
+            (grouped(4000), grouped(999), grouped(1_000_000)),
+            ("4 000".into(), "999".into(), "1 000 000".into())
+        );
         assert_eq!(percent(Some(0.31)), "31 %");
         assert_eq!(percent(Some(0.015)), "1.5 %");
     }

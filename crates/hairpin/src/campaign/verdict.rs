@@ -1,10 +1,10 @@
 //! From results to the one sentence.
 
 use super::case::gap_word;
-use super::judge::Gravity;
-use super::scenario::Asked;
 use super::chance::Baseline;
 use super::digits::grouped;
+use super::judge::Gravity;
+use super::scenario::Asked;
 use super::{Case, CaseResult, Evidence, Reruns, Setup, Status, Tally};
 use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst};
 
@@ -43,7 +43,8 @@ pub fn verdict(
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
     let doubt = results.iter().find(|result| result.status == Status::Inconclusive);
     let doubt = doubt.and_then(|result| Some(format!("{}, {}", result.case, result.message.as_ref()?)));
-    let beside = baseline.map(|baseline| (format!("{} flown", grouped(flown(setup, results, tally))), baseline.in_words(setup)));
+    let beside =
+        baseline.map(|baseline| (format!("{} flown", grouped(flown(setup, results, tally))), baseline.in_words(setup)));
     judgement::verdict(&Judged {
         how: &how,
         runs: setup.scenario.executor().repeat as usize,

@@ -41,6 +41,8 @@ pub use paired::{Median, SignedRank, holm, median, signed_rank};
 pub use quantile::{Quantile, exceeded_by};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
-pub use statistics::{Share, Statistics, cases_needed, mean_interval, rank_correlation, rule_of_three, share, skewness};
+pub use statistics::{
+    Share, Statistics, cases_needed, mean_interval, rank_correlation, rule_of_three, share, skewness,
+};
 pub use stress::Stress;
 pub use verdict::{Beside, Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};

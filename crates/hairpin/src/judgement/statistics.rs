@@ -191,7 +191,8 @@ pub fn student_quantile(freedom: usize, sigma: f64) -> f64 {
     if x > 0.0 { (freedom * (1.0 / x - 1.0)).max(0.0).sqrt() } else { f64::INFINITY }
 }
 
-/// The 95 % interval of the mean of what `values` are a sample of, by Student's t: x̄ ± t s/√n, s² = Σ (x − x̄)²/(n − 1).
+/// The 95 % interval of the mean of what `values` are a sample of, by Student's t: x̄ ± t s/√n with
+/// s² = Σ (x − x̄)²/(n − 1).
 ///
 /// Exact for normal values; of a few dozen with a long tail to one side it covers a little less. `None` for fewer than
 /// two values, or one that is not finite.

@@ -136,9 +136,9 @@ impl Default for Judged<'_> {
 /// The verdict on executed cases.
 ///
 /// Cases that the executor failed to fly or whose data are inconclusive count neither as pass nor as fail: the share
-/// is of the others. Without a share limit one violating case is a FAIL. With one, of cases that were drawn at random the
-/// Clopper-Pearson interval of the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it
-/// straddles it; of any others, searched ones above all, the plain count does, for it is of nothing but them. Where
+/// is of the others. Without a share limit one violating case is a FAIL. With one, of cases that were drawn at random
+/// the Clopper-Pearson interval of the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if
+/// it straddles it; of any others, searched ones above all, the plain count does, for it is of nothing but them. Where
 /// nothing was asked for, what is no FAIL is UNJUDGED.
 ///
 /// ```
@@ -374,7 +374,8 @@ mod tests {
     #[test]
     fn of_cases_that_were_searched_the_count_is_told_and_decides() {
         let value = violation("deviation", 0.65, 0.5);
-        let of = |failed, share_limit| verdict(&Judged { chosen: Chosen::Searched, share_limit, ..with(failed, &value) });
+        let of =
+            |failed, share_limit| verdict(&Judged { chosen: Chosen::Searched, share_limit, ..with(failed, &value) });
         let fails = of(3, None);
         assert_eq!(
             fails.sentence,

@@ -94,11 +94,7 @@ pub fn by_chance(setup: &Setup, (purpose, count): (Purpose, u64), stop: &Stop) -
 }
 
 /// A plan of case number `number` where plans vary: of the scenario that is drawn for it, in graphs of its own.
-fn drawn_plan(
-    setup: &Setup,
-    (purpose, number): (Purpose, u64),
-    stop: &Stop,
-) -> Result<(u64, Plan), Option<String>> {
+fn drawn_plan(setup: &Setup, (purpose, number): (Purpose, u64), stop: &Stop) -> Result<(u64, Plan), Option<String>> {
     let seed = named_seed(setup.scenario.seed(), purpose.seeds(), number);
     let draws = vary::draw_for_case(&setup.scenario, seed, CaseNumber(number as usize));
     let drawn = setup.drawn(&draws).map_err(|mistake| Some(mistake.to_string()))?;

@@ -55,6 +55,15 @@ pub(in crate::campaign) trait Claim {
     /// A case whose numbers are no motion, as a folder that was edited may hold.
     fn planned(&self, case: &Case) -> Result<Track, PlanError>;
 
+    /// The path that is followed where nothing goes wrong: the planned one, unless the controller of ours makes one of
+    /// its own.
+    ///
+    /// # Errors
+    /// As [`Self::planned`].
+    fn followed(&self, case: &Case) -> Result<Track, PlanError> {
+        self.planned(case)
+    }
+
     /// The timed reference that executors get of a case with leg times; empty where they get none.
     fn timed(&self, case: &Case) -> Vec<Timed>;
 

@@ -25,7 +25,8 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     }
     if let Some(random) = &pieces.baseline {
         let setup = pieces.setup;
-        let interval = random.interval_in_words(setup).map_or(String::new(), |interval| format!("{interval} in the mean, 95 %; "));
+        let interval =
+            random.interval_in_words(setup).map_or(String::new(), |interval| format!("{interval} in the mean, 95 %; "));
         let stress = random.stress_percent(pieces.results);
         let stress = stress.map_or(String::new(), |percent| format!("; these cases {percent:+.0} %"));
         let note = format!("{interval}{} at worst of {}{stress}", random.told(setup, random.worst), random.cases);

@@ -16,7 +16,8 @@ const SPARE_SECONDS: f64 = 60.0;
 
 impl Keys for BoatScenario {
     fn head(&self) -> Head<'_> {
-        let BoatExecute { command, repeat, timeout_s, workers, accept_m, baseline, flaky, time_limit_s, .. } = &self.execute;
+        let BoatExecute { command, repeat, timeout_s, workers, accept_m, baseline, flaky, time_limit_s, .. } =
+            &self.execute;
         Head {
             seed: self.seed,
             length: Some(self.task.length),

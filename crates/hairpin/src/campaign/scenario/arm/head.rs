@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject,
-    Terms, sections,
+    ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience,
+    Subject, Terms, sections,
 };
 use crate::judgement::Limits;
 use crate::trajectory::program::{Tool, WorkObject};

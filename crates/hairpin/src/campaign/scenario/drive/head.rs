@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use super::{DriveExecute, DriveScenario, GroundReach};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Subject, Terms,
-    sections,
+    BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Subject,
+    Terms, sections,
 };
 use crate::judgement::Limits;
 
@@ -26,7 +26,8 @@ const LIMITS: &[&str] = &[
 
 impl Keys for DriveScenario {
     fn head(&self) -> Head<'_> {
-        let DriveExecute { command, repeat, timeout_s, workers, accept_m, baseline, flaky, time_limit_s, .. } = &self.execute;
+        let DriveExecute { command, repeat, timeout_s, workers, accept_m, baseline, flaky, time_limit_s, .. } =
+            &self.execute;
         let limits = &self.spec.limits;
         let judged_by = Limits {
             deviation: limits.path_deviation_m,

@@ -14,7 +14,8 @@ const SECONDS_PER_WAYPOINT: f64 = 9.0;
 
 impl Keys for FlightScenario {
     fn head(&self) -> Head<'_> {
-        let ExecuteSection { command, repeat, timeout_s, workers, accept_m, baseline, flaky, time_limit_s, .. } = &self.execute;
+        let ExecuteSection { command, repeat, timeout_s, workers, accept_m, baseline, flaky, time_limit_s, .. } =
+            &self.execute;
         Head {
             seed: self.seed,
             length: Some(self.task.length),
