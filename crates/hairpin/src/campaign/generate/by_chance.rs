@@ -120,3 +120,77 @@ fn draw(graphs: &Graphs, graph: u64, stop: &Stop) -> Result<(u64, Plan), Option<
     let outcome = graphs.solve(graph, Wanted::Round(&round), stop);
     outcome.plans.into_iter().next().ok_or(outcome.reason)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use serde_json::json;
+
+    use super::*;
+    use crate::campaign::Scenario;
+    use crate::math::random::case_seed;
+
+    fn setup(vary: serde_json::Value) -> Setup {
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1, "seed": 5,
+            "robot": { "kind": "quadrotor", "name": "test", "mass_kg": 1.0, "inertia_kg_m2": [0.0049, 0.0049, 0.0069],
+                "thrust_coefficient_n_s2": 1.91e-6, "moment_coefficient_n_m_s2": 2.6e-7,
+                "rotor_speed_rad_s": [0.0, 2200.0], "max_speed_m_s": 18.0, "clearance_radius_m": 0.23,
+                "rotors": [{ "x_m": 0.08, "y_m": 0.08, "spin": 1.0 }, { "x_m": -0.08, "y_m": 0.08, "spin": -1.0 },
+                    { "x_m": -0.08, "y_m": -0.08, "spin": 1.0 }, { "x_m": 0.08, "y_m": -0.08, "spin": -1.0 }] },
+            "world": { "size_m": [20.0, 20.0, 20.0] },
+            "task": { "start_m": [2.0, 2.0, 5.0], "end_m": [9.0, 9.0, 8.0], "length": 5 },
+            "generate": { "reach": "sphere", "timing": { "step_s": 1.0 },
+                "search": { "method": "beam", "waypoints": 30, "cases": 3 } },
+            "vary": vary,
+        }))
+        .unwrap();
+        Setup::new(scenario).unwrap()
+    }
+
+    fn stop(cancelled: &(dyn Fn() -> bool + Sync)) -> Stop<'_> {
+        Stop { cancelled, progress: &|_, _| {}, clock: &|| 0.0 }
+    }
+
+    #[test]
+    fn they_are_drawn_once_and_for_all_and_are_no_campaigns() {
+        let setup = setup(json!({}));
+        let of = |purpose, count| by_chance(&setup, (purpose, count), &stop(&|| false)).cases;
+        let cases = of(Purpose::Baseline, 12);
+        assert_eq!(cases.iter().map(|case| case.number.0).collect::<Vec<_>>(), (0..12).collect::<Vec<_>>());
+        assert!(cases.iter().all(|case| case.waypoints.len() == 5 && case.graph >= 1 << 40));
+        let graphs: HashSet<u64> = cases.iter().map(|case| case.graph).collect();
+        assert_eq!(graphs.len(), 12, "one of each graph");
+        assert!(cases.iter().all(|case| (0..99).all(|number| case.seed != case_seed(5, number))));
+        // More of them begin with the same; for another purpose they are others; threads change nothing.
+        assert_eq!(of(Purpose::Baseline, 15)[..12], cases);
+        let others = of(Purpose::Limits, 12);
+        assert!(others.iter().zip(&cases).all(|(other, case)| {
+            other.seed != case.seed && other.graph != case.graph && other.waypoints != case.waypoints
+        }));
+        let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        assert_eq!(alone.install(|| of(Purpose::Baseline, 12)), cases);
+    }
+
+    #[test]
+    fn what_varies_is_drawn_first() {
+        let setup = setup(json!({ "task.length": { "choice": [4, 6] } }));
+        let cases = by_chance(&setup, (Purpose::Baseline, 10), &stop(&|| false)).cases;
+        let lengths: HashSet<usize> = cases.iter().map(|case| case.waypoints.len()).collect();
+        assert_eq!(cases[0].waypoints.len(), 5, "case 0 is nominal");
+        assert_eq!(lengths, HashSet::from([4, 5, 6]));
+    }
+
+    #[test]
+    fn fewer_have_a_reason_unless_they_were_stopped() {
+        let mut far = setup(json!({}));
+        let keys = far.scenario.own_mut::<crate::campaign::scenario::FlightScenario>().unwrap();
+        keys.generate.timing.as_mut().unwrap().step_s = Some(0.05);
+        let far = Setup::new(far.scenario).unwrap();
+        let none = by_chance(&far, (Purpose::Baseline, 2), &stop(&|| false));
+        assert!(none.cases.is_empty() && none.reason.is_some() && !none.lacks_draws, "{none:?}");
+        let stopped = by_chance(&setup(json!({})), (Purpose::Baseline, 2), &stop(&|| true));
+        assert_eq!((stopped.cases.len(), stopped.reason), (0, None));
+    }
+}
