@@ -110,8 +110,8 @@ pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
 /// The limits that the share `broken` of cases like these break, for every limit that the scenario has or, where it has
 /// none, for the deviation.
 ///
-/// A case breaks a limit that one of its runs breaks, and any limit where one crashes or does not finish: how far off it
-/// would have been nobody knows. Fewer than 200 cases, and fewer than the interval takes, give no number.
+/// A case breaks a limit that one of its runs breaks, and any limit where one crashes or does not finish: how far off
+/// it would have been nobody knows. Fewer than 200 cases, and fewer than the interval takes, give no number.
 pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal> {
     let badly = outcomes.iter().filter(|outcome| outcome.ended_badly).count();
     let propose = |(place, key): (usize, &&'static Key)| {
