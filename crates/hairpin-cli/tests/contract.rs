@@ -1,10 +1,13 @@
 //! What other programs count on: where files are written, one JSON document on stdout and nothing else, and that what
 //! is not known is said to be unknown.
 
+mod commands;
+
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use commands::without_baseline;
 use serde_json::{Value, json};
 
 const SMALL: [&str; 6] = ["stress", "demo-quadrotor", "--set", "generate.search.cases=2", "--set", "execute.repeat=1"];
@@ -13,7 +16,7 @@ const MINIMAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/execu
 /// Exit code, stdout, stderr.
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
-    command.current_dir(folder).args(arguments).env("XDG_STATE_HOME", folder.join(".state"));
+    command.current_dir(folder).args(without_baseline(arguments)).env("XDG_STATE_HOME", folder.join(".state"));
     let output = command.output().unwrap();
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
@@ -117,10 +120,14 @@ fn missions_are_the_cases_asked_for() {
 #[test]
 fn five_is_never_a_pass() {
     let place = tempfile::tempdir().unwrap();
-    // No violation in two cases says nothing of one in a hundred.
+    // No violation in two cases at random says nothing of one in a hundred.
     let lenient = ["--set", "spec.deviation.max_m=40", "--set", "spec.violation_share=0.01", "--out", "a"];
-    let (object, _) = json(place.path(), &[&SMALL[..], &lenient].concat());
+    let drawn = ["--set", "generate.search.method=uniform", "--set", "generate.search.waypoints=100"];
+    let (object, _) = json(place.path(), &[&SMALL[..], &drawn, &lenient].concat());
     assert_eq!((&object["exit_code"], &object["counts"]["pass"]), (&json!(5), &json!(2)), "{object}");
+    let share = &object["share"];
+    assert_eq!((&share["cases"], &share["violated"], &share["of"]), (&json!("random"), &json!(0), &json!(2)));
+    assert!(share["high"].as_f64().unwrap() > 0.8, "{share}");
     let junit = text(&place.path().join("a/junit.xml"));
     assert!(junit.contains("tests=\"2\" failures=\"0\" errors=\"2\""), "{junit}");
     assert!(junit.contains("type=\"Inconclusive\"") && junit.contains("straddles"), "{junit}");
@@ -153,4 +160,57 @@ fn every_answer_for_machines_is_one_document() {
         assert_eq!(object["exit_code"], 2, "{wrong:?}");
         assert!(!object["error"].as_str().unwrap().is_empty() && !error.is_empty(), "{wrong:?}: {object}");
     }
+}
+
+#[test]
+fn a_share_has_an_interval_where_it_estimates_something() {
+    let place = tempfile::tempdir().unwrap();
+    let strict = ["--set", "spec.deviation.max_m=0.001"];
+    let (object, _) = json(place.path(), &[&SMALL[..], &strict, &["--out", "a"]].concat());
+    let verdict = object["verdict"].as_str().unwrap();
+    assert!(verdict.contains("; 2 of 2 searched violate; ") && !verdict.contains(['[', ']']), "{verdict}");
+    assert_eq!(object["share"], json!({ "cases": "searched", "violated": 2, "of": 2, "low": null, "high": null }));
+    assert_eq!(object["worst"]["draws"], Value::Null);
+    let junit = text(&place.path().join("a/junit.xml"));
+    assert!(junit.contains("<property name=\"cases\" value=\"searched\"/>"), "{junit}");
+    let page = text(&place.path().join("a/report.html"));
+    assert!(page.contains("of cases that were searched: no estimate of how often others do"));
+    // Some of a campaign's are no estimate of it, whatever it was.
+    run(place.path(), &["select", "a", "--cases", "1", "--by", "stress", "--out", "few"]);
+    let (object, _) = json(place.path(), &["judge", "few"]);
+    assert!(object["verdict"].as_str().unwrap().contains("; 1 of 1 selected violate; "), "{object}");
+    // The draws within one case are at random.
+    let windy = ["--set", "execute.repeat=9", "--set", "generate.search.cases=1", "--out", "b"];
+    let (object, _) = json(place.path(), &[&SMALL[..2], &strict, &windy].concat());
+    let told = "; 8 of 8 draws of `[vary]` violate: share 100.0 % [63.1, 100.0]; ";
+    assert!(object["verdict"].as_str().unwrap().contains(told), "{object}");
+    let draws = &object["worst"]["draws"];
+    assert_eq!((&draws["violated"], &draws["of"], &draws["high"]), (&json!(8), &json!(8), &json!(1.0)), "{draws}");
+    assert!((draws["low"].as_f64().unwrap() - 0.025_f64.powf(1.0 / 8.0)).abs() < 1e-9, "{draws}");
+    // A report is made of what the folder holds, and says the same.
+    assert_eq!(json(place.path(), &["report", "b"]).0["verdict"], object["verdict"]);
+}
+
+#[test]
+fn a_flight_is_judged_from_the_path_that_its_controller_follows() {
+    let place = tempfile::tempdir().unwrap();
+    let largest = |controller: &str, from: &str| {
+        let out = format!("{controller}-{from}");
+        let controller = format!("execute.controller={controller}");
+        let from = format!("spec.deviation.from={from}");
+        let sets = ["--set", &controller, "--set", &from, "--out", &out];
+        let (object, _) = json(place.path(), &[&SMALL[..], &sets].concat());
+        let told = object["worst"]["max_deviation_m"].as_f64().unwrap();
+        // The report measures from the same path.
+        assert_eq!(json(place.path(), &["report", &out]).0["verdict"], object["verdict"]);
+        told
+    };
+    // A minimum-snap curve swings out of the legs by metres; its controller stays near it.
+    let [leg, path] = ["leg", "path"].map(|from| largest("minimum-snap", from));
+    assert!(leg > 3.0 && path < 0.5 * leg, "{leg} {path}");
+    let page = text(&place.path().join("minimum-snap-path/report.html"));
+    assert!(page.contains("the distance from the curve that the controller makes of the waypoints"));
+    // Others follow the plan, or the legs.
+    assert!(largest("geometric", "path") < 0.2 && largest("geometric", "leg") > 3.0);
+    assert!(largest("stable-waypoint", "leg") < largest("stable-waypoint", "path"));
 }

@@ -136,8 +136,9 @@ fn a_limit_on_what_is_not_there_is_no_pass() {
 fn a_share_that_the_cases_cannot_show_is_told_before_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let share = ["--set", "spec.violation_share=0.01", "--out", "a"];
-    let (code, out, error) = run(here, &[&SMALL[..], &share, &["--set", "spec.deviation.max_m=40"]].concat());
+    let drawn = ["--set", "generate.search.method=uniform", "--set", "generate.search.waypoints=100"];
+    let share = ["--set", "spec.violation_share=0.01", "--set", "spec.deviation.max_m=40"];
+    let (code, out, error) = run(here, &[&SMALL[..], &drawn, &share, &["--out", "a"]].concat());
     assert_eq!(code, 5, "{out}{error}");
     let told =
         "`spec.violation_share` = 0.01: of 4 cases none can show so small a share at 95 % confidence; it takes 368";
@@ -154,6 +155,8 @@ fn a_share_that_the_cases_cannot_show_is_told_before_the_run() {
             "spec.limits={ path_deviation_m = 1, violation_share = 0.1, confidence = 0.99 }",
             "--set",
             "generate.search.cases=50",
+            "--set",
+            "generate.search.method=uniform",
             "--time-limit",
             "0",
             "--out",
@@ -164,6 +167,10 @@ fn a_share_that_the_cases_cannot_show_is_told_before_the_run() {
         error.contains("`spec.limits.violation_share` = 0.1: of 50 cases") && error.contains("it takes 51"),
         "{error}"
     );
+    // Of cases that are searched the count decides, and any number of them shows it.
+    let (code, out, error) = run(here, &[&SMALL[..], &share, &["--out", "c"]].concat());
+    assert!(code == 0 && out.contains("; 0 of 4 searched violate, within the 1 % allowed of them; "), "{out}{error}");
+    assert!(!error.contains("violation_share") && !out.contains("3/N"), "{out}{error}");
     // As shipped, scenarios have as many cases as their share takes.
     for kind in ["rover", "car", "differential-drive"] {
         let (_, _, error) = run(here, &["generate", kind, "--time-limit", "0", "--out", kind]);

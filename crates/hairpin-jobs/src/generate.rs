@@ -80,7 +80,7 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     if let Some(problem) = executor_trouble {
         return Err(problem);
     }
-    work.folder.write_curves(work.setup.scenario.search().stress, &tally.curves)?;
+    work.folder.write_curves(&hairpin::campaign::generate::column(&work.setup), &tally.curves)?;
     if let Some(model) = &tally.model {
         atomic::write_json(&work.folder.file(learn::NAME), model)?;
     }

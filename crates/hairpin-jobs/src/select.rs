@@ -187,7 +187,7 @@ fn write(
     // Missions are those of the cases in their order: a choice keeps numbers, and may be chosen from again.
     let missions = all.iter().zip(&old_tally.missions);
     let names = missions.filter(|(case, _)| numbers.contains(&case.number)).map(|(_, name)| name.clone()).collect();
-    let tally = Tally { complete: true, missions: names, ..old_tally };
+    let tally = Tally { complete: true, missions: names, selected: true, ..old_tally };
     there.write_tally(&tally)?;
     let facts: Vec<_> =
         table.into_iter().filter(|((case, _), _)| numbers.contains(case)).map(|(_, facts)| facts).collect();

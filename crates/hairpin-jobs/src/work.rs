@@ -3,8 +3,8 @@
 use std::path::{Component, Path, PathBuf};
 
 use hairpin::campaign::scenario::Asked;
-use hairpin::campaign::{Scenario, Setup, vary};
-use hairpin::judgement::cases_needed;
+use hairpin::campaign::{Scenario, Setup, Tally, vary};
+use hairpin::judgement::{Chosen, cases_needed};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
 use hairpin_formats::recordings;
@@ -83,7 +83,8 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     check_command(&setup.scenario)?;
     let (kept, wishes) = (kept_in(&settings.scenario), Wish::of_campaign(&setup));
     settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
-    tell_share(&setup.scenario, setup.scenario.search().cases, watch);
+    let search = setup.scenario.search();
+    tell_share(&setup.scenario, (search.cases, Tally::default().chosen(&search)), watch);
     may_make(&path, &setup, settings.if_there)?;
     if let Some(user) = setup.user_score() {
         let deadline = Deadline::after(settings.time_limit_s);
@@ -275,10 +276,11 @@ fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
     }
 }
 
-/// Tells whoever waits for `cases` cases that they are too few for the share of violations that `scenario` allows.
-pub(crate) fn tell_share(scenario: &Scenario, cases: u64, watch: &dyn Watch) {
+/// Tells whoever waits for `cases` cases that they are too few for the share of violations that `scenario` allows,
+/// where they are drawn at random: of any others the count decides.
+pub(crate) fn tell_share(scenario: &Scenario, (cases, chosen): (u64, Chosen), watch: &dyn Watch) {
     let head = scenario.head();
-    let Some(share) = head.violation_share else { return };
+    let Some(share) = head.violation_share.filter(|_| chosen == Chosen::AtRandom) else { return };
     let confidence = head.confidence.unwrap_or(CONFIDENCE);
     let Some(needed) = cases_needed(share, confidence).filter(|needed| *needed as u64 > cases) else { return };
     let key = if head.limits.iter().any(|key| key.starts_with("spec.limits.")) { "spec.limits" } else { "spec" };

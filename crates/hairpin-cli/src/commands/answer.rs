@@ -1,7 +1,7 @@
 //! What a campaign says on stdout: for people a table of the worst cases and the verdict, for machines one object.
 
 use hairpin::campaign::report::{COLUMNS, cells, violation, worst_first};
-use hairpin::campaign::{Case, CaseResult, Status, Tally};
+use hairpin::campaign::{Baseline, Case, CaseResult, Status, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::{Metric, Outcome, Regression};
 use hairpin_formats::header::Header;
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use crate::console;
 use crate::exit::NOTHING_FEASIBLE;
 
-/// Confidence of the shares of violations that come again.
+/// Confidence of the shares of violations, where the scenario names none.
 const CONFIDENCE: f64 = 0.95;
 /// Rows of the table.
 const WORST: usize = 5;
@@ -91,6 +91,19 @@ impl Answer<'_> {
         self.judgement.results.iter().filter(|result| result.status == status).count()
     }
 
+    /// The violations among the judged cases, and how these were come by; an interval only where that was at random.
+    fn share(&self) -> Value {
+        let scenario = &self.work.setup.scenario;
+        let chosen = self.tally.chosen(&scenario.search());
+        let violated = self.count(Status::Fail);
+        let of = violated + self.count(Status::Pass) + self.count(Status::Unjudged);
+        let share = chosen.share(violated, of, scenario.confidence().unwrap_or(CONFIDENCE));
+        json!({
+            "cases": chosen.word(), "violated": violated, "of": of,
+            "low": share.map(|share| share.low), "high": share.map(|share| share.high),
+        })
+    }
+
     fn object(&self) -> Value {
         let file = |name: &str| {
             let path = self.work.folder.path().join(name);
@@ -120,6 +133,9 @@ impl Answer<'_> {
                 "inconclusive": self.count(Status::Inconclusive),
                 "attitude_unknown": self.judgement.attitude_unknown,
             },
+            "share": self.share(),
+            "baseline": self.judgement.baseline.as_ref().map(baseline),
+            "stress_percent": self.judgement.baseline.as_ref().and_then(|it| it.stress_percent(&self.judgement.results)),
             "frame": self.header(),
             "worst": worst_first(&self.judgement.results).first().map(|result| {
                 let mut object = worst(result);
@@ -133,6 +149,14 @@ impl Answer<'_> {
             "paths": paths,
         })
     }
+}
+
+/// What random feasible cases came to.
+pub(super) fn baseline(found: &Baseline) -> Value {
+    json!({
+        "cases": found.cases, "executions": found.executions, "metric": found.stress.column(), "mean": found.mean,
+        "interval": found.interval, "median": found.median, "max": found.max, "worst": found.worst,
+    })
 }
 
 /// A saved case and what it comes to now.
@@ -201,6 +225,13 @@ fn worst(result: &CaseResult) -> Value {
         "saturation_share": measures.and_then(|m| m.saturation_share),
         "joint_effort_rad2_s3": measures.and_then(|m| m.joint_effort),
         "ended": result.ended,
+        "draws": result.draws.map(|draws| {
+            let share = draws.share(CONFIDENCE);
+            json!({
+                "violated": draws.violated, "of": draws.of,
+                "low": share.map(|share| share.low), "high": share.map(|share| share.high),
+            })
+        }),
         "reruns": result.reruns.map(|reruns| {
             let share = reruns.share(CONFIDENCE);
             json!({

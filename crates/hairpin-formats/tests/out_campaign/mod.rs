@@ -3,7 +3,7 @@
 
 pub(crate) mod stress;
 
-use hairpin::campaign::{Case, CaseNumber, CaseResult, Evidence, Reruns, Run, Status, Tally};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Draws, Evidence, Reruns, Run, Status, Tally};
 use hairpin::judgement::Violation;
 use hairpin::judgement::{LegMeasures, Measures};
 use hairpin::trajectory::{Channel, Ended, Flight, Profile, ProfileLeg, Track};
@@ -165,6 +165,7 @@ pub(crate) fn failed() -> CaseResult {
         message: None,
         // A violation that was run again keeps what came of it.
         reruns: Some(Reruns { violated: 3, of: 10 }),
+        draws: Some(Draws { violated: 2, of: 4 }),
     }
 }
 
@@ -180,6 +181,7 @@ pub(crate) fn executor_failed() -> CaseResult {
         drawn: vec![],
         message: Some("timed out after 60 s\nlog \u{1b}[31mred\u{1b}[0m \u{7} <line> & \"quotes\"".into()),
         reruns: None,
+        draws: None,
     }
 }
 
@@ -195,5 +197,6 @@ pub(crate) fn passed() -> CaseResult {
         drawn: vec![],
         message: None,
         reruns: None,
+        draws: None,
     }
 }

@@ -120,6 +120,7 @@ fn fly(setup: &Setup, case: &Case) -> (Result<Flight, String>, CaseResult) {
         drawn: vec![],
         message,
         reruns: None,
+        draws: None,
     };
     if case.number == CaseNumber(5) {
         let why = "time-out 60 s\nSegmentation fault <core dumped>".to_owned();

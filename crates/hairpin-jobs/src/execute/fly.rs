@@ -192,7 +192,12 @@ fn fly_with(
     tracing::info!("{} missions by {processes} processes", flown.into_inner());
 }
 
-fn as_run(setup: &Setup, case: &Case, number: usize, result: Result<hairpin::trajectory::Flight, Failed>) -> Run {
+pub(super) fn as_run(
+    setup: &Setup,
+    case: &Case,
+    number: usize,
+    result: Result<hairpin::trajectory::Flight, Failed>,
+) -> Run {
     Run {
         case: case.number,
         run: number,

@@ -1,21 +1,26 @@
 //! Execution: the flights of a campaign whose trajectories are there, or of waypoint files made elsewhere.
 
+mod by_case;
 mod fly;
 mod in_loop;
 mod recorded;
 
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::Tally;
+use hairpin::judgement::Chosen;
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::waypoints;
 
+use crate::baseline::fly_baseline;
 use crate::consent::{Consent, Wish};
 use crate::missions::adopt;
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
 use crate::work::{changed_by, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
+pub(crate) use by_case::fly_by_case;
 pub use fly::{Flown, fly_each};
 pub(crate) use fly::{attitude_unknown, fly_missing, fly_one, fly_together};
 pub(crate) use in_loop::{Asked, in_the_loop};
@@ -76,7 +81,10 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     }
     let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
     let cases = missions.as_ref().map_or(kept.as_ref().map_or(0, Vec::len), Vec::len);
-    tell_share(&work.setup.scenario, cases as u64, watch);
+    let tally =
+        if missions.is_none() && work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
+    let chosen = if missions.is_some() { Chosen::Given } else { tally.chosen(&work.setup.scenario.search()) };
+    tell_share(&work.setup.scenario, (cases as u64, chosen), watch);
     // Whatever can be refused is refused before anything is lost.
     let replayed = replay_saved(&work.setup, work.folder.path(), settings.repro.as_deref(), watch)?;
     recorded::check(&work, kept.as_deref().unwrap_or_default())?;
@@ -98,6 +106,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
         work.folder.forget_runs()?;
     }
     let flown = fly_missing(&work, &cases, watch)?;
+    let tally = if work.folder.has_tally() { work.folder.read_tally()? } else { tally };
+    fly_baseline(&work, &tally, flown, watch)?;
     let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
     Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, missions, replayed })
 }

@@ -38,6 +38,7 @@ pub(super) fn suite(
         properties: [
             property("verdict", verdict.sentence.clone()),
             property("seed", scenario.seed().to_string()),
+            property("cases", tally.chosen(&scenario.search()).word().into()),
             property("version", env!("CARGO_PKG_VERSION").into()),
         ]
         .into_iter()

@@ -182,6 +182,7 @@ impl Answer {
             drawn: Vec::new(),
             message: None,
             reruns: None,
+            draws: None,
         }
     }
 }

@@ -297,6 +297,23 @@ impl Reruns {
     }
 }
 
+/// The runs of a case whose values `[vary]` drew: at random and each by itself, so that their share of violations is an
+/// estimate, of this case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Draws {
+    /// Runs that violate.
+    pub violated: usize,
+    /// Of so many that were judged.
+    pub of: usize,
+}
+
+impl Draws {
+    /// The share that violates, with its Clopper-Pearson interval.
+    pub fn share(&self, confidence: f64) -> Option<Share> {
+        share(self.violated, self.of, confidence)
+    }
+}
+
 /// A judged case: one row of `results.parquet`, its worst run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseResult {
@@ -320,6 +337,8 @@ pub struct CaseResult {
     pub message: Option<String>,
     /// How often the violation comes again.
     pub reruns: Option<Reruns>,
+    /// How many of the runs with drawn values violate; `None` where none was drawn.
+    pub draws: Option<Draws>,
 }
 
 #[cfg(test)]

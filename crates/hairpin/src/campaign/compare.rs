@@ -257,6 +257,7 @@ mod tests {
                 drawn: Vec::new(),
                 message: None,
                 reruns: None,
+                draws: None,
             };
             (case, result)
         };

@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 
 use super::influence::RunDeviation;
 use super::scenario::{Asked, DeviationFrom};
-use super::{Case, CaseResult, Mistake, Run, Setup, Status};
+use super::{Case, CaseResult, Draws, Mistake, Run, Setup, Status};
 use crate::judgement::moves::Measured;
 use crate::judgement::{self, JudgementError, Late, Measures, Reference, Settings, Violation};
 use crate::trajectory::{Flight, PlannedPath, Track};
@@ -27,6 +27,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
     let mut deviations = Vec::with_capacity(runs.len());
     let (mut failed, mut unflown) = (None, None);
     let plan = Planned::default();
+    let mut draws = Draws { violated: 0, of: 0 };
     for run in runs {
         let flight = match &run.outcome {
             Ok(flight) => flight,
@@ -37,6 +38,10 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
         };
         match judge_run(setup, case, &plan, run, flight)? {
             Ok(judged) => {
+                if !run.drawn.is_empty() && judged.open.is_none() {
+                    draws.of += 1;
+                    draws.violated += usize::from(!judged.violations.is_empty());
+                }
                 failed = failed.or_else(|| judged.open.as_ref().map(|why| format!("run {}: {why}", run.run)));
                 deviations.push(RunDeviation {
                     case: case.number,
@@ -62,6 +67,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
         (false, None, None) => Status::Unjudged,
     };
     let message = unflown.or(failed);
+    let draws = (draws.of > 0).then_some(draws);
     let result = match worst {
         Some((judged, run)) => CaseResult {
             case: case.number,
@@ -74,6 +80,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
             drawn: run.drawn.clone(),
             message,
             reruns: None,
+            draws,
         },
         None => CaseResult {
             case: case.number,
@@ -86,6 +93,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
             drawn: runs.first().map_or_else(Vec::new, |run| run.drawn.clone()),
             message,
             reruns: None,
+            draws,
         },
     };
     Ok((result, deviations))
@@ -208,11 +216,11 @@ fn judge_run(
     }))
 }
 
-/// The planned motion that deviations are measured from.
+/// The motion that deviations from the path are measured from.
 fn reference(setup: &Setup, case: &Case) -> Option<Track> {
     match setup.kind().programs() {
         Some(programs) => programs.reference(case),
-        None => setup.kind().planned(case).ok(),
+        None => setup.kind().followed(case).ok(),
     }
 }
 

@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::curve::Curve;
 use super::learn::ScoreModel;
+use super::scenario::{SearchMethod, SearchSection};
+use crate::judgement::Chosen;
 
 /// What a generation did, in numbers; the report's and the verdict's.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -54,9 +56,23 @@ pub struct Tally {
     /// Names of the files that the cases were read from, in their order, where these are missions made elsewhere.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub missions: Vec<String>,
+    /// Whether its cases are some of another campaign's, chosen for what they are.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub selected: bool,
 }
 
 impl Tally {
+    /// How the cases were come by, that `search` was to find.
+    pub fn chosen(&self, search: &SearchSection) -> Chosen {
+        match search.method {
+            _ if self.selected => Chosen::Selected,
+            _ if !self.missions.is_empty() => Chosen::Given,
+            SearchMethod::Uniform if search.per_graph > 1 => Chosen::InGroups,
+            SearchMethod::Uniform => Chosen::AtRandom,
+            _ => Chosen::Searched,
+        }
+    }
+
     /// Cases asked for: as many as `wanted`, or as there were missions.
     pub fn asked(&self, wanted: u64) -> usize {
         if self.missions.is_empty() { wanted as usize } else { self.missions.len() }
@@ -95,4 +111,24 @@ pub struct RoundTally {
     pub rank_correlation: Option<f64>,
     /// Why there was no model, in a sentence's part; never of the first round.
     pub unlearned: Option<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cases_are_at_random_that_were_drawn_one_by_one() {
+        let of =
+            |method, per_graph, tally: &Tally| tally.chosen(&SearchSection { method, per_graph, ..Default::default() });
+        let tally = Tally::default();
+        assert_eq!(of(SearchMethod::Uniform, 1, &tally), Chosen::AtRandom);
+        assert_eq!(of(SearchMethod::Uniform, 5, &tally), Chosen::InGroups);
+        for method in [SearchMethod::Beam, SearchMethod::Exact, SearchMethod::InLoop, SearchMethod::Adaptive] {
+            assert_eq!(of(method, 1, &tally), Chosen::Searched);
+        }
+        let given = Tally { missions: vec!["a".into()], ..Tally::default() };
+        assert_eq!(of(SearchMethod::Uniform, 1, &given), Chosen::Given);
+        assert_eq!(of(SearchMethod::Uniform, 1, &Tally { selected: true, ..given }), Chosen::Selected);
+    }
 }

@@ -7,7 +7,7 @@
 //! Track + waypoints + Settings ─ measure ─▶ Measures ─ violations(Limits) ─▶ Violation, gravest first
 //!                                              │
 //!                                              └ Stress: the one number that a search or a model is about
-//! cases of a campaign ─ share, statistics ─▶ verdict: one sentence, one exit code
+//! cases of a campaign ─ share (as they were chosen), statistics ─▶ verdict: one sentence, one exit code
 //! two sets of runs ─ paired: signed rank, medians, Holm ─▶ whether one is worse than chance has it
 //! an arm's recordings + PlannedPath ─ moves ─▶ each move: deviation, lateness, trend, regression
 //! ```
@@ -18,11 +18,13 @@
 
 mod apart;
 mod assign;
+mod chosen;
 mod deviation;
 pub mod measure;
 pub mod measures;
 pub mod moves;
 pub mod paired;
+mod quantile;
 pub mod settings;
 pub mod spec;
 pub mod statistics;
@@ -32,11 +34,15 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
+pub use chosen::Chosen;
 pub use measure::{deviation_of_samples, measure};
 pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures};
 pub use paired::{Median, SignedRank, holm, median, signed_rank};
+pub use quantile::{Quantile, exceeded_by};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
-pub use statistics::{Share, Statistics, cases_needed, rank_correlation, rule_of_three, share, skewness};
+pub use statistics::{
+    Share, Statistics, cases_needed, mean_interval, rank_correlation, rule_of_three, share, skewness,
+};
 pub use stress::Stress;
-pub use verdict::{Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};
+pub use verdict::{Beside, Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};

@@ -5,12 +5,12 @@
 //! (2, wrong input, is no verdict). A violation is a fact whatever else went wrong, so it comes first; then a failed
 //! executor, because what was not flown was not judged; then data or an interval that allow no verdict.
 //!
-//! One sentence, whatever the robot: outcome, how obtained, worst and where, share with its interval, evidence. What
-//! was not counted is said, what was derived has its word, and an interval that straddles a limit is INCONCLUSIVE, not
-//! a pass.
+//! One sentence, whatever the robot: outcome, how obtained, worst and where, share of violations (with its interval
+//! where cases were drawn at random), evidence. What was not counted is said, what was derived has its word, and an
+//! interval that straddles a limit is INCONCLUSIVE, not a pass.
 
+use super::chosen::{Against, Chosen, Count, draws_sentence};
 use super::spec::Violation;
-use super::statistics::{rule_of_three, share};
 
 /// One sentence and its exit code.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,6 +50,15 @@ pub struct Worst<'a> {
     pub saturation: Option<f64>,
 }
 
+/// Cases that nobody chose, for the worst to stand beside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Beside<'a> {
+    /// What the worst is the worst of: `4 000 flown`.
+    pub of: &'a str,
+    /// What the others came to: `random feasible ones 1.22 m in the mean (1.05 to 1.40), 1.90 m at worst of 20`.
+    pub by_chance: &'a str,
+}
+
 /// What a campaign came to.
 ///
 /// Counts, not cases: what they rest on stays with the campaign.
@@ -77,10 +86,16 @@ pub struct Judged<'a> {
     pub doubt: &'a str,
     /// The worst of all runs; `None` where nothing is limited.
     pub worst: Option<Worst<'a>>,
+    /// What the worst stands beside, where that is known.
+    pub beside: Option<Beside<'a>>,
     /// Share of cases that may violate; `None` or 0: not one.
     pub share_limit: Option<f64>,
     /// Confidence of the share's interval.
     pub confidence: f64,
+    /// How the cases were come by, which says whether their share has an interval.
+    pub chosen: Chosen,
+    /// Of the runs of an only case whose values were drawn: how many violate, of how many that were judged.
+    pub draws: Option<[usize; 2]>,
     /// Evidence of the cases, those of count 0 left out.
     pub claims: &'a [Claim<'a>],
     /// How often violations come again, where they were run again.
@@ -105,8 +120,11 @@ impl Default for Judged<'_> {
             trouble: "",
             doubt: "",
             worst: None,
+            beside: None,
             share_limit: None,
             confidence: 0.95,
+            chosen: Chosen::default(),
+            draws: None,
             claims: &[],
             reruns: None,
             estimated: None,
@@ -118,28 +136,30 @@ impl Default for Judged<'_> {
 /// The verdict on executed cases.
 ///
 /// Cases that the executor failed to fly or whose data are inconclusive count neither as pass nor as fail: the share
-/// is of the others. Without a share limit one violating case is a FAIL. With one, the Clopper-Pearson interval of
-/// the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it. Where nothing
-/// was asked for, what is no FAIL is UNJUDGED.
+/// is of the others. Without a share limit one violating case is a FAIL. With one, of cases that were drawn at random
+/// the Clopper-Pearson interval of the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if
+/// it straddles it; of any others, searched ones above all, the plain count does, for it is of nothing but them. Where
+/// nothing was asked for, what is no FAIL is UNJUDGED.
 ///
 /// ```
-/// use hairpin::judgement::{Judged, verdict};
+/// use hairpin::judgement::{Chosen, Judged, verdict};
 ///
-/// let none = verdict(&Judged { how: &["simulated"], cases: 200, asked: 200, ..Judged::default() });
+/// let searched = Judged { how: &["simulated"], cases: 200, asked: 200, ..Judged::default() };
+/// let at_random = Judged { chosen: Chosen::AtRandom, ..searched };
+/// let none = verdict(&at_random);
 /// assert_eq!(none.exit_code, 0);
 /// assert!(none.sentence.contains("share at most 1.5 % (3/N, 95 %)"));
-/// let some = verdict(&Judged { how: &["simulated"], cases: 200, asked: 200, failed: 3, ..Judged::default() });
+/// let some = verdict(&Judged { failed: 3, ..searched });
 /// assert!(some.exit_code == 1 && some.sentence.starts_with("FAIL 3/200"));
+/// assert!(some.sentence.contains("3 of 200 searched violate"));
 /// ```
 pub fn verdict(judged: &Judged) -> Verdict {
     let counted = judged.cases.saturating_sub(judged.executor_failed + judged.inconclusive);
-    let interval = share(judged.failed, counted, judged.confidence);
+    let count = Count { chosen: judged.chosen, failed: judged.failed, of: counted, confidence: judged.confidence };
     let limit = judged.share_limit.filter(|limit| *limit > 0.0);
-    let (fails, open) = match (limit, interval) {
-        (None, _) => (judged.failed > 0, false),
-        (Some(limit), Some(interval)) => (interval.low > limit, interval.high > limit),
-        (Some(_), None) => (false, true),
-    };
+    let against = limit.map(|limit| count.against(limit));
+    let fails = against.map_or(judged.failed > 0, |against| against == Against::Above);
+    let open = against == Some(Against::Open);
     let (k, n) = (judged.failed, judged.cases);
     let (start, exit_code) = if fails {
         (format!("FAIL {k}/{n} {}", how(judged)), 1)
@@ -158,7 +178,7 @@ pub fn verdict(judged: &Judged) -> Verdict {
     } else {
         (format!("PASS {}/{n} {}", n - k, how(judged)), 0)
     };
-    Verdict::of(&format!("{start}: {}", findings(judged, counted, limit).join("; ")), exit_code)
+    Verdict::of(&format!("{start}: {}", findings(judged, &count, limit).join("; ")), exit_code)
 }
 
 /// `NOTHING FEASIBLE (proof, hull): no chain of 10 waypoints from start to end; smallest change: …`; exit 3.
@@ -185,18 +205,19 @@ fn how(judged: &Judged) -> String {
 }
 
 /// Worst and where, share, evidence, and what was not counted.
-fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> {
+fn findings(judged: &Judged, count: &Count, limit: Option<f64>) -> Vec<String> {
     let mut parts = Vec::new();
-    if let Some(worst) = &judged.worst {
-        parts.push(worst_and_where(worst));
-    }
+    let of = judged.beside.map_or(String::new(), |beside| format!(", of {}", beside.of));
+    parts.extend(judged.worst.as_ref().map(|worst| worst_and_where(worst) + &of));
+    parts.extend(judged.beside.map(|beside| beside.by_chance.to_owned()));
     if !judged.limited {
         let nothing =
             if judged.failed > 0 { "nothing else was" } else { "nothing crashed or left the world, no more was" };
         parts.push(format!("{nothing} asked for: spec = \"none\""));
     }
     if judged.limited || judged.failed > 0 {
-        parts.extend(share_sentence(judged, counted, limit));
+        parts.extend(count.sentence(limit));
+        parts.extend(judged.draws.and_then(|[failed, of]| draws_sentence(failed, of, judged.confidence)));
     }
     parts.extend(judged.reruns.map(str::to_owned));
     if judged.executor_failed > 0 && judged.failed > 0 {
@@ -220,33 +241,6 @@ fn findings(judged: &Judged, counted: usize, limit: Option<f64>) -> Vec<String> 
         }
     }
     if parts.is_empty() { vec!["nothing to judge".into()] } else { parts }
-}
-
-fn share_sentence(judged: &Judged, counted: usize, limit: Option<f64>) -> Option<String> {
-    let interval = share(judged.failed, counted, judged.confidence)?;
-    let mut sentence = if judged.failed == 0 {
-        format!("no violation in {counted} cases: share at most {} % (3/N, 95 %)", percent(rule_of_three(counted)))
-    } else {
-        let confidence = if judged.confidence == 0.95 {
-            String::new()
-        } else {
-            format!(" at {} %", trimmed(100.0 * judged.confidence))
-        };
-        let (value, low, high) = (percent(interval.value), percent(interval.low), percent(interval.high));
-        format!("share {value} % [{low}, {high}]{confidence}")
-    };
-    if let Some(limit) = limit {
-        let allowed = trimmed(100.0 * limit);
-        if interval.low > limit {
-            sentence += &format!(", above the {allowed} % allowed");
-        } else if interval.high > limit {
-            let ends = if judged.failed == 0 { format!(" [0.0, {}]", percent(interval.high)) } else { String::new() };
-            sentence += &format!(", interval{ends} straddles the {allowed} % allowed");
-        } else {
-            sentence += &format!(", within the {allowed} % allowed");
-        }
-    }
-    Some(sentence)
 }
 
 fn worst_and_where(worst: &Worst) -> String {
@@ -279,21 +273,6 @@ fn worst_and_where(worst: &Worst) -> String {
     sentence
 }
 
-/// A share in percent: one decimal, or two digits where it is below 0.1 %.
-fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    if percent == 0.0 || percent >= 0.1 {
-        return format!("{percent:.1}");
-    }
-    let decimals = (1.0 - libm::log10(percent).floor()).clamp(1.0, 12.0) as usize;
-    format!("{percent:.decimals$}")
-}
-
-/// A number without trailing zeros, rounded to what percentages need.
-fn trimmed(number: f64) -> String {
-    ((number * 1e6).round() / 1e6).to_string()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -307,7 +286,8 @@ mod tests {
 
     fn with<'a>(failed: usize, value: &'a Violation) -> Judged<'a> {
         let worst = Some(Worst { case: "0117", value, saturation: Some(0.31) });
-        Judged { how: HOW, runs: 5, cases: 200, failed, worst, claims: WITNESSED, ..Judged::default() }
+        let chosen = Chosen::AtRandom;
+        Judged { how: HOW, runs: 5, cases: 200, failed, worst, chosen, claims: WITNESSED, ..Judged::default() }
     }
 
     #[test]
@@ -339,7 +319,7 @@ mod tests {
         let of = |value: &Violation| {
             let worst = Some(Worst { case: "0003", value, saturation: None });
             let verdict = verdict(&Judged { how, cases: 20, failed: 1, worst, ..Judged::default() });
-            verdict.sentence.split("each): ").nth(1).unwrap().split("; share").next().unwrap().to_owned()
+            verdict.sentence.split("each): ").nth(1).unwrap().split("; 1 of 20").next().unwrap().to_owned()
         };
         let at = |what: &str, value, limit, unit: &str| Violation {
             what: what.into(),
@@ -389,6 +369,49 @@ mod tests {
         // No violation at all, but too few cases to say so of one in a thousand.
         assert_eq!(of(0, 0.001).exit_code, 5);
         assert_eq!((of(1, 0.0).exit_code, of(0, 0.0).exit_code), (1, 0));
+    }
+
+    #[test]
+    fn of_cases_that_were_searched_the_count_is_told_and_decides() {
+        let value = violation("deviation", 0.65, 0.5);
+        let of =
+            |failed, share_limit| verdict(&Judged { chosen: Chosen::Searched, share_limit, ..with(failed, &value) });
+        let fails = of(3, None);
+        assert_eq!(
+            fails.sentence,
+            "FAIL 3/200 (simulated, anafi stand-in, minimum-snap, 5 runs each): worst 0.65 m > 0.50 m, case 0117, \
+             t = 12.34 s, leg 4→5, rotors saturated 31 %; 3 of 200 searched violate; all 200 witnessed"
+        );
+        let within = of(3, Some(0.02));
+        assert!(within.exit_code == 0 && within.sentence.starts_with("PASS 197/200 ("), "{}", within.sentence);
+        assert!(within.sentence.contains("3 of 200 searched violate, within the 2 % allowed of them"));
+        assert_eq!((of(0, Some(0.001)).exit_code, of(5, Some(0.02)).exit_code), (0, 1));
+        for told in [fails, within] {
+            assert!(!told.sentence.contains("3/N") && !told.sentence.contains('['), "{}", told.sentence);
+        }
+        // What was not judged is open, whatever was allowed.
+        assert_eq!(verdict(&Judged { inconclusive: 200, ..with(0, &value) }).exit_code, 5);
+    }
+
+    #[test]
+    fn the_worst_stands_beside_what_nobody_chose() {
+        let value = violation("deviation", 3.91, 0.5);
+        let by_chance = "random feasible ones 1.22 m in the mean (1.05 to 1.40), 1.90 m at worst of 20";
+        let beside = Some(Beside { of: "4 000 flown", by_chance });
+        let told = verdict(&Judged { beside, chosen: Chosen::Searched, ..with(3, &value) }).sentence;
+        let expected = "worst 3.91 m > 0.50 m, case 0117, t = 12.34 s, leg 4→5, rotors saturated 31 %, of 4 000 flown; random \
+                        feasible ones 1.22 m in the mean (1.05 to 1.40), 1.90 m at worst of 20; 3 of 200 searched violate; \
+                        all 200 witnessed";
+        assert!(told.ends_with(expected), "{told}");
+    }
+
+    #[test]
+    fn draws_of_an_only_case_have_their_share() {
+        let value = violation("deviation", 0.65, 0.5);
+        let one = Judged { chosen: Chosen::Searched, cases: 1, draws: Some([7, 199]), claims: &[], ..with(1, &value) };
+        let told = verdict(&one).sentence;
+        let share = "; 1 of 1 searched violate; 7 of 199 draws of `[vary]` violate: share 3.5 % [1.4, 7.1]";
+        assert!(told.ends_with(share), "{told}");
     }
 
     #[test]
@@ -460,10 +483,5 @@ mod tests {
         let value = violation("deviation", 0.65, 0.5);
         let proven = verdict(&Judged { proof: Some("optimal"), ..with(3, &value) });
         assert!(proven.sentence.ends_with("; all 200 witnessed, optimal"), "{}", proven.sentence);
-    }
-
-    #[test]
-    fn digits_show_the_difference() {
-        assert_eq!((percent(0.015), percent(0.0), percent(0.000_031)), ("1.5".into(), "0.0".into(), "0.0031".into()));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, CaseResult, Environment, Evidence, Reruns, Status};
+use hairpin::campaign::{Case, CaseResult, Draws, Environment, Evidence, Reruns, Status};
 use hairpin::judgement::Violation;
 use hairpin::judgement::measures::{AccelerationSource, LegSource};
 use hairpin::judgement::{Late, LegMeasures, Measures};
@@ -88,7 +88,8 @@ fn read_results(table: &Table, cases: &[Case]) -> Result<Vec<Option<CaseResult>>
     let left = table.optional_numbers("left_world_s")?;
     let messages = table.optional_texts("message")?;
     let measures = read_measures(table)?;
-    let reruns = read_reruns(table)?;
+    let reruns = read_counts(table, ["reruns", "rerun_violations"])?;
+    let draws = read_counts(table, ["draws", "draw_violations"])?;
     let violations = read_violations(table)?;
     let drawn = drawn::read(table)?;
     let rows = measures.into_iter().zip(violations).zip(messages).zip(drawn).enumerate();
@@ -111,24 +112,26 @@ fn read_results(table: &Table, cases: &[Case]) -> Result<Vec<Option<CaseResult>>
             violations,
             drawn,
             message,
-            reruns: reruns[row],
+            reruns: reruns[row].map(|[violated, of]| Reruns { violated, of }),
+            draws: draws[row].map(|[violated, of]| Draws { violated, of }),
         }))
     })
     .collect()
 }
 
-/// How often violations came again; tables of older versions do not say.
-fn read_reruns(table: &Table) -> Result<Vec<Option<Reruns>>, TableError> {
-    if !has_column(table, "reruns") {
+/// How many runs violated, and of how many, from the columns of all and of those; tables without such runs, or of older
+/// versions, do not say.
+fn read_counts(table: &Table, [all, those]: [&str; 2]) -> Result<Vec<Option<[usize; 2]>>, TableError> {
+    if !has_column(table, all) {
         return Ok(vec![None; table.rows()]);
     }
-    let (of, violated) = (table.optional_counts("reruns")?, table.optional_counts("rerun_violations")?);
+    let (of, violated) = (table.optional_counts(all)?, table.optional_counts(those)?);
     let both = |(row, (of, violated)): (usize, (Option<usize>, Option<usize>))| match (of, violated) {
-        (Some(of), Some(violated)) if violated <= of => Ok(Some(Reruns { violated, of })),
+        (Some(of), Some(violated)) if violated <= of => Ok(Some([violated, of])),
         (None, None) => Ok(None),
         (of, violated) => {
             let found = violated.map_or("empty".into(), |violated| violated.to_string());
-            Err(table.refuse("rerun_violations", row, found, format!("at most {}", of.unwrap_or(0))))
+            Err(table.refuse(those, row, found, format!("at most {}", of.unwrap_or(0))))
         }
     };
     of.into_iter().zip(violated).enumerate().map(both).collect()

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use arrow_array::builder::{Float64Builder, Int64Builder, ListBuilder, StringBuilder};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray, UInt64Array};
-use hairpin::campaign::{Case, CaseResult, Reruns};
+use hairpin::campaign::{Case, CaseResult, Draws, Reruns};
 use hairpin::judgement::Violation;
 use hairpin::judgement::{LegMeasures, Measures, Share};
 
@@ -102,6 +102,13 @@ fn push_rest(columns: &mut Columns, rows: &Rows) {
     if rows.iter().any(|(case, _)| case.environment.is_some()) {
         let text = |case: &Case| case.environment.as_ref().and_then(|found| serde_json::to_string(found).ok());
         columns.push("environment", texts(rows.iter().map(|(case, _)| text(case))));
+    }
+    if rows.iter().any(|(_, result)| result.is_some_and(|result| result.draws.is_some())) {
+        let drawn = |value: fn(&Draws) -> usize| {
+            integers(rows.iter().map(move |(_, result)| result.and_then(|r| r.draws.as_ref()).map(value)))
+        };
+        columns.push("draws", drawn(|draws| draws.of));
+        columns.push("draw_violations", drawn(|draws| draws.violated));
     }
     columns.push("violations", texts(rows.iter().map(|(_, result)| result.map(violations_text))));
     columns.push("message", texts(rows.iter().map(|(_, result)| result.and_then(|r| r.message.clone()))));

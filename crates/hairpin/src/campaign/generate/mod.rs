@@ -5,6 +5,7 @@
 //! `task` and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
 
 mod adaptive;
+mod by_chance;
 mod graphs;
 mod known;
 mod optima;
@@ -25,9 +26,11 @@ use super::trial::kept_seed;
 use super::{Case, CaseNumber, Executor, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
 use crate::trajectory::program::{Motion, Program};
+pub use by_chance::{ByChance, Purpose, by_chance};
 pub use known::Known;
 pub use optima::{Optimum, optima};
 pub use space::Space;
+pub use targets::column;
 
 /// Graphs that a case which is searched by itself may be drawn from.
 const GRAPHS_OF_A_CASE: u64 = 1 << 32;

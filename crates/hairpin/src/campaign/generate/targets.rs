@@ -1,6 +1,7 @@
 //! What the search `worst` is for: one stress, or every limit of a spec.
 
 use crate::campaign::Setup;
+use crate::campaign::scenario::SearchMethod;
 use crate::judgement::{Limits, Stress};
 
 /// A stress, and the limit that is asked of it, as it is measured: more is worse.
@@ -36,6 +37,14 @@ pub(super) fn targets(setup: &Setup) -> Vec<Target> {
     let given = limits.into_iter().filter(|(_, limit)| limit.is_some());
     let given: Vec<Target> = given.map(|(stress, limit)| Target { stress, limit }).collect();
     if given.is_empty() { one(Stress::default()) } else { given }
+}
+
+/// The name of what the largest stress so far of a search is told in: `max_deviation_m`, or `margin_in_spreads` where
+/// several limits are searched at once.
+pub fn column(setup: &Setup) -> String {
+    let search = setup.scenario.search();
+    let several = search.method == SearchMethod::Worst && targets(setup).len() > 1;
+    if several { "margin_in_spreads".into() } else { search.sought().column() }
 }
 
 /// How stresses are told: as they are where there is one, and as what they are beyond their limits, in spreads of what

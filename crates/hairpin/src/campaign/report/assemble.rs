@@ -27,7 +27,7 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         influences: pieces.influences,
         regression: None,
         coverage: pieces.coverage,
-        stress: pieces.setup.scenario.search().stress,
+        stress: pieces.setup.scenario.search().sought(),
         curves: pieces.tally.curves.clone(),
         rounds: pieces.tally.rounds.clone(),
     }

@@ -6,10 +6,10 @@ use crate::campaign::digits::number;
 use crate::campaign::kind::{Facts, word};
 use crate::campaign::scenario::Asked;
 use crate::campaign::{CaseResult, Status};
-use crate::judgement::{Measures, share};
+use crate::judgement::{Chosen, Measures, Stress};
 
-/// Largest deviation and its case, the share of violations among judged cases with its interval at the scenario's
-/// confidence (0.95 if none is given), and the number of cases.
+/// Largest deviation and its case, the violations among judged cases, with their share's interval at the scenario's
+/// confidence (0.95 if none is given) where cases were drawn at random, and the number of cases.
 pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     let of = |a: &str, b: String, c: String| [a.to_owned(), b, c];
     let judged =
@@ -23,16 +23,32 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
         let place = format!("t = {} s, leg {}", number(Some(measures.t_worst)), leg(measures.leg_worst));
         numbers.push(of("in case", cells(worst)[0].clone(), place));
     }
+    if let Some(random) = &pieces.baseline {
+        let setup = pieces.setup;
+        let interval =
+            random.interval_in_words(setup).map_or(String::new(), |interval| format!("{interval} in the mean, 95 %; "));
+        let stress = random.stress_percent(pieces.results);
+        let stress = stress.map_or(String::new(), |percent| format!("; these cases {percent:+.0} %"));
+        let note = format!("{interval}{} at worst of {}{stress}", random.told(setup, random.worst), random.cases);
+        let what = match random.stress {
+            Stress::MaxDeviation => "random feasible cases".to_owned(),
+            other => format!("random feasible cases: {}", other.word().replace('-', " ")),
+        };
+        numbers.push(of(&what, random.told(setup, random.mean), note));
+    }
     let confidence = pieces.setup.scenario.confidence().unwrap_or(0.95);
-    let interval = match share(failed, judged, confidence) {
+    let tally = pieces.tally;
+    let chosen = tally.chosen(&pieces.setup.scenario.search());
+    let share = match (chosen.share(failed, judged, confidence), chosen) {
         _ if pieces.setup.scenario.asked() != Asked::Limits => "crashes alone: spec = \"none\"".into(),
-        None => "none judged".into(),
-        Some(share) => {
+        _ if judged == 0 => "none judged".into(),
+        (Some(share), _) => {
             format!("{:.1} % [{:.1}, {:.1}]", 100.0 * share.value, 100.0 * share.low, 100.0 * share.high)
         }
+        (None, Chosen::Searched) => "of cases that were searched: no estimate of how often others do".into(),
+        (None, _) => "of these cases: no estimate of how often others do".into(),
     };
-    numbers.push(of("violations", format!("{failed} of {judged}"), interval));
-    let tally = pieces.tally;
+    numbers.push(of("violations", format!("{failed} of {judged}"), share));
     let asked = pieces.setup.scenario.search().cases;
     let origin = if tally.missions.is_empty() {
         format!("{asked} asked for; {} of {} graphs had one", tally.solved, tally.graphs)

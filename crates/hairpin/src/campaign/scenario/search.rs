@@ -192,6 +192,11 @@ impl SearchSection {
         self.executions.saturating_mul(self.cases)
     }
 
+    /// What is searched for, as the first word of it.
+    pub fn sought(&self) -> Stress {
+        self.target.map_or(self.stress, Target::stress)
+    }
+
     /// Whether waypoints are moved off their graphs.
     pub fn moves_waypoints(&self) -> bool {
         self.move_waypoints.unwrap_or(self.method == SearchMethod::Worst)

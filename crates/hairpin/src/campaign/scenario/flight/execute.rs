@@ -48,6 +48,9 @@ pub struct ExecuteSection {
     /// The older name of `processes`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub workers: Option<u64>,
+    /// Random feasible cases that are run alike, for the stress to stand beside; 0: none, 20 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<u64>,
     /// Every violation is run again so often with other noise: how often does it come again?
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flaky: Option<FlakySection>,
@@ -71,6 +74,7 @@ impl Default for ExecuteSection {
             timeout_s: 60.0,
             processes: None,
             workers: None,
+            baseline: None,
             flaky: None,
         }
     }
