@@ -185,6 +185,8 @@ fn judge_run(
             programs.measured(programmed?, &flight.track, path)
         });
         measures.latest = moves.as_ref().and_then(latest);
+        let moves_of = moves.iter().flat_map(|moves| &moves.moves);
+        measures.legs.iter_mut().zip(moves_of).for_each(|(leg, one)| leg.lateness = one.late());
         let mut violations = judgement::violations(&measures, flight, &terms.limits);
         let unseen = moves.as_ref().and_then(|moves| moves.unseen.as_ref());
         if unseen.is_some_and(|unseen| unseen.late_unproven) {

@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use super::ArmSetup;
-use crate::campaign::scenario::{ArmMode, PathFrom};
+use crate::campaign::scenario::{ArmMode, Keys, PathFrom, ProgramMethod};
 use crate::campaign::{Case, Tally};
 use crate::robot::arm::{Outline, body_name};
 use crate::search::heaviest::MOST_EXACT_POINTS;
@@ -78,6 +78,10 @@ pub(super) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut
         1 => "once".to_owned(),
         visits => format!("{visits} times and no move twice"),
     };
+    if search.method == ProgramMethod::Worst {
+        said.push(executed(setup, cases.len(), &often));
+        return;
+    }
     said.push(format!(
         "Search: paths of largest total cost `{}` among {} points, each at most {often}; points may be left out; {} of {} programs \
          asked for, pairwise different. `optimal` means proven over all such paths.",
@@ -97,6 +101,23 @@ pub(super) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut
             "Each search had {limit} s: where that did not suffice for the proof the gap to the bound is told."
         ));
     }
+}
+
+/// How programs were found by executing them.
+fn executed(setup: &ArmSetup, found: usize, often: &str) -> String {
+    let (moves, asked) = (&setup.scenario.generate.moves, setup.scenario.search());
+    let arcs = if moves.arcs { ", which points are passed by arcs" } else { "" };
+    format!(
+        "Search: programs among {} points, each at most {often}, by executing {} of them for the stress `{}`: which points come, in which \
+         order and configuration{arcs}, and the speeds ({}) and zones ({}) of the moves; {found} of {} programs asked for. Every program \
+         that was executed is a way through the graph of moves that are possible. Nothing says that no other is worse.",
+        setup.station.points.len(),
+        asked.executions,
+        asked.stress.word(),
+        moves.speeds.join(", "),
+        moves.zones.join(", "),
+        asked.cases,
+    )
 }
 
 /// Who ran them.
