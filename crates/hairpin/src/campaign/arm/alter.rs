@@ -176,7 +176,8 @@ impl Ways<'_> {
     /// `way` without the arcs that its order does not have any more.
     fn mended(&self, mut way: Vec<Met>) -> Vec<Met> {
         for k in 0..way.len() {
-            let standings = || Some([self.standing(&way[k - 1])?, self.standing(&way[k])?, self.standing(&way[k + 1])?]);
+            let standings =
+                || Some([self.standing(&way[k - 1])?, self.standing(&way[k])?, self.standing(&way[k + 1])?]);
             let inside = k > 0 && k + 1 < way.len();
             way[k].passed &= inside && !way[k - 1].passed && standings().is_some_and(|triple| self.has_arc(triple));
         }
@@ -193,7 +194,9 @@ impl Ways<'_> {
         if !fixed(search.start, first) || !fixed(search.end, last) || !way.iter().all(often) {
             return false;
         }
-        let Some(standings) = way.iter().map(|met| self.standing(met)).collect::<Option<Vec<_>>>() else { return false };
+        let Some(standings) = way.iter().map(|met| self.standing(met)).collect::<Option<Vec<_>>>() else {
+            return false;
+        };
         let mut moves = HashSet::new();
         let between = (1..way.len()).all(|k| {
             let (from, to) = (standings[k - 1], standings[k]);

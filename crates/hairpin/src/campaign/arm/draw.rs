@@ -52,9 +52,8 @@ impl Ways<'_> {
         }
         let search = &self.setup.scenario.generate.search;
         let (is_first, is_last) = (walk.len() == 1, walk.len() == length);
-        let fixed = |wanted: Option<u64>, here: bool, row: usize| {
-            !here || wanted.is_none_or(|wanted| wanted as usize == row)
-        };
+        let fixed =
+            |wanted: Option<u64>, here: bool, row: usize| !here || wanted.is_none_or(|wanted| wanted as usize == row);
         let came = |row: usize| walk.iter().filter(|place| matches!(place, Place::At(at) if at.row == row)).count();
         let rows = (0..self.points()).filter(|row| {
             fixed(search.start, is_first, *row)

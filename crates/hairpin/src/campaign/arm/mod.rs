@@ -29,6 +29,8 @@ mod seen;
 mod solve;
 mod solver;
 mod station;
+#[cfg(test)]
+mod tests;
 mod verify;
 mod ways;
 mod written;

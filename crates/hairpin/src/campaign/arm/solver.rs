@@ -67,7 +67,8 @@ impl<'a> ArmSolver<'a> {
         if let Some(points) = self.setup.scenario.generate.search.points {
             return Ok(points as usize);
         }
-        let heaviest = self.heaviest(&Stop::never()).ok_or("there is no heaviest path whose points to take as many of")?;
+        let heaviest =
+            self.heaviest(&Stop::never()).ok_or("there is no heaviest path whose points to take as many of")?;
         let way = heaviest.witness.as_ref().and_then(Witness::program).and_then(|program| self.setup.way_of(program));
         way.map(|way| way.len()).ok_or_else(|| "the heaviest program is no way through the cloud".into())
     }

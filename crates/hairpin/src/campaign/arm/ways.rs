@@ -79,7 +79,8 @@ impl<'a> Ways<'a> {
             };
             let others = all.into_iter().map(|(_, q)| (station.arm.configuration(&q), q));
             let others = others.filter(|(configuration, _)| Some(*configuration) != own);
-            let others = others.map(|(configuration, q)| Posture { configuration: Some(configuration), other: Some(q) });
+            let others =
+                others.map(|(configuration, q)| Posture { configuration: Some(configuration), other: Some(q) });
             first.into_iter().chain(others).collect()
         };
         let of_rows = (0..graph.points()).map(of_row).collect();

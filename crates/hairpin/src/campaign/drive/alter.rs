@@ -62,7 +62,9 @@ impl DriveSolver<'_> {
         if !draft.stands(&site, settings, index) {
             return None;
         }
-        Some(along(plan, plan.waypoints.clone(), draft.driven(&site, settings)?))
+        // A speed that is wished for where the vehicle must stand changes nothing.
+        let changed = draft.driven(&site, settings).filter(|changed| changed != drive)?;
+        Some(along(plan, plan.waypoints.clone(), changed))
     }
 
     /// What may be changed at a waypoint; at the `last` one a drive stands.

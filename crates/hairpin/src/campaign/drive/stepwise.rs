@@ -88,16 +88,13 @@ impl<'a> Stepwise<'a> {
     ///
     /// # Errors
     /// There is none, in a sentence's part.
-    pub(super) fn drawn(
-        &self,
-        points: &[Point3<f64>],
-        walking: &Walking,
-        random: &mut Stream,
-    ) -> Result<Plan, String> {
+    pub(super) fn drawn(&self, points: &[Point3<f64>], walking: &Walking, random: &mut Stream) -> Result<Plan, String> {
         let (settings, start) = (self.settings(), StepNode { previous: 0, current: 0 });
         let at = |node: &StepNode| node.current;
         let found = match &self.set {
-            Set::Everywhere(set) => self.walk(&StepReach::new(set, points, settings), start, at, points, walking, random),
+            Set::Everywhere(set) => {
+                self.walk(&StepReach::new(set, points, settings), start, at, points, walking, random)
+            }
             Set::Sphere(set) => self.walk(&StepReach::new(set, points, settings), start, at, points, walking, random),
             Set::Hull(hull) => {
                 self.walk(hull.as_ref(), self.headed(hull), |node| node.current, points, walking, random)

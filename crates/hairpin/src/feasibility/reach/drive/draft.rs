@@ -159,12 +159,7 @@ impl DriveDraft {
 
     /// The speeds of `legs`, whose commands are fitted to them where the steering lags: other commands stop elsewhere,
     /// and so it goes on until nothing changes. `None` if that does not come to an end.
-    fn settled(
-        &self,
-        site: &DriveSite,
-        settings: &DriveSettings,
-        legs: &mut [Commands],
-    ) -> Option<Vec<SpeedProfile>> {
+    fn settled(&self, site: &DriveSite, settings: &DriveSettings, legs: &mut [Commands]) -> Option<Vec<SpeedProfile>> {
         for _ in 0..ROUNDS {
             let profiles = self.profiles(site, settings, legs);
             if !site.rover.response.lags() || settings.pace == Pace::Constant {
