@@ -22,6 +22,7 @@ mod deviation;
 pub mod measure;
 pub mod measures;
 pub mod moves;
+mod narrow;
 pub mod paired;
 pub mod settings;
 pub mod spec;

@@ -79,7 +79,7 @@ pub(super) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut
         visits => format!("{visits} times and no move twice"),
     };
     if search.method == ProgramMethod::Worst {
-        said.push(executed(setup, cases.len(), &often));
+        said.extend(executed(setup, cases, tally, &often));
         return;
     }
     said.push(format!(
@@ -104,20 +104,31 @@ pub(super) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut
 }
 
 /// How programs were found by executing them.
-fn executed(setup: &ArmSetup, found: usize, often: &str) -> String {
+fn executed(setup: &ArmSetup, cases: &[Case], tally: &Tally, often: &str) -> Vec<String> {
     let (moves, asked) = (&setup.scenario.generate.moves, setup.scenario.search());
-    let arcs = if moves.arcs { ", which points are passed by arcs" } else { "" };
-    format!(
-        "Search: programs among {} points, each at most {often}, by executing {} of them for the stress `{}`: which points come, in which \
-         order and configuration{arcs}, and the speeds ({}) and zones ({}) of the moves; {found} of {} programs asked for. Every program \
-         that was executed is a way through the graph of moves that are possible. Nothing says that no other is worse.",
+    let arcs = if moves.arcs { ", which points arcs pass" } else { "" };
+    let target =
+        asked.target.map_or("each limit of `spec`, by its margin in spreads of what was drawn".into(), |target| {
+            format!("`{}`", target.word())
+        });
+    let mut said = vec![format!(
+        "Search: programs through points of {}, each at most {often}, by executing them for {target}: which points come, in which order and \
+         configuration{arcs}, and the speeds ({}) and zones ({}) of the moves; {} of {} programs asked for, of {} executions, {} of them of \
+         programs drawn at random ({}). Every program that was executed is a way through moves that are possible. Nothing says that no \
+         other is worse.",
         setup.station.points.len(),
-        asked.executions,
-        asked.stress.word(),
         moves.speeds.join(", "),
         moves.zones.join(", "),
+        cases.len(),
         asked.cases,
-    )
+        tally.expansions,
+        tally.drawn,
+        tally.sampler.as_deref().unwrap_or("none"),
+    )];
+    if let Some(seconds) = asked.seconds {
+        said.push(format!("The search had {seconds} s: what it found depends on the clock and is not reproducible."));
+    }
+    said
 }
 
 /// Who ran them.

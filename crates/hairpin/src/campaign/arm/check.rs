@@ -7,9 +7,8 @@ use crate::campaign::bounds::MOST_POINTS;
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{
     ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, ArmTask, CostName, CostSection, Keys, LogClock, Mistake,
-    MoveName, PointsSource, ProgramMethod, ProgramSearch, SearchSection,
+    MoveName, PointsSource, ProgramMethod, ProgramSearch, SearchSection, Target,
 };
-use crate::judgement::Stress;
 use crate::search::heaviest::{MOST_TRIPLE_POINTS, MOST_VISITS};
 use crate::trajectory::program::{Speed, Zone};
 
@@ -114,7 +113,8 @@ fn check_search(search: &ProgramSearch, points: u64, found: &mut Findings) {
         let given = [
             ("executions", search.executions.map(|count| count.to_string())),
             ("confirm", search.confirm.map(|count| count.to_string())),
-            ("stress", search.stress.map(|stress| format!("\"{}\"", stress.word()))),
+            ("seconds", search.seconds.map(|seconds| seconds.to_string())),
+            ("target", search.target.map(|target| format!("\"{}\"", target.word()))),
             ("points", search.points.map(|count| count.to_string())),
         ];
         for (key, value) in given.into_iter().filter_map(|(key, value)| Some((key, value?))) {
@@ -129,9 +129,13 @@ fn check_search(search: &ProgramSearch, points: u64, found: &mut Findings) {
         let executions = search.executions.unwrap_or(SearchSection::default().executions);
         found.count("generate.search.confirm", confirm, 0, executions.saturating_sub(1).min(1_000));
     }
-    if let Some(stress) = search.stress {
-        let measured = !matches!(stress, Stress::Saturation | Stress::Clearance | Stress::Tilt);
-        found.stress(stress, measured, "program");
+    if let Some(seconds) = search.seconds {
+        found.above("generate.search.seconds", seconds, 0.0, 1e6, " s");
+    }
+    if let Some(target) = search.target {
+        let bound = "one of deviation, acceleration, time, overshoot, lateness: a program's runs have no other measure";
+        let measured = !matches!(target, Target::Clearance | Target::TipOver);
+        found.require(measured, "generate.search.target", format!("\"{}\"", target.word()), bound);
     }
     if let Some(count) = search.points {
         let visits = search.visits.min(MOST_VISITS as u64);

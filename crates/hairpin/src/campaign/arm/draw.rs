@@ -5,8 +5,8 @@ use super::ways::{Place, Standing, Ways};
 use crate::math::random::{Stream, unit};
 use crate::search::{NoWalk, stroll};
 
-/// Moves asked for, by those that a program has, before a draw is given up.
-const ASKED: u64 = 60;
+/// Moves tried, by those that a program has, before a walk is given up.
+const TRIED: u64 = 500;
 
 impl Ways<'_> {
     /// A way through `length` points from home and back.
@@ -20,7 +20,7 @@ impl Ways<'_> {
     /// # Errors
     /// Why there is none, in a sentence's part.
     pub(super) fn drawn(&self, length: usize, random: &mut Stream) -> Result<Vec<Met>, String> {
-        let most = ASKED * (length as u64 + 1);
+        let most = TRIED * (length as u64 + 1);
         let next = |walk: &[Place]| self.next(walk, length);
         let step = |from: &Place, to: &Place| self.leads(*from, *to);
         let walk = stroll(Place::Home, length + 2, next, step, most, random).map_err(|none| match none {
@@ -45,7 +45,7 @@ impl Ways<'_> {
         Ok(standings.iter().zip(moves).zip(passed).map(met).collect())
     }
 
-    /// Where a walk from home may go on to, as far as nothing need be followed for it.
+    /// Where a walk from home may go on to, as far as nothing need be followed to know.
     fn next(&self, walk: &[Place], length: usize) -> Vec<Place> {
         if walk.len() == length + 1 {
             return vec![Place::Home];
@@ -65,7 +65,9 @@ impl Ways<'_> {
             Some(Place::At(from)) => from.row != to.row && self.may_follow(from, *to) && !self.is_used(walk, from, *to),
             _ => true,
         };
-        rows.flat_map(|row| self.standings(row)).filter(may_follow).map(Place::At).collect()
+        let may_lead = |to: &Place| last.is_none_or(|from| self.known(from, *to) != Some(false));
+        let to = rows.flat_map(|row| self.standings(row)).filter(may_follow).map(Place::At);
+        to.filter(may_lead).collect()
     }
 
     /// Whether a walk has the move from one point to another already: points may come twice, moves once.

@@ -9,7 +9,7 @@ use crate::campaign::digits::number;
 use crate::campaign::kind::{
     Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, Programs, RobotWords, Say, surface,
 };
-use crate::campaign::scenario::{ArmMode, Keys, ProgramMethod};
+use crate::campaign::scenario::{ArmMode, Keys, ProgramMethod, Target};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::robot::arm::AXES;
@@ -67,11 +67,11 @@ impl Say for ArmSetup {
                 ),
                 ProgramMethod::Worst => {
                     let search = self.scenario.search();
+                    let target = search.target.map_or("the limits of spec", Target::word);
                     format!(
-                        "programs through {} points, by {} executions for {}",
+                        "programs through {} points, by {} executions for {target}",
                         self.asked_points(),
-                        search.executions,
-                        search.stress.word()
+                        search.pooled_executions(),
                     )
                 }
             }),

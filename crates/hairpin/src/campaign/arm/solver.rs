@@ -2,6 +2,8 @@
 
 use std::sync::{Arc, OnceLock};
 
+use nalgebra::Point3;
+
 use super::ArmSetup;
 use super::graph::{ArmGraph, graph_of};
 use super::program::Met;
@@ -134,9 +136,27 @@ impl Solver for ArmSolver<'_> {
         Err(format!("no program of {length} points in {DRAWS} draws: {reason}"))
     }
 
+    fn drawn_how(&self) -> &'static str {
+        "each move alike among those that lead on from a point, speeds and zones from the scenario's lists; where every move is possible \
+         all orders of so many points come alike"
+    }
+
     /// The heaviest program, where the virtual controller can plan it.
     fn seeds(&self, stop: &Stop) -> Vec<Plan> {
         self.heaviest(stop).filter(|plan| !plan.leg_times.is_empty()).cloned().into_iter().collect()
+    }
+
+    /// Programs go through the points of the cloud.
+    fn moves(&self) -> bool {
+        false
+    }
+
+    fn over(&self, _: u64, _: &Plan, _: &[Point3<f64>]) -> Option<Plan> {
+        None
+    }
+
+    fn elsewhere(&self, _: u64, _: &mut Stream) -> Option<Point3<f64>> {
+        None
     }
 
     fn altered(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
@@ -145,7 +165,7 @@ impl Solver for ArmSolver<'_> {
         self.planned(&child).filter(|child| !alike(plan, child))
     }
 
-    fn crossed(&self, plan: &Plan, other: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
+    fn crossed(&self, _: u64, plan: &Plan, other: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         let child = self.ways().ok()?.crossed(&self.way_of(plan)?, &self.way_of(other)?, leg, random)?;
         self.planned(&child).filter(|child| !alike(plan, child))
     }

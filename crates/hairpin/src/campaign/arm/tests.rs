@@ -10,7 +10,7 @@ use super::solver::ArmSolver;
 use super::ways::Ways;
 use crate::campaign::graph::{Executions, Plan, Wanted};
 use crate::campaign::kind::Solver;
-use crate::campaign::scenario::{KeyPath, SearchMethod};
+use crate::campaign::scenario::{KeyPath, SearchMethod, Target};
 use crate::campaign::{Evidence, Scenario, Setup, Stop, trial, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
@@ -77,11 +77,18 @@ fn hold(setup: &Setup, plan: &Plan, told: &str) {
     assert_eq!(plan.leg_times.len() + 1, plan.waypoints.len(), "{told}");
 }
 
+/// The tool level: the wrist can be turned about.
+fn sideways() -> Vec<(&'static str, Value)> {
+    let level = std::f64::consts::FRAC_1_SQRT_2;
+    vec![("task.points_in", json!({ "q1_q4_default": [level, level, 0, 0] }))]
+}
+
 /// What scenarios differ in that are drawn and changed below.
 fn kinds() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
     vec![
         ("straight", vec![]),
-        ("in joints", vec![("generate.moves.kind", json!("joint"))]),
+        ("in joints", [sideways(), vec![("generate.moves.kind", json!("joint"))]].concat()),
+        ("wrists", [sideways(), vec![("task.points.count", json!(14)), ("generate.search.points", json!(4))]].concat()),
         ("arcs", vec![("generate.moves.arcs", json!(true))]),
         ("twice", vec![("generate.search.visits", json!(2)), ("generate.search.points", json!(12))]),
         ("sphere", vec![("generate.mode", json!("cartesian"))]),
@@ -190,6 +197,7 @@ fn changed_programs_are_possible_and_everything_that_may_change_does() {
         assert!(found >= 20, "{name}: {found}");
         let all: &[&str] = match name {
             "in joints" => &["order", "points", "speed", "configuration"],
+            "wrists" => &["order", "points", "speed", "zone", "configuration"],
             "arcs" => &["order", "points", "speed", "zone", "arc"],
             _ => &["order", "points", "speed", "zone"],
         };
@@ -208,7 +216,7 @@ fn a_child_of_two_begins_as_one_and_goes_on_in_the_order_of_the_other() {
         let (mut random, mut found) = (stream(2), 0);
         for a in &plans {
             for b in &plans {
-                let Some(child) = solver.crossed(a, b, 2, &mut random) else { continue };
+                let Some(child) = solver.crossed(0, a, b, 2, &mut random) else { continue };
                 found += 1;
                 hold(&setup, &child, name);
                 let [of_a, of_b, of_child] = [a, b, &child].map(|plan| rows(&way(&setup, plan)));
@@ -241,31 +249,35 @@ fn the_heaviest_program_is_a_seed_and_says_how_many_points_there_are() {
 
 #[test]
 fn programs_execute_for_the_stresses_of_arms() {
-    for (word, least) in [("max-deviation", 1e-4), ("time", 1.0), ("lateness", 1e-4), ("joint-effort", 1.0)] {
-        let slow = json!({ "axis": 1, "slower": 0.4 });
-        let setup = setup(&[("generate.search.stress", json!(word)), ("execute.faults", slow)]);
-        let solver = ArmSolver::new(own(&setup));
-        let plan = solver.draw(0).unwrap();
-        let trial = trial::execute(&setup, 0, &plan, f64::INFINITY).unwrap();
+    let slow = json!({ "axis": 1, "slower": 0.4 });
+    let setup = setup(&[("execute.faults", slow)]);
+    let solver = ArmSolver::new(own(&setup));
+    let plan = solver.draw(0).unwrap();
+    let stresses = [Stress::MaxDeviation, Stress::Time, Stress::Lateness, Stress::JointEffort];
+    let run = || trial::execute_for(&setup, (0, &plan), &stresses, &[f64::INFINITY; 4]).unwrap().trials;
+    let trials = run();
+    for ((trial, stress), least) in trials.iter().zip(stresses).zip([1e-4, 1.0, 1e-3, 1.0]) {
+        let word = stress.word();
         assert!(trial.stress > least && trial.worst_leg + 1 < plan.waypoints.len(), "{word}: {}", trial.stress);
-        let again = trial::execute(&setup, 0, &plan, f64::INFINITY).unwrap();
-        assert_eq!(again.stress, trial.stress, "{word}");
     }
+    let again = run();
+    assert!(trials.iter().zip(&again).all(|(a, b)| a.stress == b.stress), "an execution repeats");
 }
 
 #[test]
 fn keys_of_the_search_for_the_worst_have_bounds() {
-    let asked = setup(&[("generate.search.stress", json!("lateness"))]).scenario.search();
-    assert_eq!((asked.method, asked.executions, asked.stress), (SearchMethod::Worst, 40, Stress::Lateness));
-    assert_eq!((asked.cases, asked.confirm), (3, 0));
+    let asked = setup(&[("generate.search.target", json!("lateness"))]).scenario.search();
+    assert_eq!((asked.method, asked.executions, asked.target), (SearchMethod::Worst, 40, Some(Target::Lateness)));
+    assert_eq!((asked.cases, asked.confirm, asked.pooled_executions()), (3, 0, 120));
     for (key, value, words) in [
         ("generate.search.executions", json!(0), "generate.search.executions = 0: must be 1 … 1 000 000"),
         ("generate.search.confirm", json!(40), "generate.search.confirm = 40: must be 0 … 39"),
         (
-            "generate.search.stress",
-            json!("tilt"),
-            "generate.search.stress = \"tilt\": must be a stress that a program is measured by",
+            "generate.search.target",
+            json!("tip-over"),
+            "generate.search.target = \"tip-over\": must be one of deviation",
         ),
+        ("generate.search.seconds", json!(0.0), "generate.search.seconds = 0: must be > 0"),
         ("generate.search.points", json!(10), "generate.search.points = 10: must be 1 … 9"),
         ("generate.search.min_cost", json!(1.0), "generate.search.min_cost = 1: must be left out"),
         ("generate.search.method", json!("heaviest"), "generate.search.executions = 40: must be left out"),
@@ -308,7 +320,8 @@ fn costs() {
             println!("a change {:.2} ms, {found} of 200", begun.elapsed().as_secs_f64() * 1e3 / 200.0);
             let (begun, mut found) = (std::time::Instant::now(), 0);
             for pair in plans.windows(2) {
-                found += (0..5).filter(|leg| solver.crossed(&pair[0], &pair[1], *leg, &mut random).is_some()).count();
+                found +=
+                    (0..5).filter(|leg| solver.crossed(0, &pair[0], &pair[1], *leg, &mut random).is_some()).count();
             }
             println!("a cross {:.2} ms, {found} of 195", begun.elapsed().as_secs_f64() * 1e3 / 195.0);
         }

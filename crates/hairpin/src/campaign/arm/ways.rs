@@ -120,15 +120,29 @@ impl<'a> Ways<'a> {
 
     /// Whether the move from one place to another is possible: by the graph, or followed by the same code.
     pub(super) fn leads(&self, from: Place, to: Place) -> bool {
-        match (from, to) {
-            (Place::Home, Place::Home) => false,
-            (Place::Home, Place::At(to)) if self.angles(to).is_none() => self.graph.from_home[to.row],
-            (Place::At(from), Place::Home) if self.angles(from).is_none() => self.graph.to_home[from.row],
-            (Place::At(from), Place::At(to)) if self.angles(from).is_none() && self.angles(to).is_none() => {
-                self.graph.costs[from.row * self.points() + to.row].is_some()
-            }
-            _ => self.is_followed(from, to),
+        self.known(from, to).unwrap_or_else(|| {
+            // Nothing is locked meanwhile: what two threads ask at once comes to the same.
+            let leads = self.follow(from, to).is_some();
+            self.followed.lock().unwrap_or_else(PoisonError::into_inner).insert([from, to], leads);
+            leads
+        })
+    }
+
+    /// The same where nothing need be followed for it.
+    pub(super) fn known(&self, from: Place, to: Place) -> Option<bool> {
+        let of_graph = |place: Place| match place {
+            Place::Home => true,
+            Place::At(at) => self.angles(at).is_none(),
+        };
+        if !of_graph(from) || !of_graph(to) {
+            return self.followed.lock().unwrap_or_else(PoisonError::into_inner).get(&[from, to]).copied();
         }
+        Some(match (from, to) {
+            (Place::Home, Place::Home) => false,
+            (Place::Home, Place::At(to)) => self.graph.from_home[to.row],
+            (Place::At(from), Place::Home) => self.graph.to_home[from.row],
+            (Place::At(from), Place::At(to)) => self.graph.costs[from.row * self.points() + to.row].is_some(),
+        })
     }
 
     /// Whether an arc leads through the middle one of three points, all met in the graph's postures.
@@ -147,19 +161,6 @@ impl<'a> Ways<'a> {
     /// The angles of a posture, rad.
     fn joints(&self, at: Standing) -> Option<&Joints> {
         self.angles(at).or_else(|| self.graph.postures.as_ref()?[at.row].as_ref().ok())
-    }
-
-    fn is_followed(&self, from: Place, to: Place) -> bool {
-        let known = |kept: &Mutex<HashMap<[Place; 2], bool>>| {
-            kept.lock().unwrap_or_else(PoisonError::into_inner).get(&[from, to]).copied()
-        };
-        if let Some(known) = known(&self.followed) {
-            return known;
-        }
-        // Nothing is locked meanwhile: what two threads ask at once comes to the same.
-        let leads = self.follow(from, to).is_some();
-        self.followed.lock().unwrap_or_else(PoisonError::into_inner).insert([from, to], leads);
-        leads
     }
 
     fn follow(&self, from: Place, to: Place) -> Option<()> {

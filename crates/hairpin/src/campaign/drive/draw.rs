@@ -80,8 +80,8 @@ impl DriveSolver<'_> {
     pub(super) fn place_of(&self, number: u64, random: &mut Stream) -> Option<Point3<f64>> {
         let seed = named_seed(self.setup.scenario.seed, WAYPOINTS, number.wrapping_mul(SETS));
         let points = self.sample(seed).ok()?;
-        let ends = 1 + usize::from(self.setup.scenario.task.end_m.is_some());
-        let free = points.get(1..points.len() + 1 - ends)?;
+        let end = usize::from(self.setup.scenario.task.end_m.is_some());
+        let free = points.get(1..points.len() - end)?;
         free.get((unit(random) * free.len() as f64) as usize).copied()
     }
 

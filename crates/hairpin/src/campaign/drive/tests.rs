@@ -125,7 +125,7 @@ fn what_has_no_commands_is_drawn_by_its_own_reach_set() {
         assert_ne!(plans[0].waypoints, plans[1].waypoints, "{reach}");
         for plan in &plans {
             assert_eq!((plan.evidence, plan.waypoints.len(), &plan.leg_times[..]), (evidence, 6, &[3.0; 5][..]));
-            assert!(plan.witness.is_none() && solver.over(plan, &plan.waypoints).is_some(), "{reach}");
+            assert!(plan.witness.is_none() && solver.over(0, plan, &plan.waypoints).is_some(), "{reach}");
             assert!(solver.altered(plan, 1, &mut stream(1)).is_none(), "{reach}");
         }
     }
@@ -175,7 +175,7 @@ fn what_is_not_moved_is_not_solved_again_and_comes_to_the_same() {
     for index in 1..plan.waypoints.len() {
         let mut points = plan.waypoints.clone();
         (points[index].x, points[index].y) = (points[index].x + 0.05, points[index].y - 0.05);
-        let Some(moved) = solver.over(&plan, &points) else { continue };
+        let Some(moved) = solver.over(0, &plan, &points) else { continue };
         tried += 1;
         hold(&setup, &moved, "moved");
         assert!(solved_again(&plan, &moved).iter().all(|leg| leg + 1 == index || *leg == index));
@@ -185,7 +185,7 @@ fn what_is_not_moved_is_not_solved_again_and_comes_to_the_same() {
         assert!(&solver.through(0, &passings).unwrap() == drive(&moved), "as if all legs had been solved");
     }
     assert!(tried > 0);
-    assert!(solver.over(&plan, &plan.waypoints[1..]).is_none(), "as many points as it has");
+    assert!(solver.over(0, &plan, &plan.waypoints[1..]).is_none(), "as many points as it has");
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn a_child_of_two_has_the_beginning_of_one_and_the_rest_of_the_other() {
     for a in &plans {
         for b in &plans {
             for leg in 0..5 {
-                let Some(child) = solver.crossed(a, b, leg, &mut random) else { continue };
+                let Some(child) = solver.crossed(0, a, b, leg, &mut random) else { continue };
                 found += 1;
                 hold(&setup, &child, "crossed");
                 assert_eq!(child.waypoints, [&a.waypoints[..=leg], &b.waypoints[leg + 1..]].concat());
@@ -209,7 +209,7 @@ fn a_child_of_two_has_the_beginning_of_one_and_the_rest_of_the_other() {
         }
     }
     assert!(found > 20, "{found}");
-    assert!(solver.crossed(&plans[0], &plans[1], 5, &mut random).is_none(), "there is no such leg");
+    assert!(solver.crossed(0, &plans[0], &plans[1], 5, &mut random).is_none(), "there is no such leg");
 }
 
 #[test]
@@ -237,6 +237,22 @@ fn costs() {
                 .map(|plan| crate::campaign::trial::execute(&setup, 0, plan, f64::INFINITY).unwrap().stress)
                 .collect();
             println!("{name}: an execution {:.1} ms, {stress:.3?}", begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+            let begun = std::time::Instant::now();
+            let ran = plans.iter().filter(|plan| {
+                let case = (*plan).clone().case(7, 0, 0);
+                crate::campaign::execute_run(&setup, &case, 0).outcome.is_ok()
+            });
+            println!("{name}: of it {} runs {:.2} ms", ran.count(), begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+            let begun = std::time::Instant::now();
+            let planned = plans.iter().map(|plan| {
+                let case = (*plan).clone().case(7, 0, 0);
+                crate::campaign::planned(&setup, &case).unwrap().len()
+            });
+            println!(
+                "{name}: planned {:?} samples {:.2} ms",
+                planned.max(),
+                begun.elapsed().as_secs_f64() * 1e3 / 40.0
+            );
             let (begun, mut random, mut found) = (std::time::Instant::now(), stream(1), 0);
             for plan in &plans {
                 found += (0..7).filter(|leg| solver.altered(plan, *leg, &mut random).is_some()).count();
@@ -244,14 +260,15 @@ fn costs() {
             println!("{name}: a change {:.1} ms, {found} of 280", begun.elapsed().as_secs_f64() * 1e3 / 280.0);
             let (begun, mut found) = (std::time::Instant::now(), 0);
             for pair in plans.windows(2) {
-                found += (0..7).filter(|leg| solver.crossed(&pair[0], &pair[1], *leg, &mut random).is_some()).count();
+                found +=
+                    (0..7).filter(|leg| solver.crossed(0, &pair[0], &pair[1], *leg, &mut random).is_some()).count();
             }
             println!("{name}: a cross {:.1} ms, {found} of 273", begun.elapsed().as_secs_f64() * 1e3 / 273.0);
             let begun = std::time::Instant::now();
             for plan in &plans {
                 let mut points = plan.waypoints.clone();
                 points[4].x += 0.1;
-                drop(solver.over(plan, &points));
+                drop(solver.over(0, plan, &points));
             }
             println!("{name}: a move {:.1} ms", begun.elapsed().as_secs_f64() * 1e3 / 40.0);
         }

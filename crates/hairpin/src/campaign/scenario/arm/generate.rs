@@ -3,8 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{LEARNED, SearchMethod, SearchSection};
-use crate::judgement::Stress;
+use crate::campaign::scenario::{LEARNED, SearchMethod, SearchSection, Target};
 
 /// `[generate]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -197,7 +196,7 @@ pub enum MoveName {
     Joint,
 }
 
-/// `search = { programs, visits, time_limit_s }`, or `search = { method = "worst", programs, executions, stress }`.
+/// `search = { programs, visits, time_limit_s }`, or `search = { method = "worst", programs, executions, target }`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProgramSearch {
@@ -206,16 +205,19 @@ pub struct ProgramSearch {
     pub method: ProgramMethod,
     /// Programs asked for, pairwise different, the heaviest or the worst first.
     pub programs: u64,
-    /// `worst`: executions, of all programs together; 200 if not given.
+    /// `worst`: executions for each program asked for, all in one pool; 200 if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub executions: Option<u64>,
+    /// `worst`: time for the search beside `executions`; what is found then depends on the clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
     /// `worst`: executions with other noise that what would be kept is given in addition; none if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub confirm: Option<u64>,
-    /// `worst`: what is searched for: max-deviation | mean-deviation | max-acceleration | time | overshoot |
-    /// joint-effort | lateness; the largest deviation if not given.
+    /// `worst`: what is searched for: deviation | acceleration | time | overshoot | lateness; if not given, each limit of
+    /// `[spec]`, by its margin in spreads of what is drawn at random.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub stress: Option<Stress>,
+    pub target: Option<Target>,
     /// `worst`: points of a program; as many as the heaviest has if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub points: Option<u64>,
@@ -241,8 +243,9 @@ impl Default for ProgramSearch {
             method: ProgramMethod::Heaviest,
             programs: 1,
             executions: None,
+            seconds: None,
             confirm: None,
-            stress: None,
+            target: None,
             points: None,
             visits: 1,
             time_limit_s: None,
@@ -280,8 +283,9 @@ impl ProgramSearch {
                 ProgramMethod::Worst => SearchMethod::Worst,
             },
             executions: self.executions.unwrap_or(usual.executions),
+            seconds: self.seconds,
             confirm: self.confirm.unwrap_or(usual.confirm),
-            stress: self.stress.unwrap_or(usual.stress),
+            target: self.target,
             waypoints: points,
             cases: self.programs,
             per_graph: self.programs,

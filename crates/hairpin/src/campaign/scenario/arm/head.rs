@@ -90,7 +90,6 @@ impl Keys for ArmScenario {
         if own.method == ProgramMethod::Worst {
             own.executions.get_or_insert(search.executions);
             own.confirm.get_or_insert(search.confirm);
-            own.stress.get_or_insert(search.stress);
         }
     }
 
