@@ -73,13 +73,7 @@ pub fn calibrate(settings: &CalibrateSettings, watch: &dyn Watch) -> Result<Cali
     settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
     let needed = cases_needed(settings.share, CONFIDENCE).unwrap_or(LEAST).max(LEAST) as u64;
     let wanted = settings.cases.unwrap_or(needed);
-    let ByChance { cases, reason, lacks_draws } = drawn(&setup, (Purpose::Limits, wanted), WHAT, watch)?;
-    if lacks_draws {
-        return Err(Problem::input(format!(
-            "of {} nothing is drawn at random yet, so that no limit follows",
-            setup.robot_name()
-        )));
-    }
+    let ByChance { cases, reason } = drawn(&setup, (Purpose::Limits, wanted), WHAT, watch)?;
     let outcomes = fly_by_case(&setup, &cases, &|case, runs| calibrate::outcome(&setup, case, runs), (WHAT, watch))?;
     let outcomes: Vec<Outcome> = outcomes.into_iter().flatten().collect();
     let proposals = calibrate::propose(&setup, &outcomes, settings.share);

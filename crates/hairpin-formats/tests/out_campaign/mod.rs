@@ -124,6 +124,7 @@ fn measures(deviation: f64) -> Measures {
         max_tilt: Some(20.5 + k as f64),
         saturation_share: Some(0.25),
         joint_effort: Some(1.5 + k as f64),
+        lateness: None,
     };
     Measures {
         max_deviation: deviation,

@@ -108,6 +108,14 @@ impl From<Program> for Witness {
 }
 
 impl Witness {
+    /// The same for case number `case`, after which a program is called.
+    pub(super) fn of_case(mut self, case: CaseNumber) -> Self {
+        if let Self::Program(program) = &mut self {
+            program.name = case.of_program();
+        }
+        self
+    }
+
     /// Legs between waypoints; `None` for a program, whose moves may be fewer or more.
     pub fn legs(&self) -> Option<usize> {
         match self {

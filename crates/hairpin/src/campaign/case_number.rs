@@ -18,6 +18,13 @@ use serde::{Deserialize, Serialize};
 #[serde(transparent)]
 pub struct CaseNumber(pub usize);
 
+impl CaseNumber {
+    /// What the program of an arm's case is called: a controller loads no two of one name.
+    pub(super) fn of_program(self) -> String {
+        format!("hairpin_{self}")
+    }
+}
+
 impl fmt::Display for CaseNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:04}", self.0)

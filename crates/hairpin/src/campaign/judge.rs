@@ -172,8 +172,9 @@ fn judge_run(
     let mut terms = own.scenario.head().terms;
     // Who asks for nothing does not ask for missions that are finished either.
     terms.limits.unfinished = own.scenario.asked() != Asked::Nothing;
+    let programmed = plan.programmed.get_or_init(|| setup.kind().programs()?.programmed(case)).as_ref();
     let path = match terms.from {
-        DeviationFrom::Path => plan.reference.get_or_init(|| reference(setup, case)).as_ref(),
+        DeviationFrom::Path => plan.reference.get_or_init(|| reference(setup, case, programmed)).as_ref(),
         DeviationFrom::Leg | DeviationFrom::NearestLeg => None,
     };
     let clearance = own.kind().clearance();
@@ -188,11 +189,10 @@ fn judge_run(
     };
     Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|mut measures| {
         let programs = setup.kind().programs();
-        let moves = programs.and_then(|programs| {
-            let programmed = plan.programmed.get_or_init(|| programs.programmed(case)).as_ref();
-            programs.measured(programmed?, &flight.track, path)
-        });
+        let moves = programs.and_then(|programs| programs.measured(programmed?, &flight.track, path));
         measures.latest = moves.as_ref().and_then(latest);
+        let moves_of = moves.iter().flat_map(|moves| &moves.moves);
+        measures.legs.iter_mut().zip(moves_of).for_each(|(leg, one)| leg.lateness = one.late());
         let mut violations = judgement::violations(&measures, flight, &terms.limits);
         let unseen = moves.as_ref().and_then(|moves| moves.unseen.as_ref());
         if unseen.is_some_and(|unseen| unseen.late_unproven) {
@@ -217,9 +217,9 @@ fn judge_run(
 }
 
 /// The motion that deviations from the path are measured from.
-fn reference(setup: &Setup, case: &Case) -> Option<Track> {
+fn reference(setup: &Setup, case: &Case, programmed: Option<&PlannedPath>) -> Option<Track> {
     match setup.kind().programs() {
-        Some(programs) => programs.reference(case),
+        Some(programs) => programs.reference(case, programmed),
         None => setup.kind().followed(case).ok(),
     }
 }

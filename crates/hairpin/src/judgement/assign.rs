@@ -4,8 +4,11 @@
 //! A dynamic program over samples × pieces, as in dynamic time warping (Sakoe and Chiba, IEEE ASSP 26(1), 1978) with
 //! pieces that may be skipped. The nearest leg would be wrong wherever a path crosses itself, and a stressful one does.
 
+use std::ops::Range;
+
 use nalgebra::Point3;
 
+use super::narrow::narrowed;
 use crate::math::power::square;
 use crate::math::segment::point_distance;
 
@@ -38,54 +41,112 @@ pub(super) fn leg_pieces(waypoints: &[Point3<f64>]) -> Vec<Piece> {
 }
 
 /// The rising sequence of pieces j(0) ≤ j(1) ≤ … that minimises Σ weight_i · distance(sample_i, piece_j(i))²; among
-/// equals the one that stays behind longest. Pieces may be skipped. Exact, in O(samples · pieces) time and linear
-/// memory (Hirschberg 1975: the middle sample's piece splits the problem in two).
+/// equals the one that stays behind longest. Pieces may be skipped. Exact, in O(samples · pieces) time where samples
+/// are far from all pieces, in O(samples + pieces) where they are near theirs ([`narrowed`]), and in linear memory
+/// (Hirschberg 1975: the middle sample's piece splits the problem in two).
 pub(super) fn monotone(samples: &[Point3<f64>], weights: &[f64], pieces: &[Piece]) -> Vec<usize> {
     let mut assigned = vec![0; samples.len()];
     if !pieces.is_empty() {
-        split(samples, weights, pieces, 0, &mut assigned);
+        let problem = Problem { samples, weights, pieces };
+        let whole = std::iter::repeat_n(0..pieces.len(), samples.len());
+        let windows = narrowed(whole, |sample, piece| problem.cost(sample, piece));
+        problem.split(0, &windows, 0..pieces.len(), &mut assigned);
     }
     assigned
 }
 
-/// Halves the samples (Hirschberg, CACM 18, 1975): least sums of weighted squared distances of the first half ending by
-/// each piece and of the second half from it on meet at the piece where the middle belongs. O(samples · pieces) time,
-/// O(pieces) memory.
-fn split(samples: &[Point3<f64>], weights: &[f64], pieces: &[Piece], offset: usize, out: &mut [usize]) {
-    if pieces.len() == 1 || samples.is_empty() {
-        out.fill(offset);
-        return;
-    }
-    if samples.len() == 1 {
-        let distances = pieces.iter().map(|piece| point_distance(&samples[0], &piece.from, &piece.to));
-        out[0] = offset + first_least(distances);
-        return;
-    }
-    let middle = samples.len() / 2;
-    // before[j]: least cost of the first half ending at piece j or before; after[j]: of the rest from j on.
-    let before = prefix_costs(samples[..middle].iter().zip(weights), pieces.iter());
-    let after = prefix_costs(samples[middle..].iter().zip(&weights[middle..]).rev(), pieces.iter().rev());
-    let meeting = first_least(before.iter().zip(after.iter().rev()).map(|(b, a)| b + a));
-    let (first, rest) = out.split_at_mut(middle);
-    split(&samples[..middle], &weights[..middle], &pieces[..=meeting], offset, first);
-    split(&samples[middle..], &weights[middle..], &pieces[meeting..], offset + meeting, rest);
+struct Problem<'a> {
+    samples: &'a [Point3<f64>],
+    weights: &'a [f64],
+    pieces: &'a [Piece],
 }
 
-/// Least cost of assigning all samples in order to pieces no later than each.
-fn prefix_costs<'a>(
-    samples: impl Iterator<Item = (&'a Point3<f64>, &'a f64)>,
-    pieces: impl ExactSizeIterator<Item = &'a Piece> + Clone,
-) -> Vec<f64> {
-    let mut costs = vec![0.0f64; pieces.len()];
-    for (sample, weight) in samples {
-        let mut least = f64::INFINITY;
-        for (cost, piece) in costs.iter_mut().zip(pieces.clone()) {
-            let own = *cost + weight * square(point_distance(sample, &piece.from, &piece.to));
-            least = least.min(own);
-            *cost = least;
+/// Least costs of assigning some samples in order, by how far they may go: those of the pieces from `first` on. Beyond
+/// them they stay as they are, before them nothing is possible.
+struct Costs {
+    first: usize,
+    of: Vec<f64>,
+}
+
+impl Problem<'_> {
+    /// weight · distance².
+    fn cost(&self, sample: usize, piece: usize) -> f64 {
+        let Piece { from, to, .. } = &self.pieces[piece];
+        self.weights[sample] * square(point_distance(&self.samples[sample], from, to))
+    }
+
+    /// Halves the samples (Hirschberg, CACM 18, 1975): least sums of weighted squared distances of the first half
+    /// ending by each piece and of the second half from it on meet at the piece where the middle belongs. `windows`
+    /// are those of the samples from `first` on, which get pieces of `range`.
+    fn split(&self, first: usize, windows: &[Range<usize>], range: Range<usize>, out: &mut [usize]) {
+        if range.len() == 1 || windows.is_empty() {
+            out.fill(range.start);
+            return;
         }
+        if let [window] = windows {
+            let within = within(window, &range);
+            let distance =
+                |piece: usize| point_distance(&self.samples[first], &self.pieces[piece].from, &self.pieces[piece].to);
+            out[0] = within.start + first_least(within.map(distance));
+            return;
+        }
+        let half = windows.len() / 2;
+        let middle = first + half;
+        let before = self.least(windows[..half].iter().enumerate().map(|(i, w)| (first + i, within(w, &range))));
+        // Seen from the end: pieces are counted backwards, and so are samples.
+        let mirrored = |w: &Range<usize>| {
+            let w = within(w, &range);
+            range.end - w.end..range.end - w.start
+        };
+        let rest = windows[half..].iter().enumerate().rev();
+        let after = self.mirrored_least(range.end, rest.map(|(i, w)| (middle + i, mirrored(w))));
+        let last = range.end - after.first;
+        let from_end = |piece: usize| after.at(range.end - 1 - piece);
+        let meeting = before.first + first_least((before.first..last).map(|piece| before.at(piece) + from_end(piece)));
+        let (front, back) = out.split_at_mut(half);
+        self.split(first, &windows[..half], range.start..meeting + 1, front);
+        self.split(middle, &windows[half..], meeting..range.end, back);
+    }
+
+    /// Of samples in order, each within its window.
+    fn least(&self, samples: impl Iterator<Item = (usize, Range<usize>)>) -> Costs {
+        by_rows(samples, |sample, piece| self.cost(sample, piece))
+    }
+
+    /// Of samples from the last one back, pieces counted from `end` backwards.
+    fn mirrored_least(&self, end: usize, samples: impl Iterator<Item = (usize, Range<usize>)>) -> Costs {
+        by_rows(samples, |sample, piece| self.cost(sample, end - 1 - piece))
+    }
+}
+
+/// Least costs of assigning all samples in order to pieces no later than each, sample by sample.
+fn by_rows(samples: impl Iterator<Item = (usize, Range<usize>)>, cost: impl Fn(usize, usize) -> f64) -> Costs {
+    let mut costs = Costs { first: 0, of: vec![0.0] };
+    let mut next = Vec::new();
+    for (sample, window) in samples {
+        let mut least = f64::INFINITY;
+        next.clear();
+        for piece in window.clone() {
+            least = least.min(costs.at(piece) + cost(sample, piece));
+            next.push(least);
+        }
+        costs.first = window.start;
+        std::mem::swap(&mut costs.of, &mut next);
     }
     costs
+}
+
+impl Costs {
+    /// Of ending by a piece that is not before the first.
+    fn at(&self, piece: usize) -> f64 {
+        self.of[(piece - self.first).min(self.of.len() - 1)]
+    }
+}
+
+/// What of a window lies in `range`.
+fn within(window: &Range<usize>, range: &Range<usize>) -> Range<usize> {
+    let start = window.start.max(range.start).min(range.end - 1);
+    start..window.end.min(range.end).max(start + 1)
 }
 
 fn first_least(values: impl Iterator<Item = f64>) -> usize {
@@ -117,6 +178,42 @@ mod tests {
                 .fold(f64::INFINITY, f64::min)
         }
         rest(samples, weights, pieces)
+    }
+
+    /// Without looking for what can be left out.
+    fn in_full(samples: &[Point3<f64>], weights: &[f64], pieces: &[Piece]) -> Vec<usize> {
+        let (mut assigned, whole) = (vec![0; samples.len()], vec![0..pieces.len(); samples.len()]);
+        Problem { samples, weights, pieces }.split(0, &whole, 0..pieces.len(), &mut assigned);
+        assigned
+    }
+
+    #[test]
+    fn what_is_left_out_is_in_no_best_sequence() {
+        for seed in 0..300 {
+            let mut random = stream(seed);
+            let mut draw = |most: f64| Point3::from([(); 3].map(|_| random.random_range(-most..most)));
+            // Ways that cross themselves, stand still and turn back; samples on them, near them, and anywhere.
+            let mut corners = vec![Point3::origin()];
+            while corners.len() < 40 {
+                let last = corners[corners.len() - 1];
+                corners.push(if corners.len() % 9 == 5 { corners[corners.len() - 4] } else { last + draw(1.0).coords });
+            }
+            let pieces: Vec<Piece> = corners
+                .windows(2)
+                .enumerate()
+                .map(|(owner, ends)| Piece { from: ends[0], to: ends[1], owner })
+                .collect();
+            let off = [0.0, 1e-3, 0.2, 3.0][seed as usize % 4];
+            let samples: Vec<Point3<f64>> = (0..150)
+                .map(|i| {
+                    let at = 38.0 * f64::from(i) / 150.0;
+                    let (k, share) = (at as usize, at.fract());
+                    corners[k] + (corners[k + 1] - corners[k]) * share + draw(1.0).coords * off
+                })
+                .collect();
+            let weights: Vec<f64> = (0..150).map(|i| 0.01 * f64::from(1 + i % 3)).collect();
+            assert_eq!(monotone(&samples, &weights, &pieces), in_full(&samples, &weights, &pieces), "seed {seed}");
+        }
     }
 
     #[test]

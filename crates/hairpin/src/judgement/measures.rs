@@ -50,6 +50,9 @@ pub struct LegMeasures {
     pub saturation_share: Option<f64>,
     /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³; `None` where their angles were not told.
     pub joint_effort: Option<f64>,
+    /// How late the leg's last waypoint was arrived at by its planned time, s; negative is early. `None` where arrivals
+    /// have no planned times, where it was not arrived at, and in what is read back from results.
+    pub lateness: Option<f64>,
 }
 
 /// The latest arrival at a waypoint, by its planned time.

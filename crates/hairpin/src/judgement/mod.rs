@@ -23,6 +23,7 @@ mod deviation;
 pub mod measure;
 pub mod measures;
 pub mod moves;
+mod narrow;
 pub mod paired;
 mod quantile;
 pub mod settings;

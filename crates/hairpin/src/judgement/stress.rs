@@ -32,7 +32,8 @@ pub enum Stress {
     Tilt,
     /// ∫ Σ q̈² dt over the joints of an arm, rad²/s³.
     JointEffort,
-    /// How late the latest arrival at a waypoint is, by its planned time, s.
+    /// How late the latest arrival at a waypoint is, by its planned time, s; of what has such times, the programs of
+    /// arms.
     Lateness,
 }
 
@@ -134,7 +135,7 @@ impl Stress {
             Stress::Clearance => leg.min_clearance.map(|clearance| -clearance),
             Stress::Tilt => leg.min_tip_over_margin.map(|margin| -margin).or(leg.max_tilt),
             Stress::JointEffort => leg.joint_effort,
-            Stress::Lateness => None,
+            Stress::Lateness => leg.lateness,
         }
     }
 
@@ -159,6 +160,7 @@ impl Stress {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judgement::Late;
 
     #[test]
     fn words_name_one_stress_each_and_legs_and_runs_agree() {
@@ -182,5 +184,12 @@ mod tests {
         assert_eq!(Stress::Tilt.worst_leg(&measures), Some(1));
         assert_eq!(Stress::Saturation.worst_leg(&measures), None);
         assert_eq!(Stress::Time.of_leg(&measures.legs[3]), Some(4.0));
+        let late = |by| LegMeasures { lateness: Some(by), ..LegMeasures::default() };
+        let legs = vec![late(0.01), LegMeasures::default(), late(0.03)];
+        let latest = Some(Late { by: 0.03, at: 4.0, leg: 2 });
+        let measures = Measures { latest, legs, ..Measures::default() };
+        assert_eq!((Stress::Lateness.of(&measures), Stress::Lateness.worst_leg(&measures)), (Some(0.03), Some(2)));
+        assert_eq!(Stress::Lateness.of_leg(&measures.legs[0]), Some(0.01));
+        assert_eq!(Stress::Lateness.of(&Measures::default()), None, "without planned times nothing is late");
     }
 }

@@ -10,6 +10,7 @@
 //! | good trajectories of a large graph, soon | [`mod@beam`] | found, and why it ended |
 //! | the best, proven | [`mod@exact`] | k best, an upper bound, how many there are |
 //! | what is typical | [`mod@uniform`] | draws, each trajectory equally likely |
+//! | what is typical, of few legs | [`mod@stroll`] | one draw, step by step |
 //! | the worst as executed, of all graphs | [`worst`] | the worst that differ, by their executed stress |
 //! | the same in one graph | [`in_loop`] | trajectories by their executed stress |
 //! | the heaviest tour of an arm's points | [`heaviest`] | paths, a bound, a certificate |
@@ -37,6 +38,7 @@ pub mod open_end;
 pub mod score;
 #[cfg(test)]
 mod small;
+pub mod stroll;
 pub mod task;
 pub mod uniform;
 pub mod worst;
@@ -49,5 +51,6 @@ pub use growth::{ByLegs, Growth, Parent};
 pub use objective::{Additive, Aggregate, LegView, Objective};
 pub use open_end::{OpenEnd, OpenNode, OpenScore};
 pub use score::{Score, ScoreMistake};
+pub use stroll::{NoWalk, stroll};
 pub use task::{Found, Task};
 pub use uniform::{UniformOutcome, UniformSettings, uniform};

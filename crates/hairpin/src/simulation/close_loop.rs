@@ -250,7 +250,8 @@ mod tests {
         let stormy = Conditions { wind: Vector3::x(), gusts, discrete_gust: Some(gust), noise: true };
         for robot in shipped() {
             let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
-            for (kind, conditions) in KINDS.into_iter().flat_map(|kind| [(kind, Conditions::default()), (kind, stormy)]) {
+            for (kind, conditions) in KINDS.into_iter().flat_map(|kind| [(kind, Conditions::default()), (kind, stormy)])
+            {
                 let reference = Reference { waypoints: &waypoints, next: 1, accept: 1.0, plan: None };
                 let start = || {
                     let mut pilot = Pilot::new(&ControllerSettings { kind, ..Default::default() }, &robot).unwrap();

@@ -49,7 +49,16 @@ pub(crate) const VARIANTS: &[(&str, &[&str])] = &[
     ("hairpin::search", &["beam", "exact", "uniform", "in_loop"]),
     (
         "hairpin::simulation::controllers",
-        &["unstable_waypoint", "stable_waypoint", "fixed_velocity", "minimum_snap", "geometric", "anafi", "px4_mission", "crazyflie_goto"],
+        &[
+            "unstable_waypoint",
+            "stable_waypoint",
+            "fixed_velocity",
+            "minimum_snap",
+            "geometric",
+            "anafi",
+            "px4_mission",
+            "crazyflie_goto",
+        ],
     ),
     ("hairpin::campaign", &["flight", "drive", "arm"]),
     (

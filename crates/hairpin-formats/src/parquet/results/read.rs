@@ -270,6 +270,7 @@ fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {
         max_tilt: tilt[row][i],
         saturation_share: saturation[row][i],
         joint_effort: effort[row][i],
+        lateness: None,
     };
     Ok((0..table.rows()).map(|row| (0..maximum[row].len()).map(|i| leg(row, i)).collect()).collect())
 }

@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use super::ArmSetup;
-use crate::campaign::scenario::{ArmMode, PathFrom};
+use crate::campaign::scenario::{ArmMode, Keys, PathFrom, ProgramMethod};
 use crate::campaign::{Case, Tally};
 use crate::robot::arm::{Outline, body_name};
 use crate::search::heaviest::MOST_EXACT_POINTS;
@@ -78,6 +78,10 @@ pub(super) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut
         1 => "once".to_owned(),
         visits => format!("{visits} times and no move twice"),
     };
+    if search.method == ProgramMethod::Worst {
+        said.extend(executed(setup, cases, tally, &often));
+        return;
+    }
     said.push(format!(
         "Search: paths of largest total cost `{}` among {} points, each at most {often}; points may be left out; {} of {} programs \
          asked for, pairwise different. `optimal` means proven over all such paths.",
@@ -97,6 +101,34 @@ pub(super) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut
             "Each search had {limit} s: where that did not suffice for the proof the gap to the bound is told."
         ));
     }
+}
+
+/// How programs were found by executing them.
+fn executed(setup: &ArmSetup, cases: &[Case], tally: &Tally, often: &str) -> Vec<String> {
+    let (moves, asked) = (&setup.scenario.generate.moves, setup.scenario.search());
+    let arcs = if moves.arcs { ", which points arcs pass" } else { "" };
+    let target =
+        asked.target.map_or("each limit of `spec`, by its margin in spreads of what was drawn".into(), |target| {
+            format!("`{}`", target.word())
+        });
+    let mut said = vec![format!(
+        "Search: programs through points of {}, each at most {often}, by executing them for {target}: which points come, in which order and \
+         configuration{arcs}, and the speeds ({}) and zones ({}) of the moves; {} of {} programs asked for, of {} executions, {} of them of \
+         programs drawn at random ({}). Every program that was executed is a way through moves that are possible. Nothing says that no \
+         other is worse.",
+        setup.station.points.len(),
+        moves.speeds.join(", "),
+        moves.zones.join(", "),
+        cases.len(),
+        asked.cases,
+        tally.expansions,
+        tally.drawn,
+        tally.sampler.as_deref().unwrap_or("none"),
+    )];
+    if let Some(seconds) = asked.seconds {
+        said.push(format!("The search had {seconds} s: what it found depends on the clock and is not reproducible."));
+    }
+    said
 }
 
 /// Who ran them.

@@ -7,7 +7,7 @@ use crate::campaign::bounds::MOST_POINTS;
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{
     ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, ArmTask, CostName, CostSection, Keys, LogClock, Mistake,
-    MoveName, PointsSource,
+    MoveName, PointsSource, ProgramMethod, ProgramSearch, SearchSection, Target,
 };
 use crate::search::heaviest::{MOST_TRIPLE_POINTS, MOST_VISITS};
 use crate::trajectory::program::{Speed, Zone};
@@ -97,11 +97,53 @@ fn check_generate(generate: &ArmGenerate, points: u64, files: &Attachments, foun
     if let Some(least) = search.min_cost {
         found.from("generate.search.min_cost", least, 0.0, 1e15, "");
     }
+    check_search(search, points, found);
     for (key, row) in [("start", search.start), ("end", search.end)] {
         if let Some(row) = row {
             let bound = format!("a row of the cloud, 0 … {}", points.saturating_sub(1));
             found.require(row < points, &format!("generate.search.{key}"), row, &bound);
         }
+    }
+}
+
+/// Keys of one method, and their bounds.
+fn check_search(search: &ProgramSearch, points: u64, found: &mut Findings) {
+    if search.method == ProgramMethod::Heaviest {
+        let bound = "left out: only the method `worst` executes what it searches";
+        let given = [
+            ("executions", search.executions.map(|count| count.to_string())),
+            ("confirm", search.confirm.map(|count| count.to_string())),
+            ("seconds", search.seconds.map(|seconds| seconds.to_string())),
+            ("target", search.target.map(|target| format!("\"{}\"", target.word()))),
+            ("points", search.points.map(|count| count.to_string())),
+        ];
+        for (key, value) in given.into_iter().filter_map(|(key, value)| Some((key, value?))) {
+            found.require(false, &format!("generate.search.{key}"), value, bound);
+        }
+        return;
+    }
+    if let Some(executions) = search.executions {
+        found.count("generate.search.executions", executions, 1, 1_000_000);
+    }
+    if let Some(confirm) = search.confirm {
+        let executions = search.executions.unwrap_or(SearchSection::default().executions);
+        found.count("generate.search.confirm", confirm, 0, executions.saturating_sub(1).min(1_000));
+    }
+    if let Some(seconds) = search.seconds {
+        found.above("generate.search.seconds", seconds, 0.0, 1e6, " s");
+    }
+    if let Some(target) = search.target {
+        let bound = "one of deviation, acceleration, time, overshoot, lateness: a program's runs have no other measure";
+        let measured = !matches!(target, Target::Clearance | Target::TipOver);
+        found.require(measured, "generate.search.target", format!("\"{}\"", target.word()), bound);
+    }
+    if let Some(count) = search.points {
+        let visits = search.visits.min(MOST_VISITS as u64);
+        found.count("generate.search.points", count, 1, points.saturating_mul(visits).max(1));
+    }
+    if let Some(least) = search.min_cost {
+        let bound = "left out: the method `worst` asks how programs are executed, not what they cost";
+        found.require(false, "generate.search.min_cost", least, bound);
     }
 }
 

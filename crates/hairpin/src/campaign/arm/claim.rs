@@ -1,6 +1,6 @@
 //! What of programs is claimed, and by whom.
 
-use super::solve::ArmSolver;
+use super::solver::ArmSolver;
 use super::{ArmSetup, knobs, losses, plan, replan, verify};
 use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Solver};

@@ -122,6 +122,13 @@ pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
 }
 
 impl ArmSetup {
+    /// What the scenario's table of costs says of a move, where costs come from one.
+    pub(super) fn measured_cost(&self, from: usize, to: usize) -> Option<Option<i64>> {
+        let CostSection::Table(table) = &self.scenario.generate.cost else { return None };
+        let matrix = self.attachments.costs(table)?;
+        matrix.costs.get(from * matrix.points + to).copied()
+    }
+
     /// Names of the cell's parts, as refusals count them.
     pub fn part_names(&self) -> Vec<String> {
         self.station.cell.parts.iter().map(|part| part.name.clone()).collect()
@@ -248,7 +255,7 @@ fn standing(station: &Station, pose: &Isometry3<f64>) -> Option<Joints> {
 }
 
 /// cf1, cf4, cf6, cfx as a configuration, if cfx is one.
-fn configuration([cf1, cf4, cf6, cfx]: [i32; 4]) -> Option<Configuration> {
+pub(super) fn configuration([cf1, cf4, cf6, cfx]: [i32; 4]) -> Option<Configuration> {
     let cfx = u8::try_from(cfx).ok().filter(|cfx| *cfx < 8)?;
     Some(Configuration { cf1, cf4, cf6, cfx: Branch::from_cfx(cfx).cfx() })
 }

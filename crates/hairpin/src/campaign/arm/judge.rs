@@ -16,16 +16,15 @@ impl Programs for ArmSetup {
         self.scenario.execute.logs.as_deref()
     }
 
-    fn reference(&self, case: &Case) -> Option<Track> {
-        let path = match self.scenario.spec.path.map(|limit| limit.from) {
+    fn reference(&self, case: &Case, programmed: Option<&PlannedPath>) -> Option<Track> {
+        match self.scenario.spec.path.map(|limit| limit.from) {
             Some(PathFrom::Sharp) => {
                 let orders = self.orders(program_of(case).ok()?).ok()?;
                 let plan = Plan::new(&self.station.arm, &self.station.home, &orders, &self.plan_settings()).ok()?;
-                plan.sharp_path().ok()?
+                Some(plan.sharp_path().ok()?.track().clone())
             }
-            Some(PathFrom::Blended) | None => self.planned_path(case).ok()?,
-        };
-        Some(path.track().clone())
+            Some(PathFrom::Blended) | None => Some(programmed?.track().clone()),
+        }
     }
 
     fn programmed(&self, case: &Case) -> Option<PlannedPath> {

@@ -1,5 +1,6 @@
 //! Arms: a cell and a cloud of points, the reachability graph between them, and the programs that load the arm most.
 
+mod alter;
 mod assumptions;
 mod build;
 mod cell;
@@ -7,6 +8,7 @@ mod check;
 mod claim;
 mod clock;
 mod doubt;
+mod draw;
 mod execute;
 mod graph;
 mod hidden;
@@ -25,8 +27,12 @@ mod retrace;
 mod say;
 mod seen;
 mod solve;
+mod solver;
 mod station;
+#[cfg(test)]
+mod tests;
 mod verify;
+mod ways;
 mod written;
 
 pub use clock::ArcClock;

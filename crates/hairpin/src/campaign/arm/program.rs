@@ -4,9 +4,10 @@
 use nalgebra::Isometry3;
 
 use super::ArmSetup;
+use super::graph::configuration;
 use crate::campaign::CaseNumber;
 use crate::campaign::scenario::MoveName;
-use crate::math::random::{named_seed, stream, unit};
+use crate::math::random::{Stream, unit};
 use crate::robot::arm::Configuration;
 use crate::simulation::SimulationError;
 use crate::simulation::arm::Order;
@@ -14,15 +15,19 @@ use crate::trajectory::program::{
     JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
 };
 
-/// A way through the cloud.
+/// A point of a way through the cloud, and how it is met.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Way {
-    /// Rows of the cloud, in order.
-    pub(super) rows: Vec<usize>,
-    /// Configuration at each of them; `None` in Cartesian mode, which knows no joints.
-    pub(super) configurations: Vec<Option<Configuration>>,
-    /// Places of points that arcs pass instead of two straight moves, no two beside each other.
-    pub(super) arcs: Vec<usize>,
+pub(super) struct Met {
+    /// Row of the cloud.
+    pub(super) row: usize,
+    /// `None` in Cartesian mode, which knows no joints.
+    pub(super) configuration: Option<Configuration>,
+    /// Of the move that leads to it.
+    pub(super) speed: Speed,
+    /// How its corner is to be cut, where it may be.
+    pub(super) zone: Zone,
+    /// Whether an arc passes it, in place of two straight moves; no two such points are beside each other.
+    pub(super) passed: bool,
 }
 
 /// Name of the home posture in programs.
@@ -58,42 +63,70 @@ impl ArmSetup {
         }
     }
 
-    /// The program along `way`: home, joints to the first point, on through the others, home. Speeds and zones are
-    /// drawn from the scenario's lists; `blends(k)` says whether the corner at the way's k-th point may be cut by a
-    /// zone (m).
-    pub(super) fn program(&self, way: &Way, number: usize, blends: impl Fn(usize, f64) -> bool) -> Program {
+    /// Speeds and zones of the moves to so many points, drawn from the scenario's lists.
+    pub(super) fn drawn_moves(&self, count: usize, random: &mut Stream) -> Vec<(Speed, Zone)> {
+        let moves = &self.scenario.generate.moves;
+        let mut pick = |names: &[String]| names[(unit(random) * names.len() as f64) as usize].clone();
+        let mut drawn = || {
+            let (speed, zone) = (pick(&moves.speeds), pick(&moves.zones));
+            (Speed::predefined(&speed).unwrap_or_else(slow), Zone::predefined(&zone).unwrap_or_else(Zone::stop))
+        };
+        (0..count).map(|_| drawn()).collect()
+    }
+
+    /// The program along `way`: home, joints to the first point, on through the others, home. `blends(k)` says whether
+    /// the corner at the way's k-th point may be cut by a zone (m).
+    pub(super) fn program(&self, way: &[Met], number: usize, blends: impl Fn(usize, f64) -> bool) -> Program {
         let (tool, object) = self.frames();
         let object_from_base = object.base_from_object().inverse();
-        let procedure = &self.scenario.generate.moves.procedure;
-        let mut program = Program::new(&format!("hairpin_{}", CaseNumber(number)), procedure, tool, object);
         let moves = &self.scenario.generate.moves;
-        let mut random = stream(named_seed(self.scenario.seed, "moves", number as u64));
-        let mut pick = |names: &[String]| names[(unit(&mut random) * names.len() as f64) as usize].clone();
+        let mut program = Program::new(&CaseNumber(number).of_program(), &moves.procedure, tool, object);
         let home = || Move::new(Motion::AbsoluteJoint(self.home()), slow(), Zone::stop());
+        let target = |met: &Met| self.target(&object_from_base, met.row, met.configuration);
         program.moves.push(home());
-        let passed = |k: usize| way.arcs.contains(&k);
-        for (k, (row, configuration)) in way.rows.iter().zip(&way.configurations).enumerate() {
-            let target = self.target(&object_from_base, *row, *configuration);
-            let (speed, zone) = (pick(&moves.speeds), pick(&moves.zones));
-            let speed = Speed::predefined(&speed).unwrap_or_else(slow);
-            if passed(k) {
-                continue;
-            }
+        for (k, met) in way.iter().enumerate().filter(|(_, met)| !met.passed) {
             // Blends beside an arc lie in no triangle that is proven.
-            let straight = k > 0 && k + 1 < way.rows.len() && !passed(k - 1) && !passed(k + 1);
-            let zone = Zone::predefined(&zone).filter(|zone| straight && !zone.fine && blends(k, zone.tcp));
+            let straight = k > 0 && k + 1 < way.len() && !way[k - 1].passed && !way[k + 1].passed;
+            let cut = straight && !met.zone.fine && blends(k, met.zone.tcp);
+            let zone = if cut { met.zone.clone() } else { Zone::stop() };
             let motion = match moves.kind {
-                MoveName::Linear if k > 0 && passed(k - 1) => Motion::Circular {
-                    via: self.target(&object_from_base, way.rows[k - 1], way.configurations[k - 1]),
-                    to: target,
-                },
-                MoveName::Linear if k > 0 => Motion::Linear(target),
-                MoveName::Linear | MoveName::Joint => Motion::Joint(target),
+                MoveName::Linear if k > 0 && way[k - 1].passed => {
+                    Motion::Circular { via: target(&way[k - 1]), to: target(met) }
+                }
+                MoveName::Linear if k > 0 => Motion::Linear(target(met)),
+                MoveName::Linear | MoveName::Joint => Motion::Joint(target(met)),
             };
-            program.moves.push(Move::new(motion, speed, zone.unwrap_or_else(Zone::stop)));
+            program.moves.push(Move::new(motion, met.speed.clone(), zone));
         }
         program.moves.push(home());
         program
+    }
+
+    /// The way that `program` takes through the cloud; `None` where it is none from home and back. Points that arcs
+    /// pass have the speed of their arc.
+    pub(super) fn way_of(&self, program: &Program) -> Option<Vec<Met>> {
+        let between = program.moves.get(1..program.moves.len().checked_sub(1)?)?;
+        let mut way = Vec::with_capacity(between.len());
+        for one in between {
+            let met = |to: &PoseTarget, passed: bool| {
+                let configuration = to.configuration.and_then(configuration);
+                let row = self.row_of(to.name.as_deref()?)?;
+                let zone = if passed { Zone::stop() } else { one.zone.clone() };
+                Some(Met { row, configuration, speed: one.speed.clone(), zone, passed })
+            };
+            match &one.motion {
+                Motion::Circular { via, to } => way.extend([met(via, true)?, met(to, false)?]),
+                Motion::Joint(to) | Motion::Linear(to) => way.push(met(to, false)?),
+                Motion::AbsoluteJoint(_) => return None,
+            }
+        }
+        Some(way)
+    }
+
+    /// The row of the point that is called `name`.
+    pub(super) fn row_of(&self, name: &str) -> Option<usize> {
+        let row = name.strip_prefix('p')?.parse().ok()?;
+        (row < self.station.points.len() && self.point_name(row) == name).then_some(row)
     }
 
     /// What the virtual controller is told of `program`: its moves after the first, which starts at home, in base

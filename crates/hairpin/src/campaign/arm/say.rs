@@ -9,7 +9,7 @@ use crate::campaign::digits::number;
 use crate::campaign::kind::{
     Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, Programs, RobotWords, Say, surface,
 };
-use crate::campaign::scenario::ArmMode;
+use crate::campaign::scenario::{ArmMode, Keys, ProgramMethod, Target};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::robot::arm::AXES;
@@ -59,11 +59,22 @@ impl Say for ArmSetup {
                 moves.speeds.join(", "),
                 moves.zones.join(", ")
             ),
-            search: Some(format!(
-                "heaviest path through {} points, cost {}",
-                self.asked_points(),
-                self.scenario.generate.cost.word()
-            )),
+            search: Some(match self.scenario.generate.search.method {
+                ProgramMethod::Heaviest => format!(
+                    "heaviest path through {} points, cost {}",
+                    self.asked_points(),
+                    self.scenario.generate.cost.word()
+                ),
+                ProgramMethod::Worst => {
+                    let search = self.scenario.search();
+                    let target = search.target.map_or("the limits of spec", Target::word);
+                    format!(
+                        "programs through {} points, by {} executions for {target}",
+                        self.asked_points(),
+                        search.pooled_executions(),
+                    )
+                }
+            }),
             proven: "proven clear",
             nothing: "no program from home to home".into(),
         }

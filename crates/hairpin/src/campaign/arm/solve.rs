@@ -1,21 +1,21 @@
 //! The search: the heaviest paths through the reachability graph, made into programs.
 
-use nalgebra::Point3;
-
 use super::ArmSetup;
-use super::graph::{ArmGraph, graph_of};
-use super::program::Way;
-use crate::campaign::graph::{Executions, Outcome, Plan, Wanted};
-use crate::campaign::kind::Solver;
+use super::graph::ArmGraph;
+use super::program::Met;
+use crate::campaign::graph::Plan;
 use crate::campaign::scenario::ArmMode;
 use crate::campaign::{Case, Evidence, Stop};
-use crate::math::random::Stream;
+use crate::math::random::{named_seed, stream};
 use crate::search::heaviest::{
-    Arcs, Ends, Heaviest, HeaviestSettings, Outcome as Found, Triples, WalkProof, WalkSettings, heaviest,
+    Arcs, Ends, Heaviest, HeaviestSettings, Method, Outcome as Found, Triples, WalkProof, WalkSettings, heaviest,
     heaviest_walk, heaviest_with_triples,
 };
 use crate::simulation::arm as controller;
-use crate::trajectory::program::Program;
+use crate::trajectory::program::{Program, Speed, Zone};
+
+/// Nodes of a search for the heaviest walk that only begins another one.
+const MOST_NODES: u64 = 100;
 
 /// A graph as it is searched.
 #[derive(Debug, Clone)]
@@ -26,59 +26,6 @@ pub struct Question {
     pub costs: Vec<Option<i64>>,
     /// First and last point, where they are fixed.
     pub ends: Ends,
-}
-
-/// The search for an arm's programs.
-pub(super) struct ArmSolver<'a> {
-    setup: &'a ArmSetup,
-}
-
-impl<'a> ArmSolver<'a> {
-    pub(super) fn new(setup: &'a ArmSetup) -> Self {
-        Self { setup }
-    }
-}
-
-impl Solver for ArmSolver<'_> {
-    /// The programs of the one graph that there is.
-    fn solve(&self, _: u64, _: Executions, _: Wanted, stop: &Stop) -> Outcome {
-        let mut outcome = Outcome { graphs: 1, ..Outcome::default() };
-        let graph = match graph_of(self.setup) {
-            Ok(graph) => graph,
-            Err(reason) => return Outcome { reason: Some(reason), ..outcome },
-        };
-        match self.setup.heaviest(&graph, stop) {
-            Ok(found) => {
-                outcome.expansions = found.nodes;
-                outcome.proven_empty = u64::from(found.paths.is_empty() && found.proven);
-                outcome.reason = found.paths.is_empty().then(|| self.setup.why_none(&graph, &found));
-                let plans = found
-                    .paths
-                    .iter()
-                    .enumerate()
-                    .map(|(number, (cost, rows))| (0, self.setup.plan(&graph, rows, *cost, &found, number)));
-                outcome.plans = plans.collect();
-            }
-            Err(reason) => outcome.reason = Some(reason),
-        }
-        outcome
-    }
-
-    fn moves(&self) -> bool {
-        false
-    }
-
-    fn over(&self, _: u64, _: &Plan, _: &[Point3<f64>]) -> Option<Plan> {
-        None
-    }
-
-    fn elsewhere(&self, _: u64, _: &mut Stream) -> Option<Point3<f64>> {
-        None
-    }
-    /// There are no rounds: whatever is wanted is the heaviest.
-    fn draws(&self) -> bool {
-        false
-    }
 }
 
 impl ArmSetup {
@@ -116,8 +63,18 @@ impl ArmSetup {
     /// # Errors
     /// Costs that no search takes, in a sentence's part.
     pub fn heaviest(&self, graph: &ArmGraph, stop: &Stop) -> Result<Heaviest, String> {
-        let programs = self.scenario.generate.search.programs as usize;
-        let (mut found, _) = self.search(graph, &self.question(graph), programs, false, stop)?;
+        self.heaviest_of(graph, self.scenario.generate.search.programs as usize, None, stop)
+    }
+
+    /// The same, so many of them, by a method of one's own where points come once and moves pass none.
+    pub(super) fn heaviest_of(
+        &self,
+        graph: &ArmGraph,
+        programs: usize,
+        method: Option<Method>,
+        stop: &Stop,
+    ) -> Result<Heaviest, String> {
+        let (mut found, _) = self.search(graph, &self.question(graph), programs, (false, method), stop)?;
         for (_, path) in &mut found.paths {
             path.retain(|row| *row < graph.points());
         }
@@ -143,7 +100,7 @@ impl ArmSetup {
         stop: &Stop,
     ) -> Result<Option<(Question, Heaviest, Option<WalkProof>)>, String> {
         let question = self.question(graph);
-        let (found, walk) = self.search(graph, &question, 1, true, stop)?;
+        let (found, walk) = self.search(graph, &question, 1, (true, None), stop)?;
         let of_cloud = |path: &[usize]| path.iter().filter(|row| **row < graph.points()).count();
         let proven = found.proven && found.paths.first().is_some_and(|(_, path)| of_cloud(path) > 1);
         Ok(proven.then_some((question, found, walk)))
@@ -154,7 +111,7 @@ impl ArmSetup {
         graph: &ArmGraph,
         question: &Question,
         programs: usize,
-        proof: bool,
+        (proof, method): (bool, Option<Method>),
         stop: &Stop,
     ) -> Result<(Heaviest, Option<WalkProof>), String> {
         let search = &self.scenario.generate.search;
@@ -164,13 +121,15 @@ impl ArmSetup {
         let (ends, min_cost) = (question.ends, search.min_cost.map(|least| (least / graph.unit).ceil() as i64));
         if search.visits > 1 {
             let visits = search.visits as usize;
-            let settings = WalkSettings { ends, visits, min_cost, programs, most_nodes: None, proof };
+            let most_nodes = method.map(|_| MOST_NODES);
+            let settings = WalkSettings { ends, visits, min_cost, programs, most_nodes, proof };
             return heaviest_walk(&arcs, &settings, &over).map_err(|error| error.to_string());
         }
         let settings = HeaviestSettings {
             ends,
             min_cost,
             programs,
+            method: method.unwrap_or_default(),
             seed: self.scenario.seed,
             proof,
             ..HeaviestSettings::default()
@@ -202,28 +161,42 @@ impl ArmSetup {
         }
     }
 
-    fn plan(&self, graph: &ArmGraph, rows: &[usize], cost: i64, found: &Heaviest, number: usize) -> Plan {
-        let station = &self.station;
+    pub(super) fn plan(&self, graph: &ArmGraph, rows: &[usize], cost: i64, found: &Heaviest, number: usize) -> Plan {
         let passed = found.passed.get(number).map_or(&[][..], Vec::as_slice);
-        let way = Way {
-            rows: rows.to_vec(),
-            configurations: rows.iter().map(|row| graph.configuration(self, *row)).collect(),
-            arcs: (0..rows.len()).filter(|place| passed.contains(&rows[*place])).collect(),
+        let mut random = stream(named_seed(self.scenario.seed, "moves", number as u64));
+        let met = |(row, (speed, zone)): (&usize, (Speed, Zone))| Met {
+            row: *row,
+            configuration: graph.configuration(self, *row),
+            speed,
+            zone,
+            passed: passed.contains(row),
         };
-        let program = self.program(&way, number, |k, zone| graph.blends(self, rows, k, zone));
+        let way: Vec<Met> = rows.iter().zip(self.drawn_moves(rows.len(), &mut random)).map(met).collect();
+        Plan {
+            score: cost as f64 * graph.unit,
+            // The bound of the heaviest holds for all that come after it.
+            bound: found.bound.map(|bound| bound as f64 * graph.unit).filter(|_| number == 0),
+            ..self.planned(graph, &way, number)
+        }
+    }
+
+    /// The program along `way` as program number `number`, without a score.
+    pub(super) fn planned(&self, graph: &ArmGraph, way: &[Met], number: usize) -> Plan {
+        let station = &self.station;
+        let rows: Vec<usize> = way.iter().map(|met| met.row).collect();
+        let program = self.program(way, number, |k, zone| graph.blends(self, &rows, k, zone));
         let home = station.tool_at(&station.home);
         // Where moves end; arcs pass the others.
-        let ends = rows.iter().enumerate().filter(|(k, _)| !way.arcs.contains(k));
-        let places = ends.map(|(_, row)| station.points[*row].pose);
+        let ends = way.iter().filter(|met| !met.passed);
+        let places = ends.map(|met| station.points[met.row].pose);
         let poses = std::iter::once(home).chain(places).chain(std::iter::once(home));
         let leg_times = self.leg_times(&program);
         Plan {
             waypoints: poses.map(|pose| pose.translation.vector.into()).collect(),
             leg_times,
             seen: Vec::new(),
-            score: cost as f64 * graph.unit,
-            // The bound of the heaviest holds for all that come after it.
-            bound: found.bound.map(|bound| bound as f64 * graph.unit).filter(|_| number == 0),
+            score: 0.0,
+            bound: None,
             evidence: match self.scenario.generate.mode {
                 ArmMode::Joint => Evidence::ClearAllLinks,
                 ArmMode::Cartesian => Evidence::ClearToolSphere,

@@ -1,9 +1,11 @@
 //! What drives: rovers on elevation maps, cars and differential drives.
 
+mod alter;
 mod ask;
 mod assumptions;
 mod check;
 mod claim;
+mod draw;
 mod drawing;
 mod execute;
 mod knobs;
@@ -18,6 +20,8 @@ mod site;
 mod solve;
 mod stepwise;
 mod surround;
+#[cfg(test)]
+mod tests;
 mod verify;
 
 pub use setup::DriveSetup;

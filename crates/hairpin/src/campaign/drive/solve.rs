@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use nalgebra::Point3;
-use rand::RngExt;
 
 use super::DriveSetup;
 use super::ask::{Asked, Graph, ask, beside};
@@ -18,8 +17,8 @@ use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchMethod, SearchSection};
 use crate::campaign::{Evidence, Stop};
 use crate::feasibility::reach::drive::{
-    DriveLegs, DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore, Manoeuvres,
-    sample_ground,
+    DriveDraft, DriveLegs, DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore,
+    Manoeuvres, sample_ground,
 };
 use crate::feasibility::steering::shooting::families;
 use crate::math::random::{Stream, named_seed};
@@ -36,11 +35,11 @@ const LEARNED_FROM: &str = "slope+slip";
 
 /// The part of a search that is the same for every graph.
 pub(super) struct DriveSolver<'a> {
-    setup: &'a DriveSetup,
-    settings: DriveSettings,
-    search: SearchSection,
+    pub(super) setup: &'a DriveSetup,
+    pub(super) settings: DriveSettings,
+    pub(super) search: SearchSection,
     /// The reach set, where it is another than `witness`.
-    stepwise: Option<Stepwise<'a>>,
+    pub(super) stepwise: Option<Stepwise<'a>>,
     /// Of the graphs that rounds come back to.
     remembered: Remembered<DriveLegs>,
 }
@@ -58,40 +57,53 @@ impl<'a> DriveSolver<'a> {
         Ok(Self { setup, settings, search, stepwise, remembered: Remembered::default() })
     }
 
-    /// `plan` over `points`, as many as its own, by the same reach set; heights are the ground's. `None` where they are
-    /// not feasible.
+    /// `plan` over `points`, as many as its own, by the same reach set; heights are the ground's, and only legs with a
+    /// moved end are solved again. `None` where they are not feasible.
     fn moved(&self, graph: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let on_ground = |p: &Point3<f64>| Some(Point3::new(p.x, p.y, self.setup.map.patch(p.x, p.y).ok()?.height));
         let waypoints: Vec<Point3<f64>> = points.iter().map(on_ground).collect::<Option<_>>()?;
         if let Some(stepwise) = &self.stepwise {
-            return Some(Plan { seen: stepwise.follows(&waypoints)?, waypoints, bound: None, ..plan.clone() });
+            return stepwise.planned(plan, waypoints);
         }
-        let old = plan.witness.as_ref()?.commands()?;
-        let passings: Option<Vec<Passing>> =
-            waypoints.iter().enumerate().map(|(index, p)| Some(old.passing(index)?.moved_to(p))).collect();
-        let drive = self.through(graph, &passings?)?;
-        let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
-        // No search saw its legs.
-        Some(Plan { waypoints, leg_times, seen: Vec::new(), witness: Some(drive.into()), bound: None, ..plan.clone() })
+        let settings = self.settings_of(named_seed(self.setup.scenario.seed, "roadmap", graph));
+        let mut draft = DriveDraft::of(plan.witness.as_ref()?.commands()?, &settings);
+        if draft.waypoints() != waypoints.len() {
+            return None;
+        }
+        for (index, place) in waypoints.iter().enumerate() {
+            draft.pass(index, draft.passing(index).moved_to(place));
+        }
+        Some(along(plan, waypoints, draft.driven(&self.site(), &settings)?))
     }
 
     /// The drive over waypoints passed as `passings` say, in order, solved as one of graph number `graph` is.
     pub(super) fn through(&self, graph: u64, passings: &[Passing]) -> Option<Drive> {
-        let seed = named_seed(self.setup.scenario.seed, "roadmap", graph);
-        DriveRoadmap::through(self.site(), passings, &DriveSettings { seed, ..self.settings.clone() })
+        let settings = self.settings_of(named_seed(self.setup.scenario.seed, "roadmap", graph));
+        DriveDraft::new(passings, &settings).driven(&self.site(), &settings)
+    }
+
+    /// What legs may do, with what waypoints draw by their numbers drawn from `seed`.
+    pub(super) fn settings_of(&self, seed: u64) -> DriveSettings {
+        DriveSettings { seed, ..self.settings.clone() }
     }
 
     /// Counts what becomes of the candidates for legs near the start of graph number `graph`.
     pub(super) fn count(&self, graph: u64, counter: &mut Counter) {
-        let Ok(points) = self.sample(graph) else { return };
+        let [of_points, of_roadmap] = self.seeds_of(graph);
+        let Ok(points) = self.sample(of_points) else { return };
         match &self.stepwise {
             Some(stepwise) => stepwise.count(&points, counter),
             None => {
                 let (length, ends) =
                     (self.setup.scenario.task.length as usize, self.setup.scenario.task.end_m.is_some());
-                count(&self.roadmap(graph, &points), &points, length, ends, counter);
+                count(&self.roadmap(of_roadmap, &points), &points, length, ends, counter);
             }
         }
+    }
+
+    /// Seeds of the waypoints of graph number `graph`, and of its roadmap.
+    fn seeds_of(&self, graph: u64) -> [u64; 2] {
+        ["graph", "roadmap"].map(|label| named_seed(self.setup.scenario.seed, label, graph))
     }
 
     /// Start, free waypoints and, if there is one, the end.
@@ -99,7 +111,7 @@ impl<'a> DriveSolver<'a> {
     /// n free waypoints in a disc of area n π (l₁² − l₀²) / 12 with l₀ and l₁ the leg's least and greatest length, so
     /// that each has about 12 others at a leg's distance; around the middle of both ends, and never so small that the
     /// ends lie outside.
-    fn sample(&self, graph: u64) -> Result<Vec<Point3<f64>>, String> {
+    pub(super) fn sample(&self, seed: u64) -> Result<Vec<Point3<f64>>, String> {
         let task = &self.setup.scenario.task;
         let [low, high] = task.leg_m;
         let start = [task.start.x_m, task.start.y_m];
@@ -116,7 +128,7 @@ impl<'a> DriveSolver<'a> {
             margin: self.setup.planner.suspension.outer_radius(),
             around: Some((center, libm::sqrt(area / PI).max(apart + high))),
             sampling: self.search.sampling,
-            seed: named_seed(self.setup.scenario.seed, "graph", graph),
+            seed,
         };
         let free = sample_ground(&self.site(), &self.settings, &asked).map_err(|error| error.to_string())?;
         let on_ground =
@@ -124,7 +136,8 @@ impl<'a> DriveSolver<'a> {
         Ok(std::iter::once(on_ground(start)).chain(free).chain(task.end_m.map(on_ground)).collect())
     }
 
-    fn roadmap(&self, graph: u64, points: &[Point3<f64>]) -> DriveRoadmap<'_> {
+    /// The headed waypoints over `points`, with what they draw by their numbers drawn from `seed`.
+    pub(super) fn roadmap(&self, seed: u64, points: &[Point3<f64>]) -> DriveRoadmap<'_> {
         let task = &self.setup.scenario.task;
         let start = Planar {
             x: task.start.x_m,
@@ -132,9 +145,7 @@ impl<'a> DriveSolver<'a> {
             yaw: task.start.yaw_deg.to_radians(),
             curvature: task.start.curvature_1_m,
         };
-        let seed = named_seed(self.setup.scenario.seed, "roadmap", graph);
-        let settings = DriveSettings { seed, ..self.settings.clone() };
-        DriveRoadmap::new(self.site(), points, &start, None, &settings)
+        DriveRoadmap::new(self.site(), points, &start, None, &self.settings_of(seed))
     }
 
     /// Legs that were solved are kept for the next round of an adaptive campaign. Where nothing is found the reason is
@@ -142,14 +153,14 @@ impl<'a> DriveSolver<'a> {
     fn by_roadmap(&self, graph: Graph) -> Outcome {
         let points = graph.points;
         let (number, again) = (graph.graph, matches!(graph.looped.wanted, Wanted::Round(_)));
-        let mut roadmap = self.roadmap(number, points);
+        let mut roadmap = self.roadmap(self.seeds_of(number)[1], points);
         if let Some(legs) = self.remembered.take(number) {
             roadmap = roadmap.knowing(legs);
         }
         let plan = |found: Found<_>| {
             let drive = roadmap.drive(&found.nodes)?;
             // With stops, which the search does not see before it knows what follows what.
-            let leg_times = (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect();
+            let leg_times = times(&drive);
             Some(Plan { leg_times, witness: Some(drive.into()), ..Plan::new(&found, points, Evidence::Witnessed) })
         };
         let score = learned(&graph.looped, &self.setup.attachments, &self.setup.scenario.generate.search.score)
@@ -169,14 +180,14 @@ impl<'a> DriveSolver<'a> {
         outcome
     }
 
-    fn site(&self) -> DriveSite<'_> {
+    pub(super) fn site(&self) -> DriveSite<'_> {
         DriveSite::new(&self.setup.planner, &self.setup.map, &self.setup.keep_out)
     }
 }
 
 impl Solver for DriveSolver<'_> {
     fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, _: &Stop) -> Outcome {
-        let points = match self.sample(graph) {
+        let points = match self.sample(self.seeds_of(graph)[0]) {
             Ok(points) => points,
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
         };
@@ -197,14 +208,40 @@ impl Solver for DriveSolver<'_> {
         }
     }
 
+    fn draw(&self, graph: u64) -> Result<Plan, String> {
+        self.drawn(graph)
+    }
+
+    fn drawn_how(&self) -> &'static str {
+        "each leg alike among those that lead on from where the last one ended: drives with few ways on come more often"
+    }
+
     fn over(&self, graph: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         self.moved(graph, plan, points)
     }
 
     fn elsewhere(&self, graph: u64, random: &mut Stream) -> Option<Point3<f64>> {
-        let points = self.sample(graph).ok()?;
-        Some(points[random.random_range(1..points.len() - 1)])
+        self.place_of(graph, random)
     }
+
+    fn crossed(&self, _: u64, plan: &Plan, other: &Plan, leg: usize, _: &mut Stream) -> Option<Plan> {
+        self.joined(plan, other, leg)
+    }
+
+    fn altered(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
+        self.passed_otherwise(plan, leg, random)
+    }
+}
+
+/// `plan` over `waypoints` along another drive. No search saw its legs.
+pub(super) fn along(plan: &Plan, waypoints: Vec<Point3<f64>>, drive: Drive) -> Plan {
+    let leg_times = times(&drive);
+    Plan { waypoints, leg_times, seen: Vec::new(), witness: Some(drive.into()), bound: None, ..plan.clone() }
+}
+
+/// Durations of the legs, s.
+fn times(drive: &Drive) -> Vec<f64> {
+    (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect()
 }
 
 /// What legs may do, and how hard they are looked for.

@@ -5,6 +5,7 @@ use nalgebra::Point3;
 
 use super::DriveSetup;
 use super::ask::{Asked, Graph, ask, beside};
+use super::draw::Walking;
 use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Stage, in_order, learned};
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{GroundReach, Manoeuvre};
@@ -13,8 +14,8 @@ use crate::feasibility::reach::drive::{DriveSettings, DriveSite, StraightLegs};
 use crate::feasibility::reach::{
     BodyHull, BodyNode, Everywhere, Filtered, Leg, PlanarVehicle, Reach, Sphere, StepNode, StepReach, StepSettings,
 };
-use crate::math::random::named_seed;
-use crate::search::{Found, LegView};
+use crate::math::random::{Stream, named_seed};
+use crate::search::{Found, LegView, NoWalk, stroll};
 
 /// A step-wise reach set.
 pub(super) struct Stepwise<'a> {
@@ -75,6 +76,77 @@ impl<'a> Stepwise<'a> {
             Set::Everywhere(set) => in_order(StepReach::new(set, points, settings), start, points),
             Set::Sphere(set) => in_order(StepReach::new(set, points, settings), start, points),
             Set::Hull(hull) => in_order(hull.as_ref(), self.headed(hull), points),
+        }
+    }
+
+    /// `plan` over other waypoints, the first the task's start; `None` where a leg is not feasible.
+    pub(super) fn planned(&self, plan: &Plan, waypoints: Vec<Point3<f64>>) -> Option<Plan> {
+        Some(Plan { seen: self.follows(&waypoints)?, waypoints, bound: None, ..plan.clone() })
+    }
+
+    /// A random walk over `points`.
+    ///
+    /// # Errors
+    /// There is none, in a sentence's part.
+    pub(super) fn drawn(&self, points: &[Point3<f64>], walking: &Walking, random: &mut Stream) -> Result<Plan, String> {
+        let (settings, start) = (self.settings(), StepNode { previous: 0, current: 0 });
+        let at = |node: &StepNode| node.current;
+        let found = match &self.set {
+            Set::Everywhere(set) => {
+                self.walk(&StepReach::new(set, points, settings), start, at, points, walking, random)
+            }
+            Set::Sphere(set) => self.walk(&StepReach::new(set, points, settings), start, at, points, walking, random),
+            Set::Hull(hull) => {
+                self.walk(hull.as_ref(), self.headed(hull), |node| node.current, points, walking, random)
+            }
+        };
+        let waypoints: Vec<Point3<f64>> = found?.into_iter().map(|waypoint| points[waypoint as usize]).collect();
+        let seen = self.follows(&waypoints).ok_or("a walk that cannot be followed again")?;
+        Ok(Plan {
+            leg_times: vec![self.step(); waypoints.len() - 1],
+            waypoints,
+            seen,
+            score: 0.0,
+            bound: None,
+            evidence: self.evidence(),
+            certified: None,
+            witness: None,
+            environment: None,
+        })
+    }
+
+    fn walk<N: Copy + Eq>(
+        &self,
+        reach: &impl Reach<N>,
+        start: N,
+        place: impl Fn(&N) -> u32,
+        points: &[Point3<f64>],
+        walking: &Walking,
+        random: &mut Stream,
+    ) -> Result<Vec<u32>, String> {
+        let next = |walk: &[N]| {
+            let Some(here) = walk.last() else { return Vec::new() };
+            let mut legs = Vec::new();
+            reach.legs(here, points, &mut legs);
+            legs.retain(|leg| {
+                self.allows(&points[place(here) as usize], &points[leg.waypoint as usize])
+                    && walking.may_follow(walk.iter().map(&place), leg.waypoint)
+            });
+            legs.into_iter().map(|leg| leg.to).collect()
+        };
+        let walk = stroll(start, walking.length, next, |_, _| true, walking.most(), random);
+        let nodes = walk.map_err(|none| match none {
+            NoWalk::None => "every walk ends too early".to_owned(),
+            NoWalk::Asked(most) => format!("none was found in {most} legs"),
+        })?;
+        Ok(nodes.iter().map(place).collect())
+    }
+
+    /// What stands behind its legs.
+    fn evidence(&self) -> Evidence {
+        match self.set {
+            Set::Hull(_) => Evidence::HullFeasible,
+            Set::Everywhere(_) | Set::Sphere(_) => Evidence::Unchecked,
         }
     }
 
@@ -156,10 +228,7 @@ impl<'a> Stepwise<'a> {
         let (scenario, points) = (&self.setup.scenario, graph.points);
         let keep = |from: &N, leg: &Leg<N>| self.allows(&points[place(from) as usize], &points[leg.waypoint as usize]);
         let filtered = Filtered { inner: reach, keep };
-        let evidence = match self.set {
-            Set::Hull(_) => Evidence::HullFeasible,
-            Set::Everywhere(_) | Set::Sphere(_) => Evidence::Unchecked,
-        };
+        let evidence = self.evidence();
         let plan = |found: Found<N>| Some(Plan::new(&found, points, evidence));
         let (reach, lookahead) = (&filtered, 1);
         if let Some(score) = learned(&graph.looped, &self.setup.attachments, &self.setup.scenario.generate.search.score)

@@ -39,22 +39,19 @@ impl Purpose {
 pub struct ByChance {
     /// In the order of their numbers.
     pub cases: Vec<Case>,
-    /// Whether nothing can be drawn of this kind of robot.
-    pub lacks_draws: bool,
     /// Where they are fewer than asked for, and it was not stopped: why, in a sentence's part.
     pub reason: Option<String>,
 }
 
 /// Draws `count` cases of what `setup` finds feasible, the claim and its limits included, numbered from 0; fewer where
-/// 20 graphs for each do not give so many, where the kind of robot has nothing to draw from, or where `stop` says so.
+/// 20 graphs for each do not give so many, or where `stop` says so.
 ///
 /// Where `[vary]` shapes plans, each case draws its own values first. What a search would find beside the waypoints is
 /// left out. One seed gives the same cases on any number of threads.
 pub fn by_chance(setup: &Setup, (purpose, count): (Purpose, u64), stop: &Stop) -> ByChance {
     let mut drawn = ByChance::default();
     let graphs = match Graphs::of(setup, &OwnSimulator) {
-        Ok(graphs) if graphs.solver.draws() => graphs,
-        Ok(_) => return ByChance { lacks_draws: true, ..drawn },
+        Ok(graphs) => graphs,
         Err(reason) => return ByChance { reason: Some(reason), ..drawn },
     };
     let varied = varies(&setup.scenario);
@@ -184,7 +181,7 @@ mod tests {
         keys.generate.timing.as_mut().unwrap().step_s = Some(0.05);
         let far = Setup::new(far.scenario).unwrap();
         let none = by_chance(&far, (Purpose::Baseline, 2), &stop(&|| false));
-        assert!(none.cases.is_empty() && none.reason.is_some() && !none.lacks_draws, "{none:?}");
+        assert!(none.cases.is_empty() && none.reason.is_some(), "{none:?}");
         let stopped = by_chance(&setup(json!({})), (Purpose::Baseline, 2), &stop(&|| true));
         assert_eq!((stopped.cases.len(), stopped.reason), (0, None));
     }

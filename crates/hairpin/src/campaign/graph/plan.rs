@@ -70,8 +70,9 @@ impl Plan {
 
     /// Case `number` of a campaign under the root seed, found in graph number `graph`.
     pub(in crate::campaign) fn case(self, root: u64, graph: u64, number: usize) -> Case {
+        let case = CaseNumber(number);
         Case {
-            number: CaseNumber(number),
+            number: case,
             seed: case_seed(root, number as u64),
             graph,
             waypoints: self.waypoints,
@@ -81,7 +82,7 @@ impl Plan {
             bound: self.bound,
             evidence: self.evidence,
             certified: self.certified,
-            witness: self.witness,
+            witness: self.witness.map(|witness| witness.of_case(case)),
             environment: self.environment,
         }
     }

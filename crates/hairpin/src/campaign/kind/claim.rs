@@ -84,11 +84,6 @@ pub(in crate::campaign) trait Solver: Sync {
     /// has no bound in counts.
     fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, stop: &Stop) -> Outcome;
 
-    /// Whether a round's uniform draws are that.
-    fn draws(&self) -> bool {
-        true
-    }
-
     /// Whether its legs can be asked for the optimum of other scores, by their names, than the scenario's.
     fn takes_scores(&self) -> bool {
         false

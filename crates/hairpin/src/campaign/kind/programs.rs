@@ -11,8 +11,9 @@ pub(in crate::campaign) trait Programs {
     /// The logs whose recordings are the runs, where nothing is executed.
     fn recordings(&self) -> Option<&str>;
 
-    /// The path that deviations are measured from: with the program's zones, or through its points.
-    fn reference(&self, case: &Case) -> Option<Track>;
+    /// The path that deviations are measured from: with the program's zones, which is the one that is `programmed`, or
+    /// through its points.
+    fn reference(&self, case: &Case, programmed: Option<&PlannedPath>) -> Option<Track>;
 
     /// The programmed path of `case` with its zones, and where its moves end; `None` where it has none.
     fn programmed(&self, case: &Case) -> Option<PlannedPath>;

@@ -120,6 +120,19 @@ pub enum Target {
 }
 
 impl Target {
+    /// The word in scenarios.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Deviation => "deviation",
+            Self::Clearance => "clearance",
+            Self::Acceleration => "acceleration",
+            Self::Time => "time",
+            Self::Overshoot => "overshoot",
+            Self::TipOver => "tip-over",
+            Self::Lateness => "lateness",
+        }
+    }
+
     /// As a stress, of which more is worse.
     pub fn stress(self) -> Stress {
         match self {

@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, Point3};
 
+use crate::judgement::narrow::narrowed;
 use crate::math::power::square;
 use crate::trajectory::{PlannedPath, Track};
 
@@ -105,8 +106,15 @@ impl Way {
     }
 
     /// Each sample takes a pose of its window, not before its predecessor's, so that the sum of squared distances is
-    /// least; the earliest of equals. Dynamic programming, O(total length of the windows).
+    /// least; the earliest of equals. Dynamic programming, O(total length of what is left of the windows where no best
+    /// sequence is left out).
     fn rising(&self, recording: &Track, samples: &[usize], windows: &[Range<usize>]) -> Vec<usize> {
+        let cost =
+            |row: usize, j: usize| square_distance(&self.poses[j], &recording.poses()[samples[row]], self.weight);
+        self.rising_in(recording, samples, &narrowed(windows.iter().cloned(), cost))
+    }
+
+    fn rising_in(&self, recording: &Track, samples: &[usize], windows: &[Range<usize>]) -> Vec<usize> {
         // own[row][j − first]: the best up to j ends at j itself.
         let mut own: Vec<Vec<bool>> = Vec::with_capacity(samples.len());
         let mut before: Vec<f64> = Vec::new();

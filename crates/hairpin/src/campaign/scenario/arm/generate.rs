@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{LEARNED, SearchMethod, SearchSection};
+use crate::campaign::scenario::{LEARNED, SearchMethod, SearchSection, Target};
 
 /// `[generate]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -196,12 +196,31 @@ pub enum MoveName {
     Joint,
 }
 
-/// `search = { programs, visits, time_limit_s }`.
+/// `search = { programs, visits, time_limit_s }`, or `search = { method = "worst", programs, executions, target }`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProgramSearch {
-    /// Programs asked for, pairwise different, the heaviest first.
+    /// heaviest: those of largest cost | worst: those whose execution goes worst, found by executing.
+    #[serde(skip_serializing_if = "ProgramMethod::is_heaviest")]
+    pub method: ProgramMethod,
+    /// Programs asked for, pairwise different, the heaviest or the worst first.
     pub programs: u64,
+    /// `worst`: executions for each program asked for, all in one pool; 200 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub executions: Option<u64>,
+    /// `worst`: time for the search beside `executions`; what is found then depends on the clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+    /// `worst`: executions with other noise that what would be kept is given in addition; none if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub confirm: Option<u64>,
+    /// `worst`: what is searched for: deviation | acceleration | time | overshoot | lateness; if not given, each limit of
+    /// `[spec]`, by its margin in spreads of what is drawn at random.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<Target>,
+    /// `worst`: points of a program; as many as the heaviest has if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<u64>,
     /// How often a point may come: 1 is loop-free.
     pub visits: u64,
     /// Time for the search of each program; to the proof if not given.
@@ -220,21 +239,59 @@ pub struct ProgramSearch {
 
 impl Default for ProgramSearch {
     fn default() -> Self {
-        Self { programs: 1, visits: 1, time_limit_s: None, min_cost: None, start: None, end: None }
+        Self {
+            method: ProgramMethod::Heaviest,
+            programs: 1,
+            executions: None,
+            seconds: None,
+            confirm: None,
+            target: None,
+            points: None,
+            visits: 1,
+            time_limit_s: None,
+            min_cost: None,
+            start: None,
+            end: None,
+        }
+    }
+}
+
+/// How programs are searched for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ProgramMethod {
+    /// The programs of largest total cost, proven.
+    #[default]
+    Heaviest,
+    /// The programs that the controller executes worst, found by executing them.
+    Worst,
+}
+
+impl ProgramMethod {
+    fn is_heaviest(&self) -> bool {
+        *self == Self::Heaviest
     }
 }
 
 impl ProgramSearch {
-    /// The part that other robots' searches have as well: one graph of `points`, exactly searched.
+    /// The part that other robots' searches have as well: one graph of `points`, exactly searched, or executed in.
     pub(in crate::campaign::scenario) fn section(&self, points: u64) -> SearchSection {
+        let usual = SearchSection::default();
         SearchSection {
-            method: SearchMethod::Exact,
+            method: match self.method {
+                ProgramMethod::Heaviest => SearchMethod::Exact,
+                ProgramMethod::Worst => SearchMethod::Worst,
+            },
+            executions: self.executions.unwrap_or(usual.executions),
+            seconds: self.seconds,
+            confirm: self.confirm.unwrap_or(usual.confirm),
+            target: self.target,
             waypoints: points,
             cases: self.programs,
             per_graph: self.programs,
             revisits: self.visits > 1,
             graphs: Some(1),
-            ..SearchSection::default()
+            ..usual
         }
     }
 }

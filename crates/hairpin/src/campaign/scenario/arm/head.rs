@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 
-use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource};
+use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource, ProgramMethod};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience,
@@ -85,6 +85,12 @@ impl Keys for ArmScenario {
     fn write_defaults(&mut self) {
         if self.execute.logs.is_none() {
             self.execute.controller = Some(ArmControllerKind::Virtual);
+        }
+        let search = self.search();
+        let own = &mut self.generate.search;
+        if own.method == ProgramMethod::Worst {
+            own.executions.get_or_insert(search.executions);
+            own.confirm.get_or_insert(search.confirm);
         }
     }
 

@@ -23,6 +23,22 @@ pub(super) struct Solved {
     pub(super) stress: f64,
 }
 
+/// The commands of a leg that is solved.
+#[derive(Debug, Clone)]
+pub(super) struct Commands {
+    /// How they came about.
+    pub(super) way: Way,
+    /// Themselves.
+    pub(super) segments: Box<[Segment]>,
+}
+
+impl Solved {
+    /// Without what they take and demand.
+    pub(super) fn commands(&self) -> Commands {
+        Commands { way: self.way, segments: self.segments.clone() }
+    }
+}
+
 /// The ends of a leg.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ends<'a> {
@@ -62,6 +78,16 @@ pub(super) fn judge(
         }
     }
     Err(farthest)
+}
+
+/// The drive that joins `ends` the given `way`, or why there is none.
+pub(super) fn judge_by(
+    site: &DriveSite,
+    settings: &DriveSettings,
+    ends: &Ends,
+    way: Way,
+) -> Result<Solved, LegRefusal> {
+    if may_be_short(settings, ends, way) { driven(site, settings, ends, way) } else { Err(LegRefusal::Detour) }
 }
 
 /// Necessary for a drive in one gear to be no longer than the longest detour: Dubins' path is not. A direction that

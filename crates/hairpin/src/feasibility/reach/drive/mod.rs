@@ -11,6 +11,7 @@
 //! | `sample` | places on the map where a body can stand |
 //! | `settings` | what legs may do, and how hard they are looked for |
 //! | `roadmap` | nodes, legs solved lazily, whole drives |
+//! | `draft` | drives of which waypoints are changed, and only the legs beside them solved again |
 //! | `ways`, `judge` | manoeuvres in turn, each solved by [`steering`](crate::feasibility::steering) |
 //! | `watch`, `looks` | limits, keep-outs and torque along the predicted motion |
 //! | `pace` | speeds of whole drives |
@@ -18,6 +19,8 @@
 //! | `tally` | reasons of refused legs, counted |
 
 mod clearance;
+mod draft;
+mod headings;
 mod judge;
 mod pace;
 mod roadmap;
@@ -30,6 +33,7 @@ mod watch;
 mod ways;
 
 pub use clearance::ClearanceSamples;
+pub use draft::DriveDraft;
 pub use pace::{Pace, Slopes};
 pub use roadmap::{DriveLegs, DriveNode, DriveRoadmap};
 pub use sample::{GroundSampling, TooFewPlaces, sample_ground};

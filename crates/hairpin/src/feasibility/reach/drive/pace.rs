@@ -49,10 +49,18 @@ impl Pace {
     pub(super) fn wish(&self, speed: f64, seed: u64, index: usize) -> f64 {
         match self {
             Self::Constant => speed,
-            Self::Ramp(slopes) | Self::Trapezoid(slopes) => {
-                let [low, high] = slopes.waypoints.map(|bound| bound.min(speed));
+            Self::Ramp(_) | Self::Trapezoid(_) => {
+                let [low, high] = self.wishes(speed);
                 low + (high - low) * hashed_unit(seed, &[STREAM, index as u64])
             }
+        }
+    }
+
+    /// Least and greatest speed that waypoints wish for where `speed` is commanded, m/s.
+    pub fn wishes(&self, speed: f64) -> [f64; 2] {
+        match self {
+            Self::Constant => [speed; 2],
+            Self::Ramp(slopes) | Self::Trapezoid(slopes) => slopes.waypoints.map(|bound| bound.min(speed)),
         }
     }
 

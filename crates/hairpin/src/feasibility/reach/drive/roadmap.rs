@@ -1,22 +1,21 @@
 //! The roadmap: headed waypoints of one graph and the drives between them, solved when first asked for and kept.
 
 use std::cell::{Cell, RefCell};
-use std::f64::consts::{PI, TAU};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 
-use super::judge::{Ends, Solved, judge, refitted};
-use super::pace::Pace;
+use super::draft::DriveDraft;
+use super::headings::{apart, draw_headings};
+use super::judge::{Ends, Solved, judge};
 use super::settings::{DriveSettings, DriveSite};
 use super::tally::DriveTally;
-use super::watch::stands;
-use super::ways::Way;
 use crate::feasibility::reach::{Leg, LegFeatures, Reach};
-use crate::math::random::{Stream, hashed_unit, named_seed, stream, unit};
+use crate::math::random::hashed_unit;
 use crate::math::rotation::angle_between;
 use crate::trajectory::drive::{Planar, Segment};
-use crate::trajectory::{Direction, Drive, DriveLeg, Passing, SpeedProfile};
+use crate::trajectory::{Direction, Drive, Passing};
 
 /// A node: a waypoint and one of its headings, passed with straight wheels.
 ///
@@ -71,15 +70,10 @@ pub struct DriveRoadmap<'a> {
     /// First state of every waypoint, and the number of states.
     first: Vec<u32>,
     kept: RefCell<Vec<Option<Arc<[Kept]>>>>,
+    /// Legs between two states that were asked for by themselves.
+    single: RefCell<HashMap<[usize; 2], Option<Solved>>>,
     tally: Cell<DriveTally>,
 }
-
-/// Headings that are drawn for one that stands, at most.
-const DRAWS: usize = 8;
-/// Rounds in which commands and their speeds are made to agree.
-const ROUNDS: usize = 5;
-/// One heading in so many points anywhere, the others at waypoints.
-const ANYWHERE: usize = 4;
 
 impl<'a> DriveRoadmap<'a> {
     /// The roadmap over `points`, index 0 the start: there the pose and curvature are those of `start`.
@@ -110,7 +104,17 @@ impl<'a> DriveRoadmap<'a> {
         let kept = RefCell::new((0..states.len()).map(|_| None).collect());
         let directions = (0..points.len()).map(|w| settings.direction_at(w)).collect();
         let (points, settings) = (points.to_vec(), settings.clone());
-        Self { site, settings, points, directions, states, first, kept, tally: Cell::default() }
+        Self {
+            site,
+            settings,
+            points,
+            directions,
+            states,
+            first,
+            kept,
+            single: RefCell::default(),
+            tally: Cell::default(),
+        }
     }
 
     /// The same, with `legs` of one that was drawn alike; its tally is of those that it solves itself.
@@ -158,103 +162,95 @@ impl<'a> DriveRoadmap<'a> {
         self.distance(node.waypoint as usize, end) <= steps as f64 * self.settings.leg_m[1] * (1.0 + 1e-9)
     }
 
+    /// Nodes that a leg from `node` may lead to, as far as the distance tells: nothing is solved.
+    pub fn near(&self, node: &DriveNode) -> Vec<DriveNode> {
+        let own = node.waypoint as usize;
+        let others = (0..self.points.len()).filter(|w| *w != own && self.settings.is_a_leg(self.distance(own, *w)));
+        let headings = |w: usize| {
+            let count = self.first[w + 1] - self.first[w];
+            (0..count).map(move |heading| DriveNode { waypoint: w as u32, heading })
+        };
+        others.flat_map(headings).collect()
+    }
+
+    /// The leg from one node to another, solved by itself where those of the first are not known; `None`: there is
+    /// none. What is refused stands in the tally.
+    pub fn leg(&self, from: &DriveNode, to: &DriveNode) -> Option<Leg<DriveNode>> {
+        let pair = [from, to].map(|node| self.state(node));
+        self.solved(pair).map(|solved| self.told(pair[0], &Kept { state: pair[1] as u32, solved }))
+    }
+
     /// The drive over `nodes`, with its speeds; `None` where two successive ones are no leg, and where a leg that was
     /// solved for the commanded speed has no commands for those that it really has, which lags of the steering can do.
     ///
     /// From rest to rest unless the pace is constant. At most five rounds of fitting commands to speeds.
     pub fn drive(&self, nodes: &[DriveNode]) -> Option<Drive> {
         let states: Vec<usize> = nodes.iter().map(|node| self.state(node)).collect();
-        // Nothing leaves the last: its legs need not be solved.
-        let leaving = &states[..states.len().saturating_sub(1)];
-        let kept: Vec<Arc<[Kept]>> = leaving.iter().map(|&state| self.kept_legs(state)).collect();
-        let mut legs = Vec::with_capacity(nodes.len().saturating_sub(1));
-        for (pair, kept) in states.windows(2).zip(&kept) {
-            let leg = kept.iter().find(|leg| leg.state as usize == pair[1])?;
-            legs.push((self.ends(pair[0], pair[1]), leg.solved.way, leg.solved.segments.clone()));
+        let legs = states.windows(2).map(|pair| Some(Some(self.solved([pair[0], pair[1]])?.commands())));
+        let legs = legs.collect::<Option<_>>()?;
+        let passing = |(node, state): (&DriveNode, &usize)| Passing {
+            at: self.states[*state],
+            direction: self.directions[node.waypoint as usize],
+        };
+        let wishes = nodes.iter().map(|node| self.settings.wish(node.waypoint as usize)).collect();
+        let passings = nodes.iter().zip(&states).map(passing).collect();
+        DriveDraft::with_legs(passings, wishes, legs).driven(&self.site, &self.settings)
+    }
+
+    /// The leg from one state to another, from among those of the first if they are known, else by itself.
+    fn solved(&self, [from, to]: [usize; 2]) -> Option<Solved> {
+        if let Some(legs) = &self.kept.borrow()[from] {
+            return legs.iter().find(|leg| leg.state as usize == to).map(|leg| leg.solved.clone());
         }
-        self.joined(legs)
-    }
-
-    /// The drive over waypoints that are passed as `passings` say, in order, each leg solved as those of a roadmap are;
-    /// `None` where one of them is no leg, or as [`Self::drive`].
-    pub fn through(site: DriveSite<'a>, passings: &[Passing], settings: &DriveSettings) -> Option<Drive> {
-        let points = passings.iter().map(|passing| Point3::new(passing.at.x, passing.at.y, 0.0)).collect();
-        let (first, kept) = ((0..=passings.len() as u32).collect(), RefCell::default());
-        let roadmap = Self {
-            site,
-            settings: settings.clone(),
-            points,
-            directions: passings.iter().map(|passing| passing.direction).collect(),
-            states: passings.iter().map(|passing| passing.at).collect(),
-            first,
-            kept,
-            tally: Cell::default(),
-        };
-        let leg = |from: usize| {
-            let ends = roadmap.ends(from, from + 1);
-            let solved = at_a_leg(settings, ends.distance).then(|| judge(&site, settings, &ends, &mut 0).ok())??;
-            Some((ends, solved.way, solved.segments))
-        };
-        let legs: Option<Vec<_>> = (0..passings.len().saturating_sub(1)).map(leg).collect();
-        roadmap.joined(legs?)
-    }
-
-    /// The drive over solved `legs`, with its speeds.
-    ///
-    /// `None` where commands and speeds do not settle.
-    fn joined(&self, mut legs: Vec<(Ends, Way, Box<[Segment]>)>) -> Option<Drive> {
-        let profiles = self.settled(&mut legs)?;
-        let DriveSettings { speed, turn_rate, .. } = self.settings;
-        let leg = |((ends, _, segments), speed): ((Ends, Way, Box<[Segment]>), _)| DriveLeg {
-            from: *ends.from,
-            to: *ends.to,
-            segments: segments.into_vec(),
-            speed,
-            direction: ends.direction,
-        };
-        Some(Drive { legs: legs.into_iter().zip(profiles).map(leg).collect(), speed, turn_rate })
-    }
-
-    /// The speeds of `legs`, whose commands are fitted to them where the steering lags: other commands stop elsewhere,
-    /// and so it goes on until nothing changes. `None` if that does not come to an end.
-    fn settled(&self, legs: &mut [(Ends, Way, Box<[Segment]>)]) -> Option<Vec<SpeedProfile>> {
-        for _ in 0..ROUNDS {
-            let profiles = self.profiles(legs);
-            if !self.site.rover.response.lags() || self.settings.pace == Pace::Constant {
-                return Some(profiles);
-            }
-            let mut changed = false;
-            for ((ends, way, segments), profile) in legs.iter_mut().zip(&profiles) {
-                let other = refitted(&self.site, &self.settings, ends, *way, segments, profile).ok()?;
-                changed |= other.is_some();
-                *segments = other.unwrap_or_else(|| std::mem::take(segments));
-            }
-            if !changed {
-                return Some(profiles);
-            }
+        if let Some(known) = self.single.borrow().get(&[from, to]) {
+            return known.clone();
         }
-        None
-    }
-
-    /// The speeds of legs that follow each other from rest to rest.
-    fn profiles(&self, legs: &[(Ends, Way, Box<[Segment]>)]) -> Vec<SpeedProfile> {
-        let between = legs.iter().skip(1).map(|(ends, ..)| ends.speeds[0]);
-        let wishes: Vec<f64> = std::iter::once(0.0).chain(between).chain([0.0]).collect();
-        let segments: Vec<&[Segment]> = legs.iter().map(|(.., segments)| segments.as_ref()).collect();
-        self.settings.pace.over(self.settings.speed, &wishes, &segments, &self.site.rover.response)
+        let ends = self.ends(from, to);
+        let mut tally = self.tally.get();
+        let solved = self.settings.is_a_leg(ends.distance).then(|| {
+            let outcome = judge(&self.site, &self.settings, &ends, &mut tally.solves);
+            tally.count(&outcome);
+            outcome.ok()
+        });
+        self.tally.set(tally);
+        let solved = solved.flatten();
+        self.single.borrow_mut().insert([from, to], solved.clone());
+        solved
     }
 
     /// What a leg from one state to another joins.
     fn ends(&self, from: usize, to: usize) -> Ends<'_> {
         let [a, b] = [from, to].map(|state| self.node(state as u32).waypoint as usize);
-        let DriveSettings { pace, speed, seed, .. } = self.settings;
         Ends {
             from: &self.states[from],
             to: &self.states[to],
             distance: self.distance(a, b),
-            speeds: [a, b].map(|waypoint| pace.wish(speed, seed, waypoint)),
+            speeds: [a, b].map(|waypoint| self.settings.wish(waypoint)),
             direction: Direction { start: self.directions[a], end: self.directions[b] },
-            random: hashed_unit(seed, &[a as u64, b as u64]),
+            random: hashed_unit(self.settings.seed, &[a as u64, b as u64]),
+        }
+    }
+
+    /// What searches are told of a leg out of the state `from`.
+    fn told(&self, from: usize, leg: &Kept) -> Leg<DriveNode> {
+        let own = self.node(from as u32).waypoint as usize;
+        let (sin, cos) = libm::sincos(self.states[from].yaw + self.directions[own]);
+        let heading = Vector3::new(cos, sin, 0.0);
+        let to = self.node(leg.state);
+        let way = self.points[to.waypoint as usize] - self.points[own];
+        Leg {
+            to,
+            waypoint: to.waypoint,
+            duration: leg.solved.duration,
+            features: LegFeatures {
+                v_in: self.settings.wish(own),
+                v_out: self.settings.wish(to.waypoint as usize),
+                turn: angle_between(&heading, &Vector3::new(way.x, way.y, 0.0)),
+                length: way.norm(),
+                climb: way.z,
+                slope_in: 0.0,
+                ground: leg.solved.stress,
+            },
         }
     }
 
@@ -288,7 +284,7 @@ impl<'a> DriveRoadmap<'a> {
         let mut legs = Vec::new();
         for w in 0..self.points.len() {
             let distance = self.distance(own, w);
-            if w == own || !at_a_leg(&self.settings, distance) {
+            if w == own || !self.settings.is_a_leg(distance) {
                 continue;
             }
             for state in self.first[w]..self.first[w + 1] {
@@ -309,72 +305,6 @@ impl Reach<DriveNode> for DriveRoadmap<'_> {
     fn legs(&self, from: &DriveNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<DriveNode>>) {
         assert_eq!(candidates.len(), self.points.len(), "a roadmap serves the graph that it was drawn over");
         let left = self.state(from);
-        let (sin, cos) = libm::sincos(self.states[left].yaw + self.directions[from.waypoint as usize]);
-        let heading = Vector3::new(cos, sin, 0.0);
-        let here = self.points[from.waypoint as usize];
-        let DriveSettings { pace, speed, seed, .. } = self.settings;
-        let speed_at = |waypoint: u32| pace.wish(speed, seed, waypoint as usize);
-        for leg in self.kept_legs(left).iter() {
-            let to = self.node(leg.state);
-            let way = self.points[to.waypoint as usize] - here;
-            out.push(Leg {
-                to,
-                waypoint: to.waypoint,
-                duration: leg.solved.duration,
-                features: LegFeatures {
-                    v_in: speed_at(from.waypoint),
-                    v_out: speed_at(to.waypoint),
-                    turn: angle_between(&heading, &Vector3::new(way.x, way.y, 0.0)),
-                    length: way.norm(),
-                    climb: way.z,
-                    slope_in: 0.0,
-                    ground: leg.solved.stress,
-                },
-            });
-        }
+        out.extend(self.kept_legs(left).iter().map(|leg| self.told(left, leg)));
     }
-}
-
-/// √(Δx² + Δy²).
-fn apart(a: &Point3<f64>, b: &Point3<f64>) -> f64 {
-    libm::hypot(b.x - a.x, b.y - a.y)
-}
-
-/// Whether waypoints this far apart (m) may have a leg.
-fn at_a_leg(settings: &DriveSettings, distance: f64) -> bool {
-    (settings.leg_m[0]..=settings.leg_m[1]).contains(&distance)
-}
-
-/// Appends up to M poses at waypoint `w`.
-fn draw_headings(
-    site: &DriveSite,
-    settings: &DriveSettings,
-    points: &[Point3<f64>],
-    w: usize,
-    states: &mut Vec<Planar>,
-) {
-    let mut random = stream(named_seed(settings.seed, "waypoint headings", w as u64));
-    let here = &points[w];
-    let near: Vec<&Point3<f64>> = points.iter().filter(|p| at_a_leg(settings, apart(here, p))).collect();
-    let (way, direction) = (settings.gear().sign(), settings.direction_at(w));
-    let aimed = |at: &Point3<f64>| {
-        let bearing = libm::atan2(way * (at.y - here.y), way * (at.x - here.x));
-        libm::remainder(bearing - direction, TAU)
-    };
-    for k in 0..settings.headings.max(1) {
-        let drawn = (0..DRAWS)
-            .map(|_| heading(&near, (k + 1) % ANYWHERE == 0, aimed, &mut random))
-            .map(|yaw| Planar { x: here.x, y: here.y, yaw, curvature: 0.0 })
-            .find(|at| stands(site, settings, at).is_ok());
-        states.extend(drawn);
-    }
-}
-
-/// A heading that is `aimed` at one of `near`, or anywhere; in [−π, π].
-fn heading(near: &[&Point3<f64>], anywhere: bool, aimed: impl Fn(&Point3<f64>) -> f64, random: &mut Stream) -> f64 {
-    let draw = unit(random);
-    if anywhere || near.is_empty() {
-        return TAU * draw - PI;
-    }
-    aimed(near[((draw * near.len() as f64) as usize).min(near.len() - 1)])
 }

@@ -139,6 +139,16 @@ impl DriveSettings {
         self.limits.tilt.min(FRAC_PI_2)
     }
 
+    /// Whether waypoints this far apart (m) may have a leg.
+    pub(super) fn is_a_leg(&self, distance: f64) -> bool {
+        (self.leg_m[0]..=self.leg_m[1]).contains(&distance)
+    }
+
+    /// The speed that waypoint `index` wishes for, m/s.
+    pub(super) fn wish(&self, index: usize) -> f64 {
+        self.pace.wish(self.speed, self.seed, index)
+    }
+
     /// The gear that drives prefer.
     pub(super) fn gear(&self) -> Gear {
         if self.manoeuvres.forward || !self.manoeuvres.reverse { Gear::Forward } else { Gear::Reverse }

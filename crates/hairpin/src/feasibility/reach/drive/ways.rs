@@ -23,6 +23,20 @@ pub(super) enum Way {
 }
 
 impl Way {
+    /// The way that `segments` are driven, as far as they tell: changes of gear that a way may have and does not need
+    /// leave no trace.
+    pub(super) fn of(settings: &DriveSettings, segments: &[Segment]) -> Self {
+        let turns = segments.iter().any(|segment| matches!(segment.motion, Motion::Turn { .. }));
+        let mut gears = segments.iter().filter(|segment| segment.length_m() > 0.0).map(|segment| segment.gear);
+        let gear = gears.next().unwrap_or_else(|| settings.gear());
+        match (turns, settings.control) {
+            (true, Control::Arc) => Self::TurnArc(gear),
+            (true, _) => Self::TurnDriveTurn(gear),
+            (false, _) if gears.any(|other| other != gear) => Self::Reversals,
+            (false, _) => Self::Along(gear),
+        }
+    }
+
     /// Whether it drives in one gear and does not turn in place.
     pub(super) fn gear(self) -> Option<Gear> {
         if let Self::Along(gear) = self { Some(gear) } else { None }

@@ -29,5 +29,5 @@ pub use circle::{Circle, CircleError};
 pub use costs::{Cost, Trapezoid, time_law};
 pub use follow::{FollowSettings, Followed, follow};
 pub use motion::Motion;
-pub use stations::{Alternative, JointGraph, JointSettings, MoveKind, Station, joint, moved};
+pub use stations::{Alternative, JointGraph, JointSettings, MoveKind, Station, joint, moved, postures};
 pub use worth::{Worth, is_known};

@@ -166,6 +166,60 @@ fn arrives(end: &Joints, wanted: &Joints) -> Result<(), Refusal> {
     }
 }
 
+/// Every posture that `station` can be met in, one for each branch that has any: on the turns nearest to home, in the
+/// configuration that is given where one is; in the order of their cfx.
+pub fn postures(
+    arm: &Arm,
+    tool: &Tool,
+    bodies: &Bodies,
+    station: &Station,
+    settings: &JointSettings,
+) -> Vec<(u8, Joints)> {
+    let (best, _) = candidates(arm, tool, bodies, station, settings);
+    (0..8).zip(best).filter_map(|(cfx, q)| Some((cfx, q?))).collect()
+}
+
+/// The best angles of every cfx, and the reason that came farthest where there are none.
+fn candidates(
+    arm: &Arm,
+    tool: &Tool,
+    bodies: &Bodies,
+    station: &Station,
+    settings: &JointSettings,
+) -> ([Option<Joints>; 8], Refusal) {
+    let near = |q: &Joints| -> f64 { (0..AXES).map(|k| (q[k] - settings.home[k]).abs()).sum() };
+    let flange = station.pose * tool.tcp.inverse();
+    let (mut best, mut why) = ([None::<Joints>; 8], Refusal::OutOfReach { at: 0.0 });
+    for solution in arm.inverse(&flange, &settings.home) {
+        let turned = arm.turns_of(&solution);
+        if turned.is_empty() {
+            why = why.or_nearer(beyond(arm, &solution));
+        }
+        for q in turned {
+            let own = arm.configuration(&q);
+            if station.configuration.is_some_and(|asked| asked != own) {
+                continue;
+            }
+            let margin = arm.margin(&q);
+            let refusal = if margin.value < settings.follow.margin && settings.moves == MoveKind::Linear {
+                Some(Refusal::Singular { margin, least: settings.follow.margin, at: 0.0 })
+            } else {
+                bodies.standing(&q, 0.0)
+            };
+            match refusal {
+                Some(refusal) => why = why.or_nearer(refusal),
+                None => {
+                    let kept = &mut best[usize::from(own.cfx)];
+                    if kept.is_none_or(|kept| near(&q) < near(&kept)) {
+                        *kept = Some(q);
+                    }
+                }
+            }
+        }
+    }
+    (best, why)
+}
+
 /// One set of joint angles a point: where its configuration is given, in that; else all in the branch in which most
 /// points can be met (of equals home's, then the least), on the turns nearest to home.
 fn configurations(
@@ -175,43 +229,8 @@ fn configurations(
     stations: &[Station],
     settings: &JointSettings,
 ) -> Vec<Result<Joints, Refusal>> {
-    let near = |q: &Joints| -> f64 { (0..AXES).map(|k| (q[k] - settings.home[k]).abs()).sum() };
-    // Per point: the best angles of every cfx, and the reason that came farthest where there are none.
-    let candidates: Vec<([Option<Joints>; 8], Refusal)> = stations
-        .iter()
-        .map(|station| {
-            let flange = station.pose * tool.tcp.inverse();
-            let (mut best, mut why) = ([None::<Joints>; 8], Refusal::OutOfReach { at: 0.0 });
-            for solution in arm.inverse(&flange, &settings.home) {
-                let turned = arm.turns_of(&solution);
-                if turned.is_empty() {
-                    why = why.or_nearer(beyond(arm, &solution));
-                }
-                for q in turned {
-                    let own = arm.configuration(&q);
-                    if station.configuration.is_some_and(|asked| asked != own) {
-                        continue;
-                    }
-                    let margin = arm.margin(&q);
-                    let refusal = if margin.value < settings.follow.margin && settings.moves == MoveKind::Linear {
-                        Some(Refusal::Singular { margin, least: settings.follow.margin, at: 0.0 })
-                    } else {
-                        bodies.standing(&q, 0.0)
-                    };
-                    match refusal {
-                        Some(refusal) => why = why.or_nearer(refusal),
-                        None => {
-                            let kept = &mut best[usize::from(own.cfx)];
-                            if kept.is_none_or(|kept| near(&q) < near(&kept)) {
-                                *kept = Some(q);
-                            }
-                        }
-                    }
-                }
-            }
-            (best, why)
-        })
-        .collect();
+    let candidates: Vec<([Option<Joints>; 8], Refusal)> =
+        stations.iter().map(|station| candidates(arm, tool, bodies, station, settings)).collect();
     let count = |cfx: usize| candidates.iter().filter(|(best, _)| best[cfx].is_some()).count();
     let home = usize::from(arm.branch(&settings.home).cfx());
     let chosen = (0..8).max_by_key(|&cfx| (count(cfx), cfx == home, 8 - cfx)).unwrap_or(home);

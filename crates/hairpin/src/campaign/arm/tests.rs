@@ -1,0 +1,329 @@
+//! Programs that are drawn, changed and crossed: each is followed again by the equations of the proof, and executes.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::{Value, json};
+
+use super::ArmSetup;
+use super::program::Met;
+use super::solver::ArmSolver;
+use super::ways::Ways;
+use crate::campaign::graph::{Executions, Plan, Wanted};
+use crate::campaign::kind::Solver;
+use crate::campaign::scenario::{KeyPath, SearchMethod, Target};
+use crate::campaign::{Evidence, Scenario, Setup, Stop, trial, verify};
+use crate::judgement::Stress;
+use crate::math::random::stream;
+use crate::trajectory::program::Program;
+
+/// A shipped arm before a fixture, and some points.
+fn cell() -> Value {
+    let path = format!("{}/../../data/robots/arm/irb120.toml", env!("CARGO_MANIFEST_DIR"));
+    let robot: Value = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    json!({
+        "hairpin": 1, "robot": robot, "seed": 7,
+        "world": {
+            "tool": { "name": "tGrip", "declare": true, "tcp_mm": [0, 0, 120], "mass_kg": 0.8, "cog_mm": [0, 0, 50], "radius_mm": 40 },
+            "obstacles": [
+                { "name": "floor", "half_space": { "normal": [0, 0, 1], "offset_mm": -5 } },
+                { "name": "fixture", "box": { "center_mm": [380, 250, 75], "size_mm": [100, 100, 150] } },
+            ],
+            "keep_out_mm": ["x^2 + y^2 < 190^2 and z < 300"],
+        },
+        "task": { "points": { "count": 9 } },
+        "generate": {
+            "moves": { "speeds": ["v200", "v1000", "vmax"], "zones": ["fine", "z10", "z50"], "clearance_mm": 10 },
+            "search": { "method": "worst", "programs": 3, "executions": 40, "points": 6 },
+        },
+        "execute": { "controller": "virtual" },
+        "spec": { "path": { "max_mm": 15.0 } },
+    })
+}
+
+/// With other keys, or what is wrong with them.
+fn changed(changes: &[(&str, Value)]) -> Result<Setup, Vec<String>> {
+    let mut value = cell();
+    for (key, new) in changes {
+        KeyPath::parse(key).unwrap().put(&mut value, new.clone()).unwrap();
+    }
+    let scenario: Scenario = serde_json::from_value(value).unwrap();
+    Setup::build(scenario.into()).map_err(|mistakes| mistakes.iter().map(ToString::to_string).collect())
+}
+
+fn setup(changes: &[(&str, Value)]) -> Setup {
+    changed(changes).unwrap()
+}
+
+fn own(setup: &Setup) -> &ArmSetup {
+    setup.own().unwrap()
+}
+
+fn program(plan: &Plan) -> &Program {
+    plan.witness.as_ref().and_then(|witness| witness.program()).unwrap()
+}
+
+fn way(setup: &Setup, plan: &Plan) -> Vec<Met> {
+    own(setup).way_of(program(plan)).unwrap()
+}
+
+fn rows(way: &[Met]) -> Vec<usize> {
+    way.iter().map(|met| met.row).collect()
+}
+
+/// Follows it by the equations of the proof.
+fn hold(setup: &Setup, plan: &Plan, told: &str) {
+    let proof = verify(setup, &plan.clone().case(setup.scenario.seed(), 0, 0)).proof.expect("a witness");
+    assert!(proof.ok(), "{told}: {:?}", proof.findings);
+    assert_eq!(plan.leg_times.len() + 1, plan.waypoints.len(), "{told}");
+}
+
+/// The tool level: the wrist can be turned about.
+fn sideways() -> Vec<(&'static str, Value)> {
+    let level = std::f64::consts::FRAC_1_SQRT_2;
+    vec![("task.points_in", json!({ "q1_q4_default": [level, level, 0, 0] }))]
+}
+
+/// What scenarios differ in that are drawn and changed below.
+fn kinds() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
+    vec![
+        ("straight", vec![]),
+        ("in joints", [sideways(), vec![("generate.moves.kind", json!("joint"))]].concat()),
+        ("wrists", [sideways(), vec![("task.points.count", json!(14)), ("generate.search.points", json!(4))]].concat()),
+        ("arcs", vec![("generate.moves.arcs", json!(true))]),
+        ("twice", vec![("generate.search.visits", json!(2)), ("generate.search.points", json!(12))]),
+        ("sphere", vec![("generate.mode", json!("cartesian"))]),
+        ("ends", vec![("generate.search.start", json!(2)), ("generate.search.end", json!(5))]),
+    ]
+}
+
+#[test]
+fn programs_are_drawn_by_numbers_and_are_possible() {
+    for (name, changes) in kinds() {
+        let setup = setup(&changes);
+        let solver = ArmSolver::new(own(&setup));
+        let points = own(&setup).scenario.generate.search.points.unwrap() as usize;
+        let drawn: Vec<Plan> = (0..6).map(|number| solver.draw(number).unwrap()).collect();
+        let mut told = BTreeSet::new();
+        for (number, plan) in drawn.iter().enumerate() {
+            hold(&setup, plan, &format!("{name}, draw {number}"));
+            let way = way(&setup, plan);
+            assert_eq!(way.len(), points, "{name}");
+            for row in rows(&way) {
+                let often = way.iter().filter(|met| met.row == row).count() as u64;
+                assert!(often <= own(&setup).scenario.generate.search.visits, "{name}: {row} comes {often} times");
+            }
+            told.insert(format!("{way:?}"));
+            let evidence = if name == "sphere" { Evidence::ClearToolSphere } else { Evidence::ClearAllLinks };
+            assert_eq!((plan.evidence, plan.bound), (evidence, None));
+            if name == "ends" {
+                assert_eq!((way[0].row, way[points - 1].row), (2, 5));
+            }
+        }
+        assert_eq!(told.len(), drawn.len(), "{name}: draws differ");
+        assert!(program(&solver.draw(3).unwrap()) == program(&drawn[3]), "{name}: a number is a program");
+        let arcs = drawn.iter().flat_map(|plan| way(&setup, plan)).filter(|met| met.passed).count();
+        assert_eq!(arcs > 0, name == "arcs", "{name}: {arcs} points are passed");
+    }
+}
+
+#[test]
+fn where_every_move_is_possible_all_orders_come_alike() {
+    let free =
+        [("world", json!({})), ("task.points", json!([[300, 0, 300], [350, 50, 250], [320, -60, 280], [380, 0, 320]]))];
+    let setup = setup(&[&free[..], &[("generate.search.points", json!(3))]].concat());
+    let arm = own(&setup);
+    let graph = super::graph_of(arm).unwrap();
+    assert_eq!(graph.costs.iter().filter(|cost| cost.is_some()).count(), 12);
+    let ways = Ways::new(arm, graph.into());
+    let own = ways.standings(0).next().map(|at| ways.configuration(at)).unwrap();
+    let (mut random, mut counts, mut moves) = (stream(5), BTreeMap::<Vec<usize>, u32>::new(), [0, 0]);
+    for _ in 0..6000 {
+        let way = ways.drawn(3, &mut random).unwrap();
+        let branch = way[0].configuration.map(|configuration| configuration.cfx);
+        assert!(way.iter().all(|met| met.configuration.map(|of| of.cfx) == branch), "straight moves change no branch");
+        if branch == own.map(|configuration| configuration.cfx) {
+            *counts.entry(rows(&way)).or_default() += 1;
+        }
+        let fast = way.iter().filter(|met| met.speed.name.as_deref() == Some("v1000")).count();
+        moves = [moves[0] + way.len(), moves[1] + fast];
+    }
+    // 4 · 3 · 2 orders: χ² of 23 degrees of freedom is below 49.7 in 999 of 1000 cases.
+    assert_eq!(counts.len(), 24);
+    let drawn: u32 = counts.values().sum();
+    let expected = f64::from(drawn) / 24.0;
+    let chi: f64 = counts.values().map(|count| (f64::from(*count) - expected).powi(2) / expected).sum();
+    assert!(drawn > 1000 && chi < 49.7, "{drawn} draws, χ² {chi}");
+    // A third of the moves has each speed: four standard errors.
+    let share = moves[1] as f64 / moves[0] as f64;
+    assert!((share - 1.0 / 3.0).abs() < 4.0 * (2.0 / 9.0 / moves[0] as f64).sqrt(), "{share}");
+}
+
+#[test]
+fn changed_programs_are_possible_and_everything_that_may_change_does() {
+    for (name, changes) in kinds() {
+        let setup = setup(&changes);
+        let solver = ArmSolver::new(own(&setup));
+        let (mut random, mut found) = (stream(11), 0);
+        let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut plan = solver.draw(0).unwrap();
+        for turn in 0..70 {
+            let leg = turn % (plan.waypoints.len() - 1);
+            let Some(child) = solver.altered(&plan, leg, &mut random) else { continue };
+            found += 1;
+            hold(&setup, &child, &format!("{name}, child {turn}"));
+            let [old, new] = [&plan, &child].map(|plan| way(&setup, plan));
+            assert_eq!(old.len(), new.len(), "{name}");
+            let sorted = |way: &[Met]| {
+                let mut rows = rows(way);
+                rows.sort_unstable();
+                rows
+            };
+            let differs = |key: &dyn Fn(&Met) -> String| {
+                let told = |way: &[Met]| way.iter().map(key).collect::<Vec<_>>();
+                told(&old) != told(&new)
+            };
+            let mut count = |what, it: bool| *seen.entry(what).or_default() += usize::from(it);
+            let same_points = sorted(&old) == sorted(&new);
+            count("order", same_points && rows(&old) != rows(&new));
+            count("points", !same_points);
+            let same_order = rows(&old) == rows(&new);
+            count("speed", same_order && differs(&|met| format!("{:?}", met.speed)));
+            count("zone", same_order && differs(&|met| format!("{:?}", met.zone)));
+            count("configuration", same_order && differs(&|met| format!("{:?}", met.configuration)));
+            count("arc", same_order && differs(&|met| met.passed.to_string()));
+            plan = child;
+        }
+        println!("{name}: {found} of 70, {seen:?}");
+        assert!(found >= 20, "{name}: {found}");
+        let all: &[&str] = match name {
+            "in joints" => &["order", "points", "speed", "configuration"],
+            "wrists" => &["order", "points", "speed", "zone", "configuration"],
+            "arcs" => &["order", "points", "speed", "zone", "arc"],
+            _ => &["order", "points", "speed", "zone"],
+        };
+        for what in all {
+            assert!(seen[what] > 0, "{name}: {what}");
+        }
+    }
+}
+
+#[test]
+fn a_child_of_two_begins_as_one_and_goes_on_in_the_order_of_the_other() {
+    for (name, changes) in kinds() {
+        let setup = setup(&changes);
+        let solver = ArmSolver::new(own(&setup));
+        let plans: Vec<Plan> = (0..5).map(|number| solver.draw(number).unwrap()).collect();
+        let (mut random, mut found) = (stream(2), 0);
+        for a in &plans {
+            for b in &plans {
+                let Some(child) = solver.crossed(0, a, b, 2, &mut random) else { continue };
+                found += 1;
+                hold(&setup, &child, name);
+                let [of_a, of_b, of_child] = [a, b, &child].map(|plan| rows(&way(&setup, plan)));
+                let cut = of_a.iter().zip(&of_child).take_while(|(a, child)| a == child).count();
+                assert!(cut > 0 && of_child.len() == of_a.len(), "{name}");
+                // What comes after the beginning comes in the order of the other.
+                let mut rest = of_b.iter();
+                let in_order = of_child[cut..].iter().all(|row| rest.any(|other| other == row));
+                assert!(in_order, "{name}: {of_a:?} and {of_b:?} gave {of_child:?}");
+            }
+        }
+        println!("{name}: {found} of 25 children");
+        assert!(found > 0, "{name}");
+    }
+}
+
+#[test]
+fn the_heaviest_program_is_a_seed_and_says_how_many_points_there_are() {
+    let setup = setup(&[("generate.search.points", Value::Null)]);
+    let solver = ArmSolver::new(own(&setup));
+    let seeds = solver.seeds(&Stop::never());
+    assert_eq!(seeds.len(), 1);
+    hold(&setup, &seeds[0], "the heaviest");
+    let nothing = Executions { execute: &|_, _| None, duration: &|_| None, furnish: &|_| None, partial: None };
+    let heaviest = solver.solve(0, nothing, Wanted::Cases, &Stop::never());
+    let most = heaviest.plans[0].1.score;
+    assert!(seeds[0].score > 0.9 * most && seeds[0].score <= most, "{} of {most}", seeds[0].score);
+    assert_eq!(way(&setup, &solver.draw(0).unwrap()).len(), way(&setup, &seeds[0]).len());
+}
+
+#[test]
+fn programs_execute_for_the_stresses_of_arms() {
+    let slow = json!({ "axis": 1, "slower": 0.4 });
+    let setup = setup(&[("execute.faults", slow)]);
+    let solver = ArmSolver::new(own(&setup));
+    let plan = solver.draw(0).unwrap();
+    let stresses = [Stress::MaxDeviation, Stress::Time, Stress::Lateness, Stress::JointEffort];
+    let run = || trial::execute_for(&setup, (0, &plan), &stresses, &[f64::INFINITY; 4]).unwrap().trials;
+    let trials = run();
+    for ((trial, stress), least) in trials.iter().zip(stresses).zip([1e-4, 1.0, 1e-3, 1.0]) {
+        let word = stress.word();
+        assert!(trial.stress > least && trial.worst_leg + 1 < plan.waypoints.len(), "{word}: {}", trial.stress);
+    }
+    let again = run();
+    assert!(trials.iter().zip(&again).all(|(a, b)| a.stress == b.stress), "an execution repeats");
+}
+
+#[test]
+fn keys_of_the_search_for_the_worst_have_bounds() {
+    let asked = setup(&[("generate.search.target", json!("lateness"))]).scenario.search();
+    assert_eq!((asked.method, asked.executions, asked.target), (SearchMethod::Worst, 40, Some(Target::Lateness)));
+    assert_eq!((asked.cases, asked.confirm, asked.pooled_executions()), (3, 0, 120));
+    for (key, value, words) in [
+        ("generate.search.executions", json!(0), "generate.search.executions = 0: must be 1 … 1 000 000"),
+        ("generate.search.confirm", json!(40), "generate.search.confirm = 40: must be 0 … 39"),
+        (
+            "generate.search.target",
+            json!("tip-over"),
+            "generate.search.target = \"tip-over\": must be one of deviation",
+        ),
+        ("generate.search.seconds", json!(0.0), "generate.search.seconds = 0: must be > 0"),
+        ("generate.search.points", json!(10), "generate.search.points = 10: must be 1 … 9"),
+        ("generate.search.min_cost", json!(1.0), "generate.search.min_cost = 1: must be left out"),
+        ("generate.search.method", json!("heaviest"), "generate.search.executions = 40: must be left out"),
+    ] {
+        let found = changed(&[(key, value)]).err().unwrap_or_default();
+        assert!(found.iter().any(|mistake| mistake.contains(words)), "{key}: {found:?} should say {words:?}");
+    }
+}
+
+#[test]
+#[ignore]
+fn costs() {
+    for count in [16, 40] {
+        let setup = setup(&[("task.points.count", json!(count)), ("generate.search.points", Value::Null)]);
+        let begun = std::time::Instant::now();
+        let solver = ArmSolver::new(own(&setup));
+        solver.seeds(&Stop::never());
+        println!("{count} points: graph and heaviest {:.1} ms", begun.elapsed().as_secs_f64() * 1e3);
+        for _ in 0..3 {
+            let begun = std::time::Instant::now();
+            let plans: Vec<Plan> = (0..40).map(|number| solver.draw(number).unwrap()).collect();
+            println!("a draw {:.2} ms", begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+            let begun = std::time::Instant::now();
+            let stress: Vec<f64> =
+                plans.iter().map(|plan| trial::execute(&setup, 0, plan, f64::INFINITY).unwrap().stress).collect();
+            println!("an execution {:.2} ms, {stress:.5?}", begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+            let begun = std::time::Instant::now();
+            let ran = plans.iter().filter(|plan| {
+                let case = (*plan).clone().case(7, 0, 0);
+                crate::campaign::execute_run(&setup, &case, 0).outcome.is_ok()
+            });
+            println!("of it {} runs {:.2} ms", ran.count(), begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+            let begun = std::time::Instant::now();
+            plans.iter().for_each(|plan| assert!(!own(&setup).leg_times(program(plan)).is_empty()));
+            println!("leg times {:.2} ms", begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+            let (begun, mut random, mut found) = (std::time::Instant::now(), stream(1), 0);
+            for plan in &plans {
+                found += (0..5).filter(|leg| solver.altered(plan, *leg, &mut random).is_some()).count();
+            }
+            println!("a change {:.2} ms, {found} of 200", begun.elapsed().as_secs_f64() * 1e3 / 200.0);
+            let (begun, mut found) = (std::time::Instant::now(), 0);
+            for pair in plans.windows(2) {
+                found +=
+                    (0..5).filter(|leg| solver.crossed(0, &pair[0], &pair[1], *leg, &mut random).is_some()).count();
+            }
+            println!("a cross {:.2} ms, {found} of 195", begun.elapsed().as_secs_f64() * 1e3 / 195.0);
+        }
+    }
+}

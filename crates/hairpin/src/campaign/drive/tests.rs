@@ -1,0 +1,276 @@
+//! Drives that are drawn, changed and crossed: each is held to its limits by another integrator, and of what is changed
+//! no more is solved again than it takes.
+
+use serde_json::{Value, json};
+
+use super::DriveSetup;
+use super::solve::DriveSolver;
+use crate::campaign::graph::Plan;
+use crate::campaign::kind::Solver;
+use crate::campaign::scenario::KeyPath;
+use crate::campaign::{Evidence, Scenario, Setup, verify};
+use crate::math::random::stream;
+use crate::trajectory::Drive;
+use crate::trajectory::drive::Gear;
+
+/// A shipped robot's table.
+fn robot(file: &str) -> Value {
+    let path = format!("{}/../../data/robots/{file}.toml", env!("CARGO_MANIFEST_DIR"));
+    toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// A car on a plain with a pillar, which passes waypoints at speeds of their own.
+fn car() -> Value {
+    json!({
+        "hairpin": 1, "robot": robot("ground/car"), "seed": 7,
+        "world": { "terrain": { "generator": "flat", "size_m": 40, "cell_m": 0.25 },
+            "keep_out": [{ "name": "pillar", "circle": { "center_m": [24, 21], "radius_m": 0.4 } }] },
+        "task": { "start": { "x_m": 20, "y_m": 20, "yaw_deg": 0 }, "length": 6, "leg_m": [2, 5] },
+        "generate": { "manoeuvres": ["forward", "reverse"],
+            "speed": { "profile": "trapezoid", "waypoint_m_s": [0.5, 1.4], "acceleration_m_s2": 1.0 },
+            "limits": { "speed_m_s": 1.5, "curvature_1_m": 1.0, "curvature_rate_1_m2": 1.5 },
+            "search": { "waypoints": 40 } },
+        "execute": { "controller": "stanley" },
+        "spec": { "limits": { "path_deviation_m": 0.1 } },
+    })
+}
+
+/// A rover among craters.
+fn rover() -> Value {
+    json!({
+        "hairpin": 1, "robot": robot("rover/rocky8"), "seed": 42,
+        "world": { "terrain": { "generator": "craters", "size_m": 30, "cell_m": 0.1 } },
+        "task": { "start": { "x_m": 15, "y_m": 15, "yaw_deg": 0 }, "length": 5, "leg_m": [2, 5] },
+        "generate": { "manoeuvres": ["forward", "reverse", "turn-in-place"],
+            "limits": { "curvature_1_m": 1.0, "speed_m_s": 0.06, "tilt_deg": 25 }, "search": { "waypoints": 30 } },
+        "execute": { "controller": "predictive" },
+        "spec": { "limits": { "path_deviation_m": 0.25 } },
+    })
+}
+
+fn setup(mut value: Value, changes: &[(&str, Value)]) -> Setup {
+    for (key, new) in changes {
+        KeyPath::parse(key).unwrap().put(&mut value, new.clone()).unwrap();
+    }
+    let scenario: Scenario = serde_json::from_value(value).unwrap();
+    Setup::build(scenario.into()).unwrap()
+}
+
+fn solver(setup: &Setup) -> DriveSolver<'_> {
+    DriveSolver::new(setup.own::<DriveSetup>().unwrap()).unwrap()
+}
+
+fn drive(plan: &Plan) -> &Drive {
+    plan.witness.as_ref().and_then(|witness| witness.commands()).unwrap()
+}
+
+/// Follows it by the equations of the proof.
+fn hold(setup: &Setup, plan: &Plan, told: &str) {
+    let proof = verify(setup, &plan.clone().case(setup.scenario.seed(), 0, 0)).proof.expect("a witness");
+    assert!(proof.ok(), "{told}: {:?}", proof.findings);
+    let drive = drive(plan);
+    assert_eq!((plan.waypoints.len(), plan.leg_times.len()), (drive.legs.len() + 1, drive.legs.len()), "{told}");
+    for (pair, leg) in plan.waypoints.windows(2).zip(&drive.legs) {
+        assert_eq!(
+            [pair[0].x, pair[0].y, pair[1].x, pair[1].y],
+            [leg.from.x, leg.from.y, leg.to.x, leg.to.y],
+            "{told}"
+        );
+    }
+}
+
+/// Legs of `b` with other commands than those of `a`.
+fn solved_again(a: &Plan, b: &Plan) -> Vec<usize> {
+    let legs = drive(a).legs.iter().zip(&drive(b).legs).enumerate();
+    legs.filter(|(_, (a, b))| a.segments != b.segments).map(|(leg, _)| leg).collect()
+}
+
+#[test]
+fn drives_are_drawn_by_numbers_and_are_feasible() {
+    for (value, length) in [(car(), 6), (rover(), 5)] {
+        let setup = setup(value, &[]);
+        let solver = solver(&setup);
+        let drawn: Vec<Plan> = (0..4).map(|number| solver.draw(number).unwrap()).collect();
+        for (number, plan) in drawn.iter().enumerate() {
+            hold(&setup, plan, &format!("draw {number}"));
+            assert_eq!((plan.waypoints.len(), plan.seen.len()), (length, length - 1));
+            assert_eq!(plan.waypoints[0], drawn[0].waypoints[0], "all begin at the task's start");
+            let twice = |k: usize| plan.waypoints[..k].contains(&plan.waypoints[k]);
+            assert!(!(0..length).any(twice), "no waypoint comes twice");
+            assert!(drawn[..number].iter().all(|other| other.waypoints[1..] != plan.waypoints[1..]), "draws differ");
+        }
+        assert!(drive(&solver.draw(2).unwrap()) == drive(&drawn[2]), "a number is a drive");
+    }
+}
+
+#[test]
+fn draws_end_where_the_task_does_and_say_why_there_are_none() {
+    let at_the_end = setup(car(), &[("task.end_m", json!([26.0, 26.0]))]);
+    let plan = solver(&at_the_end).draw(0).unwrap();
+    hold(&at_the_end, &plan, "to an end");
+    assert_eq!([plan.waypoints[5].x, plan.waypoints[5].y], [26.0, 26.0]);
+    let too_far = setup(car(), &[("task.end_m", json!([35.0, 35.0])), ("task.length", json!(3))]);
+    let why = solver(&too_far).draw(0).unwrap_err();
+    assert!(why.contains("none in 6 draws of 40 waypoints: every walk ends too early"), "{why}");
+}
+
+#[test]
+fn what_has_no_commands_is_drawn_by_its_own_reach_set() {
+    for (reach, evidence) in
+        [("none", Evidence::Unchecked), ("sphere", Evidence::Unchecked), ("hull", Evidence::HullFeasible)]
+    {
+        let setup = setup(car(), &[("generate.reach", json!(reach)), ("generate.step_s", json!(3.0))]);
+        let solver = solver(&setup);
+        let plans = [0, 1].map(|number| solver.draw(number).unwrap());
+        assert_ne!(plans[0].waypoints, plans[1].waypoints, "{reach}");
+        for plan in &plans {
+            assert_eq!((plan.evidence, plan.waypoints.len(), &plan.leg_times[..]), (evidence, 6, &[3.0; 5][..]));
+            assert!(plan.witness.is_none() && solver.over(0, plan, &plan.waypoints).is_some(), "{reach}");
+            assert!(solver.altered(plan, 1, &mut stream(1)).is_none(), "{reach}");
+        }
+    }
+}
+
+#[test]
+fn a_changed_waypoint_costs_the_legs_beside_it() {
+    for (value, least) in [(car(), 15), (rover(), 8)] {
+        let setup = setup(value, &[]);
+        let solver = solver(&setup);
+        let (mut random, mut found) = (stream(3), 0);
+        let mut plan = solver.draw(0).unwrap();
+        let (mut speeds, mut headings, mut gears) = (0, 0, 0);
+        for turn in 0..60 {
+            let leg = turn % (plan.waypoints.len() - 1);
+            let Some(child) = solver.altered(&plan, leg, &mut random) else { continue };
+            found += 1;
+            hold(&setup, &child, &format!("child {turn}"));
+            assert_eq!(child.waypoints, plan.waypoints);
+            let again = solved_again(&plan, &child);
+            assert!(again.len() <= 2 && again.last().is_none_or(|last| last - again[0] <= 1), "{turn}: {again:?}");
+            assert!(again.iter().all(|one| one.abs_diff(leg) <= 1), "{turn}: {again:?} of leg {leg}");
+            let (old, new) = (drive(&plan), drive(&child));
+            assert!(old != new, "{turn}: nothing was changed");
+            assert_eq!(old.legs[0].from, new.legs[0].from, "{turn}: the start stays");
+            let count = |drive: &Drive, gear| {
+                drive.legs.iter().flat_map(|leg| &leg.segments).filter(|segment| segment.gear == gear).count()
+            };
+            headings += usize::from((0..=old.legs.len()).any(|k| old.passing(k) != new.passing(k)));
+            speeds += usize::from(again.is_empty());
+            gears += usize::from(count(old, Gear::Reverse) != count(new, Gear::Reverse));
+            plan = child;
+        }
+        println!("{found} of 60 found: {headings} with other headings, {speeds} other speeds, {gears} other gears");
+        assert!(found >= least, "{found}");
+        assert!(headings > 0 && gears > 0);
+        assert_eq!(speeds > 0, setup.scenario.section("generate").unwrap()["speed"]["waypoint_m_s"].is_array());
+    }
+}
+
+#[test]
+fn what_is_not_moved_is_not_solved_again_and_comes_to_the_same() {
+    let setup = setup(rover(), &[]);
+    let solver = solver(&setup);
+    let plan = solver.draw(1).unwrap();
+    let mut tried = 0;
+    for index in 1..plan.waypoints.len() {
+        let mut points = plan.waypoints.clone();
+        (points[index].x, points[index].y) = (points[index].x + 0.05, points[index].y - 0.05);
+        let Some(moved) = solver.over(0, &plan, &points) else { continue };
+        tried += 1;
+        hold(&setup, &moved, "moved");
+        assert!(solved_again(&plan, &moved).iter().all(|leg| leg + 1 == index || *leg == index));
+        let old = drive(&plan);
+        let passings: Vec<_> =
+            (0..points.len()).map(|k| old.passing(k).unwrap().moved_to(&moved.waypoints[k])).collect();
+        assert!(&solver.through(0, &passings).unwrap() == drive(&moved), "as if all legs had been solved");
+    }
+    assert!(tried > 0);
+    assert!(solver.over(0, &plan, &plan.waypoints[1..]).is_none(), "as many points as it has");
+}
+
+#[test]
+fn a_child_of_two_has_the_beginning_of_one_and_the_rest_of_the_other() {
+    let setup = setup(car(), &[]);
+    let solver = solver(&setup);
+    let plans: Vec<Plan> = (0..8).map(|number| solver.draw(number).unwrap()).collect();
+    let (mut random, mut found) = (stream(1), 0);
+    for a in &plans {
+        for b in &plans {
+            for leg in 0..5 {
+                let Some(child) = solver.crossed(0, a, b, leg, &mut random) else { continue };
+                found += 1;
+                hold(&setup, &child, "crossed");
+                assert_eq!(child.waypoints, [&a.waypoints[..=leg], &b.waypoints[leg + 1..]].concat());
+                for k in (0..5).filter(|k| *k != leg) {
+                    let from = if k < leg { a } else { b };
+                    assert_eq!(drive(&child).legs[k].segments, drive(from).legs[k].segments);
+                }
+            }
+        }
+    }
+    assert!(found > 20, "{found}");
+    assert!(solver.crossed(0, &plans[0], &plans[1], 5, &mut random).is_none(), "there is no such leg");
+}
+
+#[test]
+#[ignore]
+fn costs() {
+    for (name, value, length) in [("car", car(), 8), ("rover", rover(), 8)] {
+        let controller = if name == "car" { "stanley" } else { "predictive" };
+        for waypoints in [60] {
+            let setup = setup(
+                value.clone(),
+                &[
+                    ("task.length", json!(length)),
+                    ("generate.search.waypoints", json!(waypoints)),
+                    ("generate.search.stress", json!("max-deviation")),
+                    ("execute.controller", json!(controller)),
+                ],
+            );
+            let solver = solver(&setup);
+            let begun = std::time::Instant::now();
+            let plans: Vec<Plan> = (0..40).map(|number| solver.draw(number).unwrap()).collect();
+            println!("{name}: a draw {:.1} ms", begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+            let begun = std::time::Instant::now();
+            let stress: Vec<f64> = plans
+                .iter()
+                .map(|plan| crate::campaign::trial::execute(&setup, 0, plan, f64::INFINITY).unwrap().stress)
+                .collect();
+            println!("{name}: an execution {:.1} ms, {stress:.3?}", begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+            let begun = std::time::Instant::now();
+            let ran = plans.iter().filter(|plan| {
+                let case = (*plan).clone().case(7, 0, 0);
+                crate::campaign::execute_run(&setup, &case, 0).outcome.is_ok()
+            });
+            println!("{name}: of it {} runs {:.2} ms", ran.count(), begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+            let begun = std::time::Instant::now();
+            let planned = plans.iter().map(|plan| {
+                let case = (*plan).clone().case(7, 0, 0);
+                crate::campaign::planned(&setup, &case).unwrap().len()
+            });
+            println!(
+                "{name}: planned {:?} samples {:.2} ms",
+                planned.max(),
+                begun.elapsed().as_secs_f64() * 1e3 / 40.0
+            );
+            let (begun, mut random, mut found) = (std::time::Instant::now(), stream(1), 0);
+            for plan in &plans {
+                found += (0..7).filter(|leg| solver.altered(plan, *leg, &mut random).is_some()).count();
+            }
+            println!("{name}: a change {:.1} ms, {found} of 280", begun.elapsed().as_secs_f64() * 1e3 / 280.0);
+            let (begun, mut found) = (std::time::Instant::now(), 0);
+            for pair in plans.windows(2) {
+                found +=
+                    (0..7).filter(|leg| solver.crossed(0, &pair[0], &pair[1], *leg, &mut random).is_some()).count();
+            }
+            println!("{name}: a cross {:.1} ms, {found} of 273", begun.elapsed().as_secs_f64() * 1e3 / 273.0);
+            let begun = std::time::Instant::now();
+            for plan in &plans {
+                let mut points = plan.waypoints.clone();
+                points[4].x += 0.1;
+                drop(solver.over(0, plan, &points));
+            }
+            println!("{name}: a move {:.1} ms", begun.elapsed().as_secs_f64() * 1e3 / 40.0);
+        }
+    }
+}
