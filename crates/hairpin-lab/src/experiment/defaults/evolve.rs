@@ -60,7 +60,8 @@ pub(super) fn evolve(
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> (Option<Case>, u64) {
     let mut made = starts.len() as u64;
-    let flown: Vec<_> = starts.into_par_iter().filter_map(|case| stress(&case).map(|came_to| (came_to, case))).collect();
+    let flown: Vec<_> =
+        starts.into_par_iter().filter_map(|case| stress(&case).map(|came_to| (came_to, case))).collect();
     let Some(mut best) = flown.into_iter().reduce(|a, b| if b.0 > a.0 { b } else { a }) else { return (None, made) };
     let start = free.vector(&best.1.waypoints);
     if start.is_empty() {

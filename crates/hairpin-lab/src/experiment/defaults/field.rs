@@ -81,13 +81,7 @@ impl Field<'_> {
     ///
     /// # Errors
     /// None can be drawn.
-    pub(super) fn drawn(
-        &self,
-        space: &Space,
-        first: u64,
-        wanted: usize,
-        watch: &dyn Watch,
-    ) -> Result<Drawn, Problem> {
+    pub(super) fn drawn(&self, space: &Space, first: u64, wanted: usize, watch: &dyn Watch) -> Result<Drawn, Problem> {
         let mut drawn = Drawn::default();
         let (mut next, last) = (first, first + TRIES * wanted as u64);
         let mut why = String::from("no trajectory was drawn");

@@ -121,8 +121,7 @@ fn of_cell(record: &CellRecord, seed: u64) -> CellLifts {
             refused: records().find_map(|own| own.refused.clone()),
         }
     };
-    let measured: Vec<Way> =
-        runs.first().map_or_else(Vec::new, |run| run.ways.iter().map(|own| own.way).collect());
+    let measured: Vec<Way> = runs.first().map_or_else(Vec::new, |run| run.ways.iter().map(|own| own.way).collect());
     let others = measured.iter().copied().filter(|way| *way != Way::Worst);
     let behind = others.map(|other| (other, over(&of(Way::Worst), &of(other), false))).collect();
     let ahead = record.pairs.iter().filter(|pair| pair.worst.mean(false) > pair.chance.mean(false)).count();

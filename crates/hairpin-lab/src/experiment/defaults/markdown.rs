@@ -34,49 +34,75 @@ pub(super) fn markdown(lifts: &Lifts, size: &Size, refused: &[String]) -> String
         "the same, ended by themselves",
         "met",
     ];
-    put(&mut text, lifts, "The default over random trajectories.", (&summary, &|cell| {
-        let own = default_of(cell)?;
-        let mut row = vec![number(cell.single.level)];
-        row.push(format!("{} (of {})", number(cell.best.level), cell.best_of));
-        row.extend([number(own.side.level), lift(own.over_best), lift(own.over_best_ended)]);
-        row.push(own.p.map_or("–".into(), |p| format!("{p:.4}")));
-        row.push(format!("{:.2}", own.a12));
-        row.extend([lift(own.over_single), lift(own.over_single_ended)]);
-        row.push(if met(own) { "yes" } else { "**no**" }.into());
-        Some(row)
-    }));
+    put(
+        &mut text,
+        lifts,
+        "The default over random trajectories.",
+        (&summary, &|cell| {
+            let own = default_of(cell)?;
+            let mut row = vec![number(cell.single.level)];
+            row.push(format!("{} (of {})", number(cell.best.level), cell.best_of));
+            row.extend([number(own.side.level), lift(own.over_best), lift(own.over_best_ended)]);
+            row.push(own.p.map_or("–".into(), |p| format!("{p:.4}")));
+            row.push(format!("{:.2}", own.a12));
+            row.extend([lift(own.over_single), lift(own.over_single_ended)]);
+            row.push(if met(own) { "yes" } else { "**no**" }.into());
+            Some(row)
+        }),
+    );
     let ways = ["cell", "each way over the best of as many random executions, % (Â₁₂; executions a case)"];
-    put(&mut text, lifts, "All ways.", (&ways, &|cell| {
-        let one = |own: &WayLifts| match &own.refused {
-            Some(why) if own.over_best.is_none() => format!("{}: {why}", own.way.word()),
-            _ => format!("{}: {} ({:.2}; {:.0})", own.way.word(), lift(own.over_best), own.a12, own.executions),
-        };
-        Some(vec![cell.ways.iter().map(one).collect::<Vec<_>>().join("; ")])
-    }));
-    put(&mut text, lifts, "The default over other ways, at equal executions.", (&["cell", "default over …, %"], &|cell| {
-        let told = cell.behind.iter().map(|(way, over)| format!("{}: {}", way.word(), lift(*over)));
-        let told: Vec<String> = told.collect();
-        (!told.is_empty()).then(|| vec![told.join("; ")])
-    }));
+    put(
+        &mut text,
+        lifts,
+        "All ways.",
+        (&ways, &|cell| {
+            let one = |own: &WayLifts| match &own.refused {
+                Some(why) if own.over_best.is_none() => format!("{}: {why}", own.way.word()),
+                _ => format!("{}: {} ({:.2}; {:.0})", own.way.word(), lift(own.over_best), own.a12, own.executions),
+            };
+            Some(vec![cell.ways.iter().map(one).collect::<Vec<_>>().join("; ")])
+        }),
+    );
+    put(
+        &mut text,
+        lifts,
+        "The default over other ways, at equal executions.",
+        (&["cell", "default over …, %"], &|cell| {
+            let told = cell.behind.iter().map(|(way, over)| format!("{}: {}", way.word(), lift(*over)));
+            let told: Vec<String> = told.collect();
+            (!told.is_empty()).then(|| vec![told.join("; ")])
+        }),
+    );
     let ends = ["cell", "single", "best of as many", "default"];
-    put(&mut text, lifts, "Crashes and time-outs, % of the fresh executions.", (&ends, &|cell| {
-        let share = |[crashed, timed_out]: [f64; 2]| format!("{:.1}, {:.1}", 100.0 * crashed, 100.0 * timed_out);
-        let own = default_of(cell)?;
-        Some([&cell.single, &cell.best, &own.side].map(|side| share(side.ends)).to_vec())
-    }));
+    put(
+        &mut text,
+        lifts,
+        "Crashes and time-outs, % of the fresh executions.",
+        (&ends, &|cell| {
+            let share = |[crashed, timed_out]: [f64; 2]| format!("{:.1}, {:.1}", 100.0 * crashed, 100.0 * timed_out);
+            let own = default_of(cell)?;
+            Some([&cell.single, &cell.best, &own.side].map(|side| share(side.ends)).to_vec())
+        }),
+    );
     let default_run = [
         "cell",
         "runs whose worst is ahead of ten times their executions by chance",
         "first violation at execution (by chance)",
         "processor time over that of as many random executions (of kept ones)",
     ];
-    put(&mut text, lifts, "A default run. The limit of the first violation is what 5 % of its random executions break.", (&default_run, &|cell| {
-        let [ahead, pairs] = cell.pairs;
-        let at = |at: f64| if at.is_finite() { format!("{at:.0}") } else { "never".into() };
-        let first = cell.first_violation.map_or("–".into(), |[own, chance]| format!("{} ({})", at(own), at(chance)));
-        let cost = cell.cost.map_or("–".into(), |[random, kept]| format!("{random:.2} ({kept:.2})"));
-        Some(vec![if pairs == 0 { "–".into() } else { format!("{ahead} of {pairs}") }, first, cost])
-    }));
+    put(
+        &mut text,
+        lifts,
+        "A default run. The limit of the first violation is what 5 % of its random executions break.",
+        (&default_run, &|cell| {
+            let [ahead, pairs] = cell.pairs;
+            let at = |at: f64| if at.is_finite() { format!("{at:.0}") } else { "never".into() };
+            let first =
+                cell.first_violation.map_or("–".into(), |[own, chance]| format!("{} ({})", at(own), at(chance)));
+            let cost = cell.cost.map_or("–".into(), |[random, kept]| format!("{random:.2} ({kept:.2})"));
+            Some(vec![if pairs == 0 { "–".into() } else { format!("{ahead} of {pairs}") }, first, cost])
+        }),
+    );
     for mean in &lifts.means {
         let told = |[value, low, high]: [f64; 3]| interval(value, low, high);
         let _ = write!(

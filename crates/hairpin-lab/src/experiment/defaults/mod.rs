@@ -72,7 +72,10 @@ pub(super) fn defaults(sheet: &Sheet, out: &Path, watch: &dyn Watch) -> Result<O
                 records.push(record);
             }
             Err(Problem::Interrupted(_)) => {
-                return Err(Problem::Interrupted(format!("interrupted: {done} of {} cells are done and kept", cells.len())));
+                return Err(Problem::Interrupted(format!(
+                    "interrupted: {done} of {} cells are done and kept",
+                    cells.len()
+                )));
             }
             Err(problem) => refused.push(format!("{}: not measured: {problem}", cell.name)),
         }

@@ -102,9 +102,8 @@ pub(super) fn searched(cell: &Cell, size: &Size, seed: u64, way: Way, watch: &dy
     let setup = setup(cell, seed, &keys(cell, size, way))?;
     let mut cases = Vec::new();
     let begun = process_time();
-    let tally = watched(watch, |stop| {
-        generate(&setup, &Known::default(), stop, &mut |new, _| cases.extend_from_slice(new))
-    })?;
+    let tally =
+        watched(watch, |stop| generate(&setup, &Known::default(), stop, &mut |new, _| cases.extend_from_slice(new)))?;
     let spent = process_time() - begun;
     let executions = tally.curves.iter().map(|curve| curve.executions).sum();
     let one_pool = tally.curves.len() == 1 && way != Way::InLoop && way != Way::InLoopMoves;

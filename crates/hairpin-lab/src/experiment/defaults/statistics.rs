@@ -84,9 +84,8 @@ pub(super) fn lift(runs: &[Sides], seed: u64) -> Option<Lift> {
 /// The chance that one of `sample` is larger than one of `other`, ties by half. Source: Vargha and Delaney, A critique
 /// and improvement of the CL common language effect size statistics, 2000.
 pub(super) fn a12(sample: &[f64], other: &[f64]) -> f64 {
-    let ahead = |x: &f64| -> f64 {
-        other.iter().map(|y| if x > y { 1.0 } else { 0.5 * f64::from(u8::from(x == y)) }).sum()
-    };
+    let ahead =
+        |x: &f64| -> f64 { other.iter().map(|y| if x > y { 1.0 } else { 0.5 * f64::from(u8::from(x == y)) }).sum() };
     sample.iter().map(ahead).sum::<f64>() / (sample.len() * other.len()) as f64
 }
 
@@ -168,6 +167,9 @@ mod tests {
         let values: Vec<f64> = (1..=40).map(f64::from).collect();
         assert_eq!(exceeded_by(&values, 0.05), Some(38.0));
         assert_eq!(exceeded_by(&values[..10], 0.05), None);
-        assert_eq!((middle(vec![3.0, 1.0, f64::INFINITY]), middle(vec![1.0, 2.0]), middle(vec![])), (Some(3.0), Some(1.5), None));
+        assert_eq!(
+            (middle(vec![3.0, 1.0, f64::INFINITY]), middle(vec![1.0, 2.0]), middle(vec![])),
+            (Some(3.0), Some(1.5), None)
+        );
     }
 }

@@ -68,7 +68,8 @@ fn summary(lifts: &Lifts) -> Table {
 }
 
 fn ways(lifts: &Lifts) -> Table {
-    let mut columns = vec!["cell", "way", "executions_a_case", "cases", "level", "crashed_percent", "timed_out_percent"];
+    let mut columns =
+        vec!["cell", "way", "executions_a_case", "cases", "level", "crashed_percent", "timed_out_percent"];
     columns.extend(["over_best_percent", "over_best_low", "over_best_high", "over_best_p_holm", "a12"]);
     columns.extend(["over_best_ended_percent", "over_best_ended_low", "over_best_ended_high"]);
     columns.extend(["over_single_percent", "over_single_low", "over_single_high"]);
