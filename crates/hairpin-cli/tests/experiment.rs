@@ -177,3 +177,63 @@ fn requirements_of_rovers_are_a_table_beside_the_sources() {
     assert!(figure.contains("rocky8, rough ground") && figure.contains("R-5"));
     refused(folder.path(), &["experiment", "rover-requirements", "--set", "queries=3"], &["queries", "20"]);
 }
+
+#[test]
+fn the_default_is_measured_cell_by_cell_and_goes_on_where_it_ended() {
+    let folder = tempfile::tempdir().unwrap();
+    let sets = "sets=[\"task.length=5\", \"generate.search.waypoints=24\"]";
+    let families = format!(
+        "families=[{{ scenario=\"quadrotor\", robots=[\"flightgoggles\"], controllers=[\"fixed-velocity\", \"hovering\"], {sets} }}]"
+    );
+    let sizes = ["experiment", "defaults", "--runs", "2", "--cases", "2", "--executions", "12", "--pairs", "3"];
+    let small = ["--set", "fresh=1", "--set", "singles=3", "--set", "chance=2", "--set", &families];
+    let asked = |seed: &'static str, only: &'static str| {
+        [&sizes[..], &small[..], &["--seed-of", seed, "--only", only]].concat()
+    };
+    let answer = json(folder.path(), &asked("c0ffee", "flightgoggles/"));
+    let rows = answer["tables"]["summary"].as_array().unwrap();
+    assert_eq!((rows.len(), &rows[0]["cell"]), (1, &"flightgoggles/fixed-velocity".into()), "{answer}");
+    let number = |row: &serde_json::Value, key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key} of {row}"));
+    let interval = ["low_percent", "lift_percent", "high_percent"].map(|key| number(&rows[0], key));
+    assert!(interval.is_sorted() && (0.0..=1.0).contains(&number(&rows[0], "a12")), "{answer}");
+    // What nobody can fly is told, and no other cell is lost by it.
+    let notes = answer["notes"].to_string();
+    assert!(notes.contains("flightgoggles/hovering: not measured") && notes.contains("c0ffee"), "{notes}");
+
+    let ways = answer["tables"]["ways"].as_array().unwrap();
+    let names: Vec<&str> = ways.iter().map(|row| row["way"].as_str().unwrap()).collect();
+    let all = ["single", "best of as many", "cmaes", "in-loop", "in-loop-moves", "worst-in-graph", "worst"];
+    assert_eq!(names, all, "{answer}");
+    // Two cases at most in each run, fewer where no two differ.
+    for row in &ways[1..] {
+        assert!((1.0..=4.0).contains(&number(row, "cases")) && number(row, "executions_a_case") >= 1.0, "{row}");
+    }
+    assert!(number(&ways[1], "executions_a_case") >= 12.0 && number(&ways[0], "cases") == 6.0, "{answer}");
+    let default = &answer["tables"]["default-run"][0];
+    assert!(default["pairs"] == 3 && number(default, "ahead_of_ten_times_by_chance") <= 3.0, "{default}");
+    assert!(number(default, "by_chance_at") >= 1.0, "{default}");
+
+    let cell = folder.path().join("out/defaults/cells/flightgoggles.fixed-velocity.json");
+    let record: serde_json::Value = serde_json::from_str(&fs::read_to_string(&cell).unwrap()).unwrap();
+    let run = &record["runs"][0];
+    // The best of each half of what was drawn, as it was found.
+    let uniform: Vec<f64> = run["uniform"].as_array().unwrap().iter().map(|one| one.as_f64().unwrap()).collect();
+    let found = |case: usize| run["best"][case]["found"].as_f64().unwrap();
+    let half = uniform.len() / 2;
+    let most = |part: &[f64]| part.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    assert_eq!([found(0), found(1)], [most(&uniform[..half]), most(&uniform[half..])], "{run}");
+    let text = fs::read_to_string(folder.path().join("out/defaults/defaults.md")).unwrap();
+    assert!(
+        text.contains("| flightgoggles/fixed-velocity | ") && text.contains("3 (") && text.contains("of 3"),
+        "{text}"
+    );
+
+    // What is there is not measured again, and not taken for what other settings would give.
+    let written = fs::metadata(&cell).unwrap().modified().unwrap();
+    let again = json(folder.path(), &asked("c0ffee", "fixed-velocity"));
+    assert_eq!(again["tables"], answer["tables"]);
+    assert_eq!(fs::metadata(&cell).unwrap().modified().unwrap(), written);
+    refused(folder.path(), &asked("decaf", "fixed-velocity"), &["other settings", "flightgoggles.fixed-velocity.json"]);
+    refused(folder.path(), &asked("c0ffee", "anafi/"), &["`only`", "anafi/"]);
+    refused(folder.path(), &["experiment", "yields", "--pairs", "3"], &["pairs", "yields"]);
+}

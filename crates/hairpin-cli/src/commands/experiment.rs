@@ -13,7 +13,7 @@ pub(crate) fn run(asked: &Experiment, watch: &dyn Watch) -> Result<u8, Problem> 
     let name = asked.name.sheet();
     let settings = ExperimentSettings {
         full: asked.full,
-        sets: asked.sets.clone(),
+        sets: asked.sets.iter().cloned().chain(asked.sizes.sets()).collect(),
         out: asked.out.clone().unwrap_or_else(|| Path::new("out").join(&name)),
         name,
     };

@@ -1,13 +1,13 @@
 //! An experiment by its name: conducted at the size that its sheet says, written, and told.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
 use super::outcome::Outcome;
 use super::sheet::{Sheet, SheetError};
-use super::{robtest, rover, stressful};
+use super::{defaults, robtest, rover, stressful};
 use crate::findings::Findings;
 
 /// Which experiment, how large, and where its files go.
@@ -23,22 +23,23 @@ pub struct ExperimentSettings {
     pub out: PathBuf,
 }
 
-/// Measures what a sheet asks for.
-type Measure = fn(&Sheet, &dyn Watch) -> Result<Outcome, Problem>;
+/// Measures what a sheet asks for; what it keeps on the way lies in the folder.
+type Measure = fn(&Sheet, &Path, &dyn Watch) -> Result<Outcome, Problem>;
 
 /// All experiments by the names of their sheets.
-const EXPERIMENTS: [(&str, Measure); 11] = [
-    ("yields", stressful::yields),
-    ("metrics", stressful::metrics),
-    ("scores", stressful::scores),
-    ("follow-up", stressful::follow_up),
-    ("transfer", stressful::transfer),
-    ("robtest-table-1", robtest::table_1),
-    ("robtest-figure-7", robtest::figure_7),
-    ("robtest-obstacles", robtest::obstacles),
-    ("robtest-clusters", robtest::clusters),
-    ("robtest-costs", robtest::costs),
-    ("rover-requirements", |sheet, _| rover::requirements(sheet)),
+const EXPERIMENTS: [(&str, Measure); 12] = [
+    ("yields", |sheet, _, watch| stressful::yields(sheet, watch)),
+    ("metrics", |sheet, _, watch| stressful::metrics(sheet, watch)),
+    ("scores", |sheet, _, watch| stressful::scores(sheet, watch)),
+    ("follow-up", |sheet, _, watch| stressful::follow_up(sheet, watch)),
+    ("transfer", |sheet, _, watch| stressful::transfer(sheet, watch)),
+    ("robtest-table-1", |sheet, _, watch| robtest::table_1(sheet, watch)),
+    ("robtest-figure-7", |sheet, _, watch| robtest::figure_7(sheet, watch)),
+    ("robtest-obstacles", |sheet, _, watch| robtest::obstacles(sheet, watch)),
+    ("robtest-clusters", |sheet, _, watch| robtest::clusters(sheet, watch)),
+    ("robtest-costs", |sheet, _, watch| robtest::costs(sheet, watch)),
+    ("rover-requirements", |sheet, _, _| rover::requirements(sheet)),
+    ("defaults", defaults::defaults),
 ];
 
 /// The names of all experiments.
@@ -50,7 +51,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// No experiment has the name; sizes that are none; a question without an answer; a folder that cannot be written;
-/// [`Problem::Interrupted`] where `watch` stops it, with nothing written.
+/// [`Problem::Interrupted`] where `watch` stops it, with nothing written but the cells of `defaults` that are done.
 pub fn conduct(settings: &ExperimentSettings, watch: &dyn Watch) -> Result<Findings, Problem> {
     let ExperimentSettings { name, full, sets, out } = settings;
     let sheet = Sheet::shipped(name, *full, sets)?;
@@ -60,7 +61,7 @@ pub fn conduct(settings: &ExperimentSettings, watch: &dyn Watch) -> Result<Findi
     if cfg!(debug_assertions) {
         watch.warn("Warning: this is no release build; its times mean nothing");
     }
-    let outcome = measure(&sheet, watch)?;
+    let outcome = measure(&sheet, out, watch)?;
     let files = outcome.write(out)?;
     let object = json!({
         "experiment": name, "full": full, "tables": outcome.objects(), "notes": outcome.notes, "files": files, "exit_code": 0,

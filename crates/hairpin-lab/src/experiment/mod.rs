@@ -4,6 +4,7 @@
 //! written and told of it is decided once.
 
 mod conduct;
+mod defaults;
 mod outcome;
 mod robtest;
 mod rover;
