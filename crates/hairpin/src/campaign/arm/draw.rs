@@ -65,7 +65,8 @@ impl Ways<'_> {
             Some(Place::At(from)) => from.row != to.row && self.may_follow(from, *to) && !self.is_used(walk, from, *to),
             _ => true,
         };
-        let may_lead = |to: &Place| last.is_none_or(|from| self.known(from, *to) != Some(false));
+        // Not by what was followed so far: a draw depends on nothing that was drawn before.
+        let may_lead = |to: &Place| last.is_none_or(|from| self.of_graph(from, *to) != Some(false));
         let to = rows.flat_map(|row| self.standings(row)).filter(may_follow).map(Place::At);
         to.filter(may_lead).collect()
     }

@@ -120,22 +120,14 @@ impl<'a> Ways<'a> {
 
     /// Whether the move from one place to another is possible: by the graph, or followed by the same code.
     pub(super) fn leads(&self, from: Place, to: Place) -> bool {
-        self.known(from, to).unwrap_or_else(|| {
-            // Nothing is locked meanwhile: what two threads ask at once comes to the same.
-            let leads = self.follow(from, to).is_some();
-            self.followed.lock().unwrap_or_else(PoisonError::into_inner).insert([from, to], leads);
-            leads
-        })
+        self.of_graph(from, to).unwrap_or_else(|| self.is_followed(from, to))
     }
 
-    /// The same where nothing need be followed for it.
-    pub(super) fn known(&self, from: Place, to: Place) -> Option<bool> {
-        let of_graph = |place: Place| match place {
-            Place::Home => true,
-            Place::At(at) => self.angles(at).is_none(),
-        };
-        if !of_graph(from) || !of_graph(to) {
-            return self.followed.lock().unwrap_or_else(PoisonError::into_inner).get(&[from, to]).copied();
+    /// What the graph says of a move; `None` where one end is in a posture that it does not have.
+    pub(super) fn of_graph(&self, from: Place, to: Place) -> Option<bool> {
+        let other = |place: Place| matches!(place, Place::At(at) if self.angles(at).is_some());
+        if other(from) || other(to) {
+            return None;
         }
         Some(match (from, to) {
             (Place::Home, Place::Home) => false,
@@ -161,6 +153,17 @@ impl<'a> Ways<'a> {
     /// The angles of a posture, rad.
     fn joints(&self, at: Standing) -> Option<&Joints> {
         self.angles(at).or_else(|| self.graph.postures.as_ref()?[at.row].as_ref().ok())
+    }
+
+    fn is_followed(&self, from: Place, to: Place) -> bool {
+        let known = || self.followed.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(leads) = known().get(&[from, to]) {
+            return *leads;
+        }
+        // Nothing is locked meanwhile: what two threads ask at once comes to the same.
+        let leads = self.follow(from, to).is_some();
+        known().insert([from, to], leads);
+        leads
     }
 
     fn follow(&self, from: Place, to: Place) -> Option<()> {
