@@ -60,15 +60,15 @@ impl Trials<'_> {
         if confirm == 0 || first.stress.is_nan() || first.stress < least {
             return Some(first);
         }
-        let again = |number: u64| Some(stressed(setup, &self.again(&executed.case, number)?)?.stress);
+        let again = |number: u64| Some(stressed(setup, &self.again(&executed.case, 0, number)?)?.stress);
         let sum = (0..confirm).try_fold(first.stress, |sum, number| Some(sum + again(number)?));
         let stress = sum.map_or(f64::NAN, |sum| sum / (1 + confirm) as f64);
         Some(Trial { stress, executions: 1 + confirm, ..first })
     }
 
     /// Executes `plan` and measures it by each of `stresses`, NaN where one was not measured; with what tells the
-    /// execution from others. What comes to the `least` of one of them is executed `confirm` times more, under noise, and
-    /// its stresses are the means.
+    /// execution from others. What comes to the `least` of one of them is executed `confirm` times more, as runs 1, 2, …
+    /// of its case are: with what `[vary]` draws for them, and under noise. Its stresses are the means.
     pub(super) fn execute_for(&self, plan: &Plan, stresses: &[Stress], least: &[f64]) -> Option<Ran> {
         let executed = self.executed(plan)?;
         let measured = |stress: &Stress, measures: &Measures| stress.of(measures).unwrap_or(f64::NAN);
@@ -81,7 +81,7 @@ impl Trials<'_> {
         let confirm = self.setup.scenario.search().confirm;
         if confirm > 0 && trials.iter().zip(least).any(|(trial, least)| trial.stress >= *least) {
             for number in 0..confirm {
-                let again = self.again(&executed.case, number);
+                let again = self.again(&executed.case, 1 + number as usize, number);
                 for (trial, stress) in trials.iter_mut().zip(stresses) {
                     trial.stress += again.as_ref().map_or(f64::NAN, |again| measured(stress, &again.measures));
                 }
@@ -174,10 +174,10 @@ impl Trials<'_> {
         Some(Executed { case, run, measures })
     }
 
-    /// Confirmation number `number` of `case`, under noise of its own.
-    fn again(&self, case: &Case, number: u64) -> Option<Executed> {
-        let mission = mission_again(self.setup, case, 0, CONFIRMING + number as usize);
-        let run = run_of(self.setup, self.executor, case, 0, mission);
+    /// Confirmation number `number` of `case`, with what is drawn for run number `run`, under noise of its own.
+    fn again(&self, case: &Case, run: usize, number: u64) -> Option<Executed> {
+        let mission = mission_again(self.setup, case, run, CONFIRMING + number as usize);
+        let run = run_of(self.setup, self.executor, case, run, mission);
         let measures = measures_of(self.setup, case, &run)?;
         Some(Executed { case: case.clone(), run, measures })
     }

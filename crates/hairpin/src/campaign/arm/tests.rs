@@ -11,7 +11,8 @@ use super::ways::Ways;
 use crate::campaign::graph::{Executions, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::{KeyPath, SearchMethod, Target};
-use crate::campaign::{Evidence, Scenario, Setup, Stop, trial, verify};
+use crate::campaign::trial::Trials;
+use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, Stop, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
 use crate::trajectory::program::Program;
@@ -257,7 +258,8 @@ fn programs_execute_for_the_stresses_of_arms() {
     let solver = ArmSolver::new(own(&setup));
     let plan = solver.draw(0).unwrap();
     let stresses = [Stress::MaxDeviation, Stress::Time, Stress::Lateness, Stress::JointEffort];
-    let run = || trial::execute_for(&setup, (0, &plan), &stresses, &[f64::INFINITY; 4]).unwrap().trials;
+    let trials = Trials { setup: &setup, executor: &OwnSimulator, graph: 0, seed: None };
+    let run = || trials.execute_for(&plan, &stresses, &[f64::INFINITY; 4]).unwrap().trials;
     let trials = run();
     for ((trial, stress), least) in trials.iter().zip(stresses).zip([1e-4, 1.0, 1e-3, 1.0]) {
         let word = stress.word();

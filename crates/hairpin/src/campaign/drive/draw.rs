@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 
 use super::solve::DriveSolver;
+use super::walking::Walking;
 use crate::campaign::graph::Plan;
 use crate::campaign::{Evidence, SeenLeg};
 use crate::feasibility::reach::DriveNode;
@@ -13,33 +14,6 @@ use crate::search::{NoWalk, stroll};
 const SETS: u64 = 6;
 /// Stream of the waypoints of a drive.
 const WAYPOINTS: &str = "drawn waypoints";
-/// Legs asked for, by those that a drive has, before other waypoints are tried.
-const ASKED: u64 = 40;
-
-/// What a walk over waypoints keeps to beside its reach set.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Walking {
-    /// Waypoints of a trajectory.
-    pub(super) length: usize,
-    /// Number of the waypoint that it ends at, and at no other place passes; `None`: anywhere.
-    pub(super) end: Option<u32>,
-    /// Whether a waypoint may come twice.
-    pub(super) revisits: bool,
-}
-
-impl Walking {
-    /// Whether `waypoint` may follow the waypoints `passed`.
-    pub(super) fn may_follow(&self, passed: impl ExactSizeIterator<Item = u32>, waypoint: u32) -> bool {
-        let is_last = passed.len() + 1 == self.length;
-        let arrives = self.end.is_none_or(|end| (waypoint == end) == is_last);
-        arrives && (self.revisits || !{ passed }.any(|before| before == waypoint))
-    }
-
-    /// Legs that are asked for at most.
-    pub(super) fn most(&self) -> u64 {
-        ASKED * (self.length as u64).max(1)
-    }
-}
 
 impl DriveSolver<'_> {
     /// Feasible drive number `number`: waypoints spread as those of a graph are, by streams of its own, and a random

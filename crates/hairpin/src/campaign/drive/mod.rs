@@ -23,6 +23,7 @@ mod surround;
 #[cfg(test)]
 mod tests;
 mod verify;
+mod walking;
 
 pub use setup::DriveSetup;
 pub use site::{Site, drive_piece, flat_claim, replay_flat};

@@ -5,7 +5,7 @@ use nalgebra::Point3;
 
 use super::DriveSetup;
 use super::ask::{Asked, Graph, ask, beside};
-use super::draw::Walking;
+use super::walking::Walking;
 use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Stage, in_order, learned};
 use crate::campaign::learn::AnyScore;
 use crate::campaign::scenario::{GroundReach, Manoeuvre};

@@ -8,7 +8,9 @@ use super::solve::DriveSolver;
 use crate::campaign::graph::Plan;
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::KeyPath;
-use crate::campaign::{Evidence, Scenario, Setup, verify};
+use crate::campaign::trial::Trials;
+use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, verify};
+use crate::judgement::Stress;
 use crate::math::random::stream;
 use crate::trajectory::Drive;
 use crate::trajectory::drive::Gear;
@@ -210,4 +212,24 @@ fn a_child_of_two_has_the_beginning_of_one_and_the_rest_of_the_other() {
     }
     assert!(found > 20, "{found}");
     assert!(solver.crossed(0, &plans[0], &plans[1], 5, &mut random).is_none(), "there is no such leg");
+}
+
+#[test]
+fn what_is_kept_is_confirmed_under_what_varies() {
+    let stress = |changes: &[(&str, Value)]| {
+        let setup = setup(car(), changes);
+        let plan = solver(&setup).draw(0).unwrap();
+        let trials = Trials { setup: &setup, executor: &OwnSimulator, graph: 0, seed: None };
+        let ran = trials.execute_for(&plan, &[Stress::MaxDeviation], &[0.0]).unwrap();
+        (ran.trials[0].executions, ran.trials[0].stress)
+    };
+    let confirmed = ("generate.search.confirm", json!(2));
+    let late = ("vary", json!({ "execute.latency_s": { "uniform": [0.4, 0.5] } }));
+    let (once, alone) = stress(&[]);
+    let (same, still) = stress(&[late.clone()]);
+    let (thrice, varied) = stress(&[confirmed.clone(), late]);
+    let (_, unvaried) = stress(&[confirmed]);
+    assert_eq!((once, same, thrice), (1, 1, 3));
+    assert_eq!(still, alone, "run 0 is nominal");
+    assert!(varied > 1.2 * unvaried, "{varied} with the latencies of runs 1 and 2, {unvaried} without");
 }
