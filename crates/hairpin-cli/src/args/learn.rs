@@ -6,9 +6,9 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hairpin::judgement::Stress;
 
-/// Learns per-leg stress from the executed legs of campaigns of one robot and one controller, as a polynomial of what the
-/// searches saw of them. Degree and penalty are chosen by 10-fold cross-validation over trajectories; the quality told is that on trajectories that
-/// took no part.
+/// Learns per-leg stress from the executed legs of campaigns of one robot and one controller, as a polynomial of what
+/// the searches saw of them. Degree and penalty are chosen by 10-fold cross-validation over trajectories; the quality
+/// told is that on trajectories that took no part.
 #[derive(Debug, Args)]
 pub(crate) struct Learn {
     /// Campaign folders; several are learned from as if they were one

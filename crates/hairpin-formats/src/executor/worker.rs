@@ -17,8 +17,8 @@ const LOOK: Duration = Duration::from_millis(50);
 /// How long a process that closed its stdout, or whose children hold stderr, is waited for.
 const AFTERMATH: Duration = Duration::from_millis(300);
 
-/// How long it is listened after an `end` of protocol 1 before the next mission is told, for answers do not say what they
-/// are of: whoever flies twice goes on at once. What has passed since the `end` counts.
+/// How long it is listened after an answer of protocol 1 before the next mission is told, for answers do not say what
+/// they are of: whoever flies twice goes on at once. What has passed since the answer counts.
 pub(super) const QUIET: Duration = Duration::from_millis(20);
 
 /// Wall-clock limits of a worker: all that a stranger's program may take.

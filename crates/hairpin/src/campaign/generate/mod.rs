@@ -95,7 +95,9 @@ pub fn generate(
     (stop.progress)(collector.cases, wanted as usize);
     'units: while collector.tally.units < units && (collector.cases as u64) < wanted {
         let first = collector.tally.units;
-        let last = units.min(first + batch);
+        // What is executed is dear: no more graphs than may be needed.
+        let needed = (wanted - collector.cases as u64).div_ceil(search.per_graph.max(1));
+        let last = units.min(first + if setup.scenario.executes() { batch.min(needed) } else { batch });
         let outcomes: Vec<Option<Outcome>> = (first..last)
             .into_par_iter()
             .map(|unit| {
