@@ -77,7 +77,11 @@ pub(super) fn defaults(sheet: &Sheet, out: &Path, watch: &dyn Watch) -> Result<O
                     cells.len()
                 )));
             }
-            Err(problem) => refused.push(format!("{}: not measured: {problem}", cell.name)),
+            Err(problem) => {
+                // A mistake in a scenario is told with its place below it.
+                let why = problem.to_string();
+                refused.push(format!("{}: not measured: {}", cell.name, why.lines().next().unwrap_or_default()));
+            }
         }
     }
     watch.finished(WHAT);
