@@ -147,7 +147,8 @@ fn limits_follow_from_what_is_ordinary() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     hull(here);
-    let one = ["calibrate", "hull.toml", "--set", "execute.repeat=1"];
+    let calm = ["--set", "execute.repeat=1", "--set", "execute.controller=stable-waypoint"];
+    let one = [&["calibrate", "hull.toml"][..], &calm].concat();
     let object = json(here, &one);
     assert_eq!((&object["field"], &object["cases"]), (&json!("spec.deviation.max_m"), &json!(200)), "{object}");
     let (value, low, high) = (number(&object["value"]), number(&object["interval"][0]), number(&object["interval"][1]));
@@ -165,7 +166,7 @@ fn limits_follow_from_what_is_ordinary() {
     let calibrated = text.replace("deviation = { max_m = 0.5, from = \"nearest-leg\" }\n", pasted);
     assert_ne!(calibrated, text);
     fs::write(here.join("new.toml"), calibrated).unwrap();
-    let again = json(here, &["calibrate", "new.toml", "--set", "execute.repeat=1"]);
+    let again = json(here, &[&["calibrate", "new.toml"][..], &calm].concat());
     assert_eq!((&again["value"], &again["interval"]), (&object["value"], &object["interval"]));
     // A tighter share; every limit that there is; other draws.
     let two = [&one[..], &["--share", "0.25", "--set", "spec.total_time.max_s=9"]].concat();

@@ -22,7 +22,7 @@ pub(crate) fn small(place: &TempDir) -> CampaignSettings {
     }
 }
 
-/// Small graphs of hull legs, flown by minimum snap, in a file of `place`.
+/// Small graphs of hull legs, flown from waypoint to waypoint, in a file of `place`.
 pub(crate) fn small_hull(place: &Path) -> String {
     let text = r#"
 hairpin = 1
@@ -39,7 +39,7 @@ reach = "hull"
 timing = { step_s = 1.0 }
 search = { method = "beam", waypoints = 80, cases = 3 }
 [execute]
-controller = "minimum-snap"
+controller = "stable-waypoint"
 [spec]
 deviation = { max_m = 0.5, from = "nearest-leg" }
 "#;
